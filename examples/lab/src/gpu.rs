@@ -1,0 +1,261 @@
+//! Opening an adapter the same way everywhere: Vulkan before GL, exactly the features of one profile.
+
+use std::sync::{Arc, Mutex};
+
+use moment_shadows::Profile;
+
+/// Why no device could be had, or why it stopped working.
+#[derive(Debug, thiserror::Error)]
+#[non_exhaustive]
+pub enum GpuError {
+    /// The machine has no adapter at all.
+    #[error(
+        "no graphics adapter was found; on Debian install a software driver with `apt-get install mesa-vulkan-drivers`, \
+         elsewhere install a Vulkan, Metal or Direct3D 12 driver"
+    )]
+    NoAdapter,
+    /// The adapter lacks what the profile asks for.
+    #[error(
+        "adapter '{adapter}' lacks {missing:?}, which the profile {profile} asks for; choose a smaller profile"
+    )]
+    MissingFeatures {
+        /// The adapter's name.
+        adapter: String,
+        /// The profile that was asked for.
+        profile: Profile,
+        /// The features that are missing.
+        missing: wgpu::Features,
+    },
+    /// The adapter refused to make a device.
+    #[error("adapter '{adapter}' gave no device: {reason}")]
+    NoDevice {
+        /// The adapter's name.
+        adapter: String,
+        /// What the driver said.
+        reason: String,
+    },
+    /// A result could not be read back.
+    #[error("the device could not give back '{what}': {reason}; it may have been lost")]
+    Readback {
+        /// The label of the buffer or texture.
+        what: String,
+        /// What the driver said.
+        reason: String,
+    },
+    /// Errors that the device reported outside any scope.
+    #[error("the device reported an error: {0}")]
+    Device(String),
+}
+
+/// An open device with its queue.
+pub struct Gpu {
+    /// The adapter the device was made from.
+    pub adapter: wgpu::Adapter,
+    /// The device.
+    pub device: wgpu::Device,
+    /// The device's queue.
+    pub queue: wgpu::Queue,
+    errors: Arc<Mutex<Vec<String>>>,
+}
+
+impl Gpu {
+    /// Opens the best adapter with exactly the features of `profile`.
+    pub fn open(profile: Profile) -> Result<Self, GpuError> {
+        Self::open_with(profile, wgpu::Features::empty())
+    }
+
+    /// Opens the best adapter with the features of `profile` and those of `optional` that it has.
+    pub fn open_with(profile: Profile, optional: wgpu::Features) -> Result<Self, GpuError> {
+        let adapter = best_adapter().ok_or(GpuError::NoAdapter)?;
+        let name = adapter.get_info().name;
+        let required = required_features(profile);
+        let missing = required - adapter.features();
+        if !missing.is_empty() {
+            return Err(GpuError::MissingFeatures {
+                adapter: name,
+                profile,
+                missing,
+            });
+        }
+        let descriptor = wgpu::DeviceDescriptor {
+            label: Some("moment-shadows lab"),
+            required_features: required | (optional & adapter.features()),
+            ..Default::default()
+        };
+        let (device, queue) =
+            pollster::block_on(adapter.request_device(&descriptor)).map_err(|error| {
+                GpuError::NoDevice {
+                    adapter: name,
+                    reason: error.to_string(),
+                }
+            })?;
+        let errors = Arc::new(Mutex::new(Vec::new()));
+        let sink = Arc::clone(&errors);
+        device.on_uncaptured_error(Arc::new(move |error: wgpu::Error| {
+            if let Ok(mut errors) = sink.lock() {
+                errors.push(error.to_string());
+            }
+        }));
+        Ok(Self {
+            adapter,
+            device,
+            queue,
+            errors,
+        })
+    }
+
+    /// The first error that the device reported outside any scope, if there was one.
+    pub fn check(&self) -> Result<(), GpuError> {
+        let first = self.errors.lock().ok().and_then(|mut errors| {
+            if errors.is_empty() {
+                None
+            } else {
+                Some(errors.remove(0))
+            }
+        });
+        first.map_or(Ok(()), |error| Err(GpuError::Device(error)))
+    }
+
+    /// Copies a buffer (usage `COPY_SRC`) to the processor and waits for it.
+    pub fn read_buffer(&self, buffer: &wgpu::Buffer, label: &str) -> Result<Vec<u8>, GpuError> {
+        let staging = self.device.create_buffer(&wgpu::BufferDescriptor {
+            label: Some(label),
+            size: buffer.size(),
+            usage: wgpu::BufferUsages::MAP_READ | wgpu::BufferUsages::COPY_DST,
+            mapped_at_creation: false,
+        });
+        let mut encoder = self
+            .device
+            .create_command_encoder(&wgpu::CommandEncoderDescriptor { label: Some(label) });
+        encoder.copy_buffer_to_buffer(buffer, 0, &staging, 0, buffer.size());
+        self.queue.submit([encoder.finish()]);
+        self.map(&staging, label)
+    }
+
+    /// Copies layer `layer` of mip 0 of a single-sampled colour texture (usage `COPY_SRC`) to the processor,
+    /// rows tightly packed, top row first.
+    pub fn read_texture(
+        &self,
+        texture: &wgpu::Texture,
+        layer: u32,
+        label: &str,
+    ) -> Result<Vec<u8>, GpuError> {
+        let failed = |reason: String| GpuError::Readback {
+            what: label.to_owned(),
+            reason,
+        };
+        let aspect = if texture.format().has_depth_aspect() {
+            wgpu::TextureAspect::DepthOnly
+        } else {
+            wgpu::TextureAspect::All
+        };
+        let texel_bytes = texture
+            .format()
+            .block_copy_size(Some(aspect))
+            .ok_or_else(|| failed(format!("format {:?} cannot be copied", texture.format())))?;
+        let row = texture.width() * texel_bytes;
+        let padded = row.next_multiple_of(wgpu::COPY_BYTES_PER_ROW_ALIGNMENT);
+        let staging = self.device.create_buffer(&wgpu::BufferDescriptor {
+            label: Some(label),
+            size: u64::from(padded) * u64::from(texture.height()),
+            usage: wgpu::BufferUsages::MAP_READ | wgpu::BufferUsages::COPY_DST,
+            mapped_at_creation: false,
+        });
+        let mut encoder = self
+            .device
+            .create_command_encoder(&wgpu::CommandEncoderDescriptor { label: Some(label) });
+        encoder.copy_texture_to_buffer(
+            wgpu::TexelCopyTextureInfo {
+                texture,
+                mip_level: 0,
+                origin: wgpu::Origin3d {
+                    x: 0,
+                    y: 0,
+                    z: layer,
+                },
+                aspect,
+            },
+            wgpu::TexelCopyBufferInfo {
+                buffer: &staging,
+                layout: wgpu::TexelCopyBufferLayout {
+                    offset: 0,
+                    bytes_per_row: Some(padded),
+                    rows_per_image: None,
+                },
+            },
+            wgpu::Extent3d {
+                width: texture.width(),
+                height: texture.height(),
+                depth_or_array_layers: 1,
+            },
+        );
+        self.queue.submit([encoder.finish()]);
+        let data = self.map(&staging, label)?;
+        Ok(data
+            .chunks_exact(padded as usize)
+            .flat_map(|line| &line[..row as usize])
+            .copied()
+            .collect())
+    }
+
+    fn map(&self, staging: &wgpu::Buffer, label: &str) -> Result<Vec<u8>, GpuError> {
+        let failed = |reason: String| GpuError::Readback {
+            what: label.to_owned(),
+            reason,
+        };
+        let (send, receive) = std::sync::mpsc::channel();
+        staging.map_async(wgpu::MapMode::Read, .., move |result| {
+            // The receiver is gone only if this function returned early; then nobody waits for the answer.
+            let _ = send.send(result);
+        });
+        self.device
+            .poll(wgpu::PollType::wait_indefinitely())
+            .map_err(|error| failed(error.to_string()))?;
+        receive
+            .recv()
+            .map_err(|error| failed(error.to_string()))?
+            .map_err(|error| failed(error.to_string()))?;
+        let data = staging
+            .get_mapped_range(..)
+            .map_err(|error| failed(error.to_string()))?
+            .to_vec();
+        staging.unmap();
+        self.check()?;
+        Ok(data)
+    }
+}
+
+/// The features that a profile stands for.
+fn required_features(profile: Profile) -> wgpu::Features {
+    match profile {
+        Profile::WebgpuCore => wgpu::Features::empty(),
+        Profile::Native => wgpu::Features::TEXTURE_FORMAT_16BIT_NORM,
+        Profile::NativeAdapter => {
+            wgpu::Features::TEXTURE_FORMAT_16BIT_NORM
+                | wgpu::Features::TEXTURE_ADAPTER_SPECIFIC_FORMAT_FEATURES
+        }
+    }
+}
+
+/// Hardware before software, native interfaces before GL.
+fn best_adapter() -> Option<wgpu::Adapter> {
+    let native = wgpu::Backends::VULKAN | wgpu::Backends::METAL | wgpu::Backends::DX12;
+    [native, wgpu::Backends::GL]
+        .into_iter()
+        .find_map(|backends| {
+            let instance = wgpu::Instance::new(wgpu::InstanceDescriptor {
+                backends,
+                ..wgpu::InstanceDescriptor::new_without_display_handle()
+            });
+            let adapters = pollster::block_on(instance.enumerate_adapters(backends));
+            adapters
+                .into_iter()
+                .min_by_key(|adapter| match adapter.get_info().device_type {
+                    wgpu::DeviceType::DiscreteGpu => 0,
+                    wgpu::DeviceType::IntegratedGpu => 1,
+                    wgpu::DeviceType::VirtualGpu => 2,
+                    wgpu::DeviceType::Other => 3,
+                    wgpu::DeviceType::Cpu => 4,
+                })
+        })
+}

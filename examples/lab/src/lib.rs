@@ -1,0 +1,5 @@
+//! The instrument of moment-shadows: a small reference host, ground truths, an oracle and a cost harness.
+//!
+//! Not published. It renders real geometry with the library's nodes, and judges what they give.
+
+pub mod gpu;

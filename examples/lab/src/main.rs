@@ -1,0 +1,3 @@
+//! The `moment-shadows` command.
+
+fn main() {}

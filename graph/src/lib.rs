@@ -1,0 +1,1 @@
+//! Declarative render-graph nodes for filterable shadows.
