@@ -2,4 +2,7 @@
 //!
 //! Not published. It renders real geometry with the library's nodes, and judges what they give.
 
+pub mod batch;
 pub mod gpu;
+pub mod oracle;
+pub mod vectors;
