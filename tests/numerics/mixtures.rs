@@ -4,14 +4,14 @@ use rand::RngExt;
 use rand_chacha::ChaCha8Rng;
 
 /// Surfaces as (moment depth, weight), and a fragment depth that is interesting for them.
-pub struct Sample {
-    pub atoms: Vec<(f64, f64)>,
-    pub fragment_depth: f64,
+pub(crate) struct Sample {
+    pub(crate) atoms: Vec<(f64, f64)>,
+    pub(crate) fragment_depth: f64,
     /// The fragment is to be moved to a Gauss node of the biased moments, less this distance.
-    pub from_gauss_node: Option<f64>,
+    pub(crate) from_gauss_node: Option<f64>,
 }
 
-pub const CLASSES: [&str; 9] = [
+pub(crate) const CLASSES: [&str; 9] = [
     "3 to 6 surfaces",
     "2 surfaces far apart",
     "2 surfaces close together",
@@ -24,7 +24,7 @@ pub const CLASSES: [&str; 9] = [
 ];
 
 /// A random sample of a class.
-pub fn sample(class: &str, random: &mut ChaCha8Rng) -> Sample {
+pub(crate) fn sample(class: &str, random: &mut ChaCha8Rng) -> Sample {
     let depth = |random: &mut ChaCha8Rng| random.random_range(-1.0..=1.0_f64);
     let weight = |random: &mut ChaCha8Rng| random.random_range(0.05..=1.0_f64);
     let small = |random: &mut ChaCha8Rng, exponents: core::ops::Range<f64>| {
@@ -90,7 +90,7 @@ pub fn sample(class: &str, random: &mut ChaCha8Rng) -> Sample {
             vec![(depth(random), 1.0), (depth(random), minor)]
         }
         _ => {
-            let mut atoms = several(random, random.random_range(0..3));
+            let mut atoms = several(random, count - 3);
             if random.random() {
                 atoms.push((1.0, weight(random)));
             }
@@ -112,7 +112,7 @@ pub fn sample(class: &str, random: &mut ChaCha8Rng) -> Sample {
 }
 
 /// Moments b_1..b_4 in f64.
-pub fn moments(atoms: &[(f64, f64)]) -> [f64; 4] {
+pub(crate) fn moments(atoms: &[(f64, f64)]) -> [f64; 4] {
     let sum: f64 = atoms.iter().map(|atom| atom.1).sum();
     [1, 2, 3, 4].map(|power| {
         atoms
@@ -123,7 +123,7 @@ pub fn moments(atoms: &[(f64, f64)]) -> [f64; 4] {
 }
 
 /// The moment bias in f64, rounded to f32 once.
-pub fn biased(moments: [f64; 4], alpha: f64, beta: f64) -> [f32; 4] {
+pub(crate) fn biased(moments: [f64; 4], alpha: f64, beta: f64) -> [f32; 4] {
     core::array::from_fn(|index| {
         let target = if index % 2 == 1 { beta } else { 0.0 };
         (moments[index] + alpha * (target - moments[index])) as f32
@@ -131,7 +131,7 @@ pub fn biased(moments: [f64; 4], alpha: f64, beta: f64) -> [f32; 4] {
 }
 
 /// The lower or upper Gauss node of moments: a root of the second orthogonal polynomial.
-pub fn gauss_node(moments: [f32; 4], upper: bool) -> f64 {
+pub(crate) fn gauss_node(moments: [f32; 4], upper: bool) -> f64 {
     let [b1, b2, b3, _] = moments.map(f64::from);
     let variance = b2 - b1 * b1;
     let half = 0.5 * ((b3 - b1 * b2) / variance - 2.0 * b1);

@@ -6,14 +6,14 @@
 
 mod exact;
 mod mixture;
-mod no_fma;
 mod polynomial;
+mod rounding;
 mod sensitivity;
 #[cfg(test)]
 mod tests;
 
 pub use exact::{Extremal, OracleError, SupportPoint, hamburger, rational};
 pub use mixture::{Atom, Mixture};
-pub use no_fma::bounds_without_fma;
 pub use polynomial::Real;
+pub use rounding::{Fma, bounds_in_f32};
 pub use sensitivity::{sensitivity, tolerance_unit};
