@@ -6,6 +6,8 @@ use moment_shadows::{Profile, Storage};
 use moment_shadows_lab::batch::Batch;
 use moment_shadows_lab::gpu::Gpu;
 use moment_shadows_lab::oracle::{Mixture, hamburger, rational, sensitivity, tolerance_unit};
+use rand::{RngExt, SeedableRng};
+use rand_chacha::ChaCha8Rng;
 
 #[repr(C)]
 #[derive(Clone, Copy, Debug, Pod, Zeroable)]
@@ -90,63 +92,100 @@ fn the_oracle_repeats_the_known_leak_of_each_moment_bias() {
     }
 }
 
-#[test]
-fn the_leak_behind_an_occluder_follows_the_exact_curve_for_each_storage() {
-    /// Steps of a tenth of a percent.
-    const STEP: f64 = 1.001;
-    const STEPS: usize = 9000;
-    for storage in Storage::ALL {
-        let bias = storage.moment_bias();
-        let (alpha, beta) = (f64::from(bias.alpha), f64::from(bias.beta));
-        for occluder in [-0.5, -0.25, 0.0, 0.125, 0.5] {
-            let distance = |step: usize| 1e-4 * STEP.powi(i32::try_from(step).unwrap());
-            let inputs: Vec<Input> = (0..STEPS)
-                .take_while(|&step| occluder + distance(step) <= 1.0)
-                .map(|step| Input {
-                    near: occluder as f32,
-                    far: 0.0,
-                    far_weight: 0.0,
-                    fragment_depth: (occluder + distance(step)) as f32,
-                    storage: number(storage),
-                    padding: 0,
-                })
-                .collect();
-            let outputs = run(&inputs);
-            for level in LEVELS {
-                let step = outputs
+/// For each occluder and level, the ratio of the distance that the shader needs through a storage to the exact one.
+fn ratios(storage: Storage, occluders: &[f32]) -> Vec<[f64; 3]> {
+    /// Steps of a fifth of a percent, from 1e-4 to 1.
+    const STEP: f64 = 1.002;
+    const STEPS: i32 = 4610;
+    let bias = storage.moment_bias();
+    let (alpha, beta) = (f64::from(bias.alpha), f64::from(bias.beta));
+    let inputs: Vec<Input> = occluders
+        .iter()
+        .flat_map(|&occluder| {
+            (0..STEPS).map(move |step| Input {
+                near: occluder,
+                far: 0.0,
+                far_weight: 0.0,
+                fragment_depth: occluder + (1e-4 * STEP.powi(step)) as f32,
+                storage: number(storage),
+                padding: 0,
+            })
+        })
+        .collect();
+    let outputs = run(&inputs);
+    inputs
+        .chunks(STEPS as usize)
+        .zip(outputs.chunks(STEPS as usize))
+        .map(|(inputs, outputs)| {
+            LEVELS.map(|level| {
+                let reached = outputs
                     .iter()
                     .position(|output| f64::from(output.intensity) >= level)
                     .unwrap();
-                let expected = exact_distance(occluder, alpha, beta, level);
-                let ratio = distance(step) / expected;
-                println!(
-                    "{storage:<8} occluder {occluder:6.3}, level {level:4}: {:.5}, exact {expected:.5}, ratio {ratio:.3}",
-                    distance(step)
-                );
-            }
+                let occluder = f64::from(inputs[reached].near);
+                let distance = f64::from(inputs[reached].fragment_depth) - occluder;
+                distance / exact_distance(occluder, alpha, beta, level)
+            })
+        })
+        .collect()
+}
+
+#[test]
+fn the_leak_behind_an_occluder_follows_the_exact_curve_for_each_storage() {
+    for storage in Storage::ALL {
+        let ratios = ratios(storage, &[0.0])[0];
+        println!("{storage:<8} distance behind an occluder in the middle / exact: {ratios:.3?}");
+        assert!(
+            ratios.iter().all(|ratio| (ratio - 1.0).abs() <= 0.1),
+            "{storage}: {ratios:?}"
+        );
+    }
+}
+
+/// Rounding to the storage moves the leak of a single texel either way, by up to what the moment bias has to cover. Over
+/// occluders at all depths it cancels.
+#[test]
+fn rounding_to_the_storage_does_not_lengthen_the_leak_on_average() {
+    let mut random = ChaCha8Rng::seed_from_u64(36);
+    let occluders: Vec<f32> = (0..100).map(|_| random.random_range(-0.6..0.6)).collect();
+    for storage in Storage::ALL {
+        let all = ratios(storage, &occluders);
+        for (index, level) in LEVELS.into_iter().enumerate() {
+            let mut ratios: Vec<f64> = all.iter().map(|ratios| ratios[index]).collect();
+            ratios.sort_by(f64::total_cmp);
+            let mean = ratios.iter().sum::<f64>() / ratios.len() as f64;
+            println!(
+                "{storage:<8} level {level:4}: mean ratio {mean:.3}, from {:.3} to {:.3}",
+                ratios[0],
+                ratios[ratios.len() - 1]
+            );
+            assert!((mean - 1.0).abs() <= 0.1, "{storage}: {mean}");
         }
     }
 }
 
+/// To first order the bias adds alpha E*[p^2] / p(z)^2 to the error, with p the polynomial that vanishes on both surfaces and E*
+/// the mean under the bias's own three planes. At a distance of 0.05 from one of two surfaces that are 0.7 apart this is 1e-3
+/// or less as long as they keep off the ends of the light's range by a quarter of a unit, and wherever they are from 0.9
+/// apart; the exact bound itself is 1.5e-3 away from the truth for a pair 0.7 apart that touches an end.
 #[test]
 fn two_surfaces_far_apart_give_the_two_step_function() {
     let mut inputs = Vec::new();
-    for gap in [0.7, 0.9, 1.3, 1.9] {
-        for middle in [-0.6, -0.3, 0.0, 0.2, 0.55] {
+    for (gap, farthest) in [(0.7, 0.75), (0.8, 0.9), (0.9, 1.0), (1.3, 1.0), (2.0, 1.0)] {
+        for place in 0..=8 {
+            let room = farthest - 0.5 * gap;
+            let middle = room * (0.25 * f64::from(place) - 1.0);
             let (near, far) = (middle - 0.5 * gap, middle + 0.5 * gap);
-            if near < -1.0 || far > 1.0 {
-                continue;
-            }
             for far_weight in [0.1, 0.25, 0.5, 0.75, 0.9] {
-                for step in 0..=400 {
-                    let depth = -1.0 + 0.005 * f64::from(step);
+                for step in 0..=1000 {
+                    let depth = -1.0 + 0.002 * f64::from(step);
                     if (depth - near).abs() < 0.05 || (depth - far).abs() < 0.05 {
                         continue;
                     }
                     inputs.push(Input {
                         near: near as f32,
                         far: far as f32,
-                        far_weight: far_weight as f32,
+                        far_weight,
                         fragment_depth: depth as f32,
                         storage: number(Storage::Float32),
                         padding: 0,
@@ -170,7 +209,12 @@ fn two_surfaces_far_apart_give_the_two_step_function() {
             worst = (error, *input);
         }
     }
-    println!("largest error {:.2e} at {:?}", worst.0, worst.1);
+    println!(
+        "{} fragments, largest error {:.2e} at {:?}",
+        inputs.len(),
+        worst.0,
+        worst.1
+    );
     assert!(worst.0 <= 1e-3);
 }
 

@@ -9,9 +9,7 @@ use bytemuck::{Pod, Zeroable};
 use moment_shadows::{Profile, Storage};
 use moment_shadows_lab::batch::Batch;
 use moment_shadows_lab::gpu::Gpu;
-use moment_shadows_lab::oracle::{
-    Mixture, hamburger, rational, sensitivity, tolerance_unit,
-};
+use moment_shadows_lab::oracle::{Mixture, hamburger, rational, sensitivity, tolerance_unit};
 use moment_shadows_lab::vectors;
 use rand::{RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
@@ -206,8 +204,8 @@ fn bounds_are_ordered_and_rise_with_depth_and_stay_on_their_side_of_the_truth() 
                 }
                 // The mixture's moments were rounded to f32 once, which moves the bounds by at most one more unit.
                 let depth = rational(f64::from(input.depth)).unwrap();
-                let excess = (lower - mixture.below(&depth))
-                    .max(mixture.at_or_below(&depth) - upper);
+                let excess =
+                    (lower - mixture.below(&depth)).max(mixture.at_or_below(&depth) - upper);
                 assert!(
                     excess <= TOLERANCE * HALF_ULP
                         || excess <= (TOLERANCE + 1.0) * unit(index)[0].max(unit(index)[1]),

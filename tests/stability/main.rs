@@ -35,9 +35,8 @@ const INVOCATIONS: u32 = 10_000_000_u32.div_ceil(EACH);
 #[test]
 fn ten_million_hostile_inputs_give_no_nan_and_nothing_out_of_range() {
     let gpu = Gpu::open(Profile::WebgpuCore).unwrap();
-    let batch =
-        Batch::<Input, Output>::new(&gpu, "adversary.wgsl", include_str!("adversary.wgsl"))
-            .unwrap();
+    let batch = Batch::<Input, Output>::new(&gpu, "adversary.wgsl", include_str!("adversary.wgsl"))
+        .unwrap();
     let inputs: Vec<Input> = (0..INVOCATIONS)
         .map(|index| Input {
             // An odd multiplier spreads the seeds over all of u32.

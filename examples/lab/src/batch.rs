@@ -79,9 +79,7 @@ impl<'gpu, I: Pod, O: Pod> Batch<'gpu, I, O> {
             },
             &[],
         )?;
-        let scope = gpu
-            .device
-            .push_error_scope(wgpu::ErrorFilter::Validation);
+        let scope = gpu.device.push_error_scope(wgpu::ErrorFilter::Validation);
         let module = gpu
             .device
             .create_shader_module(wgpu::ShaderModuleDescriptor {

@@ -80,6 +80,9 @@ pub fn run(file: impl AsRef<Path>) -> Result<VectorReport, VectorsError> {
     for vector in &vectors {
         collect(vector, &mut cases, &mut report);
     }
+    if cases.is_empty() {
+        return Ok(report);
+    }
     let shader = Batch::<Input, Output>::new(
         &gpu,
         "vectors/evaluate.wgsl",

@@ -6,16 +6,22 @@ use std::str::FromStr;
 use dashu::rational::RBig;
 
 use super::polynomial::{evaluate_real, real, roots};
-use super::{Mixture, OracleError, Fma, bounds_in_f32, hamburger, rational, sensitivity, tolerance_unit};
+use super::{
+    Fma, Mixture, OracleError, bounds_in_f32, hamburger, rational, sensitivity, tolerance_unit,
+};
 use crate::vectors::file::{Vector, read};
 
 fn vectors() -> Vec<Vector> {
-    let file = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../tests/vectors/moment_problem.json");
+    let file =
+        Path::new(env!("CARGO_MANIFEST_DIR")).join("../../tests/vectors/moment_problem.json");
     read(&file).unwrap()
 }
 
 fn exact(values: &[f64]) -> Vec<RBig> {
-    values.iter().map(|&value| rational(value).unwrap()).collect()
+    values
+        .iter()
+        .map(|&value| rational(value).unwrap())
+        .collect()
 }
 
 /// Two oracles that share no code: ours and the one that made the published vectors (2, 4 and 6 moments). They print 17
@@ -30,8 +36,18 @@ fn agrees_with_the_published_bounds_of_exact_moments() {
             .collect();
         let ours = hamburger(&moments, &rational(vector.depth).unwrap()).unwrap();
         let [lower, upper] = vector.hamburger.unwrap().both().unwrap();
-        assert!((ours.lower - lower).abs() < 1e-15, "{}: {} is not {lower}", vector.id, ours.lower);
-        assert!((ours.upper - upper).abs() < 1e-15, "{}: {} is not {upper}", vector.id, ours.upper);
+        assert!(
+            (ours.lower - lower).abs() < 1e-15,
+            "{}: {} is not {lower}",
+            vector.id,
+            ours.lower
+        );
+        assert!(
+            (ours.upper - upper).abs() < 1e-15,
+            "{}: {} is not {upper}",
+            vector.id,
+            ours.upper
+        );
     }
 }
 
@@ -47,7 +63,12 @@ fn agrees_with_the_published_bounds_of_biased_moments_and_their_sensitivity() {
             let sensitivity = sensitivity(&moments, &depth, &ours).unwrap();
             for side in 0..2 {
                 let bound = [ours.lower, ours.upper][side];
-                assert!((bound - theirs[side]).abs() < 1e-15, "{}: {bound} is not {}", vector.id, theirs[side]);
+                assert!(
+                    (bound - theirs[side]).abs() < 1e-15,
+                    "{}: {bound} is not {}",
+                    vector.id,
+                    theirs[side]
+                );
                 // The file rounds to four digits.
                 let given = record.sens.unwrap()[side].unwrap();
                 let error = (sensitivity[side] - given).abs();
@@ -68,12 +89,21 @@ fn agrees_with_the_published_bounds_of_biased_moments_and_their_sensitivity() {
 fn moments_of_one_distribution_give_that_distribution() {
     let mixture = Mixture::new(&[(-0.5, 1.0), (0.25, 3.0)]).unwrap();
     let moments = mixture.moments(4);
-    for (depth, lower, upper) in [(-0.75, 0.0, 0.0), (-0.5, 0.0, 0.25), (0.0, 0.25, 0.25), (0.25, 0.25, 1.0), (0.5, 1.0, 1.0)] {
+    for (depth, lower, upper) in [
+        (-0.75, 0.0, 0.0),
+        (-0.5, 0.0, 0.25),
+        (0.0, 0.25, 0.25),
+        (0.25, 0.25, 1.0),
+        (0.5, 1.0, 1.0),
+    ] {
         let depth = rational(depth).unwrap();
         let extremal = hamburger(&moments, &depth).unwrap();
         assert!(extremal.unique);
         assert!((extremal.lower - lower).abs() < 1e-16 && (extremal.upper - upper).abs() < 1e-16);
-        assert_eq!([mixture.below(&depth), mixture.at_or_below(&depth)], [lower, upper]);
+        assert_eq!(
+            [mixture.below(&depth), mixture.at_or_below(&depth)],
+            [lower, upper]
+        );
         assert_eq!(sensitivity(&moments, &depth, &extremal), None);
     }
 }
@@ -94,12 +124,27 @@ fn a_fragment_on_a_gauss_node_leaves_one_point_at_infinity() {
 
 #[test]
 fn impossible_moments_are_refused() {
-    for moments in [[0.0, -1.0, 0.0, 1.0], [0.5, 0.1, 0.0, 1.0], [0.0, 0.5, 0.0, 0.1], [0.0, 0.0, 0.0, 1.0], [0.0, 0.0, 0.5, 1.0]] {
-        assert_eq!(hamburger(&exact(&moments), &RBig::ZERO).unwrap_err(), OracleError::NotMoments);
+    for moments in [
+        [0.0, -1.0, 0.0, 1.0],
+        [0.5, 0.1, 0.0, 1.0],
+        [0.0, 0.5, 0.0, 0.1],
+        [0.0, 0.0, 0.0, 1.0],
+        [0.0, 0.0, 0.5, 1.0],
+    ] {
+        assert_eq!(
+            hamburger(&exact(&moments), &RBig::ZERO).unwrap_err(),
+            OracleError::NotMoments
+        );
     }
-    assert_eq!(hamburger(&exact(&[0.0, 0.5, 0.0]), &RBig::ZERO).unwrap_err(), OracleError::MomentCount(3));
+    assert_eq!(
+        hamburger(&exact(&[0.0, 0.5, 0.0]), &RBig::ZERO).unwrap_err(),
+        OracleError::MomentCount(3)
+    );
     assert!(matches!(rational(f64::NAN), Err(OracleError::NotFinite(_))));
-    assert!(matches!(Mixture::new(&[(0.0, 0.0)]), Err(OracleError::NoSurface)));
+    assert!(matches!(
+        Mixture::new(&[(0.0, 0.0)]),
+        Err(OracleError::NoSurface)
+    ));
 }
 
 #[test]
@@ -145,7 +190,11 @@ fn fused_or_not_the_published_vectors_are_within_tolerance() {
                 let bounds = bounds_in_f32(input, record.depth as f32, record.alpha as f32, fma);
                 let truth = record.hamburger.unwrap().both().unwrap();
                 for side in 0..2 {
-                    assert!((0.0..=1.0).contains(&bounds[side]), "{}: {bounds:?}", vector.id);
+                    assert!(
+                        (0.0..=1.0).contains(&bounds[side]),
+                        "{}: {bounds:?}",
+                        vector.id
+                    );
                     let unit = tolerance_unit(record.sens.unwrap()[side].unwrap());
                     largest = largest.max((f64::from(bounds[side]) - truth[side]).abs() / unit);
                 }

@@ -113,7 +113,9 @@ impl Biased {
                     .map(f32::from_bits)
                     .filter(|value| value.is_finite())
                     .ok_or_else(|| {
-                        format!("input_hex '{text}' is not the bits of a finite f32, such as 0x3f800000")
+                        format!(
+                            "input_hex '{text}' is not the bits of a finite f32, such as 0x3f800000"
+                        )
                     })
             })
             .collect()
@@ -130,11 +132,10 @@ pub fn read(file: &Path) -> Result<Vec<Vector>, VectorFileError> {
         file: file.to_owned(),
         source,
     })?;
-    let top: Top =
-        serde_json::from_str(&text).map_err(|source| VectorFileError::Malformed {
-            file: file.to_owned(),
-            source,
-        })?;
+    let top: Top = serde_json::from_str(&text).map_err(|source| VectorFileError::Malformed {
+        file: file.to_owned(),
+        source,
+    })?;
     top.vectors
         .into_iter()
         .enumerate()
