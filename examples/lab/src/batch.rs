@@ -65,7 +65,7 @@ pub struct Batch<'gpu, I, O> {
     gpu: &'gpu Gpu,
     label: String,
     pipeline: wgpu::ComputePipeline,
-    items: PhantomData<fn(&[I]) -> Vec<O>>,
+    items: PhantomData<fn(I) -> O>,
 }
 
 impl<'gpu, I: Pod, O: Pod> Batch<'gpu, I, O> {
@@ -118,7 +118,12 @@ impl<'gpu, I: Pod, O: Pod> Batch<'gpu, I, O> {
             .max_storage_buffer_binding_size
             .min(limits.max_buffer_size);
         let item = input.max(output) as u64;
-        if input == 0 || output == 0 || input % 4 != 0 || output % 4 != 0 || item > largest {
+        if input == 0
+            || output == 0
+            || !input.is_multiple_of(4)
+            || !output.is_multiple_of(4)
+            || item > largest
+        {
             return Err(BatchError::ItemSize {
                 label: self.label.clone(),
                 input,

@@ -160,7 +160,7 @@ pub fn read(file: &Path) -> Result<Vec<Vector>, VectorFileError> {
 
 fn checked(vector: Vector) -> Result<Vector, String> {
     let m = vector.m;
-    if m == 0 || m % 2 != 0 {
+    if m == 0 || !m.is_multiple_of(2) {
         return Err(format!("m is {m}; it must be even and positive"));
     }
     for (name, length) in [
