@@ -96,7 +96,7 @@ fn published_vectors_are_within_tolerance() {
 
 #[test]
 fn random_distributions_are_within_tolerance() {
-    const EACH: usize = 2800;
+    const EACH: usize = 2500;
     let mut inputs = Vec::new();
     for (index, class) in mixtures::CLASSES.iter().enumerate() {
         for (alpha, beta) in biases() {
@@ -152,7 +152,7 @@ fn random_distributions_are_within_tolerance() {
 
 #[test]
 fn bounds_are_ordered_and_rise_with_depth_and_stay_on_their_side_of_the_truth() {
-    const EACH: usize = 60;
+    const EACH: usize = 50;
     const DEPTHS: usize = 65;
     let mut inputs = Vec::new();
     let mut samples = Vec::new();

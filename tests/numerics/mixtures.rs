@@ -11,7 +11,7 @@ pub(crate) struct Sample {
     pub(crate) from_gauss_node: Option<f64>,
 }
 
-pub(crate) const CLASSES: [&str; 9] = [
+pub(crate) const CLASSES: [&str; 10] = [
     "3 to 6 surfaces",
     "2 surfaces far apart",
     "2 surfaces close together",
@@ -20,6 +20,7 @@ pub(crate) const CLASSES: [&str; 9] = [
     "fragment at a Gauss node",
     "slope",
     "minor weight",
+    "fragment at the mean",
     "clamped ends",
 ];
 
@@ -88,6 +89,13 @@ pub(crate) fn sample(class: &str, random: &mut ChaCha8Rng) -> Sample {
         "minor weight" => {
             let minor = small(random, -6.0..-3.0);
             vec![(depth(random), 1.0), (depth(random), minor)]
+        }
+        "fragment at the mean" => {
+            // Half of them symmetric to the middle: the odd moments, and with them a coefficient, are 0 exactly.
+            let middle = if random.random() { 0.0 } else { depth(random) };
+            let distance = random.random_range(0.0..1.0 - f64::abs(middle));
+            fragment_depth = middle;
+            vec![(middle - distance, 1.0), (middle + distance, 1.0)]
         }
         _ => {
             let mut atoms = several(random, count - 3);
