@@ -1,9 +1,9 @@
 //! The graph file: imports, nodes, edges, outputs.
 
+use moment_shadows::nearest;
 use serde::Deserialize;
 use serde_json::value::RawValue;
 
-use crate::error::nearest;
 use crate::{GraphError, GraphErrorKind, Node, NodeRegistry, Position, ResourceDesc};
 
 /// The version of graph files and plans that this library reads and writes.
@@ -91,7 +91,9 @@ impl core::fmt::Display for Endpoint {
 #[derive(Deserialize)]
 #[serde(deny_unknown_fields)]
 struct File<'a> {
-    version: u32,
+    /// Already looked at; named here because other keys are refused.
+    #[serde(rename = "version")]
+    _version: serde::de::IgnoredAny,
     #[serde(borrow)]
     imports: Vec<&'a RawValue>,
     #[serde(borrow)]
@@ -147,7 +149,10 @@ impl Graph {
         if text.len() > LARGEST_FILE {
             return Err(GraphError::new(
                 GraphErrorKind::Size,
-                format!("the file has {} bytes; at most {LARGEST_FILE} are read", text.len()),
+                format!(
+                    "the file has {} bytes; at most {LARGEST_FILE} are read",
+                    text.len()
+                ),
             ));
         }
         let version: FileVersion = read(text, text)?;
@@ -262,15 +267,11 @@ fn read_node(
 }
 
 fn unknown_type(type_name: &str, registry: &NodeRegistry) -> GraphError {
-    let known: Vec<&str> = registry.type_names().collect();
-    let hint = nearest(type_name, known.iter().copied())
-        .map(|name| format!("; did you mean '{name}'?"))
-        .unwrap_or_default();
     GraphError::new(
         GraphErrorKind::UnknownNodeType,
         format!(
-            "there is no node type '{type_name}'{hint} Known types: {}",
-            known.join(", ")
+            "there is no node type '{type_name}'; the nearest are {}",
+            nearest(type_name, registry.type_names())
         ),
     )
 }

@@ -243,10 +243,7 @@ pub struct Connected<'a> {
 impl<'a> Connected<'a> {
     /// Connections by slot name.
     #[must_use]
-    pub fn new(
-        inputs: &'a BTreeMap<String, ResourceDesc>,
-        capabilities: &'a Capabilities,
-    ) -> Self {
+    pub fn new(inputs: &'a BTreeMap<String, ResourceDesc>, capabilities: &'a Capabilities) -> Self {
         Self {
             inputs,
             capabilities,

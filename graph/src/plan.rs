@@ -371,7 +371,11 @@ impl fmt::Display for Plan {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         writeln!(f, "imports")?;
         for import in &self.imports {
-            writeln!(f, "  {:<28} {}", import.name, self.resources[import.resource].desc)?;
+            writeln!(
+                f,
+                "  {:<28} {}",
+                import.name, self.resources[import.resource].desc
+            )?;
         }
         for stage in Stage::ALL {
             writeln!(f, "stage {stage:?}")?;
@@ -401,7 +405,13 @@ impl fmt::Display for Plan {
         }
         writeln!(f, "memory ({} resident)", Bytes(self.bytes_resident()))?;
         for memory in &self.memory {
-            writeln!(f, "  {:<28} {}, {}", memory.label, memory.desc, Bytes(memory.desc.bytes()))?;
+            writeln!(
+                f,
+                "  {:<28} {}, {}",
+                memory.label,
+                memory.desc,
+                Bytes(memory.desc.bytes())
+            )?;
         }
         writeln!(f, "parameters ({} bytes per view)", self.parameters.size)?;
         for block in &self.parameters.blocks {
@@ -413,7 +423,11 @@ impl fmt::Display for Plan {
         }
         writeln!(f, "outputs")?;
         for output in &self.outputs {
-            writeln!(f, "  {:<28} {}", output.name, self.resources[output.resource].name)?;
+            writeln!(
+                f,
+                "  {:<28} {}",
+                output.name, self.resources[output.resource].name
+            )?;
         }
         Ok(())
     }

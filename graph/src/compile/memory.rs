@@ -52,8 +52,7 @@ pub(super) fn share(lives: &[Life]) -> (Vec<usize>, Vec<PlannedMemory>) {
                 && block.free_after.is_some_and(|pass| pass < life.first)
                 && (!keeps_layers || block.all_written_by_layer)
         });
-        let free_after =
-            (!life.persistent && !life.outlives && !keeps_layers).then_some(life.last);
+        let free_after = (!life.persistent && !life.outlives && !keeps_layers).then_some(life.last);
         homes[index] = match found {
             Some(home) => {
                 let block = &mut blocks[home];
@@ -79,5 +78,8 @@ pub(super) fn share(lives: &[Life]) -> (Vec<usize>, Vec<PlannedMemory>) {
             }
         };
     }
-    (homes, blocks.into_iter().map(|block| block.memory).collect())
+    (
+        homes,
+        blocks.into_iter().map(|block| block.memory).collect(),
+    )
 }

@@ -43,8 +43,10 @@ pub fn compile(
     let described = describe(graph, &wiring, capabilities, &mut resources)?;
     let outputs = outputs(graph, &described)?;
     let needed = wiring.needed(graph)?;
-    let mut kept: Vec<&Described> =
-        described.iter().filter(|described| needed.contains(&described.node)).collect();
+    let mut kept: Vec<&Described> = described
+        .iter()
+        .filter(|described| needed.contains(&described.node))
+        .collect();
     stages_in_order(graph, &wiring, &described)?;
     // Stable: within a stage the order of dependencies remains.
     kept.sort_by_key(|described| described.desc.stage);
@@ -56,7 +58,9 @@ pub fn compile(
         let name = &graph.nodes[described.node].name;
         for pass in &described.desc.passes {
             let placed = |error: GraphError| {
-                error.at_node(name).at_position(graph.nodes[described.node].position)
+                error
+                    .at_node(name)
+                    .at_position(graph.nodes[described.node].position)
             };
             let planned = passes::plan(
                 name,
@@ -69,7 +73,12 @@ pub fn compile(
             )
             .map_err(placed)?;
             shaders
-                .check(&planned, &resources, capabilities.profile, capabilities.bind_group)
+                .check(
+                    &planned,
+                    &resources,
+                    capabilities.profile,
+                    capabilities.bind_group,
+                )
                 .map_err(placed)?;
             passes.push(planned);
         }
@@ -89,8 +98,9 @@ pub fn compile(
 
 /// Resources of the imports, in the order of the graph.
 fn import_resources(graph: &Graph, imports: &Imports) -> Result<Vec<PlannedResource>, GraphError> {
-    if let Some(name) =
-        imports.keys().find(|name| graph.imports.iter().all(|import| import.name != **name))
+    if let Some(name) = imports
+        .keys()
+        .find(|name| graph.imports.iter().all(|import| import.name != **name))
     {
         return Err(wiring::unknown(
             "import",
@@ -135,7 +145,9 @@ fn describe(
     for &node in &wiring.order {
         let graph_node = &graph.nodes[node];
         let placed = |error: GraphError| {
-            error.at_node(&graph_node.name).at_position(graph_node.position)
+            error
+                .at_node(&graph_node.name)
+                .at_position(graph_node.position)
         };
         let mut slots = BTreeMap::new();
         for (slot, (source, edge)) in &wiring.inputs[node] {
@@ -195,9 +207,9 @@ fn find(graph: &Graph, described: &[Described], source: &Source) -> Result<usize
             let owner = described.iter().find(|described| described.node == *node);
             let slots = owner.map_or(&[][..], |owner| &owner.desc.slots);
             let gives = |direction| matches!(direction, Direction::Out | Direction::InOut);
-            let known = slots.iter().any(|candidate| {
-                candidate.name == *slot && gives(candidate.direction)
-            });
+            let known = slots
+                .iter()
+                .any(|candidate| candidate.name == *slot && gives(candidate.direction));
             owner
                 .filter(|_| known)
                 .and_then(|owner| owner.slots.get(slot).copied())
@@ -299,7 +311,10 @@ fn settle(mut plan: Plan, kept: &[&Described]) -> Plan {
     }
     for described in kept {
         for slot in &described.desc.slots {
-            let life = described.slots.get(&slot.name).and_then(|index| lives.get_mut(index));
+            let life = described
+                .slots
+                .get(&slot.name)
+                .and_then(|index| lives.get_mut(index));
             if let (Some(life), Lifetime::Persistent) = (life, slot.lifetime) {
                 life.persistent = true;
             }
@@ -344,16 +359,26 @@ fn renumber(mut plan: Plan, used: &[usize]) -> Plan {
             }
         }
     }
-    let new: BTreeMap<usize, usize> =
-        keep.iter().enumerate().map(|(new, &old)| (old, new)).collect();
+    let new: BTreeMap<usize, usize> = keep
+        .iter()
+        .enumerate()
+        .map(|(new, &old)| (old, new))
+        .collect();
     let renumbered = |index: &mut usize| {
         if let Some(&new) = new.get(index) {
             *index = new;
         }
     };
-    plan.resources = keep.iter().map(|&old| plan.resources[old].clone()).collect();
-    plan.imports.iter_mut().for_each(|import| renumbered(&mut import.resource));
-    plan.outputs.iter_mut().for_each(|output| renumbered(&mut output.resource));
+    plan.resources = keep
+        .iter()
+        .map(|&old| plan.resources[old].clone())
+        .collect();
+    plan.imports
+        .iter_mut()
+        .for_each(|import| renumbered(&mut import.resource));
+    plan.outputs
+        .iter_mut()
+        .for_each(|output| renumbered(&mut output.resource));
     for pass in &mut plan.passes {
         renumber_pass(pass, &renumbered);
     }

@@ -26,9 +26,8 @@ pub(super) fn lay_out(
             continue;
         };
         let node = &graph.nodes[described.node].name;
-        let fail = |message: String| {
-            GraphError::new(GraphErrorKind::Declaration, message).at_node(node)
-        };
+        let fail =
+            |message: String| GraphError::new(GraphErrorKind::Declaration, message).at_node(node);
         let count = match &block.each_layer_of {
             None => 1,
             Some(slot) => described
@@ -36,7 +35,9 @@ pub(super) fn lay_out(
                 .get(slot)
                 .map(|&resource| resources[resource].desc.layers())
                 .ok_or_else(|| {
-                    fail(format!("its parameters are per layer of '{slot}', which is no slot"))
+                    fail(format!(
+                        "its parameters are per layer of '{slot}', which is no slot"
+                    ))
                 })?,
         };
         if block.initial.len() > block.size as usize || block.size == 0 {

@@ -3,33 +3,32 @@
 use super::Described;
 use crate::{
     Access, BindingResource, Capabilities, GraphError, GraphErrorKind, ParameterLayout, Pass,
-    PlannedBinding, PlannedBindingResource, PlannedPass, PlannedResource, PlannedWork,
-    SampleType, SlotResource, TextureDesc, Work,
+    PlannedBinding, PlannedBindingResource, PlannedPass, PlannedResource, PlannedWork, SampleType,
+    SlotResource, TextureDesc, Work,
 };
 
 /// Everything a pass touches, and how.
 pub(super) fn touched(pass: &PlannedPass) -> Vec<(usize, Access)> {
-    let mut touched: Vec<(usize, Access)> = pass
-        .bindings
-        .iter()
-        .filter_map(|binding| match &binding.resource {
-            PlannedBindingResource::Texture { resource, .. } => Some((*resource, Access::READ)),
-            PlannedBindingResource::StorageTexture { resource } => {
-                Some((*resource, Access::STORAGE_WRITE))
-            }
-            PlannedBindingResource::Buffer { resource, writable } => Some((
-                *resource,
-                if *writable {
-                    Access::READ.union(Access::STORAGE_WRITE)
-                } else {
-                    Access::READ
-                },
-            )),
-            PlannedBindingResource::Parameters { .. } | PlannedBindingResource::Sampler { .. } => {
-                None
-            }
-        })
-        .collect();
+    let mut touched: Vec<(usize, Access)> =
+        pass.bindings
+            .iter()
+            .filter_map(|binding| match &binding.resource {
+                PlannedBindingResource::Texture { resource, .. } => Some((*resource, Access::READ)),
+                PlannedBindingResource::StorageTexture { resource } => {
+                    Some((*resource, Access::STORAGE_WRITE))
+                }
+                PlannedBindingResource::Buffer { resource, writable } => Some((
+                    *resource,
+                    if *writable {
+                        Access::READ.union(Access::STORAGE_WRITE)
+                    } else {
+                        Access::READ
+                    },
+                )),
+                PlannedBindingResource::Parameters { .. }
+                | PlannedBindingResource::Sampler { .. } => None,
+            })
+            .collect();
     match &pass.work {
         PlannedWork::Compute { .. } => {}
         PlannedWork::Fullscreen { target } => touched.push((*target, Access::RENDER_TARGET)),
@@ -62,20 +61,28 @@ pub(super) fn plan(
 ) -> Result<PlannedPass, GraphError> {
     let resource = |slot: &str| {
         described.slots.get(slot).copied().ok_or_else(|| {
-            declaration(format!("pass '{}' uses slot '{slot}', which the node does not have", pass.label))
+            declaration(format!(
+                "pass '{}' uses slot '{slot}', which the node does not have",
+                pass.label
+            ))
         })
     };
     let texture = |slot: &str| {
         let index = resource(slot)?;
         let texture = resources[index].desc.texture().ok_or_else(|| {
-            declaration(format!("pass '{}' uses the buffer '{slot}' as a texture", pass.label))
+            declaration(format!(
+                "pass '{}' uses the buffer '{slot}' as a texture",
+                pass.label
+            ))
         })?;
         Ok::<(usize, &TextureDesc), GraphError>((index, texture))
     };
-    let filtered = pass
-        .bindings
-        .iter()
-        .any(|binding| matches!(binding.resource, BindingResource::Sampler { filtering: true }));
+    let filtered = pass.bindings.iter().any(|binding| {
+        matches!(
+            binding.resource,
+            BindingResource::Sampler { filtering: true }
+        )
+    });
     let mut bindings = Vec::with_capacity(pass.bindings.len());
     for binding in &pass.bindings {
         let loaded = |slot: &str, one_layer: bool| {
@@ -98,7 +105,10 @@ pub(super) fn plan(
         let planned = match &binding.resource {
             BindingResource::Parameters => {
                 let block = block.ok_or_else(|| {
-                    declaration(format!("pass '{}' uses parameters, but the node has none", pass.label))
+                    declaration(format!(
+                        "pass '{}' uses parameters, but the node has none",
+                        pass.label
+                    ))
                 })?;
                 PlannedBindingResource::Parameters {
                     block,
@@ -153,9 +163,15 @@ pub(super) fn plan(
             depth,
         } => (
             PlannedWork::Host {
-                targets: targets.iter().map(|slot| Ok(texture(slot)?.0)).collect::<Result<_, GraphError>>()?,
+                targets: targets
+                    .iter()
+                    .map(|slot| Ok(texture(slot)?.0))
+                    .collect::<Result<_, GraphError>>()?,
                 blend: *blend,
-                depth: depth.as_ref().map(|slot| Ok::<_, GraphError>(texture(slot)?.0)).transpose()?,
+                depth: depth
+                    .as_ref()
+                    .map(|slot| Ok::<_, GraphError>(texture(slot)?.0))
+                    .transpose()?,
             },
             1,
             false,
@@ -178,7 +194,10 @@ pub(super) fn plan(
     check_layers(&planned, resources)?;
     count_bytes(&mut planned, resources);
     for (index, access) in touched(&planned) {
-        let slot = described.slots.iter().find(|(_, resource)| **resource == index);
+        let slot = described
+            .slots
+            .iter()
+            .find(|(_, resource)| **resource == index);
         if let Some((slot, _)) = slot
             && !slot_access(described, slot).contains(access)
         {
@@ -239,7 +258,11 @@ fn workgroups(
 fn check_layers(pass: &PlannedPass, resources: &[PlannedResource]) -> Result<(), GraphError> {
     for binding in &pass.bindings {
         let resource = match &binding.resource {
-            PlannedBindingResource::Texture { resource, one_layer: true, .. }
+            PlannedBindingResource::Texture {
+                resource,
+                one_layer: true,
+                ..
+            }
             | PlannedBindingResource::StorageTexture { resource } => *resource,
             _ => continue,
         };
@@ -268,7 +291,11 @@ fn count_bytes(pass: &mut PlannedPass, resources: &[PlannedResource]) {
     let (mut read, mut written) = (0, 0);
     for binding in &pass.bindings {
         match &binding.resource {
-            PlannedBindingResource::Texture { resource, one_layer, .. } => {
+            PlannedBindingResource::Texture {
+                resource,
+                one_layer,
+                ..
+            } => {
                 read += bytes(*resource, *one_layer);
             }
             PlannedBindingResource::StorageTexture { resource } => {
@@ -276,7 +303,11 @@ fn count_bytes(pass: &mut PlannedPass, resources: &[PlannedResource]) {
             }
             PlannedBindingResource::Buffer { resource, writable } => {
                 read += bytes(*resource, false);
-                written += if *writable { bytes(*resource, false) } else { 0 };
+                written += if *writable {
+                    bytes(*resource, false)
+                } else {
+                    0
+                };
             }
             PlannedBindingResource::Parameters { size, .. } => {
                 read += u64::from(*size) * u64::from(pass.layers);

@@ -48,7 +48,10 @@ impl Shaders {
         let mut declared: BTreeMap<u32, &PlannedBinding> = BTreeMap::new();
         for binding in &pass.bindings {
             if declared.insert(binding.binding, binding).is_some() {
-                return Err(mismatch(format!("the node declares binding {} twice", binding.binding)));
+                return Err(mismatch(format!(
+                    "the node declares binding {} twice",
+                    binding.binding
+                )));
             }
         }
         for (handle, variable) in module.global_variables.iter() {
@@ -66,15 +69,23 @@ impl Shaders {
                 )));
             }
             let planned = declared.remove(&binding.binding).ok_or_else(|| {
-                mismatch(format!("the shader uses binding {} ('{name}'), which the node does not declare", binding.binding))
+                mismatch(format!(
+                    "the shader uses binding {} ('{name}'), which the node does not declare",
+                    binding.binding
+                ))
             })?;
             let actual = &module.types[variable.ty].inner;
             if let Some(expected) = difference(module, variable.space, actual, planned, resources) {
-                return Err(mismatch(format!("binding {} ('{name}') is not {expected}, which the node declares", binding.binding)));
+                return Err(mismatch(format!(
+                    "binding {} ('{name}') is not {expected}, which the node declares",
+                    binding.binding
+                )));
             }
         }
         match declared.keys().next() {
-            Some(binding) => Err(mismatch(format!("the node declares binding {binding}, which the shader does not use"))),
+            Some(binding) => Err(mismatch(format!(
+                "the node declares binding {binding}, which the shader does not use"
+            ))),
             None => Ok(()),
         }
     }
@@ -85,8 +96,12 @@ fn mismatch(message: String) -> GraphError {
 }
 
 fn parse(wgsl: &str, profile: Profile) -> Result<(naga::Module, ModuleInfo), GraphError> {
-    let module = naga::front::wgsl::parse_str(wgsl)
-        .map_err(|error| mismatch(format!("the shader does not parse:\n{}", error.emit_to_string(wgsl))))?;
+    let module = naga::front::wgsl::parse_str(wgsl).map_err(|error| {
+        mismatch(format!(
+            "the shader does not parse:\n{}",
+            error.emit_to_string(wgsl)
+        ))
+    })?;
     let capabilities = match profile {
         Profile::WebgpuCore => NagaCapabilities::empty(),
         Profile::Native | Profile::NativeAdapter => {
@@ -95,15 +110,16 @@ fn parse(wgsl: &str, profile: Profile) -> Result<(naga::Module, ModuleInfo), Gra
     };
     let info = Validator::new(ValidationFlags::all(), capabilities)
         .validate(&module)
-        .map_err(|error| mismatch(format!("the shader is not valid:\n{}", error.emit_to_string(wgsl))))?;
+        .map_err(|error| {
+            mismatch(format!(
+                "the shader is not valid:\n{}",
+                error.emit_to_string(wgsl)
+            ))
+        })?;
     Ok((module, info))
 }
 
-fn entry_point(
-    module: &naga::Module,
-    name: &str,
-    stage: ShaderStage,
-) -> Result<usize, GraphError> {
+fn entry_point(module: &naga::Module, name: &str, stage: ShaderStage) -> Result<usize, GraphError> {
     module
         .entry_points
         .iter()
@@ -127,14 +143,20 @@ fn difference(
         PlannedBindingResource::Buffer { writable, .. } => (
             matches!(space, AddressSpace::Storage { access }
                 if access.contains(naga::StorageAccess::STORE) == *writable),
-            format!("a {} storage buffer", if *writable { "writable" } else { "read-only" }),
+            format!(
+                "a {} storage buffer",
+                if *writable { "writable" } else { "read-only" }
+            ),
         ),
         PlannedBindingResource::Sampler { .. } => (
             matches!(actual, TypeInner::Sampler { comparison: false }),
             "a sampler".to_owned(),
         ),
         PlannedBindingResource::StorageTexture { resource } => {
-            let format = resources[*resource].desc.texture().map(|texture| texture.format);
+            let format = resources[*resource]
+                .desc
+                .texture()
+                .map(|texture| texture.format);
             let name = format.map_or("", |format| format.name());
             let matches = match actual {
                 TypeInner::Image {
@@ -144,7 +166,10 @@ fn difference(
                 } => format!("{format:?}").to_lowercase() == name,
                 _ => false,
             };
-            (matches, format!("a two-dimensional storage texture of format {name}"))
+            (
+                matches,
+                format!("a two-dimensional storage texture of format {name}"),
+            )
         }
         PlannedBindingResource::Texture {
             one_layer,

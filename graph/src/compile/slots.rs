@@ -5,8 +5,8 @@ use std::collections::{BTreeMap, BTreeSet};
 use moment_shadows::{Storage, TextureFormat};
 
 use crate::{
-    Access, Capabilities, CountRule, Direction, ExtentRule, FormatRule, GraphError,
-    GraphErrorKind, NodeDesc, ResourceDesc, Slot, SlotResource, TextureDesc,
+    Access, Capabilities, CountRule, Direction, ExtentRule, FormatRule, GraphError, GraphErrorKind,
+    NodeDesc, ResourceDesc, Slot, SlotResource, TextureDesc,
 };
 
 /// Checks what is connected to a node and gives every slot of it a concrete resource.
@@ -157,7 +157,11 @@ fn check(
                 let names: Vec<&str> = formats.iter().map(|format| format.name()).collect();
                 return fail(
                     GraphErrorKind::Format,
-                    format!("the texture has the format {}; it has to be {}", texture.format, names.join(" or ")),
+                    format!(
+                        "the texture has the format {}; it has to be {}",
+                        texture.format,
+                        names.join(" or ")
+                    ),
                 );
             }
             let size = match extent {
@@ -175,9 +179,24 @@ fn check(
                 );
             }
             let counts: [(&CountRule, fn(&TextureDesc) -> u32, &str, GraphErrorKind); 3] = [
-                (layers, |texture| texture.layers, "layers", GraphErrorKind::Size),
-                (mips, |texture| texture.mips, "mip levels", GraphErrorKind::Size),
-                (samples, |texture| texture.samples, "samples per texel", GraphErrorKind::Format),
+                (
+                    layers,
+                    |texture| texture.layers,
+                    "layers",
+                    GraphErrorKind::Size,
+                ),
+                (
+                    mips,
+                    |texture| texture.mips,
+                    "mip levels",
+                    GraphErrorKind::Size,
+                ),
+                (
+                    samples,
+                    |texture| texture.samples,
+                    "samples per texel",
+                    GraphErrorKind::Format,
+                ),
             ];
             for (rule, of, what, kind) in counts {
                 let allowed = match rule {
@@ -190,7 +209,11 @@ fn check(
                     let allowed: Vec<String> = allowed.iter().map(u32::to_string).collect();
                     return fail(
                         kind,
-                        format!("the texture has {} {what}; it has to have {}", of(texture), allowed.join(" or ")),
+                        format!(
+                            "the texture has {} {what}; it has to have {}",
+                            of(texture),
+                            allowed.join(" or ")
+                        ),
                     );
                 }
             }
@@ -206,26 +229,42 @@ fn limits(texture: &TextureDesc, capabilities: &Capabilities) -> Result<(), Grap
     if texture.size.contains(&0) || texture.layers == 0 || texture.mips == 0 {
         return Err(GraphError::new(
             GraphErrorKind::Size,
-            format!("the texture is empty ({texture}); every side is at least 1 and at most {largest}"),
+            format!(
+                "the texture is empty ({texture}); every side is at least 1 and at most {largest}"
+            ),
         ));
     }
     if texture.size.iter().any(|&side| side > largest) {
         return Err(GraphError::new(
             GraphErrorKind::Size,
-            format!("the texture has {}x{} texels; the device allows {largest} per side", texture.size[0], texture.size[1]),
+            format!(
+                "the texture has {}x{} texels; the device allows {largest} per side",
+                texture.size[0], texture.size[1]
+            ),
         ));
     }
     if texture.layers > capabilities.max_texture_layers {
         return Err(GraphError::new(
             GraphErrorKind::Size,
-            format!("the texture has {} layers; the device allows {}", texture.layers, capabilities.max_texture_layers),
+            format!(
+                "the texture has {} layers; the device allows {}",
+                texture.layers, capabilities.max_texture_layers
+            ),
         ));
     }
     if texture.samples != 1 && !capabilities.depth_samples.contains(&texture.samples) {
-        let counts: Vec<String> = capabilities.depth_samples.iter().map(u32::to_string).collect();
+        let counts: Vec<String> = capabilities
+            .depth_samples
+            .iter()
+            .map(u32::to_string)
+            .collect();
         return Err(GraphError::new(
             GraphErrorKind::Capability,
-            format!("the texture has {} samples per texel; the device allows {}", texture.samples, counts.join(" or ")),
+            format!(
+                "the texture has {} samples per texel; the device allows {}",
+                texture.samples,
+                counts.join(" or ")
+            ),
         ));
     }
     Ok(())
@@ -257,6 +296,9 @@ fn usable(
     };
     Err(GraphError::new(
         GraphErrorKind::Capability,
-        format!("{format} cannot be {missing} under the profile {}; {alternative}", capabilities.profile),
+        format!(
+            "{format} cannot be {missing} under the profile {}; {alternative}",
+            capabilities.profile
+        ),
     ))
 }

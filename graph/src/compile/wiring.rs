@@ -2,7 +2,8 @@
 
 use std::collections::{BTreeMap, BTreeSet};
 
-use crate::error::nearest;
+use moment_shadows::nearest;
+
 use crate::{Endpoint, Graph, GraphError, GraphErrorKind};
 
 /// Where an input comes from.
@@ -31,11 +32,19 @@ impl Wiring {
                 .imports
                 .iter()
                 .map(|import| (import.name.as_str(), import.position))
-                .chain(graph.nodes.iter().map(|node| (node.name.as_str(), node.position))),
+                .chain(
+                    graph
+                        .nodes
+                        .iter()
+                        .map(|node| (node.name.as_str(), node.position)),
+                ),
         )?;
         unique(
             "output",
-            graph.outputs.iter().map(|output| (output.name.as_str(), output.position)),
+            graph
+                .outputs
+                .iter()
+                .map(|output| (output.name.as_str(), output.position)),
         )?;
         let mut inputs = vec![BTreeMap::new(); graph.nodes.len()];
         for (index, edge) in graph.edges.iter().enumerate() {
@@ -70,10 +79,14 @@ impl Wiring {
         let mut needed = BTreeSet::new();
         while let Some(node) = pending.pop() {
             if needed.insert(node) {
-                pending.extend(self.inputs[node].values().filter_map(|(source, _)| match source {
-                    Source::Node(upstream, _) => Some(*upstream),
-                    Source::Import(_) => None,
-                }));
+                pending.extend(
+                    self.inputs[node]
+                        .values()
+                        .filter_map(|(source, _)| match source {
+                            Source::Node(upstream, _) => Some(*upstream),
+                            Source::Import(_) => None,
+                        }),
+                );
             }
         }
         Ok(needed)
@@ -96,7 +109,10 @@ pub(super) fn source(graph: &Graph, endpoint: &Endpoint) -> Result<Source, Graph
                     "an output of a node is written 'node.slot'",
                 )
             }),
-        Some(slot) => Ok(Source::Node(node_index(graph, &endpoint.owner)?, slot.clone())),
+        Some(slot) => Ok(Source::Node(
+            node_index(graph, &endpoint.owner)?,
+            slot.clone(),
+        )),
     }
 }
 
@@ -130,18 +146,18 @@ fn node_index(graph: &Graph, name: &str) -> Result<usize, GraphError> {
 pub(super) fn unknown<'a>(
     what: &str,
     name: &str,
-    known: impl Iterator<Item = &'a str> + Clone,
+    known: impl Iterator<Item = &'a str>,
     remark: &str,
 ) -> GraphError {
-    let hint = nearest(name, known.clone())
-        .map(|name| format!("; did you mean '{name}'?"))
-        .unwrap_or_else(|| {
-            let known: Vec<&str> = known.collect();
-            format!("; there is {}", if known.is_empty() { "none".to_owned() } else { known.join(", ") })
-        });
+    let nearest = nearest(name, known);
+    let hint = if nearest.is_empty() {
+        "there is none".to_owned()
+    } else {
+        format!("the nearest are {nearest}")
+    };
     GraphError::new(
         GraphErrorKind::UnknownName,
-        format!("there is no {what} '{name}'{hint} ({remark})"),
+        format!("there is no {what} '{name}'; {hint} ({remark})"),
     )
 }
 
@@ -154,7 +170,9 @@ fn unique<'a>(
         let problem = if name.is_empty() || name.contains('.') {
             Some(GraphError::new(
                 GraphErrorKind::UnknownName,
-                format!("'{name}' cannot be the name of an {what}: names are not empty and have no '.'"),
+                format!(
+                    "'{name}' cannot be the name of an {what}: names are not empty and have no '.'"
+                ),
             ))
         } else if seen.insert(name) {
             None
@@ -216,7 +234,11 @@ fn cycle(
         path.push(node);
         current = unplaced_upstream(node);
     }
-    let names: Vec<&str> = path.iter().rev().map(|&node| graph.nodes[node].name.as_str()).collect();
+    let names: Vec<&str> = path
+        .iter()
+        .rev()
+        .map(|&node| graph.nodes[node].name.as_str())
+        .collect();
     let first = path.last().copied().unwrap_or_default();
     GraphError::new(
         GraphErrorKind::Cycle,

@@ -76,7 +76,10 @@ impl Node for BlurMoments {
         let storage = Storage::of_format(moments.format).ok_or_else(|| {
             GraphError::new(
                 GraphErrorKind::Format,
-                format!("{} holds no moments; connect a map of moments", moments.format),
+                format!(
+                    "{} holds no moments; connect a map of moments",
+                    moments.format
+                ),
             )
             .at_slot("moments")
         })?;
@@ -147,7 +150,14 @@ impl BlurMoments {
                 &format!("texture_storage_2d<{}, write>", storage.format()),
             )
             .constant("STORAGE", &format!("{}u", storage.wgsl_index()))
-            .constant("AXIS", if axis == 0 { "vec2i(1, 0)" } else { "vec2i(0, 1)" });
+            .constant(
+                "AXIS",
+                if axis == 0 {
+                    "vec2i(1, 0)"
+                } else {
+                    "vec2i(0, 1)"
+                },
+            );
         let mut bindings = vec![
             Binding {
                 binding: 0,

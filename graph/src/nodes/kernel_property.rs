@@ -38,9 +38,10 @@ impl KernelProperty {
     pub fn kernel(&self) -> Result<Kernel, GraphError> {
         let built = match (&self.weights, self.radius) {
             (Some(weights), None) if self.sigma.is_none() => Kernel::from_weights(weights),
-            (None, Some(radius)) => {
-                Kernel::gaussian(radius, self.sigma.unwrap_or(radius as f32 * SIGMA_PER_RADIUS))
-            }
+            (None, Some(radius)) => Kernel::gaussian(
+                radius,
+                self.sigma.unwrap_or(radius as f32 * SIGMA_PER_RADIUS),
+            ),
             _ => {
                 return Err(property(
                     "a kernel is either a 'radius' (with a 'sigma') or 'weights'; give one of them",

@@ -79,13 +79,20 @@ impl Node for ShadeHard {
         let storage = Storage::of_format(moments.format).ok_or_else(|| {
             GraphError::new(
                 GraphErrorKind::Format,
-                format!("{} holds no moments; connect a map of moments", moments.format),
+                format!(
+                    "{} holds no moments; connect a map of moments",
+                    moments.format
+                ),
             )
             .at_slot("moments")
         })?;
         let capabilities = upstream.capabilities();
         let sampled = capabilities.support(moments.format).filterable;
-        let lookup = if sampled { SAMPLED_LOOKUP } else { LOADED_LOOKUP };
+        let lookup = if sampled {
+            SAMPLED_LOOKUP
+        } else {
+            LOADED_LOOKUP
+        };
         let wgsl = Specialization::new(capabilities)
             .constant("STORAGE", &format!("{}u", storage.wgsl_index()))
             .link("shade_hard.wgsl", SHADER, &[("map_lookup", lookup)])?;

@@ -29,7 +29,10 @@ pub(super) fn literal_weights(weights: &[f32]) -> String {
             let _ = if tap == output {
                 writeln!(body, "    var o{output} = {weight:?} * t{tap};")
             } else {
-                writeln!(body, "    o{output} = fma(vec4f({weight:?}), t{tap}, o{output});")
+                writeln!(
+                    body,
+                    "    o{output} = fma(vec4f({weight:?}), t{tap}, o{output});"
+                )
             };
         }
     }

@@ -104,7 +104,9 @@ impl LightDepth {
 
 /// A camera matrix that cannot be inverted.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
-#[error("the camera's clip_from_world is singular or not finite; it has to be an invertible projection of the scene")]
+#[error(
+    "the camera's clip_from_world is singular or not finite; it has to be an invertible projection of the scene"
+)]
 pub struct SingularCamera;
 
 impl ShadeHardParameters {
@@ -119,7 +121,11 @@ impl ShadeHardParameters {
     ) -> Result<Self, SingularCamera> {
         let world_from_clip = invert(&wide(&camera.clip_from_world)).ok_or(SingularCamera)?;
         let light_clip = wide(&light.clip_from_world);
-        let (x, y, w) = (row(&light_clip, 0), row(&light_clip, 1), row(&light_clip, 3));
+        let (x, y, w) = (
+            row(&light_clip, 0),
+            row(&light_clip, 1),
+            row(&light_clip, 3),
+        );
         // From clip space to the map: u = (x + w) / 2, v = (w - y) / 2, both still times w.
         let half_sum = |a: [f64; 4], b: [f64; 4], sign: f64| {
             [0, 1, 2, 3].map(|index| 0.5 * (b[index] + sign * a[index]))
