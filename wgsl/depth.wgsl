@@ -1,0 +1,38 @@
+// Moment depth: the one interval that all moment arithmetic uses.
+//
+// Moment depth z is in [-1, 1], -1 at the light's near end and 1 at its far end, linear in distance along the light's
+// axis. Signed depth needs a far smaller moment bias than depth in [0, 1] (Peters et al., JCGT 6(1) 2017, section 3).
+// Every way in which a host stores depth (forward or reversed, orthographic or perspective, finite or infinite far
+// plane, linear distance) is a ratio of two functions that are linear in the stored value, so one conversion serves all.
+
+// How stored depth becomes moment depth. Filled by the host-side `DepthConversion`.
+//
+// With d = clamp(scale * stored + offset, 0, 1) the moment depth is
+//   ((1 - d) * numerator.x + d * numerator.y) / ((1 - d) * denominator.x + d * denominator.y).
+// Weighting the ends by 1 - d and d keeps both sums free of cancellation: a light with a near/far ratio of 1e5 in
+// reversed float depth keeps its precision. The denominators are not negative, and not both zero.
+struct DepthConversion {
+    numerator: vec2f,
+    denominator: vec2f,
+    scale: f32,
+    offset: f32,
+    // Keeps the size a multiple of 16, as uniform buffers ask for arrays of it.
+    padding: vec2f,
+}
+
+// The smallest denominator: the far end of an infinite projection divides by zero.
+const DEPTH_SMALLEST_DENOMINATOR: f32 = 1e-30;
+
+// Whether `value` is NaN, by its bits: WGSL lets a compiler assume that no NaN occurs, so `value != value` may be folded.
+fn depth_is_nan(value: f32) -> bool {
+    return (bitcast<u32>(value) & 0x7fffffffu) > 0x7f800000u;
+}
+
+// Moment depth in [-1, 1] of a stored depth. NaN counts as the far end (no caster), infinities and values out of
+// range as the nearer end of the interval.
+fn depth_to_moment_depth(stored: f32, conversion: DepthConversion) -> f32 {
+    let d = clamp(fma(clamp(stored, -3e38, 3e38), conversion.scale, conversion.offset), 0.0, 1.0);
+    let ends = vec2f(1.0 - d, d);
+    let ratio = dot(ends, conversion.numerator) / max(dot(ends, conversion.denominator), DEPTH_SMALLEST_DENOMINATOR);
+    return select(clamp(ratio, -1.0, 1.0), 1.0, depth_is_nan(stored));
+}

@@ -1,0 +1,31 @@
+// Light leaking, reduced after the bound: none of this touches the moments.
+//
+// Multiplying the moments by a constant before solving ("moment scale" in some samples) is not offered: it makes the
+// total weight differ from one, so that the result bounds nothing.
+
+// Filled by the host-side `LeakReduction`.
+struct LeakReduction {
+    // Shadow intensity that counts as full shadow, in (0, 1]; 0.98 hides weak leaks (Peters, GDC 2016).
+    full_shadow: f32,
+    // Visibility that counts as none, in [0, 1) (light bleeding reduction; Lauritzen, thesis 2008, section 3.4).
+    bleed_reduction: f32,
+    // Exponent of visibility, > 0; above 1 darkens penumbrae.
+    visibility_exponent: f32,
+    padding: f32,
+}
+
+// Shadow intensity after division by `full_shadow`.
+fn leak_reduction_full_shadow(shadow_intensity: f32, full_shadow: f32) -> f32 {
+    return min(shadow_intensity / max(full_shadow, 1e-6), 1.0);
+}
+
+// Shadow intensity in [0, 1] after all three reductions. Each only darkens; full light stays full light.
+fn leak_reduction_apply(shadow_intensity: f32, reduction: LeakReduction) -> f32 {
+    let visibility = 1.0 - leak_reduction_full_shadow(clamp(shadow_intensity, 0.0, 1.0), reduction.full_shadow);
+    let bleed = clamp(reduction.bleed_reduction, 0.0, 0.999);
+    let remaining = saturate((visibility - bleed) / (1.0 - bleed));
+    // pow(0, e) goes through the logarithm of 0, and e = 1 is to change nothing at all.
+    let curved = pow(max(remaining, 1e-30), max(reduction.visibility_exponent, 1e-6));
+    let plain = remaining <= 0.0 || reduction.visibility_exponent == 1.0;
+    return 1.0 - select(curved, remaining, plain);
+}
