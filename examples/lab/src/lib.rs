@@ -4,3 +4,5 @@
 
 pub mod gpu;
 pub mod light;
+pub mod metric;
+pub mod truth;
