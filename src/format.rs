@@ -1,0 +1,147 @@
+//! Texture formats, by their WebGPU names, and what each profile allows them.
+
+use core::fmt;
+
+use serde::{Deserialize, Serialize};
+
+use crate::Profile;
+
+/// A texture format that nodes and hosts exchange. Named as in WebGPU; no graphics library's own type.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord, Serialize, Deserialize)]
+#[serde(rename_all = "lowercase")]
+#[non_exhaustive]
+pub enum TextureFormat {
+    /// One channel of 8 bits in [0, 1].
+    R8Unorm,
+    /// Four channels of 8 bits in [0, 1].
+    Rgba8Unorm,
+    /// One half-precision channel.
+    R16Float,
+    /// One single-precision channel.
+    R32Float,
+    /// Four channels of 16 bits in [0, 1].
+    Rgba16Unorm,
+    /// Four half-precision channels.
+    Rgba16Float,
+    /// Four single-precision channels.
+    Rgba32Float,
+    /// Depth of 16 bits in [0, 1].
+    Depth16Unorm,
+    /// Single-precision depth.
+    Depth32Float,
+}
+
+/// What a format can be used for.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+pub struct FormatSupport {
+    /// Can be sampled with a filtering sampler.
+    pub filterable: bool,
+    /// Can be written as a storage texture.
+    pub storage_write: bool,
+    /// Can be a render target (a depth target, for depth formats).
+    pub renderable: bool,
+    /// Can be blended into.
+    pub blendable: bool,
+}
+
+const NOTHING: FormatSupport = FormatSupport {
+    filterable: false,
+    storage_write: false,
+    renderable: false,
+    blendable: false,
+};
+
+impl TextureFormat {
+    /// Every format.
+    pub const ALL: [TextureFormat; 9] = [
+        TextureFormat::R8Unorm,
+        TextureFormat::Rgba8Unorm,
+        TextureFormat::R16Float,
+        TextureFormat::R32Float,
+        TextureFormat::Rgba16Unorm,
+        TextureFormat::Rgba16Float,
+        TextureFormat::Rgba32Float,
+        TextureFormat::Depth16Unorm,
+        TextureFormat::Depth32Float,
+    ];
+
+    /// The WebGPU (and WGSL) name.
+    #[must_use]
+    pub fn name(self) -> &'static str {
+        match self {
+            TextureFormat::R8Unorm => "r8unorm",
+            TextureFormat::Rgba8Unorm => "rgba8unorm",
+            TextureFormat::R16Float => "r16float",
+            TextureFormat::R32Float => "r32float",
+            TextureFormat::Rgba16Unorm => "rgba16unorm",
+            TextureFormat::Rgba16Float => "rgba16float",
+            TextureFormat::Rgba32Float => "rgba32float",
+            TextureFormat::Depth16Unorm => "depth16unorm",
+            TextureFormat::Depth32Float => "depth32float",
+        }
+    }
+
+    /// Bytes of one texel (of one sample, where multisampled).
+    #[must_use]
+    pub fn bytes_per_texel(self) -> u32 {
+        match self {
+            TextureFormat::R8Unorm => 1,
+            TextureFormat::R16Float | TextureFormat::Depth16Unorm => 2,
+            TextureFormat::Rgba8Unorm | TextureFormat::R32Float | TextureFormat::Depth32Float => 4,
+            TextureFormat::Rgba16Unorm | TextureFormat::Rgba16Float => 8,
+            TextureFormat::Rgba32Float => 16,
+        }
+    }
+
+    /// Whether this is a depth format.
+    #[must_use]
+    pub fn is_depth(self) -> bool {
+        matches!(
+            self,
+            TextureFormat::Depth16Unorm | TextureFormat::Depth32Float
+        )
+    }
+
+    /// What every device of the profile can do with the format, without optional features beyond the profile's own.
+    #[must_use]
+    pub fn support(self, profile: Profile) -> FormatSupport {
+        let colour = FormatSupport {
+            filterable: true,
+            storage_write: false,
+            renderable: true,
+            blendable: true,
+        };
+        match self {
+            TextureFormat::R8Unorm | TextureFormat::R16Float => colour,
+            TextureFormat::Rgba8Unorm | TextureFormat::Rgba16Float => FormatSupport {
+                storage_write: true,
+                ..colour
+            },
+            // Filtering and blending of single precision are optional features everywhere.
+            TextureFormat::R32Float | TextureFormat::Rgba32Float => FormatSupport {
+                filterable: false,
+                storage_write: true,
+                renderable: true,
+                blendable: false,
+            },
+            TextureFormat::Rgba16Unorm => match profile {
+                Profile::WebgpuCore => NOTHING,
+                Profile::Native | Profile::NativeAdapter => FormatSupport {
+                    filterable: true,
+                    storage_write: true,
+                    ..NOTHING
+                },
+            },
+            TextureFormat::Depth16Unorm | TextureFormat::Depth32Float => FormatSupport {
+                renderable: true,
+                ..NOTHING
+            },
+        }
+    }
+}
+
+impl fmt::Display for TextureFormat {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(self.name())
+    }
+}

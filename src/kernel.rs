@@ -1,0 +1,140 @@
+//! Filter kernels: weights along one direction of a separable filter.
+
+use serde::{Deserialize, Serialize};
+
+/// The largest radius of a kernel, in texels.
+pub const LARGEST_RADIUS: u32 = 64;
+
+/// Weights of 2 radius + 1 texels along one direction: not negative, summing to 1.
+///
+/// Moments stay valid under no other filters.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(transparent)]
+pub struct Kernel {
+    weights: Vec<f32>,
+}
+
+/// Weights or a shape that no kernel can be made of.
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+#[non_exhaustive]
+pub enum KernelError {
+    /// The radius is 0 or too large.
+    #[error("a kernel's radius is 1 to {LARGEST_RADIUS} texels, not {radius}")]
+    Radius {
+        /// The radius that was asked for.
+        radius: u32,
+    },
+    /// The Gaussian has no width.
+    #[error("a Gaussian's sigma is a positive number of texels, not {sigma}")]
+    Sigma {
+        /// The sigma that was asked for.
+        sigma: f32,
+    },
+    /// An even number of weights has no centre.
+    #[error("a kernel has an odd number of weights, 3 to {}, not {count}", 2 * LARGEST_RADIUS + 1)]
+    Count {
+        /// How many weights were given.
+        count: usize,
+    },
+    /// A weight is negative or not finite.
+    #[error(
+        "weight {index} is {value}; a filter of moments needs finite weights that are not negative"
+    )]
+    Weight {
+        /// The index of the weight.
+        index: usize,
+        /// The weight.
+        value: f32,
+    },
+    /// All weights are zero.
+    #[error("all weights are 0; at least one must be positive")]
+    NoWeight,
+}
+
+impl Kernel {
+    /// A Gaussian of standard deviation `sigma` texels, cut off at `radius` texels.
+    pub fn gaussian(radius: u32, sigma: f32) -> Result<Self, KernelError> {
+        if radius == 0 || radius > LARGEST_RADIUS {
+            return Err(KernelError::Radius { radius });
+        }
+        if !(sigma.is_finite() && sigma > 0.0) {
+            return Err(KernelError::Sigma { sigma });
+        }
+        let radius = i64::from(radius);
+        let weights: Vec<f64> = (-radius..=radius)
+            .map(|offset| {
+                let ratio = offset as f64 / f64::from(sigma);
+                (-0.5 * ratio * ratio).exp()
+            })
+            .collect();
+        Ok(Self::normalised(&weights))
+    }
+
+    /// Given weights, normalised. Their number is odd, 3 to 129; the middle one belongs to the texel itself.
+    pub fn from_weights(weights: &[f32]) -> Result<Self, KernelError> {
+        let largest = 2 * LARGEST_RADIUS as usize + 1;
+        if weights.len().is_multiple_of(2) || weights.len() < 3 || weights.len() > largest {
+            return Err(KernelError::Count {
+                count: weights.len(),
+            });
+        }
+        if let Some((index, &value)) = weights
+            .iter()
+            .enumerate()
+            .find(|(_, weight)| !weight.is_finite() || **weight < 0.0)
+        {
+            return Err(KernelError::Weight { index, value });
+        }
+        if weights.iter().all(|&weight| weight == 0.0) {
+            return Err(KernelError::NoWeight);
+        }
+        let weights: Vec<f64> = weights.iter().map(|&weight| f64::from(weight)).collect();
+        Ok(Self::normalised(&weights))
+    }
+
+    /// The texels on either side of the centre.
+    #[must_use]
+    pub fn radius(&self) -> u32 {
+        (self.weights.len() / 2) as u32
+    }
+
+    /// The weights, from the texel with the lowest coordinate.
+    #[must_use]
+    pub fn weights(&self) -> &[f32] {
+        &self.weights
+    }
+
+    /// The kernel's own standard deviation in texels: smaller than a Gaussian's sigma, which the radius cuts off.
+    #[must_use]
+    pub fn standard_deviation(&self) -> f32 {
+        let positions = || {
+            self.weights
+                .iter()
+                .enumerate()
+                .map(|(index, &weight)| (index as f64, f64::from(weight)))
+        };
+        let mean: f64 = positions()
+            .map(|(position, weight)| position * weight)
+            .sum();
+        let variance: f64 = positions()
+            .map(|(position, weight)| (position - mean).powi(2) * weight)
+            .sum();
+        variance.max(0.0).sqrt() as f32
+    }
+
+    /// Scales to a sum of 1 and rounds. The residue of rounding goes into the largest weight: a sum that is off by one
+    /// unit acts like an error of that size in every moment.
+    fn normalised(weights: &[f64]) -> Self {
+        let total: f64 = weights.iter().sum();
+        let mut rounded: Vec<f32> = weights
+            .iter()
+            .map(|weight| (weight / total) as f32)
+            .collect();
+        let sum: f64 = rounded.iter().map(|&weight| f64::from(weight)).sum();
+        let largest = rounded.iter_mut().max_by(|a, b| a.total_cmp(b));
+        if let Some(weight) = largest {
+            *weight = (f64::from(*weight) + (1.0 - sum)) as f32;
+        }
+        Self { weights: rounded }
+    }
+}

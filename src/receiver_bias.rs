@@ -1,0 +1,59 @@
+//! The host side of the WGSL module `receiver_bias`.
+
+use bytemuck::{Pod, Zeroable};
+use serde::{Deserialize, Serialize};
+
+/// How many standard deviations of depth under the kernel a receiver moves towards the light.
+///
+/// One suffices for a symmetric distribution: a fragment in front of the lower Gauss node, which then lies one standard
+/// deviation in front of the mean, has a lower bound of exactly 0 (Peters & Klein, i3D 2015, Algorithm 3). The rest
+/// covers the moment bias and the rounding of storage.
+pub const STANDARD_DEVIATIONS: f32 = 1.25;
+
+/// The variance, in squared texels along either axis, that multisampling and bilinear lookup add to a kernel's: 1/12 for
+/// samples spread evenly over a texel, at most 1/4 for a lookup half-way between texels.
+const VARIANCE_OF_SAMPLING: f32 = 1.0 / 12.0 + 1.0 / 4.0;
+
+/// The steepest slope against the light that is still biased in full: 85 degrees.
+const STEEPEST_TANGENT: f32 = 11.43;
+
+/// The receiver bias: the uniform struct of the WGSL module `receiver_bias`.
+#[derive(Clone, Copy, Debug, PartialEq, Pod, Zeroable, Serialize, Deserialize)]
+#[repr(C)]
+pub struct ReceiverBias {
+    /// Moment depth that is always subtracted.
+    pub constant: f32,
+    /// Multiplies the length of the gradient of moment depth per texel.
+    pub slope_scale: f32,
+    /// The largest bias in moment depth.
+    pub maximum: f32,
+    /// Scene units by which a receiver moves along its normal at grazing light.
+    pub normal_offset: f32,
+}
+
+impl ReceiverBias {
+    /// No bias at all: for maps whose casters are not receivers.
+    pub const NONE: ReceiverBias = ReceiverBias {
+        constant: 0.0,
+        slope_scale: 0.0,
+        maximum: 0.0,
+        normal_offset: 0.0,
+    };
+
+    /// The bias that follows from a kernel, for all scenes.
+    ///
+    /// `standard_deviation` is the kernel's along one axis in texels of the map ([`crate::Kernel::standard_deviation`];
+    /// 0 for a map that is not blurred). `depth_per_texel` is the moment depth that a texel's width corresponds to along
+    /// the light's axis: width times 2 / (far - near); for a spot light at the far end of the range.
+    #[must_use]
+    pub fn for_kernel(standard_deviation: f32, depth_per_texel: f32) -> Self {
+        let variance = standard_deviation * standard_deviation + VARIANCE_OF_SAMPLING;
+        let slope_scale = STANDARD_DEVIATIONS * variance.sqrt();
+        Self {
+            constant: 0.0,
+            slope_scale,
+            maximum: slope_scale * STEEPEST_TANGENT * depth_per_texel,
+            normal_offset: 0.0,
+        }
+    }
+}

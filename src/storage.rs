@@ -1,0 +1,153 @@
+//! How moments lie in memory, and what each choice costs.
+
+use core::fmt;
+
+use serde::{Deserialize, Serialize};
+
+use crate::{Profile, TextureFormat};
+
+/// How four moments are stored in a texel.
+///
+/// | storage | format | bits | moment bias | remark |
+/// |---|---|---|---|---|
+/// | [`Unorm16`](Storage::Unorm16) | rgba16unorm | 64 | 6e-5 | optimised basis; native only |
+/// | [`Float16`](Storage::Float16) | rgba16float | 64 | 1e-3 | optimised basis less one half; everywhere, leaks four times as far |
+/// | [`Float32`](Storage::Float32) | rgba32float | 128 | 1.5e-6 | raw moments; filtered in the shader where the device cannot |
+///
+/// Light leaks behind an occluder over a distance that grows with the square root of the bias.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, Serialize, Deserialize)]
+#[serde(rename_all = "lowercase")]
+#[non_exhaustive]
+pub enum Storage {
+    /// 16-bit normalised channels with the optimised basis.
+    Unorm16,
+    /// Half precision, the optimised basis less one half in every channel.
+    Float16,
+    /// Single precision, raw moments.
+    Float32,
+}
+
+/// A moment bias: `b + alpha ((0, beta, 0, beta) - b)` (Peters & Klein, i3D 2015, section 3.3).
+#[derive(
+    Clone, Copy, Debug, PartialEq, Serialize, Deserialize, bytemuck::Pod, bytemuck::Zeroable,
+)]
+#[repr(C)]
+pub struct MomentBias {
+    /// The step towards the target, in (0, 1).
+    pub alpha: f32,
+    /// Second and fourth moment of the target; the odd ones are 0.
+    pub beta: f32,
+}
+
+/// A storage that a profile does not offer.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
+#[error(
+    "storage '{storage}' needs {format} as a storage texture, which the profile {profile} does not offer; \
+     use storage '{alternative}' instead"
+)]
+pub struct UnsupportedStorage {
+    /// What was asked for.
+    pub storage: Storage,
+    /// The format it needs.
+    pub format: TextureFormat,
+    /// The profile that lacks it.
+    pub profile: Profile,
+    /// A storage that works under the profile.
+    pub alternative: Storage,
+}
+
+impl Storage {
+    /// Every storage.
+    pub const ALL: [Storage; 3] = [Storage::Unorm16, Storage::Float16, Storage::Float32];
+
+    /// The name in graph files and on command lines.
+    #[must_use]
+    pub fn name(self) -> &'static str {
+        match self {
+            Storage::Unorm16 => "unorm16",
+            Storage::Float16 => "float16",
+            Storage::Float32 => "float32",
+        }
+    }
+
+    /// The format of the texture.
+    #[must_use]
+    pub fn format(self) -> TextureFormat {
+        match self {
+            Storage::Unorm16 => TextureFormat::Rgba16Unorm,
+            Storage::Float16 => TextureFormat::Rgba16Float,
+            Storage::Float32 => TextureFormat::Rgba32Float,
+        }
+    }
+
+    /// The storage whose texture has this format.
+    #[must_use]
+    pub fn of_format(format: TextureFormat) -> Option<Storage> {
+        Storage::ALL
+            .into_iter()
+            .find(|storage| storage.format() == format)
+    }
+
+    /// Bits of one texel.
+    #[must_use]
+    pub fn bits_per_texel(self) -> u32 {
+        self.format().bytes_per_texel() * 8
+    }
+
+    /// The smallest moment bias that covers a resolve and a two-pass blur, every stage rounded to the storage.
+    #[must_use]
+    pub fn moment_bias(self) -> MomentBias {
+        match self {
+            Storage::Unorm16 => MomentBias {
+                alpha: 6e-5,
+                beta: 0.628,
+            },
+            Storage::Float16 => MomentBias {
+                alpha: 1e-3,
+                beta: 0.628,
+            },
+            Storage::Float32 => MomentBias {
+                alpha: 1.5e-6,
+                beta: 0.375,
+            },
+        }
+    }
+
+    /// The name of the WGSL constant of module `moments` that stands for this storage.
+    #[must_use]
+    pub fn wgsl_constant(self) -> &'static str {
+        match self {
+            Storage::Unorm16 => "MOMENTS_STORAGE_UNORM16",
+            Storage::Float16 => "MOMENTS_STORAGE_FLOAT16",
+            Storage::Float32 => "MOMENTS_STORAGE_FLOAT32",
+        }
+    }
+
+    /// The storage with the least leaking per bit that every device of the profile can write and filter.
+    #[must_use]
+    pub fn best_for(profile: Profile) -> Storage {
+        match profile {
+            Profile::WebgpuCore => Storage::Float16,
+            Profile::Native | Profile::NativeAdapter => Storage::Unorm16,
+        }
+    }
+
+    /// Whether every device of the profile can write the storage, or which one to use instead.
+    pub fn check(self, profile: Profile) -> Result<(), UnsupportedStorage> {
+        if self.format().support(profile).storage_write {
+            return Ok(());
+        }
+        Err(UnsupportedStorage {
+            storage: self,
+            format: self.format(),
+            profile,
+            alternative: Storage::best_for(profile),
+        })
+    }
+}
+
+impl fmt::Display for Storage {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(self.name())
+    }
+}
