@@ -11,7 +11,7 @@
 
 use rayon::prelude::*;
 
-use super::kernel::{AxisTaps, Kernel};
+use super::kernel::{AxisTaps, TapPattern};
 use super::surface::DepthSamples;
 
 /// What the shader asks of the filtered map at one pixel.
@@ -23,14 +23,18 @@ pub struct Lookup {
     pub fragment_depth: f64,
 }
 
-/// The exact lower bound of the shadow intensity for each lookup in `depths` filtered with `kernel`; 0 where there is no
+/// The exact lower bound of the shadow intensity for each lookup in `depths` filtered with `taps`; 0 where there is no
 /// lookup.
-pub fn exact_bound(depths: &DepthSamples, kernel: &Kernel, lookups: &[Option<Lookup>]) -> Vec<f32> {
+pub fn exact_bound(
+    depths: &DepthSamples,
+    taps: &TapPattern,
+    lookups: &[Option<Lookup>],
+) -> Vec<f32> {
     lookups
         .par_iter()
         .map_init(Scratch::default, |scratch, lookup| {
             lookup.map_or(0.0, |lookup| {
-                scratch.gather(depths, kernel, lookup.uv);
+                scratch.gather(depths, taps, lookup.uv);
                 lower_bound(&scratch.depths, &scratch.weights, lookup.fragment_depth) as f32
             })
         })
@@ -48,10 +52,10 @@ struct Scratch {
 
 impl Scratch {
     /// Collects all samples that the filtered map combines at `uv`.
-    fn gather(&mut self, depths: &DepthSamples, kernel: &Kernel, uv: [f64; 2]) {
+    fn gather(&mut self, depths: &DepthSamples, taps: &TapPattern, uv: [f64; 2]) {
         let [width, height] = depths.size();
-        kernel.axis_taps(uv[0], width, &mut self.columns);
-        kernel.axis_taps(uv[1], height, &mut self.rows);
+        taps.along_axis(uv[0], width, &mut self.columns);
+        taps.along_axis(uv[1], height, &mut self.rows);
         let samples = depths.positions().len();
         self.depths.clear();
         self.weights.clear();

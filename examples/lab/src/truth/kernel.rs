@@ -1,38 +1,14 @@
 //! The tap pattern that a filtered map applies at a point: its blur, the bilinear lookup and the samples of a texel.
 
-/// Why weights make no filter kernel.
-#[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
-#[non_exhaustive]
-pub enum KernelError {
-    /// There is no centre.
-    #[error("a kernel of {count} weights has no centre; give an odd number of weights")]
-    Even {
-        /// How many weights were given.
-        count: usize,
-    },
-    /// Moments stay valid only under convex combinations.
-    #[error("weight {index} of the kernel is {value}; weights must be finite and not negative")]
-    Weight {
-        /// Which weight it is.
-        index: usize,
-        /// The weight.
-        value: f64,
-    },
-    /// Nothing is left to normalise.
-    #[error("the kernel's weights sum to {sum}; the sum must be finite and above zero")]
-    Sum {
-        /// The sum.
-        sum: f64,
-    },
-}
+use moment_shadows::Kernel;
 
-/// One direction of a separable blur: `2 radius + 1` non-negative weights that sum to 1.
+/// The blur of a filtered map along one axis, the same along both: an odd number of weights that sum to 1.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Kernel {
+pub struct TapPattern {
     weights: Vec<f64>,
 }
 
-/// What a filtered map applies along one axis at one coordinate: weights of neighbouring texels, first texel first.
+/// What a filtered map applies along one axis at one coordinate: weights of neighbouring texels.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct AxisTaps {
     /// The texel that the first weight belongs to.
@@ -41,68 +17,30 @@ pub struct AxisTaps {
     pub weights: Vec<f64>,
 }
 
-impl Kernel {
-    /// A kernel of the given weights, which are normalised.
-    pub fn new(weights: &[f64]) -> Result<Self, KernelError> {
-        if weights.len().is_multiple_of(2) {
-            return Err(KernelError::Even {
-                count: weights.len(),
-            });
-        }
-        for (index, &value) in weights.iter().enumerate() {
-            if !(value.is_finite() && value >= 0.0) {
-                return Err(KernelError::Weight { index, value });
-            }
-        }
-        let sum: f64 = weights.iter().sum();
-        if !(sum > 0.0 && sum.is_finite()) {
-            return Err(KernelError::Sum { sum });
-        }
-        Ok(Self {
-            weights: weights.iter().map(|weight| weight / sum).collect(),
-        })
-    }
-
-    /// A Gaussian of standard deviation `sigma` texels, cut off beyond `radius` texels.
-    pub fn gaussian(radius: u32, sigma: f64) -> Result<Self, KernelError> {
-        let reach = i64::from(radius);
-        let weights: Vec<f64> = (-reach..=reach)
-            .map(|offset| (-0.5 * (offset as f64 / sigma).powi(2)).exp())
-            .collect();
-        Self::new(&weights)
-    }
-
-    /// How many texels the kernel reaches to either side.
-    pub fn radius(&self) -> usize {
-        self.weights.len() / 2
-    }
-
-    /// The weights, which sum to 1; the middle one belongs to the texel itself.
-    pub fn weights(&self) -> &[f64] {
-        &self.weights
-    }
-
-    /// Variance of the offset under the weights, about their mean, in square texels.
-    pub fn variance(&self) -> f64 {
-        let radius = self.radius() as f64;
-        let offsets = || {
-            self.weights
+impl TapPattern {
+    /// That of a map blurred with `kernel`. The weights are normalised once more, in f64.
+    pub fn of_kernel(kernel: &Kernel) -> Self {
+        let sum: f64 = kernel.weights().iter().copied().map(f64::from).sum();
+        Self {
+            weights: kernel
+                .weights()
                 .iter()
-                .enumerate()
-                .map(|(i, w)| (i as f64 - radius, w))
-        };
-        let mean: f64 = offsets().map(|(offset, weight)| weight * offset).sum();
-        offsets()
-            .map(|(offset, weight)| weight * (offset - mean).powi(2))
-            .sum()
+                .map(|&weight| f64::from(weight) / sum)
+                .collect(),
+        }
+    }
+
+    /// That of a map that is not blurred: the lookup alone.
+    pub fn unblurred() -> Self {
+        Self { weights: vec![1.0] }
     }
 
     /// The taps along one axis of a lookup at `coordinate` in a blurred map of `size` texels, filtered linearly: the
     /// blur convolved with the two weights of the lookup. Both repeat the last texel beyond the border, as
     /// clamp-to-edge does. `coordinate` runs from 0 to 1 across the map and is clamped to it; `size` is at least 1.
-    pub fn axis_taps(&self, coordinate: f64, size: u32, taps: &mut AxisTaps) {
+    pub fn along_axis(&self, coordinate: f64, size: u32, taps: &mut AxisTaps) {
         let last = i64::from(size.max(1)) - 1;
-        let radius = self.radius() as i64;
+        let radius = (self.weights.len() / 2) as i64;
         // Texel centres lie at half-integers.
         let position = coordinate.clamp(0.0, 1.0) * f64::from(size) - 0.5;
         let left = position.floor();

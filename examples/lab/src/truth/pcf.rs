@@ -10,7 +10,7 @@ use rayon::prelude::*;
 
 use crate::light::{LightKind, LightView};
 
-use super::kernel::{AxisTaps, Kernel};
+use super::kernel::{AxisTaps, TapPattern};
 use super::surface::{DepthRounding, DepthSamples, SurfacePixels, TruthError};
 
 /// Cosine between plane and ray below which no depth can be told from the plane; the receiver's own depth stands in.
@@ -26,21 +26,21 @@ const ROUNDINGS: f64 = 8.0;
 /// Rasterisers snap vertices to a grid of 1/256 texel, so that a triangle is drawn up to half of that beside its place.
 const SNAPPING: f64 = 0.5 / 256.0;
 
-/// The shadow intensity of each pixel of `surface`, 1 = shadowed: the share of samples under `kernel`, as the filtered
-/// map weighs them, that lie in front of the receiver's plane. Pixels that are not covered, lie outside of the map or
+/// The shadow intensity of each pixel of `surface`, 1 = shadowed: the share of samples under the kernel, as the
+/// filtered map weighs them, that lie in front of the receiver's plane. Pixels that are not covered, lie outside of the map or
 /// behind the light get 0. A plane is taken to end at the far end of moment depth, as the map does, so texels without
 /// a caster never shadow; receivers beyond it count as lying at it.
 pub fn pcf(
     light: &LightView,
     depths: &DepthSamples,
-    kernel: &Kernel,
+    taps: &TapPattern,
     surface: &SurfacePixels,
 ) -> Result<Vec<f32>, TruthError> {
     let pixels = surface.pixels()?;
     let filter = Filter {
         light,
         depths,
-        kernel,
+        taps,
     };
     Ok((0..pixels)
         .into_par_iter()
@@ -62,7 +62,7 @@ pub fn pcf(
 struct Filter<'a> {
     light: &'a LightView,
     depths: &'a DepthSamples,
-    kernel: &'a Kernel,
+    taps: &'a TapPattern,
 }
 
 impl Filter<'_> {
@@ -78,8 +78,8 @@ impl Filter<'_> {
             return 0.0;
         };
         let [width, height] = self.depths.size();
-        self.kernel.axis_taps(uv.x, width, columns);
-        self.kernel.axis_taps(uv.y, height, rows);
+        self.taps.along_axis(uv.x, width, columns);
+        self.taps.along_axis(uv.y, height, rows);
         let plane = ReceiverPlane::new(self.light, self.depths, position, normal, uv);
         let texel = DVec2::new(f64::from(width), f64::from(height)).recip();
         let positions = self.depths.positions();
