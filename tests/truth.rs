@@ -10,7 +10,7 @@ use moment_shadows_lab::truth::exact_bound::{
 };
 use moment_shadows_lab::truth::kernel::{AxisTaps, TapPattern, sample_positions};
 use moment_shadows_lab::truth::pcf::pcf;
-use moment_shadows_lab::truth::surface::{DepthRounding, DepthSamples, SurfacePixels, TruthError};
+use moment_shadows_lab::truth::surface::{DepthRounding, MomentDepths, SurfacePixels, TruthError};
 
 /// SplitMix64: numbers in [0, 1) that are the same everywhere.
 struct Random(u64);
@@ -76,6 +76,14 @@ fn store(light: &LightView, distance: f64, rounding: DepthRounding) -> f32 {
     }
 }
 
+/// A normal as a G-buffer of half floats holds it: 11 significant bits per component.
+fn half_normal(normal: DVec3) -> DVec3 {
+    DVec3::from_array(normal.to_array().map(|value: f64| {
+        let quantum = (value.abs().max(1e-4).log2().floor() - 10.0).exp2();
+        (value / quantum).round_ties_even() * quantum
+    }))
+}
+
 /// A depth map whose samples are at the distances that `distance` gives for their uv.
 fn depth_map(
     light: &LightView,
@@ -83,7 +91,7 @@ fn depth_map(
     samples: u32,
     rounding: DepthRounding,
     mut distance: impl FnMut(DVec2) -> f64,
-) -> DepthSamples {
+) -> MomentDepths {
     let mut stored = Vec::new();
     for y in 0..size[1] {
         for x in 0..size[0] {
@@ -96,7 +104,7 @@ fn depth_map(
             }
         }
     }
-    DepthSamples::from_stored(light, size, samples, rounding, &stored).unwrap()
+    MomentDepths::from_stored(light, size, samples, rounding, &stored).unwrap()
 }
 
 fn surface(points: &[(DVec3, DVec3)]) -> SurfacePixels {
@@ -239,8 +247,12 @@ fn a_tilted_plane_does_not_shadow_itself() {
                 let side = to_light.cross(random.direction()).normalize();
                 let (sine, cosine) = f64::from(tilt).to_radians().sin_cos();
                 let normal = cosine * to_light + sine * side;
+                // Each sample sees the plane where a rasteriser that snaps to 1/256 texel may have drawn it.
+                let mut jitter = Random(7);
                 let distance = |uv| {
-                    let distance = plane_distance(&light, uv, point, normal);
+                    let by = DVec2::from_array([(); 2].map(|()| jitter.between(-0.5, 0.5)));
+                    let drawn = uv + by / 256.0 / 64.0;
+                    let distance = plane_distance(&light, drawn, point, normal);
                     if distance > 0.0 { distance } else { f64::MAX }
                 };
                 let depths = depth_map(&light, [64, 64], 4, rounding, distance);
@@ -251,7 +263,7 @@ fn a_tilted_plane_does_not_shadow_itself() {
                         let distance = plane_distance(&light, uv, point, normal);
                         let (origin, direction) = light.ray(uv);
                         let inside = distance > light.range[0] && distance < light.range[1];
-                        inside.then_some((origin + distance * direction, normal))
+                        inside.then_some((origin + distance * direction, half_normal(normal)))
                     })
                     .collect();
                 assert!(points.len() > 5);
@@ -292,10 +304,26 @@ fn a_tilted_plane_does_not_shadow_itself() {
 }
 
 #[test]
+fn rounding_of_a_16_bit_map_is_no_occluder() {
+    let light = parallel_light();
+    let mut random = Random(6);
+    for _ in 0..16 {
+        // Seen face-on through few texels, so that nothing but the rounding of depth is left to tolerate.
+        let distance = random.between(0.1, 1.9);
+        let depths = depth_map(&light, [256, 256], 1, DepthRounding::Unorm16, |_| distance);
+        let point = DVec3::new(0.3, 0.2, -distance);
+        let taps = TapPattern::unblurred();
+        let lit = pcf(&light, &depths, &taps, &surface(&[(point, DVec3::Z)])).unwrap();
+        assert_eq!(lit, [0.0], "at distance {distance}");
+    }
+}
+
+#[test]
 fn samples_in_front_of_the_plane_are_those_on_the_lights_side() {
     // Independently in world space: a sample is an occluder if it lies on the side of the plane where its ray starts.
     let mut random = Random(2);
     let size = [12, 9];
+    let mut decided = 0;
     for light in [parallel_light(), spot_light(true)] {
         for _ in 0..40 {
             let mut distances = Vec::new();
@@ -310,14 +338,20 @@ fn samples_in_front_of_the_plane_are_those_on_the_lights_side() {
             let (origin, direction) = light.ray(uv);
             let point = origin + random.between(near, far) * direction;
             let normal = random.direction();
+            let cosine = normal.dot(direction.normalize()).abs();
+            if cosine < 0.1 {
+                continue;
+            }
             let taps = gaussian();
             let intensity = pcf(&light, &depths, &taps, &surface(&[(point, normal)])).unwrap()[0];
             let (mut columns, mut rows) = (AxisTaps::default(), AxisTaps::default());
             taps.along_axis(uv.x, size[0], &mut columns);
             taps.along_axis(uv.y, size[1], &mut rows);
             let mut expected = 0.0;
-            // Samples this close to the plane may count either way: the tolerance of the comparison.
+            // Samples this close to the plane may count either way: the tolerance of the comparison, mostly for normals
+            // in half precision on a map of few texels.
             let mut undecided = 1e-5;
+            let close = 1e-2 * (1.0 + 0.2 / cosine);
             for (y, row) in rows.weights.iter().enumerate() {
                 for (x, column) in columns.weights.iter().enumerate() {
                     let (x, y) = (columns.first + x, rows.first + y);
@@ -336,7 +370,7 @@ fn samples_in_front_of_the_plane_are_those_on_the_lights_side() {
                         let end = light.ray(at).0 + distance * along;
                         let side = |p: DVec3| normal.dot(p - point);
                         let weight = row * column / 4.0;
-                        if side(end).abs() < 2e-2 * (1.0 + normal.dot(along).abs()) {
+                        if side(end).abs() < close {
                             undecided += weight;
                         }
                         if side(end) * side(start) > 0.0 {
@@ -350,9 +384,10 @@ fn samples_in_front_of_the_plane_are_those_on_the_lights_side() {
                 "{:?}: {intensity} instead of {expected} (undecided {undecided})",
                 light.kind()
             );
-            assert!(undecided < 0.2);
+            decided += usize::from(undecided < 0.02);
         }
     }
+    assert!(decided > 40, "only {decided} of 80 receivers tell much");
 }
 
 #[test]
@@ -377,7 +412,7 @@ fn nothing_is_shadowed_outside_of_the_map_or_by_nothing() {
 fn lists_of_the_wrong_length_are_refused() {
     let light = parallel_light();
     let of = |size, samples, stored: &[f32]| {
-        DepthSamples::from_stored(&light, size, samples, DepthRounding::Float32, stored)
+        MomentDepths::from_stored(&light, size, samples, DepthRounding::Float32, stored)
     };
     let short = of([4, 4], 4, &[0.0; 63]).unwrap_err();
     assert_eq!(

@@ -12,7 +12,7 @@
 use rayon::prelude::*;
 
 use super::kernel::{AxisTaps, TapPattern};
-use super::surface::DepthSamples;
+use super::surface::MomentDepths;
 
 /// What the shader asks of the filtered map at one pixel.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -26,7 +26,7 @@ pub struct Lookup {
 /// The exact lower bound of the shadow intensity for each lookup in `depths` filtered with `taps`; 0 where there is no
 /// lookup.
 pub fn exact_bound(
-    depths: &DepthSamples,
+    depths: &MomentDepths,
     taps: &TapPattern,
     lookups: &[Option<Lookup>],
 ) -> Vec<f32> {
@@ -52,7 +52,7 @@ struct Scratch {
 
 impl Scratch {
     /// Collects all samples that the filtered map combines at `uv`.
-    fn gather(&mut self, depths: &DepthSamples, taps: &TapPattern, uv: [f64; 2]) {
+    fn gather(&mut self, depths: &MomentDepths, taps: &TapPattern, uv: [f64; 2]) {
         let [width, height] = depths.size();
         taps.along_axis(uv[0], width, &mut self.columns);
         taps.along_axis(uv[1], height, &mut self.rows);
@@ -79,30 +79,22 @@ impl Scratch {
 /// The least share of depths in front of `fragment_depth` that the first four moments of the distribution with atoms at
 /// `depths` allow. `weights` are not negative and sum to 1; both lists are equally long.
 pub fn lower_bound(depths: &[f64], weights: &[f64], fragment_depth: f64) -> f64 {
-    let atoms = || depths.iter().copied().zip(weights.iter().copied());
     // Nothing lies in front of the fragment: the truth and with it any lower bound is 0.
     if depths.iter().all(|&depth| depth >= fragment_depth) {
         return 0.0;
     }
     // All distances are taken from the fragment.
-    let mean: f64 = atoms().map(|(z, w)| w * (z - fragment_depth)).sum();
-    let (mut variance, mut third) = (0.0, 0.0);
-    for (z, w) in atoms() {
-        let d = (z - fragment_depth) - mean;
-        variance += w * d * d;
-        third += w * d * d * d;
-    }
+    let mean = weighted_sum(depths, weights, |z| z - fragment_depth);
+    let distance = |z: f64| (z - fragment_depth) - mean;
+    let variance = weighted_sum(depths, weights, |z| distance(z).powi(2));
     if variance == 0.0 {
         return Recurrence::one_atom(mean).lower_bound();
     }
-    let skew = third / variance;
-    let residual = atoms()
-        .map(|(z, w)| {
-            let d = (z - fragment_depth) - mean;
-            let p2 = d * (d - skew) - variance;
-            w * p2 * p2
-        })
-        .sum();
+    let skew = weighted_sum(depths, weights, |z| distance(z).powi(3)) / variance;
+    let residual = weighted_sum(depths, weights, |z| {
+        let d = distance(z);
+        (d * (d - skew) - variance).powi(2)
+    });
     Recurrence {
         mean,
         variance,
@@ -110,6 +102,24 @@ pub fn lower_bound(depths: &[f64], weights: &[f64], fragment_depth: f64) -> f64 
         residual,
     }
     .lower_bound()
+}
+
+/// The mean of `value` over atoms. Four partial sums, which do not wait for each other.
+fn weighted_sum(depths: &[f64], weights: &[f64], value: impl Fn(f64) -> f64) -> f64 {
+    let mut sums = [0.0; 4];
+    let (depths, last_depths) = depths.as_chunks::<4>();
+    let (weights, last_weights) = weights.as_chunks::<4>();
+    for (depths, weights) in depths.iter().zip(weights) {
+        for lane in 0..4 {
+            sums[lane] += weights[lane] * value(depths[lane]);
+        }
+    }
+    let last: f64 = last_depths
+        .iter()
+        .zip(last_weights)
+        .map(|(&depth, weight)| weight * value(depth))
+        .sum();
+    (sums[0] + sums[1]) + (sums[2] + sums[3]) + last
 }
 
 /// The same for given moments `[E z, E z^2, E z^3, E z^4]` of a distribution. They cancel where variances are small, which

@@ -41,7 +41,8 @@ pub struct SurfacePixels {
     pub height: u32,
     /// Position in world space.
     pub position: Vec<[f32; 3]>,
-    /// Geometric normal in world space: that of the triangle, not an interpolated one. Either side, any length above 0.
+    /// Geometric normal in world space: that of the triangle, not an interpolated one, of unit length, towards either side.
+    /// It may be rounded to half precision.
     pub normal: Vec<[f32; 3]>,
     /// Whether there is a surface at all.
     pub covered: Vec<bool>,
@@ -73,7 +74,7 @@ pub enum DepthRounding {
 
 /// Every sample of an unfiltered depth map as moment depth.
 #[derive(Clone, Debug, PartialEq)]
-pub struct DepthSamples {
+pub struct MomentDepths {
     size: [u32; 2],
     positions: &'static [[f64; 2]],
     rounding: DepthRounding,
@@ -81,7 +82,7 @@ pub struct DepthSamples {
     moment_depth: Vec<f64>,
 }
 
-impl DepthSamples {
+impl MomentDepths {
     /// Converts `stored`, what the depth texture of `light` holds, in f64. Texels run by rows from the top left; the
     /// `samples` samples of a texel are neighbours, in the order of
     /// [`sample_positions`]. NaN counts as the far end.
