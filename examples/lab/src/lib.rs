@@ -4,3 +4,7 @@
 
 pub mod gpu;
 pub mod light;
+pub mod picture;
+pub mod progress;
+pub mod scene;
+pub mod view;
