@@ -3,6 +3,7 @@
 //! Not published. It renders real geometry with the library's nodes, and judges what they give.
 
 pub mod gpu;
+pub mod host;
 pub mod light;
 pub mod picture;
 pub mod progress;

@@ -81,29 +81,28 @@ impl View {
         let size = bounds.size();
         // Angles about y from +z towards +x. A wide thing is looked at, and lit, across its width.
         let front = if size.x >= size.z { 0.0 } else { 0.25 * TAU };
-        let [azimuth, elevation, closeness, sun_azimuth, sun_elevation] = if number == 0 {
-            [front + 0.4, 0.36, 1.0, front + 0.36 * TAU + 0.4, 0.48]
+        let [azimuth, elevation, margin, sun_azimuth, sun_elevation] = if number == 0 {
+            [front + 0.4, 0.34, 1.08, front + 2.4, 0.48]
         } else {
             [
                 rng.random_range(0.0..TAU),
                 rng.random_range(0.2..0.75),
-                rng.random_range(0.75..1.15),
+                rng.random_range(0.9..1.3),
                 rng.random_range(0.0..TAU),
                 rng.random_range(0.35..1.1),
             ]
         };
         let light_direction = -spherical(sun_azimuth, sun_elevation);
-        // Half of the shadow's tip belongs into the picture too.
-        let shadow = size.y * DVec3::new(light_direction.x, 0.0, light_direction.z)
-            / light_direction.y.abs();
-        let target = bounds.centre() + 0.2 * shadow - 0.12 * size.y * DVec3::Y;
-        let radius = bounds.radius() + 0.25 * shadow.length();
-        let distance = radius.max(1e-6) / (0.5 * VERTICAL_ANGLE).sin() * 0.78 * closeness;
-        Self::new(
-            target + distance * spherical(azimuth, elevation),
-            target,
-            light_direction,
-        )
+        // The picture holds the scene and most of its shadow; tall things have shadows too long to show whole.
+        let slope = DVec3::new(light_direction.x, 0.0, light_direction.z) / -light_direction.y;
+        let points = scene.casters().flat_map(|at| {
+            let height = at.y - bounds.min.y;
+            [at, at - height * DVec3::Y + 0.8 * height * slope]
+        });
+        let outwards = spherical(azimuth, elevation);
+        let eye = enclosing_eye(-outwards, margin, points);
+        let distance = (eye - bounds.centre()).length().max(1e-6);
+        Self::new(eye, eye - distance * outwards, light_direction)
     }
 
     fn from_stand(scene: &Scene, stand: Stand, number: u32, rng: &mut ChaCha8Rng) -> Self {
@@ -179,6 +178,27 @@ impl View {
             reversed,
         )
     }
+}
+
+/// The nearest eye that sees all `points` when it looks along the unit vector `forward`, with a `margin` that scales
+/// the tangents of the view's edges.
+fn enclosing_eye(forward: DVec3, margin: f64, points: impl Iterator<Item = DVec3>) -> DVec3 {
+    let right = forward.cross(DVec3::Y).normalize_or(DVec3::X);
+    let up = right.cross(forward);
+    let tangent = (0.5 * VERTICAL_ANGLE).tan() / margin;
+    // |x - eye_x| <= (z - eye_z) tangent bounds eye_x ± eye_z tangent from either side; likewise for y.
+    let mut low = DVec2::NEG_INFINITY;
+    let mut high = DVec2::INFINITY;
+    let tangents = DVec2::new(tangent * ASPECT, tangent);
+    for point in points {
+        let across = DVec2::new(point.dot(right), point.dot(up));
+        let reach = point.dot(forward) * tangents;
+        low = low.max(across - reach);
+        high = high.min(across + reach);
+    }
+    let middle = 0.5 * (low + high);
+    let back = (0.5 * (high - low) / tangents).min_element();
+    middle.x * right + middle.y * up + back * forward
 }
 
 /// The unit vector at an azimuth about y, from +z towards +x, and an elevation.

@@ -168,18 +168,18 @@ fn branch(
     level: u32,
 ) {
     for _ in 0..4 {
-        let lean = (direction + 0.75 * jitter(rng) + 0.15 * DVec3::Y).normalize_or(DVec3::Y);
+        let lean = (direction + 0.9 * jitter(rng) + 0.15 * DVec3::Y).normalize_or(DVec3::Y);
         let tip = from + lean * length * rng.random_range(0.8..1.15);
-        let radius = 0.05 * 0.5_f64.powi(level as i32);
+        let radius = 0.055 * 0.5_f64.powi(level as i32);
         bark.rod(from, tip, [radius, 0.5 * radius], 7);
         if level < 3 {
-            branch(bark, leaves, rng, tip, lean, 0.62 * length, level + 1);
+            branch(bark, leaves, rng, tip, lean, 0.68 * length, level + 1);
         }
         if level >= 2 {
-            for _ in 0..4 {
-                let middle = from.lerp(tip, rng.random_range(0.3..1.2)) + 0.06 * jitter(rng);
+            for _ in 0..5 {
+                let middle = from.lerp(tip, rng.random_range(0.2..1.3)) + 0.1 * jitter(rng);
                 let (u, v) = jitter(rng).normalize_or(DVec3::Y).any_orthonormal_pair();
-                let [u, v] = [0.075 * u, 0.075 * v];
+                let [u, v] = [0.08 * u, 0.08 * v];
                 leaves.quad([
                     middle - u - v,
                     middle + u - v,

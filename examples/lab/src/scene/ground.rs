@@ -35,7 +35,7 @@ pub fn place_on_ground(mut scene: Scene) -> Scene {
     });
     scene
         .materials
-        .push(Material::plain("ground", [0.52, 0.5, 0.47]));
+        .push(Material::plain("ground", [0.4, 0.385, 0.36]));
     scene.ground = Some(0.0);
     scene
 }

@@ -34,8 +34,8 @@ pub fn hall_with_open_roof() -> Scene {
         images: Vec::new(),
         ground: None,
         stand: Some(Stand {
-            eye: DVec3::new(2.3, 2.3, 18.5),
-            target: DVec3::new(-1.0, 2.0, 0.0),
+            eye: DVec3::new(1.3, 2.5, 19.5),
+            target: DVec3::new(-0.6, 2.6, 0.0),
             light_direction: DVec3::new(0.42, -0.56, 0.71),
         }),
         warnings: Vec::new(),
