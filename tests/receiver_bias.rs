@@ -4,9 +4,9 @@
 //! x is distributed symmetrically with standard deviation s, the two Gauss nodes of the depths lie at `z0 - g s` and
 //! `z0 + g s`, and the lower bound is exactly 0 in front of the lower one, because then no other point of the extremal
 //! distribution lies in front of the fragment. So one standard deviation of bias is enough. Three things are added to
-//! that: the moment bias widens the distribution by about the square root of alpha, the rounding of storage moves it, and
-//! where a map is clamped at its border the kernel is no longer symmetric. The first two lower the bound or stay far
-//! below the width that the moment bias gives; the third is what asks for 1.25 standard deviations.
+//! that: the moment bias widens the distribution by about the square root of alpha, the rounding of storage moves it,
+//! and where a map is clamped at its border the kernel is no longer symmetric. The first two lower the bound or stay
+//! far below the width that the moment bias gives; the third is what asks for 1.25 standard deviations.
 #![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic)]
 
 use moment_shadows::{Kernel, ReceiverBias, STANDARD_DEVIATIONS, Storage};
@@ -233,9 +233,9 @@ fn planes_are_lit_at_borders_and_edges() {
 
 #[test]
 fn fragment_depths_may_be_off_by_their_rounding() {
-    // The moment bias alone widens a single depth to a distribution, in which a fragment must lie far behind the mean to be
-    // shadowed: 6e-5 with single precision, more with the others. Rounding of a 16-bit depth map, 1.5e-5, and of positions
-    // in single precision is less than that, so that no constant bias is needed for the shader's bound.
+    // The moment bias alone widens a single depth to a distribution, in which a fragment must lie far behind the mean
+    // to be shadowed: 6e-5 with single precision, more with the others. Rounding of a 16-bit depth map, 1.5e-5, and
+    // of positions in single precision is less than that, so that no constant bias is needed for the shader's bound.
     let kernel = Kernel::gaussian(4, 2.4).unwrap();
     for storage in Storage::ALL {
         let bias = f64::from(STANDARD_DEVIATIONS);

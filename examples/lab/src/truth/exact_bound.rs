@@ -122,8 +122,9 @@ fn weighted_sum(depths: &[f64], weights: &[f64], value: impl Fn(f64) -> f64) -> 
     (sums[0] + sums[1]) + (sums[2] + sums[3]) + last
 }
 
-/// The same for given moments `[E z, E z^2, E z^3, E z^4]` of a distribution. They cancel where variances are small, which
-/// f64 bears down to variances of about 1e-12; moments that belong to no distribution count as the nearest singular one.
+/// The same for given moments `[E z, E z^2, E z^3, E z^4]` of a distribution. They cancel where variances are small,
+/// which f64 bears down to variances of about 1e-12; moments that belong to no distribution count as the nearest
+/// singular one.
 pub fn lower_bound_of_moments(moments: [f64; 4], fragment_depth: f64) -> f64 {
     let [b1, b2, b3, b4] = moments;
     let mean = b1 - fragment_depth;
@@ -176,8 +177,8 @@ impl Recurrence {
         }
         // At the fragment, t = 0: p1 is -mean. The roots of p2 are the Gauss nodes.
         let p2 = mean * (mean + skew) - variance;
-        // On a Gauss node the bound is continuous, unless the distribution is nothing but its nodes; then rounding may not
-        // decide whether the fragment is before or behind itself.
+        // On a Gauss node the bound is continuous, unless the distribution is nothing but its nodes; then rounding
+        // may not decide whether the fragment is before or behind itself.
         let on_node = p2.abs() <= 1e-14 * (mean * mean + variance);
         if on_node || p2 > 0.0 {
             // Outside of the nodes all other points of the support lie on one side.
@@ -187,8 +188,9 @@ impl Recurrence {
             let tail = if on_node { 0.0 } else { p2 * p2 / residual };
             return (1.0 - 1.0 / (1.0 + mean * mean / variance + tail)).clamp(0.0, 1.0);
         }
-        // Between them the other two points r are the roots of the kernel polynomial k0 + k1 t + k2 t^2, here multiplied
-        // with `residual`; with y = 1/r its leading coefficient k0 is positive, and k2 = p2 < 0: one root of each sign.
+        // Between them the other two points r are the roots of the kernel polynomial k0 + k1 t + k2 t^2, here
+        // multiplied with `residual`; with y = 1/r its leading coefficient k0 is positive, and k2 = p2 < 0: one root
+        // of each sign.
         let k0 = residual * (1.0 + mean * mean / variance) + p2 * p2;
         let k1 = -residual * mean / variance - p2 * (2.0 * mean + skew);
         let half = -0.5 * (k1 + (k1 * k1 - 4.0 * k0 * p2).sqrt().copysign(k1));

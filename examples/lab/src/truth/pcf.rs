@@ -8,10 +8,11 @@
 use glam::{DVec2, DVec3};
 use rayon::prelude::*;
 
+use crate::host::SurfacePixels;
 use crate::light::{LightKind, LightView};
 
 use super::kernel::{AxisTaps, TapPattern};
-use super::surface::{DepthRounding, MomentDepths, SurfacePixels, TruthError};
+use super::surface::{DepthRounding, MomentDepths, TruthError, pixels};
 
 /// Cosine between plane and ray below which no depth can be told from the plane; the receiver's own depth stands in.
 const EDGE_ON: f64 = 1e-7;
@@ -30,16 +31,16 @@ const ROUNDINGS: f64 = 8.0;
 const SNAPPING: f64 = 0.5 / 256.0;
 
 /// The shadow intensity of each pixel of `surface`, 1 = shadowed: the share of samples under the kernel, as the
-/// filtered map weighs them, that lie in front of the receiver's plane. Pixels that are not covered, lie outside of the map or
-/// behind the light get 0. A plane is taken to end at the far end of moment depth, as the map does, so texels without
-/// a caster never shadow; receivers beyond it count as lying at it.
+/// filtered map weighs them, that lie in front of the receiver's plane. Pixels that are not covered, lie outside of
+/// the map or behind the light get 0. A plane is taken to end at the far end of moment depth, as the map does, so
+/// texels without a caster never shadow; receivers beyond it count as lying at it.
 pub fn pcf(
     light: &LightView,
     depths: &MomentDepths,
     taps: &TapPattern,
     surface: &SurfacePixels,
 ) -> Result<Vec<f32>, TruthError> {
-    let pixels = surface.pixels()?;
+    let pixels = pixels(surface)?;
     let filter = Filter {
         light,
         depths,
@@ -168,8 +169,8 @@ impl ReceiverPlane {
         };
         let size = DVec2::from_array(depths.size().map(f64::from));
         let snapped = SNAPPING * (gradient / size).abs().element_sum();
-        // A rounded position moves the plane along its normal: by 1 / slope of that along the axis. A rounded normal turns
-        // it about the position, and where the ray meets it moves most at the tap that is farthest.
+        // A rounded position moves the plane along its normal: by 1 / slope of that along the axis. A rounded normal
+        // turns it about the position, and where the ray meets it moves most at the tap that is farthest.
         let moved = ROUNDINGS * SINGLE * position.abs().max_element() / slope.abs();
         let farthest = 0.5 * (extent / size * per_uv).length();
         let turned = NORMAL * farthest * ray.length() / (slope * slope);
@@ -199,8 +200,8 @@ impl ReceiverPlane {
         }
     }
 
-    /// Adds `weight` to each of `fronts` whose sample of `stored` lies in front of the plane. The samples are one texel of
-    /// width `step` apart from `first` on.
+    /// Adds `weight` to each of `fronts` whose sample of `stored` lies in front of the plane. The samples are one
+    /// texel of width `step` apart from `first` on.
     fn add_fronts(&self, first: DVec2, step: f64, stored: &[f64], weight: f64, fronts: &mut [f64]) {
         let start = self.gradient.dot(first - self.uv);
         let step = self.gradient.x * step;

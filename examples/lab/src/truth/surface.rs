@@ -1,5 +1,6 @@
 //! What the truths are computed from: the surfaces in the picture and the unfiltered samples of the light's depth map.
 
+use crate::host::{DepthSamples, SurfacePixels};
 use crate::light::LightView;
 
 use super::kernel::sample_positions;
@@ -32,35 +33,17 @@ pub enum TruthError {
     },
 }
 
-/// The visible surface at each pixel of a picture, rows from top to bottom.
-#[derive(Clone, Debug, Default, PartialEq)]
-pub struct SurfacePixels {
-    /// Pixels per row.
-    pub width: u32,
-    /// Rows.
-    pub height: u32,
-    /// Position in world space.
-    pub position: Vec<[f32; 3]>,
-    /// Geometric normal in world space: that of the triangle, not an interpolated one, of unit length, towards either side.
-    /// It may be rounded to half precision.
-    pub normal: Vec<[f32; 3]>,
-    /// Whether there is a surface at all.
-    pub covered: Vec<bool>,
-}
-
-impl SurfacePixels {
-    /// Pixels of the picture, if each list has one entry for each.
-    pub fn pixels(&self) -> Result<usize, TruthError> {
-        let expected = self.width as usize * self.height as usize;
-        for (what, found) in [
-            ("the list of positions", self.position.len()),
-            ("the list of normals", self.normal.len()),
-            ("the list of covered pixels", self.covered.len()),
-        ] {
-            check_length(what, found, expected)?;
-        }
-        Ok(expected)
+/// Pixels of `surface`, if each of its lists has one entry for each.
+pub(super) fn pixels(surface: &SurfacePixels) -> Result<usize, TruthError> {
+    let expected = surface.width as usize * surface.height as usize;
+    for (what, found) in [
+        ("the list of positions", surface.position.len()),
+        ("the list of normals", surface.normal.len()),
+        ("the list of covered pixels", surface.covered.len()),
+    ] {
+        check_length(what, found, expected)?;
     }
+    Ok(expected)
 }
 
 /// How a depth texture rounds what it stores.
@@ -83,16 +66,15 @@ pub struct MomentDepths {
 }
 
 impl MomentDepths {
-    /// Converts `stored`, what the depth texture of `light` holds, in f64. Texels run by rows from the top left; the
-    /// `samples` samples of a texel are neighbours, in the order of
-    /// [`sample_positions`]. NaN counts as the far end.
+    /// Converts what the depth texture of `light` holds, in f64. NaN counts as the far end.
     pub fn from_stored(
         light: &LightView,
-        size: [u32; 2],
-        samples: u32,
+        stored: &DepthSamples,
         rounding: DepthRounding,
-        stored: &[f32],
     ) -> Result<Self, TruthError> {
+        let size = [stored.width, stored.height];
+        let samples = stored.samples;
+        let stored = &stored.values;
         let [width, height] = size.map(|length| length as usize);
         if width == 0 || height == 0 {
             return Err(TruthError::Empty { size });
@@ -146,11 +128,7 @@ impl MomentDepths {
 }
 
 /// Refuses a list that has not one entry for each pixel or sample.
-pub(super) fn check_length(
-    what: &'static str,
-    found: usize,
-    expected: usize,
-) -> Result<(), TruthError> {
+fn check_length(what: &'static str, found: usize, expected: usize) -> Result<(), TruthError> {
     if found == expected {
         Ok(())
     } else {
