@@ -1,0 +1,208 @@
+//! The linker: a file and the modules that it needs become one WGSL text.
+
+use std::collections::BTreeMap;
+
+use crate::file::File;
+use crate::import::{Form, Import};
+use crate::linked::Linked;
+use crate::nearest::nearest;
+use crate::{LinkError, Location, modules};
+
+/// A WGSL text with the name that errors show for it.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Source<'a> {
+    /// The file's name; for a generated module, the name it is imported by.
+    pub name: &'a str,
+    /// The text, imports included.
+    pub text: &'a str,
+}
+
+/// Links `source`, a shader outside the library, with the modules that it imports, directly or through other modules.
+///
+/// `generated` are further modules: each can be imported as `moment_shadows::<name>`, and may itself import modules of
+/// the library and other generated ones.
+///
+/// The rules of imports:
+/// - They come first, before directives and declarations; each is one line with nothing else on it but a `//` comment.
+/// - The only form is `import moment_shadows::hankel::{hankel_factor};` (`super` in place of `moment_shadows` within the
+///   library), with any number of items. No `as`, no `public`, no path within code, no conditional attribute.
+/// - Every item is defined at top level by its module, and imported once.
+///
+/// The result holds every file once, each after those that it imports, headed by a comment that names it; `source` comes
+/// last, but its directives come first. Names are not changed, so no two of the files may define the same name.
+/// The same input always gives the same text.
+///
+/// # Errors
+/// [`LinkError`] where a rule is broken, in `source`, in a generated module, or between files.
+pub fn link(source: Source<'_>, generated: &[Source<'_>]) -> Result<Linked, LinkError> {
+    link_as(Form::Outside, source, generated)
+}
+
+/// Links `source`, a file written as a module of the library (`import super::hankel::{hankel_factor};`), with the modules
+/// that it imports, by the rules of [`link()`].
+///
+/// # Errors
+/// [`LinkError`] where a rule is broken.
+pub fn link_module(source: Source<'_>) -> Result<Linked, LinkError> {
+    link_as(Form::Inside, source, &[])
+}
+
+fn link_as(form: Form, source: Source<'_>, generated: &[Source<'_>]) -> Result<Linked, LinkError> {
+    let library = Library::new(generated)?;
+    let root = File::parse(source.name.to_owned(), source.text, form)?;
+    let files = library.closure(root)?;
+    refuse_collisions(&files)?;
+    Ok(Linked::join(&files))
+}
+
+/// Every module that can be imported, by name. A module's text is only read once it is imported.
+struct Library<'a> {
+    modules: BTreeMap<&'a str, (Form, &'a str)>,
+}
+
+impl<'a> Library<'a> {
+    fn new(generated: &[Source<'a>]) -> Result<Self, LinkError> {
+        let mut known: BTreeMap<_, _> = modules()
+            .iter()
+            .map(|module| (module.name, (Form::Inside, module.source)))
+            .collect();
+        for source in generated {
+            if known
+                .insert(source.name, (Form::Outside, source.text))
+                .is_some()
+            {
+                return Err(LinkError::GeneratedName {
+                    module: source.name.to_owned(),
+                });
+            }
+        }
+        Ok(Self { modules: known })
+    }
+
+    /// `root` and the files it needs, each after those that it imports. Walks without recursion: generated modules may
+    /// form a chain of any length.
+    fn closure(&self, root: File<'a>) -> Result<Vec<File<'a>>, LinkError> {
+        let mut finished: Vec<File<'a>> = Vec::new();
+        let mut position: BTreeMap<&str, usize> = BTreeMap::new();
+        let mut path = vec![Visit {
+            module: "",
+            file: root,
+            next: 0,
+        }];
+        while let Some(visit) = path.last_mut() {
+            if let Some(import) = visit.file.imports.get(visit.next) {
+                if let Some(imported) = position.get(import.module.text) {
+                    if let Some(imported) = finished.get(*imported) {
+                        check_items(&visit.file, import, imported)?;
+                    }
+                    visit.next += 1;
+                    continue;
+                }
+                let module = import.module.text;
+                let at = visit.file.at(import.module.range());
+                if path.iter().any(|above| above.module == module) {
+                    return Err(cycle(&path, module, at));
+                }
+                let file = self.open(module, at)?;
+                path.push(Visit {
+                    module,
+                    file,
+                    next: 0,
+                });
+            } else if let Some(visit) = path.pop() {
+                refuse_duplicates(&visit.file)?;
+                position.insert(visit.module, finished.len());
+                finished.push(visit.file);
+            }
+        }
+        Ok(finished)
+    }
+
+    /// Reads the module that is imported at `at`.
+    fn open(&self, module: &str, at: Box<Location>) -> Result<File<'a>, LinkError> {
+        match self.modules.get(module) {
+            Some(&(Form::Inside, text)) => {
+                File::parse(format!("moment_shadows/{module}.wgsl"), text, Form::Inside)
+            }
+            Some(&(Form::Outside, text)) => File::parse(module.to_owned(), text, Form::Outside),
+            None => Err(LinkError::UnknownModule {
+                module: module.to_owned(),
+                nearest: nearest(module, self.modules.keys().copied()),
+                at,
+            }),
+        }
+    }
+}
+
+/// A file on the way from the root to the file being read.
+struct Visit<'a> {
+    module: &'a str,
+    file: File<'a>,
+    /// The import to follow next.
+    next: usize,
+}
+
+fn cycle(path: &[Visit<'_>], module: &str, at: Box<Location>) -> LinkError {
+    let mut names: Vec<_> = path
+        .iter()
+        .map(|visit| visit.module)
+        .skip_while(|name| *name != module)
+        .collect();
+    names.push(module);
+    LinkError::Cycle {
+        cycle: names.join(" -> "),
+        at,
+    }
+}
+
+fn check_items(file: &File<'_>, import: &Import<'_>, imported: &File<'_>) -> Result<(), LinkError> {
+    let names = || imported.definitions.iter().map(|name| name.text);
+    match import
+        .items
+        .iter()
+        .find(|item| !names().any(|name| name == item.text))
+    {
+        None => Ok(()),
+        Some(item) => Err(LinkError::UnknownItem {
+            item: item.text.to_owned(),
+            module: import.module.text.to_owned(),
+            nearest: nearest(item.text, names()),
+            at: file.at(item.range()),
+        }),
+    }
+}
+
+fn refuse_duplicates(file: &File<'_>) -> Result<(), LinkError> {
+    let mut seen = BTreeMap::new();
+    for import in &file.imports {
+        for item in &import.items {
+            if let Some(first) = seen.insert((import.module.text, item.text), import.line) {
+                return Err(LinkError::DuplicateImport {
+                    item: item.text.to_owned(),
+                    first,
+                    at: file.at(item.range()),
+                });
+            }
+        }
+    }
+    Ok(())
+}
+
+/// Refuses a name that two files define. A name defined twice in one file is left to the WGSL compiler.
+fn refuse_collisions(files: &[File<'_>]) -> Result<(), LinkError> {
+    let mut seen: BTreeMap<&str, (usize, &File<'_>, _)> = BTreeMap::new();
+    for (index, file) in files.iter().enumerate() {
+        for name in &file.definitions {
+            let (first_index, first_file, first) =
+                *seen.entry(name.text).or_insert((index, file, name));
+            if first_index != index {
+                return Err(LinkError::Collision {
+                    name: name.text.to_owned(),
+                    at: file.at(name.range()),
+                    first: first_file.at(first.range()),
+                });
+            }
+        }
+    }
+    Ok(())
+}

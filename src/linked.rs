@@ -1,0 +1,147 @@
+//! The linker's result: one WGSL text, and where each of its lines comes from.
+
+use core::ops::Range;
+use std::collections::BTreeSet;
+
+use crate::Location;
+use crate::file::File;
+
+/// A linked WGSL text that knows where each of its lines comes from.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Linked {
+    wgsl: String,
+    files: Vec<String>,
+    /// For each line of the text, the file's index and the line there, from 1; none for the comments that name files.
+    lines: Vec<Option<(usize, u32)>>,
+}
+
+/// Where a line of a linked text comes from.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Origin<'a> {
+    /// The file's name, as it was given; `moment_shadows/<module>.wgsl` for modules of the library.
+    pub file: &'a str,
+    /// The line in that file, from 1.
+    pub line: u32,
+}
+
+impl Linked {
+    /// The linked text: plain WGSL.
+    #[must_use]
+    pub fn wgsl(&self) -> &str {
+        &self.wgsl
+    }
+
+    /// The linked text, without a copy.
+    #[must_use]
+    pub fn into_wgsl(self) -> String {
+        self.wgsl
+    }
+
+    /// The files that were linked, in the order of the text; the file given to the linker is the last.
+    pub fn files(&self) -> impl ExactSizeIterator<Item = &str> {
+        self.files.iter().map(String::as_str)
+    }
+
+    /// Where the line `line` of the text, from 1, comes from. None for the comments that name files, and beyond the text.
+    #[must_use]
+    pub fn origin(&self, line: u32) -> Option<Origin<'_>> {
+        let index = usize::try_from(line).ok()?.checked_sub(1)?;
+        let (file, line) = (*self.lines.get(index)?)?;
+        let file = self.files.get(file)?;
+        Some(Origin { file, line })
+    }
+
+    /// Where the bytes `range` of the text come from. Columns are those of the text: lines are linked unchanged.
+    #[must_use]
+    pub fn location(&self, range: Range<usize>) -> Option<Location> {
+        let mut location = Location::in_text("", &self.wgsl, range);
+        let origin = self.origin(location.line)?;
+        location.file = origin.file.to_owned();
+        location.line = origin.line;
+        Some(location)
+    }
+
+    /// Joins `files`, the last of which is the one that was given to the linker.
+    pub(crate) fn join(files: &[File<'_>]) -> Self {
+        let mut linked = Self {
+            wgsl: String::new(),
+            files: files.iter().map(|file| file.name.clone()).collect(),
+            lines: Vec::new(),
+        };
+        if let Some((index, root)) = files.iter().enumerate().next_back() {
+            let directives = mask(root.text, &root.directives, Keep::Inside);
+            for (line, text) in (1..).zip(directives.lines()) {
+                if !text.trim().is_empty() {
+                    linked.push_line(text.trim_end(), Some((index, line)));
+                }
+            }
+        }
+        for (index, file) in files.iter().enumerate() {
+            linked.push_file(index, file, index + 1 == files.len());
+        }
+        linked
+    }
+
+    fn push_file(&mut self, index: usize, file: &File<'_>, is_root: bool) {
+        if !self.lines.is_empty() {
+            self.push_line("", None);
+        }
+        // A line break in a name would end the comment.
+        let name: String = file.name.chars().filter(|c| !is_break(*c)).collect();
+        self.push_line(&format!("// {name}"), None);
+
+        let hoisted: &[_] = if is_root { &file.directives } else { &[] };
+        let text = mask(file.text, hoisted, Keep::Outside);
+        let imports: BTreeSet<u32> = file.imports.iter().map(|import| import.line).collect();
+        // Of several blank lines, which removed imports leave, one is kept.
+        let mut blank = false;
+        for (line, text) in (1..).zip(text.lines()) {
+            let was_blank = core::mem::replace(&mut blank, text.trim().is_empty());
+            if imports.contains(&line) {
+                blank = was_blank;
+            } else if !(blank && was_blank) {
+                self.push_line(if blank { "" } else { text }, Some((index, line)));
+            }
+        }
+    }
+
+    fn push_line(&mut self, text: &str, origin: Option<(usize, u32)>) {
+        self.wgsl.push_str(text);
+        self.wgsl.push('\n');
+        self.lines.push(origin);
+    }
+}
+
+fn is_break(c: char) -> bool {
+    c.is_control() || matches!(c, '\u{2028}' | '\u{2029}')
+}
+
+#[derive(Clone, Copy, PartialEq, Eq)]
+enum Keep {
+    Inside,
+    Outside,
+}
+
+/// `text` with spaces for every character outside or inside of `ranges`, which are in order. Lines and columns stay.
+fn mask(text: &str, ranges: &[Range<usize>], keep: Keep) -> String {
+    let mut masked = String::with_capacity(text.len());
+    let mut push = |part: Option<&str>, inside: bool| {
+        let part = part.unwrap_or_default();
+        if inside == (keep == Keep::Inside) {
+            masked.push_str(part);
+        } else {
+            masked.extend(
+                part.chars()
+                    .map(|c| if matches!(c, '\n' | '\r') { c } else { ' ' }),
+            );
+        }
+    };
+    let mut done = 0;
+    for range in ranges {
+        push(text.get(done..range.start), false);
+        push(text.get(range.clone()), true);
+        done = range.end;
+    }
+    push(text.get(done..), false);
+    masked
+}

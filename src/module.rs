@@ -1,0 +1,32 @@
+//! The registry: the WGSL modules of the library, as text that is part of the crate.
+
+/// One importable WGSL module.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Module {
+    /// The name after `moment_shadows::` in an import.
+    pub name: &'static str,
+    /// The text of the module, imports included.
+    pub source: &'static str,
+}
+
+macro_rules! modules {
+    ($($name:literal),* $(,)?) => {
+        &[$(Module { name: $name, source: include_str!(concat!("../wgsl/", $name, ".wgsl")) }),*]
+    };
+}
+
+/// Every WGSL module of the library, by name in alphabetical order.
+#[must_use]
+pub fn modules() -> &'static [Module] {
+    const MODULES: &[Module] = modules![
+        "bilinear",
+        "depth",
+        "gaussian",
+        "hamburger",
+        "hankel",
+        "leak_reduction",
+        "moments",
+        "receiver_bias",
+    ];
+    MODULES
+}

@@ -1,0 +1,132 @@
+//! Validation: whether a shader that imports our modules can be used everywhere that a profile promises.
+
+mod backend;
+mod diagnostic;
+mod error;
+mod exercise;
+mod storage_format;
+
+use naga::valid::{Capabilities, ModuleInfo, ValidationFlags, Validator};
+
+pub use backend::{Backend, Outcome};
+pub use diagnostic::{Diagnostic, Label};
+pub use error::ValidateError;
+
+use crate::{Linked, Profile, Source, link, link_module};
+
+/// The longest text that is validated, in bytes, after linking. Nothing that a GPU should run comes near.
+pub const LONGEST_SHADER: usize = 4 << 20;
+
+/// What each backend makes of a valid shader.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct ValidationReport {
+    /// One outcome for each of [`Backend::ALL`], in that order.
+    pub outcomes: Vec<(Backend, Outcome)>,
+}
+
+impl ValidationReport {
+    /// The backends that the shader was written for.
+    pub fn written(&self) -> impl Iterator<Item = Backend> {
+        let written = |(backend, outcome): &(Backend, Outcome)| {
+            (*outcome == Outcome::Written).then_some(*backend)
+        };
+        self.outcomes.iter().filter_map(written)
+    }
+
+    /// What `backend` made of the shader.
+    #[must_use]
+    pub fn outcome(&self, backend: Backend) -> Option<&Outcome> {
+        let found = self.outcomes.iter().find(|(of, _)| *of == backend);
+        found.map(|(_, outcome)| outcome)
+    }
+}
+
+/// Links `source` as [`link()`] does, validates it under `profile`, and writes it for every [`Backend`].
+///
+/// A text without entry points is validated too: every function is called from an entry point made for it, with a zero for
+/// each value and a bound resource for each texture and sampler. Overrides without a default get the value 1.
+///
+/// The profile decides what the shader may contain: `webgpu-core` no optional feature of WebGPU, and only the storage
+/// texture formats and accesses that every device has; `native` the 16-bit normalised ones as well; `native-adapter` every
+/// format that naga knows.
+///
+/// # Errors
+/// [`ValidateError`], which points at the line of the file before linking.
+pub fn validate(
+    source: Source<'_>,
+    generated: &[Source<'_>],
+    profile: Profile,
+) -> Result<ValidationReport, ValidateError> {
+    refuse_too_long(source.name, source.text)?;
+    for source in generated {
+        refuse_too_long(source.name, source.text)?;
+    }
+    validate_linked(source.name, &link(source, generated)?, profile)
+}
+
+/// As [`validate()`], for a file that is written as a module of the library ([`link_module()`]).
+///
+/// # Errors
+/// [`ValidateError`], which points at the line of the file before linking.
+pub fn validate_module(
+    source: Source<'_>,
+    profile: Profile,
+) -> Result<ValidationReport, ValidateError> {
+    refuse_too_long(source.name, source.text)?;
+    validate_linked(source.name, &link_module(source)?, profile)
+}
+
+fn refuse_too_long(file: &str, text: &str) -> Result<(), ValidateError> {
+    if text.len() > LONGEST_SHADER {
+        return Err(ValidateError::TooLong {
+            file: file.to_owned(),
+            bytes: text.len(),
+        });
+    }
+    Ok(())
+}
+
+fn validate_linked(
+    file: &str,
+    linked: &Linked,
+    profile: Profile,
+) -> Result<ValidationReport, ValidateError> {
+    refuse_too_long(file, linked.wgsl())?;
+    let capabilities = capabilities(profile);
+    let mut options = naga::front::wgsl::Options::new();
+    options.capabilities = capabilities;
+    let module = naga::front::wgsl::Frontend::new_with_options(options)
+        .parse(linked.wgsl())
+        .map_err(|error| ValidateError::Parse(Diagnostic::of_parse_error(file, linked, &error)))?;
+    storage_format::check(file, &module, linked, profile)?;
+    let info = check(&module, capabilities).map_err(|error| {
+        ValidateError::Invalid(Diagnostic::of_validation_error(file, linked, &error))
+    })?;
+    let shader = if module.entry_points.is_empty() {
+        exercise::exercise(&module, info, capabilities)
+    } else {
+        backend::Shader::new(module, info)
+    };
+    backend::write_all(file, &shader)
+}
+
+fn check(
+    module: &naga::Module,
+    capabilities: Capabilities,
+) -> Result<ModuleInfo, naga::WithSpan<naga::valid::ValidationError>> {
+    Validator::new(ValidationFlags::all(), capabilities).validate(module)
+}
+
+/// What naga may accept under `profile`. The three of the core are no optional features: sample shading, cube array
+/// textures, and packing of 16-bit floats.
+fn capabilities(profile: Profile) -> Capabilities {
+    let core = Capabilities::MULTISAMPLED_SHADING
+        | Capabilities::CUBE_ARRAY_TEXTURES
+        | Capabilities::SHADER_FLOAT16_IN_FLOAT32;
+    match profile {
+        Profile::WebgpuCore => core,
+        Profile::Native | Profile::NativeAdapter => {
+            core | Capabilities::STORAGE_TEXTURE_16BIT_NORM_FORMATS
+        }
+    }
+}

@@ -1,0 +1,218 @@
+//! The shading languages that wgpu feeds to drivers.
+
+use core::fmt;
+
+use naga::Module;
+use naga::back::{PipelineConstants, glsl, hlsl, msl, pipeline_constants, spv};
+use naga::proc::BoundsCheckPolicies;
+use naga::valid::ModuleInfo;
+
+use super::{ValidateError, ValidationReport};
+
+/// A language that a shader is translated to.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+#[non_exhaustive]
+pub enum Backend {
+    /// SPIR-V 1.0, for Vulkan.
+    SpirV,
+    /// HLSL for shader model 6.0, for Direct3D 12.
+    Hlsl,
+    /// Metal shading language 2.1.
+    Msl,
+    /// GLSL 4.50, for desktop OpenGL.
+    Glsl450,
+    /// GLSL ES 3.00, for WebGL 2.
+    GlslEs300,
+}
+
+impl Backend {
+    /// Every backend.
+    pub const ALL: [Backend; 5] = [
+        Backend::SpirV,
+        Backend::Hlsl,
+        Backend::Msl,
+        Backend::Glsl450,
+        Backend::GlslEs300,
+    ];
+
+    /// The name used on command lines.
+    #[must_use]
+    pub fn name(self) -> &'static str {
+        match self {
+            Backend::SpirV => "spirv",
+            Backend::Hlsl => "hlsl",
+            Backend::Msl => "msl",
+            Backend::Glsl450 => "glsl-450",
+            Backend::GlslEs300 => "glsl-es-300",
+        }
+    }
+}
+
+impl fmt::Display for Backend {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(self.name())
+    }
+}
+
+/// What a backend made of a shader.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub enum Outcome {
+    /// Every entry point and function was written.
+    Written,
+    /// The language lacks something that the shader uses, which is no error: the two GLSL versions have no place in any
+    /// profile. The reason names the entry point.
+    CannotExpress(String),
+}
+
+/// A valid module, ready to be written.
+pub(super) struct Shader {
+    module: Module,
+    info: ModuleInfo,
+    /// Why no entry point could be made, for a module that has none.
+    no_entry_point: Option<String>,
+}
+
+impl Shader {
+    pub(super) fn new(module: Module, info: ModuleInfo) -> Self {
+        Self {
+            module,
+            info,
+            no_entry_point: None,
+        }
+    }
+
+    pub(super) fn without_entry_points(module: Module, info: ModuleInfo, reason: String) -> Self {
+        Self {
+            module,
+            info,
+            no_entry_point: Some(reason),
+        }
+    }
+}
+
+/// Writes `shader` for every backend.
+pub(super) fn write_all(file: &str, shader: &Shader) -> Result<ValidationReport, ValidateError> {
+    let mut outcomes = Vec::new();
+    for backend in Backend::ALL {
+        let outcome = write(backend, shader).map_err(|message| ValidateError::Backend {
+            file: file.to_owned(),
+            backend,
+            message,
+        })?;
+        outcomes.push((backend, outcome));
+    }
+    Ok(ValidationReport { outcomes })
+}
+
+/// SPIR-V, HLSL and MSL can express whatever a profile allows, so there a failure is an error.
+fn write(backend: Backend, shader: &Shader) -> Result<Outcome, String> {
+    // Backends want constants in place of overrides.
+    let constants = missing_overrides(&shader.module);
+    let (module, info) =
+        pipeline_constants::process_overrides(&shader.module, &shader.info, None, &constants)
+            .map_err(|error| format!("overrides: {error}"))?;
+    match backend {
+        Backend::SpirV => write_spirv(&module, &info)?,
+        Backend::Hlsl => write_hlsl(&module, &info)?,
+        Backend::Msl => write_msl(&module, &info)?,
+        Backend::Glsl450 | Backend::GlslEs300 => {
+            if let Some(reason) = &shader.no_entry_point {
+                return Ok(Outcome::CannotExpress(reason.clone()));
+            }
+            return write_glsl(backend, &module, &info);
+        }
+    }
+    Ok(Outcome::Written)
+}
+
+/// The value 1 for each override that has none: it is a legal workgroup size, array length and factor.
+fn missing_overrides(module: &Module) -> PipelineConstants {
+    let missing = module.overrides.iter().filter(|(_, of)| of.init.is_none());
+    let key = |of: &naga::Override| match of.id {
+        Some(id) => Some(id.to_string()),
+        None => of.name.clone(),
+    };
+    missing
+        .filter_map(|(_, of)| Some((key(of)?, 1.0)))
+        .collect()
+}
+
+fn write_spirv(module: &Module, info: &ModuleInfo) -> Result<(), String> {
+    let written = spv::write_vec(module, info, &spv::Options::default(), None);
+    written.map(drop).map_err(|error| error.to_string())
+}
+
+fn write_hlsl(module: &Module, info: &ModuleInfo) -> Result<(), String> {
+    let options = hlsl::Options {
+        shader_model: hlsl::ShaderModel::V6_0,
+        ..Default::default()
+    };
+    let pipeline = hlsl::PipelineOptions::default();
+    let mut text = String::new();
+    let written = hlsl::Writer::new(&mut text, &options, &pipeline).write(module, info, None);
+    let names = written
+        .map_err(|error| error.to_string())?
+        .entry_point_names;
+    names.into_iter().try_for_each(|name| match name {
+        Ok(_) => Ok(()),
+        Err(error) => Err(error.to_string()),
+    })
+}
+
+fn write_msl(module: &Module, info: &ModuleInfo) -> Result<(), String> {
+    let options = msl::Options {
+        lang_version: (2, 1),
+        ..Default::default()
+    };
+    let pipeline = msl::PipelineOptions::default();
+    let written = msl::write_string(module, info, &options, &pipeline);
+    let (_, translation) = written.map_err(|error| error.to_string())?;
+    translation
+        .entry_point_names
+        .into_iter()
+        .try_for_each(|name| match name {
+            Ok(_) => Ok(()),
+            Err(error) => Err(error.to_string()),
+        })
+}
+
+/// GLSL has one entry point per text.
+fn write_glsl(backend: Backend, module: &Module, info: &ModuleInfo) -> Result<Outcome, String> {
+    let options = glsl::Options {
+        version: if backend == Backend::GlslEs300 {
+            glsl::Version::new_gles(300)
+        } else {
+            glsl::Version::Desktop(450)
+        },
+        ..Default::default()
+    };
+    for entry_point in &module.entry_points {
+        let pipeline = glsl::PipelineOptions {
+            shader_stage: entry_point.stage,
+            entry_point: entry_point.name.clone(),
+            multiview: None,
+        };
+        let mut text = String::new();
+        let policies = BoundsCheckPolicies::default();
+        let written = glsl::Writer::new(&mut text, module, info, &options, &pipeline, policies)
+            .and_then(|mut writer| writer.write());
+        if let Err(error) = written {
+            let message = format!("entry point `{}`: {error}", entry_point.name);
+            return if is_limit_of_glsl(&error) {
+                Ok(Outcome::CannotExpress(message))
+            } else {
+                Err(message)
+            };
+        }
+    }
+    Ok(Outcome::Written)
+}
+
+/// Whether the error says that GLSL lacks something, rather than that the writing went wrong.
+fn is_limit_of_glsl(error: &glsl::Error) -> bool {
+    use glsl::Error as E;
+    !matches!(
+        error,
+        E::FmtError(_) | E::EntryPointNotFound | E::Override | E::ResolveArraySizeError(_)
+    )
+}

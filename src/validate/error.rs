@@ -1,0 +1,42 @@
+//! Why a shader is not valid under a profile.
+
+use super::{Backend, Diagnostic, LONGEST_SHADER};
+use crate::LinkError;
+
+/// A shader that is not valid under a profile, or that a backend fails to write.
+#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
+#[non_exhaustive]
+pub enum ValidateError {
+    /// The text is longer than [`LONGEST_SHADER`].
+    #[error(
+        "the shader has {bytes} bytes, and at most {LONGEST_SHADER} are validated; split it\n --> {file}"
+    )]
+    TooLong {
+        /// The file's name.
+        file: String,
+        /// Its length, or that of the linked text.
+        bytes: usize,
+    },
+    /// The imports are wrong.
+    #[error(transparent)]
+    Link(#[from] LinkError),
+    /// The text is no WGSL, or uses an extension that the profile does not have.
+    #[error("{0}")]
+    Parse(Diagnostic),
+    /// The text is no valid shader, or uses a feature that the profile does not have.
+    #[error("{0}")]
+    Invalid(Diagnostic),
+    /// A storage texture has a format or access that the profile does not have.
+    #[error("{0}")]
+    StorageFormat(Diagnostic),
+    /// A valid shader that a backend cannot write although it has to.
+    #[error("{backend} cannot be written: {message}\n --> {file}")]
+    Backend {
+        /// The file's name.
+        file: String,
+        /// The backend.
+        backend: Backend,
+        /// What the backend says.
+        message: String,
+    },
+}

@@ -1,0 +1,140 @@
+//! Storage texture formats by profile. naga accepts formats that core WebGPU refuses, so they are checked here.
+
+use naga::{ImageClass, StorageAccess, StorageFormat, TypeInner};
+
+use super::{Diagnostic, Label, ValidateError};
+use crate::token::{Kind, Token, tokens};
+use crate::{Linked, Profile};
+
+/// Refuses the first storage texture whose format or access `profile` does not have; points at every use of it.
+pub(super) fn check(
+    file: &str,
+    module: &naga::Module,
+    linked: &Linked,
+    profile: Profile,
+) -> Result<(), ValidateError> {
+    for (_, ty) in module.types.iter() {
+        let TypeInner::Image {
+            class: ImageClass::Storage { format, access },
+            ..
+        } = ty.inner
+        else {
+            continue;
+        };
+        let Some(note) = objection(format, access, profile) else {
+            continue;
+        };
+        let (format, access) = (name(format), access_name(access));
+        let labels = uses(linked.wgsl(), &format, access)
+            .into_iter()
+            .filter_map(|token| Label::new(linked, token.range(), ""))
+            .collect();
+        return Err(ValidateError::StorageFormat(Diagnostic {
+            file: file.to_owned(),
+            message: format!(
+                "profile `{profile}` has no storage texture of format `{format}` with access `{access}`"
+            ),
+            labels,
+            notes: vec![note.to_owned()],
+        }));
+    }
+    Ok(())
+}
+
+/// What speaks against the format under the profile, with the next step.
+fn objection(
+    format: StorageFormat,
+    access: StorageAccess,
+    profile: Profile,
+) -> Option<&'static str> {
+    let reads_and_writes = access.contains(StorageAccess::LOAD | StorageAccess::STORE);
+    if profile == Profile::NativeAdapter {
+        None
+    } else if is_norm16(format) && profile == Profile::WebgpuCore {
+        Some(
+            "16-bit normalised formats need profile `native`; `rgba16float` and `rgba32float` are stored everywhere",
+        )
+    } else if !is_norm16(format) && !is_core(format) {
+        Some(
+            "only some adapters can store this format (profile `native-adapter`); write it in a render pass instead",
+        )
+    } else if reads_and_writes && !is_core_read_write(format) {
+        Some(
+            "only `r32uint`, `r32sint` and `r32float` can be read and written; bind a texture to read and one to write",
+        )
+    } else {
+        None
+    }
+}
+
+/// The formats that core WebGPU stores.
+fn is_core(format: StorageFormat) -> bool {
+    use StorageFormat as F;
+    matches!(
+        format,
+        F::Rgba8Unorm
+            | F::Rgba8Snorm
+            | F::Rgba8Uint
+            | F::Rgba8Sint
+            | F::Rgba16Uint
+            | F::Rgba16Sint
+            | F::Rgba16Float
+            | F::R32Uint
+            | F::R32Sint
+            | F::R32Float
+            | F::Rg32Uint
+            | F::Rg32Sint
+            | F::Rg32Float
+            | F::Rgba32Uint
+            | F::Rgba32Sint
+            | F::Rgba32Float
+    )
+}
+
+fn is_core_read_write(format: StorageFormat) -> bool {
+    use StorageFormat as F;
+    matches!(format, F::R32Uint | F::R32Sint | F::R32Float)
+}
+
+/// The formats of wgpu's `TEXTURE_FORMAT_16BIT_NORM`.
+fn is_norm16(format: StorageFormat) -> bool {
+    use StorageFormat as F;
+    matches!(
+        format,
+        F::R16Unorm | F::R16Snorm | F::Rg16Unorm | F::Rg16Snorm | F::Rgba16Unorm | F::Rgba16Snorm
+    )
+}
+
+/// The format's name in WGSL: naga's variants are spelt alike but for case.
+fn name(format: StorageFormat) -> String {
+    format!("{format:?}").to_lowercase()
+}
+
+fn access_name(access: StorageAccess) -> &'static str {
+    if access.contains(StorageAccess::LOAD | StorageAccess::STORE) {
+        "read_write"
+    } else if access.contains(StorageAccess::STORE) {
+        "write"
+    } else {
+        "read"
+    }
+}
+
+/// The words `format` in every `texture_storage_..<format, access>`.
+fn uses<'a>(wgsl: &'a str, format: &str, access: &str) -> Vec<Token<'a>> {
+    let tokens = tokens(wgsl).unwrap_or_default();
+    let used = |window: &[Token<'a>]| match window {
+        [texture, open, word, comma, mode]
+            if texture.kind == Kind::Word
+                && texture.text.starts_with("texture_storage_")
+                && open.is_symbol("<")
+                && word.is_word(format)
+                && comma.is_symbol(",")
+                && mode.is_word(access) =>
+        {
+            Some(*word)
+        }
+        _ => None,
+    };
+    tokens.windows(5).filter_map(used).collect()
+}

@@ -1,0 +1,291 @@
+//! The rules that every module of the library keeps. Each test lists all failures together.
+#![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic)]
+
+use std::collections::{BTreeMap, BTreeSet};
+use std::fs;
+use std::path::Path;
+
+use moment_shadows::{
+    Backend, Module, Outcome, Profile, Source, link_module, modules, validate_module,
+};
+
+/// What may be called in non-uniform control flow.
+const TEXTURE_FUNCTIONS: [&str; 9] = [
+    "textureDimensions",
+    "textureGather",
+    "textureGatherCompare",
+    "textureLoad",
+    "textureNumLayers",
+    "textureNumSamples",
+    "textureSampleCompareLevel",
+    "textureSampleGrad",
+    "textureSampleLevel",
+];
+
+/// Words that have no place in a module: what needs uniform control flow, a pipeline or an extension.
+const FORBIDDEN: [&str; 8] = [
+    "override",
+    "enable",
+    "requires",
+    "diagnostic",
+    "discard",
+    "group",
+    "binding",
+    "workgroup_size",
+];
+
+fn source(module: &Module) -> (String, &'static str) {
+    (
+        format!("moment_shadows/{}.wgsl", module.name),
+        module.source,
+    )
+}
+
+/// The text without comments, which are `//` comments in every module.
+fn code(text: &str) -> String {
+    let lines = text
+        .lines()
+        .map(|line| line.split("//").next().unwrap_or_default());
+    lines.collect::<Vec<_>>().join("\n")
+}
+
+fn words(code: &str) -> impl Iterator<Item = &str> {
+    code.split(|c: char| !c.is_alphanumeric() && c != '_')
+        .filter(|word| !word.is_empty())
+}
+
+/// Kind and name of each definition at top level: those at the start of a line.
+fn definitions(text: &str) -> Vec<(String, String)> {
+    let kinds = ["fn", "struct", "alias", "const", "var", "override"];
+    let defined = |line: &str| {
+        let mut words = words(line);
+        let kind = words
+            .next()
+            .filter(|kind| line.starts_with(kind) && kinds.contains(kind))?;
+        Some((kind.to_owned(), words.next()?.to_owned()))
+    };
+    text.lines().filter_map(defined).collect()
+}
+
+/// The items that a module imports. The linker checks the lines' form.
+fn imports(text: &str) -> BTreeSet<&str> {
+    let lines = text.lines().filter(|line| line.starts_with("import "));
+    let items = lines.filter_map(|line| line.split(['{', '}']).nth(1));
+    items.flat_map(words).collect()
+}
+
+fn camel_case(name: &str) -> String {
+    let capital = |part: &str| part[..1].to_uppercase() + &part[1..];
+    name.split('_').map(capital).collect()
+}
+
+fn assert_none(failures: &[String]) {
+    assert!(failures.is_empty(), "\n{}", failures.join("\n"));
+}
+
+#[test]
+fn the_registry_holds_every_file() {
+    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("wgsl");
+    let files: BTreeSet<_> = fs::read_dir(folder)
+        .unwrap()
+        .map(|entry| entry.unwrap().file_name().into_string().unwrap())
+        .collect();
+    let registered: Vec<_> = modules()
+        .iter()
+        .map(|module| format!("{}.wgsl", module.name))
+        .collect();
+    assert_eq!(registered, files.into_iter().collect::<Vec<_>>());
+}
+
+#[test]
+fn names_are_unique_and_say_their_module() {
+    let mut failures = Vec::new();
+    let mut seen = BTreeMap::new();
+    for module in modules() {
+        let name = module.name;
+        for (kind, item) in definitions(module.source) {
+            if let Some(other) = seen.insert(item.clone(), name) {
+                failures.push(format!("{name}: `{item}` is defined in {other} too"));
+            }
+            // `MomentBias` belongs to `moments`.
+            let prefix = match kind.as_str() {
+                "fn" => format!("{name}_"),
+                "const" => format!("{}_", name.to_uppercase()),
+                _ => camel_case(name.strip_suffix('s').unwrap_or(name)),
+            };
+            if !item.starts_with(&prefix) {
+                failures.push(format!(
+                    "{name}: {kind} `{item}` does not start with `{prefix}`"
+                ));
+            }
+        }
+    }
+    assert_none(&failures);
+}
+
+#[test]
+fn modules_hold_functions_structs_aliases_and_constants_only() {
+    let mut failures = Vec::new();
+    for module in modules() {
+        let name = module.name;
+        let (file, text) = source(module);
+        let linked = match link_module(Source { name: &file, text }) {
+            Ok(linked) => linked,
+            Err(error) => {
+                failures.push(format!("{name}: {error}"));
+                continue;
+            }
+        };
+        let parsed = match naga::front::wgsl::parse_str(linked.wgsl()) {
+            Ok(parsed) => parsed,
+            Err(error) => {
+                failures.push(format!("{name}: {}", error.emit_to_string(linked.wgsl())));
+                continue;
+            }
+        };
+        if !parsed.global_variables.is_empty() {
+            failures.push(format!("{name}: has variables at top level"));
+        }
+        if !parsed.entry_points.is_empty() {
+            failures.push(format!("{name}: has entry points"));
+        }
+        if !parsed.overrides.is_empty() {
+            failures.push(format!("{name}: has overrides"));
+        }
+        for word in words(&code(text)).filter(|word| FORBIDDEN.contains(word)) {
+            failures.push(format!("{name}: uses `{word}`"));
+        }
+        // The other tests read definitions off the lines; this makes sure that they miss none.
+        let found: BTreeSet<_> = definitions(linked.wgsl())
+            .into_iter()
+            .map(|(_, item)| item)
+            .collect();
+        let functions = parsed
+            .functions
+            .iter()
+            .filter_map(|(_, function)| function.name.clone());
+        let constants = parsed
+            .constants
+            .iter()
+            .filter_map(|(_, constant)| constant.name.clone());
+        let types = parsed.types.iter().filter_map(|(_, ty)| ty.name.clone());
+        for item in functions
+            .chain(constants)
+            .chain(types)
+            .filter(|item| !item.starts_with("__"))
+        {
+            if !found.contains(&item) {
+                failures.push(format!(
+                    "{name}: `{item}` is not defined at the start of a line"
+                ));
+            }
+        }
+    }
+    assert_none(&failures);
+}
+
+#[test]
+fn functions_may_be_called_from_non_uniform_control_flow() {
+    let mut failures = Vec::new();
+    for module in modules() {
+        for word in words(&code(module.source)) {
+            let texture_function = word
+                .strip_prefix("texture")
+                .is_some_and(|rest| rest.starts_with(|c: char| c.is_ascii_uppercase()));
+            let derivative = ["dpdx", "dpdy", "fwidth"]
+                .iter()
+                .any(|start| word.starts_with(start));
+            let barrier = word.ends_with("Barrier")
+                || word.starts_with("atomic")
+                || word == "workgroupUniformLoad";
+            if (texture_function && !TEXTURE_FUNCTIONS.contains(&word)) || derivative || barrier {
+                failures.push(format!("{}: calls `{word}`", module.name));
+            }
+        }
+    }
+    assert_none(&failures);
+}
+
+#[test]
+fn what_is_used_is_imported_and_what_is_imported_is_used() {
+    // Our linker joins whole modules, so a missing import would only show in other tools.
+    let mut failures = Vec::new();
+    let mut owner = BTreeMap::new();
+    for module in modules() {
+        for (_, item) in definitions(module.source) {
+            owner.insert(item, module.name);
+        }
+    }
+    for module in modules() {
+        let name = module.name;
+        let imported = imports(module.source);
+        let body: String = code(module.source)
+            .lines()
+            .filter(|line| !line.starts_with("import "))
+            .collect::<Vec<_>>()
+            .join("\n");
+        let used: BTreeSet<_> = words(&body).collect();
+        for item in &used {
+            if owner.get(*item).is_some_and(|of| *of != name) && !imported.contains(item) {
+                failures.push(format!("{name}: uses `{item}` without importing it"));
+            }
+        }
+        for item in imported.difference(&used) {
+            failures.push(format!("{name}: imports `{item}` without using it"));
+        }
+    }
+    assert_none(&failures);
+}
+
+#[test]
+fn files_and_functions_open_with_a_comment() {
+    let mut failures = Vec::new();
+    for module in modules() {
+        let name = module.name;
+        let mut lines = module.source.lines().filter(|line| !line.is_empty());
+        let first = lines
+            .find(|line| !line.starts_with("import "))
+            .unwrap_or_default();
+        if !first.starts_with("// ") {
+            failures.push(format!("{name}: does not open with what it computes"));
+        }
+        if module.source.contains("/*") {
+            failures.push(format!(
+                "{name}: has a block comment; these tests read `//` only"
+            ));
+        }
+        let lines: Vec<_> = module.source.lines().collect();
+        for pair in lines.windows(2) {
+            if let [before, line] = pair
+                && line.starts_with("fn ")
+                && !before.starts_with("//")
+            {
+                failures.push(format!("{name}: no comment above `{line}`"));
+            }
+        }
+    }
+    assert_none(&failures);
+}
+
+#[test]
+fn every_module_validates_alone_on_every_backend() {
+    let mut failures = Vec::new();
+    for module in modules() {
+        let (file, text) = source(module);
+        for profile in Profile::ALL {
+            match validate_module(Source { name: &file, text }, profile) {
+                Ok(report) => {
+                    assert_eq!(report.outcomes.len(), Backend::ALL.len());
+                    for (backend, outcome) in report.outcomes {
+                        if let Outcome::CannotExpress(reason) = outcome {
+                            failures
+                                .push(format!("{}: {profile}: {backend}: {reason}", module.name));
+                        }
+                    }
+                }
+                Err(error) => failures.push(format!("{}: {profile}: {error}", module.name)),
+            }
+        }
+    }
+    assert_none(&failures);
+}
