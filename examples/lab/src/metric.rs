@@ -14,7 +14,8 @@ pub const PENUMBRA: [f32; 2] = [0.01, 0.99];
 pub enum MetricError {
     /// The lists belong to pictures of different sizes.
     #[error(
-        "pictures of {estimate} and {truth} pixels with {facing} facing flags cannot be compared; give lists of one length"
+        "pictures of {estimate} and {truth} pixels with {facing} facing flags cannot be compared; \
+         give lists of one length"
     )]
     Length {
         /// Pixels of the estimate.
