@@ -3,3 +3,11 @@
 //! Not published. It renders real geometry with the library's nodes, and judges what they give.
 
 pub mod gpu;
+pub mod host;
+pub mod light;
+pub mod metric;
+pub mod picture;
+pub mod progress;
+pub mod scene;
+pub mod truth;
+pub mod view;
