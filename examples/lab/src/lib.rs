@@ -3,3 +3,4 @@
 //! Not published. It renders real geometry with the library's nodes, and judges what they give.
 
 pub mod gpu;
+pub mod validate_command;
