@@ -7,7 +7,7 @@ use std::process::ExitCode;
 
 use moment_shadows::{
     Backend, Diagnostic, LONGEST_CHAIN, LONGEST_SHADER, LinkError, Outcome, Profile, Source,
-    ValidateError, ValidationReport, validate, validate_module,
+    TextureFormat, ValidateError, ValidationReport, validate, validate_module,
 };
 use moment_shadows_lab::validate_command::{CheckError, check_file, run};
 
@@ -233,6 +233,21 @@ fn storage_formats_follow_the_profile() {
         }
     }
     assert!(failures.is_empty(), "\n{}", failures.join("\n"));
+}
+
+#[test]
+fn the_table_of_formats_says_the_same() {
+    let colour = TextureFormat::ALL
+        .into_iter()
+        .filter(|format| !format.is_depth());
+    for format in colour {
+        // `native-adapter` adds what one adapter can do, which no table knows.
+        for profile in [Profile::WebgpuCore, Profile::Native] {
+            let valid = validate_user(&storing(format.name(), "write"), profile).is_ok();
+            let expected = format.support(profile).storage_write;
+            assert_eq!(valid, expected, "{format} under {profile}");
+        }
+    }
 }
 
 #[test]
