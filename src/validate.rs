@@ -119,8 +119,10 @@ fn compile(
 fn check(
     module: &naga::Module,
     capabilities: Capabilities,
-) -> Result<ModuleInfo, naga::WithSpan<naga::valid::ValidationError>> {
-    Validator::new(ValidationFlags::all(), capabilities).validate(module)
+) -> Result<ModuleInfo, Box<naga::WithSpan<naga::valid::ValidationError>>> {
+    Validator::new(ValidationFlags::all(), capabilities)
+        .validate(module)
+        .map_err(Box::new)
 }
 
 /// What naga may accept under `profile`. The three of the core are no optional features: sample shading, cube array
