@@ -1,4 +1,29 @@
 //! Filterable shadow maps for any wgpu or WebGPU renderer.
+//!
+//! The product is WGSL: [`modules()`] that hold functions, structs and constants only, no bindings and no entry points.
+//! A shader names what it uses, and [`link()`] makes one plain WGSL text of it:
+//!
+//! ```
+//! use moment_shadows::{Source, link};
+//!
+//! let shader = Source {
+//!     name: "lit.wgsl",
+//!     text: "
+//! import moment_shadows::hamburger::{hamburger_shadow_intensity};
+//! import moment_shadows::moments::{MOMENTS_BIAS_FLOAT16};
+//!
+//! fn shadow(moments: vec4f, fragment_depth: f32) -> f32 {
+//!     return hamburger_shadow_intensity(moments, fragment_depth, MOMENTS_BIAS_FLOAT16);
+//! }
+//! ",
+//! };
+//! let linked = link(shader, &[])?;
+//! assert!(linked.wgsl().contains("fn hankel_factor("));
+//! # Ok::<(), moment_shadows::LinkError>(())
+//! ```
+//!
+//! The import lines are WESL, so the same text works in hosts that read WESL. `validate()` (feature `validate`, on by
+//! default) checks a shader under a [`Profile`] and writes it for every backend; its errors point at the lines before linking.
 
 mod depth;
 mod file;
@@ -37,6 +62,6 @@ pub use storage::{MomentBias, Storage, UnsupportedStorage};
 pub use technique::Technique;
 #[cfg(feature = "validate")]
 pub use validate::{
-    Backend, Diagnostic, LONGEST_SHADER, Label, Outcome, ValidateError, ValidationReport, validate,
-    validate_module,
+    Backend, Diagnostic, LONGEST_CHAIN, LONGEST_SHADER, Label, Outcome, ValidateError,
+    ValidationReport, validate, validate_module,
 };

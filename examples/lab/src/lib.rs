@@ -10,4 +10,5 @@ pub mod picture;
 pub mod progress;
 pub mod scene;
 pub mod truth;
+pub mod validate_command;
 pub mod view;
