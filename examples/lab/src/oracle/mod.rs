@@ -1,0 +1,19 @@
+//! The truth about moments, by other routes than the shader's: exact rationals, roots with many digits, and known mixtures.
+//!
+//! The library evaluates the moment problem through orthogonal polynomials and Christoffel numbers in f32. Here the Hankel
+//! system is solved exactly, roots are taken with hundreds of bits and weights come from the Vandermonde system, so that the
+//! two have nothing in common but the theorem.
+
+mod exact;
+mod mixture;
+mod polynomial;
+mod rounding;
+mod sensitivity;
+#[cfg(test)]
+mod tests;
+
+pub use exact::{Extremal, OracleError, SupportPoint, hamburger, rational};
+pub use mixture::{Atom, Mixture};
+pub use polynomial::Real;
+pub use rounding::{Fma, bounds_in_f32};
+pub use sensitivity::{sensitivity, tolerance_unit};

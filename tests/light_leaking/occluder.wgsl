@@ -1,0 +1,42 @@
+import moment_shadows::hamburger::{hamburger_bounds, hamburger_shadow_intensity};
+import moment_shadows::moments::{MOMENTS_STORAGE_FLOAT16, MOMENTS_STORAGE_UNORM16, moments_apply_bias, moments_bias_of, moments_clamp, moments_from_depth, moments_from_texel, moments_to_texel};
+
+// One or two surfaces, encoded, rounded to a storage as a texture would hold them, decoded and evaluated.
+struct BatchInput {
+    near: f32,
+    far: f32,
+    far_weight: f32,
+    fragment_depth: f32,
+    storage: u32,
+    padding: u32,
+}
+
+struct BatchOutput {
+    biased: vec4f,
+    // Displayed intensity, and both bounds.
+    intensity: f32,
+    lower: f32,
+    upper: f32,
+    padding: f32,
+}
+
+fn stored(texel: vec4f, storage: u32) -> vec4f {
+    if storage == MOMENTS_STORAGE_UNORM16 {
+        return vec4f(unpack2x16unorm(pack2x16unorm(texel.xy)), unpack2x16unorm(pack2x16unorm(texel.zw)));
+    }
+    if storage == MOMENTS_STORAGE_FLOAT16 {
+        return vec4f(unpack2x16float(pack2x16float(texel.xy)), unpack2x16float(pack2x16float(texel.zw)));
+    }
+    return texel;
+}
+
+fn batch(input: BatchInput) -> BatchOutput {
+    let moments = mix(moments_from_depth(input.near), moments_from_depth(input.far), input.far_weight);
+    let texel = stored(moments_to_texel(moments, input.storage), input.storage);
+    let decoded = moments_from_texel(texel, input.storage);
+    let bias = moments_bias_of(input.storage);
+    let biased = moments_apply_bias(moments_clamp(decoded), bias);
+    let bounds = hamburger_bounds(biased, input.fragment_depth, bias.alpha);
+    let intensity = hamburger_shadow_intensity(decoded, input.fragment_depth, bias);
+    return BatchOutput(biased, intensity, bounds.x, bounds.y, 0.0);
+}
