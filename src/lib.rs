@@ -25,17 +25,12 @@
 //! The import lines are WESL, so the same text works in hosts that read WESL. `validate()` (feature `validate`, on by
 //! default) checks a shader under a [`Profile`] and writes it for every backend; its errors point at the lines before linking.
 
-<<<<<<< HEAD
 mod depth;
 mod file;
 mod format;
 mod import;
 mod kernel;
 mod leak_reduction;
-=======
-mod file;
-mod import;
->>>>>>> oracle
 mod link;
 mod link_error;
 mod linked;
@@ -70,22 +65,3 @@ pub use validate::{
     Backend, Diagnostic, LONGEST_CHAIN, LONGEST_SHADER, Label, Outcome, ValidateError,
     ValidationReport, validate, validate_module,
 };
-<<<<<<< HEAD
-=======
-
-mod depth;
-mod format;
-mod kernel;
-mod leak_reduction;
-mod receiver_bias;
-mod storage;
-mod technique;
-
-pub use depth::{DepthConversion, DepthError, DepthRange};
-pub use format::{FormatSupport, TextureFormat};
-pub use kernel::{Kernel, KernelError, LARGEST_RADIUS};
-pub use leak_reduction::{LeakReduction, LeakReductionError};
-pub use receiver_bias::{ReceiverBias, STANDARD_DEVIATIONS};
-pub use storage::{MomentBias, Storage, UnsupportedStorage};
-pub use technique::Technique;
->>>>>>> oracle
