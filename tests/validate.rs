@@ -9,7 +9,7 @@ use moment_shadows::{
     Backend, Diagnostic, LONGEST_CHAIN, LONGEST_SHADER, LinkError, Outcome, Profile, Source,
     TextureFormat, ValidateError, ValidationReport, validate, validate_module,
 };
-use moment_shadows_lab::validate_command::{CheckError, check_file, run};
+use moment_shadows_lab::command::validate::{CheckError, check_file, run};
 
 fn validate_user(text: &str, profile: Profile) -> Result<ValidationReport, ValidateError> {
     validate(
