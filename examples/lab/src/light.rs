@@ -1,70 +1,12 @@
 //! A light as the host sees it: matrices and depth conventions in f64, so that they can serve as truth.
 
+mod error;
+mod stored_depth;
+
 use glam::{DMat4, DVec2, DVec3, DVec4};
 
-/// Why no light could be made.
-#[derive(Clone, Debug, PartialEq, thiserror::Error)]
-#[non_exhaustive]
-pub enum LightError {
-    /// The direction is zero or not finite.
-    #[error(
-        "the light's direction {direction:?} cannot be normalised; give a finite, non-zero direction"
-    )]
-    Direction {
-        /// The direction that was given.
-        direction: [f64; 3],
-    },
-    /// The position of a spot light is not finite.
-    #[error("the light's position {position:?} is not finite")]
-    Position {
-        /// The position that was given.
-        position: [f64; 3],
-    },
-    /// There is nothing to fit a directional light to.
-    #[error("a directional light cannot be fitted: there are no casters; give at least one point")]
-    NoCasters,
-    /// A caster cannot be placed in the light's view.
-    #[error(
-        "a directional light cannot be fitted: caster point {index} is {point:?}, which is not finite"
-    )]
-    Caster {
-        /// Which of the points it is.
-        index: usize,
-        /// The point.
-        point: [f64; 3],
-    },
-    /// The map is too small for its margin.
-    #[error(
-        "a map of {}x{} texels has no room for a margin of {margin} texels on each side; choose a larger map or a smaller margin",
-        map[0], map[1]
-    )]
-    Margin {
-        /// The map's size in texels.
-        map: [u32; 2],
-        /// The margin in texels.
-        margin: f64,
-    },
-    /// The opening angle of a spot light cannot be projected.
-    #[error(
-        "the spot light's full angle of {angle} radians must lie between 0 and pi, both excluded"
-    )]
-    Angle {
-        /// The angle that was given, in radians.
-        angle: f64,
-    },
-    /// Near and far, or the range of moment depth, are not in order.
-    #[error(
-        "the light's {what} reaches from {near} to {far}; it must be finite, start above zero and end beyond its start"
-    )]
-    Interval {
-        /// `depth planes` or `moment range`.
-        what: &'static str,
-        /// Its start, a distance along the axis.
-        near: f64,
-        /// Its end, a distance along the axis.
-        far: f64,
-    },
-}
+pub use error::LightError;
+pub use stored_depth::StoredDepth;
 
 /// The two kinds of light that the host renders.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -73,124 +15,6 @@ pub enum LightKind {
     Directional,
     /// Rays from a point within a cone, perspective projection.
     Spot,
-}
-
-/// How a depth texture stores the distance along the light's axis. Stored depth is in `[0, 1]`.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub enum StoredDepth {
-    /// Linear in distance: 0 at `near` and 1 at `far`, the other way round if `reversed`.
-    Orthographic {
-        /// Distance along the axis of the near plane.
-        near: f64,
-        /// Distance along the axis of the far plane.
-        far: f64,
-        /// Whether the near plane is stored as 1.
-        reversed: bool,
-    },
-    /// Hyperbolic in distance: 0 at `near` and 1 at `far`, the other way round if `reversed`.
-    Perspective {
-        /// Distance along the axis of the near plane.
-        near: f64,
-        /// Distance along the axis of the far plane; `None` for an infinite one.
-        far: Option<f64>,
-        /// Whether the near plane is stored as 1.
-        reversed: bool,
-    },
-}
-
-impl StoredDepth {
-    /// Whether the near plane is stored as 1.
-    pub fn reversed(&self) -> bool {
-        match *self {
-            Self::Orthographic { reversed, .. } | Self::Perspective { reversed, .. } => reversed,
-        }
-    }
-
-    /// The stored depth of the far plane: what a map is cleared to.
-    pub fn cleared(&self) -> f64 {
-        if self.reversed() { 0.0 } else { 1.0 }
-    }
-
-    /// The distance along the axis that `stored` in `[0, 1]` stands for; infinite at an infinite far plane.
-    pub fn distance(&self, stored: f64) -> f64 {
-        match *self {
-            Self::Orthographic {
-                near,
-                far,
-                reversed,
-            } => {
-                let fraction = if reversed { 1.0 - stored } else { stored };
-                near + fraction * (far - near)
-            }
-            // Each form subtracts only where the texture itself has lost the digits.
-            Self::Perspective {
-                near,
-                far: Some(far),
-                reversed: false,
-            } => near * far / (far - stored * (far - near)),
-            Self::Perspective {
-                near,
-                far: Some(far),
-                reversed: true,
-            } => near * far / (near + stored * (far - near)),
-            Self::Perspective {
-                near,
-                far: None,
-                reversed: false,
-            } => near / (1.0 - stored),
-            Self::Perspective {
-                near,
-                far: None,
-                reversed: true,
-            } => near / stored,
-        }
-    }
-
-    /// Rows z and w of the clip matrix as applied to (x, y, z, 1) in view space: `(z·z, z·1, w·z, w·1)`.
-    fn clip_terms(&self) -> [f64; 4] {
-        // With d = -z the forward forms are (d - near) / (far - near) and (far (d - near)) / (far - near) / d.
-        match *self {
-            Self::Orthographic {
-                near,
-                far,
-                reversed,
-            } => {
-                let scale = 1.0 / (far - near);
-                if reversed {
-                    [scale, far * scale, 0.0, 1.0]
-                } else {
-                    [-scale, -near * scale, 0.0, 1.0]
-                }
-            }
-            Self::Perspective {
-                near,
-                far,
-                reversed,
-            } => match (far, reversed) {
-                (Some(far), false) => {
-                    let scale = far / (far - near);
-                    [-scale, -near * scale, -1.0, 0.0]
-                }
-                (Some(far), true) => {
-                    let scale = near / (far - near);
-                    [scale, far * scale, -1.0, 0.0]
-                }
-                (None, false) => [-1.0, -near, -1.0, 0.0],
-                (None, true) => [0.0, near, -1.0, 0.0],
-            },
-        }
-    }
-
-    /// The projection from view space (right-handed, looking along -z) to clip space, for given scales of x and y.
-    pub fn clip_from_view(&self, scale: DVec2) -> DMat4 {
-        let [z_z, z_1, w_z, w_1] = self.clip_terms();
-        DMat4::from_cols(
-            DVec4::new(scale.x, 0.0, 0.0, 0.0),
-            DVec4::new(0.0, scale.y, 0.0, 0.0),
-            DVec4::new(0.0, 0.0, z_z, w_z),
-            DVec4::new(0.0, 0.0, z_1, w_1),
-        )
-    }
 }
 
 /// What a directional light is fitted to besides its casters.
@@ -269,14 +93,16 @@ impl LightView {
         if let Some(height) = fit.ground {
             // Row y of the inverse rotation, world_y = a·inside, is solved for z at the four corners of the footprint.
             let world_y = rotation.transform_vector3(DVec3::Y);
-            let limit = farthest - GROUND_REACH * diameter.max(smallest);
+            let reach = GROUND_REACH * diameter.max(smallest);
+            let [first, last] = [nearest + reach, farthest - reach];
             for corner in [[-1.0, -1.0], [1.0, -1.0], [-1.0, 1.0], [1.0, 1.0]] {
                 let at = DVec2::new(centre.x, centre.y) + half_map * DVec2::from_array(corner);
                 let z = (height - world_y.x * at.x - world_y.y * at.y) / world_y.z;
                 // A light from below or along the ground meets it behind the casters or nowhere.
                 if world_y.z > 0.0 && z.is_finite() {
-                    farthest = farthest.min(z.max(limit));
-                    nearest = nearest.max(z.min(centre.z + half.z + smallest));
+                    farthest = farthest.min(z.max(last));
+                    // In the margin the ground may lie before the first caster.
+                    nearest = nearest.max(z.min(first));
                 }
             }
         }

@@ -59,7 +59,7 @@ impl Lighting {
             ],
             light: column(direction, point),
             cone: column(axis, cosine as f32),
-            colour: [2.7, 2.45, 2.1, 0.0],
+            colour: [2.4, 2.2, 1.9, 0.0],
             sky: [0.34, 0.38, 0.46, 0.0],
             ground: [0.22, 0.205, 0.19, 0.0],
             horizon: [0.85, 0.87, 0.9, (7.0 * scene.bounds().radius()) as f32],

@@ -11,7 +11,7 @@ pub enum SceneError {
     Unknown {
         /// What was asked for.
         name: String,
-        /// The names that exist, the nearest first.
+        /// The names that exist.
         advice: String,
     },
     /// The file could not be read.

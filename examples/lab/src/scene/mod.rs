@@ -8,6 +8,7 @@ mod ground;
 mod hall;
 mod material;
 mod mesh;
+mod primitive;
 mod resource;
 mod shapes;
 
