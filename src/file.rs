@@ -107,7 +107,7 @@ fn directives(code: &[Token<'_>]) -> Vec<Range<usize>> {
 }
 
 /// The names after `fn`, `struct`, `alias`, `const`, `override` and `var` outside every bracket.
-fn definitions<'a>(code: &[Token<'a>]) -> Vec<Token<'a>> {
+pub(crate) fn definitions<'a>(code: &[Token<'a>]) -> Vec<Token<'a>> {
     let mut found = Vec::new();
     let mut depth = 0_usize;
     let mut tokens = code.iter().peekable();

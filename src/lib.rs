@@ -1,7 +1,36 @@
 //! Filterable shadow maps for any wgpu or WebGPU renderer.
+//!
+//! The product is WGSL: [`modules()`] that hold functions, structs and constants only, no bindings and no entry points.
+//! A shader names what it uses, and [`link()`] makes one plain WGSL text of it:
+//!
+//! ```
+//! use moment_shadows::{Source, link};
+//!
+//! let shader = Source {
+//!     name: "lit.wgsl",
+//!     text: "
+//! import moment_shadows::hamburger::{hamburger_shadow_intensity};
+//! import moment_shadows::moments::{MOMENTS_BIAS_FLOAT16};
+//!
+//! fn shadow(moments: vec4f, fragment_depth: f32) -> f32 {
+//!     return hamburger_shadow_intensity(moments, fragment_depth, MOMENTS_BIAS_FLOAT16);
+//! }
+//! ",
+//! };
+//! let linked = link(shader, &[])?;
+//! assert!(linked.wgsl().contains("fn hankel_factor("));
+//! # Ok::<(), moment_shadows::LinkError>(())
+//! ```
+//!
+//! The import lines are WESL, so the same text works in hosts that read WESL. `validate()` (feature `validate`, on by
+//! default) checks a shader under a [`Profile`] and writes it for every backend; its errors point at the lines before linking.
 
+mod depth;
 mod file;
+mod format;
 mod import;
+mod kernel;
+mod leak_reduction;
 mod link;
 mod link_error;
 mod linked;
@@ -9,35 +38,30 @@ mod location;
 mod module;
 mod nearest;
 mod profile;
+mod receiver_bias;
+mod storage;
+mod technique;
 mod token;
 #[cfg(feature = "validate")]
 mod validate;
 
+pub use depth::{DepthConversion, DepthError, DepthRange};
+pub use format::{FormatSupport, TextureFormat};
 pub use import::imports_super;
+pub use kernel::{Kernel, KernelError, LARGEST_RADIUS};
+pub use leak_reduction::{LeakReduction, LeakReductionError};
 pub use link::{Source, link, link_module};
 pub use link_error::LinkError;
 pub use linked::{Linked, Origin};
 pub use location::Location;
 pub use module::{Module, modules};
+pub use nearest::nearest;
 pub use profile::Profile;
-#[cfg(feature = "validate")]
-pub use validate::{
-    Backend, Diagnostic, LONGEST_SHADER, Label, Outcome, ValidateError, ValidationReport, validate,
-    validate_module,
-};
-
-mod depth;
-mod format;
-mod kernel;
-mod leak_reduction;
-mod receiver_bias;
-mod storage;
-mod technique;
-
-pub use depth::{DepthConversion, DepthError, DepthRange};
-pub use format::{FormatSupport, TextureFormat};
-pub use kernel::{Kernel, KernelError, LARGEST_RADIUS};
-pub use leak_reduction::{LeakReduction, LeakReductionError};
 pub use receiver_bias::{ReceiverBias, STANDARD_DEVIATIONS};
 pub use storage::{MomentBias, Storage, UnsupportedStorage};
 pub use technique::Technique;
+#[cfg(feature = "validate")]
+pub use validate::{
+    Backend, Diagnostic, LONGEST_CHAIN, LONGEST_SHADER, Label, Outcome, ValidateError,
+    ValidationReport, validate, validate_module,
+};

@@ -19,6 +19,7 @@ macro_rules! modules {
 #[must_use]
 pub fn modules() -> &'static [Module] {
     const MODULES: &[Module] = modules![
+        "bilinear",
         "depth",
         "gaussian",
         "hamburger",

@@ -1,7 +1,8 @@
 //! The names most like a misspelt one, for the next step in an error.
 
 /// Up to three of `candidates`, those with the fewest edits from `name` first, quoted and joined by commas.
-pub(crate) fn nearest<'a>(name: &str, candidates: impl IntoIterator<Item = &'a str>) -> String {
+#[must_use]
+pub fn nearest<'a>(name: &str, candidates: impl IntoIterator<Item = &'a str>) -> String {
     let mut ranked: Vec<_> = candidates
         .into_iter()
         .map(|candidate| (edits(name, candidate), candidate))

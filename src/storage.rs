@@ -113,13 +113,13 @@ impl Storage {
         }
     }
 
-    /// The name of the WGSL constant of module `moments` that stands for this storage.
+    /// The number by which the WGSL module `moments` knows this storage (`MOMENTS_STORAGE_UNORM16` and so on).
     #[must_use]
-    pub fn wgsl_constant(self) -> &'static str {
+    pub fn wgsl_index(self) -> u32 {
         match self {
-            Storage::Unorm16 => "MOMENTS_STORAGE_UNORM16",
-            Storage::Float16 => "MOMENTS_STORAGE_FLOAT16",
-            Storage::Float32 => "MOMENTS_STORAGE_FLOAT32",
+            Storage::Unorm16 => 0,
+            Storage::Float16 => 1,
+            Storage::Float32 => 2,
         }
     }
 

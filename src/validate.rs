@@ -4,6 +4,7 @@ mod backend;
 mod diagnostic;
 mod error;
 mod exercise;
+mod limits;
 mod storage_format;
 
 use naga::valid::{Capabilities, ModuleInfo, ValidationFlags, Validator};
@@ -11,11 +12,9 @@ use naga::valid::{Capabilities, ModuleInfo, ValidationFlags, Validator};
 pub use backend::{Backend, Outcome};
 pub use diagnostic::{Diagnostic, Label};
 pub use error::ValidateError;
+pub use limits::{LONGEST_CHAIN, LONGEST_SHADER};
 
 use crate::{Linked, Profile, Source, link, link_module};
-
-/// The longest text that is validated, in bytes, after linking. Nothing that a GPU should run comes near.
-pub const LONGEST_SHADER: usize = 4 << 20;
 
 /// What each backend makes of a valid shader.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -50,6 +49,9 @@ impl ValidationReport {
 /// texture formats and accesses that every device has; `native` the 16-bit normalised ones as well; `native-adapter` every
 /// format that naga knows.
 ///
+/// The WGSL compiler runs on a thread of its own with a large stack; [`LONGEST_SHADER`] and [`LONGEST_CHAIN`] bound what it
+/// is given.
+///
 /// # Errors
 /// [`ValidateError`], which points at the line of the file before linking.
 pub fn validate(
@@ -57,9 +59,8 @@ pub fn validate(
     generated: &[Source<'_>],
     profile: Profile,
 ) -> Result<ValidationReport, ValidateError> {
-    refuse_too_long(source.name, source.text)?;
-    for source in generated {
-        refuse_too_long(source.name, source.text)?;
+    for source in core::iter::once(&source).chain(generated) {
+        limits::refuse_too_long(source.name, source.text)?;
     }
     validate_linked(source.name, &link(source, generated)?, profile)
 }
@@ -72,18 +73,8 @@ pub fn validate_module(
     source: Source<'_>,
     profile: Profile,
 ) -> Result<ValidationReport, ValidateError> {
-    refuse_too_long(source.name, source.text)?;
+    limits::refuse_too_long(source.name, source.text)?;
     validate_linked(source.name, &link_module(source)?, profile)
-}
-
-fn refuse_too_long(file: &str, text: &str) -> Result<(), ValidateError> {
-    if text.len() > LONGEST_SHADER {
-        return Err(ValidateError::TooLong {
-            file: file.to_owned(),
-            bytes: text.len(),
-        });
-    }
-    Ok(())
 }
 
 fn validate_linked(
@@ -91,7 +82,20 @@ fn validate_linked(
     linked: &Linked,
     profile: Profile,
 ) -> Result<ValidationReport, ValidateError> {
-    refuse_too_long(file, linked.wgsl())?;
+    limits::refuse_too_long(file, linked.wgsl())?;
+    limits::refuse_long_chains(linked)?;
+    limits::on_large_stack(|| compile(file, linked, profile)).unwrap_or_else(|| {
+        Err(ValidateError::Compiler {
+            file: file.to_owned(),
+        })
+    })
+}
+
+fn compile(
+    file: &str,
+    linked: &Linked,
+    profile: Profile,
+) -> Result<ValidationReport, ValidateError> {
     let capabilities = capabilities(profile);
     let mut options = naga::front::wgsl::Options::new();
     options.capabilities = capabilities;
@@ -100,7 +104,9 @@ fn validate_linked(
         .map_err(|error| ValidateError::Parse(Diagnostic::of_parse_error(file, linked, &error)))?;
     storage_format::check(file, &module, linked, profile)?;
     let info = check(&module, capabilities).map_err(|error| {
-        ValidateError::Invalid(Diagnostic::of_validation_error(file, linked, &error))
+        ValidateError::Invalid(Diagnostic::of_validation_error(
+            file, linked, &module, &error,
+        ))
     })?;
     let shader = if module.entry_points.is_empty() {
         exercise::exercise(&module, info, capabilities)
@@ -113,8 +119,10 @@ fn validate_linked(
 fn check(
     module: &naga::Module,
     capabilities: Capabilities,
-) -> Result<ModuleInfo, naga::WithSpan<naga::valid::ValidationError>> {
-    Validator::new(ValidationFlags::all(), capabilities).validate(module)
+) -> Result<ModuleInfo, Box<naga::WithSpan<naga::valid::ValidationError>>> {
+    Validator::new(ValidationFlags::all(), capabilities)
+        .validate(module)
+        .map_err(Box::new)
 }
 
 /// What naga may accept under `profile`. The three of the core are no optional features: sample shading, cube array

@@ -1,1 +1,38 @@
-//! Declarative render-graph nodes for filterable shadows.
+//! Declarative render-graph nodes for filterable shadows, their graph file and compiler, and a wgpu recorder.
+//!
+//! ```text
+//! Graph::parse ─▶ compile ─▶ Plan ─▶ record::Pipelines ─▶ record::Resources ─▶ record::Bindings ─▶ record
+//!   (a file)      (checks)   (data)   (once per shader)     (once per size)     (once per import)   (every frame)
+//! ```
+//!
+//! A node describes itself as plain data ([`NodeDesc`]); the compiler checks a graph of nodes against the host's imports
+//! and the device's [`Capabilities`] and gives a [`Plan`], which any engine can record. The `record` module (feature
+//! `wgpu`) records it with wgpu.
+
+mod capabilities;
+mod compile;
+mod error;
+mod graph;
+mod node;
+pub mod nodes;
+mod plan;
+#[cfg(feature = "wgpu")]
+pub mod record;
+mod registry;
+mod resource;
+
+pub use capabilities::Capabilities;
+pub use compile::{Imports, compile};
+pub use error::{GraphError, GraphErrorKind, Position};
+pub use graph::{Edge, Endpoint, Graph, GraphNode, Import, Output, VERSION};
+pub use node::{
+    Binding, BindingResource, Connected, CountRule, Direction, ExtentRule, FormatRule, Lifetime,
+    Node, NodeDesc, ParameterBlock, Pass, Slot, SlotResource, Stage, Work,
+};
+pub use plan::{
+    Home, ParameterError, ParameterLayout, Plan, PlannedBinding, PlannedBindingResource,
+    PlannedImport, PlannedMemory, PlannedOutput, PlannedParameters, PlannedPass, PlannedResource,
+    PlannedWork, SampleType,
+};
+pub use registry::NodeRegistry;
+pub use resource::{Access, ResourceDesc, TextureDesc};

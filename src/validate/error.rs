@@ -1,7 +1,7 @@
 //! Why a shader is not valid under a profile.
 
-use super::{Backend, Diagnostic, LONGEST_SHADER};
-use crate::LinkError;
+use super::{Backend, Diagnostic, LONGEST_CHAIN, LONGEST_SHADER};
+use crate::{LinkError, Location};
 
 /// A shader that is not valid under a profile, or that a backend fails to write.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
@@ -17,6 +17,14 @@ pub enum ValidateError {
         /// Its length, or that of the linked text.
         bytes: usize,
     },
+    /// The text has a chain longer than [`LONGEST_CHAIN`].
+    #[error("more than {LONGEST_CHAIN} {what}; split the shader\n{at}")]
+    TooDeep {
+        /// What there is too much of.
+        what: &'static str,
+        /// Where it becomes too much.
+        at: Box<Location>,
+    },
     /// The imports are wrong.
     #[error(transparent)]
     Link(#[from] LinkError),
@@ -29,6 +37,14 @@ pub enum ValidateError {
     /// A storage texture has a format or access that the profile does not have.
     #[error("{0}")]
     StorageFormat(Diagnostic),
+    /// The WGSL compiler panicked, or no thread could be started for it.
+    #[error(
+        "the WGSL compiler stopped without a result; cut the shader down to what makes it stop, and report it to naga\n --> {file}"
+    )]
+    Compiler {
+        /// The file's name.
+        file: String,
+    },
     /// A valid shader that a backend cannot write although it has to.
     #[error("{backend} cannot be written: {message}\n --> {file}")]
     Backend {

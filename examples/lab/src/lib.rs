@@ -3,6 +3,20 @@
 //! Not published. It renders real geometry with the library's nodes, and judges what they give.
 
 pub mod batch;
+pub mod command;
+pub mod error;
+pub mod frame;
 pub mod gpu;
+pub mod graph_file;
+pub mod graph_frame;
+pub mod host;
+pub mod judgement;
+pub mod light;
+pub mod metric;
 pub mod oracle;
+pub mod picture;
+pub mod progress;
+pub mod scene;
+pub mod truth;
 pub mod vectors;
+pub mod view;

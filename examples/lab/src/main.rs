@@ -1,3 +1,224 @@
 //! The `moment-shadows` command.
 
-fn main() {}
+use std::path::PathBuf;
+use std::process::ExitCode;
+
+use clap::{Parser, Subcommand, ValueEnum};
+use moment_shadows::{Profile, Storage};
+use moment_shadows_lab::command::render::{LightChoice, RenderOptions};
+use moment_shadows_lab::command::{graph, measure, render, validate};
+use moment_shadows_lab::vectors;
+
+/// Filterable shadows: validate shaders, check graphs, render, and measure.
+#[derive(Parser)]
+#[command(name = "moment-shadows", version, about)]
+struct Cli {
+    #[command(subcommand)]
+    command: Command,
+}
+
+#[derive(Subcommand)]
+enum Command {
+    /// Renders a scene with the shadows of a graph.
+    Render {
+        #[command(flatten)]
+        frame: FrameArguments,
+        /// A glTF or GLB file, or a procedural scene: fence-and-foliage, hall.
+        #[arg(long, default_value = "fence-and-foliage")]
+        scene: String,
+        /// The graph file.
+        #[arg(long)]
+        graph: PathBuf,
+        /// The picture to write.
+        #[arg(long)]
+        out: PathBuf,
+        /// Also writes the brute-force picture and the difference, and prints the error.
+        #[arg(long)]
+        truth: bool,
+    },
+    /// Validates shaders, linked with the modules they import, for every backend.
+    Validate {
+        /// WGSL files.
+        #[arg(required = true)]
+        files: Vec<PathBuf>,
+        /// What the shaders may rely on.
+        #[arg(long, value_enum)]
+        profile: Option<ProfileArgument>,
+    },
+    /// Checks and prints a graph file.
+    Graph {
+        /// The graph file.
+        file: PathBuf,
+        /// Also prints the compiled plan.
+        #[arg(long)]
+        plan: bool,
+        /// Prints the plan as JSON.
+        #[arg(long, requires = "plan")]
+        json: bool,
+        /// What the plan may rely on.
+        #[arg(long, value_enum, default_value = "native")]
+        profile: ProfileArgument,
+    },
+    /// Runs the shader on vectors with known bounds.
+    Vectors {
+        /// A file in the format of tests/vectors/moment_problem.json.
+        file: PathBuf,
+    },
+    /// Prints the error of every storage on several scenes, beside that of the exact bound.
+    Measure {
+        #[command(flatten)]
+        frame: FrameArguments,
+        /// glTF or GLB files, or procedural scenes.
+        #[arg(long, num_args = 1.., default_values = ["fence-and-foliage", "hall"])]
+        scene: Vec<String>,
+        /// The graph file.
+        #[arg(long)]
+        graph: PathBuf,
+    },
+}
+
+#[derive(clap::Args)]
+struct FrameArguments {
+    /// One of the numbered viewpoints and light directions.
+    #[arg(long, default_value_t = 0)]
+    view: u32,
+    /// The light.
+    #[arg(long, value_enum, default_value = "sun")]
+    light: LightArgument,
+    /// Stores the light's depth reversed.
+    #[arg(long)]
+    reversed: bool,
+    /// Width of the picture; the height follows at 16 to 9.
+    #[arg(long, default_value_t = 1280, value_parser = clap::value_parser!(u32).range(16..=8192))]
+    width: u32,
+    /// Texels per side of the light's map.
+    #[arg(long, default_value_t = 1024, value_parser = clap::value_parser!(u32).range(16..=8192))]
+    map: u32,
+    /// Samples per texel of the light's map: 1 and 4 everywhere, 2 and 8 where the device can.
+    #[arg(long, default_value_t = 4)]
+    samples: u32,
+    /// A storage in place of the graph's own.
+    #[arg(long, value_enum)]
+    storage: Option<StorageArgument>,
+}
+
+#[derive(Clone, Copy, ValueEnum)]
+enum ProfileArgument {
+    WebgpuCore,
+    Native,
+    NativeAdapter,
+}
+
+#[derive(Clone, Copy, ValueEnum)]
+enum LightArgument {
+    Sun,
+    Spot,
+}
+
+#[derive(Clone, Copy, ValueEnum)]
+enum StorageArgument {
+    Unorm16,
+    Float16,
+    Float32,
+}
+
+impl From<ProfileArgument> for Profile {
+    fn from(argument: ProfileArgument) -> Self {
+        match argument {
+            ProfileArgument::WebgpuCore => Profile::WebgpuCore,
+            ProfileArgument::Native => Profile::Native,
+            ProfileArgument::NativeAdapter => Profile::NativeAdapter,
+        }
+    }
+}
+
+impl FrameArguments {
+    fn options(&self, scene: String) -> RenderOptions {
+        RenderOptions {
+            scene,
+            view: self.view,
+            light: match self.light {
+                LightArgument::Sun => LightChoice::Sun,
+                LightArgument::Spot => LightChoice::Spot,
+            },
+            reversed: self.reversed,
+            size: [self.width, (self.width * 9 / 16).max(1)],
+            map: self.map,
+            samples: self.samples,
+            storage: self.storage.map(|storage| match storage {
+                StorageArgument::Unorm16 => Storage::Unorm16,
+                StorageArgument::Float16 => Storage::Float16,
+                StorageArgument::Float32 => Storage::Float32,
+            }),
+        }
+    }
+}
+
+fn main() -> ExitCode {
+    match run(Cli::parse().command) {
+        Ok(code) => code,
+        Err(error) => {
+            eprintln!("error: {error}");
+            ExitCode::FAILURE
+        }
+    }
+}
+
+fn run(command: Command) -> Result<ExitCode, Box<dyn std::error::Error>> {
+    match command {
+        Command::Render {
+            frame,
+            scene,
+            graph,
+            out,
+            truth,
+        } => {
+            if let Some((judgement, truth)) =
+                render::run(&frame.options(scene), &graph, &out, truth)?
+            {
+                println!("{}", judgement.error);
+                println!("exact bound on the same depths\n{}", truth.bound_error);
+                println!("excess over the exact bound: {}", judgement.excess);
+                println!(
+                    "mean absolute error {:.6}",
+                    judgement.error.facing.mean_absolute
+                );
+            }
+        }
+        Command::Validate { files, profile } => {
+            return Ok(validate::run(&files, profile.map(Profile::from)));
+        }
+        Command::Graph {
+            file,
+            plan,
+            json,
+            profile,
+        } => {
+            let (file, compiled) = graph::check(&file, profile.into())?;
+            if json {
+                println!("{}", serde_json::to_string_pretty(&compiled)?);
+            } else {
+                println!("{}", graph::summary(&file));
+                if plan {
+                    println!("\n{compiled}");
+                }
+            }
+        }
+        Command::Vectors { file } => {
+            let report = vectors::run(&file)?;
+            println!("{report}");
+            if !report.passed() {
+                return Ok(ExitCode::FAILURE);
+            }
+        }
+        Command::Measure {
+            frame,
+            scene,
+            graph,
+        } => {
+            let rows = measure::run(&scene, &graph, &frame.options(String::new()))?;
+            print!("{}", measure::table(&rows));
+        }
+    }
+    Ok(ExitCode::SUCCESS)
+}

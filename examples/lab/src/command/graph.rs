@@ -1,0 +1,51 @@
+//! `moment-shadows graph`: checks and prints a graph file and its plan.
+
+use std::path::Path;
+
+use moment_shadows::Profile;
+use moment_shadows_graph::{Capabilities, Imports, Plan, compile};
+
+use crate::error::LabError;
+use crate::graph_file::GraphFile;
+
+/// Compiles a graph file for a profile, with its imports as the file expects them, without a device.
+pub fn check(path: &Path, profile: Profile) -> Result<(GraphFile, Plan), LabError> {
+    let file = GraphFile::read(path, None)?;
+    let plan = compile(
+        &file.graph,
+        &Capabilities::of_profile(profile),
+        &Imports::new(),
+    )
+    .map_err(|error| LabError::Graph {
+        file: file.name.clone(),
+        error,
+    })?;
+    Ok((file, plan))
+}
+
+/// The graph as text: imports, nodes, edges and outputs.
+pub fn summary(file: &GraphFile) -> String {
+    let graph = &file.graph;
+    let mut lines = Vec::new();
+    for import in &graph.imports {
+        let expected = import
+            .expected
+            .as_ref()
+            .map_or("anything".to_owned(), ToString::to_string);
+        lines.push(format!("import  {:<24} {expected}", import.name));
+    }
+    for node in &graph.nodes {
+        lines.push(format!("node    {:<24} {:?}", node.name, node.node));
+    }
+    for edge in &graph.edges {
+        lines.push(format!(
+            "edge    {:<24} -> {}",
+            edge.from.to_string(),
+            edge.to
+        ));
+    }
+    for output in &graph.outputs {
+        lines.push(format!("output  {:<24} <- {}", output.name, output.from));
+    }
+    lines.join("\n")
+}

@@ -1,0 +1,98 @@
+//! `moment-shadows measure`: errors of every storage on several scenes, beside the exact bound.
+
+use std::fmt::Write;
+use std::path::Path;
+
+use moment_shadows::Storage;
+
+use super::render::{RenderOptions, profile_for};
+use crate::error::LabError;
+use crate::gpu::Gpu;
+use crate::graph_file::GraphFile;
+use crate::graph_frame::GraphFrame;
+use crate::judgement::{Judgement, Truth};
+use crate::progress;
+use crate::scene;
+
+/// Figures of one scene and storage.
+pub struct Row {
+    /// The scene's name.
+    pub scene: String,
+    /// The storage.
+    pub storage: Storage,
+    /// The figures.
+    pub judgement: Judgement,
+    /// The exact bound's own mean error over facing pixels.
+    pub bound_error: f64,
+}
+
+/// Renders every scene with every storage, in single precision, and compares each with the truth.
+pub fn run(scenes: &[String], graph: &Path, options: &RenderOptions) -> Result<Vec<Row>, LabError> {
+    let bar = progress::bar((scenes.len() * Storage::ALL.len()) as u64, "measuring");
+    let mut rows = Vec::new();
+    for name in scenes {
+        let scene = scene::load(name)?;
+        let mut truth = None;
+        for storage in Storage::ALL {
+            let file = GraphFile::read(graph, Some(storage))?.in_single_precision()?;
+            let gpu = Gpu::open(profile_for(Some(storage), options.samples))?;
+            let margin = file.kernel()?.map_or(0, |kernel| kernel.radius());
+            let frame = options.frame(&gpu, &scene, margin)?;
+            let graph_frame = GraphFrame::new(&gpu, &frame, &file)?;
+            graph_frame.run(&gpu)?;
+            let shadow = graph_frame.read_shadow(&gpu, &file)?;
+            let truth = match &truth {
+                Some(truth) => truth,
+                None => &*truth.insert(Truth::of(&gpu, &frame, &file)?),
+            };
+            rows.push(Row {
+                scene: scene.name.clone(),
+                storage,
+                judgement: truth.judge(&shadow)?,
+                bound_error: truth.bound_error.facing.mean_absolute,
+            });
+            bar.inc(1);
+        }
+    }
+    bar.finish_and_clear();
+    Ok(rows)
+}
+
+/// The rows as a table.
+pub fn table(rows: &[Row]) -> String {
+    let mut text = format!(
+        "{:<20} {:<8} {:>9} {:>9} {:>9} {:>9} {:>9} {:>9} {:>9} {:>5}\n",
+        "scene",
+        "storage",
+        "facing",
+        "penumbra",
+        "leaking",
+        "too dark",
+        "bound",
+        "excess",
+        "leak exc.",
+        "NaN"
+    );
+    for row in rows {
+        let error = &row.judgement.error;
+        let percent = |ratio: Option<f64>| {
+            ratio.map_or("-".to_owned(), |ratio| format!("{:+.1} %", 100.0 * ratio))
+        };
+        // Writing to a string cannot fail.
+        let _ = writeln!(
+            text,
+            "{:<20} {:<8} {:>9.5} {:>9.5} {:>9.5} {:>9.5} {:>9.5} {:>9} {:>9} {:>5}",
+            row.scene,
+            row.storage.name(),
+            error.facing.mean_absolute,
+            error.penumbra.mean_absolute,
+            error.facing.leaking,
+            error.facing.overdarkening,
+            row.bound_error,
+            percent(row.judgement.excess.error),
+            percent(row.judgement.excess.leaking),
+            error.nan_pixels
+        );
+    }
+    text
+}

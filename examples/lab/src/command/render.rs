@@ -1,0 +1,160 @@
+//! `moment-shadows render`: a scene with the shadows of a graph, as a picture.
+
+use std::path::{Path, PathBuf};
+
+use moment_shadows::{Profile, Storage};
+
+use crate::error::LabError;
+use crate::frame::{Frame, FrameDesc};
+use crate::gpu::Gpu;
+use crate::graph_file::GraphFile;
+use crate::graph_frame::GraphFrame;
+use crate::judgement::{Judgement, Truth};
+use crate::picture::{grey, save_grey, save_rgba, signed_difference};
+use crate::progress;
+use crate::scene::{self, Scene};
+use crate::view::View;
+
+/// The light of a rendering.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum LightChoice {
+    /// A sun, fitted to the casters.
+    Sun,
+    /// A spot light from the same side.
+    Spot,
+}
+
+/// What to render.
+#[derive(Clone, Debug)]
+pub struct RenderOptions {
+    /// A glTF file or the name of a procedural scene.
+    pub scene: String,
+    /// The numbered viewpoint.
+    pub view: u32,
+    /// The light.
+    pub light: LightChoice,
+    /// Whether the light's depth is stored reversed.
+    pub reversed: bool,
+    /// Width and height of the picture.
+    pub size: [u32; 2],
+    /// Width and height of the light's map.
+    pub map: u32,
+    /// Samples per texel of the light's map.
+    pub samples: u32,
+    /// A storage in place of the graph's own.
+    pub storage: Option<Storage>,
+}
+
+impl Default for RenderOptions {
+    fn default() -> Self {
+        Self {
+            scene: scene::PROCEDURAL[0].to_owned(),
+            view: 0,
+            light: LightChoice::Sun,
+            reversed: false,
+            size: [1280, 720],
+            map: 1024,
+            samples: 4,
+            storage: None,
+        }
+    }
+}
+
+/// The distance of a spot light's near plane, as a part of its distance to the scene.
+const SPOT_NEAR: f64 = 0.05;
+
+impl RenderOptions {
+    /// Draws the scene as the options say, for a graph whose kernel has a radius of `margin` texels.
+    pub fn frame(&self, gpu: &Gpu, scene: &Scene, margin: u32) -> Result<Frame, LabError> {
+        let view = View::numbered(scene, self.view);
+        let map = [self.map; 2];
+        // The kernel and the bilinear lookup find the far end beyond the outermost caster.
+        let light = match self.light {
+            LightChoice::Sun => view.sun(scene, map, f64::from(margin) + 2.0, self.reversed)?,
+            LightChoice::Spot => view.spot(scene, SPOT_NEAR, None, self.reversed)?,
+        };
+        let mut camera = view.camera;
+        camera.aspect = f64::from(self.size[0]) / f64::from(self.size[1].max(1));
+        Frame::draw(
+            gpu,
+            scene,
+            FrameDesc {
+                picture: self.size,
+                map,
+                samples: self.samples,
+                format: wgpu::TextureFormat::Depth32Float,
+                light,
+                camera,
+            },
+        )
+    }
+}
+
+/// The smallest profile under which a device can do what is asked.
+pub fn profile_for(storage: Option<Storage>, samples: u32) -> Profile {
+    match (storage, samples) {
+        (_, 2 | 8) => Profile::NativeAdapter,
+        (Some(storage), _) if storage.check(Profile::WebgpuCore).is_ok() => Profile::WebgpuCore,
+        _ => Profile::Native,
+    }
+}
+
+/// Renders to `out`. With `truth`, also writes the brute-force picture and the difference beside it, and gives the
+/// judgement.
+pub fn run(
+    options: &RenderOptions,
+    graph: &Path,
+    out: &Path,
+    truth: bool,
+) -> Result<Option<(Judgement, Truth)>, LabError> {
+    let file = GraphFile::read(graph, options.storage)?;
+    let bar = progress::bar(if truth { 5 } else { 4 }, "loading");
+    let scene = scene::load(&options.scene)?;
+    for warning in &scene.warnings {
+        eprintln!("warning: {}: {warning}", options.scene);
+    }
+    bar.inc(1);
+    bar.set_message("drawing");
+    let gpu = Gpu::open(profile_for(options.storage, options.samples))?;
+    let margin = file.kernel()?.map_or(0, |kernel| kernel.radius());
+    let frame = options.frame(&gpu, &scene, margin)?;
+    bar.inc(1);
+    bar.set_message("shadows");
+    let graph_frame = GraphFrame::new(&gpu, &frame, &file)?;
+    graph_frame.run(&gpu)?;
+    let picture = frame.picture(&gpu, graph_frame.shadow(&file)?)?;
+    bar.inc(1);
+    let [width, height] = options.size;
+    let judged = if truth {
+        bar.set_message("brute force");
+        let shadow = graph_frame.read_shadow(&gpu, &file)?;
+        let truth = Truth::of(&gpu, &frame, &file)?;
+        let judgement = truth.judge(&shadow)?;
+        let visibility: Vec<f32> = truth
+            .truth
+            .iter()
+            .map(|intensity| 1.0 - intensity)
+            .collect();
+        save_grey(&beside(out, "truth"), width, height, &grey(&visibility))?;
+        let estimate: Vec<f32> = shadow.iter().map(|intensity| 1.0 - intensity).collect();
+        save_grey(&beside(out, "shadow"), width, height, &grey(&estimate))?;
+        let difference = signed_difference(&shadow, &truth.truth, 0.5);
+        save_rgba(&beside(out, "difference"), width, height, &difference)?;
+        bar.inc(1);
+        Some((judgement, truth))
+    } else {
+        None
+    };
+    save_rgba(out, width, height, &picture)?;
+    bar.inc(1);
+    bar.finish_and_clear();
+    Ok(judged)
+}
+
+/// `picture.png` becomes `picture-truth.png`.
+pub fn beside(out: &Path, what: &str) -> PathBuf {
+    let stem = out
+        .file_stem()
+        .map_or_else(String::new, |stem| stem.to_string_lossy().into_owned());
+    out.with_file_name(format!("{stem}-{what}.png"))
+}

@@ -1,0 +1,75 @@
+//! Everything that a command can fail with.
+
+use moment_shadows_graph::record::RecordError;
+use moment_shadows_graph::{GraphError, ParameterError};
+
+use crate::gpu::GpuError;
+use crate::host::HostError;
+use crate::light::LightError;
+use crate::metric::MetricError;
+use crate::picture::PictureError;
+use crate::scene::SceneError;
+use crate::truth::surface::TruthError;
+
+/// Why the lab could not do what it was asked for. Each names its culprit.
+#[derive(Debug, thiserror::Error)]
+#[non_exhaustive]
+pub enum LabError {
+    /// The device.
+    #[error(transparent)]
+    Gpu(#[from] GpuError),
+    /// The reference host.
+    #[error(transparent)]
+    Host(#[from] HostError),
+    /// A light.
+    #[error(transparent)]
+    Light(#[from] LightError),
+    /// A scene.
+    #[error(transparent)]
+    Scene(#[from] SceneError),
+    /// A file that cannot be read.
+    #[error("{path} cannot be read: {reason}")]
+    Read {
+        /// The file.
+        path: String,
+        /// What the system said.
+        reason: String,
+    },
+    /// A graph file.
+    #[error("{file}:{error}")]
+    Graph {
+        /// The file.
+        file: String,
+        /// What is wrong with it.
+        error: GraphError,
+    },
+    /// A graph that is right, but that the lab cannot judge.
+    #[error("{file}: {reason}")]
+    Unsuitable {
+        /// The graph file.
+        file: String,
+        /// Why.
+        reason: String,
+    },
+    /// The library's parameters.
+    #[error(transparent)]
+    Parameters(#[from] ParameterError),
+    /// A camera without an inverse.
+    #[error(transparent)]
+    Camera(#[from] moment_shadows_graph::nodes::SingularCamera),
+    /// A light's depth convention.
+    #[error(transparent)]
+    Depth(#[from] moment_shadows::DepthError),
+    /// The library's recorder.
+    #[error(transparent)]
+    Record(#[from] RecordError),
+    /// A truth.
+    #[error(transparent)]
+    Truth(#[from] TruthError),
+    /// A comparison.
+    #[error(transparent)]
+    Metric(#[from] MetricError),
+    /// A picture.
+    #[error(transparent)]
+    Picture(#[from] PictureError),
+}

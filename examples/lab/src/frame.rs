@@ -1,0 +1,86 @@
+//! One frame of the reference host: a scene seen by a camera and a light, drawn, ready for a graph.
+
+use crate::error::LabError;
+use crate::gpu::Gpu;
+use crate::host::{LightMap, LightMapDesc, Lighting, Model, Renderer, Surface};
+use crate::light::LightView;
+use crate::scene::Scene;
+use crate::view::Camera;
+
+/// What is drawn, and how large.
+#[derive(Clone, Copy, Debug)]
+pub struct FrameDesc {
+    /// Width and height of the picture.
+    pub picture: [u32; 2],
+    /// Width and height of the light's depth map.
+    pub map: [u32; 2],
+    /// Samples per texel of the light's depth map.
+    pub samples: u32,
+    /// Depth32Float or Depth16Unorm.
+    pub format: wgpu::TextureFormat,
+    /// The light.
+    pub light: LightView,
+    /// The camera.
+    pub camera: Camera,
+}
+
+/// A drawn frame.
+pub struct Frame {
+    /// What it was drawn from.
+    pub desc: FrameDesc,
+    /// The light's depth.
+    pub light_map: LightMap,
+    /// The camera's G-buffer.
+    pub surface: Surface,
+    renderer: Renderer,
+    lighting: Lighting,
+}
+
+impl Frame {
+    /// Draws the light's depth and the G-buffer of a scene, and waits for the device's verdict.
+    pub fn draw(gpu: &Gpu, scene: &Scene, desc: FrameDesc) -> Result<Self, LabError> {
+        let renderer = Renderer::new(gpu)?;
+        let model: Model = renderer.upload(gpu, scene)?;
+        let light_map = renderer.light_map(
+            gpu,
+            &LightMapDesc {
+                size: desc.map,
+                samples: desc.samples,
+                format: desc.format,
+                reversed: desc.light.depth.reversed(),
+            },
+        )?;
+        let surface = renderer.surface(gpu, desc.picture)?;
+        let mut encoder = gpu
+            .device
+            .create_command_encoder(&wgpu::CommandEncoderDescriptor {
+                label: Some("lab/frame"),
+            });
+        renderer.draw_light_depth(gpu, &mut encoder, &model, &light_map, &desc.light);
+        renderer.draw_surface(gpu, &mut encoder, &model, &surface, &desc.camera)?;
+        gpu.queue.submit([encoder.finish()]);
+        gpu.check()?;
+        Ok(Self {
+            lighting: Lighting::new(scene, &desc.camera, &desc.light)?,
+            desc,
+            light_map,
+            surface,
+            renderer,
+        })
+    }
+
+    /// The picture, as sRGB bytes with alpha, for a texture of shadow intensity.
+    pub fn picture(&self, gpu: &Gpu, shadow: &wgpu::Texture) -> Result<Vec<u8>, LabError> {
+        let mut encoder = gpu
+            .device
+            .create_command_encoder(&wgpu::CommandEncoderDescriptor {
+                label: Some("lab/picture"),
+            });
+        let view = shadow.create_view(&wgpu::TextureViewDescriptor::default());
+        let picture =
+            self.renderer
+                .shade(gpu, &mut encoder, &self.surface, &view, &self.lighting)?;
+        gpu.queue.submit([encoder.finish()]);
+        Ok(gpu.read_texture(&picture, 0, "picture")?)
+    }
+}

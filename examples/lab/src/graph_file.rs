@@ -1,0 +1,103 @@
+//! A graph file with what the lab reads from it besides the graph: its kernel and its storage.
+
+use std::path::Path;
+
+use moment_shadows::{Kernel, Storage};
+use moment_shadows_graph::nodes::KernelProperty;
+use moment_shadows_graph::{Graph, NodeRegistry};
+use serde_json::Value;
+
+use crate::error::LabError;
+
+/// A graph file.
+#[derive(Debug)]
+pub struct GraphFile {
+    /// Its name, for errors.
+    pub name: String,
+    /// Its text.
+    pub text: String,
+    /// The graph.
+    pub graph: Graph,
+}
+
+impl GraphFile {
+    /// Reads a file. With a storage, every `resolve_moments` node uses that instead of its own.
+    pub fn read(path: &Path, storage: Option<Storage>) -> Result<Self, LabError> {
+        let name = path.display().to_string();
+        let text = std::fs::read_to_string(path).map_err(|error| LabError::Read {
+            path: name.clone(),
+            reason: error.to_string(),
+        })?;
+        Self::parse(&name, text, storage)
+    }
+
+    /// The graph of a text that errors name by `name`.
+    pub fn parse(name: &str, text: String, storage: Option<Storage>) -> Result<Self, LabError> {
+        let parsed = |text: &str| {
+            Graph::parse(text, &NodeRegistry::new()).map_err(|error| LabError::Graph {
+                file: name.to_owned(),
+                error,
+            })
+        };
+        // The text as given is parsed first, so that errors have its positions.
+        let mut graph = parsed(&text)?;
+        let mut text = text;
+        if let Some(storage) = storage {
+            text = with_property(&text, "resolve_moments", "storage", storage.name().into());
+            graph = parsed(&text)?;
+        }
+        Ok(Self {
+            name: name.to_owned(),
+            text,
+            graph,
+        })
+    }
+
+    /// The same graph whose shadow intensity is written in single precision, so that it can be measured.
+    pub fn in_single_precision(&self) -> Result<Self, LabError> {
+        let text = with_property(&self.text, "shade_hard", "format", "r32float".into());
+        Self::parse(&self.name, text, None)
+    }
+
+    /// The kernel of the graph's blur; `None` where it has none.
+    pub fn kernel(&self) -> Result<Option<Kernel>, LabError> {
+        let kernels: Vec<KernelProperty> = nodes(&self.text)
+            .iter()
+            .filter(|node| node["type"] == "blur_moments")
+            .filter_map(|node| serde_json::from_value(node["properties"]["kernel"].clone()).ok())
+            .collect();
+        match kernels.as_slice() {
+            [] => Ok(None),
+            [property] => property
+                .kernel()
+                .map(Some)
+                .map_err(|error| LabError::Graph {
+                    file: self.name.clone(),
+                    error,
+                }),
+            _ => Err(LabError::Unsuitable {
+                file: self.name.clone(),
+                reason: format!(
+                    "it has {} blur_moments nodes; the receiver bias and the truth are derived from one kernel",
+                    kernels.len()
+                ),
+            }),
+        }
+    }
+}
+
+fn nodes(text: &str) -> Vec<Value> {
+    let file: Value = serde_json::from_str(text).unwrap_or_default();
+    file["nodes"].as_array().cloned().unwrap_or_default()
+}
+
+/// The text with a property of every node of a type replaced. The text has been parsed before.
+fn with_property(text: &str, node_type: &str, property: &str, value: Value) -> String {
+    let mut file: Value = serde_json::from_str(text).unwrap_or_default();
+    if let Some(nodes) = file["nodes"].as_array_mut() {
+        for node in nodes.iter_mut().filter(|node| node["type"] == node_type) {
+            node["properties"][property] = value.clone();
+        }
+    }
+    file.to_string()
+}

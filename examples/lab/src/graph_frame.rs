@@ -1,0 +1,206 @@
+//! A graph on a frame: compiled for what the host has drawn, recorded, and read back.
+
+use moment_shadows::{DepthRange, LeakReduction, ReceiverBias, TextureFormat};
+use moment_shadows_graph::nodes::{CameraView, LightDepth, LightView, ShadeHardParameters};
+use moment_shadows_graph::record::{
+    Bindings, ImportedResource, PipelineOptions, Pipelines, Recording, Resources,
+};
+use moment_shadows_graph::{
+    Capabilities, Imports, Plan, ResourceDesc, Stage, TextureDesc, compile,
+};
+use pollster::block_on;
+
+use crate::error::LabError;
+use crate::frame::{Frame, FrameDesc};
+use crate::gpu::Gpu;
+use crate::graph_file::GraphFile;
+use crate::light::{LightKind, StoredDepth};
+
+/// The output that the lab shades with.
+const SHADOW_INTENSITY: &str = "shadow_intensity";
+
+/// A graph that is bound to a frame.
+pub struct GraphFrame {
+    /// The compiled graph.
+    pub plan: Plan,
+    /// The bound plan.
+    pub bindings: Bindings,
+}
+
+impl GraphFrame {
+    /// Compiles the graph for the frame's textures, creates what it needs and fills in its parameters.
+    pub fn new(gpu: &Gpu, frame: &Frame, file: &GraphFile) -> Result<Self, LabError> {
+        let desc = &frame.desc;
+        let capabilities = Capabilities::of_device(&gpu.adapter, &gpu.device);
+        let plan = compile(&file.graph, &capabilities, &imports(desc)).map_err(|error| {
+            LabError::Graph {
+                file: file.name.clone(),
+                error,
+            }
+        })?;
+        let pipelines = block_on(Pipelines::create(
+            &gpu.device,
+            &plan,
+            PipelineOptions::default(),
+        ))?;
+        let resources = block_on(Resources::create(&gpu.device, &plan))?;
+        let parameters = gpu.device.create_buffer(&wgpu::BufferDescriptor {
+            label: Some("lab/parameters"),
+            size: u64::from(plan.parameters.size.max(16)),
+            usage: wgpu::BufferUsages::UNIFORM | wgpu::BufferUsages::COPY_DST,
+            mapped_at_creation: false,
+        });
+        gpu.queue
+            .write_buffer(&parameters, 0, &parameter_bytes(&plan, desc, file)?);
+        let bindings = block_on(Bindings::create(
+            &gpu.device,
+            &plan,
+            &pipelines,
+            &resources,
+            &[
+                (
+                    "light_depth",
+                    ImportedResource::Texture(&frame.light_map.texture),
+                ),
+                (
+                    "camera_depth",
+                    ImportedResource::Texture(&frame.surface.depth),
+                ),
+            ],
+            Some(&parameters),
+        ))?;
+        Ok(Self { plan, bindings })
+    }
+
+    /// Records all stages and submits them.
+    pub fn run(&self, gpu: &Gpu) -> Result<(), LabError> {
+        let mut encoder = gpu
+            .device
+            .create_command_encoder(&wgpu::CommandEncoderDescriptor {
+                label: Some("lab/graph"),
+            });
+        for stage in Stage::ALL {
+            self.bindings
+                .record(stage, &mut encoder, Recording::default())?;
+        }
+        gpu.queue.submit([encoder.finish()]);
+        Ok(gpu.check()?)
+    }
+
+    /// The shadow intensity that the graph gives.
+    pub fn shadow(&self, file: &GraphFile) -> Result<&wgpu::Texture, LabError> {
+        self.bindings
+            .output(SHADOW_INTENSITY)
+            .ok_or_else(|| LabError::Unsuitable {
+                file: file.name.clone(),
+                reason: format!("it has no output '{SHADOW_INTENSITY}'"),
+            })
+    }
+
+    /// The shadow intensity per pixel, the top row first.
+    pub fn read_shadow(&self, gpu: &Gpu, file: &GraphFile) -> Result<Vec<f32>, LabError> {
+        let texture = self.shadow(file)?;
+        let bytes = gpu.read_texture(texture, 0, SHADOW_INTENSITY)?;
+        Ok(match texture.format() {
+            wgpu::TextureFormat::R8Unorm => {
+                bytes.iter().map(|&byte| f32::from(byte) / 255.0).collect()
+            }
+            wgpu::TextureFormat::R16Float => bytes
+                .chunks_exact(2)
+                .map(|pair| half::f16::from_le_bytes([pair[0], pair[1]]).to_f32())
+                .collect(),
+            _ => bytemuck::pod_collect_to_vec(&bytes),
+        })
+    }
+}
+
+/// What the host gives, as the compiler wants it described.
+fn imports(desc: &FrameDesc) -> Imports {
+    let light_format = match desc.format {
+        wgpu::TextureFormat::Depth16Unorm => TextureFormat::Depth16Unorm,
+        _ => TextureFormat::Depth32Float,
+    };
+    let texture = |texture| ResourceDesc::Texture(texture);
+    Imports::from([
+        (
+            "light_depth".to_owned(),
+            texture(TextureDesc {
+                samples: desc.samples,
+                ..TextureDesc::new(light_format, desc.map)
+            }),
+        ),
+        (
+            "camera_depth".to_owned(),
+            texture(TextureDesc::new(TextureFormat::Depth32Float, desc.picture)),
+        ),
+    ])
+}
+
+/// The parameters of the library's nodes for a frame.
+fn parameter_bytes(plan: &Plan, desc: &FrameDesc, file: &GraphFile) -> Result<Vec<u8>, LabError> {
+    let light = light_view(desc);
+    let mut bytes = plan.parameters.initial();
+    for block in &plan.parameters.blocks {
+        match block.name.as_str() {
+            "DepthConversion" => {
+                let conversion = light.depth.conversion()?;
+                plan.parameters
+                    .write(&mut bytes, &block.node, 0, &conversion)?;
+            }
+            "ShadeHardParameters" => {
+                let parameters = ShadeHardParameters::new(
+                    &CameraView {
+                        clip_from_world: desc.camera.clip_from_world_columns()?,
+                        far_depth: 0.0,
+                    },
+                    &light,
+                    receiver_bias(desc, file)?,
+                    LeakReduction::DEFAULT,
+                )?;
+                plan.parameters
+                    .write(&mut bytes, &block.node, 0, &parameters)?;
+            }
+            _ => {}
+        }
+    }
+    Ok(bytes)
+}
+
+/// The receiver bias that follows from the graph's kernel and the light: the same rule for all scenes.
+pub fn receiver_bias(desc: &FrameDesc, file: &GraphFile) -> Result<ReceiverBias, LabError> {
+    let deviation = file
+        .kernel()?
+        .map_or(0.0, |kernel| kernel.standard_deviation());
+    let [width, height] = desc.light.texel_size(desc.map);
+    let [near, far] = desc.light.range;
+    // A spot light's texels grow with distance.
+    let spread = match desc.light.kind() {
+        LightKind::Directional => 1.0,
+        LightKind::Spot => far,
+    };
+    let depth_per_texel = 2.0 * width.max(height) * spread / (far - near);
+    Ok(ReceiverBias::for_kernel(deviation, depth_per_texel as f32))
+}
+
+/// The light in the library's terms.
+fn light_view(desc: &FrameDesc) -> LightView {
+    let [near, far] = desc.light.range;
+    let range = DepthRange { near, far };
+    LightView {
+        clip_from_world: desc.light.clip_from_world().as_mat4().to_cols_array_2d(),
+        depth: match desc.light.depth {
+            StoredDepth::Orthographic { reversed, .. } => LightDepth::Orthographic { reversed },
+            StoredDepth::Perspective {
+                near,
+                far,
+                reversed,
+            } => LightDepth::Perspective {
+                near,
+                far: far.unwrap_or(f64::INFINITY),
+                reversed,
+                range,
+            },
+        },
+        layer: 0,
+    }
+}

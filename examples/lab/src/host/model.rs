@@ -1,0 +1,298 @@
+//! A scene in the device's memory.
+
+use wgpu::util::DeviceExt;
+
+use super::error::created;
+use super::{HostError, Renderer, UNIFORM, binding, texture_type};
+use crate::gpu::Gpu;
+use crate::scene::{Image, Scene};
+
+/// A scene in the device's memory, ready to be drawn.
+pub struct Model {
+    parts: Vec<Part>,
+}
+
+/// The meshes of one material, as one draw.
+struct Part {
+    vertices: wgpu::Buffer,
+    indices: wgpu::Buffer,
+    count: u32,
+    material: wgpu::BindGroup,
+    masked: bool,
+}
+
+/// A vertex as the shader takes it.
+#[repr(C)]
+#[derive(Clone, Copy, bytemuck::Pod, bytemuck::Zeroable)]
+struct Vertex {
+    position: [f32; 3],
+    normal: [f32; 3],
+    uv: [f32; 2],
+}
+
+/// `Surface` of `geometry.wgsl`.
+#[repr(C)]
+#[derive(Clone, Copy, bytemuck::Pod, bytemuck::Zeroable)]
+struct SurfaceUniform {
+    base_colour: [f32; 4],
+    mask: f32,
+    _padding: [f32; 3],
+}
+
+/// `View` of `geometry.wgsl`.
+#[repr(C)]
+#[derive(Clone, Copy, bytemuck::Pod, bytemuck::Zeroable)]
+pub(super) struct ViewUniform {
+    pub(super) clip_from_world: [[f32; 4]; 4],
+    pub(super) eye: [f32; 3],
+    pub(super) _padding: f32,
+}
+
+/// Attributes of [`Vertex`].
+const ATTRIBUTES: [wgpu::VertexAttribute; 3] =
+    wgpu::vertex_attr_array![0 => Float32x3, 1 => Float32x3, 2 => Float32x2];
+
+/// How pipelines read [`Vertex`].
+pub(super) fn vertex_layout() -> wgpu::VertexBufferLayout<'static> {
+    wgpu::VertexBufferLayout {
+        array_stride: size_of::<Vertex>() as u64,
+        step_mode: wgpu::VertexStepMode::Vertex,
+        attributes: &ATTRIBUTES,
+    }
+}
+
+/// Group 0 of `geometry.wgsl`.
+pub(super) fn view_layout(device: &wgpu::Device) -> wgpu::BindGroupLayout {
+    device.create_bind_group_layout(&wgpu::BindGroupLayoutDescriptor {
+        label: Some("host/view"),
+        entries: &[binding(0, wgpu::ShaderStages::VERTEX_FRAGMENT, UNIFORM)],
+    })
+}
+
+/// Group 1 of `geometry.wgsl`.
+pub(super) fn material_layout(device: &wgpu::Device) -> wgpu::BindGroupLayout {
+    let fragment = wgpu::ShaderStages::FRAGMENT;
+    let filtered = wgpu::TextureSampleType::Float { filterable: true };
+    let sampler = wgpu::BindingType::Sampler(wgpu::SamplerBindingType::Filtering);
+    device.create_bind_group_layout(&wgpu::BindGroupLayoutDescriptor {
+        label: Some("host/material"),
+        entries: &[
+            binding(0, fragment, UNIFORM),
+            binding(1, fragment, texture_type(filtered, false)),
+            binding(2, fragment, sampler),
+        ],
+    })
+}
+
+/// A uniform buffer for one view with its bind group.
+pub(super) fn view_group(
+    device: &wgpu::Device,
+    layout: &wgpu::BindGroupLayout,
+    label: &str,
+) -> (wgpu::Buffer, wgpu::BindGroup) {
+    let buffer = device.create_buffer(&wgpu::BufferDescriptor {
+        label: Some(label),
+        size: size_of::<ViewUniform>() as u64,
+        usage: wgpu::BufferUsages::UNIFORM | wgpu::BufferUsages::COPY_DST,
+        mapped_at_creation: false,
+    });
+    let group = device.create_bind_group(&wgpu::BindGroupDescriptor {
+        label: Some(label),
+        layout,
+        entries: &[wgpu::BindGroupEntry {
+            binding: 0,
+            resource: buffer.as_entire_binding(),
+        }],
+    });
+    (buffer, group)
+}
+
+impl Renderer {
+    /// Copies a scene to the device. Meshes of one material become one draw.
+    pub fn upload(&self, gpu: &Gpu, scene: &Scene) -> Result<Model, HostError> {
+        let limit = gpu.device.limits().max_buffer_size;
+        let mut drawn = Vec::new();
+        for material in 0..scene.materials.len() {
+            let mut vertices = Vec::new();
+            let mut indices = Vec::new();
+            for mesh in scene.meshes.iter().filter(|mesh| mesh.material == material) {
+                let first = vertices.len() as u32;
+                let attributes = mesh.positions.iter().zip(&mesh.normals).zip(&mesh.uvs);
+                vertices.extend(attributes.map(|((&position, &normal), &uv)| Vertex {
+                    position,
+                    normal,
+                    uv,
+                }));
+                indices.extend(mesh.indices.iter().map(|index| first + index));
+            }
+            let bytes = size_of_val(&vertices[..]).max(size_of_val(&indices[..])) as u64;
+            if bytes > limit {
+                return Err(HostError::Size {
+                    what: "a buffer of the scene",
+                    asked: bytes,
+                    unit: "bytes",
+                    limit,
+                });
+            }
+            if !indices.is_empty() {
+                drawn.push((material, vertices, indices));
+            }
+        }
+        created(gpu, "the scene's buffers and textures", || {
+            let white = Image {
+                width: 1,
+                height: 1,
+                rgba: vec![255; 4],
+            };
+            let white = upload_image(gpu, &white);
+            let images: Vec<_> = scene
+                .images
+                .iter()
+                .map(|image| upload_image(gpu, image))
+                .collect();
+            let parts = drawn
+                .iter()
+                .map(|(index, vertices, indices)| {
+                    let material = &scene.materials[*index];
+                    let image = material
+                        .texture
+                        .and_then(|texture| images.get(texture))
+                        .unwrap_or(&white);
+                    let surface = SurfaceUniform {
+                        base_colour: material.base_colour,
+                        mask: material.mask.unwrap_or(-1.0),
+                        _padding: [0.0; 3],
+                    };
+                    Part {
+                        vertices: buffer(
+                            gpu,
+                            bytemuck::cast_slice(vertices),
+                            wgpu::BufferUsages::VERTEX,
+                        ),
+                        indices: buffer(
+                            gpu,
+                            bytemuck::cast_slice(indices),
+                            wgpu::BufferUsages::INDEX,
+                        ),
+                        count: indices.len() as u32,
+                        material: self.material_group(gpu, &surface, image),
+                        masked: material.mask.is_some(),
+                    }
+                })
+                .collect();
+            Model { parts }
+        })
+    }
+
+    fn material_group(
+        &self,
+        gpu: &Gpu,
+        surface: &SurfaceUniform,
+        image: &wgpu::TextureView,
+    ) -> wgpu::BindGroup {
+        let uniform = buffer(
+            gpu,
+            bytemuck::bytes_of(surface),
+            wgpu::BufferUsages::UNIFORM,
+        );
+        gpu.device.create_bind_group(&wgpu::BindGroupDescriptor {
+            label: Some("host/material"),
+            layout: &self.material_layout,
+            entries: &[
+                wgpu::BindGroupEntry {
+                    binding: 0,
+                    resource: uniform.as_entire_binding(),
+                },
+                wgpu::BindGroupEntry {
+                    binding: 1,
+                    resource: wgpu::BindingResource::TextureView(image),
+                },
+                wgpu::BindGroupEntry {
+                    binding: 2,
+                    resource: wgpu::BindingResource::Sampler(&self.sampler),
+                },
+            ],
+        })
+    }
+}
+
+impl Model {
+    /// Draws all triangles, masked materials by `masked` and the others by `opaque`.
+    pub(super) fn draw(
+        &self,
+        pass: &mut wgpu::RenderPass<'_>,
+        view: &wgpu::BindGroup,
+        opaque: &wgpu::RenderPipeline,
+        masked: &wgpu::RenderPipeline,
+    ) {
+        pass.set_bind_group(0, view, &[]);
+        for part in &self.parts {
+            pass.set_pipeline(if part.masked { masked } else { opaque });
+            pass.set_bind_group(1, &part.material, &[]);
+            pass.set_vertex_buffer(0, part.vertices.slice(..));
+            pass.set_index_buffer(part.indices.slice(..), wgpu::IndexFormat::Uint32);
+            pass.draw_indexed(0..part.count, 0, 0..1);
+        }
+    }
+}
+
+fn buffer(gpu: &Gpu, contents: &[u8], usage: wgpu::BufferUsages) -> wgpu::Buffer {
+    gpu.device
+        .create_buffer_init(&wgpu::util::BufferInitDescriptor {
+            label: Some("host/scene"),
+            contents,
+            usage,
+        })
+}
+
+/// A texture with all its mips.
+fn upload_image(gpu: &Gpu, image: &Image) -> wgpu::TextureView {
+    let mut levels = vec![image.rgba.clone()];
+    let mut size = [image.width, image.height];
+    while size != [1, 1] {
+        let finer = levels.last().map_or(&[][..], Vec::as_slice);
+        let (coarser, smaller) = halved(finer, size);
+        levels.push(coarser);
+        size = smaller;
+    }
+    let texture = gpu.device.create_texture_with_data(
+        &gpu.queue,
+        &wgpu::TextureDescriptor {
+            label: Some("host/base colour"),
+            size: wgpu::Extent3d {
+                width: image.width,
+                height: image.height,
+                depth_or_array_layers: 1,
+            },
+            mip_level_count: levels.len() as u32,
+            sample_count: 1,
+            dimension: wgpu::TextureDimension::D2,
+            format: wgpu::TextureFormat::Rgba8UnormSrgb,
+            usage: wgpu::TextureUsages::TEXTURE_BINDING,
+            view_formats: &[],
+        },
+        wgpu::util::TextureDataOrder::LayerMajor,
+        &levels.concat(),
+    );
+    texture.create_view(&wgpu::TextureViewDescriptor::default())
+}
+
+/// The next mip: means of 2x2 texels, of the bytes as they are, which is near enough for a base colour.
+fn halved(rgba: &[u8], [width, height]: [u32; 2]) -> (Vec<u8>, [u32; 2]) {
+    let smaller = [(width / 2).max(1), (height / 2).max(1)];
+    let mut result = Vec::with_capacity((smaller[0] * smaller[1] * 4) as usize);
+    for y in 0..smaller[1] {
+        for x in 0..smaller[0] {
+            for channel in 0..4 {
+                let texel = |dx: u32, dy: u32| {
+                    let x = (2 * x + dx).min(width - 1);
+                    let y = (2 * y + dy).min(height - 1);
+                    u32::from(rgba[((y * width + x) * 4 + channel) as usize])
+                };
+                let sum = texel(0, 0) + texel(1, 0) + texel(0, 1) + texel(1, 1);
+                result.push(((sum + 2) / 4) as u8);
+            }
+        }
+    }
+    (result, smaller)
+}

@@ -1,0 +1,280 @@
+//! A light as the host sees it: matrices and depth conventions in f64, so that they can serve as truth.
+
+mod error;
+mod stored_depth;
+
+use glam::{DMat4, DVec2, DVec3, DVec4};
+
+pub use error::LightError;
+pub use stored_depth::StoredDepth;
+
+/// The two kinds of light that the host renders.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum LightKind {
+    /// Parallel rays, orthographic projection.
+    Directional,
+    /// Rays from a point within a cone, perspective projection.
+    Spot,
+}
+
+/// What a directional light is fitted to besides its casters.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct DirectionalFit {
+    /// Size of the map in texels; the margin is counted in its texels.
+    pub map: [u32; 2],
+    /// Texels between the outermost caster and each border of the map. At least the radius of the filter that will be
+    /// used, so that what the filter finds beyond the border is the far end.
+    pub margin: f64,
+    /// Height (y) of a ground plane that receives shadows: inside the map's footprint the depth range includes it.
+    pub ground: Option<f64>,
+    /// Whether the near plane is stored as 1.
+    pub reversed: bool,
+}
+
+/// A light as the host sees it.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct LightView {
+    /// From world space to the light's space, a rigid motion: the light looks along -z.
+    pub view_from_world: DMat4,
+    /// From the light's space to wgpu's clip space (x right, y up, z in `[0, 1]`, possibly reversed).
+    pub clip_from_view: DMat4,
+    /// How the depth texture stores depth.
+    pub depth: StoredDepth,
+    /// Distances along the light's axis that map to moment depth -1 and +1.
+    pub range: [f64; 2],
+}
+
+/// How far beyond the casters, in diameters of them, a ground plane may stretch the depth range: a sun at the horizon
+/// would stretch it without end, and depths beyond the range merely count as its far end.
+const GROUND_REACH: f64 = 8.0;
+
+impl LightView {
+    /// A directional light that shines along `direction`, fitted tightly to the points `casters` (vertices or corners of
+    /// boxes): its map covers them and a margin, both axes apart, so that texels need not be square. Distances along
+    /// the axis start at 0 at the first caster; `far` includes the last caster and the ground in the map's footprint.
+    pub fn directional_fitted(
+        direction: DVec3,
+        casters: &[DVec3],
+        fit: DirectionalFit,
+    ) -> Result<Self, LightError> {
+        let rotation = rotation_towards(direction)?;
+        if casters.is_empty() {
+            return Err(LightError::NoCasters);
+        }
+        let mut low = DVec3::INFINITY;
+        let mut high = DVec3::NEG_INFINITY;
+        for (index, &point) in casters.iter().enumerate() {
+            let inside = rotation.transform_vector3(point);
+            if !inside.is_finite() {
+                return Err(LightError::Caster {
+                    index,
+                    point: point.to_array(),
+                });
+            }
+            low = low.min(inside);
+            high = high.max(inside);
+        }
+        // A single point or an edge-on plane still needs a volume.
+        let diameter = (high - low).length();
+        let smallest = (1e-3 * diameter).max(1e-6 * (1.0 + high.abs().max_element()));
+        let centre = 0.5 * (low + high);
+        let half = (0.5 * (high - low)).max(DVec3::splat(0.5 * smallest));
+        let map = DVec2::new(f64::from(fit.map[0]), f64::from(fit.map[1]));
+        let inner = map - 2.0 * fit.margin;
+        if !(fit.margin >= 0.0 && inner.min_element() >= 1.0) {
+            return Err(LightError::Margin {
+                map: fit.map,
+                margin: fit.margin,
+            });
+        }
+        let half_map = DVec2::new(half.x, half.y) * map / inner;
+        let mut nearest = centre.z + half.z;
+        let mut farthest = centre.z - half.z;
+        if let Some(height) = fit.ground {
+            // Row y of the inverse rotation, world_y = a·inside, is solved for z at the four corners of the footprint.
+            let world_y = rotation.transform_vector3(DVec3::Y);
+            let reach = GROUND_REACH * diameter.max(smallest);
+            let [first, last] = [nearest + reach, farthest - reach];
+            for corner in [[-1.0, -1.0], [1.0, -1.0], [-1.0, 1.0], [1.0, 1.0]] {
+                let at = DVec2::new(centre.x, centre.y) + half_map * DVec2::from_array(corner);
+                let z = (height - world_y.x * at.x - world_y.y * at.y) / world_y.z;
+                // A light from below or along the ground meets it behind the casters or nowhere.
+                if world_y.z > 0.0 && z.is_finite() {
+                    farthest = farthest.min(z.max(last));
+                    // In the margin the ground may lie before the first caster.
+                    nearest = nearest.max(z.min(first));
+                }
+            }
+        }
+        // Rounding to f32 on the device must not push the outermost vertices through a plane.
+        let slack = 1e-3 * (nearest - farthest);
+        nearest += slack;
+        farthest -= slack;
+        let depth = StoredDepth::Orthographic {
+            near: 0.0,
+            far: nearest - farthest,
+            reversed: fit.reversed,
+        };
+        let origin = DVec3::new(centre.x, centre.y, nearest);
+        Ok(Self {
+            view_from_world: DMat4::from_translation(-origin) * rotation,
+            clip_from_view: depth.clip_from_view(half_map.recip()),
+            depth,
+            range: [0.0, nearest - farthest],
+        })
+    }
+
+    /// A spot light at `position` that shines along `direction` into a square pyramid of `full_angle` radians, with
+    /// its near plane at distance `near` and its far plane at `far` (`None`: infinite). `range` gives the distances
+    /// along the axis of moment depths -1 and +1.
+    pub fn spot(
+        position: DVec3,
+        direction: DVec3,
+        full_angle: f64,
+        near: f64,
+        far: Option<f64>,
+        range: [f64; 2],
+        reversed: bool,
+    ) -> Result<Self, LightError> {
+        if !position.is_finite() {
+            return Err(LightError::Position {
+                position: position.to_array(),
+            });
+        }
+        let rotation = rotation_towards(direction)?;
+        if !(full_angle > 0.0 && full_angle < std::f64::consts::PI) {
+            return Err(LightError::Angle { angle: full_angle });
+        }
+        let interval = |what, [near, far]: [f64; 2], finite: bool| {
+            if near > 0.0 && near < far && near.is_finite() && (far.is_finite() || !finite) {
+                Ok(())
+            } else {
+                Err(LightError::Interval { what, near, far })
+            }
+        };
+        interval(
+            "depth planes",
+            [near, far.unwrap_or(f64::INFINITY)],
+            far.is_some(),
+        )?;
+        interval("moment range", range, true)?;
+        let depth = StoredDepth::Perspective {
+            near,
+            far,
+            reversed,
+        };
+        let scale = 1.0 / (0.5 * full_angle).tan();
+        Ok(Self {
+            view_from_world: rotation * DMat4::from_translation(-position),
+            clip_from_view: depth.clip_from_view(DVec2::splat(scale)),
+            depth,
+            range,
+        })
+    }
+
+    /// The kind of this light.
+    pub fn kind(&self) -> LightKind {
+        match self.depth {
+            StoredDepth::Orthographic { .. } => LightKind::Directional,
+            StoredDepth::Perspective { .. } => LightKind::Spot,
+        }
+    }
+
+    /// From world space to clip space.
+    pub fn clip_from_world(&self) -> DMat4 {
+        self.clip_from_view * self.view_from_world
+    }
+
+    /// Where `world` lies in the map: (0, 0) at its top left corner, (1, 1) at its bottom right one, outside of that
+    /// interval beside the map. `None` behind a spot light.
+    pub fn uv(&self, world: DVec3) -> Option<DVec2> {
+        let clip = self.clip_from_world() * world.extend(1.0);
+        (clip.w > 0.0).then(|| DVec2::new(0.5 + 0.5 * clip.x / clip.w, 0.5 - 0.5 * clip.y / clip.w))
+    }
+
+    /// Distance of `world` from the light's origin along its axis.
+    pub fn distance(&self, world: DVec3) -> f64 {
+        -self.view_from_world.transform_point3(world).z
+    }
+
+    /// The moment depth of a distance along the axis: linear, not clamped.
+    pub fn moment_depth_of_distance(&self, distance: f64) -> f64 {
+        let [near, far] = self.range;
+        2.0 * (distance - near) / (far - near) - 1.0
+    }
+
+    /// The moment depth of `world`: linear along the light's axis, -1 at `range[0]`, +1 at `range[1]`, not clamped.
+    pub fn moment_depth(&self, world: DVec3) -> f64 {
+        self.moment_depth_of_distance(self.distance(world))
+    }
+
+    /// The moment depth of what a depth texture stores, clamped to `[-1, 1]`. NaN counts as the far end: no caster.
+    pub fn moment_depth_of_stored(&self, stored: f64) -> f64 {
+        let distance = self.depth.distance(stored.clamp(0.0, 1.0));
+        let depth = self.moment_depth_of_distance(distance);
+        if depth.is_nan() {
+            1.0
+        } else {
+            depth.clamp(-1.0, 1.0)
+        }
+    }
+
+    /// The light's ray through `uv` of the map: `origin + t * direction` lies at distance `t` along the axis. For a
+    /// directional light the origin lies in the plane of distance 0, which is its near plane, and the direction has
+    /// length 1; for a spot light the origin is its position, and the direction is longer off the axis.
+    pub fn ray(&self, uv: DVec2) -> (DVec3, DVec3) {
+        let x = (2.0 * uv.x - 1.0) / self.clip_from_view.x_axis.x;
+        let y = (1.0 - 2.0 * uv.y) / self.clip_from_view.y_axis.y;
+        let world_from_view = self.view_from_world.inverse();
+        let (origin, direction) = match self.kind() {
+            LightKind::Directional => (DVec3::new(x, y, 0.0), DVec3::NEG_Z),
+            LightKind::Spot => (DVec3::ZERO, DVec3::new(x, y, -1.0)),
+        };
+        (
+            world_from_view.transform_point3(origin),
+            world_from_view.transform_vector3(direction),
+        )
+    }
+
+    /// Unit vector from `world` towards the light.
+    pub fn towards_light(&self, world: DVec3) -> DVec3 {
+        let world_from_view = self.view_from_world.inverse();
+        match self.kind() {
+            LightKind::Directional => world_from_view.transform_vector3(DVec3::Z).normalize(),
+            LightKind::Spot => {
+                (world_from_view.transform_point3(DVec3::ZERO) - world).normalize_or_zero()
+            }
+        }
+    }
+
+    /// Width and height of a texel of a map of `map` texels, in scene units: anywhere for a directional light, at
+    /// distance 1 along the axis for a spot light.
+    pub fn texel_size(&self, map: [u32; 2]) -> [f64; 2] {
+        [
+            2.0 / (self.clip_from_view.x_axis.x * f64::from(map[0])),
+            2.0 / (self.clip_from_view.y_axis.y * f64::from(map[1])),
+        ]
+    }
+}
+
+/// The rotation after which `direction` is -z and x is horizontal.
+pub(crate) fn rotation_towards(direction: DVec3) -> Result<DMat4, LightError> {
+    let forward = direction.try_normalize().ok_or(LightError::Direction {
+        direction: direction.to_array(),
+    })?;
+    // Straight up or down any horizontal x will do.
+    let right = forward
+        .cross(DVec3::Y)
+        .try_normalize()
+        .filter(|_| forward.y.abs() < 1.0 - 1e-9)
+        .unwrap_or(DVec3::X);
+    let up = right.cross(forward).normalize();
+    let right = forward.cross(up);
+    Ok(DMat4::from_cols(
+        right.extend(0.0),
+        up.extend(0.0),
+        (-forward).extend(0.0),
+        DVec4::W,
+    )
+    .transpose())
+}

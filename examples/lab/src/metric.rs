@@ -1,0 +1,183 @@
+//! How far a picture of shadow intensities is from the truth.
+
+use std::fmt;
+
+use serde::Serialize;
+
+/// Truths between these two, both excluded, make up the penumbra band. It is not dilated: what a technique leaks into
+/// the umbra around it is seen in the figures over all facing pixels.
+pub const PENUMBRA: [f32; 2] = [0.01, 0.99];
+
+/// Why two pictures cannot be compared.
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+#[non_exhaustive]
+pub enum MetricError {
+    /// The lists belong to pictures of different sizes.
+    #[error(
+        "pictures of {estimate} and {truth} pixels with {facing} facing flags cannot be compared; \
+         give lists of one length"
+    )]
+    Length {
+        /// Pixels of the estimate.
+        estimate: usize,
+        /// Pixels of the truth.
+        truth: usize,
+        /// Flags.
+        facing: usize,
+    },
+}
+
+/// Figures of the absolute error over a set of pixels. All are 0 for an empty set.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize)]
+pub struct ErrorFigures {
+    /// How many pixels the set has.
+    pub pixels: usize,
+    /// Mean absolute error: `leaking + overdarkening`.
+    pub mean_absolute: f64,
+    /// The part of it where the estimate is too light.
+    pub leaking: f64,
+    /// The part of it where the estimate is too dark.
+    pub overdarkening: f64,
+    /// 95 % of the pixels have at most this absolute error.
+    pub percentile_95: f64,
+    /// The largest absolute error.
+    pub maximum: f64,
+}
+
+/// An estimate of shadow intensities against the truth.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize)]
+pub struct Comparison {
+    /// Over the pixels whose surface faces the light.
+    pub facing: ErrorFigures,
+    /// Over those of them that lie in the penumbra band.
+    pub penumbra: ErrorFigures,
+    /// Mean absolute error over all pixels of the picture, sky included.
+    pub picture_mean_absolute: f64,
+    /// Pixels of the whole picture whose estimate is NaN. Each counts as an error of 1, too dark.
+    pub nan_pixels: usize,
+}
+
+/// How much larger the error of an estimate is than that of the exact bound on the same filtered depths: 0.25 means a
+/// quarter more. `None` where the exact bound has no error that a ratio could be formed with.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+pub struct Excess {
+    /// Of the mean absolute error over facing pixels.
+    pub error: Option<f64>,
+    /// Of its leaking part.
+    pub leaking: Option<f64>,
+}
+
+/// Compares `estimate` with `truth`; `facing` tells which pixels show a surface that faces the light (normal times
+/// direction to the light above 0). Sums run over the pixels in order, in f64: the same pictures give the same figures.
+pub fn compare(
+    estimate: &[f32],
+    truth: &[f32],
+    facing: &[bool],
+) -> Result<Comparison, MetricError> {
+    if estimate.len() != truth.len() || facing.len() != truth.len() {
+        return Err(MetricError::Length {
+            estimate: estimate.len(),
+            truth: truth.len(),
+            facing: facing.len(),
+        });
+    }
+    let mut errors = Vec::new();
+    let mut penumbra_errors = Vec::new();
+    let (mut total, mut nan_pixels) = (0.0, 0);
+    for ((&estimate, &truth), &facing) in estimate.iter().zip(truth).zip(facing) {
+        let error = if estimate.is_nan() {
+            nan_pixels += 1;
+            1.0
+        } else {
+            f64::from(estimate) - f64::from(truth)
+        };
+        total += error.abs();
+        if facing {
+            errors.push(error);
+            if truth > PENUMBRA[0] && truth < PENUMBRA[1] {
+                penumbra_errors.push(error);
+            }
+        }
+    }
+    Ok(Comparison {
+        facing: figures(&errors),
+        penumbra: figures(&penumbra_errors),
+        picture_mean_absolute: total / truth.len().max(1) as f64,
+        nan_pixels,
+    })
+}
+
+/// The excess of `estimate` over `exact`, two comparisons with the same truth.
+pub fn excess(estimate: &Comparison, exact: &Comparison) -> Excess {
+    let ratio = |estimate: f64, exact: f64| (exact > 0.0).then(|| estimate / exact - 1.0);
+    Excess {
+        error: ratio(estimate.facing.mean_absolute, exact.facing.mean_absolute),
+        leaking: ratio(estimate.facing.leaking, exact.facing.leaking),
+    }
+}
+
+/// Figures of signed errors, estimate less truth.
+fn figures(errors: &[f64]) -> ErrorFigures {
+    if errors.is_empty() {
+        return ErrorFigures::default();
+    }
+    let count = errors.len() as f64;
+    let leaking = errors.iter().map(|error| (-error).max(0.0)).sum::<f64>() / count;
+    let overdarkening = errors.iter().map(|error| error.max(0.0)).sum::<f64>() / count;
+    let mut sorted: Vec<f64> = errors.iter().map(|error| error.abs()).collect();
+    sorted.sort_unstable_by(f64::total_cmp);
+    // The nearest rank: the least value that is not exceeded by 95 % of the pixels.
+    let rank = (errors.len() * 95).div_ceil(100).max(1) - 1;
+    ErrorFigures {
+        pixels: errors.len(),
+        mean_absolute: leaking + overdarkening,
+        leaking,
+        overdarkening,
+        percentile_95: sorted.get(rank).copied().unwrap_or_default(),
+        maximum: sorted.last().copied().unwrap_or_default(),
+    }
+}
+
+impl fmt::Display for Comparison {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        writeln!(
+            f,
+            "{:<9} {:>9} {:>9} {:>9} {:>9} {:>9} {:>9}",
+            "pixels", "count", "mean abs", "leaking", "too dark", "95 %", "maximum"
+        )?;
+        for (name, row) in [("facing", &self.facing), ("penumbra", &self.penumbra)] {
+            writeln!(
+                f,
+                "{name:<9} {:>9} {:>9.6} {:>9.6} {:>9.6} {:>9.6} {:>9.6}",
+                row.pixels,
+                row.mean_absolute,
+                row.leaking,
+                row.overdarkening,
+                row.percentile_95,
+                row.maximum
+            )?;
+        }
+        write!(
+            f,
+            "whole picture: mean abs {:.6}, NaN pixels {}",
+            self.picture_mean_absolute, self.nan_pixels
+        )
+    }
+}
+
+impl fmt::Display for Excess {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let percent = |ratio: Option<f64>| {
+            ratio.map_or_else(
+                || "undefined".to_owned(),
+                |ratio| format!("{:+.1} %", 100.0 * ratio),
+            )
+        };
+        write!(
+            f,
+            "excess over the exact bound: error {}, leaking {}",
+            percent(self.error),
+            percent(self.leaking)
+        )
+    }
+}

@@ -1,0 +1,163 @@
+//! Pictures: saving without half-replaced files, grey values and differences in colour.
+
+use std::io::Write;
+use std::path::{Path, PathBuf};
+
+/// Why a picture or another result could not be saved. An existing file is untouched.
+#[derive(Debug, thiserror::Error)]
+#[non_exhaustive]
+pub enum PictureError {
+    /// The folder does not exist.
+    #[error("'{}' cannot be written: the folder '{}' does not exist; create it first", path.display(), folder.display())]
+    MissingFolder {
+        /// The file to be written.
+        path: PathBuf,
+        /// The folder it should lie in.
+        folder: PathBuf,
+    },
+    /// There is no room left.
+    #[error("'{}' cannot be written: the disk is full; what was there is unchanged", path.display())]
+    DiskFull {
+        /// The file to be written.
+        path: PathBuf,
+    },
+    /// The system refused for another reason.
+    #[error("'{}' cannot be written: {source}; what was there is unchanged", path.display())]
+    Unwritable {
+        /// The file to be written.
+        path: PathBuf,
+        /// What the system said.
+        source: std::io::Error,
+    },
+    /// The pixels do not fit the size.
+    #[error("'{}' cannot be written: {values} values do not make a picture of {width}x{height}", path.display())]
+    Size {
+        /// The file to be written.
+        path: PathBuf,
+        /// Pixels per row.
+        width: u32,
+        /// Rows.
+        height: u32,
+        /// How many values there were.
+        values: usize,
+    },
+    /// The encoder refused.
+    #[error("'{}' cannot be written: {reason}", path.display())]
+    Encoding {
+        /// The file to be written.
+        path: PathBuf,
+        /// What the encoder said.
+        reason: String,
+    },
+}
+
+/// Writes a file beside `path` by `write` and renames it, so that `path` is either what it was or complete.
+pub fn save_atomically(
+    path: &Path,
+    write: impl FnOnce(&mut dyn Write) -> std::io::Result<()>,
+) -> Result<(), PictureError> {
+    let folder = match path.parent() {
+        Some(parent) if parent != Path::new("") => parent,
+        _ => Path::new("."),
+    };
+    let failed = |source: std::io::Error| match source.kind() {
+        std::io::ErrorKind::NotFound => PictureError::MissingFolder {
+            path: path.to_owned(),
+            folder: folder.to_owned(),
+        },
+        std::io::ErrorKind::StorageFull => PictureError::DiskFull {
+            path: path.to_owned(),
+        },
+        _ => PictureError::Unwritable {
+            path: path.to_owned(),
+            source,
+        },
+    };
+    let mut builder = tempfile::Builder::new();
+    builder.prefix(".moment-shadows-").suffix(".part");
+    // A temporary file is private by default; a result is as readable as any other file.
+    #[cfg(unix)]
+    builder.permissions(std::os::unix::fs::PermissionsExt::from_mode(0o666));
+    let mut part = builder.tempfile_in(folder).map_err(failed)?;
+    write(part.as_file_mut()).map_err(failed)?;
+    // Some file systems find only now that they are full.
+    part.as_file().sync_all().map_err(failed)?;
+    part.persist(path).map_err(|error| failed(error.error))?;
+    Ok(())
+}
+
+/// Saves red, green, blue and alpha (sRGB, a byte each, top row first) as PNG.
+pub fn save_rgba(path: &Path, width: u32, height: u32, rgba: &[u8]) -> Result<(), PictureError> {
+    encode(
+        path,
+        width,
+        height,
+        rgba,
+        4,
+        image::ExtendedColorType::Rgba8,
+    )
+}
+
+/// Saves one grey byte per pixel as PNG, top row first.
+pub fn save_grey(path: &Path, width: u32, height: u32, grey: &[u8]) -> Result<(), PictureError> {
+    encode(path, width, height, grey, 1, image::ExtendedColorType::L8)
+}
+
+fn encode(
+    path: &Path,
+    width: u32,
+    height: u32,
+    bytes: &[u8],
+    channels: u64,
+    colour: image::ExtendedColorType,
+) -> Result<(), PictureError> {
+    if u64::from(width) * u64::from(height) * channels != bytes.len() as u64 {
+        return Err(PictureError::Size {
+            path: path.to_owned(),
+            width,
+            height,
+            values: bytes.len(),
+        });
+    }
+    let mut png = Vec::new();
+    let encoder = image::codecs::png::PngEncoder::new(&mut png);
+    image::ImageEncoder::write_image(encoder, bytes, width, height, colour).map_err(|error| {
+        PictureError::Encoding {
+            path: path.to_owned(),
+            reason: error.to_string(),
+        }
+    })?;
+    save_atomically(path, |file| file.write_all(&png))
+}
+
+/// Grey bytes of values in `[0, 1]`, linear (0.5 becomes 128); NaN becomes 0.
+pub fn grey(values: &[f32]) -> Vec<u8> {
+    values.iter().map(|&value| byte(value)).collect()
+}
+
+/// A picture of `found - truth`, both shadow intensities: white where they agree, red where `found` is too dark
+/// (positive), blue where it is too light (negative). A difference of `full` or more has the full colour. NaN is black.
+/// Four bytes per pixel.
+pub fn signed_difference(found: &[f32], truth: &[f32], full: f32) -> Vec<u8> {
+    found
+        .iter()
+        .zip(truth)
+        .flat_map(|(found, truth)| {
+            let difference = (found - truth) / full;
+            let rest = byte(1.0 - difference.abs());
+            if difference.is_nan() {
+                [0, 0, 0, 255]
+            } else if difference > 0.0 {
+                [255, rest, rest, 255]
+            } else {
+                [rest, rest, 255, 255]
+            }
+        })
+        .collect()
+}
+
+/// A value in `[0, 1]` as a byte.
+fn byte(value: f32) -> u8 {
+    // A float to integer cast saturates, and gives 0 for NaN.
+    (value * 255.0 + 0.5) as u8
+}

@@ -1,0 +1,92 @@
+//! Scenes: triangles in world space with the little of materials that shadows need.
+
+mod accessor;
+mod error;
+mod fence_and_foliage;
+mod gltf_file;
+mod ground;
+mod hall;
+mod material;
+mod mesh;
+mod primitive;
+mod resource;
+mod shapes;
+
+use std::path::Path;
+
+use glam::DVec3;
+
+pub use error::SceneError;
+pub use fence_and_foliage::fence_and_foliage;
+pub use gltf_file::load_gltf;
+pub use ground::place_on_ground;
+pub use hall::hall_with_open_roof;
+pub use material::{Image, Material};
+pub use mesh::{Bounds, Mesh};
+
+/// Names under which [`load`] knows the procedural scenes.
+pub const PROCEDURAL: [&str; 2] = ["fence-and-foliage", "hall"];
+
+/// Where to stand in a scene that is not to be looked at from all around.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Stand {
+    /// The camera's position.
+    pub eye: DVec3,
+    /// What it looks at.
+    pub target: DVec3,
+    /// Along which the sun shines.
+    pub light_direction: DVec3,
+}
+
+/// Triangles in world space (y is up), flattened from whatever hierarchy they had.
+#[derive(Clone, Debug)]
+pub struct Scene {
+    /// A short name: the file's, or that of the procedural scene.
+    pub name: String,
+    /// The triangles, one mesh per primitive and instance.
+    pub meshes: Vec<Mesh>,
+    /// What the meshes' `material` counts in. Never empty if there is a mesh.
+    pub materials: Vec<Material>,
+    /// What the materials' `texture` counts in.
+    pub images: Vec<Image>,
+    /// Height of the ground plane, if the scene stands on one.
+    pub ground: Option<f64>,
+    /// Where to stand; `None` to look at the scene from outside.
+    pub stand: Option<Stand>,
+    /// What was left out on loading, a sentence each.
+    pub warnings: Vec<String>,
+}
+
+impl Scene {
+    /// The box around all meshes but the ground.
+    pub fn bounds(&self) -> Bounds {
+        Bounds::of(self.casters())
+    }
+
+    /// The vertices of all meshes but the ground: what a directional light is fitted to.
+    pub fn casters(&self) -> impl Iterator<Item = DVec3> + '_ {
+        self.meshes
+            .iter()
+            .filter(|mesh| !mesh.ground)
+            .flat_map(|mesh| mesh.positions.iter())
+            .map(|&[x, y, z]| DVec3::new(f64::from(x), f64::from(y), f64::from(z)))
+    }
+
+    /// How many triangles there are, those of the ground included.
+    pub fn triangles(&self) -> usize {
+        self.meshes.iter().map(|mesh| mesh.indices.len() / 3).sum()
+    }
+}
+
+/// The scene that a command line names: a file, or one of [`PROCEDURAL`]. It stands on its ground plane.
+pub fn load(name: &str) -> Result<Scene, SceneError> {
+    match name {
+        "fence-and-foliage" => Ok(place_on_ground(fence_and_foliage())),
+        "hall" => Ok(place_on_ground(hall_with_open_roof())),
+        _ if Path::new(name).exists() => load_gltf(Path::new(name)).map(place_on_ground),
+        _ => Err(SceneError::Unknown {
+            name: name.to_owned(),
+            advice: format!("the procedural scenes are {}", PROCEDURAL.join(" and ")),
+        }),
+    }
+}

@@ -1,0 +1,91 @@
+//! What the device offers that a graph is compiled for.
+
+use moment_shadows::{FormatSupport, Profile, TextureFormat};
+use serde::{Deserialize, Serialize};
+
+/// What a plan may rely on. Faster paths are chosen by it when a graph is compiled.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
+pub struct Capabilities {
+    /// The profile: which formats can be written, sampled and drawn to.
+    pub profile: Profile,
+    /// Whether single-precision textures can be sampled with a filtering sampler.
+    pub float32_filterable: bool,
+    /// Samples per texel that depth textures can have.
+    pub depth_samples: Vec<u32>,
+    /// The largest width or height of a texture.
+    pub max_texture_size: u32,
+    /// The largest number of layers of a texture.
+    pub max_texture_layers: u32,
+    /// The largest number of workgroups of a dispatch in one dimension.
+    pub max_workgroups: u32,
+    /// Offsets of uniform buffers are multiples of this.
+    pub uniform_alignment: u32,
+    /// The index of the bind group that the host leaves to the plan's passes.
+    pub bind_group: u32,
+}
+
+impl Capabilities {
+    /// What every device of the profile offers, with WebGPU's default limits.
+    #[must_use]
+    pub fn of_profile(profile: Profile) -> Self {
+        Self {
+            profile,
+            float32_filterable: false,
+            depth_samples: vec![1, 4],
+            max_texture_size: 8192,
+            max_texture_layers: 256,
+            max_workgroups: 65535,
+            uniform_alignment: 256,
+            bind_group: 0,
+        }
+    }
+
+    /// What can be done with a format.
+    #[must_use]
+    pub fn support(&self, format: TextureFormat) -> FormatSupport {
+        let support = format.support(self.profile);
+        let float32 = matches!(format, TextureFormat::R32Float | TextureFormat::Rgba32Float);
+        FormatSupport {
+            filterable: support.filterable || (float32 && self.float32_filterable),
+            ..support
+        }
+    }
+
+    /// What a device offers. The profile follows from the device's features; the limits are the device's.
+    #[cfg(feature = "wgpu")]
+    #[must_use]
+    pub fn of_device(adapter: &wgpu::Adapter, device: &wgpu::Device) -> Self {
+        let features = device.features();
+        let adapter_specific =
+            features.contains(wgpu::Features::TEXTURE_ADAPTER_SPECIFIC_FORMAT_FEATURES);
+        let profile = if !features.contains(wgpu::Features::TEXTURE_FORMAT_16BIT_NORM) {
+            Profile::WebgpuCore
+        } else if adapter_specific {
+            Profile::NativeAdapter
+        } else {
+            Profile::Native
+        };
+        let flags = adapter
+            .get_texture_format_features(wgpu::TextureFormat::Depth32Float)
+            .flags;
+        let depth_samples = [1, 2, 4, 8]
+            .into_iter()
+            .filter(|&count| {
+                count == 1
+                    || count == 4
+                    || (adapter_specific && flags.sample_count_supported(count))
+            })
+            .collect();
+        let limits = device.limits();
+        Self {
+            profile,
+            float32_filterable: features.contains(wgpu::Features::FLOAT32_FILTERABLE),
+            depth_samples,
+            max_texture_size: limits.max_texture_dimension_2d,
+            max_texture_layers: limits.max_texture_array_layers,
+            max_workgroups: limits.max_compute_workgroups_per_dimension,
+            uniform_alignment: limits.min_uniform_buffer_offset_alignment,
+            bind_group: 0,
+        }
+    }
+}

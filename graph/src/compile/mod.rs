@@ -1,0 +1,406 @@
+//! From a graph to a plan: names, formats, sizes and shaders are checked before anything is created.
+
+mod memory;
+mod parameters;
+mod passes;
+mod reflect;
+mod slots;
+mod wiring;
+
+use std::collections::BTreeMap;
+
+use crate::graph::VERSION;
+use crate::{
+    Access, Capabilities, Connected, Direction, Graph, GraphError, GraphErrorKind, Home, Lifetime,
+    NodeDesc, Plan, PlannedImport, PlannedOutput, PlannedPass, PlannedResource, ResourceDesc,
+};
+use memory::Life;
+use wiring::{Source, Wiring};
+
+/// The imports that a host gives, by name.
+pub type Imports = BTreeMap<String, ResourceDesc>;
+
+/// A node that is part of the plan.
+struct Described {
+    node: usize,
+    desc: NodeDesc,
+    /// Index into the resources for every connected or made slot.
+    slots: BTreeMap<String, usize>,
+}
+
+/// Compiles a graph for a device and for what the host gives.
+///
+/// Checks names, cycles, formats, sizes, usages, and every binding against its shader; leaves out nodes whose outputs
+/// nobody takes; orders passes by stage; and lets resources share memory whose lives do not overlap. An import that the
+/// host does not describe is taken as the graph file expects it. Creates nothing on the device.
+pub fn compile(
+    graph: &Graph,
+    capabilities: &Capabilities,
+    imports: &Imports,
+) -> Result<Plan, GraphError> {
+    let wiring = Wiring::of(graph)?;
+    let mut resources = import_resources(graph, imports)?;
+    let described = describe(graph, &wiring, capabilities, &mut resources)?;
+    let outputs = outputs(graph, &described)?;
+    let needed = wiring.needed(graph)?;
+    let mut kept: Vec<&Described> = described
+        .iter()
+        .filter(|described| needed.contains(&described.node))
+        .collect();
+    stages_in_order(graph, &wiring, &described)?;
+    // Stable: within a stage the order of dependencies remains.
+    kept.sort_by_key(|described| described.desc.stage);
+
+    let (parameters, blocks) = parameters::lay_out(graph, &kept, &resources, capabilities)?;
+    let mut shaders = reflect::Shaders::default();
+    let mut passes = Vec::new();
+    for described in &kept {
+        let name = &graph.nodes[described.node].name;
+        for pass in &described.desc.passes {
+            let placed = |error: GraphError| {
+                error
+                    .at_node(name)
+                    .at_position(graph.nodes[described.node].position)
+            };
+            let planned = passes::plan(
+                name,
+                described,
+                pass,
+                &mut resources,
+                blocks.get(&described.node).copied(),
+                &parameters,
+                capabilities,
+            )
+            .map_err(placed)?;
+            shaders
+                .check(
+                    &planned,
+                    &resources,
+                    capabilities.profile,
+                    capabilities.bind_group,
+                )
+                .map_err(placed)?;
+            passes.push(planned);
+        }
+    }
+    let plan = Plan {
+        version: VERSION,
+        bind_group: capabilities.bind_group,
+        passes,
+        resources,
+        memory: Vec::new(),
+        imports: Vec::new(),
+        outputs,
+        parameters,
+    };
+    Ok(settle(plan, &kept))
+}
+
+/// Resources of the imports, in the order of the graph.
+fn import_resources(graph: &Graph, imports: &Imports) -> Result<Vec<PlannedResource>, GraphError> {
+    if let Some(name) = imports
+        .keys()
+        .find(|name| graph.imports.iter().all(|import| import.name != **name))
+    {
+        return Err(wiring::unknown(
+            "import",
+            name,
+            graph.imports.iter().map(|import| import.name.as_str()),
+            "the host describes an import that the graph does not have",
+        ));
+    }
+    graph
+        .imports
+        .iter()
+        .enumerate()
+        .map(|(index, import)| {
+            let desc = imports.get(&import.name).or(import.expected.as_ref()).ok_or_else(|| {
+                GraphError::new(
+                    GraphErrorKind::MissingImport,
+                    format!(
+                        "import '{}' is described neither by the host nor in the graph; describe its texture",
+                        import.name
+                    ),
+                )
+                .at_position(import.position)
+            })?;
+            Ok(PlannedResource {
+                name: import.name.clone(),
+                desc: desc.clone(),
+                access: Access::default(),
+                home: Home::Import(index),
+            })
+        })
+        .collect()
+}
+
+/// Lets every node describe itself, upstream first, and makes the resources of its slots.
+fn describe(
+    graph: &Graph,
+    wiring: &Wiring,
+    capabilities: &Capabilities,
+    resources: &mut Vec<PlannedResource>,
+) -> Result<Vec<Described>, GraphError> {
+    let mut described: Vec<Described> = Vec::new();
+    for &node in &wiring.order {
+        let graph_node = &graph.nodes[node];
+        let placed = |error: GraphError| {
+            error
+                .at_node(&graph_node.name)
+                .at_position(graph_node.position)
+        };
+        let mut slots = BTreeMap::new();
+        for (slot, (source, edge)) in &wiring.inputs[node] {
+            let resource = find(graph, &described, source)
+                .map_err(|error| error.at_position(graph.edges[*edge].position))?;
+            slots.insert(slot.clone(), resource);
+        }
+        let inputs: BTreeMap<String, ResourceDesc> = slots
+            .iter()
+            .map(|(slot, &resource)| (slot.clone(), resources[resource].desc.clone()))
+            .collect();
+        let desc = graph_node
+            .node
+            .describe(&Connected::new(&inputs, capabilities))
+            .map_err(placed)?;
+        for (slot, (_, edge)) in &wiring.inputs[node] {
+            let known = desc.slots.iter().any(|candidate| {
+                candidate.name == *slot
+                    && matches!(candidate.direction, Direction::In | Direction::InOut)
+            });
+            if !known {
+                return Err(wiring::unknown(
+                    "input",
+                    slot,
+                    desc.slots.iter().map(|candidate| candidate.name.as_str()),
+                    "an edge leads to an input of the node",
+                )
+                .at_node(&graph_node.name)
+                .at_slot(slot)
+                .at_position(graph.edges[*edge].position));
+            }
+        }
+        let resolved = slots::resolve(&desc, &inputs, capabilities).map_err(placed)?;
+        for (slot, desc) in resolved {
+            slots.entry(slot.clone()).or_insert_with(|| {
+                resources.push(PlannedResource {
+                    name: format!("{}.{slot}", graph_node.name),
+                    desc,
+                    access: Access::default(),
+                    // Settled once lifetimes are known.
+                    home: Home::Memory(0),
+                });
+                resources.len() - 1
+            });
+        }
+        described.push(Described { node, desc, slots });
+    }
+    Ok(described)
+}
+
+/// The resource behind a source.
+fn find(graph: &Graph, described: &[Described], source: &Source) -> Result<usize, GraphError> {
+    match source {
+        Source::Import(import) => Ok(*import),
+        Source::Node(node, slot) => {
+            let name = &graph.nodes[*node].name;
+            let owner = described.iter().find(|described| described.node == *node);
+            let slots = owner.map_or(&[][..], |owner| &owner.desc.slots);
+            let gives = |direction| matches!(direction, Direction::Out | Direction::InOut);
+            let known = slots
+                .iter()
+                .any(|candidate| candidate.name == *slot && gives(candidate.direction));
+            owner
+                .filter(|_| known)
+                .and_then(|owner| owner.slots.get(slot).copied())
+                .ok_or_else(|| {
+                    wiring::unknown(
+                        "output",
+                        slot,
+                        slots
+                            .iter()
+                            .filter(|candidate| gives(candidate.direction))
+                            .map(|candidate| candidate.name.as_str()),
+                        "an edge starts from an output of a node",
+                    )
+                    .at_node(name)
+                    .at_slot(slot)
+                })
+        }
+    }
+}
+
+fn outputs(graph: &Graph, described: &[Described]) -> Result<Vec<PlannedOutput>, GraphError> {
+    graph
+        .outputs
+        .iter()
+        .map(|output| {
+            let resource = wiring::source(graph, &output.from)
+                .and_then(|source| find(graph, described, &source))
+                .map_err(|error| error.at_position(output.position))?;
+            Ok(PlannedOutput {
+                name: output.name.clone(),
+                resource,
+            })
+        })
+        .collect()
+}
+
+/// A node cannot be recorded before one that it depends on.
+fn stages_in_order(
+    graph: &Graph,
+    wiring: &Wiring,
+    described: &[Described],
+) -> Result<(), GraphError> {
+    let stage = |node: usize| {
+        described
+            .iter()
+            .find(|described| described.node == node)
+            .map(|described| described.desc.stage)
+    };
+    for (node, inputs) in wiring.inputs.iter().enumerate() {
+        for (source, edge) in inputs.values() {
+            let Source::Node(upstream, _) = source else {
+                continue;
+            };
+            if stage(*upstream) > stage(node) {
+                return Err(GraphError::new(
+                    GraphErrorKind::Cycle,
+                    format!(
+                        "it is recorded before '{}', whose output it reads; connect it to a node of an earlier stage",
+                        graph.nodes[*upstream].name
+                    ),
+                )
+                .at_node(&graph.nodes[node].name)
+                .at_position(graph.edges[*edge].position));
+            }
+        }
+    }
+    Ok(())
+}
+
+/// Gives every resource its home and drops those that no pass touches.
+fn settle(mut plan: Plan, kept: &[&Described]) -> Plan {
+    let mut lives: BTreeMap<usize, Life> = BTreeMap::new();
+    for (index, pass) in plan.passes.iter().enumerate() {
+        for (resource, access) in passes::touched(pass) {
+            let planned = &plan.resources[resource];
+            let life = lives.entry(resource).or_insert_with(|| Life {
+                resource,
+                name: planned.name.clone(),
+                desc: planned.desc.clone(),
+                access: planned.access,
+                first: index,
+                last: index,
+                outlives: false,
+                persistent: false,
+                written_by_layer: true,
+                read_every_time: false,
+                exported: false,
+            });
+            life.last = index;
+            life.written_by_layer &= !access.writes() || pass.each_layer;
+            life.read_every_time |= access.read && !pass.each_layer;
+        }
+    }
+    for output in &plan.outputs {
+        if let Some(life) = lives.get_mut(&output.resource) {
+            life.outlives = true;
+            life.exported = true;
+        }
+    }
+    for described in kept {
+        for slot in &described.desc.slots {
+            let life = described
+                .slots
+                .get(&slot.name)
+                .and_then(|index| lives.get_mut(index));
+            if let (Some(life), Lifetime::Persistent) = (life, slot.lifetime) {
+                life.persistent = true;
+            }
+        }
+    }
+    let used: Vec<usize> = lives.keys().copied().collect();
+    let own: Vec<Life> = lives
+        .into_values()
+        .filter(|life| matches!(plan.resources[life.resource].home, Home::Memory(_)))
+        .collect();
+    let (homes, memory) = memory::share(&own);
+    for (life, home) in own.iter().zip(homes) {
+        plan.resources[life.resource].home = Home::Memory(home);
+    }
+    plan.memory = memory;
+    for &resource in &used {
+        if let Home::Import(_) = plan.resources[resource].home {
+            let import = plan.imports.len();
+            plan.imports.push(PlannedImport {
+                name: plan.resources[resource].name.clone(),
+                resource,
+            });
+            plan.resources[resource].home = Home::Import(import);
+        }
+    }
+    renumber(plan, &used)
+}
+
+/// Keeps only the used resources (and those that an output passes through) and rewrites the indices.
+fn renumber(mut plan: Plan, used: &[usize]) -> Plan {
+    // An import that is handed straight to an output is touched by no pass, but is named.
+    let mut keep: Vec<usize> = used.to_vec();
+    for output in &plan.outputs {
+        if !keep.contains(&output.resource) {
+            keep.push(output.resource);
+            if matches!(plan.resources[output.resource].home, Home::Import(_)) {
+                plan.resources[output.resource].home = Home::Import(plan.imports.len());
+                plan.imports.push(PlannedImport {
+                    name: plan.resources[output.resource].name.clone(),
+                    resource: output.resource,
+                });
+            }
+        }
+    }
+    let new: BTreeMap<usize, usize> = keep
+        .iter()
+        .enumerate()
+        .map(|(new, &old)| (old, new))
+        .collect();
+    let renumbered = |index: &mut usize| {
+        if let Some(&new) = new.get(index) {
+            *index = new;
+        }
+    };
+    plan.resources = keep
+        .iter()
+        .map(|&old| plan.resources[old].clone())
+        .collect();
+    plan.imports
+        .iter_mut()
+        .for_each(|import| renumbered(&mut import.resource));
+    plan.outputs
+        .iter_mut()
+        .for_each(|output| renumbered(&mut output.resource));
+    for pass in &mut plan.passes {
+        renumber_pass(pass, &renumbered);
+    }
+    plan
+}
+
+fn renumber_pass(pass: &mut PlannedPass, renumbered: &impl Fn(&mut usize)) {
+    use crate::{PlannedBindingResource as Resource, PlannedWork};
+    for binding in &mut pass.bindings {
+        match &mut binding.resource {
+            Resource::Texture { resource, .. }
+            | Resource::StorageTexture { resource }
+            | Resource::Buffer { resource, .. } => renumbered(resource),
+            Resource::Parameters { .. } | Resource::Sampler { .. } => {}
+        }
+    }
+    match &mut pass.work {
+        PlannedWork::Compute { .. } => {}
+        PlannedWork::Fullscreen { target } => renumbered(target),
+        PlannedWork::Host { targets, depth, .. } => {
+            targets.iter_mut().for_each(renumbered);
+            depth.iter_mut().for_each(renumbered);
+        }
+    }
+}

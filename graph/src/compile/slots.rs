@@ -1,0 +1,304 @@
+//! Rules of slots: what may be connected, and what a node's own resources become.
+
+use std::collections::{BTreeMap, BTreeSet};
+
+use moment_shadows::{Storage, TextureFormat};
+
+use crate::{
+    Access, Capabilities, CountRule, Direction, ExtentRule, FormatRule, GraphError, GraphErrorKind,
+    NodeDesc, ResourceDesc, Slot, SlotResource, TextureDesc,
+};
+
+/// Checks what is connected to a node and gives every slot of it a concrete resource.
+pub(super) fn resolve(
+    desc: &NodeDesc,
+    inputs: &BTreeMap<String, ResourceDesc>,
+    capabilities: &Capabilities,
+) -> Result<BTreeMap<String, ResourceDesc>, GraphError> {
+    let mut names = BTreeSet::new();
+    for slot in &desc.slots {
+        if !names.insert(slot.name.as_str()) {
+            return Err(GraphError::new(
+                GraphErrorKind::DuplicateName,
+                "the node declares two slots of this name",
+            )
+            .at_slot(&slot.name));
+        }
+    }
+    let mut resolved = inputs.clone();
+    let takes_input = |slot: &&Slot| matches!(slot.direction, Direction::In | Direction::InOut);
+    for slot in desc.slots.iter().filter(takes_input) {
+        match inputs.get(&slot.name) {
+            Some(resource) => check(slot, resource, &resolved, capabilities)?,
+            None if slot.optional => {}
+            None => {
+                return Err(GraphError::new(
+                    GraphErrorKind::MissingInput,
+                    "nothing is connected to this input; add an edge that leads to it",
+                )
+                .at_slot(&slot.name));
+            }
+        }
+    }
+    for slot in desc.slots.iter().filter(|slot| !takes_input(slot)) {
+        let resource = make(slot, &resolved)?;
+        check(slot, &resource, &resolved, capabilities)?;
+        resolved.insert(slot.name.clone(), resource);
+    }
+    Ok(resolved)
+}
+
+/// The resource that a rule-bound slot becomes.
+fn make(
+    slot: &Slot,
+    resolved: &BTreeMap<String, ResourceDesc>,
+) -> Result<ResourceDesc, GraphError> {
+    let undetermined = |what: &str| {
+        GraphError::new(
+            GraphErrorKind::Declaration,
+            format!("the node makes this resource, but leaves its {what} open"),
+        )
+        .at_slot(&slot.name)
+    };
+    match &slot.resource {
+        SlotResource::Buffer { size, .. } => Ok(ResourceDesc::Buffer { size: *size }),
+        SlotResource::Texture {
+            format,
+            extent,
+            layers,
+            mips,
+            samples,
+            ..
+        } => {
+            let count = |rule: &CountRule, what: &str, of: fn(&TextureDesc) -> u32| match rule {
+                CountRule::Exact(count) => Ok(*count),
+                CountRule::SameAs(other) => Ok(of(texture_of(slot, other, resolved)?)),
+                CountRule::OneOf(_) | CountRule::Any => Err(undetermined(what)),
+            };
+            Ok(ResourceDesc::Texture(TextureDesc {
+                format: match format {
+                    FormatRule::Exact(format) => *format,
+                    FormatRule::SameAs(other) => texture_of(slot, other, resolved)?.format,
+                    FormatRule::OneOf(_) => return Err(undetermined("format")),
+                },
+                size: match extent {
+                    ExtentRule::Exact(size) => *size,
+                    ExtentRule::SameAs(other) => texture_of(slot, other, resolved)?.size,
+                    ExtentRule::Any => return Err(undetermined("extent")),
+                },
+                layers: count(layers, "number of layers", |texture| texture.layers)?,
+                mips: count(mips, "number of mip levels", |texture| texture.mips)?,
+                samples: count(samples, "number of samples", |texture| texture.samples)?,
+            }))
+        }
+    }
+}
+
+fn texture_of<'a>(
+    slot: &Slot,
+    other: &str,
+    resolved: &'a BTreeMap<String, ResourceDesc>,
+) -> Result<&'a TextureDesc, GraphError> {
+    resolved
+        .get(other)
+        .and_then(ResourceDesc::texture)
+        .ok_or_else(|| {
+            GraphError::new(
+                GraphErrorKind::Declaration,
+                format!("its rule refers to '{other}', which is no connected texture of the node"),
+            )
+            .at_slot(&slot.name)
+        })
+}
+
+/// Whether a resource fits a slot and the device.
+fn check(
+    slot: &Slot,
+    resource: &ResourceDesc,
+    resolved: &BTreeMap<String, ResourceDesc>,
+    capabilities: &Capabilities,
+) -> Result<(), GraphError> {
+    let fail = |kind, message: String| Err(GraphError::new(kind, message).at_slot(&slot.name));
+    match (&slot.resource, resource) {
+        (SlotResource::Buffer { size: needed, .. }, ResourceDesc::Buffer { size }) => {
+            if size < needed {
+                return fail(
+                    GraphErrorKind::Size,
+                    format!("the buffer has {size} bytes; at least {needed} are needed"),
+                );
+            }
+            Ok(())
+        }
+        (SlotResource::Buffer { .. }, ResourceDesc::Texture(_)) => fail(
+            GraphErrorKind::Format,
+            "a texture is connected, but this input takes a buffer".to_owned(),
+        ),
+        (SlotResource::Texture { .. }, ResourceDesc::Buffer { .. }) => fail(
+            GraphErrorKind::Format,
+            "a buffer is connected, but this input takes a texture".to_owned(),
+        ),
+        (
+            SlotResource::Texture {
+                access,
+                format,
+                extent,
+                layers,
+                mips,
+                samples,
+            },
+            ResourceDesc::Texture(texture),
+        ) => {
+            let formats: Vec<TextureFormat> = match format {
+                FormatRule::Exact(format) => vec![*format],
+                FormatRule::OneOf(formats) => formats.clone(),
+                FormatRule::SameAs(other) => vec![texture_of(slot, other, resolved)?.format],
+            };
+            if !formats.contains(&texture.format) {
+                let names: Vec<&str> = formats.iter().map(|format| format.name()).collect();
+                return fail(
+                    GraphErrorKind::Format,
+                    format!(
+                        "the texture has the format {}; it has to be {}",
+                        texture.format,
+                        names.join(" or ")
+                    ),
+                );
+            }
+            let size = match extent {
+                ExtentRule::Any => texture.size,
+                ExtentRule::Exact(size) => *size,
+                ExtentRule::SameAs(other) => texture_of(slot, other, resolved)?.size,
+            };
+            if size != texture.size {
+                return fail(
+                    GraphErrorKind::Size,
+                    format!(
+                        "the texture has {}x{} texels; it has to have {}x{}",
+                        texture.size[0], texture.size[1], size[0], size[1]
+                    ),
+                );
+            }
+            let counts: [(&CountRule, fn(&TextureDesc) -> u32, &str, GraphErrorKind); 3] = [
+                (
+                    layers,
+                    |texture| texture.layers,
+                    "layers",
+                    GraphErrorKind::Size,
+                ),
+                (
+                    mips,
+                    |texture| texture.mips,
+                    "mip levels",
+                    GraphErrorKind::Size,
+                ),
+                (
+                    samples,
+                    |texture| texture.samples,
+                    "samples per texel",
+                    GraphErrorKind::Format,
+                ),
+            ];
+            for (rule, of, what, kind) in counts {
+                let allowed = match rule {
+                    CountRule::Any => continue,
+                    CountRule::Exact(count) => vec![*count],
+                    CountRule::OneOf(counts) => counts.clone(),
+                    CountRule::SameAs(other) => vec![of(texture_of(slot, other, resolved)?)],
+                };
+                if !allowed.contains(&of(texture)) {
+                    let allowed: Vec<String> = allowed.iter().map(u32::to_string).collect();
+                    return fail(
+                        kind,
+                        format!(
+                            "the texture has {} {what}; it has to have {}",
+                            of(texture),
+                            allowed.join(" or ")
+                        ),
+                    );
+                }
+            }
+            limits(texture, capabilities).map_err(|error| error.at_slot(&slot.name))?;
+            usable(texture.format, *access, capabilities).map_err(|error| error.at_slot(&slot.name))
+        }
+    }
+}
+
+/// Whether the device can have such a texture.
+fn limits(texture: &TextureDesc, capabilities: &Capabilities) -> Result<(), GraphError> {
+    let largest = capabilities.max_texture_size;
+    if texture.size.contains(&0) || texture.layers == 0 || texture.mips == 0 {
+        return Err(GraphError::new(
+            GraphErrorKind::Size,
+            format!(
+                "the texture is empty ({texture}); every side is at least 1 and at most {largest}"
+            ),
+        ));
+    }
+    if texture.size.iter().any(|&side| side > largest) {
+        return Err(GraphError::new(
+            GraphErrorKind::Size,
+            format!(
+                "the texture has {}x{} texels; the device allows {largest} per side",
+                texture.size[0], texture.size[1]
+            ),
+        ));
+    }
+    if texture.layers > capabilities.max_texture_layers {
+        return Err(GraphError::new(
+            GraphErrorKind::Size,
+            format!(
+                "the texture has {} layers; the device allows {}",
+                texture.layers, capabilities.max_texture_layers
+            ),
+        ));
+    }
+    if texture.samples != 1 && !capabilities.depth_samples.contains(&texture.samples) {
+        let counts: Vec<String> = capabilities
+            .depth_samples
+            .iter()
+            .map(u32::to_string)
+            .collect();
+        return Err(GraphError::new(
+            GraphErrorKind::Capability,
+            format!(
+                "the texture has {} samples per texel; the device allows {}",
+                texture.samples,
+                counts.join(" or ")
+            ),
+        ));
+    }
+    Ok(())
+}
+
+/// Whether the profile allows what passes do with the format.
+fn usable(
+    format: TextureFormat,
+    access: Access,
+    capabilities: &Capabilities,
+) -> Result<(), GraphError> {
+    let support = capabilities.support(format);
+    let missing = if access.storage_write && !support.storage_write {
+        Some("written as a storage texture")
+    } else if access.render_target && !support.renderable {
+        Some("drawn to")
+    } else {
+        None
+    };
+    let Some(missing) = missing else {
+        return Ok(());
+    };
+    let alternative = match Storage::of_format(format) {
+        Some(_) => format!(
+            "use storage '{}', which works there",
+            Storage::best_for(capabilities.profile)
+        ),
+        None => "use another format".to_owned(),
+    };
+    Err(GraphError::new(
+        GraphErrorKind::Capability,
+        format!(
+            "{format} cannot be {missing} under the profile {}; {alternative}",
+            capabilities.profile
+        ),
+    ))
+}

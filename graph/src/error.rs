@@ -1,0 +1,137 @@
+//! What can be wrong with a graph, and where.
+
+use core::fmt;
+
+use serde::{Deserialize, Serialize};
+
+/// A place in a graph file, counted from 1.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+pub struct Position {
+    /// The line.
+    pub line: u32,
+    /// The column, in bytes.
+    pub column: u32,
+}
+
+impl Position {
+    /// The position of byte `offset` of `text`.
+    pub(crate) fn of(text: &str, offset: usize) -> Self {
+        let before = &text.as_bytes()[..offset.min(text.len())];
+        let line_start = before
+            .iter()
+            .rposition(|&byte| byte == b'\n')
+            .map_or(0, |index| index + 1);
+        let line = before.iter().filter(|&&byte| byte == b'\n').count() + 1;
+        Self {
+            line: u32::try_from(line).unwrap_or(u32::MAX),
+            column: u32::try_from(before.len() - line_start + 1).unwrap_or(u32::MAX),
+        }
+    }
+}
+
+impl fmt::Display for Position {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "{}:{}", self.line, self.column)
+    }
+}
+
+/// The kinds of things that can be wrong with a graph.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[non_exhaustive]
+pub enum GraphErrorKind {
+    /// Not JSON, a missing or an unknown key, or a value of the wrong type.
+    Syntax,
+    /// A version that this library does not know.
+    Version,
+    /// A node type that nobody registered.
+    UnknownNodeType,
+    /// Two imports, nodes, slots or outputs of one name.
+    DuplicateName,
+    /// A name that refers to nothing.
+    UnknownName,
+    /// A property whose value the node cannot work with.
+    Property,
+    /// A required input that nothing is connected to.
+    MissingInput,
+    /// An input that more than one edge leads to.
+    TwoWriters,
+    /// Nodes that wait for each other.
+    Cycle,
+    /// A texture where a buffer is needed, a wrong format or a wrong number of samples.
+    Format,
+    /// A size, a number of layers or a kernel that does not fit.
+    Size,
+    /// Something that the device or the profile does not offer.
+    Capability,
+    /// A shader that does not link or validate, or that does not match what its node declares.
+    Shader,
+    /// A declaration that contradicts itself: a node's own fault.
+    Declaration,
+    /// An import that the host did not describe.
+    MissingImport,
+}
+
+/// Why a graph cannot be used. Nothing has been created.
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+pub struct GraphError {
+    /// What is wrong.
+    pub kind: GraphErrorKind,
+    /// The node it is about.
+    pub node: Option<String>,
+    /// The slot of the node.
+    pub slot: Option<String>,
+    /// The place in the graph file, where there is one.
+    pub position: Option<Position>,
+    /// What was found, and what to do.
+    pub message: String,
+}
+
+impl GraphError {
+    /// An error of a kind; the sentence says what was found and what to do.
+    pub fn new(kind: GraphErrorKind, message: impl Into<String>) -> Self {
+        Self {
+            kind,
+            node: None,
+            slot: None,
+            position: None,
+            message: message.into(),
+        }
+    }
+
+    /// The same error about a node, unless it already names one.
+    #[must_use]
+    pub fn at_node(mut self, node: &str) -> Self {
+        self.node.get_or_insert_with(|| node.to_owned());
+        self
+    }
+
+    /// The same error about a slot.
+    #[must_use]
+    pub fn at_slot(mut self, slot: &str) -> Self {
+        self.slot.get_or_insert_with(|| slot.to_owned());
+        self
+    }
+
+    /// The same error with its place in the file, unless it already has one.
+    #[must_use]
+    pub fn at_position(mut self, position: Option<Position>) -> Self {
+        self.position = self.position.or(position);
+        self
+    }
+}
+
+impl fmt::Display for GraphError {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        if let Some(position) = self.position {
+            write!(f, "{position}: ")?;
+        }
+        if let Some(node) = &self.node {
+            write!(f, "node '{node}'")?;
+            if let Some(slot) = &self.slot {
+                write!(f, ", slot '{slot}'")?;
+            }
+            f.write_str(": ")?;
+        }
+        f.write_str(&self.message)
+    }
+}

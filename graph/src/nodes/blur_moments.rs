@@ -1,0 +1,245 @@
+//! Filters a map of moments with a separable kernel.
+
+use bytemuck::{Pod, Zeroable};
+use moment_shadows::{Kernel, LARGEST_RADIUS, Storage};
+use serde::{Deserialize, Serialize};
+
+use super::KernelProperty;
+use super::specialization::Specialization;
+use super::unrolled;
+use crate::{
+    Access, Binding, BindingResource, Connected, CountRule, Direction, ExtentRule, FormatRule,
+    GraphError, GraphErrorKind, Lifetime, Node, NodeDesc, ParameterBlock, Pass, Slot, SlotResource,
+    Stage, TextureDesc, Work,
+};
+
+const UNROLLED_SHADER: &str = include_str!("blur_moments_unrolled.wgsl");
+const UNIFORM_SHADER: &str = include_str!("blur_moments_uniform.wgsl");
+
+/// Up to this radius the weights are literals and every load is unrolled; beyond it the code would leave the instruction
+/// cache.
+const LARGEST_UNROLLED_RADIUS: u32 = 12;
+
+/// Node `blur_moments`: `moments` to `blurred`, of the same format, size and layers. Two passes, along x and along y;
+/// beyond the border the last texel repeats.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct BlurMoments {
+    /// The kernel, the same along both axes.
+    pub kernel: KernelProperty,
+    /// Whether the kernel can change per frame: its weights are then a node parameter ([`BlurParameters`]), which begins
+    /// as `kernel`. Kernels of a radius above 12 have the parameter in any case.
+    #[serde(default)]
+    pub per_frame: bool,
+}
+
+/// Weights that a [`BlurMoments`] node takes from its parameters.
+#[derive(Clone, Copy, Debug, PartialEq, Pod, Zeroable)]
+#[repr(C)]
+pub struct BlurParameters {
+    /// Texels on either side of the centre.
+    pub radius: u32,
+    /// Blocks of 16 taps that the shader runs through.
+    pub blocks: u32,
+    /// Unused; keeps the WGSL layout.
+    pub padding: [u32; 2],
+    /// The weights, preceded by 15 zeros and followed by zeros.
+    pub weights: [[f32; 4]; BLUR_WEIGHT_VECTORS],
+}
+
+/// 16-tap blocks of the largest kernel, and one more that the last outputs reach into.
+const BLUR_WEIGHT_VECTORS: usize =
+    4 * (LARGEST_RADIUS as usize * 2 + unrolled::OUTPUTS_UNIFORM).div_ceil(16) + 4;
+
+impl BlurParameters {
+    /// The parameters that stand for a kernel.
+    #[must_use]
+    pub fn new(kernel: &Kernel) -> Self {
+        let mut flat = [0.0; BLUR_WEIGHT_VECTORS * 4];
+        let before = unrolled::OUTPUTS_UNIFORM - 1;
+        for (slot, &weight) in flat[before..].iter_mut().zip(kernel.weights()) {
+            *slot = weight;
+        }
+        let taps = 2 * kernel.radius() as usize + unrolled::OUTPUTS_UNIFORM;
+        Self {
+            radius: kernel.radius(),
+            blocks: taps.div_ceil(16) as u32,
+            padding: [0; 2],
+            weights: bytemuck::cast(flat),
+        }
+    }
+}
+
+impl Node for BlurMoments {
+    fn describe(&self, upstream: &Connected<'_>) -> Result<NodeDesc, GraphError> {
+        let moments = upstream.texture("moments")?;
+        let storage = Storage::of_format(moments.format).ok_or_else(|| {
+            GraphError::new(
+                GraphErrorKind::Format,
+                format!(
+                    "{} holds no moments; connect a map of moments",
+                    moments.format
+                ),
+            )
+            .at_slot("moments")
+        })?;
+        let kernel = self.kernel.kernel()?;
+        check_fits(&kernel, moments)?;
+        let unrolled = !self.per_frame && kernel.radius() <= LARGEST_UNROLLED_RADIUS;
+        let passes = [(0, "blur along x"), (1, "blur along y")]
+            .into_iter()
+            .map(|(axis, label)| {
+                let (from, to) = if axis == 0 {
+                    ("moments", "half_blurred")
+                } else {
+                    ("half_blurred", "blurred")
+                };
+                self.pass(upstream, storage, &kernel, unrolled, axis, label, from, to)
+            })
+            .collect::<Result<Vec<_>, _>>()?;
+        Ok(NodeDesc {
+            name: "blur_moments".to_owned(),
+            stage: Stage::AfterShadowMaps,
+            slots: vec![
+                slot(
+                    "moments",
+                    Direction::In,
+                    Access::READ,
+                    FormatRule::OneOf(Storage::ALL.map(Storage::format).to_vec()),
+                ),
+                slot(
+                    "half_blurred",
+                    Direction::Internal,
+                    Access::READ.union(Access::STORAGE_WRITE),
+                    FormatRule::SameAs("moments".to_owned()),
+                ),
+                slot(
+                    "blurred",
+                    Direction::Out,
+                    Access::STORAGE_WRITE,
+                    FormatRule::SameAs("moments".to_owned()),
+                ),
+            ],
+            passes,
+            parameters: (!unrolled).then(|| ParameterBlock {
+                name: "BlurParameters".to_owned(),
+                size: size_of::<BlurParameters>() as u32,
+                each_layer_of: None,
+                initial: bytemuck::bytes_of(&BlurParameters::new(&kernel)).to_vec(),
+            }),
+        })
+    }
+}
+
+impl BlurMoments {
+    #[allow(clippy::too_many_arguments)]
+    fn pass(
+        &self,
+        upstream: &Connected<'_>,
+        storage: Storage,
+        kernel: &Kernel,
+        unrolled: bool,
+        axis: u32,
+        label: &str,
+        from: &str,
+        to: &str,
+    ) -> Result<Pass, GraphError> {
+        let specialization = Specialization::new(upstream.capabilities())
+            .alias(
+                "MomentsStorage",
+                &format!("texture_storage_2d<{}, write>", storage.format()),
+            )
+            .constant("STORAGE", &format!("{}u", storage.wgsl_index()))
+            .constant(
+                "AXIS",
+                if axis == 0 {
+                    "vec2i(1, 0)"
+                } else {
+                    "vec2i(0, 1)"
+                },
+            );
+        let mut bindings = vec![
+            Binding {
+                binding: 0,
+                resource: BindingResource::Layer(from.to_owned()),
+            },
+            Binding {
+                binding: 1,
+                resource: BindingResource::StorageLayer(to.to_owned()),
+            },
+        ];
+        let (wgsl, outputs) = if unrolled {
+            let text = specialization.text(&unrolled::literal_weights(kernel.weights()));
+            (
+                text.link("blur_moments_unrolled.wgsl", UNROLLED_SHADER, &[])?,
+                unrolled::OUTPUTS_LITERAL,
+            )
+        } else {
+            bindings.push(Binding {
+                binding: 2,
+                resource: BindingResource::Parameters,
+            });
+            let text = specialization.text(&unrolled::uniform_weights());
+            (
+                text.link("blur_moments_uniform.wgsl", UNIFORM_SHADER, &[])?,
+                unrolled::OUTPUTS_UNIFORM,
+            )
+        };
+        let mut texels_per_workgroup = [8, 8];
+        texels_per_workgroup[axis as usize] *= outputs as u32;
+        Ok(Pass {
+            label: label.to_owned(),
+            wgsl,
+            entry_point: "blur".to_owned(),
+            bindings,
+            constants: [].into(),
+            work: Work::Compute {
+                covers: to.to_owned(),
+                texels_per_workgroup,
+                each_layer: true,
+            },
+        })
+    }
+}
+
+fn check_fits(kernel: &Kernel, moments: &TextureDesc) -> Result<(), GraphError> {
+    let shortest = moments.size[0].min(moments.size[1]);
+    if 2 * kernel.radius() < shortest {
+        return Ok(());
+    }
+    let largest = (shortest.saturating_sub(1) / 2).min(LARGEST_RADIUS);
+    Err(GraphError::new(
+        GraphErrorKind::Size,
+        format!(
+            "a kernel of radius {} is wider than the map of {}x{} texels; the largest radius for it is {largest}",
+            kernel.radius(),
+            moments.size[0],
+            moments.size[1]
+        ),
+    )
+    .at_slot("moments"))
+}
+
+fn slot(name: &str, direction: Direction, access: Access, format: FormatRule) -> Slot {
+    let (extent, layers) = match direction {
+        Direction::In => (ExtentRule::Any, CountRule::Any),
+        _ => (
+            ExtentRule::SameAs("moments".to_owned()),
+            CountRule::SameAs("moments".to_owned()),
+        ),
+    };
+    Slot {
+        name: name.to_owned(),
+        direction,
+        lifetime: Lifetime::Frame,
+        optional: false,
+        resource: SlotResource::Texture {
+            access,
+            format,
+            extent,
+            layers,
+            mips: CountRule::Exact(1),
+            samples: CountRule::Exact(1),
+        },
+    }
+}

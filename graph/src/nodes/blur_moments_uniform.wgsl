@@ -1,0 +1,70 @@
+import moment_shadows::moments::{moments_round_texel};
+import moment_shadows::specialization::{AXIS, BlurSums, GROUP, MomentsStorage, OUTPUTS, STORAGE, blur_taps};
+
+// One direction of a separable filter over one layer, with weights that a host can change per frame.
+// An invocation makes OUTPUTS texels in a row along AXIS; it runs through the texels in blocks of 16 and through the
+// weights in step, keeping the half that the next block needs again.
+
+struct BlurParameters {
+    // Texels on either side of the centre.
+    radius: u32,
+    // Blocks of 16 taps: 2 radius + OUTPUTS taps, rounded up.
+    blocks: u32,
+    padding: vec2u,
+    // The weights, preceded by 15 zeros and followed by zeros.
+    weights: array<vec4f, 40>,
+}
+
+@group(GROUP) @binding(0) var moments_map: texture_2d<f32>;
+@group(GROUP) @binding(1) var blurred_map: MomentsStorage;
+@group(GROUP) @binding(2) var<uniform> parameters: BlurParameters;
+
+fn blur_store(texel: vec2i, last: vec2i, value: vec4f) {
+    if all(texel <= last) {
+        textureStore(blurred_map, texel, moments_round_texel(value, STORAGE));
+    }
+}
+
+@compute @workgroup_size(8, 8)
+fn blur(@builtin(global_invocation_id) id: vec3u) {
+    let last = vec2i(textureDimensions(blurred_map)) - 1;
+    let first = vec2i(id.xy) * (1 + (OUTPUTS - 1) * AXIS);
+    if any(first > last) {
+        return;
+    }
+    var sums: BlurSums;
+    var w0 = parameters.weights[0];
+    var w1 = parameters.weights[1];
+    var w2 = parameters.weights[2];
+    var w3 = parameters.weights[3];
+    // 40 vectors of weights hold 9 blocks.
+    let blocks = min(parameters.blocks, 9u);
+    for (var block = 0u; block < blocks; block++) {
+        let w4 = parameters.weights[4u * block + 4u];
+        let w5 = parameters.weights[4u * block + 5u];
+        let w6 = parameters.weights[4u * block + 6u];
+        let w7 = parameters.weights[4u * block + 7u];
+        let tap = i32(16u * block) - i32(parameters.radius);
+        sums = blur_taps(moments_map, first + tap * AXIS, last, sums, w0, w1, w2, w3, w4, w5, w6, w7);
+        w0 = w4;
+        w1 = w5;
+        w2 = w6;
+        w3 = w7;
+    }
+    blur_store(first, last, sums.o0);
+    blur_store(first + AXIS, last, sums.o1);
+    blur_store(first + 2 * AXIS, last, sums.o2);
+    blur_store(first + 3 * AXIS, last, sums.o3);
+    blur_store(first + 4 * AXIS, last, sums.o4);
+    blur_store(first + 5 * AXIS, last, sums.o5);
+    blur_store(first + 6 * AXIS, last, sums.o6);
+    blur_store(first + 7 * AXIS, last, sums.o7);
+    blur_store(first + 8 * AXIS, last, sums.o8);
+    blur_store(first + 9 * AXIS, last, sums.o9);
+    blur_store(first + 10 * AXIS, last, sums.o10);
+    blur_store(first + 11 * AXIS, last, sums.o11);
+    blur_store(first + 12 * AXIS, last, sums.o12);
+    blur_store(first + 13 * AXIS, last, sums.o13);
+    blur_store(first + 14 * AXIS, last, sums.o14);
+    blur_store(first + 15 * AXIS, last, sums.o15);
+}

@@ -1,0 +1,110 @@
+//! Turns a light's depth map into a map of moments.
+
+use moment_shadows::{DepthConversion, Storage, TextureFormat};
+use serde::{Deserialize, Serialize};
+
+use super::specialization::Specialization;
+use crate::{
+    Access, Binding, BindingResource, Connected, CountRule, Direction, ExtentRule, FormatRule,
+    GraphError, Lifetime, Node, NodeDesc, ParameterBlock, Pass, Slot, SlotResource, Stage, Work,
+};
+
+const SHADER: &str = include_str!("resolve_moments.wgsl");
+
+/// Node `resolve_moments`: `depth` (1, 2, 4 or 8 samples of depth32float or depth16unorm, any number of layers) to
+/// `moments`, of the same size and layers. The *moments* of the samples are averaged, not their depths, so edges are
+/// antialiased. Parameters: a [`DepthConversion`] per layer.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct ResolveMoments {
+    /// How the moments are stored.
+    pub storage: Storage,
+}
+
+impl Node for ResolveMoments {
+    fn describe(&self, upstream: &Connected<'_>) -> Result<NodeDesc, GraphError> {
+        let depth = upstream.texture("depth")?;
+        let texture = if depth.samples > 1 {
+            "texture_depth_multisampled_2d"
+        } else {
+            "texture_depth_2d"
+        };
+        let wgsl = Specialization::new(upstream.capabilities())
+            .alias("DepthTexture", texture)
+            .alias(
+                "MomentsStorage",
+                &format!("texture_storage_2d<{}, write>", self.storage.format()),
+            )
+            .constant("STORAGE", &format!("{}u", self.storage.wgsl_index()))
+            .constant("SAMPLES", &depth.samples.to_string())
+            .link("resolve_moments.wgsl", SHADER, &[])?;
+        Ok(NodeDesc {
+            name: "resolve_moments".to_owned(),
+            stage: Stage::AfterShadowMaps,
+            slots: vec![
+                Slot {
+                    name: "depth".to_owned(),
+                    direction: Direction::In,
+                    lifetime: Lifetime::Frame,
+                    optional: false,
+                    resource: SlotResource::Texture {
+                        access: Access::READ,
+                        format: FormatRule::OneOf(vec![
+                            TextureFormat::Depth32Float,
+                            TextureFormat::Depth16Unorm,
+                        ]),
+                        extent: ExtentRule::Any,
+                        layers: CountRule::Any,
+                        mips: CountRule::Any,
+                        samples: CountRule::OneOf(vec![1, 2, 4, 8]),
+                    },
+                },
+                Slot {
+                    name: "moments".to_owned(),
+                    direction: Direction::Out,
+                    lifetime: Lifetime::Frame,
+                    optional: false,
+                    resource: SlotResource::Texture {
+                        access: Access::STORAGE_WRITE,
+                        format: FormatRule::Exact(self.storage.format()),
+                        extent: ExtentRule::SameAs("depth".to_owned()),
+                        layers: CountRule::SameAs("depth".to_owned()),
+                        mips: CountRule::Exact(1),
+                        samples: CountRule::Exact(1),
+                    },
+                },
+            ],
+            passes: vec![Pass {
+                label: "resolve".to_owned(),
+                wgsl,
+                entry_point: "resolve".to_owned(),
+                bindings: vec![
+                    Binding {
+                        binding: 0,
+                        resource: BindingResource::Parameters,
+                    },
+                    Binding {
+                        binding: 1,
+                        resource: BindingResource::Layer("depth".to_owned()),
+                    },
+                    Binding {
+                        binding: 2,
+                        resource: BindingResource::StorageLayer("moments".to_owned()),
+                    },
+                ],
+                constants: [].into(),
+                work: Work::Compute {
+                    covers: "moments".to_owned(),
+                    texels_per_workgroup: [8, 8],
+                    each_layer: true,
+                },
+            }],
+            parameters: Some(ParameterBlock {
+                name: "DepthConversion".to_owned(),
+                size: size_of::<DepthConversion>() as u32,
+                each_layer_of: Some("depth".to_owned()),
+                initial: bytemuck::bytes_of(&DepthConversion::orthographic()).to_vec(),
+            }),
+        })
+    }
+}

@@ -1,0 +1,27 @@
+import moment_shadows::depth::{DepthConversion, depth_to_moment_depth};
+import moment_shadows::moments::{moments_from_depth, moments_to_texel};
+import moment_shadows::specialization::{DepthTexture, GROUP, MomentsStorage, SAMPLES, STORAGE};
+
+// Resolves one layer of a depth map to moments: one texel per invocation.
+//
+// The moments of the samples are averaged. Averaging depths instead would put an occluder between foreground and
+// background, where there is none (Peters & Klein, i3D 2015, section 4).
+
+@group(GROUP) @binding(0) var<uniform> conversion: DepthConversion;
+@group(GROUP) @binding(1) var depth_map: DepthTexture;
+@group(GROUP) @binding(2) var moments_map: MomentsStorage;
+
+@compute @workgroup_size(8, 8)
+fn resolve(@builtin(global_invocation_id) id: vec3u) {
+    if any(id.xy >= textureDimensions(moments_map)) {
+        return;
+    }
+    let texel = vec2i(id.xy);
+    var sum = vec4f(0.0);
+    // For a single sample the last argument of the load is its mip level, 0.
+    for (var sample = 0; sample < SAMPLES; sample++) {
+        let stored = textureLoad(depth_map, texel, sample);
+        sum += moments_from_depth(depth_to_moment_depth(stored, conversion));
+    }
+    textureStore(moments_map, texel, moments_to_texel(sum / f32(SAMPLES), STORAGE));
+}

@@ -1,0 +1,171 @@
+//! The parameters of `shade_hard`, from a camera and a light.
+
+use moment_shadows::{DepthConversion, DepthError, DepthRange, LeakReduction, ReceiverBias};
+use serde::{Deserialize, Serialize};
+
+use super::ShadeHardParameters;
+
+/// A matrix by columns, in f64: products of f32 matrices with large translations keep their precision.
+type Matrix = [[f64; 4]; 4];
+
+/// A camera.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct CameraView {
+    /// From scene to clip space, by columns; wgpu's clip space, with depth as the camera's texture stores it.
+    pub clip_from_world: [[f32; 4]; 4],
+    /// The stored depth of pixels that show no surface: 0 for reversed depth, 1 for forward depth.
+    pub far_depth: f32,
+}
+
+/// A light's map.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct LightView {
+    /// From scene to clip space, by columns, as the map was drawn with.
+    pub clip_from_world: [[f32; 4]; 4],
+    /// How the map stores depth.
+    pub depth: LightDepth,
+    /// The layer of the map of moments.
+    pub layer: u32,
+}
+
+/// How a light's depth map stores depth.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum LightDepth {
+    /// Linear from the near plane (moment depth -1) to the far plane (moment depth 1).
+    Orthographic {
+        /// Whether 1 is stored at the near plane.
+        reversed: bool,
+    },
+    /// Hyperbolic; clip space w is the distance along the light's axis.
+    Perspective {
+        /// Distance of the near plane, above 0.
+        near: f64,
+        /// Distance of the far plane; may be infinite.
+        far: f64,
+        /// Whether 1 is stored at the near plane.
+        reversed: bool,
+        /// The distances that map to the moment depths -1 and 1.
+        range: DepthRange,
+    },
+}
+
+impl LightDepth {
+    /// The conversion that `resolve_moments` applies to the map.
+    pub fn conversion(&self) -> Result<DepthConversion, DepthError> {
+        match *self {
+            LightDepth::Orthographic { reversed: false } => Ok(DepthConversion::orthographic()),
+            LightDepth::Orthographic { reversed: true } => {
+                Ok(DepthConversion::orthographic_reversed())
+            }
+            LightDepth::Perspective {
+                near,
+                far,
+                reversed: false,
+                range,
+            } => DepthConversion::perspective(near, far, range),
+            LightDepth::Perspective {
+                near,
+                far,
+                reversed: true,
+                range,
+            } => DepthConversion::perspective_reversed(near, far, range),
+        }
+    }
+
+    /// The linear function of a scene position (x, y, z, 1) that gives its moment depth, for the map's matrix.
+    ///
+    /// Moment depth is linear in the scene whatever the map stores, so a fragment's needs no stored depth.
+    #[must_use]
+    pub fn moment_depth_row(&self, clip_from_world: &[[f32; 4]; 4]) -> [f32; 4] {
+        self.row(&wide(clip_from_world)).map(|value| value as f32)
+    }
+
+    fn row(&self, clip_from_world: &Matrix) -> [f64; 4] {
+        let (axis, factor, summand) = match *self {
+            LightDepth::Orthographic { reversed } => {
+                let sign = if reversed { -1.0 } else { 1.0 };
+                (row(clip_from_world, 2), 2.0 * sign, -sign)
+            }
+            LightDepth::Perspective { range, .. } => {
+                let extent = range.far - range.near;
+                (
+                    row(clip_from_world, 3),
+                    2.0 / extent,
+                    -(range.near + range.far) / extent,
+                )
+            }
+        };
+        let mut scaled = axis.map(|value| value * factor);
+        scaled[3] += summand;
+        scaled
+    }
+}
+
+/// A camera matrix that cannot be inverted.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
+#[error(
+    "the camera's clip_from_world is singular or not finite; it has to be an invertible projection of the scene"
+)]
+pub struct SingularCamera;
+
+impl ShadeHardParameters {
+    /// The parameters of a camera that looks at receivers of a light's shadow.
+    ///
+    /// The matrices are combined in f64. [`ReceiverBias::for_kernel`] gives a bias that follows from the map's filter.
+    pub fn new(
+        camera: &CameraView,
+        light: &LightView,
+        receiver_bias: ReceiverBias,
+        leak_reduction: LeakReduction,
+    ) -> Result<Self, SingularCamera> {
+        let world_from_clip = invert(&wide(&camera.clip_from_world)).ok_or(SingularCamera)?;
+        let light_clip = wide(&light.clip_from_world);
+        let (x, y, w) = (
+            row(&light_clip, 0),
+            row(&light_clip, 1),
+            row(&light_clip, 3),
+        );
+        // From clip space to the map: u = (x + w) / 2, v = (w - y) / 2, both still times w.
+        let half_sum = |a: [f64; 4], b: [f64; 4], sign: f64| {
+            [0, 1, 2, 3].map(|index| 0.5 * (b[index] + sign * a[index]))
+        };
+        let rows = [
+            half_sum(x, w, 1.0),
+            half_sum(y, w, -1.0),
+            w,
+            light.depth.row(&light_clip),
+        ];
+        let combined = rows.map(|row| multiply_row(&row, &world_from_clip));
+        let mut light_from_camera = [[0.0; 4]; 4];
+        for (column, values) in light_from_camera.iter_mut().enumerate() {
+            *values = combined.map(|row| row[column] as f32);
+        }
+        Ok(Self {
+            light_from_camera,
+            scene_w_from_camera: row(&world_from_clip, 3).map(|value| value as f32),
+            receiver_bias,
+            leak_reduction,
+            far_depth: camera.far_depth,
+            layer: light.layer,
+            padding: [0.0; 2],
+        })
+    }
+}
+
+fn wide(matrix: &[[f32; 4]; 4]) -> Matrix {
+    matrix.map(|column| column.map(f64::from))
+}
+
+fn row(matrix: &Matrix, index: usize) -> [f64; 4] {
+    [0, 1, 2, 3].map(|column| matrix[column][index])
+}
+
+fn multiply_row(row: &[f64; 4], matrix: &Matrix) -> [f64; 4] {
+    [0, 1, 2, 3].map(|column| (0..4).map(|index| row[index] * matrix[column][index]).sum())
+}
+
+fn invert(matrix: &Matrix) -> Option<Matrix> {
+    let inverse = glam::DMat4::from_cols_array_2d(matrix).inverse();
+    inverse.is_finite().then(|| inverse.to_cols_array_2d())
+}

@@ -1,0 +1,452 @@
+//! A plan bound to its pipelines, its resources and the host's imports.
+
+use super::format::texture_difference;
+use super::pipelines::{Pipeline, label};
+use super::resources::Created;
+use super::scope::scoped;
+use super::{Pipelines, RecordError, Resources};
+use crate::{
+    Home, Plan, PlannedBindingResource, PlannedPass, PlannedResource, PlannedWork, ResourceDesc,
+    Stage,
+};
+
+/// A resource that the host owns, as it is bound.
+#[derive(Clone, Copy, Debug)]
+pub enum ImportedResource<'a> {
+    /// A texture with all its layers.
+    Texture(&'a wgpu::Texture),
+    /// One texture per layer: the form of multisampled textures with several layers.
+    Layers(&'a [wgpu::Texture]),
+    /// A buffer.
+    Buffer(&'a wgpu::Buffer),
+}
+
+/// Everything that recording needs, made beforehand.
+#[derive(Debug)]
+pub struct Bindings {
+    pub(super) steps: Vec<Step>,
+    pub(super) parameters: Option<wgpu::Buffer>,
+    pub(super) parameter_size: u64,
+    pub(super) uniform_alignment: u32,
+    pub(super) bind_group: u32,
+    outputs: Vec<(String, Created)>,
+}
+
+/// A pass, ready to be recorded.
+#[derive(Debug)]
+pub(super) struct Step {
+    pub(super) stage: Stage,
+    /// `node/pass`, and the label of its objects.
+    pub(super) name: String,
+    pub(super) label: String,
+    pub(super) each_layer: bool,
+    pub(super) layers: u32,
+    /// Offset of the node's parameters within a view's block and from layer to layer, where it has any.
+    pub(super) parameters: Option<(u32, u32)>,
+    /// One per layer.
+    pub(super) bind_groups: Vec<wgpu::BindGroup>,
+    pub(super) action: Action,
+}
+
+#[derive(Debug)]
+pub(super) enum Action {
+    Dispatch {
+        pipeline: wgpu::ComputePipeline,
+        workgroups: [u32; 2],
+    },
+    Draw {
+        pipeline: wgpu::RenderPipeline,
+        /// One per layer.
+        targets: Vec<wgpu::TextureView>,
+    },
+    Host {
+        targets: Vec<wgpu::TextureView>,
+        depth: Option<wgpu::TextureView>,
+        blend: bool,
+    },
+}
+
+impl Bindings {
+    /// Binds a plan. `parameters` is a uniform buffer of the host's with one block per view
+    /// ([`crate::ParameterLayout`]); it can be left out where no node has parameters.
+    ///
+    /// To be made anew when an import changes, and whenever pipelines or resources do.
+    pub async fn create(
+        device: &wgpu::Device,
+        plan: &Plan,
+        pipelines: &Pipelines,
+        resources: &Resources,
+        imports: &[(&str, ImportedResource<'_>)],
+        parameters: Option<&wgpu::Buffer>,
+    ) -> Result<Self, RecordError> {
+        if !resources.fit(plan) {
+            return Err(RecordError::WrongResources);
+        }
+        check_parameters(plan, parameters)?;
+        let binder = Binder {
+            device,
+            plan,
+            resources,
+            imports: plan
+                .imports
+                .iter()
+                .map(|import| find_import(plan, &import.name, import.resource, imports))
+                .collect::<Result<_, _>>()?,
+            parameters,
+        };
+        let mut steps = Vec::with_capacity(plan.passes.len());
+        for pass in &plan.passes {
+            let what = label(pass);
+            let pipeline = match pass.work {
+                PlannedWork::Host { .. } => None,
+                _ => Some(pipelines.get(plan, pass)?),
+            };
+            let step = scoped(device, &what, || binder.step(pass, pipeline)).await??;
+            steps.push(step);
+        }
+        let outputs = plan
+            .outputs
+            .iter()
+            .filter_map(|output| {
+                let created = resources.get(&plan.resources[output.resource])?;
+                Some((output.name.clone(), created.clone()))
+            })
+            .collect();
+        Ok(Self {
+            steps,
+            parameters: parameters.cloned(),
+            parameter_size: u64::from(plan.parameters.size),
+            uniform_alignment: device.limits().min_uniform_buffer_offset_alignment,
+            bind_group: plan.bind_group,
+            outputs,
+        })
+    }
+
+    /// The texture behind an output of the graph that the plan created.
+    #[must_use]
+    pub fn output(&self, name: &str) -> Option<&wgpu::Texture> {
+        self.outputs
+            .iter()
+            .find_map(|(output, created)| match created {
+                Created::Texture(texture) if output == name => Some(texture),
+                _ => None,
+            })
+    }
+
+    /// The buffer behind an output of the graph that the plan created.
+    #[must_use]
+    pub fn output_buffer(&self, name: &str) -> Option<&wgpu::Buffer> {
+        self.outputs
+            .iter()
+            .find_map(|(output, created)| match created {
+                Created::Buffer(buffer) if output == name => Some(buffer),
+                _ => None,
+            })
+    }
+}
+
+fn check_parameters(plan: &Plan, parameters: Option<&wgpu::Buffer>) -> Result<(), RecordError> {
+    let needed = u64::from(plan.parameters.size);
+    let problem = match parameters {
+        None if needed > 0 => Some("is missing".to_owned()),
+        Some(buffer) if buffer.size() < needed => Some(format!("has {} bytes", buffer.size())),
+        Some(buffer) if !buffer.usage().contains(wgpu::BufferUsages::UNIFORM) => {
+            Some("has no usage UNIFORM".to_owned())
+        }
+        _ => None,
+    };
+    problem.map_or(Ok(()), |problem| {
+        Err(RecordError::ParameterBuffer { problem, needed })
+    })
+}
+
+fn find_import<'a>(
+    plan: &Plan,
+    name: &str,
+    resource: usize,
+    imports: &[(&str, ImportedResource<'a>)],
+) -> Result<ImportedResource<'a>, RecordError> {
+    let planned = &plan.resources[resource];
+    let expected = planned.desc.to_string();
+    let Some((_, given)) = imports.iter().find(|(given, _)| *given == name) else {
+        return Err(RecordError::MissingImport {
+            name: name.to_owned(),
+            expected,
+        });
+    };
+    let difference = match (given, &planned.desc) {
+        (ImportedResource::Texture(texture), ResourceDesc::Texture(desc)) => {
+            texture_difference(texture, desc, desc.layers, planned.access)
+        }
+        (ImportedResource::Layers(textures), ResourceDesc::Texture(desc)) => {
+            if textures.len() == desc.layers as usize {
+                textures
+                    .iter()
+                    .find_map(|texture| texture_difference(texture, desc, 1, planned.access))
+            } else {
+                Some(format!("a list of {} textures", textures.len()))
+            }
+        }
+        (ImportedResource::Buffer(buffer), ResourceDesc::Buffer { size }) => (buffer.size()
+            < *size
+            || !buffer.usage().contains(wgpu::BufferUsages::STORAGE))
+        .then(|| {
+            format!(
+                "a buffer of {} bytes with {:?}",
+                buffer.size(),
+                buffer.usage()
+            )
+        }),
+        (ImportedResource::Buffer(_), ResourceDesc::Texture(_)) => Some("a buffer".to_owned()),
+        (_, ResourceDesc::Buffer { .. }) => Some("a texture".to_owned()),
+    };
+    match difference {
+        None => Ok(*given),
+        Some(given) => Err(RecordError::WrongImport {
+            name: name.to_owned(),
+            expected,
+            given,
+        }),
+    }
+}
+
+/// What binding a pass draws from.
+struct Binder<'a> {
+    device: &'a wgpu::Device,
+    plan: &'a Plan,
+    resources: &'a Resources,
+    imports: Vec<ImportedResource<'a>>,
+    parameters: Option<&'a wgpu::Buffer>,
+}
+
+/// An object of a bind group, kept until the group is made.
+enum Bound {
+    View(wgpu::TextureView),
+    Buffer(wgpu::Buffer),
+    Parameters(u32),
+    Sampler(wgpu::Sampler),
+}
+
+impl Binder<'_> {
+    fn step(
+        &self,
+        pass: &PlannedPass,
+        pipeline: Option<(&Pipeline, &wgpu::BindGroupLayout)>,
+    ) -> Result<Step, RecordError> {
+        let label = label(pass);
+        let mut parameters = None;
+        let mut bind_groups = Vec::new();
+        if let Some((_, layout)) = pipeline {
+            for layer in 0..pass.layers {
+                bind_groups.push(self.bind_group(pass, layout, layer, &label)?);
+            }
+        }
+        for binding in &pass.bindings {
+            if let PlannedBindingResource::Parameters { block, .. } = binding.resource {
+                let block = &self.plan.parameters.blocks[block];
+                let stride = if block.count > 1 { block.stride } else { 0 };
+                parameters = Some((block.offset, stride));
+            }
+        }
+        let targets = |resource: usize, layers: u32| {
+            (0..layers)
+                .map(|layer| self.view(resource, Some(layer)))
+                .collect::<Result<Vec<_>, _>>()
+        };
+        let action = match (&pass.work, pipeline.map(|(pipeline, _)| pipeline)) {
+            (PlannedWork::Compute { workgroups }, Some(Pipeline::Compute(pipeline))) => {
+                Action::Dispatch {
+                    pipeline: pipeline.clone(),
+                    workgroups: *workgroups,
+                }
+            }
+            (PlannedWork::Fullscreen { target }, Some(Pipeline::Render(pipeline))) => {
+                Action::Draw {
+                    pipeline: pipeline.clone(),
+                    targets: targets(*target, pass.layers)?,
+                }
+            }
+            (
+                PlannedWork::Host {
+                    targets: colours,
+                    blend,
+                    depth,
+                },
+                _,
+            ) => Action::Host {
+                targets: colours
+                    .iter()
+                    .map(|&target| self.view(target, Some(0)))
+                    .collect::<Result<_, _>>()?,
+                depth: depth.map(|target| self.view(target, Some(0))).transpose()?,
+                blend: *blend,
+            },
+            _ => return Err(RecordError::MissingPipeline { pass: label }),
+        };
+        Ok(Step {
+            stage: pass.stage,
+            name: format!("{}/{}", pass.node, pass.label),
+            label,
+            each_layer: pass.each_layer,
+            layers: pass.layers,
+            parameters,
+            bind_groups,
+            action,
+        })
+    }
+
+    fn bind_group(
+        &self,
+        pass: &PlannedPass,
+        layout: &wgpu::BindGroupLayout,
+        layer: u32,
+        label: &str,
+    ) -> Result<wgpu::BindGroup, RecordError> {
+        let bound = pass
+            .bindings
+            .iter()
+            .map(|binding| {
+                Ok((
+                    binding.binding,
+                    self.bound(&binding.resource, layer, label)?,
+                ))
+            })
+            .collect::<Result<Vec<_>, RecordError>>()?;
+        let mut entries = Vec::with_capacity(bound.len());
+        for (binding, bound) in &bound {
+            let resource = match bound {
+                Bound::View(view) => wgpu::BindingResource::TextureView(view),
+                Bound::Sampler(sampler) => wgpu::BindingResource::Sampler(sampler),
+                Bound::Buffer(buffer) => buffer.as_entire_binding(),
+                Bound::Parameters(size) => {
+                    let Some(buffer) = self.parameters else {
+                        return Err(RecordError::ParameterBuffer {
+                            problem: "is missing".to_owned(),
+                            needed: u64::from(*size),
+                        });
+                    };
+                    wgpu::BindingResource::Buffer(wgpu::BufferBinding {
+                        buffer,
+                        offset: 0,
+                        size: wgpu::BufferSize::new(u64::from(*size)),
+                    })
+                }
+            };
+            entries.push(wgpu::BindGroupEntry {
+                binding: *binding,
+                resource,
+            });
+        }
+        Ok(self.device.create_bind_group(&wgpu::BindGroupDescriptor {
+            label: Some(label),
+            layout,
+            entries: &entries,
+        }))
+    }
+
+    fn bound(
+        &self,
+        resource: &PlannedBindingResource,
+        layer: u32,
+        label: &str,
+    ) -> Result<Bound, RecordError> {
+        Ok(match *resource {
+            PlannedBindingResource::Parameters { size, .. } => Bound::Parameters(size),
+            PlannedBindingResource::Texture {
+                resource,
+                one_layer,
+                ..
+            } => Bound::View(self.view(resource, one_layer.then_some(layer))?),
+            PlannedBindingResource::StorageTexture { resource } => {
+                Bound::View(self.view(resource, Some(layer))?)
+            }
+            PlannedBindingResource::Buffer { resource, .. } => {
+                Bound::Buffer(self.buffer(resource)?)
+            }
+            PlannedBindingResource::Sampler { filtering } => {
+                Bound::Sampler(sampler(self.device, filtering, label))
+            }
+        })
+    }
+
+    /// A view of one layer, or an array view of all.
+    fn view(&self, resource: usize, layer: Option<u32>) -> Result<wgpu::TextureView, RecordError> {
+        let planned = &self.plan.resources[resource];
+        let (texture, layer) = match self.object(planned) {
+            Some(Object::Texture(texture)) => (texture, layer),
+            Some(Object::Layers(textures)) => {
+                // An array view needs an array texture; a list of one layer is one.
+                let chosen = layer.or((textures.len() == 1).then_some(0));
+                let texture = chosen.and_then(|layer| textures.get(layer as usize));
+                let texture = texture.ok_or_else(|| self.wrong(planned, "a list of textures"))?;
+                (texture, layer.map(|_| 0))
+            }
+            _ => return Err(self.wrong(planned, "a buffer")),
+        };
+        Ok(texture.create_view(&wgpu::TextureViewDescriptor {
+            label: Some(&planned.name),
+            dimension: Some(match layer {
+                Some(_) => wgpu::TextureViewDimension::D2,
+                None => wgpu::TextureViewDimension::D2Array,
+            }),
+            base_array_layer: layer.unwrap_or(0),
+            array_layer_count: layer.map(|_| 1),
+            mip_level_count: layer.map(|_| 1),
+            ..Default::default()
+        }))
+    }
+
+    fn buffer(&self, resource: usize) -> Result<wgpu::Buffer, RecordError> {
+        let planned = &self.plan.resources[resource];
+        match self.object(planned) {
+            Some(Object::Buffer(buffer)) => Ok(buffer.clone()),
+            _ => Err(self.wrong(planned, "a texture")),
+        }
+    }
+
+    fn object(&self, planned: &PlannedResource) -> Option<Object<'_>> {
+        match planned.home {
+            Home::Import(index) => self.imports.get(index).map(|import| match import {
+                ImportedResource::Texture(texture) => Object::Texture(texture),
+                ImportedResource::Layers(textures) => Object::Layers(textures),
+                ImportedResource::Buffer(buffer) => Object::Buffer(buffer),
+            }),
+            Home::Memory(_) => self.resources.get(planned).map(|created| match created {
+                Created::Texture(texture) => Object::Texture(texture),
+                Created::Buffer(buffer) => Object::Buffer(buffer),
+            }),
+        }
+    }
+
+    fn wrong(&self, planned: &PlannedResource, given: &str) -> RecordError {
+        RecordError::WrongImport {
+            name: planned.name.clone(),
+            expected: planned.desc.to_string(),
+            given: given.to_owned(),
+        }
+    }
+}
+
+enum Object<'a> {
+    Texture(&'a wgpu::Texture),
+    Layers(&'a [wgpu::Texture]),
+    Buffer(&'a wgpu::Buffer),
+}
+
+fn sampler(device: &wgpu::Device, filtering: bool, label: &str) -> wgpu::Sampler {
+    let (filter, mipmap_filter) = if filtering {
+        (wgpu::FilterMode::Linear, wgpu::MipmapFilterMode::Linear)
+    } else {
+        (wgpu::FilterMode::Nearest, wgpu::MipmapFilterMode::Nearest)
+    };
+    device.create_sampler(&wgpu::SamplerDescriptor {
+        label: Some(label),
+        address_mode_u: wgpu::AddressMode::ClampToEdge,
+        address_mode_v: wgpu::AddressMode::ClampToEdge,
+        address_mode_w: wgpu::AddressMode::ClampToEdge,
+        mag_filter: filter,
+        min_filter: filter,
+        mipmap_filter,
+        ..Default::default()
+    })
+}

@@ -1,0 +1,63 @@
+//! The plan's formats and usages in wgpu's terms.
+
+use moment_shadows::TextureFormat;
+
+use crate::{Access, TextureDesc};
+
+pub(super) fn texture_format(format: TextureFormat) -> Option<wgpu::TextureFormat> {
+    Some(match format {
+        TextureFormat::R8Unorm => wgpu::TextureFormat::R8Unorm,
+        TextureFormat::Rgba8Unorm => wgpu::TextureFormat::Rgba8Unorm,
+        TextureFormat::R16Float => wgpu::TextureFormat::R16Float,
+        TextureFormat::R32Float => wgpu::TextureFormat::R32Float,
+        TextureFormat::Rgba16Unorm => wgpu::TextureFormat::Rgba16Unorm,
+        TextureFormat::Rgba16Float => wgpu::TextureFormat::Rgba16Float,
+        TextureFormat::Rgba32Float => wgpu::TextureFormat::Rgba32Float,
+        TextureFormat::Depth16Unorm => wgpu::TextureFormat::Depth16Unorm,
+        TextureFormat::Depth32Float => wgpu::TextureFormat::Depth32Float,
+        // A format that this version of the recorder does not know.
+        _ => return None,
+    })
+}
+
+pub(super) fn texture_usages(access: Access, exported: bool) -> wgpu::TextureUsages {
+    let mut usages = wgpu::TextureUsages::empty();
+    usages.set(
+        wgpu::TextureUsages::TEXTURE_BINDING,
+        access.read || exported,
+    );
+    usages.set(wgpu::TextureUsages::STORAGE_BINDING, access.storage_write);
+    usages.set(wgpu::TextureUsages::RENDER_ATTACHMENT, access.render_target);
+    usages.set(wgpu::TextureUsages::COPY_SRC, exported);
+    usages
+}
+
+/// What differs between a texture and its description, as a sentence's end; `None` if nothing does.
+pub(super) fn texture_difference(
+    texture: &wgpu::Texture,
+    desc: &TextureDesc,
+    layers: u32,
+    access: Access,
+) -> Option<String> {
+    let usages = texture_usages(access, false);
+    let same = Some(texture.format()) == texture_format(desc.format)
+        && [texture.width(), texture.height()] == desc.size
+        && texture.depth_or_array_layers() == layers
+        && texture.sample_count() == desc.samples
+        && texture.mip_level_count() == desc.mips;
+    if !same {
+        return Some(format!(
+            "{:?} {}x{} x {} layers, {} mips, {} samples",
+            texture.format(),
+            texture.width(),
+            texture.height(),
+            texture.depth_or_array_layers(),
+            texture.mip_level_count(),
+            texture.sample_count()
+        ));
+    }
+    if !texture.usage().contains(usages) {
+        return Some(format!("without the usage {:?}", usages - texture.usage()));
+    }
+    None
+}

@@ -1,0 +1,20 @@
+//! Recording a plan with wgpu.
+//!
+//! Nothing here creates a device, submits, maps or waits. Objects are created once ([`Pipelines`] per shader,
+//! [`Resources`] per size, [`Bindings`] per set of imports); [`Bindings::record`] then only records. Creation is async
+//! because it waits for the device's verdict: what fails to be created is an error, not a panic or a callback.
+
+mod bindings;
+mod error;
+mod format;
+mod layout;
+mod pipelines;
+mod recording;
+mod resources;
+mod scope;
+
+pub use bindings::{Bindings, ImportedResource};
+pub use error::RecordError;
+pub use pipelines::{PipelineOptions, Pipelines};
+pub use recording::{HostPass, HostPassHandler, Layers, Recording, Timestamps};
+pub use resources::Resources;

@@ -1,0 +1,302 @@
+//! Recording: the only part that runs every frame. It creates no object and allocates nothing.
+
+use super::bindings::{Action, Step};
+use super::{Bindings, RecordError};
+use crate::Stage;
+
+/// Which layers of the maps are to be made anew. Other layers keep their contents.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Layers<'a> {
+    /// All of them.
+    #[default]
+    All,
+    /// These.
+    Only(&'a [u32]),
+}
+
+/// Where to write timestamps: pass number i of the plan writes the queries `first + 2 i` at its beginning and
+/// `first + 2 i + 1` at its end.
+#[derive(Clone, Copy, Debug)]
+pub struct Timestamps<'a> {
+    /// A set of timestamp queries.
+    pub queries: &'a wgpu::QuerySet,
+    /// How many queries it has.
+    pub count: u32,
+    /// The first that is written.
+    pub first: u32,
+}
+
+/// A pass that the host draws itself.
+#[derive(Clone, Copy, Debug)]
+pub struct HostPass<'a> {
+    /// `node/pass`.
+    pub name: &'a str,
+    /// The colour targets.
+    pub targets: &'a [wgpu::TextureView],
+    /// The depth target.
+    pub depth: Option<&'a wgpu::TextureView>,
+    /// Whether the node asks for blending.
+    pub blend: bool,
+}
+
+/// Draws a host's pass.
+pub type HostPassHandler<'a> = &'a mut dyn FnMut(HostPass<'_>, &mut wgpu::CommandEncoder);
+
+/// What to record.
+#[derive(Default)]
+pub struct Recording<'a> {
+    /// Byte offset of the view's block in the parameter buffer.
+    pub parameter_offset: u64,
+    /// The layers to make anew.
+    pub layers: Layers<'a>,
+    /// Timestamps per pass.
+    pub timestamps: Option<Timestamps<'a>>,
+    /// What draws the host's passes, where the plan has any.
+    pub host_passes: Option<HostPassHandler<'a>>,
+}
+
+impl Bindings {
+    /// Records one stage. Everything is checked first: an error leaves the encoder as it was.
+    pub fn record(
+        &self,
+        stage: Stage,
+        encoder: &mut wgpu::CommandEncoder,
+        mut recording: Recording<'_>,
+    ) -> Result<(), RecordError> {
+        self.check_offset(recording.parameter_offset)?;
+        self.check_timestamps(recording.timestamps)?;
+        let in_stage = || {
+            self.steps
+                .iter()
+                .enumerate()
+                .filter(|(_, step)| step.stage == stage)
+        };
+        for (_, step) in in_stage() {
+            step.check(stage, &recording)?;
+        }
+        for (index, step) in in_stage() {
+            let queries = recording.timestamps.map(|timestamps| {
+                let begin = timestamps.first + 2 * index as u32;
+                (timestamps.queries, begin)
+            });
+            match &step.action {
+                Action::Dispatch {
+                    pipeline,
+                    workgroups,
+                } => self.dispatch(step, pipeline, *workgroups, encoder, &recording, queries),
+                Action::Draw { pipeline, targets } => {
+                    self.draw_layers(step, pipeline, targets, encoder, &recording, queries);
+                }
+                Action::Host {
+                    targets,
+                    depth,
+                    blend,
+                } => {
+                    if let Some(handler) = &mut recording.host_passes {
+                        let pass = HostPass {
+                            name: &step.name,
+                            targets,
+                            depth: depth.as_ref(),
+                            blend: *blend,
+                        };
+                        handler(pass, encoder);
+                    }
+                }
+            }
+        }
+        Ok(())
+    }
+
+    /// Draws a fullscreen pass (`node/pass`) into a render pass that the host has open; its target has the format that
+    /// the plan gives, one sample and no depth. The viewport is the host's.
+    pub fn draw(
+        &self,
+        pass: &str,
+        render_pass: &mut wgpu::RenderPass<'_>,
+        parameter_offset: u64,
+    ) -> Result<(), RecordError> {
+        self.check_offset(parameter_offset)?;
+        let draws = || {
+            self.steps.iter().filter_map(|step| match &step.action {
+                Action::Draw { pipeline, .. } => Some((step, pipeline)),
+                _ => None,
+            })
+        };
+        let (step, pipeline) = draws().find(|(step, _)| step.name == pass).ok_or_else(|| {
+            let known: Vec<&str> = draws().map(|(step, _)| step.name.as_str()).collect();
+            RecordError::NoSuchPass {
+                pass: pass.to_owned(),
+                known: if known.is_empty() {
+                    "none".to_owned()
+                } else {
+                    known.join(", ")
+                },
+            }
+        })?;
+        render_pass.set_pipeline(pipeline);
+        let (offset, count) = step.dynamic_offset(parameter_offset, 0);
+        render_pass.set_bind_group(
+            self.bind_group,
+            step.bind_groups.first(),
+            &[offset][..count],
+        );
+        render_pass.draw(0..3, 0..1);
+        Ok(())
+    }
+
+    fn dispatch(
+        &self,
+        step: &Step,
+        pipeline: &wgpu::ComputePipeline,
+        workgroups: [u32; 2],
+        encoder: &mut wgpu::CommandEncoder,
+        recording: &Recording<'_>,
+        queries: Option<(&wgpu::QuerySet, u32)>,
+    ) {
+        if step.dirty(recording.layers).next().is_none() {
+            return;
+        }
+        let mut pass = encoder.begin_compute_pass(&wgpu::ComputePassDescriptor {
+            label: Some(&step.label),
+            timestamp_writes: queries.map(|(query_set, begin)| wgpu::ComputePassTimestampWrites {
+                query_set,
+                beginning_of_pass_write_index: Some(begin),
+                end_of_pass_write_index: Some(begin + 1),
+            }),
+        });
+        pass.set_pipeline(pipeline);
+        for layer in step.dirty(recording.layers) {
+            let (offset, count) = step.dynamic_offset(recording.parameter_offset, layer);
+            pass.set_bind_group(
+                self.bind_group,
+                step.bind_groups.get(layer as usize),
+                &[offset][..count],
+            );
+            pass.dispatch_workgroups(workgroups[0], workgroups[1], 1);
+        }
+    }
+
+    fn draw_layers(
+        &self,
+        step: &Step,
+        pipeline: &wgpu::RenderPipeline,
+        targets: &[wgpu::TextureView],
+        encoder: &mut wgpu::CommandEncoder,
+        recording: &Recording<'_>,
+        queries: Option<(&wgpu::QuerySet, u32)>,
+    ) {
+        let last = step.dirty(recording.layers).last();
+        for (order, layer) in step.dirty(recording.layers).enumerate() {
+            let Some(view) = targets.get(layer as usize) else {
+                continue;
+            };
+            let mut pass = encoder.begin_render_pass(&wgpu::RenderPassDescriptor {
+                label: Some(&step.label),
+                color_attachments: &[Some(wgpu::RenderPassColorAttachment {
+                    view,
+                    depth_slice: None,
+                    resolve_target: None,
+                    ops: wgpu::Operations {
+                        load: wgpu::LoadOp::Clear(wgpu::Color::TRANSPARENT),
+                        store: wgpu::StoreOp::Store,
+                    },
+                })],
+                depth_stencil_attachment: None,
+                timestamp_writes: queries.map(|(query_set, begin)| {
+                    wgpu::RenderPassTimestampWrites {
+                        query_set,
+                        beginning_of_pass_write_index: (order == 0).then_some(begin),
+                        end_of_pass_write_index: (Some(layer) == last).then_some(begin + 1),
+                    }
+                }),
+                occlusion_query_set: None,
+                multiview_mask: None,
+            });
+            pass.set_pipeline(pipeline);
+            let (offset, count) = step.dynamic_offset(recording.parameter_offset, layer);
+            pass.set_bind_group(
+                self.bind_group,
+                step.bind_groups.get(layer as usize),
+                &[offset][..count],
+            );
+            pass.draw(0..3, 0..1);
+        }
+    }
+
+    fn check_offset(&self, offset: u64) -> Result<(), RecordError> {
+        let Some(buffer) = &self.parameters else {
+            return Ok(());
+        };
+        let fits = offset
+            .checked_add(self.parameter_size)
+            .is_some_and(|end| end <= buffer.size().min(u64::from(u32::MAX)));
+        if fits && offset.is_multiple_of(u64::from(self.uniform_alignment)) {
+            return Ok(());
+        }
+        Err(RecordError::ParameterOffset {
+            offset,
+            alignment: self.uniform_alignment,
+            needed: self.parameter_size,
+            size: buffer.size(),
+        })
+    }
+
+    fn check_timestamps(&self, timestamps: Option<Timestamps<'_>>) -> Result<(), RecordError> {
+        let Some(timestamps) = timestamps else {
+            return Ok(());
+        };
+        let needed = 2 * self.steps.len() as u32;
+        let fits = timestamps
+            .first
+            .checked_add(needed)
+            .is_some_and(|end| end <= timestamps.count);
+        if fits {
+            return Ok(());
+        }
+        Err(RecordError::Timestamps {
+            first: timestamps.first,
+            needed,
+            count: timestamps.count,
+        })
+    }
+}
+
+impl Step {
+    /// The layers to record.
+    fn dirty<'a>(&self, layers: Layers<'a>) -> impl Iterator<Item = u32> + use<'a> {
+        let (range, listed) = match layers {
+            Layers::Only(listed) if self.each_layer => (0..0, listed),
+            _ => (0..self.layers, &[][..]),
+        };
+        range.chain(listed.iter().copied())
+    }
+
+    /// The dynamic offset of the parameters, and how many offsets there are: one or none.
+    fn dynamic_offset(&self, view: u64, layer: u32) -> (u32, usize) {
+        match self.parameters {
+            // The check before recording keeps the sum within u32.
+            Some((offset, stride)) => (view as u32 + offset + layer * stride, 1),
+            None => (0, 0),
+        }
+    }
+
+    fn check(&self, stage: Stage, recording: &Recording<'_>) -> Result<(), RecordError> {
+        if matches!(self.action, Action::Host { .. }) && recording.host_passes.is_none() {
+            return Err(RecordError::HostPass {
+                stage,
+                pass: self.name.clone(),
+            });
+        }
+        match self
+            .dirty(recording.layers)
+            .find(|&layer| layer >= self.layers)
+        {
+            None => Ok(()),
+            Some(layer) => Err(RecordError::NoSuchLayer {
+                layer,
+                pass: self.name.clone(),
+                layers: self.layers,
+            }),
+        }
+    }
+}

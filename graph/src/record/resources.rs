@@ -1,0 +1,83 @@
+//! The textures and buffers that a plan creates.
+
+use super::RecordError;
+use super::format::{texture_format, texture_usages};
+use super::scope::scoped;
+use crate::{Home, Plan, PlannedMemory, PlannedResource, ResourceDesc};
+
+/// Everything that a plan creates for one set of sizes. A resize makes new resources and no pipeline.
+#[derive(Debug)]
+pub struct Resources {
+    memory: Vec<(PlannedMemory, Created)>,
+}
+
+#[derive(Clone, Debug)]
+pub(super) enum Created {
+    Texture(wgpu::Texture),
+    Buffer(wgpu::Buffer),
+}
+
+impl Resources {
+    /// Creates the textures and buffers of a plan.
+    pub async fn create(device: &wgpu::Device, plan: &Plan) -> Result<Self, RecordError> {
+        let mut memory = Vec::with_capacity(plan.memory.len());
+        for planned in &plan.memory {
+            let label = format!("moment-shadows/{}", planned.label);
+            let created = match &planned.desc {
+                ResourceDesc::Texture(texture) => {
+                    let format =
+                        texture_format(texture.format).ok_or_else(|| RecordError::Device {
+                            what: label.clone(),
+                            reason: format!("{} is unknown to this recorder", texture.format),
+                        })?;
+                    let descriptor = wgpu::TextureDescriptor {
+                        label: Some(&label),
+                        size: wgpu::Extent3d {
+                            width: texture.size[0],
+                            height: texture.size[1],
+                            depth_or_array_layers: texture.layers,
+                        },
+                        mip_level_count: texture.mips,
+                        sample_count: texture.samples,
+                        dimension: wgpu::TextureDimension::D2,
+                        format,
+                        usage: texture_usages(planned.access, planned.exported),
+                        view_formats: &[],
+                    };
+                    let create = || device.create_texture(&descriptor);
+                    Created::Texture(scoped(device, &label, create).await?)
+                }
+                ResourceDesc::Buffer { size } => {
+                    let mut usage = wgpu::BufferUsages::STORAGE;
+                    usage.set(wgpu::BufferUsages::COPY_SRC, planned.exported);
+                    let descriptor = wgpu::BufferDescriptor {
+                        label: Some(&label),
+                        size: *size,
+                        usage,
+                        mapped_at_creation: false,
+                    };
+                    let create = || device.create_buffer(&descriptor);
+                    Created::Buffer(scoped(device, &label, create).await?)
+                }
+            };
+            memory.push((planned.clone(), created));
+        }
+        Ok(Self { memory })
+    }
+
+    /// Whether these are the resources of a plan.
+    pub(super) fn fit(&self, plan: &Plan) -> bool {
+        self.memory
+            .iter()
+            .map(|(planned, _)| planned)
+            .eq(&plan.memory)
+    }
+
+    /// The object behind a resource that is not an import.
+    pub(super) fn get(&self, resource: &PlannedResource) -> Option<&Created> {
+        match resource.home {
+            Home::Import(_) => None,
+            Home::Memory(index) => self.memory.get(index).map(|(_, created)| created),
+        }
+    }
+}

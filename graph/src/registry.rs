@@ -1,0 +1,70 @@
+//! Node types by name: ours, and a host's own.
+
+use std::collections::BTreeMap;
+use std::sync::Arc;
+
+use serde::de::DeserializeOwned;
+
+use crate::Node;
+use crate::nodes::{BlurMoments, ResolveMoments, ShadeHard};
+
+/// Makes a node of its properties, which are JSON text.
+type Factory = Arc<dyn Fn(&str) -> Result<Box<dyn Node>, serde_json::Error> + Send + Sync>;
+
+/// The node types that a graph file can name.
+#[derive(Clone)]
+pub struct NodeRegistry {
+    factories: BTreeMap<String, Factory>,
+}
+
+impl NodeRegistry {
+    /// The library's own node types.
+    #[must_use]
+    pub fn new() -> Self {
+        let mut registry = Self {
+            factories: BTreeMap::new(),
+        };
+        registry.register::<ResolveMoments>("resolve_moments");
+        registry.register::<BlurMoments>("blur_moments");
+        registry.register::<ShadeHard>("shade_hard");
+        registry
+    }
+
+    /// Adds a node type, whose properties are what `N` deserialises from. It should deny unknown fields. A type of the
+    /// same name is replaced.
+    pub fn register<N: Node + DeserializeOwned + 'static>(&mut self, type_name: &str) {
+        let factory: Factory = Arc::new(|properties| {
+            let node: N = serde_json::from_str(properties)?;
+            Ok(Box::new(node))
+        });
+        self.factories.insert(type_name.to_owned(), factory);
+    }
+
+    /// The names of all node types.
+    pub fn type_names(&self) -> impl Iterator<Item = &str> {
+        self.factories.keys().map(String::as_str)
+    }
+
+    /// A node of a type; `None` if nobody registered it.
+    pub(crate) fn create(
+        &self,
+        type_name: &str,
+        properties: &str,
+    ) -> Option<Result<Box<dyn Node>, serde_json::Error>> {
+        self.factories
+            .get(type_name)
+            .map(|factory| factory(properties))
+    }
+}
+
+impl Default for NodeRegistry {
+    fn default() -> Self {
+        Self::new()
+    }
+}
+
+impl core::fmt::Debug for NodeRegistry {
+    fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
+        f.debug_set().entries(self.factories.keys()).finish()
+    }
+}

@@ -1,0 +1,182 @@
+//! Concrete resources, as imports, slots and plans describe them.
+
+use core::fmt;
+
+use moment_shadows::TextureFormat;
+use serde::{Deserialize, Serialize};
+
+/// A texture.
+#[derive(Clone, Debug, PartialEq, Eq, Hash, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct TextureDesc {
+    /// The format.
+    pub format: TextureFormat,
+    /// Width and height in texels.
+    pub size: [u32; 2],
+    /// Number of layers.
+    #[serde(default = "one")]
+    pub layers: u32,
+    /// Number of mip levels.
+    #[serde(default = "one")]
+    pub mips: u32,
+    /// Samples per texel. A multisampled texture with several layers is a list of textures, one per layer.
+    #[serde(default = "one")]
+    pub samples: u32,
+}
+
+fn one() -> u32 {
+    1
+}
+
+impl TextureDesc {
+    /// A texture with one layer, one mip level and one sample per texel.
+    #[must_use]
+    pub fn new(format: TextureFormat, size: [u32; 2]) -> Self {
+        Self {
+            format,
+            size,
+            layers: 1,
+            mips: 1,
+            samples: 1,
+        }
+    }
+
+    /// Bytes of one layer, all mip levels and samples.
+    #[must_use]
+    pub fn bytes_per_layer(&self) -> u64 {
+        let texel = u64::from(self.format.bytes_per_texel()) * u64::from(self.samples);
+        (0..self.mips)
+            .map(|mip| {
+                let side = |length: u32| u64::from((length >> mip.min(31)).max(1));
+                side(self.size[0]) * side(self.size[1]) * texel
+            })
+            .sum()
+    }
+
+    /// Bytes of all layers.
+    #[must_use]
+    pub fn bytes(&self) -> u64 {
+        self.bytes_per_layer() * u64::from(self.layers)
+    }
+}
+
+impl fmt::Display for TextureDesc {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "{} {}x{}", self.format, self.size[0], self.size[1])?;
+        if self.layers > 1 {
+            write!(f, " x {} layers", self.layers)?;
+        }
+        if self.mips > 1 {
+            write!(f, ", {} mips", self.mips)?;
+        }
+        if self.samples > 1 {
+            write!(f, ", {} samples", self.samples)?;
+        }
+        Ok(())
+    }
+}
+
+/// A texture or a buffer.
+#[derive(Clone, Debug, PartialEq, Eq, Hash, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum ResourceDesc {
+    /// A texture.
+    Texture(TextureDesc),
+    /// A storage buffer of a size in bytes.
+    Buffer {
+        /// Bytes.
+        size: u64,
+    },
+}
+
+impl ResourceDesc {
+    /// The texture, if it is one.
+    #[must_use]
+    pub fn texture(&self) -> Option<&TextureDesc> {
+        match self {
+            ResourceDesc::Texture(texture) => Some(texture),
+            ResourceDesc::Buffer { .. } => None,
+        }
+    }
+
+    /// Layers of a texture; a buffer has one.
+    #[must_use]
+    pub fn layers(&self) -> u32 {
+        self.texture().map_or(1, |texture| texture.layers)
+    }
+
+    /// Bytes in memory.
+    #[must_use]
+    pub fn bytes(&self) -> u64 {
+        match self {
+            ResourceDesc::Texture(texture) => texture.bytes(),
+            ResourceDesc::Buffer { size } => *size,
+        }
+    }
+}
+
+impl fmt::Display for ResourceDesc {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            ResourceDesc::Texture(texture) => texture.fmt(f),
+            ResourceDesc::Buffer { size } => write!(f, "buffer of {size} bytes"),
+        }
+    }
+}
+
+/// How passes touch a resource.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash, Serialize, Deserialize)]
+pub struct Access {
+    /// Loaded or sampled from; for buffers, read.
+    #[serde(default)]
+    pub read: bool,
+    /// Written as a storage texture or a storage buffer.
+    #[serde(default)]
+    pub storage_write: bool,
+    /// Drawn to.
+    #[serde(default)]
+    pub render_target: bool,
+}
+
+impl Access {
+    /// Loaded or sampled from.
+    pub const READ: Access = Access {
+        read: true,
+        storage_write: false,
+        render_target: false,
+    };
+    /// Written as a storage texture or a storage buffer.
+    pub const STORAGE_WRITE: Access = Access {
+        read: false,
+        storage_write: true,
+        render_target: false,
+    };
+    /// Drawn to.
+    pub const RENDER_TARGET: Access = Access {
+        read: false,
+        storage_write: false,
+        render_target: true,
+    };
+
+    /// Both together.
+    #[must_use]
+    pub fn union(self, other: Access) -> Access {
+        Access {
+            read: self.read || other.read,
+            storage_write: self.storage_write || other.storage_write,
+            render_target: self.render_target || other.render_target,
+        }
+    }
+
+    /// Whether everything in `other` is in `self`.
+    #[must_use]
+    pub fn contains(self, other: Access) -> bool {
+        self.union(other) == self
+    }
+
+    /// Whether it changes the resource.
+    #[must_use]
+    pub fn writes(self) -> bool {
+        self.storage_write || self.render_target
+    }
+}

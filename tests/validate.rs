@@ -1,0 +1,455 @@
+//! Validation: each kind of error with its place before linking, the profiles, and what each backend makes of a shader.
+#![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic)]
+
+use std::fs;
+use std::path::Path;
+use std::process::ExitCode;
+
+use moment_shadows::{
+    Backend, Diagnostic, LONGEST_CHAIN, LONGEST_SHADER, LinkError, Outcome, Profile, Source,
+    TextureFormat, ValidateError, ValidationReport, validate, validate_module,
+};
+use moment_shadows_lab::command::validate::{CheckError, check_file, run};
+
+fn validate_user(text: &str, profile: Profile) -> Result<ValidationReport, ValidateError> {
+    validate(
+        Source {
+            name: "user.wgsl",
+            text,
+        },
+        &[],
+        profile,
+    )
+}
+
+fn core(text: &str) -> Result<ValidationReport, ValidateError> {
+    validate_user(text, Profile::WebgpuCore)
+}
+
+/// File, line, column and width of the first label.
+fn place(diagnostic: &Diagnostic) -> (&str, u32, u32, u32) {
+    let at = &diagnostic.labels.first().expect("a label").at;
+    (&at.file, at.line, at.column, at.width)
+}
+
+fn invalid(text: &str) -> Diagnostic {
+    match core(text).unwrap_err() {
+        ValidateError::Invalid(diagnostic) => diagnostic,
+        other => panic!("another error: {other}"),
+    }
+}
+
+fn parse_error(text: &str) -> Diagnostic {
+    match core(text).unwrap_err() {
+        ValidateError::Parse(diagnostic) => diagnostic,
+        other => panic!("another error: {other}"),
+    }
+}
+
+/// The reason why `backend` cannot express the shader; none if it was written.
+fn reason(report: &ValidationReport, backend: Backend) -> Option<&str> {
+    match report
+        .outcome(backend)
+        .expect("an outcome for each backend")
+    {
+        Outcome::Written => None,
+        Outcome::CannotExpress(reason) => Some(reason),
+    }
+}
+
+/// A compute shader with one storage texture.
+fn storing(format: &str, access: &str) -> String {
+    let value = match format {
+        f if f.ends_with("uint") => "vec4u(0)",
+        f if f.ends_with("sint") => "vec4i(0)",
+        _ => "vec4f(0.0)",
+    };
+    let body = match access {
+        "read" => "_ = textureLoad(map, vec2u(0));".to_owned(),
+        _ => format!("textureStore(map, vec2u(0), {value});"),
+    };
+    format!(
+        "import moment_shadows::hankel::{{hankel_factor}};\n\n\
+         @group(0) @binding(0) var map: texture_storage_2d<{format}, {access}>;\n\
+         @compute @workgroup_size(1) fn main() {{ {body} }}\n"
+    )
+}
+
+#[test]
+fn a_users_shader_is_written_for_every_backend() {
+    let report = core(
+        "import moment_shadows::hamburger::{hamburger_shadow_intensity};\n\
+         import moment_shadows::moments::{MomentBias};\n\
+         @group(0) @binding(0) var map: texture_2d<f32>;\n\
+         @group(0) @binding(1) var map_sampler: sampler;\n\
+         @fragment fn main(@location(0) uv: vec2f) -> @location(0) vec4f {\n\
+             let moments = textureSampleLevel(map, map_sampler, uv, 0.0);\n\
+             return vec4f(hamburger_shadow_intensity(moments, 0.0, MomentBias(1e-3, 0.6)));\n\
+         }\n",
+    )
+    .unwrap();
+    assert_eq!(report.written().collect::<Vec<_>>(), Backend::ALL);
+}
+
+#[test]
+fn parse_errors_point_at_the_line_before_linking() {
+    let import = "import moment_shadows::hankel::{hankel_factor};\n";
+    let diagnostic = parse_error(&format!(
+        "{import}\r\nfn f() -> f32 {{\r\n\treturn 1.0 + ;\r\n}}\r\n"
+    ));
+    assert_eq!(place(&diagnostic), ("user.wgsl", 4, 15, 1));
+    assert_eq!(
+        diagnostic.to_string(),
+        "expected expression, found \";\"\n --> user.wgsl:4:15\n  |\n4 | \treturn 1.0 + ;\n  | \
+         \t             ^ expected expression"
+    );
+
+    let diagnostic = parse_error(&format!(
+        "{import}fn f() -> f32 {{\n    return foo(1.0);\n}}\n"
+    ));
+    assert_eq!(place(&diagnostic), ("user.wgsl", 3, 12, 3));
+    assert!(diagnostic.message.contains("`foo`"), "{diagnostic}");
+
+    // Columns count characters, as editors do.
+    let diagnostic = parse_error("/* é */ fn f() { g(); }");
+    assert_eq!(place(&diagnostic), ("user.wgsl", 1, 18, 1));
+}
+
+#[test]
+fn several_labels_are_all_mapped_back() {
+    let diagnostic =
+        parse_error("import moment_shadows::hankel::{hankel_factor};\nfn f() {}\n\n  fn f() {}\n");
+    let places: Vec<_> = diagnostic
+        .labels
+        .iter()
+        .map(|label| (label.at.line, label.at.column))
+        .collect();
+    assert_eq!(places, [(4, 6), (2, 4)]);
+    assert_eq!(diagnostic.labels[1].text, "previous definition of `f`");
+}
+
+#[test]
+fn errors_in_generated_modules_name_them() {
+    let generated = Source {
+        name: "specialization",
+        text: "// Made by a node.\nalias A = nothing;\n",
+    };
+    let source = Source {
+        name: "user.wgsl",
+        text: "import moment_shadows::specialization::{A};\nfn f(a: A) {}\n",
+    };
+    match validate(source, &[generated], Profile::WebgpuCore).unwrap_err() {
+        ValidateError::Parse(diagnostic) => {
+            assert_eq!(place(&diagnostic), ("specialization", 2, 11, 7));
+        }
+        other => panic!("another error: {other}"),
+    }
+}
+
+#[test]
+fn invalid_shaders_point_at_the_innermost_place() {
+    let diagnostic = invalid(
+        "import moment_shadows::hankel::{hankel_factor};\nfn f() -> f32 {\n    return 1u;\n}\n",
+    );
+    assert_eq!(place(&diagnostic), ("user.wgsl", 3, 12, 2));
+    assert_eq!(diagnostic.message, "function `f` is not valid");
+    assert!(diagnostic.notes[0].contains("`return`"), "{diagnostic}");
+
+    // Where naga gives no place, the definition is it.
+    let diagnostic = invalid("\n@fragment fn shade() { workgroupBarrier(); }\n");
+    assert_eq!(place(&diagnostic), ("user.wgsl", 2, 14, 5));
+    assert_eq!(diagnostic.message, "entry point `shade` is not valid");
+}
+
+#[test]
+fn what_the_core_lacks_is_refused_where_it_stands() {
+    let enable = "import moment_shadows::hankel::{hankel_factor};\nenable f16;\nfn f() {}\n";
+    assert_eq!(place(&parse_error(enable)), ("user.wgsl", 2, 8, 3));
+    let subgroups = "enable subgroups;\nfn f() {}\n";
+    assert_eq!(place(&parse_error(subgroups)), ("user.wgsl", 1, 8, 9));
+
+    let subgroup_add = "@compute @workgroup_size(1) fn f() {\n    let x = subgroupAdd(1u);\n}\n";
+    let diagnostic = invalid(subgroup_add);
+    assert_eq!(place(&diagnostic), ("user.wgsl", 2, 13, 11));
+    assert!(diagnostic.notes[0].contains("SUBGROUP"), "{diagnostic}");
+    assert_eq!(place(&invalid("fn f(x: f64) {}")), ("user.wgsl", 1, 9, 3));
+
+    // Part of the core: 16-bit floats packed in 32 bits, sample shading, arrays of cubes.
+    for text in [
+        "fn f(x: vec2f) -> vec2f { return unpack2x16float(pack2x16float(x)); }",
+        "@fragment fn f(@builtin(sample_index) i: u32) -> @location(0) vec4f { return vec4f(f32(i)); }",
+        "fn f(t: texture_depth_cube_array, s: sampler_comparison) -> f32 {\n\
+             return textureSampleCompareLevel(t, s, vec3f(1.0), 0, 0.5);\n}",
+    ] {
+        core(text).unwrap_or_else(|error| panic!("{error}"));
+    }
+}
+
+#[test]
+fn storage_formats_follow_the_profile() {
+    use Profile::{Native, NativeAdapter, WebgpuCore};
+    let cases = [
+        ("rgba8unorm", "write", Some(WebgpuCore)),
+        ("rgba16float", "read", Some(WebgpuCore)),
+        ("rgba16float", "write", Some(WebgpuCore)),
+        ("rgba16float", "read_write", Some(NativeAdapter)),
+        ("rg32float", "write", Some(WebgpuCore)),
+        ("rgba32float", "write", Some(WebgpuCore)),
+        ("r32float", "read_write", Some(WebgpuCore)),
+        ("r32uint", "read_write", Some(WebgpuCore)),
+        ("rgba16unorm", "write", Some(Native)),
+        ("rgba16unorm", "read_write", Some(NativeAdapter)),
+        ("rg16snorm", "read", Some(Native)),
+        ("r16unorm", "write", Some(Native)),
+        ("rgb10a2unorm", "write", Some(NativeAdapter)),
+        ("rg16float", "write", Some(NativeAdapter)),
+        ("r16float", "write", Some(NativeAdapter)),
+        ("r8unorm", "write", Some(NativeAdapter)),
+        ("bgra8unorm", "write", Some(NativeAdapter)),
+        ("rg11b10ufloat", "write", Some(NativeAdapter)),
+    ];
+    let mut failures = Vec::new();
+    for (format, access, least) in cases {
+        let mut accepted = None;
+        for profile in Profile::ALL.into_iter().rev() {
+            match validate_user(&storing(format, access), profile) {
+                Ok(_) => accepted = Some(profile),
+                Err(ValidateError::StorageFormat(diagnostic)) => {
+                    let width = u32::try_from(format.len()).unwrap();
+                    assert_eq!(place(&diagnostic), ("user.wgsl", 3, 51, width), "{format}");
+                    assert!(
+                        diagnostic.message.contains(&format!("`{format}`")),
+                        "{diagnostic}"
+                    );
+                    assert!(diagnostic.message.contains(profile.name()), "{diagnostic}");
+                }
+                Err(other) => failures.push(format!("{format} {access} under {profile}: {other}")),
+            }
+        }
+        if accepted != least {
+            failures.push(format!(
+                "{format} {access}: accepted from {accepted:?}, not {least:?}"
+            ));
+        }
+    }
+    assert!(failures.is_empty(), "\n{}", failures.join("\n"));
+}
+
+#[test]
+fn the_table_of_formats_says_the_same() {
+    let colour = TextureFormat::ALL
+        .into_iter()
+        .filter(|format| !format.is_depth());
+    for format in colour {
+        // `native-adapter` adds what one adapter can do, which no table knows.
+        for profile in [Profile::WebgpuCore, Profile::Native] {
+            let valid = validate_user(&storing(format.name(), "write"), profile).is_ok();
+            let expected = format.support(profile).storage_write;
+            assert_eq!(valid, expected, "{format} under {profile}");
+        }
+    }
+}
+
+#[test]
+fn every_use_of_a_refused_format_is_shown() {
+    let text = "alias A = texture_storage_2d<rgb10a2unorm, write>;\n\
+                @group(0) @binding(0) var a: A;\n\
+                // texture_storage_2d<rgb10a2unorm, write>\n\
+                @group(0) @binding(1) var b: texture_storage_2d<rgb10a2unorm, write>;\n";
+    match core(text).unwrap_err() {
+        ValidateError::StorageFormat(diagnostic) => {
+            let lines: Vec<_> = diagnostic
+                .labels
+                .iter()
+                .map(|label| label.at.line)
+                .collect();
+            assert_eq!(lines, [1, 4]);
+            assert!(
+                diagnostic.notes[0].contains("native-adapter"),
+                "{diagnostic}"
+            );
+        }
+        other => panic!("another error: {other}"),
+    }
+}
+
+#[test]
+fn glsl_says_what_it_cannot_express() {
+    let report = core("@compute @workgroup_size(1) fn go() {}\n").unwrap();
+    assert_eq!(reason(&report, Backend::Glsl450), None);
+    let es = reason(&report, Backend::GlslEs300).unwrap();
+    assert!(es.contains("`go`") && es.contains("COMPUTE_SHADER"), "{es}");
+
+    // Only written because the function is called: GLSL leaves out what no entry point reaches.
+    let report =
+        core("fn f(t: texture_depth_2d) -> f32 { return textureLoad(t, vec2u(0), 0); }").unwrap();
+    for backend in [Backend::SpirV, Backend::Hlsl, Backend::Msl] {
+        assert_eq!(reason(&report, backend), None, "{backend}");
+    }
+    assert!(
+        reason(&report, Backend::Glsl450)
+            .unwrap()
+            .contains("textureLoad")
+    );
+}
+
+#[test]
+fn functions_without_entry_point_are_called_with_arguments_of_every_kind() {
+    let report = core(
+        "struct Parameters { size: vec2u, weights: array<f32, 4>, matrix: mat4x4f }\n\
+         fn all(p: Parameters, map: texture_2d_array<f32>, s: sampler, sum: ptr<function, vec4f>) -> f32 {\n\
+             *sum += textureSampleLevel(map, s, vec2f(p.size), 0, 0.0) * p.weights[1];\n\
+             return dpdx(p.matrix[0].x);\n\
+         }\n\
+         fn nothing() {}\n",
+    )
+    .unwrap();
+    assert_eq!(report.written().collect::<Vec<_>>(), Backend::ALL);
+
+    // Barriers are for compute shaders, which GLSL ES 300 does not have.
+    let report = core("fn wait() { workgroupBarrier(); }").unwrap();
+    assert_eq!(reason(&report, Backend::Glsl450), None);
+    assert!(
+        reason(&report, Backend::GlslEs300)
+            .unwrap()
+            .contains("COMPUTE_SHADER")
+    );
+
+    let report = core("fn f(counter: ptr<private, u32>) { *counter += 1; }").unwrap();
+    let why = reason(&report, Backend::Glsl450).unwrap();
+    assert!(why.contains("`counter`") && why.contains("`f`"), "{why}");
+}
+
+#[test]
+fn overrides_without_default_have_a_value() {
+    let report = core(
+        "override group_size: u32;\n@id(7) override scaled: bool;\noverride scale = 2.0;\n\
+         @compute @workgroup_size(group_size) fn main() { var x = scale; if scaled { x += 1.0; } }\n",
+    )
+    .unwrap();
+    assert_eq!(reason(&report, Backend::SpirV), None);
+    assert_eq!(reason(&report, Backend::Glsl450), None);
+}
+
+#[test]
+fn link_errors_come_through() {
+    let error = core("import moment_shadows::hankle::{hankel_factor};\n").unwrap_err();
+    assert!(matches!(
+        error,
+        ValidateError::Link(LinkError::UnknownModule { .. })
+    ));
+    let source = Source {
+        name: "m.wgsl",
+        text: "import super::hankel::{hankel};\n",
+    };
+    let error = validate_module(source, Profile::WebgpuCore).unwrap_err();
+    assert!(matches!(
+        error,
+        ValidateError::Link(LinkError::UnknownItem { .. })
+    ));
+}
+
+#[test]
+fn text_that_no_compiler_survives_is_refused() {
+    match core(&" ".repeat(LONGEST_SHADER + 1)).unwrap_err() {
+        ValidateError::TooLong { file, bytes } => {
+            assert_eq!((file.as_str(), bytes), ("user.wgsl", LONGEST_SHADER + 1));
+        }
+        other => panic!("another error: {other}"),
+    }
+    let sum = |n| format!("fn f(x: f32) -> f32 {{\n return x{}; }}", "+x".repeat(n));
+    let branches = |n| format!("fn f() {{\n {} {{}} }}", "if true {} else ".repeat(n));
+    let functions = |n| {
+        (0..n)
+            .map(|i| format!("const c{i} = 1;\n"))
+            .collect::<String>()
+    };
+    let cases = [
+        (
+            sum(LONGEST_CHAIN),
+            sum(LONGEST_CHAIN + 1),
+            "operators in one expression",
+            2,
+        ),
+        (
+            branches(LONGEST_CHAIN),
+            branches(LONGEST_CHAIN + 1),
+            "branches in one chain of `else`",
+            2,
+        ),
+        (
+            functions(LONGEST_CHAIN),
+            functions(LONGEST_CHAIN + 1),
+            "definitions",
+            2_001,
+        ),
+    ];
+    for (longest, longer, expected, line) in cases {
+        core(&longest).unwrap_or_else(|error| panic!("{expected}: {error}"));
+        match core(&longer).unwrap_err() {
+            ValidateError::TooDeep { what, at } => {
+                assert_eq!(
+                    (what, at.file.as_str(), at.line),
+                    (expected, "user.wgsl", line)
+                );
+            }
+            other => panic!("another error: {other}"),
+        }
+    }
+    // naga refuses deep brackets by itself.
+    parse_error(&format!(
+        "fn f() -> f32 {{ return {}1.0{}; }}",
+        "(".repeat(900),
+        ")".repeat(900)
+    ));
+}
+
+#[test]
+fn the_command_checks_files() {
+    let folder = tempfile::tempdir().unwrap();
+    let write = |name: &str, text: &[u8]| {
+        let path = folder.path().join(name);
+        fs::write(&path, text).unwrap();
+        path
+    };
+    let good = write(
+        "good.wgsl",
+        b"import moment_shadows::hankel::{hankel_factor};\nfn f() {}\n",
+    );
+    let bad = write(
+        "bad.wgsl",
+        b"import moment_shadows::hankel::{hankel_factor};\nfn f( {}\n",
+    );
+    let norm = write("norm.wgsl", storing("rgba16unorm", "write").as_bytes());
+    let binary = write("binary.wgsl", &[0xff, 0xfe, 0x00]);
+    let long = write("long.wgsl", &vec![b' '; LONGEST_SHADER + 1]);
+    let missing = folder.path().join("missing.wgsl");
+
+    check_file(&good, Profile::WebgpuCore).unwrap();
+    let error = check_file(&bad, Profile::WebgpuCore).unwrap_err();
+    let at = format!("--> {}:2:7", bad.display());
+    assert!(error.to_string().contains(&at), "{error}");
+    for path in [&binary, &long, &missing, &folder.path().to_owned()] {
+        match check_file(path, Profile::WebgpuCore).unwrap_err() {
+            CheckError::Read { path: named, .. } => assert_eq!(named, path.display().to_string()),
+            other => panic!("another error: {other}"),
+        }
+    }
+
+    let code = |code: ExitCode| format!("{code:?}");
+    let (success, failure) = (code(ExitCode::SUCCESS), code(ExitCode::FAILURE));
+    assert_eq!(code(run(std::slice::from_ref(&good), None)), success);
+    assert_eq!(code(run(&[bad, good.clone()], None)), failure);
+    assert_eq!(code(run(&[missing, good], None)), failure);
+    assert_eq!(code(run(std::slice::from_ref(&norm), None)), failure);
+    assert_eq!(code(run(&[norm], Some(Profile::Native))), success);
+}
+
+#[test]
+fn the_command_checks_modules_of_the_library() {
+    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("wgsl");
+    for entry in fs::read_dir(folder).unwrap() {
+        let path = entry.unwrap().path();
+        check_file(&path, Profile::WebgpuCore).unwrap_or_else(|error| panic!("{error}"));
+    }
+}
