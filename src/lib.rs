@@ -65,3 +65,7 @@ pub use validate::{
     Backend, Diagnostic, LONGEST_CHAIN, LONGEST_SHADER, Label, Outcome, ValidateError,
     ValidationReport, validate, validate_module,
 };
+
+#[cfg(doctest)]
+#[doc = include_str!("../README.md")]
+struct Readme;

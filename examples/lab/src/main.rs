@@ -7,6 +7,7 @@ use clap::{Parser, Subcommand, ValueEnum};
 use moment_shadows::{Profile, Storage};
 use moment_shadows_lab::command::render::{LightChoice, RenderOptions};
 use moment_shadows_lab::command::{graph, measure, render, validate};
+use moment_shadows_lab::gpu::Gpu;
 use moment_shadows_lab::vectors;
 
 /// Filterable shadows: validate shaders, check graphs, render, and measure.
@@ -19,6 +20,8 @@ struct Cli {
 
 #[derive(Subcommand)]
 enum Command {
+    /// Prints the graphics adapter that the other commands use; fails if there is none.
+    Adapter,
     /// Renders a scene with the shadows of a graph.
     Render {
         #[command(flatten)]
@@ -166,6 +169,13 @@ fn main() -> ExitCode {
 
 fn run(command: Command) -> Result<ExitCode, Box<dyn std::error::Error>> {
     match command {
+        Command::Adapter => {
+            let info = Gpu::open(Profile::WebgpuCore)?.adapter.get_info();
+            println!(
+                "{} ({:?}, {:?}, {})",
+                info.name, info.device_type, info.backend, info.driver_info
+            );
+        }
         Command::Render {
             frame,
             scene,
