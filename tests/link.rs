@@ -82,6 +82,14 @@ fn joins_the_closure_once_in_dependency_order() {
 }
 
 #[test]
+fn removed_imports_leave_one_blank_line() {
+    let text = "// a\n\nimport moment_shadows::m::{m};\n\n\n\nconst b = m;\n";
+    let linked = link_with(text, &[("m", "\nconst m = 1;\n\n\n")]).unwrap();
+    let expected = "// m\n\nconst m = 1;\n\n\n// user.wgsl\n// a\n\nconst b = m;\n";
+    assert_eq!(linked.wgsl(), expected);
+}
+
+#[test]
 fn same_input_same_text() {
     let text = "import moment_shadows::hamburger::{hamburger_bounds};\n";
     assert_eq!(link_user(text), link_user(text));

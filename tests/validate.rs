@@ -255,7 +255,8 @@ fn every_use_of_a_refused_format_is_shown() {
     let text = "alias A = texture_storage_2d<rgb10a2unorm, write>;\n\
                 @group(0) @binding(0) var a: A;\n\
                 // texture_storage_2d<rgb10a2unorm, write>\n\
-                @group(0) @binding(1) var b: texture_storage_2d<rgb10a2unorm, write>;\n";
+                @group(0) @binding(1) var b: texture_storage_2d<rgb10a2unorm, write>;\n\
+                @group(0) @binding(2) var c: texture_storage_2d<rgba8unorm, write>;\n";
     match core(text).unwrap_err() {
         ValidateError::StorageFormat(diagnostic) => {
             let lines: Vec<_> = diagnostic
