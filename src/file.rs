@@ -1,6 +1,7 @@
 //! One WGSL file as the linker sees it: its imports, its directives, and the names it defines.
 
 use core::ops::Range;
+use std::collections::BTreeSet;
 
 use crate::import::{self, Form, Import};
 use crate::location::line_ends;
@@ -18,6 +19,8 @@ pub(crate) struct File<'a> {
     pub(crate) directives: Vec<Range<usize>>,
     /// The names that the file defines at top level.
     pub(crate) definitions: Vec<Token<'a>>,
+    /// The names that its code refers to, without those that it declares itself.
+    pub(crate) uses: Vec<Token<'a>>,
 }
 
 impl<'a> File<'a> {
@@ -30,6 +33,7 @@ impl<'a> File<'a> {
             imports: Vec::new(),
             directives: Vec::new(),
             definitions: Vec::new(),
+            uses: Vec::new(),
         };
         let tokens = tokens(text).map_err(|UnterminatedComment(start)| {
             let at = file.at(start..start + 2);
@@ -47,6 +51,7 @@ impl<'a> File<'a> {
         file.check_code(code)?;
         file.directives = directives(code);
         file.definitions = definitions(code);
+        file.uses = uses(code);
         Ok(file)
     }
 
@@ -126,4 +131,35 @@ pub(crate) fn definitions<'a>(code: &[Token<'a>]) -> Vec<Token<'a>> {
         }
     }
     found
+}
+
+/// The words of `code` that refer to something declared elsewhere: no member (`.name`), and no name that is declared
+/// anywhere in the file, as a parameter, a member or a variable, since that may be what is meant.
+fn uses<'a>(code: &[Token<'a>]) -> Vec<Token<'a>> {
+    let before = |index: usize| index.checked_sub(1).and_then(|index| code.get(index));
+    let declares = |index: usize| {
+        let keyword = before(index).is_some_and(|token| {
+            matches!(
+                token.text,
+                "fn" | "struct" | "alias" | "const" | "override" | "var" | "let"
+            )
+        });
+        keyword || code.get(index + 1).is_some_and(|next| next.is_symbol(":"))
+    };
+    let words = || {
+        code.iter()
+            .enumerate()
+            .filter(|(_, token)| token.kind == Kind::Word)
+    };
+    let declared: BTreeSet<&str> = words()
+        .filter(|(index, _)| declares(*index))
+        .map(|(_, token)| token.text)
+        .collect();
+    words()
+        .filter(|(index, token)| {
+            !declared.contains(token.text)
+                && !before(*index).is_some_and(|token| token.is_symbol("."))
+        })
+        .map(|(_, token)| *token)
+        .collect()
 }

@@ -1,6 +1,6 @@
 //! The linker: a file and the modules that it needs become one WGSL text.
 
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 
 use crate::file::File;
 use crate::import::{Form, Import};
@@ -26,7 +26,7 @@ pub struct Source<'a> {
 /// - They come first, before directives and declarations; each is one line with nothing else on it but a `//` comment.
 /// - The only form is `import moment_shadows::hankel::{hankel_factor};` (`super` in place of `moment_shadows` within the
 ///   library), with any number of items. No `as`, no `public`, no path within code, no conditional attribute.
-/// - Every item is defined at top level by its module, and imported once.
+/// - Every item is defined at top level by its module, and imported once; a file imports every item that it uses.
 ///
 /// The result holds every file once, each after those that it imports, headed by a comment that names it; `source` comes
 /// last, but its directives come first. Names are not changed, so no two of the files may define the same name.
@@ -52,6 +52,7 @@ fn link_as(form: Form, source: Source<'_>, generated: &[Source<'_>]) -> Result<L
     let root = File::parse(source.name.to_owned(), source.text, form)?;
     let files = library.closure(root)?;
     refuse_collisions(&files)?;
+    refuse_unimported(&files)?;
     Ok(Linked::join(&files))
 }
 
@@ -202,6 +203,35 @@ fn refuse_collisions(files: &[File<'_>]) -> Result<(), LinkError> {
                     first: first_file.at(first.range()),
                 });
             }
+        }
+    }
+    Ok(())
+}
+
+/// Refuses a name that another file defines and this one does not import. Joined files would see it all the same; tools
+/// that keep modules apart would not.
+fn refuse_unimported(files: &[File<'_>]) -> Result<(), LinkError> {
+    let owners: BTreeMap<&str, &File<'_>> = files
+        .iter()
+        .flat_map(|file| file.definitions.iter().map(move |name| (name.text, file)))
+        .collect();
+    for file in files {
+        let imported: BTreeSet<&str> = file
+            .imports
+            .iter()
+            .flat_map(|import| &import.items)
+            .map(|item| item.text)
+            .collect();
+        let missing = file.uses.iter().find_map(|used| {
+            let owner = owners.get(used.text)?;
+            (owner.name != file.name && !imported.contains(used.text)).then_some((used, owner))
+        });
+        if let Some((used, owner)) = missing {
+            return Err(LinkError::NotImported {
+                item: used.text.to_owned(),
+                owner: owner.name.clone(),
+                at: file.at(used.range()),
+            });
         }
     }
     Ok(())

@@ -78,6 +78,18 @@ pub enum LinkError {
         /// The second import of the item.
         at: Box<Location>,
     },
+    /// A name of another module that a file uses without importing it.
+    #[error(
+        "`{item}` is used, but not imported; add it to the imports (it is defined in {owner})\n{at}"
+    )]
+    NotImported {
+        /// The item.
+        item: String,
+        /// The file that defines it.
+        owner: String,
+        /// The first use.
+        at: Box<Location>,
+    },
     /// Modules that import each other.
     #[error("the imports form a cycle: {cycle}; move what both need to a third module\n{at}")]
     Cycle {

@@ -472,6 +472,31 @@ fn refuses_names_that_collide() {
 }
 
 #[test]
+fn refuses_names_that_are_used_without_being_imported() {
+    // `hankel_factor` comes along with `hamburger_bounds`, but only tools that join files would find it.
+    let text = "import moment_shadows::hamburger::{hamburger_bounds};\n\nfn f(b: vec4f) -> f32 {\n    return hankel_factor(b, 1.0).variance;\n}\n";
+    match link_user(text).unwrap_err() {
+        LinkError::NotImported { item, owner, at } => {
+            assert_eq!(item, "hankel_factor");
+            assert_eq!(owner, "moment_shadows/hankel.wgsl");
+            assert_eq!((at.file.as_str(), place(&at)), ("user.wgsl", (4, 12, 13)));
+        }
+        other => panic!("another error: {other}"),
+    }
+    // A parameter, a variable and a member of that name are one's own.
+    for code in [
+        "fn f(hankel_factor: f32) -> f32 { return hankel_factor; }",
+        "fn f() -> f32 { let hankel_factor = 1.0; return hankel_factor; }",
+        "struct S { hankel_factor: f32 }\nfn f(s: S) -> f32 { return s.hankel_factor; }",
+    ] {
+        link_user(&format!(
+            "import moment_shadows::hamburger::{{hamburger_bounds}};\n{code}"
+        ))
+        .unwrap();
+    }
+}
+
+#[test]
 fn refuses_generated_modules_with_a_name_in_use() {
     for generated in [&[("hankel", "")][..], &[("one", ""), ("one", "")]] {
         match link_with("", generated).unwrap_err() {
