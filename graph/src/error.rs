@@ -14,17 +14,22 @@ pub struct Position {
 }
 
 impl Position {
-    /// The position of byte `offset` of `text`.
-    pub(crate) fn of(text: &str, offset: usize) -> Self {
-        let before = &text.as_bytes()[..offset.min(text.len())];
-        let line_start = before
-            .iter()
-            .rposition(|&byte| byte == b'\n')
-            .map_or(0, |index| index + 1);
-        let line = before.iter().filter(|&&byte| byte == b'\n').count() + 1;
-        Self {
-            line: u32::try_from(line).unwrap_or(u32::MAX),
-            column: u32::try_from(before.len() - line_start + 1).unwrap_or(u32::MAX),
+    /// The beginning of a file.
+    pub(crate) const START: Position = Position { line: 1, column: 1 };
+
+    /// The position behind `text`, where `text` begins at this one.
+    pub(crate) fn after(self, text: &[u8]) -> Self {
+        let count = |bytes: usize| u32::try_from(bytes).unwrap_or(u32::MAX);
+        let lines = text.iter().filter(|&&byte| byte == b'\n').count();
+        match text.iter().rposition(|&byte| byte == b'\n') {
+            None => Self {
+                column: self.column.saturating_add(count(text.len())),
+                ..self
+            },
+            Some(end) => Self {
+                line: self.line.saturating_add(count(lines)),
+                column: count(text.len() - end),
+            },
         }
     }
 }
@@ -53,10 +58,12 @@ pub enum GraphErrorKind {
     Property,
     /// A required input that nothing is connected to.
     MissingInput,
-    /// An input that more than one edge leads to.
+    /// An input that more than one edge leads to, or a resource that is changed in place while others take it.
     TwoWriters,
     /// Nodes that wait for each other.
     Cycle,
+    /// A node that reads what only a later stage makes.
+    StageOrder,
     /// A texture where a buffer is needed, a wrong format or a wrong number of samples.
     Format,
     /// A size, a number of layers or a kernel that does not fit.

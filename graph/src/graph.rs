@@ -9,8 +9,8 @@ use crate::{GraphError, GraphErrorKind, Node, NodeRegistry, Position, ResourceDe
 /// The version of graph files and plans that this library reads and writes.
 pub const VERSION: u32 = 1;
 
-/// A graph file of more bytes than this is refused.
-const LARGEST_FILE: usize = 16 << 20;
+/// A graph file of more bytes than this is refused: names are looked up one by one, so that time grows with the square.
+const LARGEST_FILE: usize = 1 << 20;
 
 /// A graph: nodes, and what connects them to each other and to the host.
 #[derive(Debug)]
@@ -182,10 +182,13 @@ fn each<T>(
     values: &[&RawValue],
     one: impl Fn(&str, &str, Position) -> Result<T, GraphError>,
 ) -> Result<Vec<T>, GraphError> {
+    let (mut position, mut offset) = (Position::START, 0);
     values
         .iter()
         .map(|raw| {
-            let position = Position::of(text, offset_in(text, raw.get()));
+            let begin = offset_in(text, raw.get());
+            position = position.after(text.as_bytes().get(offset..begin).unwrap_or_default());
+            offset = begin;
             one(text, raw.get(), position)
         })
         .collect()
@@ -209,12 +212,18 @@ fn syntax(text: &str, part: &str, error: &serde_json::Error) -> GraphError {
         .map(str::len)
         .sum::<usize>();
     let within = (line_start + error.column().saturating_sub(1)).min(part.len());
+    let end = offset_in(text, part) + within;
+    let before = text.as_bytes().get(..end).unwrap_or(text.as_bytes());
+    GraphError::new(GraphErrorKind::Syntax, sentence(error))
+        .at_position(Some(Position::START.after(before)))
+}
+
+/// What is wrong, without the place within the part that was read.
+fn sentence(error: &serde_json::Error) -> String {
     let full = error.to_string();
-    let sentence = full
-        .rsplit_once(" at line ")
-        .map_or(full.as_str(), |(sentence, _)| sentence);
-    GraphError::new(GraphErrorKind::Syntax, sentence)
-        .at_position(Some(Position::of(text, offset_in(text, part) + within)))
+    full.rsplit_once(" at line ")
+        .map_or(full.as_str(), |(sentence, _)| sentence)
+        .to_owned()
 }
 
 fn read_import(text: &str, raw: &str, position: Position) -> Result<Import, GraphError> {
@@ -247,7 +256,10 @@ fn read_node(
     position: Position,
     registry: &NodeRegistry,
 ) -> Result<GraphNode, GraphError> {
-    let header: FileNode<'_> = read(text, raw)?;
+    let header: FileNode<'_> = read(text, raw).map_err(|error| match name_of(raw) {
+        Some(name) => error.at_node(&name),
+        None => error,
+    })?;
     let properties = header.properties.map_or("{}", RawValue::get);
     let node = registry
         .create(&header.r#type, properties)
@@ -255,7 +267,10 @@ fn read_node(
         .and_then(|result| {
             result.map_err(|error| match header.properties {
                 Some(_) => syntax(text, properties, &error),
-                None => GraphError::new(GraphErrorKind::Syntax, error.to_string()),
+                None => GraphError::new(
+                    GraphErrorKind::Syntax,
+                    format!("{}; give it in the node's 'properties'", sentence(&error)),
+                ),
             })
         })
         .map_err(|error| error.at_node(&header.name).at_position(Some(position)))?;
@@ -264,6 +279,17 @@ fn read_node(
         node,
         position: Some(position),
     })
+}
+
+/// The name of a node whose description is wrong elsewhere.
+fn name_of(raw: &str) -> Option<String> {
+    #[derive(Deserialize)]
+    struct Named {
+        name: String,
+    }
+    serde_json::from_str(raw)
+        .ok()
+        .map(|named: Named| named.name)
 }
 
 fn unknown_type(type_name: &str, registry: &NodeRegistry) -> GraphError {

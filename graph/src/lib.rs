@@ -30,7 +30,7 @@ pub use node::{
     Node, NodeDesc, ParameterBlock, Pass, Slot, SlotResource, Stage, Work,
 };
 pub use plan::{
-    Home, ParameterError, ParameterLayout, Plan, PlannedBinding, PlannedBindingResource,
+    Home, ParameterError, ParameterLayout, Plan, PlanError, PlannedBinding, PlannedBindingResource,
     PlannedImport, PlannedMemory, PlannedOutput, PlannedParameters, PlannedPass, PlannedResource,
     PlannedWork, SampleType,
 };

@@ -1,8 +1,13 @@
 //! A compiled graph: passes in order, resources, memory and parameters, as data that any host can record.
 
-use core::fmt;
+mod check;
+mod parameters;
+mod text;
+
 use std::collections::BTreeMap;
 
+pub use check::PlanError;
+pub use parameters::{ParameterError, ParameterLayout, PlannedParameters};
 use serde::{Deserialize, Serialize};
 
 use crate::{Access, ResourceDesc, Stage, TextureDesc};
@@ -205,144 +210,6 @@ pub struct PlannedOutput {
     pub resource: usize,
 }
 
-/// Where uniform data lies in the block of one view. A host keeps one block per view in a buffer of its own.
-#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
-#[serde(deny_unknown_fields)]
-pub struct ParameterLayout {
-    /// Bytes of one view's block; blocks of several views follow each other at multiples of this.
-    pub size: u32,
-    /// The blocks of the nodes.
-    pub blocks: Vec<PlannedParameters>,
-}
-
-/// Where a node's uniform data lies.
-#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
-#[serde(deny_unknown_fields)]
-pub struct PlannedParameters {
-    /// The node's name in the graph.
-    pub node: String,
-    /// The WGSL struct's name.
-    pub name: String,
-    /// Bytes from the start of the view's block.
-    pub offset: u32,
-    /// Bytes of one struct.
-    pub size: u32,
-    /// Bytes from one layer's struct to the next.
-    pub stride: u32,
-    /// How many structs there are: one, or one per layer.
-    pub count: u32,
-    /// What each struct holds until the host writes something else; zeros where empty.
-    pub initial: Vec<u8>,
-}
-
-/// Uniform data that does not fit its place.
-#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
-#[non_exhaustive]
-pub enum ParameterError {
-    /// No recorded pass of that node has parameters.
-    #[error("node '{node}' has no parameters in this plan; nodes that do: {known}")]
-    UnknownNode {
-        /// The node that was named.
-        node: String,
-        /// The nodes with parameters.
-        known: String,
-    },
-    /// The struct has another size.
-    #[error("parameters of node '{node}' ({name}) have {expected} bytes, {given} were given")]
-    Size {
-        /// The node.
-        node: String,
-        /// The WGSL struct.
-        name: String,
-        /// The struct's size.
-        expected: u32,
-        /// What was given.
-        given: usize,
-    },
-    /// There are fewer layers.
-    #[error("node '{node}' has parameters for {count} layers; layer {layer} is none of them")]
-    Layer {
-        /// The node.
-        node: String,
-        /// How many structs there are.
-        count: u32,
-        /// The layer that was named.
-        layer: u32,
-    },
-    /// The view's block is too small.
-    #[error("a view's block has {expected} bytes, {given} were given")]
-    Block {
-        /// [`ParameterLayout::size`].
-        expected: u32,
-        /// What was given.
-        given: usize,
-    },
-}
-
-impl ParameterLayout {
-    /// A view's block with every node's initial values.
-    #[must_use]
-    pub fn initial(&self) -> Vec<u8> {
-        let mut bytes = vec![0; self.size as usize];
-        for block in &self.blocks {
-            for index in 0..block.count {
-                let start = (block.offset + index * block.stride) as usize;
-                bytes[start..start + block.initial.len()].copy_from_slice(&block.initial);
-            }
-        }
-        bytes
-    }
-
-    /// Writes a node's struct (for `layer`, where there is one per layer) into a view's block.
-    pub fn write<P: bytemuck::NoUninit>(
-        &self,
-        block: &mut [u8],
-        node: &str,
-        layer: u32,
-        parameters: &P,
-    ) -> Result<(), ParameterError> {
-        let planned = self
-            .blocks
-            .iter()
-            .find(|planned| planned.node == node)
-            .ok_or_else(|| ParameterError::UnknownNode {
-                node: node.to_owned(),
-                known: self
-                    .blocks
-                    .iter()
-                    .map(|planned| planned.node.as_str())
-                    .collect::<Vec<_>>()
-                    .join(", "),
-            })?;
-        let bytes = bytemuck::bytes_of(parameters);
-        if bytes.len() != planned.size as usize {
-            return Err(ParameterError::Size {
-                node: node.to_owned(),
-                name: planned.name.clone(),
-                expected: planned.size,
-                given: bytes.len(),
-            });
-        }
-        if layer >= planned.count {
-            return Err(ParameterError::Layer {
-                node: node.to_owned(),
-                count: planned.count,
-                layer,
-            });
-        }
-        let given = block.len();
-        let start = (planned.offset + layer * planned.stride) as usize;
-        block
-            .get_mut(start..start + bytes.len())
-            .ok_or(ParameterError::Block {
-                expected: self.size,
-                given,
-            })?
-            .copy_from_slice(bytes);
-        Ok(())
-    }
-}
-
 impl Plan {
     /// Bytes of everything that the plan creates.
     #[must_use]
@@ -364,83 +231,5 @@ impl Plan {
     pub fn output_texture(&self, name: &str) -> Option<&TextureDesc> {
         let output = self.outputs.iter().find(|output| output.name == name)?;
         self.resources.get(output.resource)?.desc.texture()
-    }
-}
-
-impl fmt::Display for Plan {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        writeln!(f, "imports")?;
-        for import in &self.imports {
-            writeln!(
-                f,
-                "  {:<28} {}",
-                import.name, self.resources[import.resource].desc
-            )?;
-        }
-        for stage in Stage::ALL {
-            writeln!(f, "stage {stage:?}")?;
-            for pass in self.passes.iter().filter(|pass| pass.stage == stage) {
-                let work = match &pass.work {
-                    PlannedWork::Compute { workgroups } => {
-                        format!("compute {}x{} workgroups", workgroups[0], workgroups[1])
-                    }
-                    PlannedWork::Fullscreen { target } => {
-                        format!("fullscreen to {}", self.resources[*target].name)
-                    }
-                    PlannedWork::Host { .. } => "the host draws".to_owned(),
-                };
-                let layers = if pass.each_layer {
-                    format!(" x {} layers", pass.layers)
-                } else {
-                    String::new()
-                };
-                writeln!(
-                    f,
-                    "  {:<28} {work}{layers}, {} read, {} written",
-                    format!("{}/{}", pass.node, pass.label),
-                    Bytes(pass.bytes_read),
-                    Bytes(pass.bytes_written)
-                )?;
-            }
-        }
-        writeln!(f, "memory ({} resident)", Bytes(self.bytes_resident()))?;
-        for memory in &self.memory {
-            writeln!(
-                f,
-                "  {:<28} {}, {}",
-                memory.label,
-                memory.desc,
-                Bytes(memory.desc.bytes())
-            )?;
-        }
-        writeln!(f, "parameters ({} bytes per view)", self.parameters.size)?;
-        for block in &self.parameters.blocks {
-            writeln!(
-                f,
-                "  {:<28} {} at {}, {} bytes x {}",
-                block.node, block.name, block.offset, block.size, block.count
-            )?;
-        }
-        writeln!(f, "outputs")?;
-        for output in &self.outputs {
-            writeln!(
-                f,
-                "  {:<28} {}",
-                output.name, self.resources[output.resource].name
-            )?;
-        }
-        Ok(())
-    }
-}
-
-/// A number of bytes, readable.
-struct Bytes(u64);
-
-impl fmt::Display for Bytes {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        match self.0 {
-            bytes @ 0..=9999 => write!(f, "{bytes} B"),
-            bytes => write!(f, "{:.2} MiB", bytes as f64 / f64::from(1 << 20)),
-        }
     }
 }

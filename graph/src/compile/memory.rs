@@ -1,6 +1,6 @@
 //! Lifetimes of resources, and which of them share memory.
 
-use crate::{Access, PlannedMemory, ResourceDesc};
+use crate::{Access, PlannedMemory, ResourceDesc, Stage};
 
 /// What is known of a resource that the plan creates.
 #[derive(Clone, Debug)]
@@ -11,33 +11,69 @@ pub(super) struct Life {
     pub(super) name: String,
     pub(super) desc: ResourceDesc,
     pub(super) access: Access,
-    /// The first and the last pass that touch it.
+    /// The first and the last pass that touch it, and their stages.
     pub(super) first: usize,
     pub(super) last: usize,
-    /// Its contents matter after its last pass: an output, or persistent.
-    pub(super) outlives: bool,
-    /// It is never to share.
-    pub(super) persistent: bool,
-    /// Only passes that are recorded per dirty layer write it.
-    pub(super) written_by_layer: bool,
-    /// A pass that is recorded every time reads it, so layers that are not dirty have to keep their contents.
-    pub(super) read_every_time: bool,
+    pub(super) first_stage: Stage,
+    pub(super) last_stage: Stage,
+    /// It never shares: an output, or persistent.
+    pub(super) alone: bool,
+    /// Some pass writes it only where layers are dirty.
+    pub(super) written_when_dirty: bool,
+    /// Some pass writes it whenever its stage is recorded.
+    pub(super) written_every_time: bool,
+    /// Some pass reads more of it than the layer that it is recorded for.
+    pub(super) read_whole: bool,
     pub(super) exported: bool,
+}
+
+impl Life {
+    /// Whether what an earlier frame wrote is read again: layers that are not dirty keep their contents.
+    fn keeps_layers(&self) -> bool {
+        self.written_when_dirty && self.read_whole
+    }
+
+    /// Whether the host may record its last stage several times for one recording of its first, as for several views.
+    fn spans_stages(&self) -> bool {
+        self.first_stage != self.last_stage
+    }
+
+    /// Whether its memory stays its own from its first pass on.
+    fn keeps_memory(&self) -> bool {
+        self.alone || self.keeps_layers() || self.spans_stages()
+    }
 }
 
 /// A texture or buffer under construction.
 struct Block {
     memory: PlannedMemory,
+    /// The stage of the earliest resident.
+    stage: Stage,
     /// Free for resources that begin after this pass; never, where `None`.
     free_after: Option<usize>,
-    all_written_by_layer: bool,
+    /// Residents are written only where layers are dirty.
+    written_when_dirty: bool,
+}
+
+impl Block {
+    /// Whether a resource can live here after the earlier residents.
+    ///
+    /// One that keeps layers goes only where all are written by layer in one stage: then an earlier resident overwrites
+    /// a layer only when the later one makes it anew, too. A buffer has no layers to tell apart.
+    fn takes(&self, life: &Life) -> bool {
+        let free = self.free_after.is_some_and(|pass| pass < life.first);
+        let layers_survive = self.written_when_dirty
+            && self.stage == life.first_stage
+            && life.desc.texture().is_some();
+        !life.alone
+            && free
+            && self.memory.desc == life.desc
+            && (!life.keeps_layers() || layers_survive)
+            && (!life.spans_stages() || self.stage == life.first_stage)
+    }
 }
 
 /// Gives each resource its memory: an index into the returned list, in the order of `lives`.
-///
-/// A layer that is not dirty keeps what an earlier frame wrote, so a resource that is written by layer and read every
-/// time never gives its memory to another. It may take memory whose earlier residents are written by layer, too: those
-/// passes touch a layer only when all of its later residents are written again.
 pub(super) fn share(lives: &[Life]) -> (Vec<usize>, Vec<PlannedMemory>) {
     let mut order: Vec<usize> = (0..lives.len()).collect();
     order.sort_by_key(|&index| (lives[index].first, lives[index].resource));
@@ -45,22 +81,15 @@ pub(super) fn share(lives: &[Life]) -> (Vec<usize>, Vec<PlannedMemory>) {
     let mut homes = vec![0; lives.len()];
     for index in order {
         let life = &lives[index];
-        let keeps_layers = life.written_by_layer && (life.read_every_time || life.outlives);
-        let found = blocks.iter().position(|block| {
-            !life.persistent
-                && block.memory.desc == life.desc
-                && block.free_after.is_some_and(|pass| pass < life.first)
-                && (!keeps_layers || block.all_written_by_layer)
-        });
-        let free_after = (!life.persistent && !life.outlives && !keeps_layers).then_some(life.last);
-        homes[index] = match found {
+        let free_after = (!life.keeps_memory()).then_some(life.last);
+        let written_when_dirty = !life.written_every_time;
+        homes[index] = match blocks.iter().position(|block| block.takes(life)) {
             Some(home) => {
                 let block = &mut blocks[home];
                 block.memory.label = format!("{} | {}", block.memory.label, life.name);
                 block.memory.access = block.memory.access.union(life.access);
-                block.memory.exported |= life.exported;
                 block.free_after = free_after;
-                block.all_written_by_layer &= life.written_by_layer;
+                block.written_when_dirty &= written_when_dirty;
                 home
             }
             None => {
@@ -71,8 +100,9 @@ pub(super) fn share(lives: &[Life]) -> (Vec<usize>, Vec<PlannedMemory>) {
                         access: life.access,
                         exported: life.exported,
                     },
+                    stage: life.first_stage,
                     free_after,
-                    all_written_by_layer: life.written_by_layer,
+                    written_when_dirty,
                 });
                 blocks.len() - 1
             }

@@ -4,17 +4,18 @@ mod memory;
 mod parameters;
 mod passes;
 mod reflect;
+mod settle;
 mod slots;
+mod usage;
 mod wiring;
 
 use std::collections::BTreeMap;
 
 use crate::graph::VERSION;
 use crate::{
-    Access, Capabilities, Connected, Direction, Graph, GraphError, GraphErrorKind, Home, Lifetime,
-    NodeDesc, Plan, PlannedImport, PlannedOutput, PlannedPass, PlannedResource, ResourceDesc,
+    Access, Capabilities, Connected, Direction, Graph, GraphError, GraphErrorKind, Home, NodeDesc,
+    Plan, PlannedOutput, PlannedResource, ResourceDesc,
 };
-use memory::Life;
 use wiring::{Source, Wiring};
 
 /// The imports that a host gives, by name.
@@ -48,6 +49,7 @@ pub fn compile(
         .filter(|described| needed.contains(&described.node))
         .collect();
     stages_in_order(graph, &wiring, &described)?;
+    changed_in_place_by_one(graph, &wiring, &described)?;
     // Stable: within a stage the order of dependencies remains.
     kept.sort_by_key(|described| described.desc.stage);
 
@@ -56,12 +58,13 @@ pub fn compile(
     let mut passes = Vec::new();
     for described in &kept {
         let name = &graph.nodes[described.node].name;
+        let placed = |error: GraphError| {
+            error
+                .at_node(name)
+                .at_position(graph.nodes[described.node].position)
+        };
+        let first = passes.len();
         for pass in &described.desc.passes {
-            let placed = |error: GraphError| {
-                error
-                    .at_node(name)
-                    .at_position(graph.nodes[described.node].position)
-            };
             let planned = passes::plan(
                 name,
                 described,
@@ -72,6 +75,7 @@ pub fn compile(
                 capabilities,
             )
             .map_err(placed)?;
+            usage::check_pass(&planned, &resources, capabilities).map_err(placed)?;
             shaders
                 .check(
                     &planned,
@@ -82,6 +86,7 @@ pub fn compile(
                 .map_err(placed)?;
             passes.push(planned);
         }
+        usage::check_outputs(described, &passes[first..]).map_err(placed)?;
     }
     let plan = Plan {
         version: VERSION,
@@ -93,7 +98,7 @@ pub fn compile(
         outputs,
         parameters,
     };
-    Ok(settle(plan, &kept))
+    Ok(settle::settle(plan, &kept))
 }
 
 /// Resources of the imports, in the order of the graph.
@@ -265,7 +270,7 @@ fn stages_in_order(
             };
             if stage(*upstream) > stage(node) {
                 return Err(GraphError::new(
-                    GraphErrorKind::Cycle,
+                    GraphErrorKind::StageOrder,
                     format!(
                         "it is recorded before '{}', whose output it reads; connect it to a node of an earlier stage",
                         graph.nodes[*upstream].name
@@ -279,128 +284,44 @@ fn stages_in_order(
     Ok(())
 }
 
-/// Gives every resource its home and drops those that no pass touches.
-fn settle(mut plan: Plan, kept: &[&Described]) -> Plan {
-    let mut lives: BTreeMap<usize, Life> = BTreeMap::new();
-    for (index, pass) in plan.passes.iter().enumerate() {
-        for (resource, access) in passes::touched(pass) {
-            let planned = &plan.resources[resource];
-            let life = lives.entry(resource).or_insert_with(|| Life {
-                resource,
-                name: planned.name.clone(),
-                desc: planned.desc.clone(),
-                access: planned.access,
-                first: index,
-                last: index,
-                outlives: false,
-                persistent: false,
-                written_by_layer: true,
-                read_every_time: false,
-                exported: false,
-            });
-            life.last = index;
-            life.written_by_layer &= !access.writes() || pass.each_layer;
-            life.read_every_time |= access.read && !pass.each_layer;
-        }
-    }
-    for output in &plan.outputs {
-        if let Some(life) = lives.get_mut(&output.resource) {
-            life.outlives = true;
-            life.exported = true;
-        }
-    }
-    for described in kept {
-        for slot in &described.desc.slots {
-            let life = described
-                .slots
-                .get(&slot.name)
-                .and_then(|index| lives.get_mut(index));
-            if let (Some(life), Lifetime::Persistent) = (life, slot.lifetime) {
-                life.persistent = true;
+/// What a node changes in place nobody else takes: whether they saw it before or after would depend on the order.
+fn changed_in_place_by_one(
+    graph: &Graph,
+    wiring: &Wiring,
+    described: &[Described],
+) -> Result<(), GraphError> {
+    for described in described {
+        let name = &graph.nodes[described.node].name;
+        let in_place = |slot: &&crate::Slot| slot.direction == Direction::InOut;
+        for slot in described.desc.slots.iter().filter(in_place) {
+            let Some((_, edge)) = wiring.inputs[described.node].get(&slot.name) else {
+                continue;
+            };
+            let from = &graph.edges[*edge].from;
+            let other_edge = graph
+                .edges
+                .iter()
+                .enumerate()
+                .find(|(other, candidate)| other != edge && candidate.from == *from)
+                .map(|(_, other)| other.position);
+            let output = graph
+                .outputs
+                .iter()
+                .find(|output| output.from == *from)
+                .map(|output| output.position);
+            if let Some(position) = other_edge.or(output) {
+                return Err(GraphError::new(
+                    GraphErrorKind::TwoWriters,
+                    format!(
+                        "'{from}' is changed in place here and taken elsewhere, too; take '{name}.{}' there instead",
+                        slot.name
+                    ),
+                )
+                .at_node(name)
+                .at_slot(&slot.name)
+                .at_position(position));
             }
         }
     }
-    let used: Vec<usize> = lives.keys().copied().collect();
-    let own: Vec<Life> = lives
-        .into_values()
-        .filter(|life| matches!(plan.resources[life.resource].home, Home::Memory(_)))
-        .collect();
-    let (homes, memory) = memory::share(&own);
-    for (life, home) in own.iter().zip(homes) {
-        plan.resources[life.resource].home = Home::Memory(home);
-    }
-    plan.memory = memory;
-    for &resource in &used {
-        if let Home::Import(_) = plan.resources[resource].home {
-            let import = plan.imports.len();
-            plan.imports.push(PlannedImport {
-                name: plan.resources[resource].name.clone(),
-                resource,
-            });
-            plan.resources[resource].home = Home::Import(import);
-        }
-    }
-    renumber(plan, &used)
-}
-
-/// Keeps only the used resources (and those that an output passes through) and rewrites the indices.
-fn renumber(mut plan: Plan, used: &[usize]) -> Plan {
-    // An import that is handed straight to an output is touched by no pass, but is named.
-    let mut keep: Vec<usize> = used.to_vec();
-    for output in &plan.outputs {
-        if !keep.contains(&output.resource) {
-            keep.push(output.resource);
-            if matches!(plan.resources[output.resource].home, Home::Import(_)) {
-                plan.resources[output.resource].home = Home::Import(plan.imports.len());
-                plan.imports.push(PlannedImport {
-                    name: plan.resources[output.resource].name.clone(),
-                    resource: output.resource,
-                });
-            }
-        }
-    }
-    let new: BTreeMap<usize, usize> = keep
-        .iter()
-        .enumerate()
-        .map(|(new, &old)| (old, new))
-        .collect();
-    let renumbered = |index: &mut usize| {
-        if let Some(&new) = new.get(index) {
-            *index = new;
-        }
-    };
-    plan.resources = keep
-        .iter()
-        .map(|&old| plan.resources[old].clone())
-        .collect();
-    plan.imports
-        .iter_mut()
-        .for_each(|import| renumbered(&mut import.resource));
-    plan.outputs
-        .iter_mut()
-        .for_each(|output| renumbered(&mut output.resource));
-    for pass in &mut plan.passes {
-        renumber_pass(pass, &renumbered);
-    }
-    plan
-}
-
-fn renumber_pass(pass: &mut PlannedPass, renumbered: &impl Fn(&mut usize)) {
-    use crate::{PlannedBindingResource as Resource, PlannedWork};
-    for binding in &mut pass.bindings {
-        match &mut binding.resource {
-            Resource::Texture { resource, .. }
-            | Resource::StorageTexture { resource }
-            | Resource::Buffer { resource, .. } => renumbered(resource),
-            Resource::Parameters { .. } | Resource::Sampler { .. } => {}
-        }
-    }
-    match &mut pass.work {
-        PlannedWork::Compute { .. } => {}
-        PlannedWork::Fullscreen { target } => renumbered(target),
-        PlannedWork::Host { targets, depth, .. } => {
-            targets.iter_mut().for_each(renumbered);
-            depth.iter_mut().for_each(renumbered);
-        }
-    }
+    Ok(())
 }

@@ -15,7 +15,7 @@ pub(super) fn lay_out(
     resources: &[PlannedResource],
     capabilities: &Capabilities,
 ) -> Result<(ParameterLayout, BTreeMap<usize, usize>), GraphError> {
-    let align = |bytes: u32| bytes.next_multiple_of(capabilities.uniform_alignment.max(16));
+    let alignment = u64::from(capabilities.uniform_alignment.max(16));
     let mut layout = ParameterLayout {
         size: 0,
         blocks: Vec::new(),
@@ -42,22 +42,35 @@ pub(super) fn lay_out(
         };
         if block.initial.len() > block.size as usize || block.size == 0 {
             return Err(fail(format!(
-                "its parameters have {} bytes, but initial values of {}",
+                "its parameters have {} bytes, but {} bytes of initial values; a uniform struct is not empty, and holds \
+                 its initial values",
                 block.size,
                 block.initial.len()
             )));
         }
+        let stride = u64::from(block.size).next_multiple_of(alignment);
+        let size = u64::from(layout.size) + stride * u64::from(count);
+        let too_large = |_| {
+            GraphError::new(
+                GraphErrorKind::Size,
+                format!(
+                    "a view's parameters take {size} bytes with those of this node; at most {} can be addressed",
+                    u32::MAX
+                ),
+            )
+            .at_node(node)
+        };
         blocks.insert(described.node, layout.blocks.len());
         layout.blocks.push(PlannedParameters {
             node: node.clone(),
             name: block.name.clone(),
             offset: layout.size,
             size: block.size,
-            stride: align(block.size),
+            stride: u32::try_from(stride).map_err(too_large)?,
             count,
             initial: block.initial.clone(),
         });
-        layout.size += align(block.size) * count;
+        layout.size = u32::try_from(size).map_err(too_large)?;
     }
     Ok((layout, blocks))
 }

@@ -7,43 +7,52 @@ use crate::{
     SlotResource, TextureDesc, Work,
 };
 
+/// A resource that a pass touches.
+pub(super) struct Touch {
+    pub(super) resource: usize,
+    pub(super) access: Access,
+    /// Only the layer that the pass is recorded for.
+    pub(super) one_layer: bool,
+}
+
 /// Everything a pass touches, and how.
-pub(super) fn touched(pass: &PlannedPass) -> Vec<(usize, Access)> {
-    let mut touched: Vec<(usize, Access)> =
+pub(super) fn touched(pass: &PlannedPass) -> Vec<Touch> {
+    let touch = |resource: usize, access: Access, one_layer: bool| Touch {
+        resource,
+        access,
+        one_layer,
+    };
+    let bound =
         pass.bindings
             .iter()
-            .filter_map(|binding| match &binding.resource {
-                PlannedBindingResource::Texture { resource, .. } => Some((*resource, Access::READ)),
+            .filter_map(|binding| match binding.resource {
+                PlannedBindingResource::Texture {
+                    resource,
+                    one_layer,
+                    ..
+                } => Some(touch(resource, Access::READ, one_layer)),
                 PlannedBindingResource::StorageTexture { resource } => {
-                    Some((*resource, Access::STORAGE_WRITE))
+                    Some(touch(resource, Access::STORAGE_WRITE, true))
                 }
-                PlannedBindingResource::Buffer { resource, writable } => Some((
-                    *resource,
-                    if *writable {
-                        Access::READ.union(Access::STORAGE_WRITE)
-                    } else {
-                        Access::READ
-                    },
-                )),
+                PlannedBindingResource::Buffer { resource, writable } => {
+                    let write = Access {
+                        storage_write: writable,
+                        ..Access::READ
+                    };
+                    Some(touch(resource, write, false))
+                }
                 PlannedBindingResource::Parameters { .. }
                 | PlannedBindingResource::Sampler { .. } => None,
-            })
-            .collect();
+            });
+    let mut touched: Vec<Touch> = bound.collect();
     match &pass.work {
         PlannedWork::Compute { .. } => {}
-        PlannedWork::Fullscreen { target } => touched.push((*target, Access::RENDER_TARGET)),
-        PlannedWork::Host {
-            targets,
-            blend,
-            depth,
-        } => {
-            let access = if *blend {
-                Access::RENDER_TARGET.union(Access::READ)
-            } else {
-                Access::RENDER_TARGET
-            };
-            touched.extend(targets.iter().map(|&target| (target, access)));
-            touched.extend(depth.iter().map(|&target| (target, Access::RENDER_TARGET)));
+        PlannedWork::Fullscreen { target } => {
+            touched.push(touch(*target, Access::RENDER_TARGET, true));
+        }
+        PlannedWork::Host { targets, depth, .. } => {
+            let all = targets.iter().chain(depth);
+            touched.extend(all.map(|&target| touch(target, Access::RENDER_TARGET, true)));
         }
     }
     touched
@@ -193,7 +202,12 @@ pub(super) fn plan(
     };
     check_layers(&planned, resources)?;
     count_bytes(&mut planned, resources);
-    for (index, access) in touched(&planned) {
+    for Touch {
+        resource: index,
+        access,
+        ..
+    } in touched(&planned)
+    {
         let slot = described
             .slots
             .iter()
@@ -315,8 +329,18 @@ fn count_bytes(pass: &mut PlannedPass, resources: &[PlannedResource]) {
             PlannedBindingResource::Sampler { .. } => {}
         }
     }
-    if let PlannedWork::Fullscreen { target } = pass.work {
-        written += bytes(target, true);
+    match &pass.work {
+        PlannedWork::Compute { .. } => {}
+        PlannedWork::Fullscreen { target } => written += bytes(*target, true),
+        PlannedWork::Host {
+            targets,
+            blend,
+            depth,
+        } => {
+            let colour: u64 = targets.iter().map(|&target| bytes(target, true)).sum();
+            written += colour + depth.map_or(0, |target| bytes(target, true));
+            read += if *blend { colour } else { 0 };
+        }
     }
     pass.bytes_read = read;
     pass.bytes_written = written;

@@ -3,7 +3,9 @@
 use std::collections::BTreeMap;
 
 use moment_shadows::Profile;
-use naga::valid::{Capabilities as NagaCapabilities, ModuleInfo, ValidationFlags, Validator};
+use naga::valid::{
+    Capabilities as NagaCapabilities, FunctionInfo, ModuleInfo, ValidationFlags, Validator,
+};
 use naga::{AddressSpace, ImageClass, ImageDimension, ScalarKind, ShaderStage, TypeInner};
 
 use crate::{
@@ -37,8 +39,20 @@ impl Shaders {
             }
         };
         if matches!(pass.work, PlannedWork::Fullscreen { .. }) {
-            entry_point(module, "fullscreen", ShaderStage::Vertex)?;
+            let vertex =
+                info.get_entry_point(entry_point(module, "fullscreen", ShaderStage::Vertex)?);
+            let used = |(handle, variable): &(
+                naga::Handle<naga::GlobalVariable>,
+                &naga::GlobalVariable,
+            )| { variable.binding.is_some() && !vertex[*handle].is_empty() };
+            if let Some((_, variable)) = module.global_variables.iter().find(used) {
+                return Err(mismatch(format!(
+                    "the vertex entry point 'fullscreen' uses '{}'; bindings are the fragment entry point's",
+                    variable.name.as_deref().unwrap_or("?")
+                )));
+            }
         }
+        check_constants(module, pass)?;
         let stage = match pass.work {
             PlannedWork::Compute { .. } => ShaderStage::Compute,
             _ => ShaderStage::Fragment,
@@ -82,6 +96,7 @@ impl Shaders {
                 )));
             }
         }
+        check_filtering(module, uses, pass, resources)?;
         match declared.keys().next() {
             Some(binding) => Err(mismatch(format!(
                 "the node declares binding {binding}, which the shader does not use"
@@ -102,10 +117,14 @@ fn parse(wgsl: &str, profile: Profile) -> Result<(naga::Module, ModuleInfo), Gra
             error.emit_to_string(wgsl)
         ))
     })?;
+    // What every WebGPU device has, though naga asks for it: sample shading, cube arrays, packing of 16-bit floats.
+    let core = NagaCapabilities::MULTISAMPLED_SHADING
+        | NagaCapabilities::CUBE_ARRAY_TEXTURES
+        | NagaCapabilities::SHADER_FLOAT16_IN_FLOAT32;
     let capabilities = match profile {
-        Profile::WebgpuCore => NagaCapabilities::empty(),
+        Profile::WebgpuCore => core,
         Profile::Native | Profile::NativeAdapter => {
-            NagaCapabilities::STORAGE_TEXTURE_16BIT_NORM_FORMATS
+            core | NagaCapabilities::STORAGE_TEXTURE_16BIT_NORM_FORMATS
         }
     };
     let info = Validator::new(ValidationFlags::all(), capabilities)
@@ -127,6 +146,71 @@ fn entry_point(module: &naga::Module, name: &str, stage: ShaderStage) -> Result<
         .ok_or_else(|| mismatch(format!("the shader has no {stage:?} entry point '{name}'")))
 }
 
+/// A texture that the shader samples with a filtering sampler has a format that the device can filter.
+fn check_filtering(
+    module: &naga::Module,
+    uses: &FunctionInfo,
+    pass: &PlannedPass,
+    resources: &[PlannedResource],
+) -> Result<(), GraphError> {
+    let planned = |variable: naga::Handle<naga::GlobalVariable>| {
+        let index = module.global_variables[variable].binding?.binding;
+        let mut bindings = pass.bindings.iter();
+        bindings.find(|planned| planned.binding == index)
+    };
+    for key in &uses.sampling_set {
+        let (Some(image), Some(sampler)) = (planned(key.image), planned(key.sampler)) else {
+            continue;
+        };
+        if let PlannedBindingResource::Texture {
+            resource,
+            sample: SampleType::Unfilterable,
+            ..
+        } = image.resource
+            && sampler.resource == (PlannedBindingResource::Sampler { filtering: true })
+        {
+            return Err(GraphError::new(
+                GraphErrorKind::Capability,
+                format!(
+                    "binding {} samples '{}', {}, which this device cannot filter; load its texels and blend them in the \
+                     shader",
+                    image.binding, resources[resource].name, resources[resource].desc
+                ),
+            ));
+        }
+    }
+    Ok(())
+}
+
+/// Every constant is an `override` of the shader, and every `override` without a value has a constant.
+fn check_constants(module: &naga::Module, pass: &PlannedPass) -> Result<(), GraphError> {
+    // An override with an `@id` is known by that number.
+    let key = |constant: &naga::Override| match constant.id {
+        Some(id) => Some(id.to_string()),
+        None => constant.name.clone(),
+    };
+    let overrides = || module.overrides.iter().map(|(_, constant)| constant);
+    for name in pass.constants.keys() {
+        if overrides().all(|constant| key(constant).as_ref() != Some(name)) {
+            return Err(mismatch(format!(
+                "the node gives the constant '{name}', which is no override of the shader"
+            )));
+        }
+    }
+    let open = overrides()
+        .filter(|constant| constant.init.is_none())
+        .filter_map(key);
+    match open
+        .into_iter()
+        .find(|name| !pass.constants.contains_key(name))
+    {
+        None => Ok(()),
+        Some(name) => Err(mismatch(format!(
+            "the shader's override '{name}' has no value; the node has to give one among its constants"
+        ))),
+    }
+}
+
 /// What the node declares, if the shader's variable is something else.
 fn difference(
     module: &naga::Module,
@@ -140,14 +224,18 @@ fn difference(
             space == AddressSpace::Uniform && actual.size(module.to_ctx()) == *size,
             format!("a uniform struct of {size} bytes"),
         ),
-        PlannedBindingResource::Buffer { writable, .. } => (
-            matches!(space, AddressSpace::Storage { access }
-                if access.contains(naga::StorageAccess::STORE) == *writable),
-            format!(
-                "a {} storage buffer",
-                if *writable { "writable" } else { "read-only" }
-            ),
-        ),
+        PlannedBindingResource::Buffer { writable, resource } => {
+            let size = resources[*resource].desc.bytes();
+            (
+                matches!(space, AddressSpace::Storage { access }
+                    if access.contains(naga::StorageAccess::STORE) == *writable)
+                    && u64::from(actual.size(module.to_ctx())) <= size,
+                format!(
+                    "a {} storage buffer of at most {size} bytes",
+                    if *writable { "writable" } else { "read-only" }
+                ),
+            )
+        }
         PlannedBindingResource::Sampler { .. } => (
             matches!(actual, TypeInner::Sampler { comparison: false }),
             "a sampler".to_owned(),
@@ -162,13 +250,16 @@ fn difference(
                 TypeInner::Image {
                     dim: ImageDimension::D2,
                     arrayed: false,
-                    class: ImageClass::Storage { format, .. },
-                } => format!("{format:?}").to_lowercase() == name,
+                    class: ImageClass::Storage { format, access },
+                } => {
+                    *access == naga::StorageAccess::STORE
+                        && format!("{format:?}").to_lowercase() == name
+                }
                 _ => false,
             };
             (
                 matches,
-                format!("a two-dimensional storage texture of format {name}"),
+                format!("a two-dimensional storage texture of format {name}, written only"),
             )
         }
         PlannedBindingResource::Texture {

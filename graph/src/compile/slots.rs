@@ -9,6 +9,9 @@ use crate::{
     NodeDesc, ResourceDesc, Slot, SlotResource, TextureDesc,
 };
 
+/// A number of a texture that a [`CountRule`] is about.
+type Count = fn(&TextureDesc) -> u32;
+
 /// Checks what is connected to a node and gives every slot of it a concrete resource.
 pub(super) fn resolve(
     desc: &NodeDesc,
@@ -21,6 +24,15 @@ pub(super) fn resolve(
             return Err(GraphError::new(
                 GraphErrorKind::DuplicateName,
                 "the node declares two slots of this name",
+            )
+            .at_slot(&slot.name));
+        }
+        let (SlotResource::Texture { access, .. } | SlotResource::Buffer { access, .. }) =
+            &slot.resource;
+        if slot.direction == Direction::In && access.writes() {
+            return Err(GraphError::new(
+                GraphErrorKind::Declaration,
+                "the node writes to an input; declare it as changed in place ('in_out')",
             )
             .at_slot(&slot.name));
         }
@@ -43,6 +55,16 @@ pub(super) fn resolve(
     for slot in desc.slots.iter().filter(|slot| !takes_input(slot)) {
         let resource = make(slot, &resolved)?;
         check(slot, &resource, &resolved, capabilities)?;
+        if resource
+            .texture()
+            .is_some_and(|texture| texture.samples > 1 && texture.layers > 1)
+        {
+            return Err(GraphError::new(
+                GraphErrorKind::Declaration,
+                "the node makes a multisampled texture with several layers, which WebGPU does not have",
+            )
+            .at_slot(&slot.name));
+        }
         resolved.insert(slot.name.clone(), resource);
     }
     Ok(resolved)
@@ -70,7 +92,7 @@ fn make(
             samples,
             ..
         } => {
-            let count = |rule: &CountRule, what: &str, of: fn(&TextureDesc) -> u32| match rule {
+            let count = |rule: &CountRule, what: &str, of: Count| match rule {
                 CountRule::Exact(count) => Ok(*count),
                 CountRule::SameAs(other) => Ok(of(texture_of(slot, other, resolved)?)),
                 CountRule::OneOf(_) | CountRule::Any => Err(undetermined(what)),
@@ -127,6 +149,14 @@ fn check(
                     format!("the buffer has {size} bytes; at least {needed} are needed"),
                 );
             }
+            if *size == 0 || !size.is_multiple_of(BUFFER_ALIGNMENT) {
+                return fail(
+                    GraphErrorKind::Size,
+                    format!(
+                        "the buffer has {size} bytes; a storage buffer has a positive multiple of {BUFFER_ALIGNMENT}"
+                    ),
+                );
+            }
             Ok(())
         }
         (SlotResource::Buffer { .. }, ResourceDesc::Texture(_)) => fail(
@@ -178,24 +208,15 @@ fn check(
                     ),
                 );
             }
-            let counts: [(&CountRule, fn(&TextureDesc) -> u32, &str, GraphErrorKind); 3] = [
-                (
-                    layers,
-                    |texture| texture.layers,
-                    "layers",
-                    GraphErrorKind::Size,
-                ),
-                (
-                    mips,
-                    |texture| texture.mips,
-                    "mip levels",
-                    GraphErrorKind::Size,
-                ),
+            use GraphErrorKind::{Format, Size};
+            let counts: [(&CountRule, Count, &str, GraphErrorKind); 3] = [
+                (layers, |texture| texture.layers, "layers", Size),
+                (mips, |texture| texture.mips, "mip levels", Size),
                 (
                     samples,
                     |texture| texture.samples,
                     "samples per texel",
-                    GraphErrorKind::Format,
+                    Format,
                 ),
             ];
             for (rule, of, what, kind) in counts {
@@ -222,6 +243,9 @@ fn check(
         }
     }
 }
+
+/// Sizes of storage buffers are multiples of this in WebGPU.
+const BUFFER_ALIGNMENT: u64 = 4;
 
 /// Whether the device can have such a texture.
 fn limits(texture: &TextureDesc, capabilities: &Capabilities) -> Result<(), GraphError> {
@@ -250,6 +274,22 @@ fn limits(texture: &TextureDesc, capabilities: &Capabilities) -> Result<(), Grap
                 "the texture has {} layers; the device allows {}",
                 texture.layers, capabilities.max_texture_layers
             ),
+        ));
+    }
+    let most_mips = texture.size[0].max(texture.size[1]).ilog2() + 1;
+    if texture.mips > most_mips {
+        return Err(GraphError::new(
+            GraphErrorKind::Size,
+            format!(
+                "the texture has {} mip levels; {}x{} texels have at most {most_mips}",
+                texture.mips, texture.size[0], texture.size[1]
+            ),
+        ));
+    }
+    if texture.samples > 1 && texture.mips > 1 {
+        return Err(GraphError::new(
+            GraphErrorKind::Format,
+            "the texture is multisampled and has mip levels; no device has both".to_owned(),
         ));
     }
     if texture.samples != 1 && !capabilities.depth_samples.contains(&texture.samples) {

@@ -1,25 +1,11 @@
 //! A plan bound to its pipelines, its resources and the host's imports.
 
-use super::format::texture_difference;
+use super::given::{ImportedResource, check_alignment, check_parameters, find_import};
 use super::pipelines::{Pipeline, label};
 use super::resources::Created;
-use super::scope::scoped;
+use super::scope::{check_alive, scoped};
 use super::{Pipelines, RecordError, Resources};
-use crate::{
-    Home, Plan, PlannedBindingResource, PlannedPass, PlannedResource, PlannedWork, ResourceDesc,
-    Stage,
-};
-
-/// A resource that the host owns, as it is bound.
-#[derive(Clone, Copy, Debug)]
-pub enum ImportedResource<'a> {
-    /// A texture with all its layers.
-    Texture(&'a wgpu::Texture),
-    /// One texture per layer: the form of multisampled textures with several layers.
-    Layers(&'a [wgpu::Texture]),
-    /// A buffer.
-    Buffer(&'a wgpu::Buffer),
-}
+use crate::{Home, Plan, PlannedBindingResource, PlannedPass, PlannedResource, PlannedWork, Stage};
 
 /// Everything that recording needs, made beforehand.
 #[derive(Debug)]
@@ -79,10 +65,12 @@ impl Bindings {
         imports: &[(&str, ImportedResource<'_>)],
         parameters: Option<&wgpu::Buffer>,
     ) -> Result<Self, RecordError> {
+        plan.check()?;
         if !resources.fit(plan) {
             return Err(RecordError::WrongResources);
         }
         check_parameters(plan, parameters)?;
+        check_alignment(plan, device.limits().min_uniform_buffer_offset_alignment)?;
         let binder = Binder {
             device,
             plan,
@@ -104,6 +92,7 @@ impl Bindings {
             let step = scoped(device, &what, || binder.step(pass, pipeline)).await??;
             steps.push(step);
         }
+        check_alive(device)?;
         let outputs = plan
             .outputs
             .iter()
@@ -142,71 +131,6 @@ impl Bindings {
                 Created::Buffer(buffer) if output == name => Some(buffer),
                 _ => None,
             })
-    }
-}
-
-fn check_parameters(plan: &Plan, parameters: Option<&wgpu::Buffer>) -> Result<(), RecordError> {
-    let needed = u64::from(plan.parameters.size);
-    let problem = match parameters {
-        None if needed > 0 => Some("is missing".to_owned()),
-        Some(buffer) if buffer.size() < needed => Some(format!("has {} bytes", buffer.size())),
-        Some(buffer) if !buffer.usage().contains(wgpu::BufferUsages::UNIFORM) => {
-            Some("has no usage UNIFORM".to_owned())
-        }
-        _ => None,
-    };
-    problem.map_or(Ok(()), |problem| {
-        Err(RecordError::ParameterBuffer { problem, needed })
-    })
-}
-
-fn find_import<'a>(
-    plan: &Plan,
-    name: &str,
-    resource: usize,
-    imports: &[(&str, ImportedResource<'a>)],
-) -> Result<ImportedResource<'a>, RecordError> {
-    let planned = &plan.resources[resource];
-    let expected = planned.desc.to_string();
-    let Some((_, given)) = imports.iter().find(|(given, _)| *given == name) else {
-        return Err(RecordError::MissingImport {
-            name: name.to_owned(),
-            expected,
-        });
-    };
-    let difference = match (given, &planned.desc) {
-        (ImportedResource::Texture(texture), ResourceDesc::Texture(desc)) => {
-            texture_difference(texture, desc, desc.layers, planned.access)
-        }
-        (ImportedResource::Layers(textures), ResourceDesc::Texture(desc)) => {
-            if textures.len() == desc.layers as usize {
-                textures
-                    .iter()
-                    .find_map(|texture| texture_difference(texture, desc, 1, planned.access))
-            } else {
-                Some(format!("a list of {} textures", textures.len()))
-            }
-        }
-        (ImportedResource::Buffer(buffer), ResourceDesc::Buffer { size }) => (buffer.size()
-            < *size
-            || !buffer.usage().contains(wgpu::BufferUsages::STORAGE))
-        .then(|| {
-            format!(
-                "a buffer of {} bytes with {:?}",
-                buffer.size(),
-                buffer.usage()
-            )
-        }),
-        (ImportedResource::Buffer(_), ResourceDesc::Texture(_)) => Some("a buffer".to_owned()),
-        (_, ResourceDesc::Buffer { .. }) => Some("a texture".to_owned()),
-    };
-    match difference {
-        None => Ok(*given),
-        Some(given) => Err(RecordError::WrongImport {
-            name: name.to_owned(),
-            expected,
-            given,
-        }),
     }
 }
 

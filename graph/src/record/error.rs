@@ -1,18 +1,37 @@
 //! What can go wrong between a plan and a device.
 
-use crate::Stage;
+use crate::{PlanError, Stage};
 
 /// Why something was not created or not recorded. Nothing half-made is left.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 #[non_exhaustive]
 pub enum RecordError {
-    /// The device refused, or was lost.
+    /// The device refused.
     #[error("the device could not create {what}: {reason}")]
     Device {
         /// The object's label.
         what: String,
         /// What the device said.
         reason: String,
+    },
+    /// The device was lost or destroyed.
+    #[error("the device was lost; open a new one and create everything anew")]
+    Lost,
+    /// The plan does not hold together: it was read from elsewhere.
+    #[error(transparent)]
+    Plan(#[from] PlanError),
+    /// The plan was compiled for a device that takes other offsets of uniform buffers.
+    #[error(
+        "the parameters of node '{node}' lie at multiples of {spacing} bytes, but this device takes multiples of \
+         {alignment}; compile the graph for this device"
+    )]
+    Alignment {
+        /// The node.
+        node: String,
+        /// The plan's spacing.
+        spacing: u32,
+        /// The device's alignment.
+        alignment: u32,
     },
     /// The memory is full.
     #[error(

@@ -7,14 +7,16 @@
 mod bindings;
 mod error;
 mod format;
+mod given;
 mod layout;
 mod pipelines;
 mod recording;
 mod resources;
 mod scope;
 
-pub use bindings::{Bindings, ImportedResource};
+pub use bindings::Bindings;
 pub use error::RecordError;
+pub use given::ImportedResource;
 pub use pipelines::{PipelineOptions, Pipelines};
 pub use recording::{HostPass, HostPassHandler, Layers, Recording, Timestamps};
 pub use resources::Resources;

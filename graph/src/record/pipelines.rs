@@ -5,7 +5,7 @@ use std::collections::HashMap;
 use super::RecordError;
 use super::format::texture_format;
 use super::layout::LayoutKey;
-use super::scope::scoped;
+use super::scope::{check_alive, scoped};
 use crate::{Plan, PlannedPass, PlannedWork};
 
 /// How pipelines are made.
@@ -59,6 +59,8 @@ impl Pipelines {
         plan: &Plan,
         options: PipelineOptions<'_>,
     ) -> Result<usize, RecordError> {
+        plan.check()?;
+        check_alive(device)?;
         let mut made = 0;
         for pass in &plan.passes {
             if matches!(pass.work, PlannedWork::Host { .. }) {
@@ -77,6 +79,7 @@ impl Pipelines {
                 key.create(device, &label, self.layouts.get(&key.layout), pass, options)
             })
             .await?;
+            check_alive(device)?;
             self.pipelines.insert(key, pipeline);
             made += 1;
         }

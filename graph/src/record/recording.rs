@@ -15,13 +15,11 @@ pub enum Layers<'a> {
 }
 
 /// Where to write timestamps: pass number i of the plan writes the queries `first + 2 i` at its beginning and
-/// `first + 2 i + 1` at its end.
+/// `first + 2 i + 1` at its end. A pass without dirty layers writes none, and neither does a host's pass.
 #[derive(Clone, Copy, Debug)]
 pub struct Timestamps<'a> {
     /// A set of timestamp queries.
     pub queries: &'a wgpu::QuerySet,
-    /// How many queries it has.
-    pub count: u32,
     /// The first that is written.
     pub first: u32,
 }
@@ -246,17 +244,18 @@ impl Bindings {
             return Ok(());
         };
         let needed = 2 * self.steps.len() as u32;
+        let count = timestamps.queries.count();
         let fits = timestamps
             .first
             .checked_add(needed)
-            .is_some_and(|end| end <= timestamps.count);
+            .is_some_and(|end| end <= count);
         if fits {
             return Ok(());
         }
         Err(RecordError::Timestamps {
             first: timestamps.first,
             needed,
-            count: timestamps.count,
+            count,
         })
     }
 }

@@ -2,7 +2,7 @@
 
 use super::RecordError;
 use super::format::{texture_format, texture_usages};
-use super::scope::scoped;
+use super::scope::{check_alive, scoped};
 use crate::{Home, Plan, PlannedMemory, PlannedResource, ResourceDesc};
 
 /// Everything that a plan creates for one set of sizes. A resize makes new resources and no pipeline.
@@ -20,6 +20,7 @@ pub(super) enum Created {
 impl Resources {
     /// Creates the textures and buffers of a plan.
     pub async fn create(device: &wgpu::Device, plan: &Plan) -> Result<Self, RecordError> {
+        plan.check()?;
         let mut memory = Vec::with_capacity(plan.memory.len());
         for planned in &plan.memory {
             let label = format!("moment-shadows/{}", planned.label);
@@ -62,6 +63,7 @@ impl Resources {
             };
             memory.push((planned.clone(), created));
         }
+        check_alive(device)?;
         Ok(Self { memory })
     }
 

@@ -12,18 +12,37 @@ pub(super) async fn scoped<T>(
     let internal = device.push_error_scope(wgpu::ErrorFilter::Internal);
     let validation = device.push_error_scope(wgpu::ErrorFilter::Validation);
     let created = create();
-    // Scopes are a stack: the last one is popped first. Popping takes effect at once; the futures only carry the answer.
-    let pops = [validation.pop().await, internal.pop().await];
-    if memory.pop().await.is_some() {
+    // Scopes are a stack per thread. All are popped before the first wait: another task that creates something meanwhile
+    // would find the stack out of order.
+    let (validation, internal, memory) = (validation.pop(), internal.pop(), memory.pop());
+    let errors = [validation.await, internal.await];
+    if memory.await.is_some() {
         return Err(RecordError::OutOfMemory {
             what: what.to_owned(),
         });
     }
-    match pops.into_iter().flatten().next() {
+    match errors.into_iter().flatten().next() {
         None => Ok(created),
         Some(error) => Err(RecordError::Device {
             what: what.to_owned(),
             reason: error.to_string(),
         }),
+    }
+}
+
+/// Whether the device still works.
+///
+/// A lost device reports nothing to error scopes, and what it is asked for is silently invalid. But a buffer that is to be
+/// mapped from the start has no memory to map then.
+pub(super) fn check_alive(device: &wgpu::Device) -> Result<(), RecordError> {
+    let probe = device.create_buffer(&wgpu::BufferDescriptor {
+        label: Some("moment-shadows/probe"),
+        size: wgpu::MAP_ALIGNMENT,
+        usage: wgpu::BufferUsages::COPY_SRC,
+        mapped_at_creation: true,
+    });
+    match probe.get_mapped_range(..) {
+        Ok(_) => Ok(()),
+        Err(_) => Err(RecordError::Lost),
     }
 }
