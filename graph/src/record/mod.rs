@@ -15,6 +15,7 @@ mod scope;
 
 pub use bindings::{Bindings, ImportedResource};
 pub use error::RecordError;
+pub use format::texture_format;
 pub use pipelines::{PipelineOptions, Pipelines};
-pub use recording::{HostPass, HostPassHandler, Layers, Recording, Timestamps};
+pub use recording::{HostPass, HostPassHandler, Layers, Passes, Recording, Timestamps};
 pub use resources::Resources;
