@@ -3,7 +3,8 @@
 use moment_shadows::{Kernel, Profile, Storage};
 use moment_shadows_graph::nodes::KernelProperty;
 use moment_shadows_graph::record::{
-    Bindings, ImportedResource, PipelineOptions, Pipelines, Recording, Resources, texture_format,
+    Bindings, ImportedResource, Passes, PipelineOptions, Pipelines, Recording, Resources,
+    texture_format,
 };
 use moment_shadows_graph::{
     Capabilities, Graph, Imports, NodeRegistry, ResourceDesc, Stage, TextureDesc, compile,
@@ -116,9 +117,22 @@ impl BlurredMap {
 
     /// Records the blur, both directions.
     pub fn record(&self, encoder: &mut wgpu::CommandEncoder) -> Result<(), CostError> {
+        self.record_passes(Passes::All, encoder)
+    }
+
+    /// Records some of its passes: number 0 blurs along x, number 1 along y.
+    pub fn record_passes(
+        &self,
+        passes: Passes<'_>,
+        encoder: &mut wgpu::CommandEncoder,
+    ) -> Result<(), CostError> {
+        let recording = Recording {
+            passes,
+            ..Recording::default()
+        };
         Ok(self
             .bindings
-            .record(Stage::AfterShadowMaps, encoder, Recording::default())?)
+            .record(Stage::AfterShadowMaps, encoder, recording)?)
     }
 
     /// The blurred channels, row by row.
@@ -126,7 +140,11 @@ impl BlurredMap {
         let mut encoder = gpu.device.create_command_encoder(&Default::default());
         self.record(&mut encoder)?;
         gpu.queue.submit([encoder.finish()]);
-        gpu.check()?;
+        self.read(gpu)
+    }
+
+    /// What the output holds now.
+    pub fn read(&self, gpu: &Gpu) -> Result<Channels, CostError> {
         let blurred = self.bindings.output("blurred").ok_or(CostError::Format {
             format: self.storage.format(),
         })?;

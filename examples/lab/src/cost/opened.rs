@@ -38,7 +38,7 @@ impl OpenedGraph {
         file.graph.outputs = ends
             .into_iter()
             .map(|from| Output {
-                name: from.to_string(),
+                name: output_name(&from),
                 from,
                 position: None,
             })
@@ -52,7 +52,12 @@ impl OpenedGraph {
     }
 
     /// Compares a node's output with the reference, and gives the largest error; `None` for a node without a reference.
-    pub(super) fn check(&self, gpu: &Gpu, frame: &Frame, node: &str) -> Result<Option<f64>, CostError> {
+    pub(super) fn check(
+        &self,
+        gpu: &Gpu,
+        frame: &Frame,
+        node: &str,
+    ) -> Result<Option<f64>, CostError> {
         match self.property(node, "type").as_str() {
             Some("resolve_moments") => self.check_resolve(gpu, frame, node),
             Some("blur_moments") => self.check_blur(gpu, node),
@@ -66,7 +71,7 @@ impl OpenedGraph {
         frame: &Frame,
         node: &str,
     ) -> Result<Option<f64>, CostError> {
-        let Some((storage, moments)) = self.moments(gpu, &format!("{node}.moments"))? else {
+        let Some((storage, moments)) = self.moments(gpu, &format!("{node} moments"))? else {
             return Ok(None);
         };
         if self.source(node, "depth") != Some(LIGHT_DEPTH.to_owned()) {
@@ -87,7 +92,7 @@ impl OpenedGraph {
         };
         let (Some((storage, moments)), Some((_, blurred))) = (
             self.moments(gpu, &source)?,
-            self.moments(gpu, &format!("{node}.blurred"))?,
+            self.moments(gpu, &format!("{node} blurred"))?,
         ) else {
             return Ok(None);
         };
@@ -125,7 +130,7 @@ impl OpenedGraph {
         let to = format!("{node}.{slot}");
         let edges = &self.file.graph.edges;
         let edge = edges.iter().find(|edge| edge.to.to_string() == to)?;
-        Some(edge.from.to_string())
+        Some(output_name(&edge.from))
     }
 
     /// An entry of a node in the graph file, whose text has been parsed before.
@@ -136,5 +141,13 @@ impl OpenedGraph {
             .into_iter()
             .find(|candidate| candidate["name"] == node)
             .map_or(Value::Null, |found| found[property].clone())
+    }
+}
+
+/// The name of the output that a connection is made: `node slot`. An import keeps its name.
+fn output_name(end: &Endpoint) -> String {
+    match &end.slot {
+        Some(slot) => format!("{} {slot}", end.owner),
+        None => end.owner.clone(),
     }
 }
