@@ -4,6 +4,7 @@
 
 pub mod batch;
 pub mod command;
+pub mod cost;
 pub mod error;
 pub mod frame;
 pub mod gpu;

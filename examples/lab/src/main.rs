@@ -6,7 +6,7 @@ use std::process::ExitCode;
 use clap::{Parser, Subcommand, ValueEnum};
 use moment_shadows::{Profile, Storage};
 use moment_shadows_lab::command::render::{LightChoice, RenderOptions};
-use moment_shadows_lab::command::{graph, measure, render, validate};
+use moment_shadows_lab::command::{cost, graph, measure, render, validate};
 use moment_shadows_lab::gpu::Gpu;
 use moment_shadows_lab::vectors;
 
@@ -78,6 +78,31 @@ enum Command {
         #[arg(long)]
         graph: PathBuf,
     },
+    /// Times the passes of a graph, or blurs of several radii, as ratios to copies, and counts their bytes.
+    Cost {
+        #[command(flatten)]
+        subject: CostSubject,
+        /// Texels per side of the light's map.
+        #[arg(long, default_value_t = 1024, value_parser = clap::value_parser!(u32).range(256..=8192))]
+        size: u32,
+        /// Rounds, at least 9.
+        #[arg(long, default_value_t = 15, value_parser = clap::value_parser!(u32).range(9..=1000))]
+        rounds: u32,
+        /// Prints JSON.
+        #[arg(long)]
+        json: bool,
+    },
+}
+
+#[derive(clap::Args)]
+#[group(required = true, multiple = false)]
+struct CostSubject {
+    /// A graph file: each of its passes.
+    #[arg(long)]
+    graph: Option<PathBuf>,
+    /// The blur in both directions. Fails where a radius costs more than it may on a software adapter.
+    #[arg(long)]
+    blur: bool,
 }
 
 #[derive(clap::Args)]
@@ -229,6 +254,33 @@ fn run(command: Command) -> Result<ExitCode, Box<dyn std::error::Error>> {
             let rows = measure::run(&scene, &graph, &frame.options(String::new()))?;
             print!("{}", measure::table(&rows));
         }
+        Command::Cost {
+            subject,
+            size,
+            rounds,
+            json,
+        } => match subject.graph {
+            Some(graph) => print(&cost::graph(&graph, size, rounds)?, json)?,
+            None => {
+                let cost = cost::blur(size, rounds)?;
+                print(&cost, json)?;
+                if !cost.passed() {
+                    return Ok(ExitCode::FAILURE);
+                }
+            }
+        },
     }
     Ok(ExitCode::SUCCESS)
+}
+
+fn print<T: serde::Serialize + std::fmt::Display>(
+    cost: &T,
+    json: bool,
+) -> Result<(), serde_json::Error> {
+    if json {
+        println!("{}", serde_json::to_string_pretty(cost)?);
+    } else {
+        print!("{cost}");
+    }
+    Ok(())
 }

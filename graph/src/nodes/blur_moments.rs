@@ -20,6 +20,13 @@ const UNIFORM_SHADER: &str = include_str!("blur_moments_uniform.wgsl");
 /// cache.
 const LARGEST_UNROLLED_RADIUS: u32 = 12;
 
+/// Invocations of a workgroup in x and y.
+const WORKGROUP: [u32; 2] = [8, 8];
+
+/// Along y with few taps, wide rows keep more loads within the cache lines that neighbours have loaded; with many taps
+/// the column does.
+const WORKGROUP_UNROLLED_Y: [u32; 2] = [32, 2];
+
 /// Node `blur_moments`: `moments` to `blurred`, of the same format, size and layers. Two passes, along x and along y;
 /// beyond the border the last texel repeats.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -144,12 +151,19 @@ impl BlurMoments {
         from: &str,
         to: &str,
     ) -> Result<Pass, GraphError> {
+        let workgroup = if unrolled && axis == 1 {
+            WORKGROUP_UNROLLED_Y
+        } else {
+            WORKGROUP
+        };
         let specialization = Specialization::new(upstream.capabilities())
             .alias(
                 "MomentsStorage",
                 &format!("texture_storage_2d<{}, write>", storage.format()),
             )
             .constant("STORAGE", &format!("{}u", storage.wgsl_index()))
+            .constant("WORKGROUP_X", &workgroup[0].to_string())
+            .constant("WORKGROUP_Y", &workgroup[1].to_string())
             .constant(
                 "AXIS",
                 if axis == 0 {
@@ -185,7 +199,7 @@ impl BlurMoments {
                 unrolled::OUTPUTS_UNIFORM,
             )
         };
-        let mut texels_per_workgroup = [8, 8];
+        let mut texels_per_workgroup = workgroup;
         texels_per_workgroup[axis as usize] *= outputs as u32;
         Ok(Pass {
             label: label.to_owned(),

@@ -1,5 +1,5 @@
 import moment_shadows::moments::{moments_round_texel};
-import moment_shadows::specialization::{AXIS, BlurSums, GROUP, MomentsStorage, OUTPUTS, STORAGE, blur_taps};
+import moment_shadows::specialization::{AXIS, BlurSums, GROUP, MomentsStorage, OUTPUTS, STORAGE, WORKGROUP_X, WORKGROUP_Y, blur_taps};
 
 // One direction of a separable filter over one layer, with weights that a host can change per frame.
 // An invocation makes OUTPUTS texels in a row along AXIS; it runs through the texels in blocks of 16 and through the
@@ -25,7 +25,7 @@ fn blur_store(texel: vec2i, last: vec2i, value: vec4f) {
     }
 }
 
-@compute @workgroup_size(8, 8)
+@compute @workgroup_size(WORKGROUP_X, WORKGROUP_Y)
 fn blur(@builtin(global_invocation_id) id: vec3u) {
     let last = vec2i(textureDimensions(blurred_map)) - 1;
     let first = vec2i(id.xy) * (1 + (OUTPUTS - 1) * AXIS);

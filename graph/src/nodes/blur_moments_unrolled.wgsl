@@ -1,5 +1,5 @@
 import moment_shadows::moments::{moments_round_texel};
-import moment_shadows::specialization::{AXIS, GROUP, MomentsStorage, OUTPUTS, STORAGE, blur_block};
+import moment_shadows::specialization::{AXIS, GROUP, MomentsStorage, OUTPUTS, STORAGE, WORKGROUP_X, WORKGROUP_Y, blur_block};
 
 // One direction of a separable filter over one layer, with weights that are known when the graph is compiled.
 // An invocation makes OUTPUTS texels in a row along AXIS, out of texels that it loads once.
@@ -13,7 +13,7 @@ fn blur_store(texel: vec2i, last: vec2i, value: vec4f) {
     }
 }
 
-@compute @workgroup_size(8, 8)
+@compute @workgroup_size(WORKGROUP_X, WORKGROUP_Y)
 fn blur(@builtin(global_invocation_id) id: vec3u) {
     let last = vec2i(textureDimensions(blurred_map)) - 1;
     let first = vec2i(id.xy) * (1 + (OUTPUTS - 1) * AXIS);

@@ -129,4 +129,12 @@ pub enum RecordError {
         /// The plan's fullscreen passes.
         known: String,
     },
+    /// A number that no pass of the plan has.
+    #[error("pass number {pass} was asked for, but the plan has {count}, counted from 0")]
+    NoSuchPassNumber {
+        /// The number.
+        pass: usize,
+        /// How many passes the plan has.
+        count: usize,
+    },
 }

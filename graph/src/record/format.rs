@@ -4,7 +4,9 @@ use moment_shadows::TextureFormat;
 
 use crate::{Access, TextureDesc};
 
-pub(super) fn texture_format(format: TextureFormat) -> Option<wgpu::TextureFormat> {
+/// The wgpu format of a texture that a plan describes; `None` for one that this version of the recorder does not know.
+#[must_use]
+pub fn texture_format(format: TextureFormat) -> Option<wgpu::TextureFormat> {
     Some(match format {
         TextureFormat::R8Unorm => wgpu::TextureFormat::R8Unorm,
         TextureFormat::Rgba8Unorm => wgpu::TextureFormat::Rgba8Unorm,

@@ -16,7 +16,8 @@ mod scope;
 
 pub use bindings::Bindings;
 pub use error::RecordError;
+pub use format::texture_format;
 pub use given::ImportedResource;
 pub use pipelines::{PipelineOptions, Pipelines};
-pub use recording::{HostPass, HostPassHandler, Layers, Recording, Timestamps};
+pub use recording::{HostPass, HostPassHandler, Layers, Passes, Recording, Timestamps};
 pub use resources::Resources;

@@ -14,6 +14,17 @@ pub enum Layers<'a> {
     Only(&'a [u32]),
 }
 
+/// Which passes of a stage to record.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Passes<'a> {
+    /// All of them.
+    #[default]
+    All,
+    /// Those with these numbers in [`crate::Plan::passes`], in the plan's order: to spread a stage over frames, or to
+    /// measure its passes one by one. Passes of other stages are left out.
+    Only(&'a [usize]),
+}
+
 /// Where to write timestamps: pass number i of the plan writes the queries `first + 2 i` at its beginning and
 /// `first + 2 i + 1` at its end. A pass without dirty layers writes none, and neither does a host's pass.
 #[derive(Clone, Copy, Debug)]
@@ -47,6 +58,8 @@ pub struct Recording<'a> {
     pub parameter_offset: u64,
     /// The layers to make anew.
     pub layers: Layers<'a>,
+    /// The passes to record.
+    pub passes: Passes<'a>,
     /// Timestamps per pass.
     pub timestamps: Option<Timestamps<'a>>,
     /// What draws the host's passes, where the plan has any.
@@ -63,11 +76,13 @@ impl Bindings {
     ) -> Result<(), RecordError> {
         self.check_offset(recording.parameter_offset)?;
         self.check_timestamps(recording.timestamps)?;
+        self.check_passes(recording.passes)?;
+        let passes = recording.passes;
         let in_stage = || {
             self.steps
                 .iter()
                 .enumerate()
-                .filter(|(_, step)| step.stage == stage)
+                .filter(|(index, step)| step.stage == stage && passes.contain(*index))
         };
         for (_, step) in in_stage() {
             step.check(stage, &recording)?;
@@ -239,6 +254,17 @@ impl Bindings {
         })
     }
 
+    fn check_passes(&self, passes: Passes<'_>) -> Result<(), RecordError> {
+        let count = self.steps.len();
+        let beyond = match passes {
+            Passes::All => None,
+            Passes::Only(listed) => listed.iter().find(|&&pass| pass >= count),
+        };
+        beyond.map_or(Ok(()), |&pass| {
+            Err(RecordError::NoSuchPassNumber { pass, count })
+        })
+    }
+
     fn check_timestamps(&self, timestamps: Option<Timestamps<'_>>) -> Result<(), RecordError> {
         let Some(timestamps) = timestamps else {
             return Ok(());
@@ -257,6 +283,15 @@ impl Bindings {
             needed,
             count,
         })
+    }
+}
+
+impl Passes<'_> {
+    fn contain(self, index: usize) -> bool {
+        match self {
+            Passes::All => true,
+            Passes::Only(listed) => listed.contains(&index),
+        }
     }
 }
 

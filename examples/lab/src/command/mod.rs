@@ -1,5 +1,6 @@
 //! The subcommands of `moment-shadows`.
 
+pub mod cost;
 pub mod graph;
 pub mod measure;
 pub mod render;

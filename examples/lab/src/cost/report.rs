@@ -1,0 +1,263 @@
+//! Costs as text and as JSON.
+
+use core::fmt;
+
+use serde::Serialize;
+
+use super::baseline::CopyWork;
+use super::blur::Bound;
+use super::clock::{Clock, ClockKind};
+use super::statistics::Distribution;
+
+/// Where and how times were taken.
+#[derive(Clone, Debug, Serialize)]
+pub struct Conditions {
+    /// The adapter's name.
+    pub adapter: String,
+    /// The driver and its version.
+    pub driver: String,
+    /// Cpu, IntegratedGpu, DiscreteGpu, ..
+    pub device_type: String,
+    /// What was read.
+    pub clock: ClockKind,
+    /// Rounds after the warm-up.
+    pub rounds: u32,
+}
+
+/// A time, as ratios to the copies of the same round.
+#[derive(Clone, Debug, Serialize)]
+pub struct Time {
+    /// In copies by a shader.
+    pub x_shader_copy: Distribution,
+    /// In copies by the interface.
+    pub x_interface_copy: Distribution,
+    /// In seconds by the clock.
+    pub seconds: Distribution,
+    /// Seconds by the wall, as a part of those by the clock.
+    pub wall: Distribution,
+    /// Whether the spread of the ratio to a copy by a shader is small enough to judge by.
+    pub reliable: bool,
+}
+
+/// What one pass of a plan costs.
+#[derive(Clone, Debug, Serialize)]
+pub struct PassCost {
+    /// `node/pass`.
+    pub pass: String,
+    /// The texture that it writes; the copies are of its format and size.
+    pub texture: String,
+    /// What the copy by a shader is.
+    pub copy: CopyWork,
+    /// The time.
+    pub time: Time,
+    /// Bytes read, each texel once.
+    pub bytes_read: u64,
+    /// Bytes written.
+    pub bytes_written: u64,
+    /// The fewest bytes that any implementation of the pass moves: both of the above.
+    pub minimum_bytes: u64,
+    /// Minimum bytes per second, as a part of the bytes per second of the copy by a shader.
+    pub efficiency: f64,
+    /// The largest difference of the node's output from the reference, in the channels' unit; none where there is no
+    /// reference.
+    pub error: Option<f64>,
+}
+
+/// What a graph costs.
+#[derive(Clone, Debug, Serialize)]
+pub struct GraphCost {
+    /// Where and how.
+    pub conditions: Conditions,
+    /// Every pass that a shader does.
+    pub passes: Vec<PassCost>,
+    /// Bytes of everything that the plan creates.
+    pub bytes_resident: u64,
+    /// Bytes that all passes move.
+    pub bytes_moved: u64,
+}
+
+/// What a blur costs in both directions.
+#[derive(Clone, Debug, Serialize)]
+pub struct BlurRow {
+    /// Texels on either side of the centre.
+    pub radius: u32,
+    /// The time.
+    pub time: Time,
+    /// The bound, on a software adapter.
+    pub gate: Option<f64>,
+    /// What is aimed at, on a software adapter.
+    pub goal: Option<f64>,
+    /// The largest difference from the reference, in the channels' unit.
+    pub error: f64,
+}
+
+/// What blurs of several radii cost.
+#[derive(Clone, Debug, Serialize)]
+pub struct BlurCost {
+    /// Where and how.
+    pub conditions: Conditions,
+    /// Texels per side of the map.
+    pub size: u32,
+    /// Per radius.
+    pub rows: Vec<BlurRow>,
+}
+
+impl Conditions {
+    /// The conditions of measurements with a clock.
+    #[must_use]
+    pub fn of(clock: &Clock<'_>, rounds: u32) -> Self {
+        let info = clock.gpu().adapter.get_info();
+        Self {
+            adapter: info.name,
+            driver: format!("{} {}", info.driver, info.driver_info),
+            device_type: format!("{:?}", info.device_type),
+            clock: clock.kind(),
+            rounds,
+        }
+    }
+}
+
+impl BlurRow {
+    /// A row with its bound, which holds for software adapters.
+    #[must_use]
+    pub fn new(bound: Bound, time: Time, error: f64, software: bool) -> Self {
+        Self {
+            radius: bound.radius,
+            time,
+            gate: bound.gate.filter(|_| software),
+            goal: bound.goal.filter(|_| software),
+            error,
+        }
+    }
+
+    /// Whether the median is within the gate; true where there is none.
+    #[must_use]
+    pub fn passed(&self) -> bool {
+        self.gate
+            .is_none_or(|gate| self.time.x_shader_copy.median <= gate)
+    }
+}
+
+impl BlurCost {
+    /// Whether every radius is within its gate.
+    #[must_use]
+    pub fn passed(&self) -> bool {
+        self.rows.iter().all(BlurRow::passed)
+    }
+}
+
+impl fmt::Display for Conditions {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        writeln!(f, "adapter  {}", self.adapter)?;
+        writeln!(f, "driver   {}", self.driver)?;
+        writeln!(f, "type     {}", self.device_type)?;
+        let clock = match self.clock {
+            ClockKind::ProcessTime => "processor time of this process",
+            ClockKind::Timestamps => "timestamps of the device",
+            ClockKind::Wall => "wall, from submission to completion",
+        };
+        writeln!(f, "clock    {clock}, {} rounds", self.rounds)
+    }
+}
+
+impl fmt::Display for GraphCost {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        writeln!(f, "{}", self.conditions)?;
+        writeln!(
+            f,
+            "{:<24} {:<26} {:>8} {:>6} {:>8} {:>9} {:>9} {:>9} {:>10} {:>9}",
+            "pass",
+            "writes",
+            "x copy",
+            "IQR",
+            "x API",
+            "read",
+            "written",
+            "minimum",
+            "efficiency",
+            "error"
+        )?;
+        for pass in &self.passes {
+            writeln!(
+                f,
+                "{:<24} {:<26} {:>8.2} {:>6} {:>8.2} {:>9} {:>9} {:>9} {:>10} {:>9}{}",
+                pass.pass,
+                pass.texture,
+                pass.time.x_shader_copy.median,
+                percent(pass.time.x_shader_copy.spread()),
+                pass.time.x_interface_copy.median,
+                mebibytes(pass.bytes_read),
+                mebibytes(pass.bytes_written),
+                mebibytes(pass.minimum_bytes),
+                percent(pass.efficiency),
+                pass.error
+                    .map_or("-".to_owned(), |error| format!("{error:.1e}")),
+                mark(&pass.time),
+            )?;
+        }
+        writeln!(f)?;
+        writeln!(
+            f,
+            "x copy: the median ratio to a copy of what the pass writes: by a dispatch of 64x1 workgroups, for a fullscreen \
+             pass by a fullscreen draw"
+        )?;
+        writeln!(
+            f,
+            "efficiency: minimum bytes per second as a part of the copy's; error: the largest difference of the node's \
+             output from the reference in f64"
+        )?;
+        writeln!(f)?;
+        writeln!(f, "resident {}", mebibytes(self.bytes_resident))?;
+        writeln!(f, "moved    {}", mebibytes(self.bytes_moved))
+    }
+}
+
+impl fmt::Display for BlurCost {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        writeln!(f, "{}", self.conditions)?;
+        writeln!(
+            f,
+            "blur of rgba16unorm {0}x{0}, both directions, in compute copies of the map",
+            self.size
+        )?;
+        writeln!(
+            f,
+            "{:>6} {:>8} {:>6} {:>8} {:>6} {:>6} {:>9}",
+            "radius", "x copy", "IQR", "x API", "gate", "goal", "error"
+        )?;
+        for row in &self.rows {
+            let bound =
+                |bound: Option<f64>| bound.map_or("-".to_owned(), |bound| bound.to_string());
+            let verdict = match row.gate {
+                Some(_) if !row.passed() => "  gate missed",
+                Some(_) => "  ok",
+                None => "",
+            };
+            writeln!(
+                f,
+                "{:>6} {:>8.2} {:>6} {:>8.2} {:>6} {:>6} {:>9.1e}{verdict}{}",
+                row.radius,
+                row.time.x_shader_copy.median,
+                percent(row.time.x_shader_copy.spread()),
+                row.time.x_interface_copy.median,
+                bound(row.gate),
+                bound(row.goal),
+                row.error,
+                mark(&row.time),
+            )?;
+        }
+        Ok(())
+    }
+}
+
+fn mark(time: &Time) -> &'static str {
+    if time.reliable { "" } else { "  unreliable" }
+}
+
+fn percent(part: f64) -> String {
+    format!("{:.0} %", 100.0 * part)
+}
+
+fn mebibytes(bytes: u64) -> String {
+    format!("{:.2} MiB", bytes as f64 / f64::from(1 << 20))
+}
