@@ -129,9 +129,12 @@ fn a_wrong_or_nan_or_short_output_is_refused() {
         matches!(&refused, CostError::WrongResult { what, error, .. } if what == "it" && *error > 0.019),
         "{refused}"
     );
-    output[1][3] = f64::NAN;
-    output[0][0] = 0.9;
-    for output in [&output[..], &reference[..1]] {
+    // A NaN alone, and one before a finite difference.
+    let mut nan = reference;
+    nan[1][0] = f64::NAN;
+    let mut among = output;
+    among[1][2] = f64::NAN;
+    for output in [&nan[..], &among[..], &reference[..1]] {
         let refused = reference::check("it", output, &reference, 0.01).unwrap_err();
         assert!(
             matches!(refused, CostError::WrongResult { .. }),

@@ -7,7 +7,11 @@ use serde::Serialize;
 use super::baseline::CopyWork;
 use super::blur::Bound;
 use super::clock::{Clock, ClockKind};
+use super::protocol::FEWEST_ROUNDS;
 use super::statistics::Distribution;
+
+/// Wall and timestamps differ by the cost of submitting; by more than this part, one of them is wrong.
+const LARGEST_DISAGREEMENT: f64 = 0.2;
 
 /// Where and how times were taken.
 #[derive(Clone, Debug, Serialize)]
@@ -112,7 +116,7 @@ impl Conditions {
             driver: format!("{} {}", info.driver, info.driver_info),
             device_type: format!("{:?}", info.device_type),
             clock: clock.kind(),
-            rounds,
+            rounds: rounds.max(FEWEST_ROUNDS),
         }
     }
 }
@@ -192,7 +196,7 @@ impl fmt::Display for GraphCost {
                 percent(pass.efficiency),
                 pass.error
                     .map_or("-".to_owned(), |error| format!("{error:.1e}")),
-                mark(&pass.time),
+                mark(&pass.time, self.conditions.clock),
             )?;
         }
         writeln!(f)?;
@@ -243,15 +247,21 @@ impl fmt::Display for BlurCost {
                 bound(row.gate),
                 bound(row.goal),
                 row.error,
-                mark(&row.time),
+                mark(&row.time, self.conditions.clock),
             )?;
         }
         Ok(())
     }
 }
 
-fn mark(time: &Time) -> &'static str {
-    if time.reliable { "" } else { "  unreliable" }
+/// What to doubt about a time. Processor time has no reason to agree with the wall; a device's timestamps do.
+fn mark(time: &Time, clock: ClockKind) -> &'static str {
+    let disagrees = (time.wall.median - 1.0).abs() > LARGEST_DISAGREEMENT;
+    match (time.reliable, clock) {
+        (false, _) => "  unreliable",
+        (true, ClockKind::Timestamps) if disagrees => "  timestamps and wall disagree",
+        (true, _) => "",
+    }
 }
 
 fn percent(part: f64) -> String {
