@@ -21,16 +21,20 @@ struct ReceiverBias {
 }
 
 // Length of the gradient of moment depth per texel on the receiver's plane, from the differences of two neighbouring
-// points on it in light space: xy in texels of the map, z in moment depth. Where the differences are parallel (the plane
-// is edge-on to the light, or a neighbour is missing) the result is huge, and `receiver_bias_depth` limits it.
+// points on it in light space: xy in texels of the map, z in moment depth, each at most 1e9. Where the differences in xy
+// are parallel or zero (the plane is edge-on to the light, or a neighbour is missing) the result is huge, and
+// `receiver_bias_depth` limits it.
 fn receiver_bias_gradient(difference_x: vec3f, difference_y: vec3f) -> f32 {
     let determinant = difference_x.x * difference_y.y - difference_x.y * difference_y.x;
+    if abs(determinant) < 1e-20 {
+        return 1e20;
+    }
     // Cramer's rule for the gradient g in dot(g, difference.xy) = difference.z.
     let scaled = vec2f(
         difference_x.z * difference_y.y - difference_y.z * difference_x.y,
         difference_y.z * difference_x.x - difference_x.z * difference_y.x,
     );
-    return length(scaled) / max(abs(determinant), 1e-20);
+    return length(scaled) / abs(determinant);
 }
 
 // The same from the cosine between surface normal and direction to the light: `depth_per_texel` is the moment depth

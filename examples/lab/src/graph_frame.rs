@@ -138,25 +138,16 @@ fn imports(desc: &FrameDesc) -> Imports {
 
 /// The parameters of the library's nodes for a frame.
 fn parameter_bytes(plan: &Plan, desc: &FrameDesc, file: &GraphFile) -> Result<Vec<u8>, LabError> {
-    let light = light_view(desc);
     let mut bytes = plan.parameters.initial();
     for block in &plan.parameters.blocks {
         match block.name.as_str() {
             "DepthConversion" => {
-                let conversion = light.depth.conversion()?;
+                let conversion = light_view(desc).depth.conversion()?;
                 plan.parameters
                     .write(&mut bytes, &block.node, 0, &conversion)?;
             }
             "ShadeHardParameters" => {
-                let parameters = ShadeHardParameters::new(
-                    &CameraView {
-                        clip_from_world: desc.camera.clip_from_world_columns()?,
-                        far_depth: 0.0,
-                    },
-                    &light,
-                    receiver_bias(desc, file)?,
-                    LeakReduction::DEFAULT,
-                )?;
+                let parameters = shade_parameters(desc, file)?;
                 plan.parameters
                     .write(&mut bytes, &block.node, 0, &parameters)?;
             }
@@ -164,6 +155,22 @@ fn parameter_bytes(plan: &Plan, desc: &FrameDesc, file: &GraphFile) -> Result<Ve
         }
     }
     Ok(bytes)
+}
+
+/// What `shade_hard` is given for a frame.
+pub fn shade_parameters(
+    desc: &FrameDesc,
+    file: &GraphFile,
+) -> Result<ShadeHardParameters, LabError> {
+    Ok(ShadeHardParameters::new(
+        &CameraView {
+            clip_from_world: desc.camera.clip_from_world_columns()?,
+            far_depth: 0.0,
+        },
+        &light_view(desc),
+        receiver_bias(desc, file)?,
+        LeakReduction::DEFAULT,
+    )?)
 }
 
 /// The receiver bias that follows from the graph's kernel and the light: the same rule for all scenes.

@@ -25,8 +25,6 @@ pub struct DirectionalFit {
     /// Texels between the outermost caster and each border of the map. At least the radius of the filter that will be
     /// used, so that what the filter finds beyond the border is the far end.
     pub margin: f64,
-    /// Height (y) of a ground plane that receives shadows: inside the map's footprint the depth range includes it.
-    pub ground: Option<f64>,
     /// Whether the near plane is stored as 1.
     pub reversed: bool,
 }
@@ -44,14 +42,12 @@ pub struct LightView {
     pub range: [f64; 2],
 }
 
-/// How far beyond the casters, in diameters of them, a ground plane may stretch the depth range: a sun at the horizon
-/// would stretch it without end, and depths beyond the range merely count as its far end.
-const GROUND_REACH: f64 = 8.0;
-
 impl LightView {
     /// A directional light that shines along `direction`, fitted tightly to the points `casters` (vertices or corners of
     /// boxes): its map covers them and a margin, both axes apart, so that texels need not be square. Distances along
-    /// the axis start at 0 at the first caster; `far` includes the last caster and the ground in the map's footprint.
+    /// the axis start at 0 at the first caster and end at the last one. Receivers behind it, the ground mostly, count as
+    /// lying at the far end, where texels without a caster are too, so they need no part of the range; and what a moment
+    /// bias costs is a share of the range.
     pub fn directional_fitted(
         direction: DVec3,
         casters: &[DVec3],
@@ -90,22 +86,6 @@ impl LightView {
         let half_map = DVec2::new(half.x, half.y) * map / inner;
         let mut nearest = centre.z + half.z;
         let mut farthest = centre.z - half.z;
-        if let Some(height) = fit.ground {
-            // Row y of the inverse rotation, world_y = a·inside, is solved for z at the four corners of the footprint.
-            let world_y = rotation.transform_vector3(DVec3::Y);
-            let reach = GROUND_REACH * diameter.max(smallest);
-            let [first, last] = [nearest + reach, farthest - reach];
-            for corner in [[-1.0, -1.0], [1.0, -1.0], [-1.0, 1.0], [1.0, 1.0]] {
-                let at = DVec2::new(centre.x, centre.y) + half_map * DVec2::from_array(corner);
-                let z = (height - world_y.x * at.x - world_y.y * at.y) / world_y.z;
-                // A light from below or along the ground meets it behind the casters or nowhere.
-                if world_y.z > 0.0 && z.is_finite() {
-                    farthest = farthest.min(z.max(last));
-                    // In the margin the ground may lie before the first caster.
-                    nearest = nearest.max(z.min(first));
-                }
-            }
-        }
         // Rounding to f32 on the device must not push the outermost vertices through a plane.
         let slack = 1e-3 * (nearest - farthest);
         nearest += slack;

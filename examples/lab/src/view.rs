@@ -149,14 +149,13 @@ impl View {
             DirectionalFit {
                 map,
                 margin,
-                ground: scene.ground,
                 reversed,
             },
         )
     }
 
     /// A spot light from the same side, far enough that its cone of 40 degrees holds the casters. `near` is its near
-    /// plane as a part of its distance; moment depth runs over twice the casters' depth.
+    /// plane as a part of its distance; moment depth runs over the casters alone, as with [`sun`](Self::sun).
     pub fn spot(
         &self,
         scene: &Scene,
@@ -168,13 +167,23 @@ impl View {
         let bounds = scene.bounds();
         let radius = bounds.radius().max(1e-6);
         let distance = radius / (0.5 * ANGLE).sin();
+        let position = bounds.centre() - distance * self.light_direction;
+        let along = |caster: DVec3| (caster - position).dot(self.light_direction);
+        let [first, last] = scene
+            .casters()
+            .map(along)
+            .fold([f64::INFINITY, f64::NEG_INFINITY], |[first, last], at| {
+                [first.min(at), last.max(at)]
+            });
+        // As much slack as a fitted sun has.
+        let slack = (1e-3 * (last - first)).max(1e-6 * distance);
         LightView::spot(
-            bounds.centre() - distance * self.light_direction,
+            position,
             self.light_direction,
             ANGLE,
             near * distance,
             far.map(|far| far * distance),
-            [distance - radius, distance + 3.0 * radius],
+            [first - slack, last + slack],
             reversed,
         )
     }

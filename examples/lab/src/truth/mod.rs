@@ -1,6 +1,7 @@
 //! Ground truths: what a filtered shadow should have been, from the unfiltered map, in f64 on the processor.
 
 pub mod exact_bound;
+pub mod fragment;
 pub mod kernel;
 pub mod pcf;
 pub mod surface;
