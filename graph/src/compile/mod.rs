@@ -14,7 +14,7 @@ use std::collections::BTreeMap;
 use crate::graph::VERSION;
 use crate::{
     Access, Capabilities, Connected, Direction, Graph, GraphError, GraphErrorKind, Home, NodeDesc,
-    Plan, PlannedOutput, PlannedResource, ResourceDesc,
+    Plan, PlannedOutput, PlannedResource, ResourceDesc, Slot,
 };
 use wiring::{Source, Wiring};
 
@@ -167,22 +167,20 @@ fn describe(
         let desc = graph_node
             .node
             .describe(&Connected::new(&inputs, capabilities))
-            .map_err(placed)?;
+            .map_err(|error| placed(with_connected(error, &inputs)))?;
+        let takes = |slot: &&Slot| matches!(slot.direction, Direction::In | Direction::InOut);
+        let mut names = desc
+            .slots
+            .iter()
+            .filter(takes)
+            .map(|slot| slot.name.as_str());
         for (slot, (_, edge)) in &wiring.inputs[node] {
-            let known = desc.slots.iter().any(|candidate| {
-                candidate.name == *slot
-                    && matches!(candidate.direction, Direction::In | Direction::InOut)
-            });
-            if !known {
-                return Err(wiring::unknown(
-                    "input",
-                    slot,
-                    desc.slots.iter().map(|candidate| candidate.name.as_str()),
-                    "an edge leads to an input of the node",
-                )
-                .at_node(&graph_node.name)
-                .at_slot(slot)
-                .at_position(graph.edges[*edge].position));
+            if !names.clone().any(|name| name == slot) {
+                let remark = "an edge leads to an input of the node";
+                return Err(wiring::unknown("input", slot, names.by_ref(), remark)
+                    .at_node(&graph_node.name)
+                    .at_slot(slot)
+                    .at_position(graph.edges[*edge].position));
             }
         }
         let resolved = slots::resolve(&desc, &inputs, capabilities).map_err(placed)?;
@@ -201,6 +199,15 @@ fn describe(
         described.push(Described { node, desc, slots });
     }
     Ok(described)
+}
+
+/// A missing input may be a misspelt one: what is connected is said along with it.
+fn with_connected(mut error: GraphError, inputs: &BTreeMap<String, ResourceDesc>) -> GraphError {
+    if error.kind == GraphErrorKind::MissingInput && !inputs.is_empty() {
+        let names: Vec<String> = inputs.keys().map(|name| format!("'{name}'")).collect();
+        error.message += &format!(" (what is connected is {})", names.join(", "));
+    }
+    error
 }
 
 /// The resource behind a source.
@@ -292,7 +299,7 @@ fn changed_in_place_by_one(
 ) -> Result<(), GraphError> {
     for described in described {
         let name = &graph.nodes[described.node].name;
-        let in_place = |slot: &&crate::Slot| slot.direction == Direction::InOut;
+        let in_place = |slot: &&Slot| slot.direction == Direction::InOut;
         for slot in described.desc.slots.iter().filter(in_place) {
             let Some((_, edge)) = wiring.inputs[described.node].get(&slot.name) else {
                 continue;

@@ -1,0 +1,464 @@
+//! Nodes of a host's own that contradict themselves.
+
+use moment_shadows::TextureFormat::{Depth32Float, R8Unorm, R32Float, Rgba32Float};
+use moment_shadows_graph::GraphErrorKind::{Capability, Declaration, DuplicateName, Size};
+use moment_shadows_graph::{
+    Access, BindingResource, CountRule, Direction, ExtentRule, FormatRule, GraphError, Imports,
+    NodeDesc, ParameterBlock, Pass, Slot, SlotResource, Stage, Work, compile,
+};
+
+use crate::example::{assert_error, native};
+use crate::host_node::{
+    COPY, compute, copy, empty, graph, input, layer, made, output, rgba32, slot, storage,
+};
+
+/// The error of a node `host` with the input `from` and the output `to`.
+#[track_caller]
+fn refused(node: NodeDesc) -> GraphError {
+    let graph = graph(
+        &[("map", rgba32(1))],
+        vec![("host", node)],
+        &[("map", "host.from")],
+        &[("out", "host.to")],
+    );
+    compile(&graph, &native(), &Imports::new()).unwrap_err()
+}
+
+fn base() -> NodeDesc {
+    copy(Stage::AfterShadowMaps, 1)
+}
+
+#[test]
+fn the_node_without_a_fault_compiles() {
+    let graph = graph(
+        &[("map", rgba32(1))],
+        vec![("host", base())],
+        &[("map", "host.from")],
+        &[("out", "host.to")],
+    );
+    compile(&graph, &native(), &Imports::new()).unwrap();
+}
+
+#[test]
+fn two_slots_of_a_name() {
+    let node = NodeDesc {
+        slots: vec![input("from"), output("to", 1), output("to", 1)],
+        ..base()
+    };
+    assert_error(
+        &refused(node),
+        DuplicateName,
+        "host",
+        "to",
+        "",
+        "two slots of this name",
+    );
+}
+
+#[test]
+fn outputs_that_leave_something_open() {
+    let open = |change: fn(&mut SlotResource)| {
+        let mut to = output("to", 1);
+        change(&mut to.resource);
+        refused(NodeDesc {
+            slots: vec![input("from"), to],
+            ..base()
+        })
+    };
+    let cases: [(fn(&mut SlotResource), &str); 5] = [
+        (
+            |resource| {
+                if let SlotResource::Texture { format, .. } = resource {
+                    *format = FormatRule::OneOf(vec![Rgba32Float])
+                }
+            },
+            "leaves its format open",
+        ),
+        (
+            |resource| {
+                if let SlotResource::Texture { extent, .. } = resource {
+                    *extent = ExtentRule::Any
+                }
+            },
+            "leaves its extent open",
+        ),
+        (
+            |resource| {
+                if let SlotResource::Texture { layers, .. } = resource {
+                    *layers = CountRule::Any
+                }
+            },
+            "leaves its number of layers open",
+        ),
+        (
+            |resource| {
+                if let SlotResource::Texture { samples, .. } = resource {
+                    *samples = CountRule::OneOf(vec![1])
+                }
+            },
+            "leaves its number of samples open",
+        ),
+        (
+            |resource| {
+                if let SlotResource::Texture { extent, .. } = resource {
+                    *extent = ExtentRule::SameAs("form".to_owned())
+                }
+            },
+            "refers to 'form', which is no connected texture",
+        ),
+    ];
+    for (change, says) in cases {
+        assert_error(&open(change), Declaration, "host", "to", "", says);
+    }
+}
+
+#[test]
+fn outputs_that_no_pass_writes() {
+    let node = NodeDesc {
+        passes: Vec::new(),
+        ..base()
+    };
+    assert_error(
+        &refused(node),
+        Declaration,
+        "host",
+        "to",
+        "",
+        "none of its passes writes it",
+    );
+}
+
+#[test]
+fn inputs_that_are_written() {
+    let from = made("from", Direction::In, Access::STORAGE_WRITE, Rgba32Float, 1);
+    let node = NodeDesc {
+        slots: vec![from, output("to", 1)],
+        ..base()
+    };
+    assert_error(
+        &refused(node),
+        Declaration,
+        "host",
+        "from",
+        "",
+        "changed in place",
+    );
+}
+
+#[test]
+fn passes_that_use_what_is_not_there() {
+    let pass = |resources: [BindingResource; 2]| NodeDesc {
+        passes: vec![compute(COPY, "to", true, resources)],
+        ..base()
+    };
+    assert_error(
+        &refused(pass([layer("form"), storage("to")])),
+        Declaration,
+        "host",
+        "",
+        "",
+        "uses slot 'form', which the node does not have",
+    );
+    assert_error(
+        &refused(pass([BindingResource::Parameters, storage("to")])),
+        Declaration,
+        "host",
+        "",
+        "",
+        "uses parameters, but the node has none",
+    );
+    let covers = NodeDesc {
+        passes: vec![compute(
+            COPY,
+            "nothing",
+            true,
+            [layer("from"), storage("to")],
+        )],
+        ..base()
+    };
+    assert_error(
+        &refused(covers),
+        Declaration,
+        "host",
+        "",
+        "",
+        "uses slot 'nothing'",
+    );
+    let buffer = NodeDesc {
+        slots: vec![
+            input("from"),
+            output("to", 1),
+            slot(
+                "data",
+                Direction::Internal,
+                SlotResource::Buffer {
+                    access: Access::READ,
+                    size: 16,
+                },
+            ),
+        ],
+        passes: vec![compute(COPY, "to", true, [layer("data"), storage("to")])],
+        ..base()
+    };
+    assert_error(
+        &refused(buffer),
+        Declaration,
+        "host",
+        "",
+        "",
+        "uses the buffer 'data' as a texture",
+    );
+}
+
+#[test]
+fn passes_that_do_more_than_the_slot_says() {
+    let to = made("to", Direction::Out, Access::RENDER_TARGET, Rgba32Float, 1);
+    let node = NodeDesc {
+        slots: vec![input("from"), to],
+        ..base()
+    };
+    assert_error(
+        &refused(node),
+        Declaration,
+        "host",
+        "to",
+        "",
+        "more with this slot than its declared access allows",
+    );
+}
+
+#[test]
+fn passes_that_read_what_they_write() {
+    let access = Access::READ.union(Access::STORAGE_WRITE);
+    let node = NodeDesc {
+        slots: vec![
+            input("from"),
+            made("to", Direction::Out, access, Rgba32Float, 1),
+        ],
+        passes: vec![compute(COPY, "to", true, [layer("to"), storage("to")])],
+        ..base()
+    };
+    assert_error(
+        &refused(node),
+        Declaration,
+        "host",
+        "",
+        "",
+        "writes 'host.to' while it uses it in another way",
+    );
+}
+
+#[test]
+fn workgroups_that_cover_nothing() {
+    let mut node = base();
+    node.passes[0].work = Work::Compute {
+        covers: "to".to_owned(),
+        texels_per_workgroup: [8, 0],
+        each_layer: true,
+    };
+    assert_error(
+        &refused(node),
+        Declaration,
+        "host",
+        "to",
+        "",
+        "covers no texel",
+    );
+}
+
+#[test]
+fn multisampled_arrays() {
+    let mut to = made("to", Direction::Out, Access::RENDER_TARGET, R8Unorm, 2);
+    if let SlotResource::Texture { samples, .. } = &mut to.resource {
+        *samples = CountRule::Exact(4);
+    }
+    let node = NodeDesc {
+        slots: vec![input("from"), to],
+        ..base()
+    };
+    assert_error(
+        &refused(node),
+        Declaration,
+        "host",
+        "to",
+        "",
+        "multisampled texture with several layers",
+    );
+}
+
+#[test]
+fn buffers_of_no_size() {
+    for size in [0, 6] {
+        let data = slot(
+            "data",
+            Direction::Internal,
+            SlotResource::Buffer {
+                access: Access::READ,
+                size,
+            },
+        );
+        let node = NodeDesc {
+            slots: vec![input("from"), output("to", 1), data],
+            ..base()
+        };
+        assert_error(
+            &refused(node),
+            Size,
+            "host",
+            "data",
+            "",
+            "positive multiple of 4",
+        );
+    }
+}
+
+fn with_parameters(size: u32, initial: Vec<u8>, each_layer_of: Option<&str>) -> NodeDesc {
+    NodeDesc {
+        parameters: Some(ParameterBlock {
+            name: "P".to_owned(),
+            size,
+            each_layer_of: each_layer_of.map(str::to_owned),
+            initial,
+        }),
+        ..base()
+    }
+}
+
+#[test]
+fn parameters_that_do_not_fit() {
+    assert_error(
+        &refused(with_parameters(0, Vec::new(), None)),
+        Declaration,
+        "host",
+        "",
+        "",
+        "a uniform struct is not empty",
+    );
+    assert_error(
+        &refused(with_parameters(4, vec![0; 8], None)),
+        Declaration,
+        "host",
+        "",
+        "",
+        "4 bytes, but 8 bytes of initial values",
+    );
+    assert_error(
+        &refused(with_parameters(16, Vec::new(), Some("form"))),
+        Declaration,
+        "host",
+        "",
+        "",
+        "per layer of 'form', which is no slot",
+    );
+    assert_error(
+        &refused(with_parameters(u32::MAX, Vec::new(), None)),
+        Size,
+        "host",
+        "",
+        "",
+        "at most 4294967295 can be addressed",
+    );
+}
+
+/// A node whose pass the host draws.
+fn drawn(slots: Vec<Slot>, targets: &[&str], blend: bool, depth: Option<&str>) -> NodeDesc {
+    let mut all = vec![input("from")];
+    all.extend(slots);
+    NodeDesc {
+        slots: all,
+        passes: vec![Pass {
+            label: "draw".to_owned(),
+            wgsl: String::new(),
+            entry_point: String::new(),
+            bindings: Vec::new(),
+            constants: [].into(),
+            work: Work::Host {
+                targets: targets.iter().map(|&target| target.to_owned()).collect(),
+                blend,
+                depth: depth.map(str::to_owned),
+            },
+        }],
+        ..empty(Stage::AfterShadowMaps)
+    }
+}
+
+#[test]
+fn targets_that_a_host_cannot_draw_to() {
+    let target = |name: &str, format| made(name, Direction::Out, Access::RENDER_TARGET, format, 1);
+    let depth = drawn(vec![target("to", Depth32Float)], &["to"], false, None);
+    assert_error(
+        &refused(depth),
+        Declaration,
+        "host",
+        "",
+        "",
+        "has the colour target depth32float",
+    );
+    let colour = drawn(vec![target("to", R8Unorm)], &[], false, Some("to"));
+    assert_error(
+        &refused(colour),
+        Declaration,
+        "host",
+        "",
+        "",
+        "has the depth target r8unorm, which holds no depth",
+    );
+    let blend = drawn(vec![target("to", R32Float)], &["to"], true, None);
+    assert_error(
+        &refused(blend),
+        Capability,
+        "host",
+        "",
+        "",
+        "blends into r32float",
+    );
+    let nothing = drawn(vec![target("to", R8Unorm)], &[], false, None);
+    assert_error(
+        &refused(nothing),
+        Declaration,
+        "host",
+        "",
+        "",
+        "draws to nothing",
+    );
+    let mut small = target("small", Depth32Float);
+    if let SlotResource::Texture { extent, .. } = &mut small.resource {
+        *extent = ExtentRule::Exact([8, 8]);
+    }
+    let sizes = drawn(
+        vec![target("to", R8Unorm), small],
+        &["to"],
+        false,
+        Some("small"),
+    );
+    assert_error(
+        &refused(sizes),
+        Size,
+        "host",
+        "",
+        "",
+        "r8unorm 16x16 and to depth32float 8x8 at once",
+    );
+}
+
+#[test]
+fn a_host_pass_moves_the_bytes_of_its_targets() {
+    let target = |name: &str, format| made(name, Direction::Out, Access::RENDER_TARGET, format, 1);
+    let node = drawn(
+        vec![target("to", R8Unorm), target("depth", Depth32Float)],
+        &["to"],
+        true,
+        Some("depth"),
+    );
+    let graph = graph(
+        &[("map", rgba32(1))],
+        vec![("host", node)],
+        &[("map", "host.from")],
+        &[("out", "host.to")],
+    );
+    let plan = compile(&graph, &native(), &Imports::new()).unwrap();
+    assert_eq!(
+        (plan.passes[0].bytes_read, plan.passes[0].bytes_written),
+        (256, 256 + 1024)
+    );
+}

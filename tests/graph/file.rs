@@ -1,0 +1,412 @@
+//! Errors of the file itself: each at its line and column.
+
+use moment_shadows_graph::GraphErrorKind::{
+    MissingInput, Property, Size, Syntax, UnknownName, UnknownNodeType, Version,
+};
+
+use crate::example::{TEXT, assert_error, edited, end_of, parse, refused};
+
+#[test]
+fn the_example_is_read() {
+    let graph = parse(TEXT).unwrap();
+    let names: Vec<&str> = graph.nodes.iter().map(|node| node.name.as_str()).collect();
+    assert_eq!(names, ["resolve", "blur", "shade"]);
+    let places: Vec<String> = graph
+        .nodes
+        .iter()
+        .map(|node| node.position.unwrap().to_string())
+        .collect();
+    assert_eq!(places, ["8:5", "9:5", "10:5"]);
+    assert_eq!(graph.edges[3].position.unwrap().to_string(), "16:5");
+    assert_eq!(graph.outputs[0].position.unwrap().to_string(), "19:5");
+}
+
+#[test]
+fn what_is_no_json_is_told_with_its_place() {
+    assert_error(&refused(""), Syntax, "", "", "1:1", "EOF while parsing");
+    assert_error(&refused("shadows"), Syntax, "", "", "1:1", "expected value");
+    let comma = edited("\"size\": [1280, 720] } }", "\"size\": [1280, 720] } },");
+    assert_error(&refused(&comma), Syntax, "", "", "6:3", "expected value");
+}
+
+#[test]
+fn a_version_is_needed_and_has_to_be_known() {
+    let missing = edited("\"version\": 1,", "");
+    assert_error(
+        &refused(&missing),
+        Syntax,
+        "",
+        "",
+        "21:1",
+        "missing field `version`",
+    );
+    let newer = edited("\"version\": 1,", "\"version\": 2,");
+    assert_error(
+        &refused(&newer),
+        Version,
+        "",
+        "",
+        "",
+        "has version 2, this library reads version 1",
+    );
+    // A newer file may have other keys: its version is what is said.
+    let changed = edited("\"version\": 1,", "\"version\": 7, \"cameras\": [],");
+    assert_error(&refused(&changed), Version, "", "", "", "version 7");
+}
+
+/// A replacement in the example is refused, at the end of `at` within it.
+#[track_caller]
+fn assert_syntax(from: &str, to: &str, node: &str, at: &str, says: &str) {
+    let text = edited(from, to);
+    assert_error(&refused(&text), Syntax, node, "", &end_of(&text, at), says);
+}
+
+#[test]
+fn unknown_keys_are_refused_where_they_stand() {
+    // The place of the first, counted by hand.
+    let file = edited("\"version\": 1,", "\"version\": 1, \"nods\": [],");
+    assert_error(
+        &refused(&file),
+        Syntax,
+        "",
+        "",
+        "2:22",
+        "unknown field `nods`",
+    );
+    assert_syntax(
+        "\"name\": \"light_depth\",",
+        "\"name\": \"light_depth\", \"sise\": 3,",
+        "",
+        "\"sise\"",
+        "unknown field `sise`",
+    );
+    assert_syntax(
+        "\"samples\": 4",
+        "\"sample\": 4",
+        "",
+        "\"sample\"",
+        "unknown field `sample`",
+    );
+    assert_syntax(
+        "\"type\": \"shade_hard\"",
+        "\"type\": \"shade_hard\", \"property\": {}",
+        "shade",
+        "\"property\"",
+        "unknown field `property`",
+    );
+    assert_syntax(
+        "\"storage\"",
+        "\"storag\"",
+        "resolve",
+        "\"storag\"",
+        "unknown field `storag`, expected `storage`",
+    );
+    assert_syntax(
+        "\"sigma\"",
+        "\"sgima\"",
+        "blur",
+        "\"sgima\"",
+        "unknown field `sgima`",
+    );
+    assert_syntax(
+        "\"from\": \"light_depth\",",
+        "\"form\": \"light_depth\",",
+        "",
+        "\"form\"",
+        "unknown field `form`",
+    );
+    assert_syntax(
+        "\"from\": \"shade.shadow_intensity\"",
+        "\"taken\": \"x\"",
+        "",
+        "\"taken\"",
+        "unknown field `taken`",
+    );
+}
+
+#[test]
+fn values_of_the_wrong_kind_are_refused_where_they_stand() {
+    assert_syntax(
+        "\"unorm16\"",
+        "\"unorm12\"",
+        "resolve",
+        "\"unorm12\"",
+        "unknown variant `unorm12`, expected one of",
+    );
+    assert_syntax(
+        "\"depth32float\", \"size\": [1280",
+        "\"depth64float\", \"size\": [1280",
+        "",
+        "\"depth64float\"",
+        "unknown variant `depth64float`",
+    );
+    assert_syntax(
+        "[1280, 720]",
+        "[1280, -720]",
+        "",
+        "-720",
+        "invalid value: integer `-720`",
+    );
+    assert_syntax(
+        "\"radius\": 4",
+        "\"radius\": true",
+        "blur",
+        "true",
+        "invalid type: boolean `true`",
+    );
+}
+
+#[test]
+fn missing_properties_name_the_node_without_a_place_in_nothing() {
+    let text = edited(", \"properties\": { \"storage\": \"unorm16\" }", "");
+    let error = refused(&text);
+    assert_error(
+        &error,
+        Syntax,
+        "resolve",
+        "",
+        "8:5",
+        "missing field `storage`",
+    );
+    assert!(!error.message.contains("at line"), "{error}");
+}
+
+#[test]
+fn places_are_counted_in_files_of_one_line_and_of_many_bytes() {
+    let line: String = edited("\"unorm16\"", "\"unorm12\"")
+        .split_whitespace()
+        .collect();
+    let column = line.find("unorm12").unwrap() + "unorm12\"".len();
+    assert_error(
+        &refused(&line),
+        Syntax,
+        "resolve",
+        "",
+        &format!("1:{column}"),
+        "unorm12",
+    );
+    // Characters of several bytes before the error; columns are bytes.
+    let wide = edited(
+        "\"name\": \"light_depth\",",
+        "\"name\": \"lïght\", \"sise\": 3,",
+    );
+    assert_error(
+        &refused(&wide),
+        Syntax,
+        "",
+        "",
+        &end_of(&wide, "\"sise\""),
+        "unknown field `sise`",
+    );
+}
+
+#[test]
+fn unknown_node_types_name_the_nearest() {
+    let text = edited("\"type\": \"blur_moments\"", "\"type\": \"blur_momnets\"");
+    let error = refused(&text);
+    assert_error(
+        &error,
+        UnknownNodeType,
+        "blur",
+        "",
+        "9:5",
+        "no node type 'blur_momnets'",
+    );
+    assert!(
+        error.message.contains("nearest are `blur_moments`"),
+        "{error}"
+    );
+}
+
+#[test]
+fn an_import_is_a_texture_or_a_buffer() {
+    let text = edited(
+        "\"name\": \"light_depth\",",
+        "\"name\": \"light_depth\", \"buffer_size\": 64,",
+    );
+    assert_error(
+        &refused(&text),
+        Syntax,
+        "",
+        "",
+        "4:5",
+        "as a texture and as a buffer",
+    );
+}
+
+#[test]
+fn endpoints_name_what_there_is() {
+    let import = edited("\"from\": \"light_depth\"", "\"from\": \"light_deph\"");
+    assert_error(
+        &refused(&import),
+        UnknownName,
+        "",
+        "",
+        "13:5",
+        "no import 'light_deph'; the nearest are `light_depth`",
+    );
+    let node = edited(
+        "\"from\": \"resolve.moments\"",
+        "\"from\": \"resolv.moments\"",
+    );
+    assert_error(
+        &refused(&node),
+        UnknownName,
+        "",
+        "",
+        "14:5",
+        "no node 'resolv'; the nearest are `resolve`",
+    );
+    let output = edited(
+        "\"from\": \"resolve.moments\"",
+        "\"from\": \"resolve.moment\"",
+    );
+    assert_error(
+        &refused(&output),
+        UnknownName,
+        "resolve",
+        "moment",
+        "14:5",
+        "no output 'moment'; the nearest are `moments`",
+    );
+    // The node cannot describe itself without its input, so what is connected is said.
+    let input = edited("\"to\": \"shade.moments\"", "\"to\": \"shade.moment\"");
+    let says = "add an edge that leads to it (what is connected is 'camera_depth', 'moment')";
+    assert_error(
+        &refused(&input),
+        MissingInput,
+        "shade",
+        "moments",
+        "10:5",
+        says,
+    );
+    let further = edited(
+        "\"to\": \"blur.moments\" },",
+        "\"to\": \"blur.moments\" }, { \"from\": \"light_depth\", \"to\": \"blur.depth\" },",
+    );
+    let edge = refused(&further);
+    assert_error(
+        &edge,
+        UnknownName,
+        "blur",
+        "depth",
+        "14:58",
+        "no input 'depth'; the nearest are `moments` (",
+    );
+    let no_slot = edited("\"to\": \"blur.moments\"", "\"to\": \"blur\"");
+    assert_error(
+        &refused(&no_slot),
+        UnknownName,
+        "blur",
+        "",
+        "14:5",
+        "write 'node.slot'",
+    );
+    let backwards = edited("\"to\": \"blur.moments\"", "\"to\": \"blur.blurred\"");
+    assert_error(
+        &refused(&backwards),
+        MissingInput,
+        "blur",
+        "moments",
+        "9:5",
+        "what is connected is 'blurred'",
+    );
+    let taken = edited(
+        "\"from\": \"shade.shadow_intensity\"",
+        "\"from\": \"shade.moments\"",
+    );
+    assert_error(
+        &refused(&taken),
+        UnknownName,
+        "shade",
+        "moments",
+        "19:5",
+        "no output 'moments'",
+    );
+}
+
+#[test]
+fn files_beyond_the_largest_size_are_refused() {
+    let text = format!("{}{TEXT}", " ".repeat(1 << 20));
+    assert_error(
+        &refused(&text),
+        Size,
+        "",
+        "",
+        "",
+        "at most 1048576 are read",
+    );
+}
+
+#[test]
+fn a_large_file_is_read_in_no_time() {
+    let edges = vec!["{\"from\":\"a\",\"to\":\"b.c\"}"; 40_000].join(",\n");
+    let text =
+        format!("{{\"version\":1,\"imports\":[],\"nodes\":[],\"edges\":[{edges}],\"outputs\":[]}}");
+    let graph = parse(&text).unwrap();
+    assert_eq!(graph.edges.last().unwrap().position.unwrap().line, 40_000);
+}
+
+#[test]
+fn kernels_say_what_is_wrong_with_them() {
+    let cases = [
+        ("{ \"radius\": 0 }", "radius is 1 to 64 texels, not 0"),
+        ("{ \"radius\": 65 }", "radius is 1 to 64 texels, not 65"),
+        (
+            "{ \"radius\": 4, \"sigma\": 0 }",
+            "sigma is a positive number of texels, not 0",
+        ),
+        ("{ \"radius\": 4, \"sigma\": -1.5 }", "not -1.5"),
+        (
+            "{ \"weights\": [1, 1] }",
+            "odd number of weights, 3 to 129, not 2",
+        ),
+        ("{ \"weights\": [1, -1, 1] }", "weight 1 is -1"),
+        ("{ \"weights\": [0, 0, 0] }", "all weights are 0"),
+        (
+            "{ \"weights\": [1, 2, 1], \"radius\": 1 }",
+            "either a 'radius' (with a 'sigma') or 'weights'",
+        ),
+        (
+            "{ \"weights\": [1, 2, 1], \"sigma\": 1 }",
+            "give one of them",
+        ),
+        ("{}", "give one of them"),
+    ];
+    for (kernel, says) in cases {
+        let text = edited("{ \"radius\": 4, \"sigma\": 2.4 }", kernel);
+        assert_error(&refused(&text), Property, "blur", "", "9:5", says);
+    }
+}
+
+#[test]
+fn moment_scale_is_refused_with_the_reason() {
+    let text = edited(
+        "\"type\": \"shade_hard\"",
+        "\"type\": \"shade_hard\", \"properties\": { \"moment_scale\": 0.98 }",
+    );
+    assert_error(
+        &refused(&text),
+        Property,
+        "shade",
+        "",
+        "10:5",
+        "the moments of no distribution, so that the result bounds nothing",
+    );
+}
+
+#[test]
+fn shadow_intensity_has_one_channel() {
+    let text = edited(
+        "\"type\": \"shade_hard\"",
+        "\"type\": \"shade_hard\", \"properties\": { \"format\": \"rgba8unorm\" }",
+    );
+    assert_error(
+        &refused(&text),
+        Property,
+        "shade",
+        "",
+        "10:5",
+        "r8unorm, r16float or r32float, not rgba8unorm",
+    );
+}

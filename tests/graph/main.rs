@@ -1,0 +1,20 @@
+//! Graph files, compilation and plans: what is accepted, what is refused and where, and what comes out.
+#![allow(
+    clippy::unwrap_used,
+    clippy::expect_used,
+    clippy::panic,
+    reason = "a test that fails says where"
+)]
+
+mod arbitrary;
+mod declarations;
+mod example;
+mod file;
+#[allow(dead_code, reason = "shared with the tests of the recorder")]
+#[path = "../support/host_node.rs"]
+mod host_node;
+mod memory;
+mod plan;
+mod resources;
+mod shaders;
+mod wiring;

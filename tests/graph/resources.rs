@@ -1,0 +1,422 @@
+//! Formats, samples, sizes, layers and what a device offers.
+
+use moment_shadows::{Profile, Storage};
+use moment_shadows_graph::GraphErrorKind::{Capability, Format, Size};
+use moment_shadows_graph::{
+    Access, Capabilities, Direction, Imports, NodeDesc, ResourceDesc, Slot, SlotResource, Stage,
+    compile,
+};
+
+use crate::example::{TEXT, assert_error, compiled, edited, native, refused};
+use crate::host_node::{compute, copy, empty, graph, input, made, output, rgba32, slot, storage};
+use moment_shadows::TextureFormat;
+
+const LIGHT: &str = "{ \"format\": \"depth32float\", \"size\": [1024, 1024], \"samples\": 4 }";
+
+/// The example with another light map.
+fn with_light(desc: &str) -> String {
+    edited(LIGHT, desc)
+}
+
+#[test]
+fn every_number_of_samples_and_depth_format_that_is_named_compiles() {
+    for (samples, format) in [
+        (1, "depth32float"),
+        (4, "depth32float"),
+        (1, "depth16unorm"),
+        (4, "depth16unorm"),
+    ] {
+        let text = with_light(&format!(
+            "{{ \"format\": \"{format}\", \"size\": [64, 32], \"samples\": {samples} }}"
+        ));
+        assert_eq!(compiled(&text, &native()).unwrap().passes.len(), 4);
+    }
+    let device = Capabilities {
+        depth_samples: vec![1, 2, 4, 8],
+        ..native()
+    };
+    for samples in [2, 8] {
+        let text = with_light(&format!(
+            "{{ \"format\": \"depth32float\", \"size\": [64, 32], \"samples\": {samples} }}"
+        ));
+        assert_eq!(compiled(&text, &device).unwrap().passes.len(), 4);
+        let error = compiled(&text, &native()).unwrap_err();
+        assert_error(
+            &error,
+            Capability,
+            "resolve",
+            "depth",
+            "8:5",
+            "the device allows 1 or 4",
+        );
+    }
+}
+
+#[test]
+fn wrong_formats_and_samples_are_named_at_their_slot() {
+    let colour = with_light("{ \"format\": \"rgba8unorm\", \"size\": [64, 64] }");
+    assert_error(
+        &refused(&colour),
+        Format,
+        "resolve",
+        "depth",
+        "8:5",
+        "rgba8unorm; it has to be depth32float or depth16unorm",
+    );
+    let samples =
+        with_light("{ \"format\": \"depth32float\", \"size\": [64, 64], \"samples\": 3 }");
+    assert_error(
+        &refused(&samples),
+        Format,
+        "resolve",
+        "depth",
+        "8:5",
+        "3 samples per texel; it has to have 1 or 2 or 4 or 8",
+    );
+    let depth = edited("\"from\": \"blur.blurred\"", "\"from\": \"camera_depth\"");
+    assert_error(
+        &refused(&depth),
+        Format,
+        "shade",
+        "moments",
+        "10:5",
+        "depth32float holds no moments",
+    );
+    let camera = edited(
+        "\"size\": [1280, 720] }",
+        "\"size\": [1280, 720], \"samples\": 4 }",
+    );
+    assert_error(
+        &refused(&camera),
+        Format,
+        "shade",
+        "camera_depth",
+        "10:5",
+        "4 samples per texel; it has to have 1",
+    );
+    let layers = edited(
+        "\"size\": [1280, 720] }",
+        "\"size\": [1280, 720], \"layers\": 2 }",
+    );
+    assert_error(
+        &refused(&layers),
+        Size,
+        "shade",
+        "camera_depth",
+        "10:5",
+        "2 layers; it has to have 1",
+    );
+}
+
+#[test]
+fn buffers_and_textures_are_not_mixed_up() {
+    let buffer = edited(&format!("\"texture\": {LIGHT}"), "\"buffer_size\": 1024");
+    assert_error(
+        &refused(&buffer),
+        Format,
+        "resolve",
+        "depth",
+        "8:5",
+        "a buffer is connected, but this input takes a texture",
+    );
+    let node = NodeDesc {
+        slots: vec![slot(
+            "data",
+            Direction::In,
+            SlotResource::Buffer {
+                access: Access::READ,
+                size: 64,
+            },
+        )],
+        ..empty(Stage::AfterShadowMaps)
+    };
+    let refuse = |desc: ResourceDesc| {
+        let graph = graph(
+            &[("data", desc)],
+            vec![("host", node.clone())],
+            &[("data", "host.data")],
+            &[],
+        );
+        compile(&graph, &native(), &Imports::new()).unwrap_err()
+    };
+    assert_error(
+        &refuse(rgba32(1)),
+        Format,
+        "host",
+        "data",
+        "",
+        "a texture is connected, but this input takes a buffer",
+    );
+    assert_error(
+        &refuse(ResourceDesc::Buffer { size: 60 }),
+        Size,
+        "host",
+        "data",
+        "",
+        "60 bytes; at least 64 are needed",
+    );
+    assert_error(
+        &refuse(ResourceDesc::Buffer { size: 66 }),
+        Size,
+        "host",
+        "data",
+        "",
+        "positive multiple of 4",
+    );
+}
+
+#[test]
+fn empty_textures_are_refused_with_the_sizes_that_are_not() {
+    for size in ["[0, 1024]", "[1024, 0]", "[0, 0]"] {
+        let text = with_light(&format!(
+            "{{ \"format\": \"depth32float\", \"size\": {size} }}"
+        ));
+        assert_error(
+            &refused(&text),
+            Size,
+            "resolve",
+            "depth",
+            "8:5",
+            "every side is at least 1 and at most 8192",
+        );
+    }
+    for count in ["\"layers\": 0", "\"mips\": 0"] {
+        let text = with_light(&format!(
+            "{{ \"format\": \"depth32float\", \"size\": [8, 8], {count} }}"
+        ));
+        assert_error(
+            &refused(&text),
+            Size,
+            "resolve",
+            "depth",
+            "8:5",
+            "the texture is empty",
+        );
+    }
+    let text = with_light("{ \"format\": \"depth32float\", \"size\": [8, 8], \"samples\": 0 }");
+    assert_error(
+        &refused(&text),
+        Format,
+        "resolve",
+        "depth",
+        "8:5",
+        "0 samples",
+    );
+}
+
+#[test]
+fn sizes_end_at_the_devices_limits() {
+    let wide = with_light("{ \"format\": \"depth32float\", \"size\": [8193, 16] }");
+    assert_error(
+        &refused(&wide),
+        Size,
+        "resolve",
+        "depth",
+        "8:5",
+        "8193x16 texels; the device allows 8192",
+    );
+    let layers =
+        with_light("{ \"format\": \"depth32float\", \"size\": [16, 16], \"layers\": 257 }");
+    assert_error(
+        &refused(&layers),
+        Size,
+        "resolve",
+        "depth",
+        "8:5",
+        "257 layers; the device allows 256",
+    );
+    let mips = with_light("{ \"format\": \"depth32float\", \"size\": [16, 8], \"mips\": 6 }");
+    assert_error(
+        &refused(&mips),
+        Size,
+        "resolve",
+        "depth",
+        "8:5",
+        "6 mip levels; 16x8 texels have at most 5",
+    );
+    let both = with_light(
+        "{ \"format\": \"depth32float\", \"size\": [16, 8], \"mips\": 2, \"samples\": 4 }",
+    );
+    assert_error(
+        &refused(&both),
+        Format,
+        "resolve",
+        "depth",
+        "8:5",
+        "no device has both",
+    );
+    let huge = with_light(
+        "{ \"format\": \"depth32float\", \"size\": [4294967295, 4294967295], \"layers\": 4294967295 }",
+    );
+    assert_error(
+        &refused(&huge),
+        Size,
+        "resolve",
+        "depth",
+        "8:5",
+        "the device allows 8192",
+    );
+}
+
+#[test]
+fn more_workgroups_than_the_device_dispatches_are_refused_with_the_largest_map() {
+    let device = Capabilities {
+        max_workgroups: 100,
+        ..native()
+    };
+    let error = compiled(TEXT, &device).unwrap_err();
+    assert_error(
+        &error,
+        Size,
+        "resolve",
+        "moments",
+        "8:5",
+        "takes 128x128 workgroups; the device allows 100, so at most 800x800 texels",
+    );
+    let exactly = Capabilities {
+        max_workgroups: 128,
+        ..native()
+    };
+    assert_eq!(compiled(TEXT, &exactly).unwrap().passes.len(), 4);
+}
+
+#[test]
+fn a_kernel_that_is_wider_than_the_map_is_refused_with_the_largest_radius() {
+    let small = with_light("{ \"format\": \"depth32float\", \"size\": [64, 8] }");
+    assert_error(
+        &refused(&small),
+        Size,
+        "blur",
+        "moments",
+        "9:5",
+        "64x8 texels; the largest radius for it is 3",
+    );
+    let largest = small.replace("\"radius\": 4", "\"radius\": 3");
+    assert_eq!(compiled(&largest, &native()).unwrap().passes.len(), 4);
+}
+
+#[test]
+fn a_storage_that_the_profile_lacks_names_one_that_works() {
+    let core = Capabilities::of_profile(Profile::WebgpuCore);
+    let error = compiled(TEXT, &core).unwrap_err();
+    assert_error(
+        &error,
+        Capability,
+        "resolve",
+        "moments",
+        "8:5",
+        "rgba16unorm cannot be written as a storage texture under the profile webgpu-core; use storage 'float16'",
+    );
+    let works = edited(
+        "\"unorm16\"",
+        &format!("\"{}\"", Storage::best_for(Profile::WebgpuCore)),
+    );
+    assert_eq!(compiled(&works, &core).unwrap().passes.len(), 4);
+}
+
+#[test]
+fn a_format_that_cannot_be_drawn_to_is_refused() {
+    let node = NodeDesc {
+        slots: vec![made(
+            "to",
+            Direction::Out,
+            Access::RENDER_TARGET,
+            TextureFormat::Rgba16Unorm,
+            1,
+        )],
+        ..empty(Stage::AfterMainPass)
+    };
+    let graph = graph(&[], vec![("host", node)], &[], &[("out", "host.to")]);
+    let error = compile(&graph, &native(), &Imports::new()).unwrap_err();
+    assert_error(
+        &error,
+        Capability,
+        "host",
+        "to",
+        "",
+        "rgba16unorm cannot be drawn to under the profile native; use storage 'unorm16'",
+    );
+}
+
+#[test]
+fn a_pass_by_layer_needs_the_layers_of_all_that_it_binds() {
+    let node = NodeDesc {
+        slots: vec![input("from"), output("to", 3)],
+        ..copy(Stage::AfterShadowMaps, 3)
+    };
+    let with = |layers: u32| {
+        let graph = graph(
+            &[("map", rgba32(layers))],
+            vec![("copy", node.clone())],
+            &[("map", "copy.from")],
+            &[("out", "copy.to")],
+        );
+        compile(&graph, &native(), &Imports::new())
+    };
+    assert_error(
+        &with(2).unwrap_err(),
+        Size,
+        "copy",
+        "",
+        "",
+        "recorded for 3 layers, but 'map' has 2",
+    );
+    assert_eq!(with(3).unwrap().passes[0].layers, 3);
+}
+
+#[test]
+fn layers_are_inherited_along_the_chain() {
+    let text = with_light(
+        "{ \"format\": \"depth32float\", \"size\": [64, 32], \"layers\": 3, \"samples\": 4 }",
+    );
+    let plan = compiled(&text, &native()).unwrap();
+    let layers: Vec<u32> = plan.passes.iter().map(|pass| pass.layers).collect();
+    assert_eq!(layers, [3, 3, 3, 1]);
+    assert_eq!(plan.parameters.blocks[0].count, 3, "a conversion per layer");
+}
+
+#[test]
+fn an_input_of_an_exact_size_takes_no_other() {
+    let exact = |name: &str| Slot {
+        direction: Direction::In,
+        ..made(
+            name,
+            Direction::In,
+            Access::READ,
+            TextureFormat::Rgba32Float,
+            1,
+        )
+    };
+    let node = NodeDesc {
+        slots: vec![exact("from"), output("to", 1)],
+        passes: vec![compute(
+            crate::host_node::COPY,
+            "to",
+            true,
+            [
+                moment_shadows_graph::BindingResource::Layer("from".to_owned()),
+                storage("to"),
+            ],
+        )],
+        ..empty(Stage::AfterShadowMaps)
+    };
+    let other = ResourceDesc::Texture(moment_shadows_graph::TextureDesc::new(
+        TextureFormat::Rgba32Float,
+        [8, 16],
+    ));
+    let graph = graph(
+        &[("map", other)],
+        vec![("host", node)],
+        &[("map", "host.from")],
+        &[("out", "host.to")],
+    );
+    let error = compile(&graph, &native(), &Imports::new()).unwrap_err();
+    assert_error(
+        &error,
+        Size,
+        "host",
+        "from",
+        "",
+        "8x16 texels; it has to have 16x16",
+    );
+}

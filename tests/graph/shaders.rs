@@ -1,0 +1,427 @@
+//! Shaders against declarations: everything that would fail on the device fails when the graph is compiled.
+
+use moment_shadows::TextureFormat::R8Unorm;
+use moment_shadows::{Profile, TextureFormat};
+use moment_shadows_graph::GraphErrorKind::{Capability, Shader};
+use moment_shadows_graph::{
+    Access, BindingResource, Capabilities, Direction, GraphError, Imports, NodeDesc,
+    ParameterBlock, Pass, Plan, SlotResource, Stage, Work, compile,
+};
+
+use crate::example::{assert_error, native};
+use crate::host_node::{
+    COPY, bindings, compute, copy, empty, graph, input, layer, layers, made, output, rgba32, slot,
+    storage,
+};
+
+fn compiled(node: NodeDesc, capabilities: &Capabilities) -> Result<Plan, GraphError> {
+    let graph = graph(
+        &[("map", rgba32(1))],
+        vec![("host", node)],
+        &[("map", "host.from")],
+        &[("out", "host.to")],
+    );
+    compile(&graph, capabilities, &Imports::new())
+}
+
+fn base() -> NodeDesc {
+    copy(Stage::AfterShadowMaps, 1)
+}
+
+/// The copying node with another shader or other bindings.
+#[track_caller]
+fn assert_refused(wgsl: &str, resources: impl IntoIterator<Item = BindingResource>, says: &str) {
+    let node = NodeDesc {
+        passes: vec![compute(wgsl, "to", true, resources)],
+        ..base()
+    };
+    assert_error(
+        &compiled(node, &native()).unwrap_err(),
+        Shader,
+        "host",
+        "",
+        "",
+        says,
+    );
+}
+
+fn from_and_to() -> [BindingResource; 2] {
+    [layer("from"), storage("to")]
+}
+
+fn changed(from: &str, to: &str) -> String {
+    assert_eq!(COPY.matches(from).count(), 1);
+    COPY.replace(from, to)
+}
+
+#[test]
+fn text_that_does_not_parse_or_validate_shows_its_line() {
+    assert_refused("fn main( {", from_and_to(), "the shader does not parse");
+    assert_refused(
+        &changed("textureLoad(source, id.xy, 0)", "vec3f(0.0)"),
+        from_and_to(),
+        "the shader",
+    );
+}
+
+#[test]
+fn entry_points_have_the_right_name_and_stage() {
+    assert_refused(
+        &changed("fn main(", "fn copy("),
+        from_and_to(),
+        "no Compute entry point 'main'",
+    );
+    assert_refused(
+        "@fragment fn main() {}",
+        [],
+        "no Compute entry point 'main'",
+    );
+}
+
+#[test]
+fn bindings_that_are_missing_superfluous_or_doubled() {
+    assert_refused(
+        COPY,
+        [layer("from")],
+        "the shader uses binding 1 ('copied'), which the node does not declare",
+    );
+    let extra = [
+        layer("from"),
+        storage("to"),
+        BindingResource::Sampler { filtering: true },
+    ];
+    assert_refused(
+        COPY,
+        extra,
+        "the node declares binding 2, which the shader does not use",
+    );
+    let mut node = base();
+    let again = node.passes[0].bindings[0].clone();
+    node.passes[0].bindings.push(again);
+    assert_error(
+        &compiled(node, &native()).unwrap_err(),
+        Shader,
+        "host",
+        "",
+        "",
+        "declares binding 0 twice",
+    );
+}
+
+#[test]
+fn bindings_of_another_group() {
+    assert_refused(
+        &changed("@group(0) @binding(1)", "@group(1) @binding(1)"),
+        from_and_to(),
+        "'copied' is in bind group 1, but the plan has group 0",
+    );
+    let host_group = Capabilities {
+        bind_group: 1,
+        ..native()
+    };
+    assert_error(
+        &compiled(base(), &host_group).unwrap_err(),
+        Shader,
+        "host",
+        "",
+        "",
+        "is in bind group 0, but the plan has group 1",
+    );
+}
+
+#[test]
+fn bindings_of_another_class() {
+    assert_refused(
+        &changed("texture_2d<f32>", "texture_2d_array<f32>").replace("id.xy, 0)", "id.xy, 0, 0)"),
+        from_and_to(),
+        "binding 0 ('source') is not a two-dimensional float texture",
+    );
+    assert_refused(
+        COPY,
+        [layers("from"), storage("to")],
+        "binding 0 ('source') is not a two-dimensional array float texture",
+    );
+    assert_refused(
+        &changed("texture_2d<f32>", "texture_depth_2d").replace(
+            "textureLoad(source, id.xy, 0)",
+            "vec4f(textureLoad(source, id.xy, 0))",
+        ),
+        from_and_to(),
+        "binding 0 ('source') is not a two-dimensional float texture",
+    );
+    assert_refused(
+        &changed("texture_2d<f32>", "texture_2d<u32>").replace(
+            "textureLoad(source, id.xy, 0)",
+            "vec4f(textureLoad(source, id.xy, 0))",
+        ),
+        from_and_to(),
+        "binding 0",
+    );
+    assert_refused(
+        &changed("rgba32float", "rgba16float"),
+        from_and_to(),
+        "binding 1 ('copied') is not a two-dimensional storage texture of format rgba32float",
+    );
+    assert_refused(
+        &changed("rgba32float, write", "rgba32float, read_write"),
+        from_and_to(),
+        "binding 1 ('copied') is not a two-dimensional storage texture of format rgba32float, written only",
+    );
+    assert_refused(
+        COPY,
+        [BindingResource::Sampler { filtering: false }, storage("to")],
+        "binding 0 ('source') is not a sampler",
+    );
+}
+
+const SCALE: &str = "
+struct Scale { factor: vec4f, }
+@group(0) @binding(0) var source: texture_2d<f32>;
+@group(0) @binding(1) var copied: texture_storage_2d<rgba32float, write>;
+@group(0) @binding(2) var<uniform> scale: Scale;
+@compute @workgroup_size(8, 8)
+fn main(@builtin(global_invocation_id) id: vec3u) {
+    textureStore(copied, id.xy, scale.factor * textureLoad(source, id.xy, 0));
+}
+";
+
+#[test]
+fn uniform_structs_of_another_size() {
+    let with = |size: u32| {
+        let node = NodeDesc {
+            passes: vec![compute(
+                SCALE,
+                "to",
+                true,
+                [layer("from"), storage("to"), BindingResource::Parameters],
+            )],
+            parameters: Some(ParameterBlock {
+                name: "Scale".to_owned(),
+                size,
+                each_layer_of: None,
+                initial: Vec::new(),
+            }),
+            ..base()
+        };
+        compiled(node, &native())
+    };
+    assert_eq!(with(16).unwrap().parameters.size, 256);
+    assert_error(
+        &with(32).unwrap_err(),
+        Shader,
+        "host",
+        "",
+        "",
+        "binding 2 ('scale') is not a uniform struct of 32 bytes",
+    );
+}
+
+#[test]
+fn storage_buffers_of_another_access_or_size() {
+    let shader = |declaration: &str| {
+        format!(
+            "@group(0) @binding(0) {declaration};\n@group(0) @binding(1) var copied: texture_storage_2d<rgba32float, write>;\n\
+                 @compute @workgroup_size(8, 8) fn main(@builtin(global_invocation_id) id: vec3u) {{ textureStore(copied, id.xy, data[0]); }}"
+        )
+    };
+    let with = |declaration: &str, access: Access| {
+        let node = NodeDesc {
+            slots: vec![
+                input("from"),
+                output("to", 1),
+                slot(
+                    "data",
+                    Direction::Internal,
+                    SlotResource::Buffer { access, size: 64 },
+                ),
+            ],
+            passes: vec![compute(
+                &shader(declaration),
+                "to",
+                true,
+                [BindingResource::Buffer("data".to_owned()), storage("to")],
+            )],
+            ..empty(Stage::AfterShadowMaps)
+        };
+        compiled(node, &native())
+    };
+    with("var<storage, read> data: array<vec4f>", Access::READ).unwrap();
+    with("var<storage, read> data: array<vec4f, 4>", Access::READ).unwrap();
+    let says = "binding 0 ('data') is not a read-only storage buffer of at most 64 bytes";
+    for declaration in [
+        "var<storage, read_write> data: array<vec4f>",
+        "var<storage, read> data: array<vec4f, 5>",
+    ] {
+        assert_error(
+            &with(declaration, Access::READ).unwrap_err(),
+            Shader,
+            "host",
+            "",
+            "",
+            says,
+        );
+    }
+    let writable = Access::READ.union(Access::STORAGE_WRITE);
+    with("var<storage, read_write> data: array<vec4f>", writable).unwrap();
+    let error = with("var<storage, read> data: array<vec4f>", writable).unwrap_err();
+    assert_error(
+        &error,
+        Shader,
+        "host",
+        "",
+        "",
+        "is not a writable storage buffer",
+    );
+}
+
+#[test]
+fn constants_that_match_no_override() {
+    let wgsl = format!(
+        "override scale: f32;\noverride offset: f32 = 0.0;\n@id(7) override numbered: f32 = 1.0;\n{}",
+        changed(
+            "textureLoad(source, id.xy, 0)",
+            "scale * numbered * textureLoad(source, id.xy, 0) + offset"
+        )
+    );
+    let with = |constants: &[(&str, f64)]| {
+        let mut node = NodeDesc {
+            passes: vec![compute(&wgsl, "to", true, from_and_to())],
+            ..base()
+        };
+        node.passes[0].constants = constants
+            .iter()
+            .map(|(name, value)| ((*name).to_owned(), *value))
+            .collect();
+        compiled(node, &native())
+    };
+    assert_eq!(
+        with(&[("scale", 2.0), ("7", 1.0)]).unwrap().passes[0].constants["scale"],
+        2.0
+    );
+    assert_error(
+        &with(&[]).unwrap_err(),
+        Shader,
+        "host",
+        "",
+        "",
+        "override 'scale' has no value",
+    );
+    assert_error(
+        &with(&[("scale", 1.0), ("ofset", 1.0)]).unwrap_err(),
+        Shader,
+        "host",
+        "",
+        "",
+        "constant 'ofset', which is no override",
+    );
+}
+
+/// A fullscreen pass that samples `from`.
+fn fullscreen(wgsl: &str, format: TextureFormat, resources: Vec<BindingResource>) -> NodeDesc {
+    NodeDesc {
+        slots: vec![
+            input("from"),
+            made("to", Direction::Out, Access::RENDER_TARGET, format, 1),
+        ],
+        passes: vec![Pass {
+            label: "draw".to_owned(),
+            wgsl: wgsl.to_owned(),
+            entry_point: "main".to_owned(),
+            bindings: bindings(resources),
+            constants: [].into(),
+            work: Work::Fullscreen {
+                target: "to".to_owned(),
+                each_layer: false,
+            },
+        }],
+        ..empty(Stage::AfterMainPass)
+    }
+}
+
+const SAMPLE: &str = "
+@group(0) @binding(0) var source: texture_2d<f32>;
+@group(0) @binding(1) var linear: sampler;
+@vertex fn fullscreen(@builtin(vertex_index) index: u32) -> @builtin(position) vec4f {
+    return vec4f(4.0 * vec2f(f32(index & 1u), f32(index >> 1u)) - 1.0, 0.0, 1.0);
+}
+@fragment fn main(@builtin(position) position: vec4f) -> @location(0) vec4f {
+    return textureSampleLevel(source, linear, position.xy / 16.0, 0.0);
+}
+";
+
+fn sampled(filtering: bool) -> Vec<BindingResource> {
+    vec![layer("from"), BindingResource::Sampler { filtering }]
+}
+
+#[test]
+fn filtering_what_the_device_cannot_filter() {
+    let error = compiled(fullscreen(SAMPLE, R8Unorm, sampled(true)), &native()).unwrap_err();
+    assert_error(
+        &error,
+        Capability,
+        "host",
+        "",
+        "",
+        "binding 0 samples 'map', rgba32float 16x16, which this device cannot filter",
+    );
+    compiled(fullscreen(SAMPLE, R8Unorm, sampled(false)), &native()).unwrap();
+    let filterable = Capabilities {
+        float32_filterable: true,
+        ..native()
+    };
+    compiled(fullscreen(SAMPLE, R8Unorm, sampled(true)), &filterable).unwrap();
+}
+
+#[test]
+fn fullscreen_passes_have_a_vertex_entry_point_of_their_own() {
+    let without = SAMPLE.replace("fn fullscreen", "fn triangle");
+    let error = compiled(fullscreen(&without, R8Unorm, sampled(false)), &native()).unwrap_err();
+    assert_error(
+        &error,
+        Shader,
+        "host",
+        "",
+        "",
+        "no Vertex entry point 'fullscreen'",
+    );
+    let binds = SAMPLE.replace(
+        "- 1.0, 0.0, 1.0",
+        "- 1.0, textureLoad(source, vec2i(0), 0).x, 1.0",
+    );
+    let error = compiled(fullscreen(&binds, R8Unorm, sampled(false)), &native()).unwrap_err();
+    assert_error(
+        &error,
+        Shader,
+        "host",
+        "",
+        "",
+        "the vertex entry point 'fullscreen' uses 'source'",
+    );
+}
+
+#[test]
+fn core_webgpu_is_allowed_and_no_more() {
+    let core = Capabilities::of_profile(Profile::WebgpuCore);
+    let packs = changed(
+        "textureLoad(source, id.xy, 0)",
+        "vec4f(unpack2x16float(pack2x16float(textureLoad(source, id.xy, 0).xy)), 0.0, 1.0)",
+    );
+    compiled(
+        NodeDesc {
+            passes: vec![compute(&packs, "to", true, from_and_to())],
+            ..base()
+        },
+        &core,
+    )
+    .unwrap();
+    let double = changed("textureLoad(source, id.xy, 0)", "vec4f(f32(f64(1.0)))");
+    let error = compiled(
+        NodeDesc {
+            passes: vec![compute(&double, "to", true, from_and_to())],
+            ..base()
+        },
+        &core,
+    )
+    .unwrap_err();
+    assert_error(&error, Shader, "host", "", "", "the shader");
+}

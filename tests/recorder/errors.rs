@@ -1,0 +1,520 @@
+//! What does not fit the plan is an error value before anything is recorded.
+
+use moment_shadows::TextureFormat;
+use moment_shadows_graph::record::{
+    Bindings, ImportedResource, Layers, PipelineOptions, Pipelines, RecordError, Recording,
+    Resources, Timestamps,
+};
+use moment_shadows_graph::{
+    Access, BindingResource, Direction, Imports, NodeDesc, Plan, PlanError, SlotResource, Stage,
+    TextureDesc, compile,
+};
+use moment_shadows_lab::gpu::Gpu;
+use pollster::block_on;
+
+use crate::depth_map;
+use crate::host_node::{compute, copy, graph, output, slot, storage};
+use crate::setup::{
+    Bound, EXAMPLE, aligned_view, bind, block, capabilities, compiled, gpu, try_bind, uniform,
+};
+
+const SIZE: [u32; 2] = [32, 24];
+
+fn plan(gpu: &Gpu) -> Plan {
+    let depth = |size| TextureDesc::new(TextureFormat::Depth32Float, size);
+    compiled(
+        EXAMPLE,
+        &capabilities(gpu),
+        &[("light_depth", depth(SIZE)), ("camera_depth", depth(SIZE))],
+    )
+}
+
+fn depth(gpu: &Gpu) -> wgpu::Texture {
+    depth_map::texture(gpu, wgpu::TextureFormat::Depth32Float, SIZE, 1, 1)
+}
+
+/// The error of binding the example to these imports.
+fn refused(gpu: &Gpu, imports: &[(&str, ImportedResource<'_>)]) -> RecordError {
+    let plan = plan(gpu);
+    let bytes = plan.parameters.initial();
+    try_bind(gpu, plan, imports, &bytes).err().unwrap()
+}
+
+#[test]
+fn imports_have_to_be_there_and_as_the_plan_describes_them() {
+    let gpu = gpu();
+    let good = depth(&gpu);
+    let camera = ("camera_depth", ImportedResource::Texture(&good));
+    let missing = refused(&gpu, &[camera]);
+    let expected = "depth32float 32x24".to_owned();
+    assert_eq!(
+        missing,
+        RecordError::MissingImport {
+            name: "light_depth".to_owned(),
+            expected: expected.clone()
+        }
+    );
+
+    let texture =
+        |format, size, layers, samples| depth_map::texture(&gpu, format, size, layers, samples);
+    let depth32 = wgpu::TextureFormat::Depth32Float;
+    let wrong = [
+        (
+            texture(wgpu::TextureFormat::Depth16Unorm, SIZE, 1, 1),
+            "Depth16Unorm 32x24 x 1 layers, 1 mips, 1 samples",
+        ),
+        (
+            texture(depth32, [24, 32], 1, 1),
+            "Depth32Float 24x32 x 1 layers, 1 mips, 1 samples",
+        ),
+        (
+            texture(depth32, SIZE, 2, 1),
+            "Depth32Float 32x24 x 2 layers, 1 mips, 1 samples",
+        ),
+        (
+            texture(depth32, SIZE, 1, 4),
+            "Depth32Float 32x24 x 1 layers, 1 mips, 4 samples",
+        ),
+    ];
+    for (texture, given) in &wrong {
+        let error = refused(
+            &gpu,
+            &[("light_depth", ImportedResource::Texture(texture)), camera],
+        );
+        let name = "light_depth".to_owned();
+        assert_eq!(
+            error,
+            RecordError::WrongImport {
+                name,
+                expected: expected.clone(),
+                given: (*given).to_owned()
+            }
+        );
+    }
+    let unbound = gpu.device.create_texture(&wgpu::TextureDescriptor {
+        label: None,
+        size: good.size(),
+        mip_level_count: 1,
+        sample_count: 1,
+        dimension: wgpu::TextureDimension::D2,
+        format: depth32,
+        usage: wgpu::TextureUsages::RENDER_ATTACHMENT,
+        view_formats: &[],
+    });
+    let error = refused(
+        &gpu,
+        &[("light_depth", ImportedResource::Texture(&unbound)), camera],
+    );
+    assert!(
+        matches!(&error, RecordError::WrongImport { given, .. } if given.contains("without the usage") && given.contains("TEXTURE_BINDING")),
+        "{error}"
+    );
+    let buffer = uniform(&gpu, &[]);
+    let error = refused(
+        &gpu,
+        &[("light_depth", ImportedResource::Buffer(&buffer)), camera],
+    );
+    assert!(
+        matches!(&error, RecordError::WrongImport { given, .. } if given == "a buffer"),
+        "{error}"
+    );
+}
+
+const READS: &str = "
+@group(0) @binding(0) var<storage, read> data: array<vec4f>;
+@group(0) @binding(1) var copied: texture_storage_2d<rgba32float, write>;
+@compute @workgroup_size(8, 8)
+fn main(@builtin(global_invocation_id) id: vec3u) { textureStore(copied, id.xy, data[0]); }
+";
+
+#[test]
+fn a_buffer_import_has_the_size_and_usage_of_storage() {
+    let gpu = gpu();
+    let node = NodeDesc {
+        slots: vec![
+            slot(
+                "data",
+                Direction::In,
+                SlotResource::Buffer {
+                    access: Access::READ,
+                    size: 64,
+                },
+            ),
+            output("to", 1),
+        ],
+        passes: vec![compute(
+            READS,
+            "to",
+            true,
+            [BindingResource::Buffer("data".to_owned()), storage("to")],
+        )],
+        ..copy(Stage::AfterShadowMaps, 1)
+    };
+    let desc = moment_shadows_graph::ResourceDesc::Buffer { size: 64 };
+    let graph = graph(
+        &[("data", desc)],
+        vec![("host", node)],
+        &[("data", "host.data")],
+        &[("out", "host.to")],
+    );
+    let plan = compile(&graph, &capabilities(&gpu), &Imports::new()).unwrap();
+    let buffer = |size, usage| {
+        gpu.device.create_buffer(&wgpu::BufferDescriptor {
+            label: None,
+            size,
+            usage,
+            mapped_at_creation: false,
+        })
+    };
+    let with =
+        |import: ImportedResource<'_>| try_bind(&gpu, plan.clone(), &[("data", import)], &[]).err();
+    assert_eq!(
+        with(ImportedResource::Buffer(&buffer(
+            64,
+            wgpu::BufferUsages::STORAGE
+        ))),
+        None
+    );
+    let small = with(ImportedResource::Buffer(&buffer(
+        32,
+        wgpu::BufferUsages::STORAGE,
+    )))
+    .unwrap();
+    assert!(
+        matches!(&small, RecordError::WrongImport { given, .. } if given.contains("32 bytes")),
+        "{small}"
+    );
+    let usage = with(ImportedResource::Buffer(&buffer(
+        64,
+        wgpu::BufferUsages::COPY_DST,
+    )))
+    .unwrap();
+    assert!(
+        matches!(&usage, RecordError::WrongImport { expected, .. } if expected == "buffer of 64 bytes"),
+        "{usage}"
+    );
+    let texture = depth(&gpu);
+    let kind = with(ImportedResource::Texture(&texture)).unwrap();
+    assert!(
+        matches!(&kind, RecordError::WrongImport { given, .. } if given == "a texture"),
+        "{kind}"
+    );
+}
+
+#[test]
+fn pipelines_and_resources_belong_to_their_plan() {
+    let gpu = gpu();
+    let device = &gpu.device;
+    let plan = plan(&gpu);
+    let map = depth(&gpu);
+    let imports = [
+        ("light_depth", ImportedResource::Texture(&map)),
+        ("camera_depth", ImportedResource::Texture(&map)),
+    ];
+    let parameters = uniform(&gpu, &plan.parameters.initial());
+    let resources = block_on(Resources::create(device, &plan)).unwrap();
+    let none = Pipelines::default();
+    let error = block_on(Bindings::create(
+        device,
+        &plan,
+        &none,
+        &resources,
+        &imports,
+        Some(&parameters),
+    ))
+    .err();
+    assert_eq!(
+        error,
+        Some(RecordError::MissingPipeline {
+            pass: "moment-shadows/resolve/resolve".to_owned()
+        })
+    );
+    let pipelines = block_on(Pipelines::create(device, &plan, PipelineOptions::default())).unwrap();
+    let other = compiled(
+        &EXAMPLE.replace("unorm16", "float16"),
+        &capabilities(&gpu),
+        &[],
+    );
+    let resources = block_on(Resources::create(device, &other)).unwrap();
+    let error = block_on(Bindings::create(
+        device,
+        &plan,
+        &pipelines,
+        &resources,
+        &imports,
+        Some(&parameters),
+    ))
+    .err();
+    assert_eq!(error, Some(RecordError::WrongResources));
+}
+
+/// The example, bound with `views` blocks of parameters.
+fn bound(gpu: &Gpu, views: usize) -> Bound {
+    let plan = plan(gpu);
+    let map = depth(gpu);
+    let imports = [
+        ("light_depth", ImportedResource::Texture(&map)),
+        ("camera_depth", ImportedResource::Texture(&map)),
+    ];
+    let bytes = block(&plan, &aligned_view(0)).repeat(views);
+    bind(gpu, plan, &imports, &bytes)
+}
+
+#[test]
+fn the_parameter_buffer_holds_a_views_block() {
+    let gpu = gpu();
+    let bound = bound(&gpu, 1);
+    let map = depth(&gpu);
+    let imports = [
+        ("light_depth", ImportedResource::Texture(&map)),
+        ("camera_depth", ImportedResource::Texture(&map)),
+    ];
+    let with = |buffer: Option<&wgpu::Buffer>| {
+        let bindings = block_on(Bindings::create(
+            &gpu.device,
+            &bound.plan,
+            &bound.pipelines,
+            &bound.resources,
+            &imports,
+            buffer,
+        ));
+        bindings.err().unwrap()
+    };
+    let needed = u64::from(bound.plan.parameters.size);
+    let problem = |problem: &str| RecordError::ParameterBuffer {
+        problem: problem.to_owned(),
+        needed,
+    };
+    assert_eq!(with(None), problem("is missing"));
+    assert_eq!(
+        with(Some(&uniform(&gpu, &[0; 32]))),
+        problem("has 32 bytes")
+    );
+    let usage = wgpu::BufferUsages::STORAGE;
+    let storage = gpu.device.create_buffer(&wgpu::BufferDescriptor {
+        label: None,
+        size: needed,
+        usage,
+        mapped_at_creation: false,
+    });
+    assert_eq!(with(Some(&storage)), problem("has no usage UNIFORM"));
+}
+
+fn record(
+    bound: &Bound,
+    gpu: &Gpu,
+    stage: Stage,
+    recording: Recording<'_>,
+) -> Result<(), RecordError> {
+    let mut encoder = gpu.device.create_command_encoder(&Default::default());
+    let result = bound.bindings.record(stage, &mut encoder, recording);
+    gpu.queue.submit([encoder.finish()]);
+    gpu.check().unwrap();
+    result
+}
+
+#[test]
+fn a_views_offset_is_aligned_and_within_the_buffer() {
+    let gpu = gpu();
+    let bound = bound(&gpu, 2);
+    let needed = u64::from(bound.plan.parameters.size);
+    let at = |parameter_offset| {
+        record(
+            &bound,
+            &gpu,
+            Stage::AfterShadowMaps,
+            Recording {
+                parameter_offset,
+                ..Recording::default()
+            },
+        )
+    };
+    assert_eq!(at(0), Ok(()));
+    assert_eq!(at(needed), Ok(()));
+    let alignment = gpu.device.limits().min_uniform_buffer_offset_alignment;
+    for offset in [
+        1,
+        2 * needed,
+        needed + u64::from(alignment),
+        u64::MAX,
+        u64::MAX - 3,
+    ] {
+        let size = 2 * needed;
+        assert_eq!(
+            at(offset),
+            Err(RecordError::ParameterOffset {
+                offset,
+                alignment,
+                needed,
+                size
+            })
+        );
+    }
+}
+
+#[test]
+fn dirty_layers_exist() {
+    let gpu = gpu();
+    let bound = bound(&gpu, 1);
+    let with = |layers| {
+        record(
+            &bound,
+            &gpu,
+            Stage::AfterShadowMaps,
+            Recording {
+                layers: Layers::Only(layers),
+                ..Recording::default()
+            },
+        )
+    };
+    assert_eq!(with(&[0]), Ok(()));
+    let pass = "resolve/resolve".to_owned();
+    assert_eq!(
+        with(&[0, 1]),
+        Err(RecordError::NoSuchLayer {
+            layer: 1,
+            pass: pass.clone(),
+            layers: 1
+        })
+    );
+    assert_eq!(
+        with(&[u32::MAX]),
+        Err(RecordError::NoSuchLayer {
+            layer: u32::MAX,
+            pass,
+            layers: 1
+        })
+    );
+}
+
+#[test]
+fn timestamps_have_room_for_every_pass() {
+    let gpu = Gpu::open_with(
+        moment_shadows::Profile::Native,
+        wgpu::Features::TIMESTAMP_QUERY,
+    )
+    .unwrap();
+    if !gpu
+        .device
+        .features()
+        .contains(wgpu::Features::TIMESTAMP_QUERY)
+    {
+        return;
+    }
+    let bound = bound(&gpu, 1);
+    let queries = gpu.device.create_query_set(&wgpu::QuerySetDescriptor {
+        label: None,
+        ty: wgpu::QueryType::Timestamp,
+        count: 9,
+    });
+    let with = |first| {
+        let timestamps = Some(Timestamps {
+            queries: &queries,
+            first,
+        });
+        record(
+            &bound,
+            &gpu,
+            Stage::AfterShadowMaps,
+            Recording {
+                timestamps,
+                ..Recording::default()
+            },
+        )
+    };
+    assert_eq!((with(0), with(1)), (Ok(()), Ok(())));
+    for first in [2, u32::MAX] {
+        assert_eq!(
+            with(first),
+            Err(RecordError::Timestamps {
+                first,
+                needed: 8,
+                count: 9
+            })
+        );
+    }
+}
+
+#[test]
+fn a_plan_for_another_alignment_is_refused() {
+    let gpu = gpu();
+    let alignment = gpu.device.limits().min_uniform_buffer_offset_alignment;
+    let mut finer = capabilities(&gpu);
+    finer.uniform_alignment = 16;
+    let plan = compiled(EXAMPLE, &finer, &[]);
+    if plan
+        .parameters
+        .blocks
+        .iter()
+        .all(|block| block.offset % alignment == 0 && block.stride % alignment == 0)
+    {
+        return;
+    }
+    let bytes = plan.parameters.initial();
+    let error = try_bind(&gpu, plan, &[], &bytes).err().unwrap();
+    assert_eq!(
+        error,
+        RecordError::Alignment {
+            node: "resolve".to_owned(),
+            spacing: 32,
+            alignment
+        }
+    );
+}
+
+#[test]
+fn a_broken_plan_is_refused_before_it_is_used() {
+    let gpu = gpu();
+    let mut broken = plan(&gpu);
+    broken.outputs[0].resource = 77;
+    let error = RecordError::Plan(PlanError::Index {
+        what: "output 'shadow_intensity'".to_owned(),
+        of: "resource",
+        index: 77,
+        count: broken.resources.len(),
+    });
+    let device = &gpu.device;
+    assert_eq!(
+        block_on(Pipelines::create(
+            device,
+            &broken,
+            PipelineOptions::default()
+        ))
+        .err(),
+        Some(error.clone())
+    );
+    assert_eq!(
+        block_on(Resources::create(device, &broken)).err(),
+        Some(error.clone())
+    );
+    let bound = bound(&gpu, 1);
+    let bindings = block_on(Bindings::create(
+        device,
+        &broken,
+        &bound.pipelines,
+        &bound.resources,
+        &[],
+        None,
+    ));
+    assert_eq!(bindings.err(), Some(error));
+}
+
+#[test]
+fn what_the_device_refuses_is_an_error_with_the_label() {
+    let gpu = gpu();
+    // A plan for a bind group beyond the device's.
+    let mut beyond = capabilities(&gpu);
+    beyond.bind_group = gpu.device.limits().max_bind_groups;
+    let plan = compiled(EXAMPLE, &beyond, &[]);
+    let error = block_on(Pipelines::create(
+        &gpu.device,
+        &plan,
+        PipelineOptions::default(),
+    ))
+    .err()
+    .unwrap();
+    assert!(
+        matches!(&error, RecordError::Device { what, .. } if what == "moment-shadows/resolve/resolve"),
+        "{error}"
+    );
+}

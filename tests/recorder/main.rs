@@ -1,0 +1,22 @@
+//! Plans recorded on the adapter: the life cycle, nodes of a host's own, layers, views, errors and numbers.
+#![allow(
+    clippy::unwrap_used,
+    clippy::expect_used,
+    clippy::panic,
+    reason = "a test that fails says where"
+)]
+
+mod depth_map;
+mod errors;
+#[allow(dead_code, reason = "shared with the tests of the compiler")]
+#[path = "../support/host_node.rs"]
+mod host_node;
+mod host_nodes;
+mod host_passes;
+mod layers;
+mod life_cycle;
+mod lost;
+mod resolve;
+mod setup;
+mod shade;
+mod views;

@@ -1,0 +1,182 @@
+//! A plan, bound and ready.
+
+use moment_shadows::{DepthConversion, LeakReduction, Profile, ReceiverBias};
+use moment_shadows_graph::nodes::{CameraView, LightDepth, LightView, ShadeHardParameters};
+use moment_shadows_graph::record::{
+    Bindings, ImportedResource, PipelineOptions, Pipelines, RecordError, Recording, Resources,
+};
+use moment_shadows_graph::{
+    Capabilities, Graph, Imports, NodeRegistry, Plan, ResourceDesc, Stage, TextureDesc, compile,
+};
+use moment_shadows_lab::gpu::Gpu;
+use pollster::block_on;
+use wgpu::util::DeviceExt as _;
+
+pub(crate) const EXAMPLE: &str = include_str!("../../examples/hard_shadows.json");
+
+pub(crate) const IDENTITY: [[f32; 4]; 4] = [
+    [1.0, 0.0, 0.0, 0.0],
+    [0.0, 1.0, 0.0, 0.0],
+    [0.0, 0.0, 1.0, 0.0],
+    [0.0, 0.0, 0.0, 1.0],
+];
+
+pub(crate) fn gpu() -> Gpu {
+    Gpu::open(Profile::Native).unwrap()
+}
+
+pub(crate) fn capabilities(gpu: &Gpu) -> Capabilities {
+    Capabilities::of_device(&gpu.adapter, &gpu.device)
+}
+
+/// Everything that recording a plan needs.
+pub(crate) struct Bound {
+    pub(crate) plan: Plan,
+    pub(crate) pipelines: Pipelines,
+    pub(crate) resources: Resources,
+    pub(crate) parameters: wgpu::Buffer,
+    pub(crate) bindings: Bindings,
+}
+
+/// A uniform buffer; never empty.
+pub(crate) fn uniform(gpu: &Gpu, bytes: &[u8]) -> wgpu::Buffer {
+    let mut contents = bytes.to_vec();
+    contents.resize(bytes.len().max(16), 0);
+    gpu.device
+        .create_buffer_init(&wgpu::util::BufferInitDescriptor {
+            label: Some("parameters"),
+            contents: &contents,
+            usage: wgpu::BufferUsages::UNIFORM | wgpu::BufferUsages::COPY_DST,
+        })
+}
+
+/// Creates what a plan needs; `views` are the parameter blocks of its views, one after the other.
+pub(crate) fn try_bind(
+    gpu: &Gpu,
+    plan: Plan,
+    imports: &[(&str, ImportedResource<'_>)],
+    views: &[u8],
+) -> Result<Bound, RecordError> {
+    let device = &gpu.device;
+    let pipelines = block_on(Pipelines::create(device, &plan, PipelineOptions::default()))?;
+    let resources = block_on(Resources::create(device, &plan))?;
+    let parameters = uniform(gpu, views);
+    let bindings = block_on(Bindings::create(
+        device,
+        &plan,
+        &pipelines,
+        &resources,
+        imports,
+        Some(&parameters),
+    ))?;
+    Ok(Bound {
+        plan,
+        pipelines,
+        resources,
+        parameters,
+        bindings,
+    })
+}
+
+pub(crate) fn bind(
+    gpu: &Gpu,
+    plan: Plan,
+    imports: &[(&str, ImportedResource<'_>)],
+    views: &[u8],
+) -> Bound {
+    try_bind(gpu, plan, imports, views).unwrap()
+}
+
+impl Bound {
+    /// Records every stage into one submission.
+    pub(crate) fn run(&self, gpu: &Gpu) {
+        self.run_layers(gpu, moment_shadows_graph::record::Layers::All);
+    }
+
+    /// Records every stage for the dirty layers.
+    pub(crate) fn run_layers(&self, gpu: &Gpu, layers: moment_shadows_graph::record::Layers<'_>) {
+        let mut encoder = gpu.device.create_command_encoder(&Default::default());
+        for stage in Stage::ALL {
+            let recording = Recording {
+                layers,
+                ..Recording::default()
+            };
+            self.bindings
+                .record(stage, &mut encoder, recording)
+                .unwrap();
+        }
+        gpu.queue.submit([encoder.finish()]);
+        gpu.check().unwrap();
+    }
+
+    /// The texels of a layer of an output.
+    pub(crate) fn read(&self, gpu: &Gpu, output: &str, layer: u32) -> Vec<u8> {
+        let texture = self.bindings.output(output).unwrap();
+        gpu.read_texture(texture, layer, output).unwrap()
+    }
+
+    /// The same for 32-bit floating-point formats.
+    pub(crate) fn read_floats(&self, gpu: &Gpu, output: &str, layer: u32) -> Vec<f32> {
+        bytemuck::pod_collect_to_vec(&self.read(gpu, output, layer))
+    }
+}
+
+/// Parses and compiles a text for a device and the host's imports.
+pub(crate) fn compiled(
+    text: &str,
+    capabilities: &Capabilities,
+    imports: &[(&str, TextureDesc)],
+) -> Plan {
+    let graph = Graph::parse(text, &NodeRegistry::new()).unwrap();
+    let imports: Imports = imports
+        .iter()
+        .map(|(name, desc)| ((*name).to_owned(), ResourceDesc::Texture(desc.clone())))
+        .collect();
+    compile(&graph, capabilities, &imports).unwrap()
+}
+
+/// A camera and a light that look along the same axis, so that pixels are texels: stored depth is the place on it.
+pub(crate) fn aligned_view(layer: u32) -> ShadeHardParameters {
+    view(IDENTITY, IDENTITY, layer)
+}
+
+/// The parameters of an orthographic light without any bias or leak reduction; the camera's far depth is 1.
+pub(crate) fn view(camera: [[f32; 4]; 4], light: [[f32; 4]; 4], layer: u32) -> ShadeHardParameters {
+    ShadeHardParameters::new(
+        &CameraView {
+            clip_from_world: camera,
+            far_depth: 1.0,
+        },
+        &LightView {
+            clip_from_world: light,
+            depth: LightDepth::Orthographic { reversed: false },
+            layer,
+        },
+        ReceiverBias::NONE,
+        LeakReduction::NONE,
+    )
+    .unwrap()
+}
+
+/// A view's block: forward orthographic conversions, and `shade` with the given parameters.
+pub(crate) fn block(plan: &Plan, shade: &ShadeHardParameters) -> Vec<u8> {
+    let mut bytes = plan.parameters.initial();
+    let layers = plan.parameters.blocks[0].count;
+    for layer in 0..layers {
+        let conversion = DepthConversion::orthographic();
+        plan.parameters
+            .write(&mut bytes, "resolve", layer, &conversion)
+            .unwrap();
+    }
+    if plan
+        .parameters
+        .blocks
+        .iter()
+        .any(|block| block.node == "shade")
+    {
+        plan.parameters
+            .write(&mut bytes, "shade", 0, shade)
+            .unwrap();
+    }
+    bytes
+}
