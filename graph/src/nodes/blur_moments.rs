@@ -5,6 +5,7 @@ use moment_shadows::{Kernel, LARGEST_RADIUS, Storage};
 use serde::{Deserialize, Serialize};
 
 use super::KernelProperty;
+use super::moments_input::moments_input;
 use super::specialization::Specialization;
 use super::unrolled;
 use crate::{
@@ -79,17 +80,7 @@ impl BlurParameters {
 
 impl Node for BlurMoments {
     fn describe(&self, upstream: &Connected<'_>) -> Result<NodeDesc, GraphError> {
-        let moments = upstream.texture("moments")?;
-        let storage = Storage::of_format(moments.format).ok_or_else(|| {
-            GraphError::new(
-                GraphErrorKind::Format,
-                format!(
-                    "{} holds no moments; connect a map of moments",
-                    moments.format
-                ),
-            )
-            .at_slot("moments")
-        })?;
+        let (moments, storage) = moments_input(upstream)?;
         let kernel = self.kernel.kernel()?;
         check_fits(&kernel, moments)?;
         let unrolled = !self.per_frame && kernel.radius() <= LARGEST_UNROLLED_RADIUS;

@@ -2,6 +2,7 @@
 
 mod blur_moments;
 mod kernel_property;
+mod moments_input;
 mod resolve_moments;
 mod shade_hard;
 mod specialization;

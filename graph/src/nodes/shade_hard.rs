@@ -4,6 +4,7 @@ use bytemuck::{Pod, Zeroable};
 use moment_shadows::{LeakReduction, ReceiverBias, Storage, Technique, TextureFormat};
 use serde::{Deserialize, Serialize};
 
+use super::moments_input::moments_input;
 use super::specialization::Specialization;
 use crate::{
     Access, Binding, BindingResource, Connected, CountRule, Direction, ExtentRule, FormatRule,
@@ -75,17 +76,7 @@ pub struct ShadeHardParameters {
 impl Node for ShadeHard {
     fn describe(&self, upstream: &Connected<'_>) -> Result<NodeDesc, GraphError> {
         self.check()?;
-        let moments = upstream.texture("moments")?;
-        let storage = Storage::of_format(moments.format).ok_or_else(|| {
-            GraphError::new(
-                GraphErrorKind::Format,
-                format!(
-                    "{} holds no moments; connect a map of moments",
-                    moments.format
-                ),
-            )
-            .at_slot("moments")
-        })?;
+        let (moments, storage) = moments_input(upstream)?;
         let capabilities = upstream.capabilities();
         let sampled = capabilities.support(moments.format).filterable;
         let lookup = if sampled {
