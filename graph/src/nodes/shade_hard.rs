@@ -1,7 +1,7 @@
 //! Turns a filtered map and the camera's depth into shadow intensity on the screen.
 
 use bytemuck::{Pod, Zeroable};
-use moment_shadows::{LeakReduction, ReceiverBias, Storage, Technique, TextureFormat};
+use moment_shadows::{LeakReduction, ReceiverBias, Technique, TextureFormat};
 use serde::{Deserialize, Serialize};
 
 use super::moments_input::moments_input;
