@@ -17,4 +17,5 @@ mod memory;
 mod plan;
 mod resources;
 mod shaders;
+mod targets;
 mod wiring;

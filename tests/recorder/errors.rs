@@ -2,8 +2,7 @@
 
 use moment_shadows::TextureFormat;
 use moment_shadows_graph::record::{
-    Bindings, ImportedResource, Layers, PipelineOptions, Pipelines, RecordError, Recording,
-    Resources, Timestamps,
+    Bindings, ImportedResource, PipelineOptions, Pipelines, RecordError, Resources,
 };
 use moment_shadows_graph::{
     Access, BindingResource, Direction, Imports, NodeDesc, Plan, PlanError, SlotResource, Stage,
@@ -14,13 +13,12 @@ use pollster::block_on;
 
 use crate::depth_map;
 use crate::host_node::{compute, copy, graph, output, slot, storage};
-use crate::setup::{
-    Bound, EXAMPLE, aligned_view, bind, block, capabilities, compiled, gpu, try_bind, uniform,
-};
+use crate::recording::bound;
+use crate::setup::{EXAMPLE, capabilities, compiled, gpu, try_bind, uniform};
 
 const SIZE: [u32; 2] = [32, 24];
 
-fn plan(gpu: &Gpu) -> Plan {
+pub(crate) fn plan(gpu: &Gpu) -> Plan {
     let depth = |size| TextureDesc::new(TextureFormat::Depth32Float, size);
     compiled(
         EXAMPLE,
@@ -29,7 +27,7 @@ fn plan(gpu: &Gpu) -> Plan {
     )
 }
 
-fn depth(gpu: &Gpu) -> wgpu::Texture {
+pub(crate) fn depth(gpu: &Gpu) -> wgpu::Texture {
     depth_map::texture(gpu, wgpu::TextureFormat::Depth32Float, SIZE, 1, 1)
 }
 
@@ -246,193 +244,6 @@ fn pipelines_and_resources_belong_to_their_plan() {
     ))
     .err();
     assert_eq!(error, Some(RecordError::WrongResources));
-}
-
-/// The example, bound with `views` blocks of parameters.
-fn bound(gpu: &Gpu, views: usize) -> Bound {
-    let plan = plan(gpu);
-    let map = depth(gpu);
-    let imports = [
-        ("light_depth", ImportedResource::Texture(&map)),
-        ("camera_depth", ImportedResource::Texture(&map)),
-    ];
-    let bytes = block(&plan, &aligned_view(0)).repeat(views);
-    bind(gpu, plan, &imports, &bytes)
-}
-
-#[test]
-fn the_parameter_buffer_holds_a_views_block() {
-    let gpu = gpu();
-    let bound = bound(&gpu, 1);
-    let map = depth(&gpu);
-    let imports = [
-        ("light_depth", ImportedResource::Texture(&map)),
-        ("camera_depth", ImportedResource::Texture(&map)),
-    ];
-    let with = |buffer: Option<&wgpu::Buffer>| {
-        let bindings = block_on(Bindings::create(
-            &gpu.device,
-            &bound.plan,
-            &bound.pipelines,
-            &bound.resources,
-            &imports,
-            buffer,
-        ));
-        bindings.err().unwrap()
-    };
-    let needed = u64::from(bound.plan.parameters.size);
-    let problem = |problem: &str| RecordError::ParameterBuffer {
-        problem: problem.to_owned(),
-        needed,
-    };
-    assert_eq!(with(None), problem("is missing"));
-    assert_eq!(
-        with(Some(&uniform(&gpu, &[0; 32]))),
-        problem("has 32 bytes")
-    );
-    let usage = wgpu::BufferUsages::STORAGE;
-    let storage = gpu.device.create_buffer(&wgpu::BufferDescriptor {
-        label: None,
-        size: needed,
-        usage,
-        mapped_at_creation: false,
-    });
-    assert_eq!(with(Some(&storage)), problem("has no usage UNIFORM"));
-}
-
-fn record(
-    bound: &Bound,
-    gpu: &Gpu,
-    stage: Stage,
-    recording: Recording<'_>,
-) -> Result<(), RecordError> {
-    let mut encoder = gpu.device.create_command_encoder(&Default::default());
-    let result = bound.bindings.record(stage, &mut encoder, recording);
-    gpu.queue.submit([encoder.finish()]);
-    gpu.check().unwrap();
-    result
-}
-
-#[test]
-fn a_views_offset_is_aligned_and_within_the_buffer() {
-    let gpu = gpu();
-    let bound = bound(&gpu, 2);
-    let needed = u64::from(bound.plan.parameters.size);
-    let at = |parameter_offset| {
-        record(
-            &bound,
-            &gpu,
-            Stage::AfterShadowMaps,
-            Recording {
-                parameter_offset,
-                ..Recording::default()
-            },
-        )
-    };
-    assert_eq!(at(0), Ok(()));
-    assert_eq!(at(needed), Ok(()));
-    let alignment = gpu.device.limits().min_uniform_buffer_offset_alignment;
-    for offset in [
-        1,
-        2 * needed,
-        needed + u64::from(alignment),
-        u64::MAX,
-        u64::MAX - 3,
-    ] {
-        let size = 2 * needed;
-        assert_eq!(
-            at(offset),
-            Err(RecordError::ParameterOffset {
-                offset,
-                alignment,
-                needed,
-                size
-            })
-        );
-    }
-}
-
-#[test]
-fn dirty_layers_exist() {
-    let gpu = gpu();
-    let bound = bound(&gpu, 1);
-    let with = |layers| {
-        record(
-            &bound,
-            &gpu,
-            Stage::AfterShadowMaps,
-            Recording {
-                layers: Layers::Only(layers),
-                ..Recording::default()
-            },
-        )
-    };
-    assert_eq!(with(&[0]), Ok(()));
-    let pass = "resolve/resolve".to_owned();
-    assert_eq!(
-        with(&[0, 1]),
-        Err(RecordError::NoSuchLayer {
-            layer: 1,
-            pass: pass.clone(),
-            layers: 1
-        })
-    );
-    assert_eq!(
-        with(&[u32::MAX]),
-        Err(RecordError::NoSuchLayer {
-            layer: u32::MAX,
-            pass,
-            layers: 1
-        })
-    );
-}
-
-#[test]
-fn timestamps_have_room_for_every_pass() {
-    let gpu = Gpu::open_with(
-        moment_shadows::Profile::Native,
-        wgpu::Features::TIMESTAMP_QUERY,
-    )
-    .unwrap();
-    if !gpu
-        .device
-        .features()
-        .contains(wgpu::Features::TIMESTAMP_QUERY)
-    {
-        return;
-    }
-    let bound = bound(&gpu, 1);
-    let queries = gpu.device.create_query_set(&wgpu::QuerySetDescriptor {
-        label: None,
-        ty: wgpu::QueryType::Timestamp,
-        count: 9,
-    });
-    let with = |first| {
-        let timestamps = Some(Timestamps {
-            queries: &queries,
-            first,
-        });
-        record(
-            &bound,
-            &gpu,
-            Stage::AfterShadowMaps,
-            Recording {
-                timestamps,
-                ..Recording::default()
-            },
-        )
-    };
-    assert_eq!((with(0), with(1)), (Ok(()), Ok(())));
-    for first in [2, u32::MAX] {
-        assert_eq!(
-            with(first),
-            Err(RecordError::Timestamps {
-                first,
-                needed: 8,
-                count: 9
-            })
-        );
-    }
 }
 
 #[test]

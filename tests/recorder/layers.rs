@@ -14,7 +14,7 @@ const PICTURE: [u32; 2] = [32, 32];
 fn pattern(layer: u32, turn: u32, samples: u32) -> Vec<f32> {
     depth_map::values([MAP[0] * samples, MAP[1]], |x, y| {
         let cell = (x / (5 + layer)) + y / (3 + turn);
-        if cell % 2 == 0 {
+        if cell.is_multiple_of(2) {
             0.1 + 0.1 * layer as f32
         } else {
             0.9 - 0.1 * turn as f32

@@ -16,6 +16,7 @@ mod host_passes;
 mod layers;
 mod life_cycle;
 mod lost;
+mod recording;
 mod resolve;
 mod setup;
 mod shade;

@@ -116,6 +116,9 @@ fn orthographic_depth() {
     }
 }
 
+/// A conversion, what it stands for, and its name.
+type Case<'a> = (DepthConversion, &'a dyn Fn(f64) -> f64, &'a str);
+
 #[test]
 fn perspective_depth() {
     let gpu = crate::setup::gpu();
@@ -130,7 +133,7 @@ fn perspective_depth() {
     let finite = |d: f64| moment_depth(near * far / (far - d * (far - near)));
     let infinite = |d: f64| moment_depth(near / (1.0 - d));
     for samples in [1, 4] {
-        let cases: [(DepthConversion, &dyn Fn(f64) -> f64, &str); 4] = [
+        let cases: [Case<'_>; 4] = [
             (
                 DepthConversion::perspective(near, far, range).unwrap(),
                 &finite,

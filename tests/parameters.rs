@@ -1,0 +1,303 @@
+//! Uniform structs and constants that exist in WGSL and in Rust: reflected and compared.
+#![allow(
+    clippy::unwrap_used,
+    clippy::expect_used,
+    clippy::panic,
+    reason = "a test that fails says where"
+)]
+
+use std::mem::offset_of;
+
+use moment_shadows::{
+    DepthConversion, LARGEST_RADIUS, LeakReduction, MomentBias, Profile, ReceiverBias, Source,
+    Storage, TextureFormat, link,
+};
+use moment_shadows_graph::nodes::{
+    BlurMoments, BlurParameters, KernelProperty, ResolveMoments, ShadeHard, ShadeHardParameters,
+};
+use moment_shadows_graph::{
+    BindingResource, Capabilities, Connected, Node, NodeDesc, ResourceDesc, TextureDesc,
+};
+use naga::{Expression, Literal, Module, TypeInner};
+
+/// A field as both sides have to lay it out: name, offset, size.
+type Field = (&'static str, usize, usize);
+
+/// Offsets and sizes of a struct's fields, for a list of names.
+macro_rules! fields {
+    ($name:ty { $($field:ident: $kind:ty),* $(,)? }) => {
+        [$((stringify!($field), offset_of!($name, $field), size_of::<$kind>())),*]
+    };
+}
+
+fn parse(wgsl: &str) -> Module {
+    naga::front::wgsl::parse_str(wgsl)
+        .unwrap_or_else(|error| panic!("{}", error.emit_to_string(wgsl)))
+}
+
+/// The closure of one item of a library module.
+fn module(name: &str, item: &str) -> Module {
+    let text = format!("import moment_shadows::{name}::{{{item}}};\n");
+    let source = Source {
+        name: "user.wgsl",
+        text: &text,
+    };
+    parse(link(source, &[]).unwrap().wgsl())
+}
+
+#[track_caller]
+fn assert_same_layout(module: &Module, name: &str, size: usize, fields: &[Field]) {
+    let (_, found) = module
+        .types
+        .iter()
+        .find(|(_, candidate)| candidate.name.as_deref() == Some(name))
+        .unwrap_or_else(|| panic!("there is no struct {name}"));
+    let TypeInner::Struct { members, span } = &found.inner else {
+        panic!("{name} is no struct");
+    };
+    let in_wgsl: Vec<(&str, usize, usize)> = members
+        .iter()
+        .map(|member| {
+            let size = module.types[member.ty].inner.size(module.to_ctx());
+            (
+                member.name.as_deref().unwrap(),
+                member.offset as usize,
+                size as usize,
+            )
+        })
+        .collect();
+    assert_eq!(in_wgsl, fields, "{name}");
+    assert_eq!(
+        *span as usize, size,
+        "{name}: the size of an element of an array"
+    );
+}
+
+#[test]
+fn structs_of_the_modules_are_laid_out_alike() {
+    assert_same_layout(
+        &module("depth", "DepthConversion"),
+        "DepthConversion",
+        size_of::<DepthConversion>(),
+        &fields!(DepthConversion {
+            numerator: [f32; 2],
+            denominator: [f32; 2],
+            scale: f32,
+            offset: f32,
+            padding: [f32; 2]
+        }),
+    );
+    assert_same_layout(
+        &module("receiver_bias", "ReceiverBias"),
+        "ReceiverBias",
+        size_of::<ReceiverBias>(),
+        &fields!(ReceiverBias {
+            constant: f32,
+            slope_scale: f32,
+            maximum: f32,
+            normal_offset: f32
+        }),
+    );
+    assert_same_layout(
+        &module("leak_reduction", "LeakReduction"),
+        "LeakReduction",
+        size_of::<LeakReduction>(),
+        &fields!(LeakReduction {
+            full_shadow: f32,
+            bleed_reduction: f32,
+            visibility_exponent: f32,
+            padding: f32
+        }),
+    );
+    assert_same_layout(
+        &module("moments", "MomentBias"),
+        "MomentBias",
+        size_of::<MomentBias>(),
+        &fields!(MomentBias {
+            alpha: f32,
+            beta: f32
+        }),
+    );
+}
+
+/// A library node, described for float16 maps of 256 texels.
+fn described(node: &dyn Node) -> NodeDesc {
+    let texture = |format| ResourceDesc::Texture(TextureDesc::new(format, [256, 256]));
+    let inputs = [
+        ("depth".to_owned(), texture(TextureFormat::Depth32Float)),
+        ("moments".to_owned(), texture(TextureFormat::Rgba16Float)),
+        (
+            "camera_depth".to_owned(),
+            texture(TextureFormat::Depth32Float),
+        ),
+    ]
+    .into();
+    let capabilities = Capabilities::of_profile(Profile::WebgpuCore);
+    node.describe(&Connected::new(&inputs, &capabilities))
+        .unwrap()
+}
+
+fn per_frame_blur() -> NodeDesc {
+    described(&BlurMoments {
+        kernel: KernelProperty::gaussian(4, 2.4),
+        per_frame: true,
+    })
+}
+
+#[test]
+fn structs_of_the_nodes_are_laid_out_alike() {
+    let shade = described(&ShadeHard::default());
+    let parsed = parse(&shade.passes[0].wgsl);
+    assert_same_layout(
+        &parsed,
+        "ShadeHardParameters",
+        size_of::<ShadeHardParameters>(),
+        &fields!(ShadeHardParameters {
+            light_from_camera: [[f32; 4]; 4],
+            scene_w_from_camera: [f32; 4],
+            receiver_bias: ReceiverBias,
+            leak_reduction: LeakReduction,
+            far_depth: f32,
+            layer: u32,
+            padding: [f32; 2],
+        }),
+    );
+    let blur = per_frame_blur();
+    let weights = size_of::<BlurParameters>() - offset_of!(BlurParameters, weights);
+    let mut fields = fields!(BlurParameters {
+        radius: u32,
+        blocks: u32,
+        padding: [u32; 2],
+        weights: u32
+    });
+    fields[3].2 = weights;
+    for pass in &blur.passes {
+        assert_same_layout(
+            &parse(&pass.wgsl),
+            "BlurParameters",
+            size_of::<BlurParameters>(),
+            &fields,
+        );
+    }
+}
+
+#[test]
+fn nodes_declare_the_structs_that_their_shaders_bind() {
+    let nodes = [
+        described(&ResolveMoments {
+            storage: Storage::Float16,
+        }),
+        per_frame_blur(),
+        described(&ShadeHard::default()),
+    ];
+    for node in nodes {
+        let block = node.parameters.as_ref().unwrap();
+        for pass in &node.passes {
+            let declared = pass
+                .bindings
+                .iter()
+                .find(|binding| binding.resource == BindingResource::Parameters);
+            let index = declared.unwrap().binding;
+            let parsed = parse(&pass.wgsl);
+            let (_, bound) = parsed
+                .global_variables
+                .iter()
+                .find(|(_, variable)| {
+                    variable
+                        .binding
+                        .is_some_and(|binding| binding.binding == index)
+                })
+                .unwrap();
+            let kind = &parsed.types[bound.ty];
+            assert_eq!(
+                kind.name.as_deref(),
+                Some(block.name.as_str()),
+                "{}",
+                node.name
+            );
+            assert_eq!(
+                kind.inner.size(parsed.to_ctx()),
+                block.size,
+                "{}",
+                node.name
+            );
+        }
+    }
+}
+
+/// The numbers that a constant of a module is made of.
+fn constant(module: &Module, name: &str) -> Vec<f64> {
+    let (_, found) = module
+        .constants
+        .iter()
+        .find(|(_, candidate)| candidate.name.as_deref() == Some(name))
+        .unwrap_or_else(|| panic!("there is no constant {name}"));
+    numbers(module, found.init)
+}
+
+fn numbers(module: &Module, expression: naga::Handle<Expression>) -> Vec<f64> {
+    match &module.global_expressions[expression] {
+        Expression::Literal(Literal::F32(value)) => vec![f64::from(*value)],
+        Expression::Literal(Literal::U32(value)) => vec![f64::from(*value)],
+        Expression::Literal(Literal::I32(value)) => vec![f64::from(*value)],
+        Expression::Compose { components, .. } => components
+            .iter()
+            .flat_map(|&component| numbers(module, component))
+            .collect(),
+        other => panic!("not a constant of numbers: {other:?}"),
+    }
+}
+
+#[test]
+fn storages_have_the_numbers_and_biases_of_the_module() {
+    for storage in Storage::ALL {
+        let name = storage.name().to_uppercase();
+        let index = format!("MOMENTS_STORAGE_{name}");
+        let found = constant(&module("moments", &index), &index);
+        assert_eq!(found, [f64::from(storage.wgsl_index())], "{index}");
+        let bias = format!("MOMENTS_BIAS_{name}");
+        let found = constant(&module("moments", &bias), &bias);
+        let expected = storage.moment_bias();
+        assert_eq!(
+            found,
+            [f64::from(expected.alpha), f64::from(expected.beta)],
+            "{bias}"
+        );
+    }
+}
+
+#[test]
+fn the_largest_kernel_fits_its_uniform_struct() {
+    for radius in [1, 12, 13, LARGEST_RADIUS] {
+        let kernel = KernelProperty::gaussian(radius, radius as f32 * 0.6)
+            .kernel()
+            .unwrap();
+        let parameters = BlurParameters::new(&kernel);
+        assert_eq!(parameters.radius, radius);
+        let flat: Vec<f32> = parameters.weights.iter().flatten().copied().collect();
+        let first = flat.iter().position(|&weight| weight != 0.0).unwrap();
+        let count = 2 * radius as usize + 1;
+        assert_eq!(
+            flat[first..first + count],
+            *kernel.weights(),
+            "radius {radius}"
+        );
+        assert!(
+            flat[first + count..].iter().all(|&weight| weight == 0.0),
+            "radius {radius}"
+        );
+    }
+    // The plain form of the filter in the library clamps to the same radius.
+    let text = link(
+        Source {
+            name: "user.wgsl",
+            text: "import moment_shadows::gaussian::{gaussian_filter};\n",
+        },
+        &[],
+    )
+    .unwrap();
+    assert!(
+        text.wgsl()
+            .contains(&format!("clamp(radius, 0, {LARGEST_RADIUS})"))
+    );
+}

@@ -1,0 +1,509 @@
+// moment_shadows/moments.wgsl
+// Four moments of depth: encoding, storage, bias.
+//
+// A texel holds b = (E[z], E[z^2], E[z^3], E[z^4]) of the moment depths z in [-1, 1] that it covers (Peters & Klein,
+// "Moment Shadow Mapping", i3D 2015, section 2). Linear filters keep moments valid as long as their weights are not
+// negative and sum to one. Storage with few bits holds an affine image of the moments that spreads them over the range
+// of every channel (Peters, GDC 2016; JCGT 6(1) 2017, section 3); affine maps commute with filtering.
+
+// A moment bias: b is moved by alpha towards (0, beta, 0, beta), which pulls moments that rounding has made
+// impossible back among the possible ones. (0, beta, 0, beta) are the moments of occluders at the near end, the middle
+// and the far end with the weights beta/2, 1 - beta and beta/2.
+struct MomentBias {
+    alpha: f32,
+    beta: f32,
+}
+
+// The bias belongs to a storage's rounding error, not to a scene. Each value covers a resolve and a two-pass blur,
+// every stage rounded to the storage; beta is optimal for the basis (JCGT 6(1) 2017, section 3).
+const MOMENTS_BIAS_UNORM16: MomentBias = MomentBias(6e-5, 0.628);
+const MOMENTS_BIAS_FLOAT16: MomentBias = MomentBias(1e-3, 0.628);
+const MOMENTS_BIAS_FLOAT32: MomentBias = MomentBias(1.5e-6, 0.375);
+
+// Storages, as a shader's specialisation names them.
+const MOMENTS_STORAGE_UNORM16: u32 = 0u;
+const MOMENTS_STORAGE_FLOAT16: u32 = 1u;
+const MOMENTS_STORAGE_FLOAT32: u32 = 2u;
+
+// sqrt(3), which the optimised basis and its inverse are made of.
+const MOMENTS_SQRT_3: f32 = 1.7320508075688772;
+
+// The moments of a single depth z in [-1, 1]: its powers (i3D 2015, equation 2).
+fn moments_from_depth(z: f32) -> vec4f {
+    let square = z * z;
+    return vec4f(z, square, z * square, square * square);
+}
+
+// The optimised basis of JCGT 6(1) 2017 (equation 5, GDC 2016): maps the moments of depths in [-1, 1] into [0, 1]^4.
+fn moments_quantize(b: vec4f) -> vec4f {
+    return vec4f(
+        fma(1.5, b.x, fma(-2.0, b.z, 0.5)),
+        4.0 * (b.y - b.w),
+        fma(0.5 * MOMENTS_SQRT_3, b.x, fma(-2.0 / 9.0 * MOMENTS_SQRT_3, b.z, 0.5)),
+        0.5 * (b.y + b.w),
+    );
+}
+
+// Inverse of `moments_quantize`. Channels in [0, 1] give |b| <= 2.1, whatever they hold.
+fn moments_dequantize(channels: vec4f) -> vec4f {
+    let odd = channels.xz - 0.5;
+    return vec4f(
+        fma(-1.0 / 3.0, odd.x, MOMENTS_SQRT_3 * odd.y),
+        fma(0.125, channels.y, channels.w),
+        0.75 * fma(MOMENTS_SQRT_3, odd.y, -odd.x),
+        fma(-0.125, channels.y, channels.w),
+    );
+}
+
+// The nearest float16 of each component, ties to even, for |value| < 65504. A driver may truncate when it stores to a
+// float16 texture, which would double the rounding error that the bias has to cover.
+fn moments_round_to_float16(value: vec4f) -> vec4f {
+    let bits = bitcast<vec4u>(value);
+    // 13 of 23 mantissa bits go; adding just under half a unit, plus the last kept bit, rounds ties to even.
+    let rounded = bitcast<vec4f>((bits + 0xfffu + ((bits >> vec4u(13u)) & vec4u(1u))) & vec4u(0xffffe000u));
+    // Below 2^-14 float16 is a fixed-point format with a step of 2^-24.
+    let small = round(value * 0x1p24) * 0x1p-24;
+    return select(rounded, small, abs(value) < vec4f(0x1p-14));
+}
+
+// Moments that certainly lie in their ranges: odd ones in [-1, 1], even ones in [0, 1]. Float storage can hold
+// anything, and finite values beyond 1e15 would overflow further on.
+fn moments_clamp(b: vec4f) -> vec4f {
+    return clamp(b, vec4f(-1.0, 0.0, -1.0, 0.0), vec4f(1.0));
+}
+
+// What to write to a texel of the storage.
+fn moments_to_texel(b: vec4f, storage: u32) -> vec4f {
+    if storage == MOMENTS_STORAGE_FLOAT32 {
+        return b;
+    }
+    let channels = saturate(moments_quantize(b));
+    if storage == MOMENTS_STORAGE_FLOAT16 {
+        // Half precision is finest around zero, so the channels are centred there.
+        return moments_round_to_float16(channels - 0.5);
+    }
+    return channels;
+}
+
+// A filtered combination of texels, as it has to be written back to the same storage.
+fn moments_round_texel(texel: vec4f, storage: u32) -> vec4f {
+    if storage == MOMENTS_STORAGE_FLOAT16 {
+        return moments_round_to_float16(texel);
+    }
+    return texel;
+}
+
+// The moments in a (filtered) texel of the storage. Float storage can hold anything; `moments_clamp` comes before any
+// arithmetic that relies on ranges.
+fn moments_from_texel(texel: vec4f, storage: u32) -> vec4f {
+    if storage == MOMENTS_STORAGE_FLOAT32 {
+        return texel;
+    }
+    if storage == MOMENTS_STORAGE_FLOAT16 {
+        return moments_dequantize(texel + 0.5);
+    }
+    return moments_dequantize(texel);
+}
+
+// The moment bias of a storage.
+fn moments_bias_of(storage: u32) -> MomentBias {
+    if storage == MOMENTS_STORAGE_FLOAT32 {
+        return MOMENTS_BIAS_FLOAT32;
+    }
+    if storage == MOMENTS_STORAGE_FLOAT16 {
+        return MOMENTS_BIAS_FLOAT16;
+    }
+    return MOMENTS_BIAS_UNORM16;
+}
+
+// Applies the moment bias (i3D 2015, section 3.3). Written as a step towards the target: 1 - alpha would keep only a
+// few bits of alpha.
+fn moments_apply_bias(b: vec4f, bias: MomentBias) -> vec4f {
+    return fma(vec4f(bias.alpha), vec4f(0.0, bias.beta, 0.0, bias.beta) - b, b);
+}
+
+// specialization
+const GROUP = 0;
+alias MomentsStorage = texture_storage_2d<rgba16unorm, write>;
+const STORAGE = 0u;
+const AXIS = vec2i(1, 0);
+const OUTPUTS = 16;
+struct BlurSums {
+    o0: vec4f,
+    o1: vec4f,
+    o2: vec4f,
+    o3: vec4f,
+    o4: vec4f,
+    o5: vec4f,
+    o6: vec4f,
+    o7: vec4f,
+    o8: vec4f,
+    o9: vec4f,
+    o10: vec4f,
+    o11: vec4f,
+    o12: vec4f,
+    o13: vec4f,
+    o14: vec4f,
+    o15: vec4f,
+}
+fn blur_taps(map: texture_2d<f32>, first: vec2i, last: vec2i, sums: BlurSums, w0: vec4f, w1: vec4f, w2: vec4f, w3: vec4f, w4: vec4f, w5: vec4f, w6: vec4f, w7: vec4f) -> BlurSums {
+    var o0 = sums.o0;
+    var o1 = sums.o1;
+    var o2 = sums.o2;
+    var o3 = sums.o3;
+    var o4 = sums.o4;
+    var o5 = sums.o5;
+    var o6 = sums.o6;
+    var o7 = sums.o7;
+    var o8 = sums.o8;
+    var o9 = sums.o9;
+    var o10 = sums.o10;
+    var o11 = sums.o11;
+    var o12 = sums.o12;
+    var o13 = sums.o13;
+    var o14 = sums.o14;
+    var o15 = sums.o15;
+    let t0 = textureLoad(map, clamp(first + 0 * AXIS, vec2i(0), last), 0);
+    o0 = fma(vec4f(w3.w), t0, o0);
+    o1 = fma(vec4f(w3.z), t0, o1);
+    o2 = fma(vec4f(w3.y), t0, o2);
+    o3 = fma(vec4f(w3.x), t0, o3);
+    o4 = fma(vec4f(w2.w), t0, o4);
+    o5 = fma(vec4f(w2.z), t0, o5);
+    o6 = fma(vec4f(w2.y), t0, o6);
+    o7 = fma(vec4f(w2.x), t0, o7);
+    o8 = fma(vec4f(w1.w), t0, o8);
+    o9 = fma(vec4f(w1.z), t0, o9);
+    o10 = fma(vec4f(w1.y), t0, o10);
+    o11 = fma(vec4f(w1.x), t0, o11);
+    o12 = fma(vec4f(w0.w), t0, o12);
+    o13 = fma(vec4f(w0.z), t0, o13);
+    o14 = fma(vec4f(w0.y), t0, o14);
+    o15 = fma(vec4f(w0.x), t0, o15);
+    let t1 = textureLoad(map, clamp(first + 1 * AXIS, vec2i(0), last), 0);
+    o0 = fma(vec4f(w4.x), t1, o0);
+    o1 = fma(vec4f(w3.w), t1, o1);
+    o2 = fma(vec4f(w3.z), t1, o2);
+    o3 = fma(vec4f(w3.y), t1, o3);
+    o4 = fma(vec4f(w3.x), t1, o4);
+    o5 = fma(vec4f(w2.w), t1, o5);
+    o6 = fma(vec4f(w2.z), t1, o6);
+    o7 = fma(vec4f(w2.y), t1, o7);
+    o8 = fma(vec4f(w2.x), t1, o8);
+    o9 = fma(vec4f(w1.w), t1, o9);
+    o10 = fma(vec4f(w1.z), t1, o10);
+    o11 = fma(vec4f(w1.y), t1, o11);
+    o12 = fma(vec4f(w1.x), t1, o12);
+    o13 = fma(vec4f(w0.w), t1, o13);
+    o14 = fma(vec4f(w0.z), t1, o14);
+    o15 = fma(vec4f(w0.y), t1, o15);
+    let t2 = textureLoad(map, clamp(first + 2 * AXIS, vec2i(0), last), 0);
+    o0 = fma(vec4f(w4.y), t2, o0);
+    o1 = fma(vec4f(w4.x), t2, o1);
+    o2 = fma(vec4f(w3.w), t2, o2);
+    o3 = fma(vec4f(w3.z), t2, o3);
+    o4 = fma(vec4f(w3.y), t2, o4);
+    o5 = fma(vec4f(w3.x), t2, o5);
+    o6 = fma(vec4f(w2.w), t2, o6);
+    o7 = fma(vec4f(w2.z), t2, o7);
+    o8 = fma(vec4f(w2.y), t2, o8);
+    o9 = fma(vec4f(w2.x), t2, o9);
+    o10 = fma(vec4f(w1.w), t2, o10);
+    o11 = fma(vec4f(w1.z), t2, o11);
+    o12 = fma(vec4f(w1.y), t2, o12);
+    o13 = fma(vec4f(w1.x), t2, o13);
+    o14 = fma(vec4f(w0.w), t2, o14);
+    o15 = fma(vec4f(w0.z), t2, o15);
+    let t3 = textureLoad(map, clamp(first + 3 * AXIS, vec2i(0), last), 0);
+    o0 = fma(vec4f(w4.z), t3, o0);
+    o1 = fma(vec4f(w4.y), t3, o1);
+    o2 = fma(vec4f(w4.x), t3, o2);
+    o3 = fma(vec4f(w3.w), t3, o3);
+    o4 = fma(vec4f(w3.z), t3, o4);
+    o5 = fma(vec4f(w3.y), t3, o5);
+    o6 = fma(vec4f(w3.x), t3, o6);
+    o7 = fma(vec4f(w2.w), t3, o7);
+    o8 = fma(vec4f(w2.z), t3, o8);
+    o9 = fma(vec4f(w2.y), t3, o9);
+    o10 = fma(vec4f(w2.x), t3, o10);
+    o11 = fma(vec4f(w1.w), t3, o11);
+    o12 = fma(vec4f(w1.z), t3, o12);
+    o13 = fma(vec4f(w1.y), t3, o13);
+    o14 = fma(vec4f(w1.x), t3, o14);
+    o15 = fma(vec4f(w0.w), t3, o15);
+    let t4 = textureLoad(map, clamp(first + 4 * AXIS, vec2i(0), last), 0);
+    o0 = fma(vec4f(w4.w), t4, o0);
+    o1 = fma(vec4f(w4.z), t4, o1);
+    o2 = fma(vec4f(w4.y), t4, o2);
+    o3 = fma(vec4f(w4.x), t4, o3);
+    o4 = fma(vec4f(w3.w), t4, o4);
+    o5 = fma(vec4f(w3.z), t4, o5);
+    o6 = fma(vec4f(w3.y), t4, o6);
+    o7 = fma(vec4f(w3.x), t4, o7);
+    o8 = fma(vec4f(w2.w), t4, o8);
+    o9 = fma(vec4f(w2.z), t4, o9);
+    o10 = fma(vec4f(w2.y), t4, o10);
+    o11 = fma(vec4f(w2.x), t4, o11);
+    o12 = fma(vec4f(w1.w), t4, o12);
+    o13 = fma(vec4f(w1.z), t4, o13);
+    o14 = fma(vec4f(w1.y), t4, o14);
+    o15 = fma(vec4f(w1.x), t4, o15);
+    let t5 = textureLoad(map, clamp(first + 5 * AXIS, vec2i(0), last), 0);
+    o0 = fma(vec4f(w5.x), t5, o0);
+    o1 = fma(vec4f(w4.w), t5, o1);
+    o2 = fma(vec4f(w4.z), t5, o2);
+    o3 = fma(vec4f(w4.y), t5, o3);
+    o4 = fma(vec4f(w4.x), t5, o4);
+    o5 = fma(vec4f(w3.w), t5, o5);
+    o6 = fma(vec4f(w3.z), t5, o6);
+    o7 = fma(vec4f(w3.y), t5, o7);
+    o8 = fma(vec4f(w3.x), t5, o8);
+    o9 = fma(vec4f(w2.w), t5, o9);
+    o10 = fma(vec4f(w2.z), t5, o10);
+    o11 = fma(vec4f(w2.y), t5, o11);
+    o12 = fma(vec4f(w2.x), t5, o12);
+    o13 = fma(vec4f(w1.w), t5, o13);
+    o14 = fma(vec4f(w1.z), t5, o14);
+    o15 = fma(vec4f(w1.y), t5, o15);
+    let t6 = textureLoad(map, clamp(first + 6 * AXIS, vec2i(0), last), 0);
+    o0 = fma(vec4f(w5.y), t6, o0);
+    o1 = fma(vec4f(w5.x), t6, o1);
+    o2 = fma(vec4f(w4.w), t6, o2);
+    o3 = fma(vec4f(w4.z), t6, o3);
+    o4 = fma(vec4f(w4.y), t6, o4);
+    o5 = fma(vec4f(w4.x), t6, o5);
+    o6 = fma(vec4f(w3.w), t6, o6);
+    o7 = fma(vec4f(w3.z), t6, o7);
+    o8 = fma(vec4f(w3.y), t6, o8);
+    o9 = fma(vec4f(w3.x), t6, o9);
+    o10 = fma(vec4f(w2.w), t6, o10);
+    o11 = fma(vec4f(w2.z), t6, o11);
+    o12 = fma(vec4f(w2.y), t6, o12);
+    o13 = fma(vec4f(w2.x), t6, o13);
+    o14 = fma(vec4f(w1.w), t6, o14);
+    o15 = fma(vec4f(w1.z), t6, o15);
+    let t7 = textureLoad(map, clamp(first + 7 * AXIS, vec2i(0), last), 0);
+    o0 = fma(vec4f(w5.z), t7, o0);
+    o1 = fma(vec4f(w5.y), t7, o1);
+    o2 = fma(vec4f(w5.x), t7, o2);
+    o3 = fma(vec4f(w4.w), t7, o3);
+    o4 = fma(vec4f(w4.z), t7, o4);
+    o5 = fma(vec4f(w4.y), t7, o5);
+    o6 = fma(vec4f(w4.x), t7, o6);
+    o7 = fma(vec4f(w3.w), t7, o7);
+    o8 = fma(vec4f(w3.z), t7, o8);
+    o9 = fma(vec4f(w3.y), t7, o9);
+    o10 = fma(vec4f(w3.x), t7, o10);
+    o11 = fma(vec4f(w2.w), t7, o11);
+    o12 = fma(vec4f(w2.z), t7, o12);
+    o13 = fma(vec4f(w2.y), t7, o13);
+    o14 = fma(vec4f(w2.x), t7, o14);
+    o15 = fma(vec4f(w1.w), t7, o15);
+    let t8 = textureLoad(map, clamp(first + 8 * AXIS, vec2i(0), last), 0);
+    o0 = fma(vec4f(w5.w), t8, o0);
+    o1 = fma(vec4f(w5.z), t8, o1);
+    o2 = fma(vec4f(w5.y), t8, o2);
+    o3 = fma(vec4f(w5.x), t8, o3);
+    o4 = fma(vec4f(w4.w), t8, o4);
+    o5 = fma(vec4f(w4.z), t8, o5);
+    o6 = fma(vec4f(w4.y), t8, o6);
+    o7 = fma(vec4f(w4.x), t8, o7);
+    o8 = fma(vec4f(w3.w), t8, o8);
+    o9 = fma(vec4f(w3.z), t8, o9);
+    o10 = fma(vec4f(w3.y), t8, o10);
+    o11 = fma(vec4f(w3.x), t8, o11);
+    o12 = fma(vec4f(w2.w), t8, o12);
+    o13 = fma(vec4f(w2.z), t8, o13);
+    o14 = fma(vec4f(w2.y), t8, o14);
+    o15 = fma(vec4f(w2.x), t8, o15);
+    let t9 = textureLoad(map, clamp(first + 9 * AXIS, vec2i(0), last), 0);
+    o0 = fma(vec4f(w6.x), t9, o0);
+    o1 = fma(vec4f(w5.w), t9, o1);
+    o2 = fma(vec4f(w5.z), t9, o2);
+    o3 = fma(vec4f(w5.y), t9, o3);
+    o4 = fma(vec4f(w5.x), t9, o4);
+    o5 = fma(vec4f(w4.w), t9, o5);
+    o6 = fma(vec4f(w4.z), t9, o6);
+    o7 = fma(vec4f(w4.y), t9, o7);
+    o8 = fma(vec4f(w4.x), t9, o8);
+    o9 = fma(vec4f(w3.w), t9, o9);
+    o10 = fma(vec4f(w3.z), t9, o10);
+    o11 = fma(vec4f(w3.y), t9, o11);
+    o12 = fma(vec4f(w3.x), t9, o12);
+    o13 = fma(vec4f(w2.w), t9, o13);
+    o14 = fma(vec4f(w2.z), t9, o14);
+    o15 = fma(vec4f(w2.y), t9, o15);
+    let t10 = textureLoad(map, clamp(first + 10 * AXIS, vec2i(0), last), 0);
+    o0 = fma(vec4f(w6.y), t10, o0);
+    o1 = fma(vec4f(w6.x), t10, o1);
+    o2 = fma(vec4f(w5.w), t10, o2);
+    o3 = fma(vec4f(w5.z), t10, o3);
+    o4 = fma(vec4f(w5.y), t10, o4);
+    o5 = fma(vec4f(w5.x), t10, o5);
+    o6 = fma(vec4f(w4.w), t10, o6);
+    o7 = fma(vec4f(w4.z), t10, o7);
+    o8 = fma(vec4f(w4.y), t10, o8);
+    o9 = fma(vec4f(w4.x), t10, o9);
+    o10 = fma(vec4f(w3.w), t10, o10);
+    o11 = fma(vec4f(w3.z), t10, o11);
+    o12 = fma(vec4f(w3.y), t10, o12);
+    o13 = fma(vec4f(w3.x), t10, o13);
+    o14 = fma(vec4f(w2.w), t10, o14);
+    o15 = fma(vec4f(w2.z), t10, o15);
+    let t11 = textureLoad(map, clamp(first + 11 * AXIS, vec2i(0), last), 0);
+    o0 = fma(vec4f(w6.z), t11, o0);
+    o1 = fma(vec4f(w6.y), t11, o1);
+    o2 = fma(vec4f(w6.x), t11, o2);
+    o3 = fma(vec4f(w5.w), t11, o3);
+    o4 = fma(vec4f(w5.z), t11, o4);
+    o5 = fma(vec4f(w5.y), t11, o5);
+    o6 = fma(vec4f(w5.x), t11, o6);
+    o7 = fma(vec4f(w4.w), t11, o7);
+    o8 = fma(vec4f(w4.z), t11, o8);
+    o9 = fma(vec4f(w4.y), t11, o9);
+    o10 = fma(vec4f(w4.x), t11, o10);
+    o11 = fma(vec4f(w3.w), t11, o11);
+    o12 = fma(vec4f(w3.z), t11, o12);
+    o13 = fma(vec4f(w3.y), t11, o13);
+    o14 = fma(vec4f(w3.x), t11, o14);
+    o15 = fma(vec4f(w2.w), t11, o15);
+    let t12 = textureLoad(map, clamp(first + 12 * AXIS, vec2i(0), last), 0);
+    o0 = fma(vec4f(w6.w), t12, o0);
+    o1 = fma(vec4f(w6.z), t12, o1);
+    o2 = fma(vec4f(w6.y), t12, o2);
+    o3 = fma(vec4f(w6.x), t12, o3);
+    o4 = fma(vec4f(w5.w), t12, o4);
+    o5 = fma(vec4f(w5.z), t12, o5);
+    o6 = fma(vec4f(w5.y), t12, o6);
+    o7 = fma(vec4f(w5.x), t12, o7);
+    o8 = fma(vec4f(w4.w), t12, o8);
+    o9 = fma(vec4f(w4.z), t12, o9);
+    o10 = fma(vec4f(w4.y), t12, o10);
+    o11 = fma(vec4f(w4.x), t12, o11);
+    o12 = fma(vec4f(w3.w), t12, o12);
+    o13 = fma(vec4f(w3.z), t12, o13);
+    o14 = fma(vec4f(w3.y), t12, o14);
+    o15 = fma(vec4f(w3.x), t12, o15);
+    let t13 = textureLoad(map, clamp(first + 13 * AXIS, vec2i(0), last), 0);
+    o0 = fma(vec4f(w7.x), t13, o0);
+    o1 = fma(vec4f(w6.w), t13, o1);
+    o2 = fma(vec4f(w6.z), t13, o2);
+    o3 = fma(vec4f(w6.y), t13, o3);
+    o4 = fma(vec4f(w6.x), t13, o4);
+    o5 = fma(vec4f(w5.w), t13, o5);
+    o6 = fma(vec4f(w5.z), t13, o6);
+    o7 = fma(vec4f(w5.y), t13, o7);
+    o8 = fma(vec4f(w5.x), t13, o8);
+    o9 = fma(vec4f(w4.w), t13, o9);
+    o10 = fma(vec4f(w4.z), t13, o10);
+    o11 = fma(vec4f(w4.y), t13, o11);
+    o12 = fma(vec4f(w4.x), t13, o12);
+    o13 = fma(vec4f(w3.w), t13, o13);
+    o14 = fma(vec4f(w3.z), t13, o14);
+    o15 = fma(vec4f(w3.y), t13, o15);
+    let t14 = textureLoad(map, clamp(first + 14 * AXIS, vec2i(0), last), 0);
+    o0 = fma(vec4f(w7.y), t14, o0);
+    o1 = fma(vec4f(w7.x), t14, o1);
+    o2 = fma(vec4f(w6.w), t14, o2);
+    o3 = fma(vec4f(w6.z), t14, o3);
+    o4 = fma(vec4f(w6.y), t14, o4);
+    o5 = fma(vec4f(w6.x), t14, o5);
+    o6 = fma(vec4f(w5.w), t14, o6);
+    o7 = fma(vec4f(w5.z), t14, o7);
+    o8 = fma(vec4f(w5.y), t14, o8);
+    o9 = fma(vec4f(w5.x), t14, o9);
+    o10 = fma(vec4f(w4.w), t14, o10);
+    o11 = fma(vec4f(w4.z), t14, o11);
+    o12 = fma(vec4f(w4.y), t14, o12);
+    o13 = fma(vec4f(w4.x), t14, o13);
+    o14 = fma(vec4f(w3.w), t14, o14);
+    o15 = fma(vec4f(w3.z), t14, o15);
+    let t15 = textureLoad(map, clamp(first + 15 * AXIS, vec2i(0), last), 0);
+    o0 = fma(vec4f(w7.z), t15, o0);
+    o1 = fma(vec4f(w7.y), t15, o1);
+    o2 = fma(vec4f(w7.x), t15, o2);
+    o3 = fma(vec4f(w6.w), t15, o3);
+    o4 = fma(vec4f(w6.z), t15, o4);
+    o5 = fma(vec4f(w6.y), t15, o5);
+    o6 = fma(vec4f(w6.x), t15, o6);
+    o7 = fma(vec4f(w5.w), t15, o7);
+    o8 = fma(vec4f(w5.z), t15, o8);
+    o9 = fma(vec4f(w5.y), t15, o9);
+    o10 = fma(vec4f(w5.x), t15, o10);
+    o11 = fma(vec4f(w4.w), t15, o11);
+    o12 = fma(vec4f(w4.z), t15, o12);
+    o13 = fma(vec4f(w4.y), t15, o13);
+    o14 = fma(vec4f(w4.x), t15, o14);
+    o15 = fma(vec4f(w3.w), t15, o15);
+    return BlurSums(o0, o1, o2, o3, o4, o5, o6, o7, o8, o9, o10, o11, o12, o13, o14, o15);
+}
+
+// blur_moments_uniform.wgsl
+
+// One direction of a separable filter over one layer, with weights that a host can change per frame.
+// An invocation makes OUTPUTS texels in a row along AXIS; it runs through the texels in blocks of 16 and through the
+// weights in step, keeping the half that the next block needs again.
+
+struct BlurParameters {
+    // Texels on either side of the centre.
+    radius: u32,
+    // Blocks of 16 taps: 2 radius + OUTPUTS taps, rounded up.
+    blocks: u32,
+    padding: vec2u,
+    // The weights, preceded by 15 zeros and followed by zeros.
+    weights: array<vec4f, 40>,
+}
+
+@group(GROUP) @binding(0) var moments_map: texture_2d<f32>;
+@group(GROUP) @binding(1) var blurred_map: MomentsStorage;
+@group(GROUP) @binding(2) var<uniform> parameters: BlurParameters;
+
+fn blur_store(texel: vec2i, last: vec2i, value: vec4f) {
+    if all(texel <= last) {
+        textureStore(blurred_map, texel, moments_round_texel(value, STORAGE));
+    }
+}
+
+@compute @workgroup_size(8, 8)
+fn blur(@builtin(global_invocation_id) id: vec3u) {
+    let last = vec2i(textureDimensions(blurred_map)) - 1;
+    let first = vec2i(id.xy) * (1 + (OUTPUTS - 1) * AXIS);
+    if any(first > last) {
+        return;
+    }
+    var sums: BlurSums;
+    var w0 = parameters.weights[0];
+    var w1 = parameters.weights[1];
+    var w2 = parameters.weights[2];
+    var w3 = parameters.weights[3];
+    // 40 vectors of weights hold 9 blocks.
+    let blocks = min(parameters.blocks, 9u);
+    for (var block = 0u; block < blocks; block++) {
+        let w4 = parameters.weights[4u * block + 4u];
+        let w5 = parameters.weights[4u * block + 5u];
+        let w6 = parameters.weights[4u * block + 6u];
+        let w7 = parameters.weights[4u * block + 7u];
+        let tap = i32(16u * block) - i32(parameters.radius);
+        sums = blur_taps(moments_map, first + tap * AXIS, last, sums, w0, w1, w2, w3, w4, w5, w6, w7);
+        w0 = w4;
+        w1 = w5;
+        w2 = w6;
+        w3 = w7;
+    }
+    blur_store(first, last, sums.o0);
+    blur_store(first + AXIS, last, sums.o1);
+    blur_store(first + 2 * AXIS, last, sums.o2);
+    blur_store(first + 3 * AXIS, last, sums.o3);
+    blur_store(first + 4 * AXIS, last, sums.o4);
+    blur_store(first + 5 * AXIS, last, sums.o5);
+    blur_store(first + 6 * AXIS, last, sums.o6);
+    blur_store(first + 7 * AXIS, last, sums.o7);
+    blur_store(first + 8 * AXIS, last, sums.o8);
+    blur_store(first + 9 * AXIS, last, sums.o9);
+    blur_store(first + 10 * AXIS, last, sums.o10);
+    blur_store(first + 11 * AXIS, last, sums.o11);
+    blur_store(first + 12 * AXIS, last, sums.o12);
+    blur_store(first + 13 * AXIS, last, sums.o13);
+    blur_store(first + 14 * AXIS, last, sums.o14);
+    blur_store(first + 15 * AXIS, last, sums.o15);
+}

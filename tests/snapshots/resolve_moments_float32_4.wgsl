@@ -1,0 +1,196 @@
+// moment_shadows/depth.wgsl
+// Moment depth: the one interval that all moment arithmetic uses.
+//
+// Moment depth z is in [-1, 1], -1 at the light's near end and 1 at its far end, linear in distance along the light's
+// axis. Signed depth needs a far smaller moment bias than depth in [0, 1] (Peters et al., JCGT 6(1) 2017, section 3).
+// Every way in which a host stores depth (forward or reversed, orthographic or perspective, finite or infinite far
+// plane, linear distance) is a ratio of two functions that are linear in the stored value, so one conversion serves all.
+
+// How stored depth becomes moment depth. Filled by the host-side `DepthConversion`.
+//
+// With d = clamp(scale * stored + offset, 0, 1) the moment depth is
+//   ((1 - d) * numerator.x + d * numerator.y) / ((1 - d) * denominator.x + d * denominator.y).
+// Weighting the ends by 1 - d and d keeps both sums free of cancellation: a light with a near/far ratio of 1e5 in
+// reversed float depth keeps its precision. The denominators are not negative, and not both zero.
+struct DepthConversion {
+    numerator: vec2f,
+    denominator: vec2f,
+    scale: f32,
+    offset: f32,
+    // Keeps the size a multiple of 16, as uniform buffers ask for arrays of it.
+    padding: vec2f,
+}
+
+// The smallest denominator: the far end of an infinite projection divides by zero.
+const DEPTH_SMALLEST_DENOMINATOR: f32 = 1e-30;
+
+// Whether `value` is NaN, by its bits: WGSL lets a compiler assume that no NaN occurs, so `value != value` may be folded.
+fn depth_is_nan(value: f32) -> bool {
+    return (bitcast<u32>(value) & 0x7fffffffu) > 0x7f800000u;
+}
+
+// Moment depth in [-1, 1] of a stored depth. NaN counts as the far end (no caster), infinities and values out of
+// range as the nearer end of the interval.
+fn depth_to_moment_depth(stored: f32, conversion: DepthConversion) -> f32 {
+    let d = clamp(fma(clamp(stored, -3e38, 3e38), conversion.scale, conversion.offset), 0.0, 1.0);
+    let ends = vec2f(1.0 - d, d);
+    let ratio = dot(ends, conversion.numerator) / max(dot(ends, conversion.denominator), DEPTH_SMALLEST_DENOMINATOR);
+    return select(clamp(ratio, -1.0, 1.0), 1.0, depth_is_nan(stored));
+}
+
+// moment_shadows/moments.wgsl
+// Four moments of depth: encoding, storage, bias.
+//
+// A texel holds b = (E[z], E[z^2], E[z^3], E[z^4]) of the moment depths z in [-1, 1] that it covers (Peters & Klein,
+// "Moment Shadow Mapping", i3D 2015, section 2). Linear filters keep moments valid as long as their weights are not
+// negative and sum to one. Storage with few bits holds an affine image of the moments that spreads them over the range
+// of every channel (Peters, GDC 2016; JCGT 6(1) 2017, section 3); affine maps commute with filtering.
+
+// A moment bias: b is moved by alpha towards (0, beta, 0, beta), which pulls moments that rounding has made
+// impossible back among the possible ones. (0, beta, 0, beta) are the moments of occluders at the near end, the middle
+// and the far end with the weights beta/2, 1 - beta and beta/2.
+struct MomentBias {
+    alpha: f32,
+    beta: f32,
+}
+
+// The bias belongs to a storage's rounding error, not to a scene. Each value covers a resolve and a two-pass blur,
+// every stage rounded to the storage; beta is optimal for the basis (JCGT 6(1) 2017, section 3).
+const MOMENTS_BIAS_UNORM16: MomentBias = MomentBias(6e-5, 0.628);
+const MOMENTS_BIAS_FLOAT16: MomentBias = MomentBias(1e-3, 0.628);
+const MOMENTS_BIAS_FLOAT32: MomentBias = MomentBias(1.5e-6, 0.375);
+
+// Storages, as a shader's specialisation names them.
+const MOMENTS_STORAGE_UNORM16: u32 = 0u;
+const MOMENTS_STORAGE_FLOAT16: u32 = 1u;
+const MOMENTS_STORAGE_FLOAT32: u32 = 2u;
+
+// sqrt(3), which the optimised basis and its inverse are made of.
+const MOMENTS_SQRT_3: f32 = 1.7320508075688772;
+
+// The moments of a single depth z in [-1, 1]: its powers (i3D 2015, equation 2).
+fn moments_from_depth(z: f32) -> vec4f {
+    let square = z * z;
+    return vec4f(z, square, z * square, square * square);
+}
+
+// The optimised basis of JCGT 6(1) 2017 (equation 5, GDC 2016): maps the moments of depths in [-1, 1] into [0, 1]^4.
+fn moments_quantize(b: vec4f) -> vec4f {
+    return vec4f(
+        fma(1.5, b.x, fma(-2.0, b.z, 0.5)),
+        4.0 * (b.y - b.w),
+        fma(0.5 * MOMENTS_SQRT_3, b.x, fma(-2.0 / 9.0 * MOMENTS_SQRT_3, b.z, 0.5)),
+        0.5 * (b.y + b.w),
+    );
+}
+
+// Inverse of `moments_quantize`. Channels in [0, 1] give |b| <= 2.1, whatever they hold.
+fn moments_dequantize(channels: vec4f) -> vec4f {
+    let odd = channels.xz - 0.5;
+    return vec4f(
+        fma(-1.0 / 3.0, odd.x, MOMENTS_SQRT_3 * odd.y),
+        fma(0.125, channels.y, channels.w),
+        0.75 * fma(MOMENTS_SQRT_3, odd.y, -odd.x),
+        fma(-0.125, channels.y, channels.w),
+    );
+}
+
+// The nearest float16 of each component, ties to even, for |value| < 65504. A driver may truncate when it stores to a
+// float16 texture, which would double the rounding error that the bias has to cover.
+fn moments_round_to_float16(value: vec4f) -> vec4f {
+    let bits = bitcast<vec4u>(value);
+    // 13 of 23 mantissa bits go; adding just under half a unit, plus the last kept bit, rounds ties to even.
+    let rounded = bitcast<vec4f>((bits + 0xfffu + ((bits >> vec4u(13u)) & vec4u(1u))) & vec4u(0xffffe000u));
+    // Below 2^-14 float16 is a fixed-point format with a step of 2^-24.
+    let small = round(value * 0x1p24) * 0x1p-24;
+    return select(rounded, small, abs(value) < vec4f(0x1p-14));
+}
+
+// Moments that certainly lie in their ranges: odd ones in [-1, 1], even ones in [0, 1]. Float storage can hold
+// anything, and finite values beyond 1e15 would overflow further on.
+fn moments_clamp(b: vec4f) -> vec4f {
+    return clamp(b, vec4f(-1.0, 0.0, -1.0, 0.0), vec4f(1.0));
+}
+
+// What to write to a texel of the storage.
+fn moments_to_texel(b: vec4f, storage: u32) -> vec4f {
+    if storage == MOMENTS_STORAGE_FLOAT32 {
+        return b;
+    }
+    let channels = saturate(moments_quantize(b));
+    if storage == MOMENTS_STORAGE_FLOAT16 {
+        // Half precision is finest around zero, so the channels are centred there.
+        return moments_round_to_float16(channels - 0.5);
+    }
+    return channels;
+}
+
+// A filtered combination of texels, as it has to be written back to the same storage.
+fn moments_round_texel(texel: vec4f, storage: u32) -> vec4f {
+    if storage == MOMENTS_STORAGE_FLOAT16 {
+        return moments_round_to_float16(texel);
+    }
+    return texel;
+}
+
+// The moments in a (filtered) texel of the storage. Float storage can hold anything; `moments_clamp` comes before any
+// arithmetic that relies on ranges.
+fn moments_from_texel(texel: vec4f, storage: u32) -> vec4f {
+    if storage == MOMENTS_STORAGE_FLOAT32 {
+        return texel;
+    }
+    if storage == MOMENTS_STORAGE_FLOAT16 {
+        return moments_dequantize(texel + 0.5);
+    }
+    return moments_dequantize(texel);
+}
+
+// The moment bias of a storage.
+fn moments_bias_of(storage: u32) -> MomentBias {
+    if storage == MOMENTS_STORAGE_FLOAT32 {
+        return MOMENTS_BIAS_FLOAT32;
+    }
+    if storage == MOMENTS_STORAGE_FLOAT16 {
+        return MOMENTS_BIAS_FLOAT16;
+    }
+    return MOMENTS_BIAS_UNORM16;
+}
+
+// Applies the moment bias (i3D 2015, section 3.3). Written as a step towards the target: 1 - alpha would keep only a
+// few bits of alpha.
+fn moments_apply_bias(b: vec4f, bias: MomentBias) -> vec4f {
+    return fma(vec4f(bias.alpha), vec4f(0.0, bias.beta, 0.0, bias.beta) - b, b);
+}
+
+// specialization
+const GROUP = 0;
+alias DepthTexture = texture_depth_multisampled_2d;
+alias MomentsStorage = texture_storage_2d<rgba32float, write>;
+const STORAGE = 2u;
+const SAMPLES = 4;
+
+// resolve_moments.wgsl
+
+// Resolves one layer of a depth map to moments: one texel per invocation.
+//
+// The moments of the samples are averaged. Averaging depths instead would put an occluder between foreground and
+// background, where there is none (Peters & Klein, i3D 2015, section 4).
+
+@group(GROUP) @binding(0) var<uniform> conversion: DepthConversion;
+@group(GROUP) @binding(1) var depth_map: DepthTexture;
+@group(GROUP) @binding(2) var moments_map: MomentsStorage;
+
+@compute @workgroup_size(8, 8)
+fn resolve(@builtin(global_invocation_id) id: vec3u) {
+    if any(id.xy >= textureDimensions(moments_map)) {
+        return;
+    }
+    let texel = vec2i(id.xy);
+    var sum = vec4f(0.0);
+    // For a single sample the last argument of the load is its mip level, 0.
+    for (var sample = 0; sample < SAMPLES; sample++) {
+        let stored = textureLoad(depth_map, texel, sample);
+        sum += moments_from_depth(depth_to_moment_depth(stored, conversion));
+    }
+    textureStore(moments_map, texel, moments_to_texel(sum / f32(SAMPLES), STORAGE));
+}

@@ -1,0 +1,443 @@
+// moment_shadows/hankel.wgsl
+// The shared factorisation: LDL^T of the Hankel matrix of four moments.
+//
+//       | 1  b1 b2 |
+//   B = | b1 b2 b3 |     B is positive semi-definite exactly if some distribution on the real line has these moments
+//       | b2 b3 b4 |     (Hamburger moment problem; Peters & Klein, i3D 2015, section 2.2 and Algorithm 3).
+//
+// Its pivots define the monic orthogonal polynomials of the distribution, with x = z - b1:
+//   P0 = 1,  P1(x) = x,  P2(x) = x (x - shift) - variance,
+// with squared norms 1, variance and residue. The roots of P2 are the two Gauss nodes.
+
+// The pivots of B and what the orthogonal polynomials need.
+struct HankelFactor {
+    // b2 - b1^2, the variance of z; positive.
+    variance: f32,
+    // The Schur complement of b4, the variance of z^2 that z does not explain; positive.
+    residue: f32,
+    // L32 - 2 b1, with L32 the slope of the regression of z^2 on z.
+    shift: f32,
+}
+
+// Pivots of valid moments stay above these multiples of the moment bias alpha, so the guards bind only where rounding
+// has left the pivots without a correct digit (or the moments are none).
+const HANKEL_SMALLEST_VARIANCE: f32 = 0.03;
+const HANKEL_SMALLEST_RESIDUE: f32 = 0.02;
+
+// |L32| <= 2 for every distribution on [-1, 1], since z^2 changes by at most 2 per unit of z. Twice that never touches
+// valid moments and keeps invalid ones from overflowing.
+const HANKEL_LARGEST_SLOPE: f32 = 4.0;
+
+// Factorises the Hankel matrix of moments biased by `alpha` > 0. Moments must lie within [-2, 2].
+// The differences of products lose almost all digits near a single surface; `fma` keeps them where it is fused.
+fn hankel_factor(biased: vec4f, alpha: f32) -> HankelFactor {
+    let variance = max(fma(-biased.x, biased.x, biased.y), HANKEL_SMALLEST_VARIANCE * alpha);
+    let covariance = fma(-biased.x, biased.y, biased.z);
+    let slope = clamp(covariance / variance, -HANKEL_LARGEST_SLOPE, HANKEL_LARGEST_SLOPE);
+    let residue = fma(-covariance, slope, fma(-biased.y, biased.y, biased.w));
+    return HankelFactor(
+        variance,
+        max(residue, HANKEL_SMALLEST_RESIDUE * alpha),
+        fma(-2.0, biased.x, slope),
+    );
+}
+
+// P2 at x = z - b1. Negative exactly between the Gauss nodes.
+fn hankel_second_polynomial(factor: HankelFactor, x: f32) -> f32 {
+    return fma(x, x - factor.shift, -factor.variance);
+}
+
+// The Christoffel number of x = z - b1: the largest weight that a distribution with these moments can have at z, which is
+// the weight that the extremal distribution through z has there. A sum of positive terms: nothing cancels.
+fn hankel_christoffel_number(factor: HankelFactor, x: f32, second_polynomial: f32) -> f32 {
+    // One division for 1 / (1 + x^2 / variance + P2^2 / residue).
+    let x_term = x * x * factor.residue;
+    let polynomial_term = second_polynomial * second_polynomial * factor.variance;
+    let norm = factor.variance * factor.residue;
+    return norm / (norm + x_term + polynomial_term);
+}
+
+// moment_shadows/moments.wgsl
+// Four moments of depth: encoding, storage, bias.
+//
+// A texel holds b = (E[z], E[z^2], E[z^3], E[z^4]) of the moment depths z in [-1, 1] that it covers (Peters & Klein,
+// "Moment Shadow Mapping", i3D 2015, section 2). Linear filters keep moments valid as long as their weights are not
+// negative and sum to one. Storage with few bits holds an affine image of the moments that spreads them over the range
+// of every channel (Peters, GDC 2016; JCGT 6(1) 2017, section 3); affine maps commute with filtering.
+
+// A moment bias: b is moved by alpha towards (0, beta, 0, beta), which pulls moments that rounding has made
+// impossible back among the possible ones. (0, beta, 0, beta) are the moments of occluders at the near end, the middle
+// and the far end with the weights beta/2, 1 - beta and beta/2.
+struct MomentBias {
+    alpha: f32,
+    beta: f32,
+}
+
+// The bias belongs to a storage's rounding error, not to a scene. Each value covers a resolve and a two-pass blur,
+// every stage rounded to the storage; beta is optimal for the basis (JCGT 6(1) 2017, section 3).
+const MOMENTS_BIAS_UNORM16: MomentBias = MomentBias(6e-5, 0.628);
+const MOMENTS_BIAS_FLOAT16: MomentBias = MomentBias(1e-3, 0.628);
+const MOMENTS_BIAS_FLOAT32: MomentBias = MomentBias(1.5e-6, 0.375);
+
+// Storages, as a shader's specialisation names them.
+const MOMENTS_STORAGE_UNORM16: u32 = 0u;
+const MOMENTS_STORAGE_FLOAT16: u32 = 1u;
+const MOMENTS_STORAGE_FLOAT32: u32 = 2u;
+
+// sqrt(3), which the optimised basis and its inverse are made of.
+const MOMENTS_SQRT_3: f32 = 1.7320508075688772;
+
+// The moments of a single depth z in [-1, 1]: its powers (i3D 2015, equation 2).
+fn moments_from_depth(z: f32) -> vec4f {
+    let square = z * z;
+    return vec4f(z, square, z * square, square * square);
+}
+
+// The optimised basis of JCGT 6(1) 2017 (equation 5, GDC 2016): maps the moments of depths in [-1, 1] into [0, 1]^4.
+fn moments_quantize(b: vec4f) -> vec4f {
+    return vec4f(
+        fma(1.5, b.x, fma(-2.0, b.z, 0.5)),
+        4.0 * (b.y - b.w),
+        fma(0.5 * MOMENTS_SQRT_3, b.x, fma(-2.0 / 9.0 * MOMENTS_SQRT_3, b.z, 0.5)),
+        0.5 * (b.y + b.w),
+    );
+}
+
+// Inverse of `moments_quantize`. Channels in [0, 1] give |b| <= 2.1, whatever they hold.
+fn moments_dequantize(channels: vec4f) -> vec4f {
+    let odd = channels.xz - 0.5;
+    return vec4f(
+        fma(-1.0 / 3.0, odd.x, MOMENTS_SQRT_3 * odd.y),
+        fma(0.125, channels.y, channels.w),
+        0.75 * fma(MOMENTS_SQRT_3, odd.y, -odd.x),
+        fma(-0.125, channels.y, channels.w),
+    );
+}
+
+// The nearest float16 of each component, ties to even, for |value| < 65504. A driver may truncate when it stores to a
+// float16 texture, which would double the rounding error that the bias has to cover.
+fn moments_round_to_float16(value: vec4f) -> vec4f {
+    let bits = bitcast<vec4u>(value);
+    // 13 of 23 mantissa bits go; adding just under half a unit, plus the last kept bit, rounds ties to even.
+    let rounded = bitcast<vec4f>((bits + 0xfffu + ((bits >> vec4u(13u)) & vec4u(1u))) & vec4u(0xffffe000u));
+    // Below 2^-14 float16 is a fixed-point format with a step of 2^-24.
+    let small = round(value * 0x1p24) * 0x1p-24;
+    return select(rounded, small, abs(value) < vec4f(0x1p-14));
+}
+
+// Moments that certainly lie in their ranges: odd ones in [-1, 1], even ones in [0, 1]. Float storage can hold
+// anything, and finite values beyond 1e15 would overflow further on.
+fn moments_clamp(b: vec4f) -> vec4f {
+    return clamp(b, vec4f(-1.0, 0.0, -1.0, 0.0), vec4f(1.0));
+}
+
+// What to write to a texel of the storage.
+fn moments_to_texel(b: vec4f, storage: u32) -> vec4f {
+    if storage == MOMENTS_STORAGE_FLOAT32 {
+        return b;
+    }
+    let channels = saturate(moments_quantize(b));
+    if storage == MOMENTS_STORAGE_FLOAT16 {
+        // Half precision is finest around zero, so the channels are centred there.
+        return moments_round_to_float16(channels - 0.5);
+    }
+    return channels;
+}
+
+// A filtered combination of texels, as it has to be written back to the same storage.
+fn moments_round_texel(texel: vec4f, storage: u32) -> vec4f {
+    if storage == MOMENTS_STORAGE_FLOAT16 {
+        return moments_round_to_float16(texel);
+    }
+    return texel;
+}
+
+// The moments in a (filtered) texel of the storage. Float storage can hold anything; `moments_clamp` comes before any
+// arithmetic that relies on ranges.
+fn moments_from_texel(texel: vec4f, storage: u32) -> vec4f {
+    if storage == MOMENTS_STORAGE_FLOAT32 {
+        return texel;
+    }
+    if storage == MOMENTS_STORAGE_FLOAT16 {
+        return moments_dequantize(texel + 0.5);
+    }
+    return moments_dequantize(texel);
+}
+
+// The moment bias of a storage.
+fn moments_bias_of(storage: u32) -> MomentBias {
+    if storage == MOMENTS_STORAGE_FLOAT32 {
+        return MOMENTS_BIAS_FLOAT32;
+    }
+    if storage == MOMENTS_STORAGE_FLOAT16 {
+        return MOMENTS_BIAS_FLOAT16;
+    }
+    return MOMENTS_BIAS_UNORM16;
+}
+
+// Applies the moment bias (i3D 2015, section 3.3). Written as a step towards the target: 1 - alpha would keep only a
+// few bits of alpha.
+fn moments_apply_bias(b: vec4f, bias: MomentBias) -> vec4f {
+    return fma(vec4f(bias.alpha), vec4f(0.0, bias.beta, 0.0, bias.beta) - b, b);
+}
+
+// moment_shadows/hamburger.wgsl
+
+// Hamburger four-moment shadow mapping: the sharpest bounds on shadow intensity that four moments allow.
+//
+// Among all distributions on the real line with the given moments, the share of depth in front of the fragment is
+// smallest and largest for the canonical distribution that has the fragment depth and two more points as its support
+// (Peters & Klein, i3D 2015, Proposition 3 and Algorithm 3). The published evaluation divides by a coefficient that
+// vanishes when the fragment is at a Gauss node and takes the root of a difference that rounds below zero. This one
+// gives the same values without either:
+//   - the weight of a support point is its Christoffel number, a sum of positive terms;
+//   - support points interlace with the Gauss nodes, so the sign of P2 tells on which side of the fragment they lie;
+//   - where both sides have one, the discriminant of their quadratic is a sum of positive terms.
+
+// Support points farther than this from the mean have a weight below 1e-8, and squaring them must not overflow.
+const HAMBURGER_FARTHEST_SUPPORT: f32 = 1e4;
+
+// The leading coefficient stays below this, so that dividing by it is defined when the fragment is at a Gauss node.
+const HAMBURGER_LARGEST_LEADING_COEFFICIENT: f32 = -1e-20;
+
+// The two support points besides the fragment, relative to the mean, in order, for a fragment at x = z - b1 between the
+// Gauss nodes: x_1 < x < x_2. Elsewhere the result is finite and without meaning.
+fn hamburger_support(factor: HankelFactor, x: f32, second_polynomial: f32) -> vec2f {
+    // a y^2 + b y + c = 0 with a < 0 < c, so both roots are real and 0 lies between them.
+    let a = min(second_polynomial, HAMBURGER_LARGEST_LEADING_COEFFICIENT);
+    let b = fma(factor.residue / factor.variance, x, -factor.shift * a);
+    let c = fma(-factor.variance, a, factor.residue);
+    // sign(0) is 0 and would lose both roots.
+    let q = -0.5 * (b + select(-1.0, 1.0, b >= 0.0) * sqrt(max(fma(b, b, -4.0 * a * c), 0.0)));
+    let roots = clamp(
+        vec2f(q / a, c / q),
+        vec2f(-HAMBURGER_FARTHEST_SUPPORT),
+        vec2f(HAMBURGER_FARTHEST_SUPPORT),
+    );
+    return vec2f(min(roots.x, roots.y), max(roots.x, roots.y));
+}
+
+// The sharp bounds of shadow intensity: x = inf S(z < fragment_depth), y = sup S(z <= fragment_depth) over all
+// distributions S with the moments `biased`, which are already biased by `alpha` > 0 and lie within [-2, 2].
+// Both are in [0, 1] for all such moments, valid or not, and every finite fragment depth; farther out than 1e4 the
+// fragment depth counts as 1e4. Error: |error| <= 8 * 2^-24 * (1 + sensitivity) where fma is fused.
+fn hamburger_bounds(biased: vec4f, fragment_depth: f32, alpha: f32) -> vec2f {
+    let factor = hankel_factor(biased, alpha);
+    let x = clamp(fragment_depth, -HAMBURGER_FARTHEST_SUPPORT, HAMBURGER_FARTHEST_SUPPORT) - biased.x;
+    let polynomial = hankel_second_polynomial(factor, x);
+    if polynomial >= 0.0 {
+        // Outside the Gauss nodes no support point lies beyond the fragment: no root is needed.
+        let weight = hankel_christoffel_number(factor, x, polynomial);
+        return select(vec2f(0.0, weight), vec2f(1.0 - weight, 1.0), x > 0.0);
+    }
+    let support = hamburger_support(factor, x, polynomial);
+    let below = hankel_christoffel_number(factor, support.x, hankel_second_polynomial(factor, support.x));
+    let above = hankel_christoffel_number(factor, support.y, hankel_second_polynomial(factor, support.y));
+    return saturate(vec2f(below, 1.0 - above));
+}
+
+// Shadow intensity in [0, 1] (1 = shadowed) of a fragment at `fragment_depth` (moment depth) under the filtered moments
+// of its map: the lower bound, never darker than the truth but for the bias. Moments may be anything finite; fragment
+// depths beyond the light's range count as its ends.
+fn hamburger_shadow_intensity(moments: vec4f, fragment_depth: f32, bias: MomentBias) -> f32 {
+    let biased = moments_apply_bias(moments_clamp(moments), bias);
+    let factor = hankel_factor(biased, bias.alpha);
+    let x = clamp(fragment_depth, -1.0, 1.0) - biased.x;
+    let polynomial = hankel_second_polynomial(factor, x);
+    let outside = polynomial >= 0.0;
+    // One Christoffel number serves both cases: at the fragment itself, or at the support point in front of it.
+    let support = hamburger_support(factor, x, polynomial).x;
+    let t = select(support, x, outside);
+    let weight = hankel_christoffel_number(factor, t, hankel_second_polynomial(factor, t));
+    return saturate(select(weight, select(0.0, 1.0 - weight, x > 0.0), outside));
+}
+
+// moment_shadows/leak_reduction.wgsl
+// Light leaking, reduced after the bound: none of this touches the moments.
+//
+// Multiplying the moments by a constant before solving ("moment scale" in some samples) is not offered: it makes the
+// total weight differ from one, so that the result bounds nothing.
+
+// Filled by the host-side `LeakReduction`.
+struct LeakReduction {
+    // Shadow intensity that counts as full shadow, in (0, 1]; 0.98 hides weak leaks (Peters, GDC 2016).
+    full_shadow: f32,
+    // Visibility that counts as none, in [0, 1) (light bleeding reduction; Lauritzen, thesis 2008, section 3.4).
+    bleed_reduction: f32,
+    // Exponent of visibility, > 0; above 1 darkens penumbrae.
+    visibility_exponent: f32,
+    padding: f32,
+}
+
+// Shadow intensity after division by `full_shadow`.
+fn leak_reduction_full_shadow(shadow_intensity: f32, full_shadow: f32) -> f32 {
+    return min(shadow_intensity / max(full_shadow, 1e-6), 1.0);
+}
+
+// Shadow intensity in [0, 1] after all three reductions. Each only darkens; full light stays full light.
+fn leak_reduction_apply(shadow_intensity: f32, reduction: LeakReduction) -> f32 {
+    let visibility = 1.0 - leak_reduction_full_shadow(clamp(shadow_intensity, 0.0, 1.0), reduction.full_shadow);
+    let bleed = clamp(reduction.bleed_reduction, 0.0, 0.999);
+    let remaining = saturate((visibility - bleed) / (1.0 - bleed));
+    // pow(0, e) goes through the logarithm of 0, and e = 1 is to change nothing at all.
+    let curved = pow(max(remaining, 1e-30), max(reduction.visibility_exponent, 1e-6));
+    let plain = remaining <= 0.0 || reduction.visibility_exponent == 1.0;
+    return 1.0 - select(curved, remaining, plain);
+}
+
+// specialization
+const GROUP = 0;
+const STORAGE = 0u;
+
+// map_lookup
+
+// The lookup in a map that the device can filter.
+
+@group(GROUP) @binding(2) var moments_map: texture_2d_array<f32>;
+@group(GROUP) @binding(3) var moments_sampler: sampler;
+
+fn map_size() -> vec2f {
+    return vec2f(textureDimensions(moments_map));
+}
+
+// The bilinearly filtered texel of a layer at `uv` in [0, 1].
+fn map_lookup(uv: vec2f, layer: u32) -> vec4f {
+    return textureSampleLevel(moments_map, moments_sampler, uv, layer, 0.0);
+}
+
+// moment_shadows/receiver_bias.wgsl
+// Receiver bias: how far the fragment depth moves towards the light so that a surface does not shadow itself.
+//
+// Not to be confused with the moment bias, which belongs to storage. A plane tilted against the light fills the filter
+// kernel with depths whose standard deviation is
+//   (the kernel's standard deviation in texels) x (change of depth per texel).
+// The lower bound of four moments is exactly 0 for fragments in front of the lower Gauss node, which for a symmetric
+// distribution lies one standard deviation in front of the mean. So a slope-scaled bias of somewhat more than one
+// standard deviation removes self-shadowing on planes, and nothing about it has to be tuned to a scene.
+
+// Filled by the host-side `ReceiverBias`.
+struct ReceiverBias {
+    // Moment depth that is always subtracted.
+    constant: f32,
+    // Multiplies the length of the gradient of moment depth per texel: the kernel's standard deviation in texels, times
+    // a safety factor slightly above 1.
+    slope_scale: f32,
+    // The largest bias in moment depth; reached where the surface is seen edge-on by the light.
+    maximum: f32,
+    // Scene units by which a receiver moves along its normal at grazing light; 0 where only depth is biased.
+    normal_offset: f32,
+}
+
+// Length of the gradient of moment depth per texel on the receiver's plane, from the differences of two neighbouring
+// points on it in light space: xy in texels of the map, z in moment depth. Where the differences are parallel (the plane
+// is edge-on to the light, or a neighbour is missing) the result is huge, and `receiver_bias_depth` limits it.
+fn receiver_bias_gradient(difference_x: vec3f, difference_y: vec3f) -> f32 {
+    let determinant = difference_x.x * difference_y.y - difference_x.y * difference_y.x;
+    // Cramer's rule for the gradient g in dot(g, difference.xy) = difference.z.
+    let scaled = vec2f(
+        difference_x.z * difference_y.y - difference_y.z * difference_x.y,
+        difference_y.z * difference_x.x - difference_x.z * difference_y.x,
+    );
+    return length(scaled) / max(abs(determinant), 1e-20);
+}
+
+// The same from the cosine between surface normal and direction to the light: `depth_per_texel` is the moment depth
+// of one texel's width, along the light's axis.
+fn receiver_bias_gradient_from_cosine(cosine: f32, depth_per_texel: f32) -> f32 {
+    let c = clamp(cosine, 0.0, 1.0);
+    let sine = sqrt(max(1.0 - c * c, 0.0));
+    return depth_per_texel * sine / max(c, 1e-6);
+}
+
+// The receiver bias in moment depth, to be subtracted from the fragment depth.
+fn receiver_bias_depth(bias: ReceiverBias, gradient: f32) -> f32 {
+    return clamp(fma(bias.slope_scale, gradient, bias.constant), 0.0, bias.maximum);
+}
+
+// The position, in scene units, at which to look the map up when the receiver moves along its normal: the offset
+// grows with the sine of the angle between normal and light (`cosine` > 0 faces the light).
+fn receiver_bias_offset_position(bias: ReceiverBias, position: vec3f, normal: vec3f, cosine: f32) -> vec3f {
+    let c = clamp(cosine, -1.0, 1.0);
+    return fma(vec3f(bias.normal_offset * sqrt(max(1.0 - c * c, 0.0))), normal, position);
+}
+
+// shade_hard.wgsl
+
+// Shadow intensity of every pixel, from the camera's depth and a map of moments: one light, one layer.
+
+struct ShadeHardParameters {
+    // From the camera's clip space (x, y, stored depth, 1) to the light: x and y are the place in the map in [0, 1], z its
+    // homogeneous coordinate (positive in front of the light) and w the moment depth, all times the factors they are
+    // divided by. Camera and light are combined in one matrix so that no large scene coordinates occur.
+    light_from_camera: mat4x4f,
+    // The homogeneous coordinate of the scene position, which divides the moment depth.
+    scene_w_from_camera: vec4f,
+    receiver_bias: ReceiverBias,
+    leak_reduction: LeakReduction,
+    // The stored depth of pixels that show no surface.
+    far_depth: f32,
+    // The map's layer.
+    layer: u32,
+    padding: vec2f,
+}
+
+@group(GROUP) @binding(0) var<uniform> parameters: ShadeHardParameters;
+@group(GROUP) @binding(1) var camera_depth: texture_depth_2d;
+
+@vertex
+fn fullscreen(@builtin(vertex_index) index: u32) -> @builtin(position) vec4f {
+    // One triangle that covers the target: (-1, -1), (3, -1), (-1, 3).
+    let corner = vec2f(f32(index & 1u), f32(index >> 1u));
+    return vec4f(4.0 * corner - 1.0, 0.0, 1.0);
+}
+
+// A pixel's surface as the light sees it: x and y in texels of the map, z in moment depth, w positive in front of the
+// light.
+fn light_space(pixel: vec2i, stored_depth: f32) -> vec4f {
+    let uv = (vec2f(pixel) + 0.5) / vec2f(textureDimensions(camera_depth));
+    let clip = vec4f(2.0 * uv.x - 1.0, 1.0 - 2.0 * uv.y, stored_depth, 1.0);
+    let light = parameters.light_from_camera * clip;
+    let scene_w = dot(parameters.scene_w_from_camera, clip);
+    // Both divisors are positive in front of the camera and the light; the results elsewhere are not used.
+    let place = light.xy / max(light.z, 1e-30) * map_size();
+    return vec4f(place, light.w / max(abs(scene_w), 1e-30), light.z);
+}
+
+// The difference in light space to the neighbour along `axis`, on the side where the depth changes less: the other may
+// lie beyond a silhouette. On a plane both sides agree, since stored depth is linear on the screen there.
+fn light_space_difference(pixel: vec2i, axis: vec2i, stored_depth: f32, centre: vec4f) -> vec3f {
+    let last = vec2i(textureDimensions(camera_depth)) - 1;
+    let before = pixel - axis;
+    let after = pixel + axis;
+    let depth_before = textureLoad(camera_depth, max(before, vec2i(0)), 0);
+    let depth_after = textureLoad(camera_depth, min(after, last), 0);
+    let use_before = all(before >= vec2i(0))
+        && (any(after > last) || abs(depth_before - stored_depth) < abs(depth_after - stored_depth));
+    if use_before {
+        return centre.xyz - light_space(before, depth_before).xyz;
+    }
+    return light_space(after, depth_after).xyz - centre.xyz;
+}
+
+@fragment
+fn shade(@builtin(position) position: vec4f) -> @location(0) vec4f {
+    let pixel = vec2i(position.xy);
+    let stored_depth = textureLoad(camera_depth, pixel, 0);
+    if stored_depth == parameters.far_depth {
+        return vec4f(0.0);
+    }
+    let light = light_space(pixel, stored_depth);
+    let uv = light.xy / map_size();
+    // Outside its map a light casts no shadow.
+    if light.w <= 0.0 || any(uv < vec2f(0.0)) || any(uv > vec2f(1.0)) {
+        return vec4f(0.0);
+    }
+    let gradient = receiver_bias_gradient(
+        light_space_difference(pixel, vec2i(1, 0), stored_depth, light),
+        light_space_difference(pixel, vec2i(0, 1), stored_depth, light),
+    );
+    let fragment_depth = light.z - receiver_bias_depth(parameters.receiver_bias, gradient);
+    let moments = moments_from_texel(map_lookup(uv, parameters.layer), STORAGE);
+    let intensity = hamburger_shadow_intensity(moments, fragment_depth, moments_bias_of(STORAGE));
+    return vec4f(leak_reduction_apply(intensity, parameters.leak_reduction), 0.0, 0.0, 1.0);
+}
