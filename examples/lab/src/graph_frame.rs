@@ -115,7 +115,7 @@ impl GraphFrame {
 }
 
 /// What the host gives, as the compiler wants it described.
-fn imports(desc: &FrameDesc) -> Imports {
+pub fn imports(desc: &FrameDesc) -> Imports {
     let light_format = match desc.format {
         wgpu::TextureFormat::Depth16Unorm => TextureFormat::Depth16Unorm,
         _ => TextureFormat::Depth32Float,
@@ -136,8 +136,12 @@ fn imports(desc: &FrameDesc) -> Imports {
     ])
 }
 
-/// The parameters of the library's nodes for a frame.
-fn parameter_bytes(plan: &Plan, desc: &FrameDesc, file: &GraphFile) -> Result<Vec<u8>, LabError> {
+/// The parameters of the library's nodes for a frame, as the plan lays them out.
+pub fn parameter_bytes(
+    plan: &Plan,
+    desc: &FrameDesc,
+    file: &GraphFile,
+) -> Result<Vec<u8>, LabError> {
     let mut bytes = plan.parameters.initial();
     for block in &plan.parameters.blocks {
         match block.name.as_str() {

@@ -1,0 +1,5 @@
+//! Pictures of shadows, from a light's depth to the shadow intensity on the screen.
+#![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic)]
+
+mod planes;
+mod stage;
