@@ -131,9 +131,18 @@ impl Plane {
         };
         [
             ("in front", from(normal + 0.1 * across, 3.0 * size)),
-            ("grazing", from(down + 0.7 * across + 0.08 * normal, 2.0 * size)),
-            ("afar", from(normal - 0.8 * down + 0.5 * across, 200.0 * size)),
-            ("close", from(normal + 0.5 * down - across, 3.0 * setup.texel)),
+            (
+                "grazing",
+                from(down + 0.7 * across + 0.08 * normal, 2.0 * size),
+            ),
+            (
+                "afar",
+                from(normal - 0.8 * down + 0.5 * across, 200.0 * size),
+            ),
+            (
+                "close",
+                from(normal + 0.5 * down - across, 3.0 * setup.texel),
+            ),
         ]
     }
 }
@@ -170,8 +179,8 @@ fn worst(stage: &Stage, setups: &[Setup]) -> (f32, String) {
                             }
                             lit += 1;
                             if !(intensity <= worst.0) {
-                                let texel = setup.light.uv(position).unwrap()
-                                    * f64::from(stage.desc.map);
+                                let texel =
+                                    setup.light.uv(position).unwrap() * f64::from(stage.desc.map);
                                 let case = format!(
                                     "{:?} {plane:?} {name} at pixel {index}, texel {texel}, depth {:.3}",
                                     setup.light.kind(),
@@ -195,7 +204,10 @@ fn check(desc: StageDesc) {
     for light in [sun, spot] {
         let setups = DEPTH_PER_TEXEL.map(|depth| light(desc.map, depth));
         let (intensity, case) = worst(&stage, &setups);
-        println!("{} radius {}: {intensity:.4} {case}", desc.storage, desc.radius);
+        println!(
+            "{} radius {}: {intensity:.4} {case}",
+            desc.storage, desc.radius
+        );
         assert!(intensity <= LARGEST, "{desc:?}: {intensity} at {case}");
     }
 }

@@ -205,16 +205,7 @@ pub(crate) fn frame_desc(desc: &StageDesc, light: LightView, camera: Camera) -> 
 }
 
 fn any_light(reversed: bool) -> LightView {
-    LightView::spot(
-        DVec3::Y,
-        DVec3::NEG_Y,
-        1.0,
-        0.1,
-        None,
-        [0.1, 1.0],
-        reversed,
-    )
-    .unwrap()
+    LightView::spot(DVec3::Y, DVec3::NEG_Y, 1.0, 0.1, None, [0.1, 1.0], reversed).unwrap()
 }
 
 fn any_camera() -> Camera {
