@@ -24,9 +24,9 @@ const LARGEST_UNROLLED_RADIUS: u32 = 12;
 /// Invocations of a workgroup in x and y.
 const WORKGROUP: [u32; 2] = [8, 8];
 
-/// Along y with few taps, wide rows keep more loads within the cache lines that neighbours have loaded; with many taps
-/// the column does.
-const WORKGROUP_UNROLLED_Y: [u32; 2] = [32, 2];
+/// Along y with few taps: the invocations of a workgroup load one row at a time, in whole cache lines. With many taps the
+/// texels that lie above each other are worth more, and a square has more of them.
+const WORKGROUP_UNROLLED_Y: [u32; 2] = [64, 1];
 
 /// Node `blur_moments`: `moments` to `blurred`, of the same format, size and layers. Two passes, along x and along y;
 /// beyond the border the last texel repeats.
