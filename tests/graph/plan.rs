@@ -357,7 +357,7 @@ imports
 stage AfterShadowMaps
   resolve/resolve              compute 128x128 workgroups x 1 layers, 16.00 MiB read, 8.00 MiB written
   blur/blur along x            compute 16x128 workgroups x 1 layers, 8.00 MiB read, 8.00 MiB written
-  blur/blur along y            compute 128x16 workgroups x 1 layers, 8.00 MiB read, 8.00 MiB written
+  blur/blur along y            compute 32x64 workgroups x 1 layers, 8.00 MiB read, 8.00 MiB written
 stage AfterMainPass
   shade/shade                  fullscreen to shade.shadow_intensity, 11.52 MiB read, 0.88 MiB written
 memory (16.88 MiB resident)

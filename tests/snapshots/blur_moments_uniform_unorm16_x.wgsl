@@ -126,6 +126,8 @@ fn moments_apply_bias(b: vec4f, bias: MomentBias) -> vec4f {
 const GROUP = 0;
 alias MomentsStorage = texture_storage_2d<rgba16unorm, write>;
 const STORAGE = 0u;
+const WORKGROUP_X = 8;
+const WORKGROUP_Y = 8;
 const AXIS = vec2i(1, 0);
 const OUTPUTS = 16;
 struct BlurSums {
@@ -464,7 +466,7 @@ fn blur_store(texel: vec2i, last: vec2i, value: vec4f) {
     }
 }
 
-@compute @workgroup_size(8, 8)
+@compute @workgroup_size(WORKGROUP_X, WORKGROUP_Y)
 fn blur(@builtin(global_invocation_id) id: vec3u) {
     let last = vec2i(textureDimensions(blurred_map)) - 1;
     let first = vec2i(id.xy) * (1 + (OUTPUTS - 1) * AXIS);
