@@ -233,3 +233,26 @@ fn errors_of_the_device_carry_the_labels_of_the_plan() {
     let error = gpu.check().unwrap_err().to_string();
     assert!(error.contains("moment-shadows/shade/shade"), "{error}");
 }
+
+#[test]
+fn creation_can_wait_on_any_thread() {
+    fn assert_send<T: Send>(_: T) {}
+    let gpu = gpu();
+    let plan = plan(&gpu, [32, 32], [32, 32]);
+    let pipelines = Pipelines::default();
+    let resources = block_on(Resources::create(&gpu.device, &plan)).unwrap();
+    assert_send(Pipelines::create(
+        &gpu.device,
+        &plan,
+        PipelineOptions::default(),
+    ));
+    assert_send(Resources::create(&gpu.device, &plan));
+    assert_send(Bindings::create(
+        &gpu.device,
+        &plan,
+        &pipelines,
+        &resources,
+        &[],
+        None,
+    ));
+}

@@ -148,6 +148,7 @@ fn a_pass_drawn_into_the_hosts_render_pass_is_the_recorded_one() {
     }
     gpu.queue.submit([encoder.finish()]);
     gpu.check().unwrap();
+    assert_ne!(read(&gpu, &targets[0]), read(&gpu, &targets[1]));
     for (view, target) in (0..).zip(&targets) {
         let mut encoder = gpu.device.create_command_encoder(&Default::default());
         let recording = Recording {

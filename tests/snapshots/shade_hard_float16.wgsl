@@ -329,16 +329,20 @@ struct ReceiverBias {
 }
 
 // Length of the gradient of moment depth per texel on the receiver's plane, from the differences of two neighbouring
-// points on it in light space: xy in texels of the map, z in moment depth. Where the differences are parallel (the plane
-// is edge-on to the light, or a neighbour is missing) the result is huge, and `receiver_bias_depth` limits it.
+// points on it in light space: xy in texels of the map, z in moment depth, each at most 1e9. Where the differences in xy
+// are parallel or zero (the plane is edge-on to the light, or a neighbour is missing) the result is huge, and
+// `receiver_bias_depth` limits it.
 fn receiver_bias_gradient(difference_x: vec3f, difference_y: vec3f) -> f32 {
     let determinant = difference_x.x * difference_y.y - difference_x.y * difference_y.x;
+    if abs(determinant) < 1e-20 {
+        return 1e20;
+    }
     // Cramer's rule for the gradient g in dot(g, difference.xy) = difference.z.
     let scaled = vec2f(
         difference_x.z * difference_y.y - difference_y.z * difference_x.y,
         difference_y.z * difference_x.x - difference_x.z * difference_y.x,
     );
-    return length(scaled) / max(abs(determinant), 1e-20);
+    return length(scaled) / abs(determinant);
 }
 
 // The same from the cosine between surface normal and direction to the light: `depth_per_texel` is the moment depth
@@ -391,32 +395,65 @@ fn fullscreen(@builtin(vertex_index) index: u32) -> @builtin(position) vec4f {
     return vec4f(4.0 * corner - 1.0, 0.0, 1.0);
 }
 
-// A pixel's surface as the light sees it: x and y in texels of the map, z in moment depth, w positive in front of the
-// light.
-fn light_space(pixel: vec2i, stored_depth: f32) -> vec4f {
+// A pixel's surface as the light sees it.
+struct Receiver {
+    // x and y in the map from 0 to 1, z in moment depth.
+    place: vec3f,
+    // What x and y were divided by; positive in front of the light.
+    light_w: f32,
+    // What z was divided by; positive in front of the camera.
+    scene_w: f32,
+}
+
+fn receiver_at(pixel: vec2i, stored_depth: f32) -> Receiver {
     let uv = (vec2f(pixel) + 0.5) / vec2f(textureDimensions(camera_depth));
     let clip = vec4f(2.0 * uv.x - 1.0, 1.0 - 2.0 * uv.y, stored_depth, 1.0);
     let light = parameters.light_from_camera * clip;
-    let scene_w = dot(parameters.scene_w_from_camera, clip);
-    // Both divisors are positive in front of the camera and the light; the results elsewhere are not used.
-    let place = light.xy / max(light.z, 1e-30) * map_size();
-    return vec4f(place, light.w / max(abs(scene_w), 1e-30), light.z);
+    // Results behind the camera or the light are not used.
+    let scene_w = max(dot(parameters.scene_w_from_camera, clip), 1e-30);
+    return Receiver(vec3f(light.xy / max(light.z, 1e-30), light.w / scene_w), light.z, scene_w);
 }
 
-// The difference in light space to the neighbour along `axis`, on the side where the depth changes less: the other may
-// lie beyond a silhouette. On a plane both sides agree, since stored depth is linear on the screen there.
-fn light_space_difference(pixel: vec2i, axis: vec2i, stored_depth: f32, centre: vec4f) -> vec3f {
-    let last = vec2i(textureDimensions(camera_depth)) - 1;
-    let before = pixel - axis;
-    let after = pixel + axis;
-    let depth_before = textureLoad(camera_depth, max(before, vec2i(0)), 0);
-    let depth_after = textureLoad(camera_depth, min(after, last), 0);
-    let use_before = all(before >= vec2i(0))
-        && (any(after > last) || abs(depth_before - stored_depth) < abs(depth_after - stored_depth));
-    if use_before {
-        return centre.xyz - light_space(before, depth_before).xyz;
+fn camera_depth_at(pixel: vec2i) -> f32 {
+    return textureLoad(camera_depth, clamp(pixel, vec2i(0), vec2i(textureDimensions(camera_depth)) - 1), 0);
+}
+
+// By how much the two pixels next to `pixel` along `step`, extrapolated, miss its stored depth; huge if the first one
+// shows no surface or lies outside of the picture.
+fn extrapolation_error(pixel: vec2i, step: vec2i, stored_depth: f32) -> f32 {
+    let neighbour = pixel + step;
+    let outside = any(neighbour < vec2i(0)) || any(neighbour >= vec2i(textureDimensions(camera_depth)));
+    let depth = camera_depth_at(neighbour);
+    let error = abs(2.0 * depth - camera_depth_at(neighbour + step) - stored_depth);
+    return select(error, UNUSABLE, outside || depth == parameters.far_depth);
+}
+
+// Above every difference of stored depths.
+const UNUSABLE: f32 = 1e30;
+
+// No place in the map is that many texels away. Products of two differences must not overflow.
+const LARGEST_DIFFERENCE: f32 = 1e9;
+
+// How the place in the map (in texels) and the moment depth change from a pixel to its neighbour along `axis`, on the
+// side that continues its surface: stored depth is linear on the screen where a surface is plane, so that is the side
+// which extrapolates to the pixel best. The other one may lie beyond a silhouette or an edge. Zero if there is no
+// neighbour, as on a surface that is edge-on to the light.
+fn receiver_difference(pixel: vec2i, axis: vec2i, stored_depth: f32, receiver: Receiver) -> vec3f {
+    let error_before = extrapolation_error(pixel, -axis, stored_depth);
+    let error_after = extrapolation_error(pixel, axis, stored_depth);
+    if min(error_before, error_after) == UNUSABLE {
+        return vec3f(0.0);
     }
-    return light_space(after, depth_after).xyz - centre.xyz;
+    let direction = select(axis, -axis, error_before < error_after);
+    let across_screen = vec2f(2.0, -2.0) * vec2f(direction) / vec2f(textureDimensions(camera_depth));
+    let step = vec4f(across_screen, camera_depth_at(pixel + direction) - stored_depth, 0.0);
+    // With numerators n and divisors w, n1 / w1 - n0 / w0 = (dn - (n0 / w0) dw) / w1. Other than the difference of two
+    // places, this keeps its digits where a pixel covers a small part of a texel.
+    let light = parameters.light_from_camera * step;
+    let scene_w = dot(parameters.scene_w_from_camera, step);
+    let across = (light.xy - receiver.place.xy * light.z) / max(receiver.light_w + light.z, 1e-30);
+    let along = (light.w - receiver.place.z * scene_w) / max(receiver.scene_w + scene_w, 1e-30);
+    return clamp(vec3f(across * map_size(), along), vec3f(-LARGEST_DIFFERENCE), vec3f(LARGEST_DIFFERENCE));
 }
 
 @fragment
@@ -426,17 +463,19 @@ fn shade(@builtin(position) position: vec4f) -> @location(0) vec4f {
     if stored_depth == parameters.far_depth {
         return vec4f(0.0);
     }
-    let light = light_space(pixel, stored_depth);
-    let uv = light.xy / map_size();
+    let receiver = receiver_at(pixel, stored_depth);
+    let uv = receiver.place.xy;
     // Outside its map a light casts no shadow.
-    if light.w <= 0.0 || any(uv < vec2f(0.0)) || any(uv > vec2f(1.0)) {
+    if receiver.light_w <= 0.0 || any(uv < vec2f(0.0)) || any(uv > vec2f(1.0)) {
         return vec4f(0.0);
     }
     let gradient = receiver_bias_gradient(
-        light_space_difference(pixel, vec2i(1, 0), stored_depth, light),
-        light_space_difference(pixel, vec2i(0, 1), stored_depth, light),
+        receiver_difference(pixel, vec2i(1, 0), stored_depth, receiver),
+        receiver_difference(pixel, vec2i(0, 1), stored_depth, receiver),
     );
-    let fragment_depth = light.z - receiver_bias_depth(parameters.receiver_bias, gradient);
+    // The map holds a surface that leaves the light's range at the far end. The bias counts from there, since some of the
+    // kernel may still see the surface within the range.
+    let fragment_depth = min(receiver.place.z, 1.0) - receiver_bias_depth(parameters.receiver_bias, gradient);
     let moments = moments_from_texel(map_lookup(uv, parameters.layer), STORAGE);
     let intensity = hamburger_shadow_intensity(moments, fragment_depth, moments_bias_of(STORAGE));
     return vec4f(leak_reduction_apply(intensity, parameters.leak_reduction), 0.0, 0.0, 1.0);
