@@ -440,6 +440,20 @@ fn blur_taps(map: texture_2d<f32>, first: vec2i, last: vec2i, sums: BlurSums, w0
     return BlurSums(o0, o1, o2, o3, o4, o5, o6, o7, o8, o9, o10, o11, o12, o13, o14, o15);
 }
 
+// blur_target
+
+// Where a direction of the blur reads and writes: one layer each.
+
+@group(GROUP) @binding(0) var moments_map: texture_2d<f32>;
+@group(GROUP) @binding(1) var blurred_map: MomentsStorage;
+
+// Stores a filtered texel unless it lies beyond `last`, the last texel of the map.
+fn blur_store(texel: vec2i, last: vec2i, value: vec4f) {
+    if all(texel <= last) {
+        textureStore(blurred_map, texel, moments_round_texel(value, STORAGE));
+    }
+}
+
 // blur_moments_uniform.wgsl
 
 // One direction of a separable filter over one layer, with weights that a host can change per frame.
@@ -456,15 +470,7 @@ struct BlurParameters {
     weights: array<vec4f, 40>,
 }
 
-@group(GROUP) @binding(0) var moments_map: texture_2d<f32>;
-@group(GROUP) @binding(1) var blurred_map: MomentsStorage;
 @group(GROUP) @binding(2) var<uniform> parameters: BlurParameters;
-
-fn blur_store(texel: vec2i, last: vec2i, value: vec4f) {
-    if all(texel <= last) {
-        textureStore(blurred_map, texel, moments_round_texel(value, STORAGE));
-    }
-}
 
 @compute @workgroup_size(WORKGROUP_X, WORKGROUP_Y)
 fn blur(@builtin(global_invocation_id) id: vec3u) {

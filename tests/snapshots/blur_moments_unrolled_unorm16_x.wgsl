@@ -168,19 +168,24 @@ fn blur_block(map: texture_2d<f32>, first: vec2i, last: vec2i) -> array<vec4f, 8
     return array<vec4f, 8>(o0, o1, o2, o3, o4, o5, o6, o7);
 }
 
-// blur_moments_unrolled.wgsl
+// blur_target
 
-// One direction of a separable filter over one layer, with weights that are known when the graph is compiled.
-// An invocation makes OUTPUTS texels in a row along AXIS, out of texels that it loads once.
+// Where a direction of the blur reads and writes: one layer each.
 
 @group(GROUP) @binding(0) var moments_map: texture_2d<f32>;
 @group(GROUP) @binding(1) var blurred_map: MomentsStorage;
 
+// Stores a filtered texel unless it lies beyond `last`, the last texel of the map.
 fn blur_store(texel: vec2i, last: vec2i, value: vec4f) {
     if all(texel <= last) {
         textureStore(blurred_map, texel, moments_round_texel(value, STORAGE));
     }
 }
+
+// blur_moments_unrolled.wgsl
+
+// One direction of a separable filter over one layer, with weights that are known when the graph is compiled.
+// An invocation makes OUTPUTS texels in a row along AXIS, out of texels that it loads once.
 
 @compute @workgroup_size(WORKGROUP_X, WORKGROUP_Y)
 fn blur(@builtin(global_invocation_id) id: vec3u) {

@@ -15,6 +15,7 @@ use crate::{
 };
 
 const UNROLLED_SHADER: &str = include_str!("blur_moments_unrolled.wgsl");
+const TARGET: &str = include_str!("blur_target.wgsl");
 const UNIFORM_SHADER: &str = include_str!("blur_moments_uniform.wgsl");
 
 /// Up to this radius the weights are literals and every load is unrolled; beyond it the code would leave the instruction
@@ -176,7 +177,11 @@ impl BlurMoments {
         let (wgsl, outputs) = if unrolled {
             let text = specialization.text(&unrolled::literal_weights(kernel.weights()));
             (
-                text.link("blur_moments_unrolled.wgsl", UNROLLED_SHADER, &[])?,
+                text.link(
+                    "blur_moments_unrolled.wgsl",
+                    UNROLLED_SHADER,
+                    &[("blur_target", TARGET)],
+                )?,
                 unrolled::OUTPUTS_LITERAL,
             )
         } else {
@@ -186,7 +191,11 @@ impl BlurMoments {
             });
             let text = specialization.text(&unrolled::uniform_weights());
             (
-                text.link("blur_moments_uniform.wgsl", UNIFORM_SHADER, &[])?,
+                text.link(
+                    "blur_moments_uniform.wgsl",
+                    UNIFORM_SHADER,
+                    &[("blur_target", TARGET)],
+                )?,
                 unrolled::OUTPUTS_UNIFORM,
             )
         };

@@ -1,5 +1,5 @@
-import moment_shadows::moments::{moments_round_texel};
-import moment_shadows::specialization::{AXIS, BlurSums, GROUP, MomentsStorage, OUTPUTS, STORAGE, WORKGROUP_X, WORKGROUP_Y, blur_taps};
+import moment_shadows::blur_target::{blur_store, blurred_map, moments_map};
+import moment_shadows::specialization::{AXIS, BlurSums, GROUP, OUTPUTS, WORKGROUP_X, WORKGROUP_Y, blur_taps};
 
 // One direction of a separable filter over one layer, with weights that a host can change per frame.
 // An invocation makes OUTPUTS texels in a row along AXIS; it runs through the texels in blocks of 16 and through the
@@ -15,15 +15,7 @@ struct BlurParameters {
     weights: array<vec4f, 40>,
 }
 
-@group(GROUP) @binding(0) var moments_map: texture_2d<f32>;
-@group(GROUP) @binding(1) var blurred_map: MomentsStorage;
 @group(GROUP) @binding(2) var<uniform> parameters: BlurParameters;
-
-fn blur_store(texel: vec2i, last: vec2i, value: vec4f) {
-    if all(texel <= last) {
-        textureStore(blurred_map, texel, moments_round_texel(value, STORAGE));
-    }
-}
 
 @compute @workgroup_size(WORKGROUP_X, WORKGROUP_Y)
 fn blur(@builtin(global_invocation_id) id: vec3u) {

@@ -1,17 +1,8 @@
-import moment_shadows::moments::{moments_round_texel};
-import moment_shadows::specialization::{AXIS, GROUP, MomentsStorage, OUTPUTS, STORAGE, WORKGROUP_X, WORKGROUP_Y, blur_block};
+import moment_shadows::blur_target::{blur_store, blurred_map, moments_map};
+import moment_shadows::specialization::{AXIS, OUTPUTS, WORKGROUP_X, WORKGROUP_Y, blur_block};
 
 // One direction of a separable filter over one layer, with weights that are known when the graph is compiled.
 // An invocation makes OUTPUTS texels in a row along AXIS, out of texels that it loads once.
-
-@group(GROUP) @binding(0) var moments_map: texture_2d<f32>;
-@group(GROUP) @binding(1) var blurred_map: MomentsStorage;
-
-fn blur_store(texel: vec2i, last: vec2i, value: vec4f) {
-    if all(texel <= last) {
-        textureStore(blurred_map, texel, moments_round_texel(value, STORAGE));
-    }
-}
 
 @compute @workgroup_size(WORKGROUP_X, WORKGROUP_Y)
 fn blur(@builtin(global_invocation_id) id: vec3u) {
