@@ -16,7 +16,7 @@ use moment_shadows_lab::host::{
 };
 use moment_shadows_lab::light::LightView;
 use moment_shadows_lab::scene::{Material, Mesh, Scene};
-use moment_shadows_lab::view::Camera;
+use moment_shadows_lab::view::{Camera, View};
 use pollster::block_on;
 
 /// What does not change from scene to scene.
@@ -24,7 +24,7 @@ use pollster::block_on;
 pub(crate) struct StageDesc {
     pub(crate) storage: Storage,
     pub(crate) radius: u32,
-    pub(crate) sigma: f64,
+    pub(crate) sigma: f32,
     pub(crate) picture: [u32; 2],
     pub(crate) map: u32,
     pub(crate) samples: u32,
@@ -248,4 +248,19 @@ pub(crate) fn scene_of(name: &str, quads: &[[DVec3; 4]]) -> Scene {
         stand: None,
         warnings: Vec::new(),
     }
+}
+
+/// A viewpoint's camera for the stage's picture.
+pub(crate) fn camera_for(view: &View, desc: &StageDesc) -> Camera {
+    Camera {
+        aspect: f64::from(desc.picture[0]) / f64::from(desc.picture[1]),
+        ..view.camera
+    }
+}
+
+/// The mean absolute difference of two pictures.
+pub(crate) fn mean_difference(a: &[f32], b: &[f32]) -> f64 {
+    assert_eq!(a.len(), b.len());
+    let sum: f64 = a.iter().zip(b).map(|(a, b)| f64::from((a - b).abs())).sum();
+    sum / a.len() as f64
 }

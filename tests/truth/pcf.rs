@@ -67,7 +67,6 @@ fn a_tilted_plane_does_not_shadow_itself() {
             DirectionalFit {
                 map: [64, 64],
                 margin: 4.0,
-                ground: None,
                 reversed: true,
             },
         )

@@ -1,6 +1,7 @@
 //! What a picture of shadow intensity is worth: compared with the truth, beside the exact bound on the same depths.
 
 use glam::DVec3;
+use moment_shadows::Storage;
 use rayon::prelude::*;
 
 use crate::error::LabError;
@@ -11,7 +12,7 @@ use crate::graph_frame::shade_parameters;
 use crate::host::{SurfacePixels, read_depth_samples, read_gbuffer};
 use crate::light::LightView;
 use crate::metric::{Comparison, Excess, compare, excess};
-use crate::truth::exact_bound::exact_bound;
+use crate::truth::exact_bound::{Lookup, biased_bound, exact_bound};
 use crate::truth::fragment::fragments;
 use crate::truth::kernel::TapPattern;
 use crate::truth::pcf::pcf;
@@ -27,6 +28,10 @@ pub struct Truth {
     pub facing: Vec<bool>,
     /// The bound's own error.
     pub bound_error: Comparison,
+    depths: MomentDepths,
+    taps: TapPattern,
+    lookups: Vec<Option<Lookup>>,
+    full_shadow: f32,
 }
 
 /// A measured picture.
@@ -67,7 +72,21 @@ impl Truth {
             bound,
             facing,
             bound_error,
+            depths,
+            taps,
+            lookups,
+            full_shadow,
         })
+    }
+
+    /// The exact lower bound per pixel of the moments that `storage` biases: what the shader would give if it stored and
+    /// computed without rounding.
+    pub fn biased_bound(&self, storage: Storage) -> Vec<f32> {
+        let bias = storage.moment_bias();
+        biased_bound(&self.depths, &self.taps, &self.lookups, bias)
+            .into_iter()
+            .map(|bound| (bound / self.full_shadow).min(1.0))
+            .collect()
     }
 
     /// Judges a picture of shadow intensity.

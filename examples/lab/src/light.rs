@@ -42,12 +42,22 @@ pub struct LightView {
     pub range: [f64; 2],
 }
 
+/// The depth range for casters between two distances along the light's axis, first and last.
+///
+/// Receivers behind the range, the ground mostly, count as lying at its far end, where texels without a caster are too.
+/// So they need no part of it, and a range that is fitted tightly is worth much: what a moment bias leaks is a share of
+/// it. But a receiver has to lie behind the last caster for that to shadow it: 1/16 is 0.12 in moment depth, three times
+/// the distance behind a single occluder at which the bound of 16-bit moments reaches 0.98.
+pub(crate) fn range_of_casters([first, last]: [f64; 2]) -> [f64; 2] {
+    let depth = last - first;
+    // Rounding to f32 on the device must not push the first vertices through the near plane.
+    [first - 1e-3 * depth, last + depth / 16.0]
+}
+
 impl LightView {
     /// A directional light that shines along `direction`, fitted tightly to the points `casters` (vertices or corners of
     /// boxes): its map covers them and a margin, both axes apart, so that texels need not be square. Distances along
-    /// the axis start at 0 at the first caster and end at the last one. Receivers behind it, the ground mostly, count as
-    /// lying at the far end, where texels without a caster are too, so they need no part of the range; and what a moment
-    /// bias costs is a share of the range.
+    /// the axis start at 0 at the first caster and end a little behind the last one (1/16 of their depth, for receivers).
     pub fn directional_fitted(
         direction: DVec3,
         casters: &[DVec3],
@@ -84,15 +94,11 @@ impl LightView {
             });
         }
         let half_map = DVec2::new(half.x, half.y) * map / inner;
-        let mut nearest = centre.z + half.z;
-        let mut farthest = centre.z - half.z;
-        // Rounding to f32 on the device must not push the outermost vertices through a plane.
-        let slack = 1e-3 * (nearest - farthest);
-        nearest += slack;
-        farthest -= slack;
+        let [near, far] = range_of_casters([0.0, 2.0 * half.z]);
+        let nearest = centre.z + half.z - near;
         let depth = StoredDepth::Orthographic {
             near: 0.0,
-            far: nearest - farthest,
+            far: far - near,
             reversed: fit.reversed,
         };
         let origin = DVec3::new(centre.x, centre.y, nearest);
@@ -100,7 +106,7 @@ impl LightView {
             view_from_world: DMat4::from_translation(-origin) * rotation,
             clip_from_view: depth.clip_from_view(half_map.recip()),
             depth,
-            range: [0.0, nearest - farthest],
+            range: [0.0, far - near],
         })
     }
 

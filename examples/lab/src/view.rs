@@ -6,7 +6,9 @@ use glam::{DMat4, DVec2, DVec3};
 use rand::{RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
 
-use crate::light::{DirectionalFit, LightError, LightView, StoredDepth, rotation_towards};
+use crate::light::{
+    DirectionalFit, LightError, LightView, StoredDepth, range_of_casters, rotation_towards,
+};
 use crate::scene::{Scene, Stand};
 
 /// A perspective camera with reversed depth (1 at the near plane).
@@ -155,7 +157,7 @@ impl View {
     }
 
     /// A spot light from the same side, far enough that its cone of 40 degrees holds the casters. `near` is its near
-    /// plane as a part of its distance; moment depth runs over the casters alone, as with [`sun`](Self::sun).
+    /// plane as a part of its distance; moment depth runs over the casters, as with [`sun`](Self::sun).
     pub fn spot(
         &self,
         scene: &Scene,
@@ -175,15 +177,13 @@ impl View {
             .fold([f64::INFINITY, f64::NEG_INFINITY], |[first, last], at| {
                 [first.min(at), last.max(at)]
             });
-        // As much slack as a fitted sun has.
-        let slack = (1e-3 * (last - first)).max(1e-6 * distance);
         LightView::spot(
             position,
             self.light_direction,
             ANGLE,
             near * distance,
             far.map(|far| far * distance),
-            [first - slack, last + slack],
+            range_of_casters([first, last.max(first + 1e-6 * distance)]),
             reversed,
         )
     }

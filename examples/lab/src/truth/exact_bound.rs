@@ -9,6 +9,7 @@
 //! a point of it moves to infinity. The bound is that of Peters and Klein, "Moment Shadow Mapping", i3D 2015,
 //! section 3: the least share of a distribution in front of the fragment that its first four moments allow.
 
+use moment_shadows::MomentBias;
 use rayon::prelude::*;
 
 use super::kernel::{AxisTaps, TapPattern};
@@ -36,6 +37,31 @@ pub fn exact_bound(
             lookup.map_or(0.0, |lookup| {
                 scratch.gather(depths, taps, lookup.uv);
                 lower_bound(&scratch.depths, &scratch.weights, lookup.fragment_depth) as f32
+            })
+        })
+        .collect()
+}
+
+/// The exact lower bound for each lookup after a moment bias, which storage with rounding errors cannot do without: what
+/// is between this and [`exact_bound`] the bias costs, what is between this and a shader is the rounding of its storage.
+pub fn biased_bound(
+    depths: &MomentDepths,
+    taps: &TapPattern,
+    lookups: &[Option<Lookup>],
+    bias: MomentBias,
+) -> Vec<f32> {
+    let (alpha, beta) = (f64::from(bias.alpha), f64::from(bias.beta));
+    lookups
+        .par_iter()
+        .map_init(Scratch::default, |scratch, lookup| {
+            lookup.map_or(0.0, |lookup| {
+                scratch.gather(depths, taps, lookup.uv);
+                let moments = [1, 2, 3, 4].map(|power| {
+                    let target = if power % 2 == 0 { beta } else { 0.0 };
+                    let moment = weighted_sum(&scratch.depths, &scratch.weights, |z| z.powi(power));
+                    moment + alpha * (target - moment)
+                });
+                lower_bound_of_moments(moments, lookup.fragment_depth) as f32
             })
         })
         .collect()
