@@ -181,7 +181,7 @@ fn worst(stage: &Stage, setups: &[Setup], tilts: &[f64]) -> (f32, String) {
                                 continue;
                             }
                             lit += 1;
-                            if !(intensity <= worst.0) {
+                            if intensity.is_nan() || intensity > worst.0 {
                                 let texel =
                                     setup.light.uv(position).unwrap() * f64::from(stage.desc.map);
                                 let case = format!(
