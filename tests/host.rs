@@ -348,7 +348,7 @@ fn light_depth_agrees_with_the_surfaces_that_the_camera_sees() {
             let point = origin - origin.y / direction.y * direction;
             let at = texel.y as usize * size[0] as usize + texel.x as usize;
             let stored = light.moment_depth_of_stored(f64::from(depth.values[at]));
-            let difference = stored - light.moment_depth(point).min(1.0);
+            let difference = stored - light.moment_depth(point).clamp(-1.0, 1.0);
             if difference.abs() < tolerance {
                 lit += 1;
             } else if difference < 0.0 {
