@@ -31,7 +31,8 @@ pub struct ReceiverBias {
     pub slope_scale: f32,
     /// The largest bias in moment depth.
     pub maximum: f32,
-    /// Scene units by which a receiver moves along its normal at grazing light.
+    /// Scene units by which a receiver moves along its normal at grazing light: for shaders that know normals. Those that
+    /// start from depth alone, the render-graph nodes among them, do not use it.
     pub normal_offset: f32,
 }
 

@@ -85,16 +85,9 @@ impl Node for BlurMoments {
         let kernel = self.kernel.kernel()?;
         check_fits(&kernel, moments)?;
         let unrolled = !self.per_frame && kernel.radius() <= LARGEST_UNROLLED_RADIUS;
-        let passes = [(0, "blur along x"), (1, "blur along y")]
-            .into_iter()
-            .map(|(axis, label)| {
-                let (from, to) = if axis == 0 {
-                    ("moments", "half_blurred")
-                } else {
-                    ("half_blurred", "blurred")
-                };
-                self.pass(upstream, storage, &kernel, unrolled, axis, label, from, to)
-            })
+        let passes = ALONG
+            .iter()
+            .map(|along| along.pass(upstream, storage, &kernel, unrolled))
             .collect::<Result<Vec<_>, _>>()?;
         Ok(NodeDesc {
             name: "blur_moments".to_owned(),
@@ -130,20 +123,44 @@ impl Node for BlurMoments {
     }
 }
 
-impl BlurMoments {
-    #[allow(clippy::too_many_arguments)]
+/// One of the two passes.
+struct Along {
+    label: &'static str,
+    /// 0 for x, 1 for y.
+    axis: usize,
+    /// The unit vector along the axis, in WGSL.
+    step: &'static str,
+    /// The slots that the pass reads and writes.
+    from: &'static str,
+    to: &'static str,
+}
+
+const ALONG: [Along; 2] = [
+    Along {
+        label: "blur along x",
+        axis: 0,
+        step: "vec2i(1, 0)",
+        from: "moments",
+        to: "half_blurred",
+    },
+    Along {
+        label: "blur along y",
+        axis: 1,
+        step: "vec2i(0, 1)",
+        from: "half_blurred",
+        to: "blurred",
+    },
+];
+
+impl Along {
     fn pass(
         &self,
         upstream: &Connected<'_>,
         storage: Storage,
         kernel: &Kernel,
         unrolled: bool,
-        axis: u32,
-        label: &str,
-        from: &str,
-        to: &str,
     ) -> Result<Pass, GraphError> {
-        let workgroup = if unrolled && axis == 1 {
+        let workgroup = if unrolled && self.axis == 1 {
             WORKGROUP_UNROLLED_Y
         } else {
             WORKGROUP
@@ -156,22 +173,15 @@ impl BlurMoments {
             .constant("STORAGE", &format!("{}u", storage.wgsl_index()))
             .constant("WORKGROUP_X", &workgroup[0].to_string())
             .constant("WORKGROUP_Y", &workgroup[1].to_string())
-            .constant(
-                "AXIS",
-                if axis == 0 {
-                    "vec2i(1, 0)"
-                } else {
-                    "vec2i(0, 1)"
-                },
-            );
+            .constant("AXIS", self.step);
         let mut bindings = vec![
             Binding {
                 binding: 0,
-                resource: BindingResource::Layer(from.to_owned()),
+                resource: BindingResource::Layer(self.from.to_owned()),
             },
             Binding {
                 binding: 1,
-                resource: BindingResource::StorageLayer(to.to_owned()),
+                resource: BindingResource::StorageLayer(self.to.to_owned()),
             },
         ];
         let (wgsl, outputs) = if unrolled {
@@ -200,15 +210,15 @@ impl BlurMoments {
             )
         };
         let mut texels_per_workgroup = workgroup;
-        texels_per_workgroup[axis as usize] *= outputs as u32;
+        texels_per_workgroup[self.axis] *= outputs as u32;
         Ok(Pass {
-            label: label.to_owned(),
+            label: self.label.to_owned(),
             wgsl,
             entry_point: "blur".to_owned(),
             bindings,
             constants: [].into(),
             work: Work::Compute {
-                covers: to.to_owned(),
+                covers: self.to.to_owned(),
                 texels_per_workgroup,
                 each_layer: true,
             },
