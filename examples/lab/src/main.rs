@@ -213,7 +213,7 @@ fn run(command: Command) -> Result<ExitCode, Box<dyn std::error::Error>> {
             {
                 println!("{}", judgement.error);
                 println!("exact bound on the same depths\n{}", truth.bound_error);
-                println!("excess over the exact bound: {}", judgement.excess);
+                println!("{}", judgement.excess);
                 println!(
                     "mean absolute error {:.6}",
                     judgement.error.facing.mean_absolute
