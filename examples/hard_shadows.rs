@@ -6,7 +6,7 @@
 use std::error::Error;
 use std::path::Path;
 
-use moment_shadows::{Kernel, LeakReduction, Profile, ReceiverBias};
+use moment_shadows::{Kernel, LeakReduction, MapRegion, Profile, ReceiverBias};
 use moment_shadows_graph::nodes::{CameraView, LightDepth, LightView, ShadeHardParameters};
 use moment_shadows_graph::record::{
     Bindings, ImportedResource, PipelineOptions, Pipelines, Recording, Resources,
@@ -77,6 +77,8 @@ fn main() -> Result<(), Box<dyn Error>> {
         clip_from_world: light.clip_from_world().as_mat4().to_cols_array_2d(),
         depth: LightDepth::Orthographic { reversed: false },
         layer: 0,
+        region: MapRegion::WHOLE,
+        channel: 0,
     };
     let camera_view = CameraView {
         clip_from_world: camera.clip_from_world_columns()?,

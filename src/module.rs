@@ -19,12 +19,15 @@ macro_rules! modules {
 #[must_use]
 pub fn modules() -> &'static [Module] {
     const MODULES: &[Module] = modules![
-        "bilinear",
         "depth",
         "gaussian",
         "hamburger",
         "hankel",
         "leak_reduction",
+        "map_load",
+        "map_lookup",
+        "map_region",
+        "minification",
         "moments",
         "receiver_bias",
     ];

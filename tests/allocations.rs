@@ -84,6 +84,7 @@ fn node(draws: bool) -> NodeDesc {
         parameters: Some(ParameterBlock {
             name: "Value".to_owned(),
             size: 16,
+            elements: 1,
             each_layer_of: None,
             initial: Vec::new(),
         }),

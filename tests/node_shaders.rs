@@ -69,7 +69,15 @@ fn variants() -> Vec<Variant> {
             })
         };
         for samples in [1, 4] {
-            let mut texts = describe(&ResolveMoments { storage }, storage, samples, &capabilities);
+            let mut texts = describe(
+                &ResolveMoments {
+                    storage,
+                    mip_levels: Default::default(),
+                },
+                storage,
+                samples,
+                &capabilities,
+            );
             add(
                 format!("resolve_moments_{storage}_{samples}"),
                 texts.remove(0),
@@ -79,6 +87,7 @@ fn variants() -> Vec<Variant> {
             let node = BlurMoments {
                 kernel: KernelProperty::gaussian(1, 0.6),
                 per_frame,
+                mip_levels: Default::default(),
             };
             let kind = if per_frame { "uniform" } else { "unrolled" };
             for (axis, wgsl) in

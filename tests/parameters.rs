@@ -9,8 +9,8 @@
 use std::mem::offset_of;
 
 use moment_shadows::{
-    DepthConversion, LARGEST_RADIUS, LeakReduction, MomentBias, Profile, ReceiverBias, Source,
-    Storage, TextureFormat, link,
+    DepthConversion, LARGEST_RADIUS, LeakReduction, MapRegion, MomentBias, Profile, ReceiverBias,
+    STANDARD_DEVIATIONS, Source, Storage, TextureFormat, link,
 };
 use moment_shadows_graph::nodes::{
     BlurMoments, BlurParameters, KernelProperty, ResolveMoments, ShadeHard, ShadeHardParameters,
@@ -110,6 +110,15 @@ fn structs_of_the_modules_are_laid_out_alike() {
         }),
     );
     assert_same_layout(
+        &module("map_region", "MapRegion"),
+        "MapRegion",
+        size_of::<MapRegion>(),
+        &fields!(MapRegion {
+            origin: [u32; 2],
+            extent: [u32; 2]
+        }),
+    );
+    assert_same_layout(
         &module("moments", "MomentBias"),
         "MomentBias",
         size_of::<MomentBias>(),
@@ -141,6 +150,7 @@ fn per_frame_blur() -> NodeDesc {
     described(&BlurMoments {
         kernel: KernelProperty::gaussian(4, 2.4),
         per_frame: true,
+        mip_levels: Default::default(),
     })
 }
 
@@ -157,9 +167,11 @@ fn structs_of_the_nodes_are_laid_out_alike() {
             scene_w_from_camera: [f32; 4],
             receiver_bias: ReceiverBias,
             leak_reduction: LeakReduction,
+            region: MapRegion,
             far_depth: f32,
             layer: u32,
-            padding: [f32; 2],
+            channel: u32,
+            padding: f32,
         }),
     );
     let blur = per_frame_blur();
@@ -186,6 +198,7 @@ fn nodes_declare_the_structs_that_their_shaders_bind() {
     let nodes = [
         described(&ResolveMoments {
             storage: Storage::Float16,
+            mip_levels: Default::default(),
         }),
         per_frame_blur(),
         described(&ShadeHard::default()),
@@ -208,7 +221,11 @@ fn nodes_declare_the_structs_that_their_shaders_bind() {
                         .is_some_and(|binding| binding.binding == index)
                 })
                 .unwrap();
-            let kind = &parsed.types[bound.ty];
+            let whole = &parsed.types[bound.ty];
+            let kind = match whole.inner {
+                TypeInner::Array { base, .. } => &parsed.types[base],
+                _ => whole,
+            };
             assert_eq!(
                 kind.name.as_deref(),
                 Some(block.name.as_str()),
@@ -264,6 +281,13 @@ fn storages_have_the_numbers_and_biases_of_the_module() {
             "{bias}"
         );
     }
+}
+
+#[test]
+fn the_receiver_bias_moves_by_as_many_standard_deviations_on_both_sides() {
+    let name = "RECEIVER_BIAS_STANDARD_DEVIATIONS";
+    let found = constant(&module("receiver_bias", name), name);
+    assert_eq!(found, [f64::from(STANDARD_DEVIATIONS)]);
 }
 
 #[test]

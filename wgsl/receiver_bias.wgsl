@@ -7,6 +7,12 @@
 // distribution lies one standard deviation in front of the mean. So a slope-scaled bias of somewhat more than one
 // standard deviation removes self-shadowing on planes, and nothing about it has to be tuned to a scene.
 
+// Standard deviations of depth under the filter by which a receiver moves: one, and what covers moment bias and rounding.
+const RECEIVER_BIAS_STANDARD_DEVIATIONS: f32 = 1.25;
+
+// A gradient steeper than any surface that a light sees; its square is still finite.
+const RECEIVER_BIAS_EDGE_ON: f32 = 1e15;
+
 // Filled by the host-side `ReceiverBias`.
 struct ReceiverBias {
     // Moment depth that is always subtracted.
@@ -20,21 +26,26 @@ struct ReceiverBias {
     normal_offset: f32,
 }
 
-// Length of the gradient of moment depth per texel on the receiver's plane, from the differences of two neighbouring
-// points on it in light space: xy in texels of the map, z in moment depth, each at most 1e9. Where the differences in xy
-// are parallel or zero (the plane is edge-on to the light, or a neighbour is missing) the result is huge, and
-// `receiver_bias_depth` limits it.
-fn receiver_bias_gradient(difference_x: vec3f, difference_y: vec3f) -> f32 {
+// The gradient of moment depth per texel on the receiver's plane, from the differences of two neighbouring points on it
+// in light space: xy in texels of the map, z in moment depth, each at most 1e9. Where the differences in xy are parallel
+// or zero (the plane is edge-on to the light, or a neighbour is missing) the result is huge, and `receiver_bias_depth`
+// limits it.
+fn receiver_bias_plane(difference_x: vec3f, difference_y: vec3f) -> vec2f {
     let determinant = difference_x.x * difference_y.y - difference_x.y * difference_y.x;
     if abs(determinant) < 1e-20 {
-        return 1e20;
+        return vec2f(RECEIVER_BIAS_EDGE_ON, 0.0);
     }
     // Cramer's rule for the gradient g in dot(g, difference.xy) = difference.z.
     let scaled = vec2f(
         difference_x.z * difference_y.y - difference_y.z * difference_x.y,
         difference_y.z * difference_x.x - difference_x.z * difference_y.x,
     );
-    return length(scaled) / abs(determinant);
+    return clamp(scaled / determinant, vec2f(-RECEIVER_BIAS_EDGE_ON), vec2f(RECEIVER_BIAS_EDGE_ON));
+}
+
+// The length of that gradient.
+fn receiver_bias_gradient(difference_x: vec3f, difference_y: vec3f) -> f32 {
+    return length(receiver_bias_plane(difference_x, difference_y));
 }
 
 // The same from the cosine between surface normal and direction to the light: `depth_per_texel` is the moment depth
@@ -48,6 +59,17 @@ fn receiver_bias_gradient_from_cosine(cosine: f32, depth_per_texel: f32) -> f32 
 // The receiver bias in moment depth, to be subtracted from the fragment depth.
 fn receiver_bias_depth(bias: ReceiverBias, gradient: f32) -> f32 {
     return clamp(fma(bias.slope_scale, gradient, bias.constant), 0.0, bias.maximum);
+}
+
+// The receiver bias where a lookup averages more of the map than its filter kernel: `variance` is the variance that this
+// adds to the depths of a plane with that gradient (`minification_depth_variance`). Variances of filters add up.
+fn receiver_bias_depth_minified(bias: ReceiverBias, gradient: f32, variance: f32) -> f32 {
+    let kernel = bias.slope_scale * gradient;
+    let added = RECEIVER_BIAS_STANDARD_DEVIATIONS * sqrt(max(variance, 0.0));
+    let deviation = length(vec2f(kernel, added));
+    // The limit is one of slope, not of depth: a filter that is wider by a factor may move by that factor more.
+    let limit = (bias.maximum - bias.constant) * deviation / max(kernel, 1e-30);
+    return max(bias.constant + min(deviation, max(limit, 0.0)), 0.0);
 }
 
 // The position, in scene units, at which to look the map up when the receiver moves along its normal: the offset

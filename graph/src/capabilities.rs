@@ -18,10 +18,18 @@ pub struct Capabilities {
     pub max_texture_layers: u32,
     /// The largest number of workgroups of a dispatch in one dimension.
     pub max_workgroups: u32,
+    /// The most bytes of a uniform binding: what limits regions and views.
+    #[serde(default = "default_uniform_size")]
+    pub max_uniform_size: u32,
     /// Offsets of uniform buffers are multiples of this.
     pub uniform_alignment: u32,
     /// The index of the bind group that the host leaves to the plan's passes.
     pub bind_group: u32,
+}
+
+/// WebGPU's default limit.
+fn default_uniform_size() -> u32 {
+    65536
 }
 
 impl Capabilities {
@@ -35,6 +43,7 @@ impl Capabilities {
             max_texture_size: 8192,
             max_texture_layers: 256,
             max_workgroups: 65535,
+            max_uniform_size: default_uniform_size(),
             uniform_alignment: 256,
             bind_group: 0,
         }
@@ -84,6 +93,8 @@ impl Capabilities {
             max_texture_size: limits.max_texture_dimension_2d,
             max_texture_layers: limits.max_texture_array_layers,
             max_workgroups: limits.max_compute_workgroups_per_dimension,
+            max_uniform_size: u32::try_from(limits.max_uniform_buffer_binding_size)
+                .unwrap_or(u32::MAX),
             uniform_alignment: limits.min_uniform_buffer_offset_alignment,
             bind_group: 0,
         }

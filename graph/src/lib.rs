@@ -27,12 +27,12 @@ pub use error::{GraphError, GraphErrorKind, Position};
 pub use graph::{Edge, Endpoint, Graph, GraphNode, Import, Output, VERSION};
 pub use node::{
     Binding, BindingResource, Connected, CountRule, Direction, ExtentRule, FormatRule, Lifetime,
-    Node, NodeDesc, ParameterBlock, Pass, Slot, SlotResource, Stage, Work,
+    MipLevel, Node, NodeDesc, ParameterBlock, Pass, RegionTable, Slot, SlotResource, Stage, Work,
 };
 pub use plan::{
     Home, ParameterError, ParameterLayout, Plan, PlanError, PlannedBinding, PlannedBindingResource,
-    PlannedImport, PlannedMemory, PlannedOutput, PlannedParameters, PlannedPass, PlannedResource,
-    PlannedWork, SampleType,
+    PlannedImport, PlannedMemory, PlannedOutput, PlannedParameters, PlannedPass, PlannedRegions,
+    PlannedResource, PlannedWork, RegionError, SampleType,
 };
 pub use registry::NodeRegistry;
 pub use resource::{Access, ResourceDesc, TextureDesc};

@@ -116,7 +116,7 @@ pub enum FormatRule {
     SameAs(String),
 }
 
-/// Which width and height a texture has.
+/// Which width and height a texture has. A texture that takes those of another slot also has its regions.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum ExtentRule {
@@ -174,19 +174,46 @@ pub struct Binding {
 pub enum BindingResource {
     /// The node's uniform data.
     Parameters,
-    /// One layer of a texture, loaded or sampled: the layer that the pass is recorded for.
+    /// The regions of a slot's map in the layer that the pass is recorded for: a uniform array of `MapRegion`, which all
+    /// nodes share that work on maps with those regions.
+    Regions(RegionTable),
+    /// One layer of a texture, mip level 0, loaded or sampled: the layer that the pass is recorded for.
     Layer(String),
+    /// The same of another mip level.
+    Level(MipLevel),
     /// All layers of a texture, loaded or sampled.
     Layers(String),
     /// One layer of a texture, mip level 0, written.
     StorageLayer(String),
+    /// The same of another mip level.
+    StorageLevel(MipLevel),
     /// A storage buffer.
     Buffer(String),
     /// A sampler that clamps to the edge.
     Sampler {
         /// Linear within and between mip levels; otherwise nearest.
         filtering: bool,
+        /// The most probes of an anisotropic lookup, 1 to 16. More than one needs `filtering`.
+        anisotropy: u16,
     },
+}
+
+/// A mip level of a slot's texture.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
+pub struct MipLevel {
+    /// The slot.
+    pub slot: String,
+    /// The mip level.
+    pub level: u32,
+}
+
+/// The regions of a slot's map, and what a pass asks of them.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
+pub struct RegionTable {
+    /// The slot.
+    pub slot: String,
+    /// The fewest texels that a region can have along each side.
+    pub smallest: u32,
 }
 
 /// What a pass records.
@@ -201,6 +228,17 @@ pub enum Work {
         texels_per_workgroup: [u32; 2],
         /// Once per dirty layer of `covers`; otherwise once.
         each_layer: bool,
+    },
+    /// A dispatch that covers the regions of one layer, once per dirty layer. Where a layer can have one region,
+    /// workgroups lie in a grid from its origin on. Where it can have more, they are numbered through the regions, row by
+    /// row of each; there are enough of them for any regions that do not overlap.
+    ComputeRegions {
+        /// The slot that is covered.
+        covers: String,
+        /// The mip level that is covered.
+        level: u32,
+        /// Texels that one workgroup covers.
+        texels_per_workgroup: [u32; 2],
     },
     /// A triangle over the whole of a target, which need not be cleared.
     Fullscreen {
@@ -227,9 +265,11 @@ pub struct ParameterBlock {
     pub name: String,
     /// The struct's size in bytes.
     pub size: u32,
-    /// Whether there is one struct per layer of this slot; otherwise one.
+    /// How many structs a binding holds: more than one are a uniform array.
+    pub elements: u32,
+    /// Whether there is one struct (or array) per layer of this slot; otherwise one.
     pub each_layer_of: Option<String>,
-    /// What the struct holds until the host writes something else; zeros where empty.
+    /// What each struct holds until the host writes something else; zeros where empty.
     pub initial: Vec<u8>,
 }
 

@@ -2,12 +2,14 @@
 
 mod check;
 mod parameters;
+mod regions;
 mod text;
 
 use std::collections::BTreeMap;
 
 pub use check::PlanError;
 pub use parameters::{ParameterError, ParameterLayout, PlannedParameters};
+pub use regions::{PlannedRegions, RegionError};
 use serde::{Deserialize, Serialize};
 
 use crate::{Access, ResourceDesc, Stage, TextureDesc};
@@ -58,6 +60,8 @@ pub struct PlannedPass {
     pub layers: u32,
     /// Whether it is recorded once per dirty layer; otherwise once per stage.
     pub each_layer: bool,
+    /// The import or resource whose layers (and regions) it follows: the one that a host names to say which are dirty.
+    pub map: String,
     /// Bytes read when every layer is dirty, each texel once.
     pub bytes_read: u64,
     /// Bytes written when every layer is dirty.
@@ -85,21 +89,32 @@ pub enum PlannedBindingResource {
         /// Bytes.
         size: u32,
     },
+    /// The regions of the layer that the pass is recorded for, in the same buffer, with a dynamic offset of their own.
+    Regions {
+        /// Index into the region tables of [`Plan::parameters`].
+        table: usize,
+        /// Bytes.
+        size: u32,
+    },
     /// A texture that is loaded or sampled.
     Texture {
         /// Index into [`Plan::resources`].
         resource: usize,
         /// A view of one layer, the one that the pass is recorded for; otherwise an array view of all.
         one_layer: bool,
+        /// The one mip level of a view of one layer; an array view has all.
+        level: u32,
         /// What a load gives.
         sample: SampleType,
         /// Whether texels have several samples.
         multisampled: bool,
     },
-    /// Mip level 0 of one layer of a texture that is written.
+    /// One mip level of one layer of a texture that is written.
     StorageTexture {
         /// Index into [`Plan::resources`].
         resource: usize,
+        /// The mip level.
+        level: u32,
     },
     /// A storage buffer.
     Buffer {
@@ -112,6 +127,8 @@ pub enum PlannedBindingResource {
     Sampler {
         /// Linear; otherwise nearest.
         filtering: bool,
+        /// The most probes of an anisotropic lookup, 1 to 16.
+        anisotropy: u16,
     },
 }
 
@@ -131,7 +148,7 @@ pub enum SampleType {
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum PlannedWork {
-    /// A dispatch.
+    /// A dispatch, of as many workgroups as cover a texture or all its regions.
     Compute {
         /// Workgroups in x and y.
         workgroups: [u32; 2],

@@ -19,6 +19,10 @@ pub struct TextureDesc {
     /// Number of mip levels.
     #[serde(default = "one")]
     pub mips: u32,
+    /// Regions that each layer can have: rectangles of an atlas, which change per frame. One, unless the host says
+    /// otherwise, is the whole layer.
+    #[serde(default = "one")]
+    pub regions: u32,
     /// Samples per texel. A multisampled texture with several layers is a list of textures, one per layer.
     #[serde(default = "one")]
     pub samples: u32,
@@ -37,20 +41,36 @@ impl TextureDesc {
             size,
             layers: 1,
             mips: 1,
+            regions: 1,
             samples: 1,
         }
+    }
+
+    /// Width and height of a mip level.
+    #[must_use]
+    pub fn size_at(&self, level: u32) -> [u32; 2] {
+        self.size.map(|side| (side >> level.min(31)).max(1))
+    }
+
+    /// Bytes of one mip level of one layer, all samples.
+    #[must_use]
+    pub fn bytes_per_level(&self, level: u32) -> u64 {
+        let [width, height] = self.size_at(level).map(u64::from);
+        width * height * u64::from(self.format.bytes_per_texel()) * u64::from(self.samples)
     }
 
     /// Bytes of one layer, all mip levels and samples.
     #[must_use]
     pub fn bytes_per_layer(&self) -> u64 {
-        let texel = u64::from(self.format.bytes_per_texel()) * u64::from(self.samples);
         (0..self.mips)
-            .map(|mip| {
-                let side = |length: u32| u64::from((length >> mip.min(31)).max(1));
-                side(self.size[0]) * side(self.size[1]) * texel
-            })
+            .map(|level| self.bytes_per_level(level))
             .sum()
+    }
+
+    /// The number of mip levels of a map whose shorter side has at least one texel on each of them.
+    #[must_use]
+    pub fn most_levels(size: [u32; 2]) -> u32 {
+        size[0].min(size[1]).max(1).ilog2() + 1
     }
 
     /// Bytes of all layers.
@@ -68,6 +88,9 @@ impl fmt::Display for TextureDesc {
         }
         if self.mips > 1 {
             write!(f, ", {} mips", self.mips)?;
+        }
+        if self.regions > 1 {
+            write!(f, ", {} regions", self.regions)?;
         }
         if self.samples > 1 {
             write!(f, ", {} samples", self.samples)?;

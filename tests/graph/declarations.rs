@@ -318,6 +318,7 @@ fn with_parameters(size: u32, initial: Vec<u8>, each_layer_of: Option<&str>) -> 
     NodeDesc {
         parameters: Some(ParameterBlock {
             name: "P".to_owned(),
+            elements: 1,
             size,
             each_layer_of: each_layer_of.map(str::to_owned),
             initial,
@@ -358,6 +359,6 @@ fn parameters_that_do_not_fit() {
         "host",
         "",
         "",
-        "at most 4294967295 can be addressed",
+        "more than a uniform binding of this device holds (65536 bytes); at most 0 of them",
     );
 }

@@ -396,10 +396,10 @@ fn moment_scale_is_refused_with_the_reason() {
 }
 
 #[test]
-fn shadow_intensity_has_one_channel() {
+fn shadow_intensity_has_a_channel_per_light() {
     let text = edited(
         "\"type\": \"shade_hard\"",
-        "\"type\": \"shade_hard\", \"properties\": { \"format\": \"rgba8unorm\" }",
+        "\"type\": \"shade_hard\", \"properties\": { \"format\": \"rgba16unorm\" }",
     );
     assert_error(
         &refused(&text),
@@ -407,6 +407,6 @@ fn shadow_intensity_has_one_channel() {
         "shade",
         "",
         "10:5",
-        "r8unorm, r16float or r32float, not rgba8unorm",
+        "r8unorm, r16float, r32float or rgba8unorm, rgba16float, rgba32float, not rgba16unorm",
     );
 }

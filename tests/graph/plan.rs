@@ -94,14 +94,17 @@ fn compiling_and_describing_are_repeatable() {
     let nodes: [Box<dyn Node>; 4] = [
         Box::new(ResolveMoments {
             storage: moment_shadows::Storage::Float16,
+            mip_levels: Default::default(),
         }),
         Box::new(BlurMoments {
             kernel: KernelProperty::gaussian(3, 1.5),
             per_frame: false,
+            mip_levels: Default::default(),
         }),
         Box::new(BlurMoments {
             kernel: KernelProperty::gaussian(30, 12.0),
             per_frame: true,
+            mip_levels: Default::default(),
         }),
         Box::new(ShadeHard::default()),
     ];
@@ -127,12 +130,19 @@ fn parameters_are_aligned_to_the_device_and_do_not_overlap() {
             ..native()
         };
         let plan = compiled(&text, &device).unwrap();
+        let blocks = plan.parameters.blocks.iter();
+        let tables = plan.parameters.regions.iter();
+        let mut places: Vec<(u32, u32, u64, u32)> = blocks
+            .map(|block| (block.offset, block.stride, block.array_size(), block.count))
+            .chain(tables.map(|table| (table.offset, table.stride, table.size(), table.layers)))
+            .collect();
+        places.sort_unstable();
         let mut end = 0;
-        for block in &plan.parameters.blocks {
-            assert_eq!(block.offset % spacing, 0);
-            assert_eq!(block.stride % spacing, 0);
-            assert!(block.offset >= end && block.stride >= block.size);
-            end = block.offset + block.stride * block.count;
+        for (offset, stride, size, count) in places {
+            assert_eq!(offset % spacing, 0);
+            assert_eq!(stride % spacing, 0);
+            assert!(offset >= end && u64::from(stride) >= size);
+            end = offset + stride * count;
         }
         assert_eq!(plan.parameters.size, end);
         assert_eq!(
@@ -148,13 +158,13 @@ fn parameters_are_aligned_to_the_device_and_do_not_overlap() {
         .iter()
         .map(|block| (block.node.as_str(), block.offset, block.size, block.count))
         .collect();
-    // 32 bytes of a conversion for each of three layers, 656 of a kernel, 128 of a view.
+    // 32 bytes of a conversion for each of three layers, the regions of each, 656 of a kernel, 144 of a view.
     assert_eq!(
         blocks,
         [
             ("resolve", 0, 32, 3),
-            ("blur", 768, 656, 1),
-            ("shade", 1536, 128, 1)
+            ("blur", 1536, 656, 1),
+            ("shade", 2304, 144, 1)
         ]
     );
 }
@@ -163,10 +173,13 @@ fn parameters_are_aligned_to_the_device_and_do_not_overlap() {
 fn initial_values_are_those_of_the_nodes() {
     let plan = example();
     let bytes = plan.parameters.initial();
-    assert_eq!(bytes.len(), 512);
+    assert_eq!(bytes.len(), 768);
     let conversion = moment_shadows::DepthConversion::orthographic();
     assert_eq!(bytes[..32], *bytemuck::bytes_of(&conversion));
-    assert!(bytes[32..].iter().all(|&byte| byte == 0));
+    let region = moment_shadows::MapRegion::WHOLE;
+    assert_eq!(bytes[256..272], *bytemuck::bytes_of(&region));
+    let rest = bytes[32..256].iter().chain(&bytes[272..]);
+    assert!(rest.into_iter().all(|&byte| byte == 0));
 }
 
 #[test]
@@ -209,7 +222,7 @@ fn parameters_are_written_where_they_belong_or_not_at_all() {
     assert!(matches!(
         layout.write(&mut bytes[..100], "resolve", 1, &conversion),
         Err(ParameterError::Block {
-            expected: 768,
+            expected: 1280,
             given: 100
         })
     ));
@@ -227,12 +240,13 @@ fn bytes_are_those_counted_by_hand() {
         .iter()
         .map(|pass| (pass.bytes_read, pass.bytes_written))
         .collect();
-    // Four samples of four bytes and a conversion of 32; two blurs; the camera's depth, the map and a view of 128 bytes.
+    // Four samples of four bytes, a conversion of 32 and a region of 16; two blurs; the camera's depth, the map and a view
+    // of 144 bytes.
     let expected = [
-        (1024 * 1024 * 16 + 32, map),
-        (map, map),
-        (map, map),
-        (picture * 4 + map + 128, picture),
+        (1024 * 1024 * 16 + 32 + 16, map),
+        (map + 16, map),
+        (map + 16, map),
+        (picture * 4 + map + 144, picture),
     ];
     assert_eq!(moved, expected);
     assert_eq!(
@@ -364,9 +378,10 @@ memory (16.88 MiB resident)
   resolve.moments | blur.blurred rgba16unorm 1024x1024, 8.00 MiB
   blur.half_blurred            rgba16unorm 1024x1024, 8.00 MiB
   shade.shadow_intensity       r8unorm 1280x720, 0.88 MiB
-parameters (512 bytes per view)
+parameters (768 bytes per view)
   resolve                      DepthConversion at 0, 32 bytes x 1
-  shade                        ShadeHardParameters at 256, 128 bytes x 1
+  shade                        ShadeHardParameters at 512, 144 bytes x 1
+  light_depth                  MapRegion at 256, up to 1 regions x 1 layers
 outputs
   shadow_intensity             shade.shadow_intensity
 ";

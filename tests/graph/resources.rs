@@ -177,7 +177,7 @@ fn empty_textures_are_refused_with_the_sizes_that_are_not() {
             "resolve",
             "depth",
             "8:5",
-            "every side is at least 1 and at most 8192",
+            "sides from 1 to 8192",
         );
     }
     for count in ["\"layers\": 0", "\"mips\": 0"] {

@@ -88,7 +88,10 @@ fn bindings_that_are_missing_superfluous_or_doubled() {
     let extra = [
         layer("from"),
         storage("to"),
-        BindingResource::Sampler { filtering: true },
+        BindingResource::Sampler {
+            filtering: true,
+            anisotropy: 1,
+        },
     ];
     assert_refused(
         COPY,
@@ -169,7 +172,13 @@ fn bindings_of_another_class() {
     );
     assert_refused(
         COPY,
-        [BindingResource::Sampler { filtering: false }, storage("to")],
+        [
+            BindingResource::Sampler {
+                filtering: false,
+                anisotropy: 1,
+            },
+            storage("to"),
+        ],
         "binding 0 ('source') is not a sampler",
     );
 }
@@ -197,6 +206,7 @@ fn uniform_structs_of_another_size() {
             )],
             parameters: Some(ParameterBlock {
                 name: "Scale".to_owned(),
+                elements: 1,
                 size,
                 each_layer_of: None,
                 initial: Vec::new(),
@@ -350,7 +360,13 @@ const SAMPLE: &str = "
 ";
 
 fn sampled(filtering: bool) -> Vec<BindingResource> {
-    vec![layer("from"), BindingResource::Sampler { filtering }]
+    vec![
+        layer("from"),
+        BindingResource::Sampler {
+            filtering,
+            anisotropy: 1,
+        },
+    ]
 }
 
 #[test]

@@ -50,6 +50,7 @@ impl Node for Fill {
             parameters: Some(ParameterBlock {
                 name: "Factor".to_owned(),
                 size: 16,
+                elements: 1,
                 each_layer_of: Some("filled".to_owned()),
                 initial: bytemuck::bytes_of(&[1.0_f32; 4]).to_vec(),
             }),
@@ -220,6 +221,7 @@ pub(crate) fn fullscreen_by_layer(layers: u32) -> NodeDesc {
         parameters: Some(ParameterBlock {
             name: "Value".to_owned(),
             size: 16,
+            elements: 1,
             each_layer_of: Some("to".to_owned()),
             initial: Vec::new(),
         }),

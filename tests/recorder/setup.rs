@@ -1,6 +1,6 @@
 //! A plan, bound and ready.
 
-use moment_shadows::{DepthConversion, LeakReduction, Profile, ReceiverBias};
+use moment_shadows::{DepthConversion, LeakReduction, MapRegion, Profile, ReceiverBias};
 use moment_shadows_graph::nodes::{CameraView, LightDepth, LightView, ShadeHardParameters};
 use moment_shadows_graph::record::{
     Bindings, ImportedResource, PipelineOptions, Pipelines, RecordError, Recording, Resources,
@@ -151,6 +151,8 @@ pub(crate) fn view(camera: [[f32; 4]; 4], light: [[f32; 4]; 4], layer: u32) -> S
             clip_from_world: light,
             depth: LightDepth::Orthographic { reversed: false },
             layer,
+            region: MapRegion::WHOLE,
+            channel: 0,
         },
         ReceiverBias::NONE,
         LeakReduction::NONE,

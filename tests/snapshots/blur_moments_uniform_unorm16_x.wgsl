@@ -129,6 +129,7 @@ const STORAGE = 0u;
 const WORKGROUP_X = 8;
 const WORKGROUP_Y = 8;
 const AXIS = vec2i(1, 0);
+const REGIONS = 1u;
 const OUTPUTS = 16;
 struct BlurSums {
     o0: vec4f,
@@ -148,7 +149,7 @@ struct BlurSums {
     o14: vec4f,
     o15: vec4f,
 }
-fn blur_taps(map: texture_2d<f32>, first: vec2i, last: vec2i, sums: BlurSums, w0: vec4f, w1: vec4f, w2: vec4f, w3: vec4f, w4: vec4f, w5: vec4f, w6: vec4f, w7: vec4f) -> BlurSums {
+fn blur_taps(map: texture_2d<f32>, first: vec2i, low: vec2i, last: vec2i, sums: BlurSums, w0: vec4f, w1: vec4f, w2: vec4f, w3: vec4f, w4: vec4f, w5: vec4f, w6: vec4f, w7: vec4f) -> BlurSums {
     var o0 = sums.o0;
     var o1 = sums.o1;
     var o2 = sums.o2;
@@ -165,7 +166,7 @@ fn blur_taps(map: texture_2d<f32>, first: vec2i, last: vec2i, sums: BlurSums, w0
     var o13 = sums.o13;
     var o14 = sums.o14;
     var o15 = sums.o15;
-    let t0 = textureLoad(map, clamp(first + 0 * AXIS, vec2i(0), last), 0);
+    let t0 = textureLoad(map, clamp(first + 0 * AXIS, low, last), 0);
     o0 = fma(vec4f(w3.w), t0, o0);
     o1 = fma(vec4f(w3.z), t0, o1);
     o2 = fma(vec4f(w3.y), t0, o2);
@@ -182,7 +183,7 @@ fn blur_taps(map: texture_2d<f32>, first: vec2i, last: vec2i, sums: BlurSums, w0
     o13 = fma(vec4f(w0.z), t0, o13);
     o14 = fma(vec4f(w0.y), t0, o14);
     o15 = fma(vec4f(w0.x), t0, o15);
-    let t1 = textureLoad(map, clamp(first + 1 * AXIS, vec2i(0), last), 0);
+    let t1 = textureLoad(map, clamp(first + 1 * AXIS, low, last), 0);
     o0 = fma(vec4f(w4.x), t1, o0);
     o1 = fma(vec4f(w3.w), t1, o1);
     o2 = fma(vec4f(w3.z), t1, o2);
@@ -199,7 +200,7 @@ fn blur_taps(map: texture_2d<f32>, first: vec2i, last: vec2i, sums: BlurSums, w0
     o13 = fma(vec4f(w0.w), t1, o13);
     o14 = fma(vec4f(w0.z), t1, o14);
     o15 = fma(vec4f(w0.y), t1, o15);
-    let t2 = textureLoad(map, clamp(first + 2 * AXIS, vec2i(0), last), 0);
+    let t2 = textureLoad(map, clamp(first + 2 * AXIS, low, last), 0);
     o0 = fma(vec4f(w4.y), t2, o0);
     o1 = fma(vec4f(w4.x), t2, o1);
     o2 = fma(vec4f(w3.w), t2, o2);
@@ -216,7 +217,7 @@ fn blur_taps(map: texture_2d<f32>, first: vec2i, last: vec2i, sums: BlurSums, w0
     o13 = fma(vec4f(w1.x), t2, o13);
     o14 = fma(vec4f(w0.w), t2, o14);
     o15 = fma(vec4f(w0.z), t2, o15);
-    let t3 = textureLoad(map, clamp(first + 3 * AXIS, vec2i(0), last), 0);
+    let t3 = textureLoad(map, clamp(first + 3 * AXIS, low, last), 0);
     o0 = fma(vec4f(w4.z), t3, o0);
     o1 = fma(vec4f(w4.y), t3, o1);
     o2 = fma(vec4f(w4.x), t3, o2);
@@ -233,7 +234,7 @@ fn blur_taps(map: texture_2d<f32>, first: vec2i, last: vec2i, sums: BlurSums, w0
     o13 = fma(vec4f(w1.y), t3, o13);
     o14 = fma(vec4f(w1.x), t3, o14);
     o15 = fma(vec4f(w0.w), t3, o15);
-    let t4 = textureLoad(map, clamp(first + 4 * AXIS, vec2i(0), last), 0);
+    let t4 = textureLoad(map, clamp(first + 4 * AXIS, low, last), 0);
     o0 = fma(vec4f(w4.w), t4, o0);
     o1 = fma(vec4f(w4.z), t4, o1);
     o2 = fma(vec4f(w4.y), t4, o2);
@@ -250,7 +251,7 @@ fn blur_taps(map: texture_2d<f32>, first: vec2i, last: vec2i, sums: BlurSums, w0
     o13 = fma(vec4f(w1.z), t4, o13);
     o14 = fma(vec4f(w1.y), t4, o14);
     o15 = fma(vec4f(w1.x), t4, o15);
-    let t5 = textureLoad(map, clamp(first + 5 * AXIS, vec2i(0), last), 0);
+    let t5 = textureLoad(map, clamp(first + 5 * AXIS, low, last), 0);
     o0 = fma(vec4f(w5.x), t5, o0);
     o1 = fma(vec4f(w4.w), t5, o1);
     o2 = fma(vec4f(w4.z), t5, o2);
@@ -267,7 +268,7 @@ fn blur_taps(map: texture_2d<f32>, first: vec2i, last: vec2i, sums: BlurSums, w0
     o13 = fma(vec4f(w1.w), t5, o13);
     o14 = fma(vec4f(w1.z), t5, o14);
     o15 = fma(vec4f(w1.y), t5, o15);
-    let t6 = textureLoad(map, clamp(first + 6 * AXIS, vec2i(0), last), 0);
+    let t6 = textureLoad(map, clamp(first + 6 * AXIS, low, last), 0);
     o0 = fma(vec4f(w5.y), t6, o0);
     o1 = fma(vec4f(w5.x), t6, o1);
     o2 = fma(vec4f(w4.w), t6, o2);
@@ -284,7 +285,7 @@ fn blur_taps(map: texture_2d<f32>, first: vec2i, last: vec2i, sums: BlurSums, w0
     o13 = fma(vec4f(w2.x), t6, o13);
     o14 = fma(vec4f(w1.w), t6, o14);
     o15 = fma(vec4f(w1.z), t6, o15);
-    let t7 = textureLoad(map, clamp(first + 7 * AXIS, vec2i(0), last), 0);
+    let t7 = textureLoad(map, clamp(first + 7 * AXIS, low, last), 0);
     o0 = fma(vec4f(w5.z), t7, o0);
     o1 = fma(vec4f(w5.y), t7, o1);
     o2 = fma(vec4f(w5.x), t7, o2);
@@ -301,7 +302,7 @@ fn blur_taps(map: texture_2d<f32>, first: vec2i, last: vec2i, sums: BlurSums, w0
     o13 = fma(vec4f(w2.y), t7, o13);
     o14 = fma(vec4f(w2.x), t7, o14);
     o15 = fma(vec4f(w1.w), t7, o15);
-    let t8 = textureLoad(map, clamp(first + 8 * AXIS, vec2i(0), last), 0);
+    let t8 = textureLoad(map, clamp(first + 8 * AXIS, low, last), 0);
     o0 = fma(vec4f(w5.w), t8, o0);
     o1 = fma(vec4f(w5.z), t8, o1);
     o2 = fma(vec4f(w5.y), t8, o2);
@@ -318,7 +319,7 @@ fn blur_taps(map: texture_2d<f32>, first: vec2i, last: vec2i, sums: BlurSums, w0
     o13 = fma(vec4f(w2.z), t8, o13);
     o14 = fma(vec4f(w2.y), t8, o14);
     o15 = fma(vec4f(w2.x), t8, o15);
-    let t9 = textureLoad(map, clamp(first + 9 * AXIS, vec2i(0), last), 0);
+    let t9 = textureLoad(map, clamp(first + 9 * AXIS, low, last), 0);
     o0 = fma(vec4f(w6.x), t9, o0);
     o1 = fma(vec4f(w5.w), t9, o1);
     o2 = fma(vec4f(w5.z), t9, o2);
@@ -335,7 +336,7 @@ fn blur_taps(map: texture_2d<f32>, first: vec2i, last: vec2i, sums: BlurSums, w0
     o13 = fma(vec4f(w2.w), t9, o13);
     o14 = fma(vec4f(w2.z), t9, o14);
     o15 = fma(vec4f(w2.y), t9, o15);
-    let t10 = textureLoad(map, clamp(first + 10 * AXIS, vec2i(0), last), 0);
+    let t10 = textureLoad(map, clamp(first + 10 * AXIS, low, last), 0);
     o0 = fma(vec4f(w6.y), t10, o0);
     o1 = fma(vec4f(w6.x), t10, o1);
     o2 = fma(vec4f(w5.w), t10, o2);
@@ -352,7 +353,7 @@ fn blur_taps(map: texture_2d<f32>, first: vec2i, last: vec2i, sums: BlurSums, w0
     o13 = fma(vec4f(w3.x), t10, o13);
     o14 = fma(vec4f(w2.w), t10, o14);
     o15 = fma(vec4f(w2.z), t10, o15);
-    let t11 = textureLoad(map, clamp(first + 11 * AXIS, vec2i(0), last), 0);
+    let t11 = textureLoad(map, clamp(first + 11 * AXIS, low, last), 0);
     o0 = fma(vec4f(w6.z), t11, o0);
     o1 = fma(vec4f(w6.y), t11, o1);
     o2 = fma(vec4f(w6.x), t11, o2);
@@ -369,7 +370,7 @@ fn blur_taps(map: texture_2d<f32>, first: vec2i, last: vec2i, sums: BlurSums, w0
     o13 = fma(vec4f(w3.y), t11, o13);
     o14 = fma(vec4f(w3.x), t11, o14);
     o15 = fma(vec4f(w2.w), t11, o15);
-    let t12 = textureLoad(map, clamp(first + 12 * AXIS, vec2i(0), last), 0);
+    let t12 = textureLoad(map, clamp(first + 12 * AXIS, low, last), 0);
     o0 = fma(vec4f(w6.w), t12, o0);
     o1 = fma(vec4f(w6.z), t12, o1);
     o2 = fma(vec4f(w6.y), t12, o2);
@@ -386,7 +387,7 @@ fn blur_taps(map: texture_2d<f32>, first: vec2i, last: vec2i, sums: BlurSums, w0
     o13 = fma(vec4f(w3.z), t12, o13);
     o14 = fma(vec4f(w3.y), t12, o14);
     o15 = fma(vec4f(w3.x), t12, o15);
-    let t13 = textureLoad(map, clamp(first + 13 * AXIS, vec2i(0), last), 0);
+    let t13 = textureLoad(map, clamp(first + 13 * AXIS, low, last), 0);
     o0 = fma(vec4f(w7.x), t13, o0);
     o1 = fma(vec4f(w6.w), t13, o1);
     o2 = fma(vec4f(w6.z), t13, o2);
@@ -403,7 +404,7 @@ fn blur_taps(map: texture_2d<f32>, first: vec2i, last: vec2i, sums: BlurSums, w0
     o13 = fma(vec4f(w3.w), t13, o13);
     o14 = fma(vec4f(w3.z), t13, o14);
     o15 = fma(vec4f(w3.y), t13, o15);
-    let t14 = textureLoad(map, clamp(first + 14 * AXIS, vec2i(0), last), 0);
+    let t14 = textureLoad(map, clamp(first + 14 * AXIS, low, last), 0);
     o0 = fma(vec4f(w7.y), t14, o0);
     o1 = fma(vec4f(w7.x), t14, o1);
     o2 = fma(vec4f(w6.w), t14, o2);
@@ -420,7 +421,7 @@ fn blur_taps(map: texture_2d<f32>, first: vec2i, last: vec2i, sums: BlurSums, w0
     o13 = fma(vec4f(w4.x), t14, o13);
     o14 = fma(vec4f(w3.w), t14, o14);
     o15 = fma(vec4f(w3.z), t14, o15);
-    let t15 = textureLoad(map, clamp(first + 15 * AXIS, vec2i(0), last), 0);
+    let t15 = textureLoad(map, clamp(first + 15 * AXIS, low, last), 0);
     o0 = fma(vec4f(w7.z), t15, o0);
     o1 = fma(vec4f(w7.y), t15, o1);
     o2 = fma(vec4f(w7.x), t15, o2);
@@ -447,16 +448,93 @@ fn blur_taps(map: texture_2d<f32>, first: vec2i, last: vec2i, sums: BlurSums, w0
 @group(GROUP) @binding(0) var moments_map: texture_2d<f32>;
 @group(GROUP) @binding(1) var blurred_map: MomentsStorage;
 
-// Stores a filtered texel unless it lies beyond `last`, the last texel of the map.
+// Stores a filtered texel unless it lies beyond `last`, the last texel of the region.
 fn blur_store(texel: vec2i, last: vec2i, value: vec4f) {
     if all(texel <= last) {
         textureStore(blurred_map, texel, moments_round_texel(value, STORAGE));
     }
 }
 
+// moment_shadows/map_region.wgsl
+// Regions: rectangles of a layer that share an atlas and know nothing of each other.
+//
+// Mip level k of a region runs from floor(first / 2^k) to floor(end / 2^k). Regions that touch share that edge on every
+// level, wherever it lies, so none covers a texel of another, and a gutter is not needed.
+
+// Filled by the host-side `MapRegion`: texels of mip level 0. No texels: no region. A rectangle that leaves the map is
+// cut off at its border.
+struct MapRegion {
+    origin: vec2u,
+    extent: vec2u,
+}
+
+// The part of a region that lies in a map of `size` texels.
+fn map_region_within(region: MapRegion, size: vec2u) -> MapRegion {
+    let origin = min(region.origin, size);
+    return MapRegion(origin, min(region.extent, size - origin));
+}
+
+// A region of a map (within it) on mip level `level`, below 32.
+fn map_region_at_level(region: MapRegion, level: u32) -> MapRegion {
+    let origin = region.origin >> vec2u(level);
+    return MapRegion(origin, ((region.origin + region.extent) >> vec2u(level)) - origin);
+}
+
+// The coarsest of `levels` mip levels on which a region still has texels.
+fn map_region_last_level(region: MapRegion, levels: u32) -> u32 {
+    var level = max(levels, 1u) - 1u;
+    while level > 0u && any(map_region_at_level(region, level).extent == vec2u(0u)) {
+        level--;
+    }
+    return level;
+}
+
+// The place of `uv` (from 0 to 1 across the region) in texels of a region's mip level, kept half a texel away from its
+// edge: a bilinear filter there reads no other region.
+fn map_region_place(region_on_level: MapRegion, uv: vec2f) -> vec2f {
+    let extent = vec2f(region_on_level.extent);
+    return vec2f(region_on_level.origin) + clamp(uv * extent, vec2f(0.5), max(extent - 0.5, vec2f(0.5)));
+}
+
+// region_tile
+
+// Which part of which region a workgroup makes. Regions change per frame; the number of workgroups does not, and suffices
+// for all of them.
+
+@group(GROUP) @binding(4) var<uniform> regions: array<MapRegion, REGIONS>;
+
+struct RegionTile {
+    // The region's number in its table.
+    number: u32,
+    // The region in texels of a mip level; empty where nothing is left to do.
+    region: MapRegion,
+    // The tile's first texel, from the region's origin on.
+    first: vec2u,
+}
+
+// The tile of a workgroup that covers `texels` of mip level `level`, in a layer of `size` texels on mip level 0.
+fn region_tile(workgroup: vec3u, workgroups: vec3u, size: vec2u, level: u32, texels: vec2u) -> RegionTile {
+    if REGIONS == 1u {
+        let only = map_region_at_level(map_region_within(regions[0], size), level);
+        return RegionTile(0u, only, workgroup.xy * texels);
+    }
+    // Workgroups are numbered through the regions.
+    var index = workgroup.y * workgroups.x + workgroup.x;
+    for (var number = 0u; number < REGIONS; number++) {
+        let region = map_region_at_level(map_region_within(regions[number], size), level);
+        let tiles = (region.extent + texels - 1u) / texels;
+        let count = tiles.x * tiles.y;
+        if index < count {
+            return RegionTile(number, region, vec2u(index % tiles.x, index / tiles.x) * texels);
+        }
+        index -= count;
+    }
+    return RegionTile(0u, MapRegion(vec2u(0u), vec2u(0u)), vec2u(0u));
+}
+
 // blur_moments_uniform.wgsl
 
-// One direction of a separable filter over one layer, with weights that a host can change per frame.
+// One direction of a separable filter over the regions of one layer, with weights that a host can change per frame.
 // An invocation makes OUTPUTS texels in a row along AXIS; it runs through the texels in blocks of 16 and through the
 // weights in step, keeping the half that the next block needs again.
 
@@ -473,12 +551,16 @@ struct BlurParameters {
 @group(GROUP) @binding(2) var<uniform> parameters: BlurParameters;
 
 @compute @workgroup_size(WORKGROUP_X, WORKGROUP_Y)
-fn blur(@builtin(global_invocation_id) id: vec3u) {
-    let last = vec2i(textureDimensions(blurred_map)) - 1;
-    let first = vec2i(id.xy) * (1 + (OUTPUTS - 1) * AXIS);
-    if any(first > last) {
+fn blur(@builtin(local_invocation_id) local: vec3u, @builtin(workgroup_id) workgroup: vec3u, @builtin(num_workgroups) workgroups: vec3u) {
+    let outputs = vec2u(1 + (OUTPUTS - 1) * AXIS);
+    let tile = region_tile(workgroup, workgroups, textureDimensions(blurred_map), 0u, vec2u(WORKGROUP_X, WORKGROUP_Y) * outputs);
+    let place = tile.first + local.xy * outputs;
+    if any(place >= tile.region.extent) {
         return;
     }
+    let low = vec2i(tile.region.origin);
+    let last = low + vec2i(tile.region.extent) - 1;
+    let first = low + vec2i(place);
     var sums: BlurSums;
     var w0 = parameters.weights[0];
     var w1 = parameters.weights[1];
@@ -492,7 +574,7 @@ fn blur(@builtin(global_invocation_id) id: vec3u) {
         let w6 = parameters.weights[4u * block + 6u];
         let w7 = parameters.weights[4u * block + 7u];
         let tap = i32(16u * block) - i32(parameters.radius);
-        sums = blur_taps(moments_map, first + tap * AXIS, last, sums, w0, w1, w2, w3, w4, w5, w6, w7);
+        sums = blur_taps(moments_map, first + tap * AXIS, low, last, sums, w0, w1, w2, w3, w4, w5, w6, w7);
         w0 = w4;
         w1 = w5;
         w2 = w6;

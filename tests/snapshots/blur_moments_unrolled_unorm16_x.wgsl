@@ -129,41 +129,42 @@ const STORAGE = 0u;
 const WORKGROUP_X = 8;
 const WORKGROUP_Y = 8;
 const AXIS = vec2i(1, 0);
+const REGIONS = 1u;
 const OUTPUTS = 8;
-fn blur_block(map: texture_2d<f32>, first: vec2i, last: vec2i) -> array<vec4f, 8> {
-    let t0 = textureLoad(map, clamp(first + -1 * AXIS, vec2i(0), last), 0);
+fn blur_block(map: texture_2d<f32>, first: vec2i, low: vec2i, last: vec2i) -> array<vec4f, 8> {
+    let t0 = textureLoad(map, clamp(first + -1 * AXIS, low, last), 0);
     var o0 = 0.16637853 * t0;
-    let t1 = textureLoad(map, clamp(first + 0 * AXIS, vec2i(0), last), 0);
+    let t1 = textureLoad(map, clamp(first + 0 * AXIS, low, last), 0);
     o0 = fma(vec4f(0.66724294), t1, o0);
     var o1 = 0.16637853 * t1;
-    let t2 = textureLoad(map, clamp(first + 1 * AXIS, vec2i(0), last), 0);
+    let t2 = textureLoad(map, clamp(first + 1 * AXIS, low, last), 0);
     o0 = fma(vec4f(0.16637853), t2, o0);
     o1 = fma(vec4f(0.66724294), t2, o1);
     var o2 = 0.16637853 * t2;
-    let t3 = textureLoad(map, clamp(first + 2 * AXIS, vec2i(0), last), 0);
+    let t3 = textureLoad(map, clamp(first + 2 * AXIS, low, last), 0);
     o1 = fma(vec4f(0.16637853), t3, o1);
     o2 = fma(vec4f(0.66724294), t3, o2);
     var o3 = 0.16637853 * t3;
-    let t4 = textureLoad(map, clamp(first + 3 * AXIS, vec2i(0), last), 0);
+    let t4 = textureLoad(map, clamp(first + 3 * AXIS, low, last), 0);
     o2 = fma(vec4f(0.16637853), t4, o2);
     o3 = fma(vec4f(0.66724294), t4, o3);
     var o4 = 0.16637853 * t4;
-    let t5 = textureLoad(map, clamp(first + 4 * AXIS, vec2i(0), last), 0);
+    let t5 = textureLoad(map, clamp(first + 4 * AXIS, low, last), 0);
     o3 = fma(vec4f(0.16637853), t5, o3);
     o4 = fma(vec4f(0.66724294), t5, o4);
     var o5 = 0.16637853 * t5;
-    let t6 = textureLoad(map, clamp(first + 5 * AXIS, vec2i(0), last), 0);
+    let t6 = textureLoad(map, clamp(first + 5 * AXIS, low, last), 0);
     o4 = fma(vec4f(0.16637853), t6, o4);
     o5 = fma(vec4f(0.66724294), t6, o5);
     var o6 = 0.16637853 * t6;
-    let t7 = textureLoad(map, clamp(first + 6 * AXIS, vec2i(0), last), 0);
+    let t7 = textureLoad(map, clamp(first + 6 * AXIS, low, last), 0);
     o5 = fma(vec4f(0.16637853), t7, o5);
     o6 = fma(vec4f(0.66724294), t7, o6);
     var o7 = 0.16637853 * t7;
-    let t8 = textureLoad(map, clamp(first + 7 * AXIS, vec2i(0), last), 0);
+    let t8 = textureLoad(map, clamp(first + 7 * AXIS, low, last), 0);
     o6 = fma(vec4f(0.16637853), t8, o6);
     o7 = fma(vec4f(0.66724294), t8, o7);
-    let t9 = textureLoad(map, clamp(first + 8 * AXIS, vec2i(0), last), 0);
+    let t9 = textureLoad(map, clamp(first + 8 * AXIS, low, last), 0);
     o7 = fma(vec4f(0.16637853), t9, o7);
     return array<vec4f, 8>(o0, o1, o2, o3, o4, o5, o6, o7);
 }
@@ -175,26 +176,107 @@ fn blur_block(map: texture_2d<f32>, first: vec2i, last: vec2i) -> array<vec4f, 8
 @group(GROUP) @binding(0) var moments_map: texture_2d<f32>;
 @group(GROUP) @binding(1) var blurred_map: MomentsStorage;
 
-// Stores a filtered texel unless it lies beyond `last`, the last texel of the map.
+// Stores a filtered texel unless it lies beyond `last`, the last texel of the region.
 fn blur_store(texel: vec2i, last: vec2i, value: vec4f) {
     if all(texel <= last) {
         textureStore(blurred_map, texel, moments_round_texel(value, STORAGE));
     }
 }
 
+// moment_shadows/map_region.wgsl
+// Regions: rectangles of a layer that share an atlas and know nothing of each other.
+//
+// Mip level k of a region runs from floor(first / 2^k) to floor(end / 2^k). Regions that touch share that edge on every
+// level, wherever it lies, so none covers a texel of another, and a gutter is not needed.
+
+// Filled by the host-side `MapRegion`: texels of mip level 0. No texels: no region. A rectangle that leaves the map is
+// cut off at its border.
+struct MapRegion {
+    origin: vec2u,
+    extent: vec2u,
+}
+
+// The part of a region that lies in a map of `size` texels.
+fn map_region_within(region: MapRegion, size: vec2u) -> MapRegion {
+    let origin = min(region.origin, size);
+    return MapRegion(origin, min(region.extent, size - origin));
+}
+
+// A region of a map (within it) on mip level `level`, below 32.
+fn map_region_at_level(region: MapRegion, level: u32) -> MapRegion {
+    let origin = region.origin >> vec2u(level);
+    return MapRegion(origin, ((region.origin + region.extent) >> vec2u(level)) - origin);
+}
+
+// The coarsest of `levels` mip levels on which a region still has texels.
+fn map_region_last_level(region: MapRegion, levels: u32) -> u32 {
+    var level = max(levels, 1u) - 1u;
+    while level > 0u && any(map_region_at_level(region, level).extent == vec2u(0u)) {
+        level--;
+    }
+    return level;
+}
+
+// The place of `uv` (from 0 to 1 across the region) in texels of a region's mip level, kept half a texel away from its
+// edge: a bilinear filter there reads no other region.
+fn map_region_place(region_on_level: MapRegion, uv: vec2f) -> vec2f {
+    let extent = vec2f(region_on_level.extent);
+    return vec2f(region_on_level.origin) + clamp(uv * extent, vec2f(0.5), max(extent - 0.5, vec2f(0.5)));
+}
+
+// region_tile
+
+// Which part of which region a workgroup makes. Regions change per frame; the number of workgroups does not, and suffices
+// for all of them.
+
+@group(GROUP) @binding(4) var<uniform> regions: array<MapRegion, REGIONS>;
+
+struct RegionTile {
+    // The region's number in its table.
+    number: u32,
+    // The region in texels of a mip level; empty where nothing is left to do.
+    region: MapRegion,
+    // The tile's first texel, from the region's origin on.
+    first: vec2u,
+}
+
+// The tile of a workgroup that covers `texels` of mip level `level`, in a layer of `size` texels on mip level 0.
+fn region_tile(workgroup: vec3u, workgroups: vec3u, size: vec2u, level: u32, texels: vec2u) -> RegionTile {
+    if REGIONS == 1u {
+        let only = map_region_at_level(map_region_within(regions[0], size), level);
+        return RegionTile(0u, only, workgroup.xy * texels);
+    }
+    // Workgroups are numbered through the regions.
+    var index = workgroup.y * workgroups.x + workgroup.x;
+    for (var number = 0u; number < REGIONS; number++) {
+        let region = map_region_at_level(map_region_within(regions[number], size), level);
+        let tiles = (region.extent + texels - 1u) / texels;
+        let count = tiles.x * tiles.y;
+        if index < count {
+            return RegionTile(number, region, vec2u(index % tiles.x, index / tiles.x) * texels);
+        }
+        index -= count;
+    }
+    return RegionTile(0u, MapRegion(vec2u(0u), vec2u(0u)), vec2u(0u));
+}
+
 // blur_moments_unrolled.wgsl
 
-// One direction of a separable filter over one layer, with weights that are known when the graph is compiled.
+// One direction of a separable filter over the regions of one layer, with weights that are known when the graph is compiled.
 // An invocation makes OUTPUTS texels in a row along AXIS, out of texels that it loads once.
 
 @compute @workgroup_size(WORKGROUP_X, WORKGROUP_Y)
-fn blur(@builtin(global_invocation_id) id: vec3u) {
-    let last = vec2i(textureDimensions(blurred_map)) - 1;
-    let first = vec2i(id.xy) * (1 + (OUTPUTS - 1) * AXIS);
-    if any(first > last) {
+fn blur(@builtin(local_invocation_id) local: vec3u, @builtin(workgroup_id) workgroup: vec3u, @builtin(num_workgroups) workgroups: vec3u) {
+    let outputs = vec2u(1 + (OUTPUTS - 1) * AXIS);
+    let tile = region_tile(workgroup, workgroups, textureDimensions(blurred_map), 0u, vec2u(WORKGROUP_X, WORKGROUP_Y) * outputs);
+    let place = tile.first + local.xy * outputs;
+    if any(place >= tile.region.extent) {
         return;
     }
-    let block = blur_block(moments_map, first, last);
+    let low = vec2i(tile.region.origin);
+    let last = low + vec2i(tile.region.extent) - 1;
+    let first = low + vec2i(place);
+    let block = blur_block(moments_map, first, low, last);
     blur_store(first, last, block[0]);
     blur_store(first + AXIS, last, block[1]);
     blur_store(first + 2 * AXIS, last, block[2]);

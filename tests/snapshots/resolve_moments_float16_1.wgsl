@@ -162,30 +162,111 @@ fn moments_apply_bias(b: vec4f, bias: MomentBias) -> vec4f {
     return fma(vec4f(bias.alpha), vec4f(0.0, bias.beta, 0.0, bias.beta) - b, b);
 }
 
+// moment_shadows/map_region.wgsl
+// Regions: rectangles of a layer that share an atlas and know nothing of each other.
+//
+// Mip level k of a region runs from floor(first / 2^k) to floor(end / 2^k). Regions that touch share that edge on every
+// level, wherever it lies, so none covers a texel of another, and a gutter is not needed.
+
+// Filled by the host-side `MapRegion`: texels of mip level 0. No texels: no region. A rectangle that leaves the map is
+// cut off at its border.
+struct MapRegion {
+    origin: vec2u,
+    extent: vec2u,
+}
+
+// The part of a region that lies in a map of `size` texels.
+fn map_region_within(region: MapRegion, size: vec2u) -> MapRegion {
+    let origin = min(region.origin, size);
+    return MapRegion(origin, min(region.extent, size - origin));
+}
+
+// A region of a map (within it) on mip level `level`, below 32.
+fn map_region_at_level(region: MapRegion, level: u32) -> MapRegion {
+    let origin = region.origin >> vec2u(level);
+    return MapRegion(origin, ((region.origin + region.extent) >> vec2u(level)) - origin);
+}
+
+// The coarsest of `levels` mip levels on which a region still has texels.
+fn map_region_last_level(region: MapRegion, levels: u32) -> u32 {
+    var level = max(levels, 1u) - 1u;
+    while level > 0u && any(map_region_at_level(region, level).extent == vec2u(0u)) {
+        level--;
+    }
+    return level;
+}
+
+// The place of `uv` (from 0 to 1 across the region) in texels of a region's mip level, kept half a texel away from its
+// edge: a bilinear filter there reads no other region.
+fn map_region_place(region_on_level: MapRegion, uv: vec2f) -> vec2f {
+    let extent = vec2f(region_on_level.extent);
+    return vec2f(region_on_level.origin) + clamp(uv * extent, vec2f(0.5), max(extent - 0.5, vec2f(0.5)));
+}
+
 // specialization
 const GROUP = 0;
 alias DepthTexture = texture_depth_2d;
 alias MomentsStorage = texture_storage_2d<rgba16float, write>;
 const STORAGE = 1u;
 const SAMPLES = 1;
+const REGIONS = 1u;
+
+// region_tile
+
+// Which part of which region a workgroup makes. Regions change per frame; the number of workgroups does not, and suffices
+// for all of them.
+
+@group(GROUP) @binding(4) var<uniform> regions: array<MapRegion, REGIONS>;
+
+struct RegionTile {
+    // The region's number in its table.
+    number: u32,
+    // The region in texels of a mip level; empty where nothing is left to do.
+    region: MapRegion,
+    // The tile's first texel, from the region's origin on.
+    first: vec2u,
+}
+
+// The tile of a workgroup that covers `texels` of mip level `level`, in a layer of `size` texels on mip level 0.
+fn region_tile(workgroup: vec3u, workgroups: vec3u, size: vec2u, level: u32, texels: vec2u) -> RegionTile {
+    if REGIONS == 1u {
+        let only = map_region_at_level(map_region_within(regions[0], size), level);
+        return RegionTile(0u, only, workgroup.xy * texels);
+    }
+    // Workgroups are numbered through the regions.
+    var index = workgroup.y * workgroups.x + workgroup.x;
+    for (var number = 0u; number < REGIONS; number++) {
+        let region = map_region_at_level(map_region_within(regions[number], size), level);
+        let tiles = (region.extent + texels - 1u) / texels;
+        let count = tiles.x * tiles.y;
+        if index < count {
+            return RegionTile(number, region, vec2u(index % tiles.x, index / tiles.x) * texels);
+        }
+        index -= count;
+    }
+    return RegionTile(0u, MapRegion(vec2u(0u), vec2u(0u)), vec2u(0u));
+}
 
 // resolve_moments.wgsl
 
-// Resolves one layer of a depth map to moments: one texel per invocation.
+// Resolves the regions of one layer of a depth map to moments: one texel per invocation.
 //
 // The moments of the samples are averaged. Averaging depths instead would put an occluder between foreground and
 // background, where there is none (Peters & Klein, i3D 2015, section 4).
 
-@group(GROUP) @binding(0) var<uniform> conversion: DepthConversion;
+@group(GROUP) @binding(0) var<uniform> conversions: array<DepthConversion, REGIONS>;
 @group(GROUP) @binding(1) var depth_map: DepthTexture;
 @group(GROUP) @binding(2) var moments_map: MomentsStorage;
 
 @compute @workgroup_size(8, 8)
-fn resolve(@builtin(global_invocation_id) id: vec3u) {
-    if any(id.xy >= textureDimensions(moments_map)) {
+fn resolve(@builtin(local_invocation_id) local: vec3u, @builtin(workgroup_id) workgroup: vec3u, @builtin(num_workgroups) workgroups: vec3u) {
+    let tile = region_tile(workgroup, workgroups, textureDimensions(moments_map), 0u, vec2u(8u));
+    let place = tile.first + local.xy;
+    if any(place >= tile.region.extent) {
         return;
     }
-    let texel = vec2i(id.xy);
+    let texel = vec2i(tile.region.origin + place);
+    let conversion = conversions[tile.number];
     var sum = vec4f(0.0);
     // For a single sample the last argument of the load is its mip level, 0.
     for (var sample = 0; sample < SAMPLES; sample++) {

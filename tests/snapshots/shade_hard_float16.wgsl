@@ -285,24 +285,197 @@ fn leak_reduction_apply(shadow_intensity: f32, reduction: LeakReduction) -> f32 
     return 1.0 - select(curved, remaining, plain);
 }
 
+// moment_shadows/map_region.wgsl
+// Regions: rectangles of a layer that share an atlas and know nothing of each other.
+//
+// Mip level k of a region runs from floor(first / 2^k) to floor(end / 2^k). Regions that touch share that edge on every
+// level, wherever it lies, so none covers a texel of another, and a gutter is not needed.
+
+// Filled by the host-side `MapRegion`: texels of mip level 0. No texels: no region. A rectangle that leaves the map is
+// cut off at its border.
+struct MapRegion {
+    origin: vec2u,
+    extent: vec2u,
+}
+
+// The part of a region that lies in a map of `size` texels.
+fn map_region_within(region: MapRegion, size: vec2u) -> MapRegion {
+    let origin = min(region.origin, size);
+    return MapRegion(origin, min(region.extent, size - origin));
+}
+
+// A region of a map (within it) on mip level `level`, below 32.
+fn map_region_at_level(region: MapRegion, level: u32) -> MapRegion {
+    let origin = region.origin >> vec2u(level);
+    return MapRegion(origin, ((region.origin + region.extent) >> vec2u(level)) - origin);
+}
+
+// The coarsest of `levels` mip levels on which a region still has texels.
+fn map_region_last_level(region: MapRegion, levels: u32) -> u32 {
+    var level = max(levels, 1u) - 1u;
+    while level > 0u && any(map_region_at_level(region, level).extent == vec2u(0u)) {
+        level--;
+    }
+    return level;
+}
+
+// The place of `uv` (from 0 to 1 across the region) in texels of a region's mip level, kept half a texel away from its
+// edge: a bilinear filter there reads no other region.
+fn map_region_place(region_on_level: MapRegion, uv: vec2f) -> vec2f {
+    let extent = vec2f(region_on_level.extent);
+    return vec2f(region_on_level.origin) + clamp(uv * extent, vec2f(0.5), max(extent - 0.5, vec2f(0.5)));
+}
+
+// moment_shadows/minification.wgsl
+// Minification: what part of a map a pixel covers.
+//
+// A pixel maps to a parallelogram of texels. Its singular values are the axes of the ellipse that stands for it
+// (Heckbert, "Fundamentals of Texture Mapping and Image Warping", 1989, section 3.5): a lookup takes probes along the
+// major axis, each on the mip level that fits the minor axis. Averages of moments are moments, which is what filterable
+// shadow maps exist for (Donnelly & Lauritzen, "Variance Shadow Maps", i3D 2006, section 3).
+
+// Probes along the major axis, at most.
+const MINIFICATION_LARGEST_ANISOTROPY: f32 = 16.0;
+
+struct MinificationFootprint {
+    // The major axis, from end to end, in texels of mip level 0; zero where a pixel covers no more than a texel.
+    major: vec2f,
+    // Probes along it, a whole number from 1 to 16.
+    probes: f32,
+    // The mip level of each probe, at least 0.
+    level: f32,
+}
+
+// The footprint of a pixel from the differences of place, in texels, to its neighbours in x and y; each component at
+// most 1e9 in magnitude. `anisotropy`, from 1 to 16, is the ratio of the axes up to which probes follow the major axis;
+// beyond it the minor axis is taken for longer than it is.
+fn minification_footprint(difference_x: vec2f, difference_y: vec2f, anisotropy: f32) -> MinificationFootprint {
+    let xx = difference_x.x * difference_x.x + difference_y.x * difference_y.x;
+    let xy = difference_x.x * difference_x.y + difference_y.x * difference_y.y;
+    let yy = difference_x.y * difference_x.y + difference_y.y * difference_y.y;
+    // The squares of the axes are the eigenvalues of the symmetric matrix (xx xy, xy yy).
+    let half_difference = 0.5 * (xx - yy);
+    let root = sqrt(half_difference * half_difference + xy * xy);
+    let major_length = sqrt(0.5 * (xx + yy) + root);
+    // The product of the axes is the parallelogram's area; a difference of eigenvalues would cancel.
+    let area = abs(difference_x.x * difference_y.y - difference_x.y * difference_y.x);
+    let minor_length = area / max(major_length, 1e-20);
+    // Both rows of the matrix less its smaller eigenvalue point along the major axis; this is the one that does not cancel.
+    let along = select(vec2f(xy, root - half_difference), vec2f(root + half_difference, xy), half_difference >= 0.0);
+    // A circle has no direction; its probes number one.
+    let direction = along / max(max(abs(along.x), abs(along.y)), 1e-30);
+    let unit = direction / max(length(direction), 1e-6);
+    let largest = clamp(anisotropy, 1.0, MINIFICATION_LARGEST_ANISOTROPY);
+    let width = max(max(minor_length, major_length / largest), 1.0);
+    return MinificationFootprint(
+        select(vec2f(0.0), unit * major_length, major_length > 1.0),
+        clamp(ceil(major_length / width - 1e-3), 1.0, MINIFICATION_LARGEST_ANISOTROPY),
+        log2(width),
+    );
+}
+
+// Where probe `index` lies on the major axis: the offset, in texels, from the footprint's centre.
+fn minification_probe(footprint: MinificationFootprint, index: f32) -> vec2f {
+    return ((index + 0.5) / footprint.probes - 0.5) * footprint.major;
+}
+
+// The variance that minification adds to the moment depths of a plane, whose moment depth changes by `gradient` per texel.
+//
+// A trilinear lookup on level l averages boxes of 2^l texels, and blends neighbours that are 2^l texels apart: (1/12 +
+// 1/6) 4^l. Between two levels their mixture has at most 1.13 times the variance of the level between them. The probes
+// together add the variance of a box along the major axis.
+fn minification_depth_variance(footprint: MinificationFootprint, gradient: vec2f) -> f32 {
+    let width = select(0.0, exp2(footprint.level), footprint.level > 0.0);
+    let across = width * length(gradient);
+    let along = select(0.0, dot(footprint.major, gradient), footprint.probes > 1.0);
+    return (1.13 / 4.0) * across * across + along * along / 12.0;
+}
+
+// moment_shadows/map_lookup.wgsl
+
+// Lookups in a filterable map with mip levels: bilinear, trilinear, anisotropic. None reads across the edge of a region.
+//
+// `uv` runs from 0 to 1 across the region, v downwards; places are in texels of mip level 0. `levels` is the number of mip
+// levels of the map. The sampler filters linearly within and between levels and clamps to the edge. `map_load` has the
+// same lookups for maps that a device cannot filter.
+
+// The bilinearly filtered texel on one mip level.
+fn map_lookup_bilinear(map: texture_2d_array<f32>, linear: sampler, layer: u32, region: MapRegion, uv: vec2f, level: u32) -> vec4f {
+    let place = map_region_place(map_region_at_level(region, level), uv);
+    return textureSampleLevel(map, linear, place / vec2f(textureDimensions(map, level)), layer, f32(level));
+}
+
+// The same, blended between the two mip levels next to `level` >= 0, as far as the region has texels there.
+fn map_lookup_trilinear(map: texture_2d_array<f32>, linear: sampler, layer: u32, region: MapRegion, levels: u32, uv: vec2f, level: f32) -> vec4f {
+    let last = map_region_last_level(region, levels);
+    let fine = min(u32(clamp(level, 0.0, 31.0)), last);
+    let texel = map_lookup_bilinear(map, linear, layer, region, uv, fine);
+    let blend = level - f32(fine);
+    if fine == last || blend <= 0.0 {
+        return texel;
+    }
+    return mix(texel, map_lookup_bilinear(map, linear, layer, region, uv, fine + 1u), blend);
+}
+
+// The average over a footprint around `uv`: trilinear probes along its major axis.
+fn map_lookup_footprint(map: texture_2d_array<f32>, linear: sampler, layer: u32, region: MapRegion, levels: u32, uv: vec2f, footprint: MinificationFootprint) -> vec4f {
+    let per_texel = 1.0 / max(vec2f(region.extent), vec2f(1.0));
+    var sum = vec4f(0.0);
+    for (var probe = 0.0; probe < footprint.probes; probe += 1.0) {
+        let probe_uv = uv + minification_probe(footprint, probe) * per_texel;
+        sum += map_lookup_trilinear(map, linear, layer, region, levels, probe_uv, footprint.level);
+    }
+    return sum / footprint.probes;
+}
+
+// The average over a pixel, from the differences of place to its neighbours in x and y, in texels, each component at
+// most 1e9 in magnitude. Where the pixel's footprint lies well within a region that hardware would divide into the same
+// mip levels, hardware takes the probes, at most as many as the sampler's anisotropy clamp; elsewhere at most
+// `anisotropy` are taken here.
+fn map_lookup_gradient(map: texture_2d_array<f32>, linear: sampler, layer: u32, region: MapRegion, levels: u32, uv: vec2f, difference_x: vec2f, difference_y: vec2f, anisotropy: f32) -> vec4f {
+    let size = textureDimensions(map);
+    let place = vec2f(region.origin) + uv * vec2f(region.extent);
+    let whole = all(region.origin == vec2u(0u)) && all(region.extent == size);
+    if whole || map_lookup_is_inner(region, size, levels, place, abs(difference_x) + abs(difference_y)) {
+        let per_texel = 1.0 / vec2f(size);
+        return textureSampleGrad(map, linear, place * per_texel, layer, difference_x * per_texel, difference_y * per_texel);
+    }
+    let footprint = minification_footprint(difference_x, difference_y, anisotropy);
+    return map_lookup_footprint(map, linear, layer, region, levels, uv, footprint);
+}
+
+// Whether hardware that filters around `place` over a box of `reach` texels reads no texel of another region, and divides
+// the map into mip levels just as regions are divided: edges and size are multiples of a texel of the coarsest level.
+fn map_lookup_is_inner(region: MapRegion, size: vec2u, levels: u32, place: vec2f, reach: vec2f) -> bool {
+    let part_of_texel = vec2u((1u << min(max(levels, 1u) - 1u, 31u)) - 1u);
+    let aligned = all(((region.origin | region.extent | size) & part_of_texel) == vec2u(0u));
+    // Half of the box, and two texels of a mip level whose texels may be twice as wide as the box is long.
+    let margin = vec2f(2.0) + 0.5 * reach + 4.0 * max(reach.x, reach.y);
+    let low = vec2f(region.origin) + margin;
+    let high = vec2f(region.origin + region.extent) - margin;
+    return aligned && all(place >= low) && all(place <= high);
+}
+
 // specialization
 const GROUP = 0;
 const STORAGE = 1u;
+const LEVELS = 1u;
+const VIEWS = 1u;
+const ANISOTROPY = 8.0;
 
-// map_lookup
+// moments_lookup
 
 // The lookup in a map that the device can filter.
 
 @group(GROUP) @binding(2) var moments_map: texture_2d_array<f32>;
 @group(GROUP) @binding(3) var moments_sampler: sampler;
 
-fn map_size() -> vec2f {
-    return vec2f(textureDimensions(moments_map));
-}
-
-// The bilinearly filtered texel of a layer at `uv` in [0, 1].
-fn map_lookup(uv: vec2f, layer: u32) -> vec4f {
-    return textureSampleLevel(moments_map, moments_sampler, uv, layer, 0.0);
+// The texel at `uv` in [0, 1] across a region, filtered over a pixel with these differences of place to its neighbours.
+fn moments_lookup(layer: u32, region: MapRegion, uv: vec2f, difference_x: vec2f, difference_y: vec2f) -> vec4f {
+    if LEVELS == 1u {
+        return map_lookup_bilinear(moments_map, moments_sampler, layer, region, uv, 0u);
+    }
+    return map_lookup_gradient(moments_map, moments_sampler, layer, region, LEVELS, uv, difference_x, difference_y, ANISOTROPY);
 }
 
 // moment_shadows/receiver_bias.wgsl
@@ -314,6 +487,12 @@ fn map_lookup(uv: vec2f, layer: u32) -> vec4f {
 // The lower bound of four moments is exactly 0 for fragments in front of the lower Gauss node, which for a symmetric
 // distribution lies one standard deviation in front of the mean. So a slope-scaled bias of somewhat more than one
 // standard deviation removes self-shadowing on planes, and nothing about it has to be tuned to a scene.
+
+// Standard deviations of depth under the filter by which a receiver moves: one, and what covers moment bias and rounding.
+const RECEIVER_BIAS_STANDARD_DEVIATIONS: f32 = 1.25;
+
+// A gradient steeper than any surface that a light sees; its square is still finite.
+const RECEIVER_BIAS_EDGE_ON: f32 = 1e15;
 
 // Filled by the host-side `ReceiverBias`.
 struct ReceiverBias {
@@ -328,21 +507,26 @@ struct ReceiverBias {
     normal_offset: f32,
 }
 
-// Length of the gradient of moment depth per texel on the receiver's plane, from the differences of two neighbouring
-// points on it in light space: xy in texels of the map, z in moment depth, each at most 1e9. Where the differences in xy
-// are parallel or zero (the plane is edge-on to the light, or a neighbour is missing) the result is huge, and
-// `receiver_bias_depth` limits it.
-fn receiver_bias_gradient(difference_x: vec3f, difference_y: vec3f) -> f32 {
+// The gradient of moment depth per texel on the receiver's plane, from the differences of two neighbouring points on it
+// in light space: xy in texels of the map, z in moment depth, each at most 1e9. Where the differences in xy are parallel
+// or zero (the plane is edge-on to the light, or a neighbour is missing) the result is huge, and `receiver_bias_depth`
+// limits it.
+fn receiver_bias_plane(difference_x: vec3f, difference_y: vec3f) -> vec2f {
     let determinant = difference_x.x * difference_y.y - difference_x.y * difference_y.x;
     if abs(determinant) < 1e-20 {
-        return 1e20;
+        return vec2f(RECEIVER_BIAS_EDGE_ON, 0.0);
     }
     // Cramer's rule for the gradient g in dot(g, difference.xy) = difference.z.
     let scaled = vec2f(
         difference_x.z * difference_y.y - difference_y.z * difference_x.y,
         difference_y.z * difference_x.x - difference_x.z * difference_y.x,
     );
-    return length(scaled) / abs(determinant);
+    return clamp(scaled / determinant, vec2f(-RECEIVER_BIAS_EDGE_ON), vec2f(RECEIVER_BIAS_EDGE_ON));
+}
+
+// The length of that gradient.
+fn receiver_bias_gradient(difference_x: vec3f, difference_y: vec3f) -> f32 {
+    return length(receiver_bias_plane(difference_x, difference_y));
 }
 
 // The same from the cosine between surface normal and direction to the light: `depth_per_texel` is the moment depth
@@ -358,6 +542,17 @@ fn receiver_bias_depth(bias: ReceiverBias, gradient: f32) -> f32 {
     return clamp(fma(bias.slope_scale, gradient, bias.constant), 0.0, bias.maximum);
 }
 
+// The receiver bias where a lookup averages more of the map than its filter kernel: `variance` is the variance that this
+// adds to the depths of a plane with that gradient (`minification_depth_variance`). Variances of filters add up.
+fn receiver_bias_depth_minified(bias: ReceiverBias, gradient: f32, variance: f32) -> f32 {
+    let kernel = bias.slope_scale * gradient;
+    let added = RECEIVER_BIAS_STANDARD_DEVIATIONS * sqrt(max(variance, 0.0));
+    let deviation = length(vec2f(kernel, added));
+    // The limit is one of slope, not of depth: a filter that is wider by a factor may move by that factor more.
+    let limit = (bias.maximum - bias.constant) * deviation / max(kernel, 1e-30);
+    return max(bias.constant + min(deviation, max(limit, 0.0)), 0.0);
+}
+
 // The position, in scene units, at which to look the map up when the receiver moves along its normal: the offset
 // grows with the sine of the angle between normal and light (`cosine` > 0 faces the light).
 fn receiver_bias_offset_position(bias: ReceiverBias, position: vec3f, normal: vec3f, cosine: f32) -> vec3f {
@@ -367,7 +562,8 @@ fn receiver_bias_offset_position(bias: ReceiverBias, position: vec3f, normal: ve
 
 // shade_hard.wgsl
 
-// Shadow intensity of every pixel, from the camera's depth and a map of moments: one light, one layer.
+// Shadow intensity of every pixel, from the camera's depth and a map of moments. A view of a light is one region of one
+// layer: a sun's cascade, a face of a point light, a spot light. Each light has a channel of the target.
 
 struct ShadeHardParameters {
     // From the camera's clip space (x, y, stored depth, 1) to the light: x and y are the place in the map in [0, 1], z its
@@ -378,14 +574,18 @@ struct ShadeHardParameters {
     scene_w_from_camera: vec4f,
     receiver_bias: ReceiverBias,
     leak_reduction: LeakReduction,
-    // The stored depth of pixels that show no surface.
+    // Where the view lies in its layer; without texels there is no such view.
+    region: MapRegion,
+    // The stored depth of pixels that show no surface; the same for all views.
     far_depth: f32,
     // The map's layer.
     layer: u32,
-    padding: vec2f,
+    // The target's channel, 0 to 3. Of the views of one channel the first that contains a pixel shades it.
+    channel: u32,
+    padding: f32,
 }
 
-@group(GROUP) @binding(0) var<uniform> parameters: ShadeHardParameters;
+@group(GROUP) @binding(0) var<uniform> views: array<ShadeHardParameters, VIEWS>;
 @group(GROUP) @binding(1) var camera_depth: texture_depth_2d;
 
 @vertex
@@ -405,12 +605,12 @@ struct Receiver {
     scene_w: f32,
 }
 
-fn receiver_at(pixel: vec2i, stored_depth: f32) -> Receiver {
+fn receiver_at(view: u32, pixel: vec2i, stored_depth: f32) -> Receiver {
     let uv = (vec2f(pixel) + 0.5) / vec2f(textureDimensions(camera_depth));
     let clip = vec4f(2.0 * uv.x - 1.0, 1.0 - 2.0 * uv.y, stored_depth, 1.0);
-    let light = parameters.light_from_camera * clip;
+    let light = views[view].light_from_camera * clip;
     // Results behind the camera or the light are not used.
-    let scene_w = max(dot(parameters.scene_w_from_camera, clip), 1e-30);
+    let scene_w = max(dot(views[view].scene_w_from_camera, clip), 1e-30);
     return Receiver(vec3f(light.xy / max(light.z, 1e-30), light.w / scene_w), light.z, scene_w);
 }
 
@@ -425,7 +625,7 @@ fn extrapolation_error(pixel: vec2i, step: vec2i, stored_depth: f32) -> f32 {
     let outside = any(neighbour < vec2i(0)) || any(neighbour >= vec2i(textureDimensions(camera_depth)));
     let depth = camera_depth_at(neighbour);
     let error = abs(2.0 * depth - camera_depth_at(neighbour + step) - stored_depth);
-    return select(error, UNUSABLE, outside || depth == parameters.far_depth);
+    return select(error, UNUSABLE, outside || depth == views[0].far_depth);
 }
 
 // Above every difference of stored depths.
@@ -434,49 +634,79 @@ const UNUSABLE: f32 = 1e30;
 // No place in the map is that many texels away. Products of two differences must not overflow.
 const LARGEST_DIFFERENCE: f32 = 1e9;
 
-// How the place in the map (in texels) and the moment depth change from a pixel to its neighbour along `axis`, on the
-// side that continues its surface: stored depth is linear on the screen where a surface is plane, so that is the side
-// which extrapolates to the pixel best. The other one may lie beyond a silhouette or an edge. Zero if there is no
-// neighbour, as on a surface that is edge-on to the light.
-fn receiver_difference(pixel: vec2i, axis: vec2i, stored_depth: f32, receiver: Receiver) -> vec3f {
+// The neighbour of a pixel along `axis` on the side that continues its surface: xy is the step to it and z the change of
+// stored depth. Stored depth is linear on the screen where a surface is plane, so that is the side which extrapolates to
+// the pixel best; the other one may lie beyond a silhouette or an edge. Zero if there is no neighbour.
+fn neighbour_of(pixel: vec2i, axis: vec2i, stored_depth: f32) -> vec3f {
     let error_before = extrapolation_error(pixel, -axis, stored_depth);
     let error_after = extrapolation_error(pixel, axis, stored_depth);
     if min(error_before, error_after) == UNUSABLE {
         return vec3f(0.0);
     }
     let direction = select(axis, -axis, error_before < error_after);
-    let across_screen = vec2f(2.0, -2.0) * vec2f(direction) / vec2f(textureDimensions(camera_depth));
-    let step = vec4f(across_screen, camera_depth_at(pixel + direction) - stored_depth, 0.0);
+    return vec3f(vec2f(direction), camera_depth_at(pixel + direction) - stored_depth);
+}
+
+// How the place in the map (in texels) and the moment depth change from a pixel to its neighbour; zero if there is none,
+// as on a surface that is edge-on to the light.
+fn receiver_difference(view: u32, neighbour: vec3f, receiver: Receiver, texels: vec2f) -> vec3f {
+    if all(neighbour.xy == vec2f(0.0)) {
+        return vec3f(0.0);
+    }
+    let across_screen = vec2f(2.0, -2.0) * neighbour.xy / vec2f(textureDimensions(camera_depth));
+    let step = vec4f(across_screen, neighbour.z, 0.0);
     // With numerators n and divisors w, n1 / w1 - n0 / w0 = (dn - (n0 / w0) dw) / w1. Other than the difference of two
     // places, this keeps its digits where a pixel covers a small part of a texel.
-    let light = parameters.light_from_camera * step;
-    let scene_w = dot(parameters.scene_w_from_camera, step);
+    let light = views[view].light_from_camera * step;
+    let scene_w = dot(views[view].scene_w_from_camera, step);
     let across = (light.xy - receiver.place.xy * light.z) / max(receiver.light_w + light.z, 1e-30);
     let along = (light.w - receiver.place.z * scene_w) / max(receiver.scene_w + scene_w, 1e-30);
-    return clamp(vec3f(across * map_size(), along), vec3f(-LARGEST_DIFFERENCE), vec3f(LARGEST_DIFFERENCE));
+    return clamp(vec3f(across * texels, along), vec3f(-LARGEST_DIFFERENCE), vec3f(LARGEST_DIFFERENCE));
+}
+
+// Shadow intensity of a receiver that a view contains.
+fn view_shadow_intensity(view: u32, receiver: Receiver, neighbour_x: vec3f, neighbour_y: vec3f, region: MapRegion) -> f32 {
+    let texels = vec2f(region.extent);
+    let difference_x = receiver_difference(view, neighbour_x, receiver, texels);
+    let difference_y = receiver_difference(view, neighbour_y, receiver, texels);
+    let gradient = receiver_bias_plane(difference_x, difference_y);
+    var bias = receiver_bias_depth(views[view].receiver_bias, length(gradient));
+    if LEVELS > 1u {
+        let footprint = minification_footprint(difference_x.xy, difference_y.xy, ANISOTROPY);
+        let variance = minification_depth_variance(footprint, gradient);
+        bias = receiver_bias_depth_minified(views[view].receiver_bias, length(gradient), variance);
+    }
+    // The map holds a surface that leaves the light's range at the far end. The bias counts from there, since some of the
+    // kernel may still see the surface within the range.
+    let fragment_depth = min(receiver.place.z, 1.0) - bias;
+    let texel = moments_lookup(views[view].layer, region, receiver.place.xy, difference_x.xy, difference_y.xy);
+    let intensity = hamburger_shadow_intensity(moments_from_texel(texel, STORAGE), fragment_depth, moments_bias_of(STORAGE));
+    return leak_reduction_apply(intensity, views[view].leak_reduction);
 }
 
 @fragment
 fn shade(@builtin(position) position: vec4f) -> @location(0) vec4f {
     let pixel = vec2i(position.xy);
     let stored_depth = textureLoad(camera_depth, pixel, 0);
-    if stored_depth == parameters.far_depth {
-        return vec4f(0.0);
+    // Outside its map a light casts no shadow, and where there is no surface, either.
+    var intensities = vec4f(0.0);
+    if stored_depth == views[0].far_depth {
+        return intensities;
     }
-    let receiver = receiver_at(pixel, stored_depth);
-    let uv = receiver.place.xy;
-    // Outside its map a light casts no shadow.
-    if receiver.light_w <= 0.0 || any(uv < vec2f(0.0)) || any(uv > vec2f(1.0)) {
-        return vec4f(0.0);
+    let neighbour_x = neighbour_of(pixel, vec2i(1, 0), stored_depth);
+    let neighbour_y = neighbour_of(pixel, vec2i(0, 1), stored_depth);
+    var open_channels = vec4<bool>(true);
+    for (var view = 0u; view < VIEWS; view++) {
+        let channel = vec4<bool>(vec4u(views[view].channel) == vec4u(0u, 1u, 2u, 3u));
+        let region = map_region_within(views[view].region, textureDimensions(moments_map));
+        let receiver = receiver_at(view, pixel, stored_depth);
+        let uv = receiver.place.xy;
+        let inside = receiver.light_w > 0.0 && all(uv >= vec2f(0.0)) && all(uv <= vec2f(1.0));
+        if inside && all(region.extent > vec2u(0u)) && any(channel & open_channels) {
+            let intensity = view_shadow_intensity(view, receiver, neighbour_x, neighbour_y, region);
+            intensities = select(intensities, vec4f(intensity), channel);
+            open_channels = open_channels & !channel;
+        }
     }
-    let gradient = receiver_bias_gradient(
-        receiver_difference(pixel, vec2i(1, 0), stored_depth, receiver),
-        receiver_difference(pixel, vec2i(0, 1), stored_depth, receiver),
-    );
-    // The map holds a surface that leaves the light's range at the far end. The bias counts from there, since some of the
-    // kernel may still see the surface within the range.
-    let fragment_depth = min(receiver.place.z, 1.0) - receiver_bias_depth(parameters.receiver_bias, gradient);
-    let moments = moments_from_texel(map_lookup(uv, parameters.layer), STORAGE);
-    let intensity = hamburger_shadow_intensity(moments, fragment_depth, moments_bias_of(STORAGE));
-    return vec4f(leak_reduction_apply(intensity, parameters.leak_reduction), 0.0, 0.0, 1.0);
+    return intensities;
 }

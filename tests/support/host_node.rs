@@ -90,6 +90,22 @@ pub(crate) fn output(name: &str, layers: u32) -> Slot {
     )
 }
 
+/// The same, of the extent and the regions of the input `from`.
+fn like_from(name: &str, layers: u32) -> Slot {
+    slot(
+        name,
+        Direction::Out,
+        SlotResource::Texture {
+            access: Access::STORAGE_WRITE,
+            format: FormatRule::Exact(TextureFormat::Rgba32Float),
+            extent: ExtentRule::SameAs("from".to_owned()),
+            layers: CountRule::Exact(layers),
+            mips: CountRule::Exact(1),
+            samples: CountRule::Exact(1),
+        },
+    )
+}
+
 pub(crate) fn bindings(resources: impl IntoIterator<Item = BindingResource>) -> Vec<Binding> {
     (0..)
         .zip(resources)
@@ -157,7 +173,7 @@ fn main(@builtin(global_invocation_id) id: vec3u) {
 /// `from` to `to`, rgba32float, by layer.
 pub(crate) fn copy(stage: Stage, layers: u32) -> NodeDesc {
     NodeDesc {
-        slots: vec![input("from"), output("to", layers)],
+        slots: vec![input("from"), like_from("to", layers)],
         passes: vec![compute(COPY, "to", true, [layer("from"), storage("to")])],
         ..empty(stage)
     }
@@ -166,7 +182,7 @@ pub(crate) fn copy(stage: Stage, layers: u32) -> NodeDesc {
 /// As [`copy`], but once for all layers.
 pub(crate) fn copy_every_time(stage: Stage) -> NodeDesc {
     NodeDesc {
-        slots: vec![input("from"), output("to", 1)],
+        slots: vec![input("from"), like_from("to", 1)],
         passes: vec![compute(COPY, "to", false, [layer("from"), storage("to")])],
         ..empty(stage)
     }
@@ -175,7 +191,7 @@ pub(crate) fn copy_every_time(stage: Stage) -> NodeDesc {
 /// As [`copy`], but every pass binds all layers of the source.
 pub(crate) fn copy_of_all(stage: Stage, layers_made: u32, each_layer: bool) -> NodeDesc {
     NodeDesc {
-        slots: vec![input("from"), output("to", layers_made)],
+        slots: vec![input("from"), like_from("to", layers_made)],
         passes: vec![compute(
             COPY_OF_ALL,
             "to",

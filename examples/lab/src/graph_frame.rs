@@ -1,6 +1,6 @@
 //! A graph on a frame: compiled for what the host has drawn, recorded, and read back.
 
-use moment_shadows::{DepthRange, LeakReduction, ReceiverBias, TextureFormat};
+use moment_shadows::{DepthRange, LeakReduction, MapRegion, ReceiverBias, TextureFormat};
 use moment_shadows_graph::nodes::{CameraView, LightDepth, LightView, ShadeHardParameters};
 use moment_shadows_graph::record::{
     Bindings, ImportedResource, PipelineOptions, Pipelines, Recording, Resources,
@@ -213,5 +213,7 @@ fn light_view(desc: &FrameDesc) -> LightView {
             },
         },
         layer: 0,
+        region: MapRegion::WHOLE,
+        channel: 0,
     }
 }

@@ -9,6 +9,8 @@ pub(super) struct Life {
     pub(super) resource: usize,
     /// `node.slot`.
     pub(super) name: String,
+    /// The resource whose layers and regions it follows.
+    pub(super) root: usize,
     pub(super) desc: ResourceDesc,
     pub(super) access: Access,
     /// The first and the last pass that touch it, and their stages.
@@ -53,16 +55,20 @@ struct Block {
     free_after: Option<usize>,
     /// Residents are written only where layers are dirty.
     written_when_dirty: bool,
+    /// The resource whose layers and regions all residents follow; `None` where they differ.
+    root: Option<usize>,
 }
 
 impl Block {
     /// Whether a resource can live here after the earlier residents.
     ///
-    /// One that keeps layers goes only where all are written by layer in one stage: then an earlier resident overwrites
-    /// a layer only when the later one makes it anew, too. A buffer has no layers to tell apart.
+    /// One that keeps layers goes only where all are written by layer in one stage, and are layers of the same map: then
+    /// an earlier resident overwrites a layer only when the later one makes it anew, too. A buffer has no layers to tell
+    /// apart.
     fn takes(&self, life: &Life) -> bool {
         let free = self.free_after.is_some_and(|pass| pass < life.first);
         let layers_survive = self.written_when_dirty
+            && self.root == Some(life.root)
             && self.stage == life.first_stage
             && life.desc.texture().is_some();
         !life.alone
@@ -90,6 +96,7 @@ pub(super) fn share(lives: &[Life]) -> (Vec<usize>, Vec<PlannedMemory>) {
                 block.memory.access = block.memory.access.union(life.access);
                 block.free_after = free_after;
                 block.written_when_dirty &= written_when_dirty;
+                block.root = block.root.filter(|&root| root == life.root);
                 home
             }
             None => {
@@ -103,6 +110,7 @@ pub(super) fn share(lives: &[Life]) -> (Vec<usize>, Vec<PlannedMemory>) {
                     stage: life.first_stage,
                     free_after,
                     written_when_dirty,
+                    root: Some(life.root),
                 });
                 blocks.len() - 1
             }

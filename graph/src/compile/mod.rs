@@ -1,13 +1,16 @@
 //! From a graph to a plan: names, formats, sizes and shaders are checked before anything is created.
 
+mod bytes;
 mod memory;
 mod parameters;
 mod passes;
 mod reflect;
 mod settle;
 mod slots;
+mod touch;
 mod usage;
 mod wiring;
+mod workgroups;
 
 use std::collections::BTreeMap;
 
@@ -41,7 +44,8 @@ pub fn compile(
 ) -> Result<Plan, GraphError> {
     let wiring = Wiring::of(graph)?;
     let mut resources = import_resources(graph, imports)?;
-    let described = describe(graph, &wiring, capabilities, &mut resources)?;
+    let mut roots: Vec<usize> = (0..resources.len()).collect();
+    let described = describe(graph, &wiring, capabilities, &mut resources, &mut roots)?;
     let outputs = outputs(graph, &described)?;
     let needed = wiring.needed(graph)?;
     let mut kept: Vec<&Described> = described
@@ -53,7 +57,7 @@ pub fn compile(
     // Stable: within a stage the order of dependencies remains.
     kept.sort_by_key(|described| described.desc.stage);
 
-    let (parameters, blocks) = parameters::lay_out(graph, &kept, &resources, capabilities)?;
+    let places = parameters::lay_out(graph, &kept, &resources, &roots, capabilities)?;
     let mut shaders = reflect::Shaders::default();
     let mut passes = Vec::new();
     for described in &kept {
@@ -64,17 +68,15 @@ pub fn compile(
                 .at_position(graph.nodes[described.node].position)
         };
         let first = passes.len();
+        let planner = passes::Planner {
+            node: name,
+            described,
+            places: &places,
+            roots: &roots,
+            capabilities,
+        };
         for pass in &described.desc.passes {
-            let planned = passes::plan(
-                name,
-                described,
-                pass,
-                &mut resources,
-                blocks.get(&described.node).copied(),
-                &parameters,
-                capabilities,
-            )
-            .map_err(placed)?;
+            let planned = planner.plan(pass, &mut resources).map_err(placed)?;
             usage::check_pass(&planned, &resources, capabilities).map_err(placed)?;
             shaders
                 .check(
@@ -96,9 +98,9 @@ pub fn compile(
         memory: Vec::new(),
         imports: Vec::new(),
         outputs,
-        parameters,
+        parameters: places.layout,
     };
-    Ok(settle::settle(plan, &kept))
+    Ok(settle::settle(plan, &kept, &roots))
 }
 
 /// Resources of the imports, in the order of the graph.
@@ -139,12 +141,14 @@ fn import_resources(graph: &Graph, imports: &Imports) -> Result<Vec<PlannedResou
         .collect()
 }
 
-/// Lets every node describe itself, upstream first, and makes the resources of its slots.
+/// Lets every node describe itself, upstream first, and makes the resources of its slots. `roots` gets, for each, the
+/// resource whose layers and regions it follows: itself, or that of the slot whose extent it takes.
 fn describe(
     graph: &Graph,
     wiring: &Wiring,
     capabilities: &Capabilities,
     resources: &mut Vec<PlannedResource>,
+    roots: &mut Vec<usize>,
 ) -> Result<Vec<Described>, GraphError> {
     let mut described: Vec<Described> = Vec::new();
     for &node in &wiring.order {
@@ -184,17 +188,25 @@ fn describe(
             }
         }
         let resolved = slots::resolve(&desc, &inputs, capabilities).map_err(placed)?;
-        for (slot, desc) in resolved {
-            slots.entry(slot.clone()).or_insert_with(|| {
-                resources.push(PlannedResource {
-                    name: format!("{}.{slot}", graph_node.name),
-                    desc,
-                    access: Access::default(),
-                    // Settled once lifetimes are known.
-                    home: Home::Memory(0),
-                });
-                resources.len() - 1
+        // In the order of the slots: one may take its extent from another that was made before it.
+        for slot in &desc.slots {
+            let Some(made) = resolved.get(&slot.name) else {
+                continue;
+            };
+            if slots.contains_key(&slot.name) {
+                continue;
+            }
+            let index = resources.len();
+            resources.push(PlannedResource {
+                name: format!("{}.{}", graph_node.name, slot.name),
+                desc: made.clone(),
+                access: Access::default(),
+                // Settled once lifetimes are known.
+                home: Home::Memory(0),
             });
+            let root = slots::extent_from(slot).and_then(|from| slots.get(from));
+            roots.push(root.map_or(index, |&from| roots[from]));
+            slots.insert(slot.name.clone(), index);
         }
         described.push(Described { node, desc, slots });
     }

@@ -167,7 +167,13 @@ fn check_filtering(
             sample: SampleType::Unfilterable,
             ..
         } = image.resource
-            && sampler.resource == (PlannedBindingResource::Sampler { filtering: true })
+            && matches!(
+                sampler.resource,
+                PlannedBindingResource::Sampler {
+                    filtering: true,
+                    ..
+                }
+            )
         {
             return Err(GraphError::new(
                 GraphErrorKind::Capability,
@@ -224,6 +230,10 @@ fn difference(
             space == AddressSpace::Uniform && actual.size(module.to_ctx()) == *size,
             format!("a uniform struct of {size} bytes"),
         ),
+        PlannedBindingResource::Regions { size, .. } => (
+            space == AddressSpace::Uniform && actual.size(module.to_ctx()) == *size,
+            format!("a uniform array of regions of {size} bytes"),
+        ),
         PlannedBindingResource::Buffer { writable, resource } => {
             let size = resources[*resource].desc.bytes();
             (
@@ -240,7 +250,7 @@ fn difference(
             matches!(actual, TypeInner::Sampler { comparison: false }),
             "a sampler".to_owned(),
         ),
-        PlannedBindingResource::StorageTexture { resource } => {
+        PlannedBindingResource::StorageTexture { resource, .. } => {
             let format = resources[*resource]
                 .desc
                 .texture()

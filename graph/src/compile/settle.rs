@@ -2,19 +2,21 @@
 
 use std::collections::BTreeMap;
 
+use super::Described;
 use super::memory::{self, Life};
-use super::{Described, passes};
+use super::touch::touched;
 use crate::{Home, Lifetime, Plan, PlannedImport, PlannedPass};
 
 /// Gives every resource its home and drops those that no pass touches.
-pub(super) fn settle(mut plan: Plan, kept: &[&Described]) -> Plan {
+pub(super) fn settle(mut plan: Plan, kept: &[&Described], roots: &[usize]) -> Plan {
     let mut lives: BTreeMap<usize, Life> = BTreeMap::new();
     for (index, pass) in plan.passes.iter().enumerate() {
-        for touch in passes::touched(pass) {
+        for touch in touched(pass) {
             let planned = &plan.resources[touch.resource];
             let life = lives.entry(touch.resource).or_insert_with(|| Life {
                 resource: touch.resource,
                 name: planned.name.clone(),
+                root: roots[touch.resource],
                 desc: planned.desc.clone(),
                 access: planned.access,
                 first: index,
@@ -121,9 +123,9 @@ fn renumber_pass(pass: &mut PlannedPass, renumbered: &impl Fn(&mut usize)) {
     for binding in &mut pass.bindings {
         match &mut binding.resource {
             Resource::Texture { resource, .. }
-            | Resource::StorageTexture { resource }
+            | Resource::StorageTexture { resource, .. }
             | Resource::Buffer { resource, .. } => renumbered(resource),
-            Resource::Parameters { .. } | Resource::Sampler { .. } => {}
+            Resource::Parameters { .. } | Resource::Regions { .. } | Resource::Sampler { .. } => {}
         }
     }
     match &mut pass.work {

@@ -108,11 +108,26 @@ fn make(
                     ExtentRule::SameAs(other) => texture_of(slot, other, resolved)?.size,
                     ExtentRule::Any => return Err(undetermined("extent")),
                 },
+                regions: match extent {
+                    ExtentRule::SameAs(other) => texture_of(slot, other, resolved)?.regions,
+                    _ => 1,
+                },
                 layers: count(layers, "number of layers", |texture| texture.layers)?,
                 mips: count(mips, "number of mip levels", |texture| texture.mips)?,
                 samples: count(samples, "number of samples", |texture| texture.samples)?,
             }))
         }
+    }
+}
+
+/// The slot whose width, height and regions a slot takes.
+pub(super) fn extent_from(slot: &Slot) -> Option<&str> {
+    match &slot.resource {
+        SlotResource::Texture {
+            extent: ExtentRule::SameAs(other),
+            ..
+        } => Some(other),
+        _ => None,
     }
 }
 
@@ -250,11 +265,12 @@ const BUFFER_ALIGNMENT: u64 = 4;
 /// Whether the device can have such a texture.
 fn limits(texture: &TextureDesc, capabilities: &Capabilities) -> Result<(), GraphError> {
     let largest = capabilities.max_texture_size;
-    if texture.size.contains(&0) || texture.layers == 0 || texture.mips == 0 {
+    let counts = [texture.layers, texture.mips, texture.regions];
+    if texture.size.contains(&0) || counts.contains(&0) {
         return Err(GraphError::new(
             GraphErrorKind::Size,
             format!(
-                "the texture is empty ({texture}); every side is at least 1 and at most {largest}"
+                "the texture is empty ({texture}); it has at least one layer, mip level and region, and sides from 1 to {largest}"
             ),
         ));
     }

@@ -1,7 +1,7 @@
 //! What a pass may do with the resources that it touches.
 
 use super::Described;
-use super::passes::touched;
+use super::touch::touched;
 use crate::{
     Capabilities, Direction, GraphError, GraphErrorKind, PlannedPass, PlannedResource, PlannedWork,
     TextureDesc,
@@ -15,10 +15,10 @@ pub(super) fn check_pass(
 ) -> Result<(), GraphError> {
     let touches = touched(pass);
     for (index, touch) in touches.iter().enumerate() {
-        let again = touches[..index]
+        let mut again = touches[..index]
             .iter()
-            .find(|earlier| earlier.resource == touch.resource);
-        if again.is_some_and(|earlier| earlier.access.writes() || touch.access.writes()) {
+            .filter(|earlier| earlier.meets(touch));
+        if again.any(|earlier| earlier.access.writes() || touch.access.writes()) {
             return Err(declaration(format!(
                 "pass '{}' writes '{}' while it uses it in another way; a device allows one use at a time, so go through \
                  an internal slot",

@@ -4,10 +4,10 @@ use bytemuck::{Pod, Zeroable};
 use moment_shadows::{Kernel, LARGEST_RADIUS, Storage};
 use serde::{Deserialize, Serialize};
 
-use super::KernelProperty;
 use super::moments_input::moments_input;
 use super::specialization::Specialization;
 use super::unrolled;
+use super::{KernelProperty, MipLevels, region_tiles};
 use crate::{
     Access, Binding, BindingResource, Connected, CountRule, Direction, ExtentRule, FormatRule,
     GraphError, GraphErrorKind, Lifetime, Node, NodeDesc, ParameterBlock, Pass, Slot, SlotResource,
@@ -29,8 +29,8 @@ const WORKGROUP: [u32; 2] = [8, 8];
 /// texels that lie above each other are worth more, and a square has more of them.
 const WORKGROUP_UNROLLED_Y: [u32; 2] = [64, 1];
 
-/// Node `blur_moments`: `moments` to `blurred`, of the same format, size and layers. Two passes, along x and along y;
-/// beyond the border the last texel repeats.
+/// Node `blur_moments`: `moments` to `blurred`, of the same format, size, layers and regions. Two passes, along x and along
+/// y; beyond the edge of a region its last texel repeats.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct BlurMoments {
@@ -40,6 +40,9 @@ pub struct BlurMoments {
     /// as `kernel`. Kernels of a radius above 12 have the parameter in any case.
     #[serde(default)]
     pub per_frame: bool,
+    /// Room for mip levels; [`super::DownsampleMoments`] fills it.
+    #[serde(default)]
+    pub mip_levels: MipLevels,
 }
 
 /// Weights that a [`BlurMoments`] node takes from its parameters.
@@ -84,10 +87,11 @@ impl Node for BlurMoments {
         let (moments, storage) = moments_input(upstream)?;
         let kernel = self.kernel.kernel()?;
         check_fits(&kernel, moments)?;
+        let mips = self.mip_levels.count(moments.size)?;
         let unrolled = !self.per_frame && kernel.radius() <= LARGEST_UNROLLED_RADIUS;
         let passes = ALONG
             .iter()
-            .map(|along| along.pass(upstream, storage, &kernel, unrolled))
+            .map(|along| along.pass(upstream, moments, storage, &kernel, unrolled))
             .collect::<Result<Vec<_>, _>>()?;
         Ok(NodeDesc {
             name: "blur_moments".to_owned(),
@@ -98,24 +102,28 @@ impl Node for BlurMoments {
                     Direction::In,
                     Access::READ,
                     FormatRule::OneOf(Storage::ALL.map(Storage::format).to_vec()),
+                    CountRule::Any,
                 ),
                 slot(
                     "half_blurred",
                     Direction::Internal,
                     Access::READ.union(Access::STORAGE_WRITE),
                     FormatRule::SameAs("moments".to_owned()),
+                    CountRule::Exact(1),
                 ),
                 slot(
                     "blurred",
                     Direction::Out,
                     Access::STORAGE_WRITE,
                     FormatRule::SameAs("moments".to_owned()),
+                    CountRule::Exact(mips),
                 ),
             ],
             passes,
             parameters: (!unrolled).then(|| ParameterBlock {
                 name: "BlurParameters".to_owned(),
                 size: size_of::<BlurParameters>() as u32,
+                elements: 1,
                 each_layer_of: None,
                 initial: bytemuck::bytes_of(&BlurParameters::new(&kernel)).to_vec(),
             }),
@@ -156,6 +164,7 @@ impl Along {
     fn pass(
         &self,
         upstream: &Connected<'_>,
+        moments: &TextureDesc,
         storage: Storage,
         kernel: &Kernel,
         unrolled: bool,
@@ -174,6 +183,7 @@ impl Along {
             .constant("WORKGROUP_X", &workgroup[0].to_string())
             .constant("WORKGROUP_Y", &workgroup[1].to_string())
             .constant("AXIS", self.step);
+        let specialization = region_tiles::specialize(specialization, moments);
         let mut bindings = vec![
             Binding {
                 binding: 0,
@@ -183,6 +193,8 @@ impl Along {
                 binding: 1,
                 resource: BindingResource::StorageLayer(self.to.to_owned()),
             },
+            // A region holds at least a kernel, so that no texel is repeated at two edges.
+            region_tiles::binding(self.to, 2 * kernel.radius() + 1),
         ];
         let (wgsl, outputs) = if unrolled {
             let text = specialization.text(&unrolled::literal_weights(kernel.weights()));
@@ -190,7 +202,7 @@ impl Along {
                 text.link(
                     "blur_moments_unrolled.wgsl",
                     UNROLLED_SHADER,
-                    &[("blur_target", TARGET)],
+                    &[("blur_target", TARGET), region_tiles::MODULE],
                 )?,
                 unrolled::OUTPUTS_LITERAL,
             )
@@ -204,7 +216,7 @@ impl Along {
                 text.link(
                     "blur_moments_uniform.wgsl",
                     UNIFORM_SHADER,
-                    &[("blur_target", TARGET)],
+                    &[("blur_target", TARGET), region_tiles::MODULE],
                 )?,
                 unrolled::OUTPUTS_UNIFORM,
             )
@@ -217,10 +229,10 @@ impl Along {
             entry_point: "blur".to_owned(),
             bindings,
             constants: [].into(),
-            work: Work::Compute {
+            work: Work::ComputeRegions {
                 covers: self.to.to_owned(),
+                level: 0,
                 texels_per_workgroup,
-                each_layer: true,
             },
         })
     }
@@ -244,7 +256,13 @@ fn check_fits(kernel: &Kernel, moments: &TextureDesc) -> Result<(), GraphError> 
     .at_slot("moments"))
 }
 
-fn slot(name: &str, direction: Direction, access: Access, format: FormatRule) -> Slot {
+fn slot(
+    name: &str,
+    direction: Direction,
+    access: Access,
+    format: FormatRule,
+    mips: CountRule,
+) -> Slot {
     let (extent, layers) = match direction {
         Direction::In => (ExtentRule::Any, CountRule::Any),
         _ => (
@@ -262,7 +280,7 @@ fn slot(name: &str, direction: Direction, access: Access, format: FormatRule) ->
             format,
             extent,
             layers,
-            mips: CountRule::Exact(1),
+            mips,
             samples: CountRule::Exact(1),
         },
     }

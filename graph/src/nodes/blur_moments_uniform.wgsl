@@ -1,7 +1,8 @@
 import moment_shadows::blur_target::{blur_store, blurred_map, moments_map};
+import moment_shadows::region_tile::{region_tile};
 import moment_shadows::specialization::{AXIS, BlurSums, GROUP, OUTPUTS, WORKGROUP_X, WORKGROUP_Y, blur_taps};
 
-// One direction of a separable filter over one layer, with weights that a host can change per frame.
+// One direction of a separable filter over the regions of one layer, with weights that a host can change per frame.
 // An invocation makes OUTPUTS texels in a row along AXIS; it runs through the texels in blocks of 16 and through the
 // weights in step, keeping the half that the next block needs again.
 
@@ -18,12 +19,16 @@ struct BlurParameters {
 @group(GROUP) @binding(2) var<uniform> parameters: BlurParameters;
 
 @compute @workgroup_size(WORKGROUP_X, WORKGROUP_Y)
-fn blur(@builtin(global_invocation_id) id: vec3u) {
-    let last = vec2i(textureDimensions(blurred_map)) - 1;
-    let first = vec2i(id.xy) * (1 + (OUTPUTS - 1) * AXIS);
-    if any(first > last) {
+fn blur(@builtin(local_invocation_id) local: vec3u, @builtin(workgroup_id) workgroup: vec3u, @builtin(num_workgroups) workgroups: vec3u) {
+    let outputs = vec2u(1 + (OUTPUTS - 1) * AXIS);
+    let tile = region_tile(workgroup, workgroups, textureDimensions(blurred_map), 0u, vec2u(WORKGROUP_X, WORKGROUP_Y) * outputs);
+    let place = tile.first + local.xy * outputs;
+    if any(place >= tile.region.extent) {
         return;
     }
+    let low = vec2i(tile.region.origin);
+    let last = low + vec2i(tile.region.extent) - 1;
+    let first = low + vec2i(place);
     var sums: BlurSums;
     var w0 = parameters.weights[0];
     var w1 = parameters.weights[1];
@@ -37,7 +42,7 @@ fn blur(@builtin(global_invocation_id) id: vec3u) {
         let w6 = parameters.weights[4u * block + 6u];
         let w7 = parameters.weights[4u * block + 7u];
         let tap = i32(16u * block) - i32(parameters.radius);
-        sums = blur_taps(moments_map, first + tap * AXIS, last, sums, w0, w1, w2, w3, w4, w5, w6, w7);
+        sums = blur_taps(moments_map, first + tap * AXIS, low, last, sums, w0, w1, w2, w3, w4, w5, w6, w7);
         w0 = w4;
         w1 = w5;
         w2 = w6;

@@ -1,17 +1,22 @@
 import moment_shadows::blur_target::{blur_store, blurred_map, moments_map};
+import moment_shadows::region_tile::{region_tile};
 import moment_shadows::specialization::{AXIS, OUTPUTS, WORKGROUP_X, WORKGROUP_Y, blur_block};
 
-// One direction of a separable filter over one layer, with weights that are known when the graph is compiled.
+// One direction of a separable filter over the regions of one layer, with weights that are known when the graph is compiled.
 // An invocation makes OUTPUTS texels in a row along AXIS, out of texels that it loads once.
 
 @compute @workgroup_size(WORKGROUP_X, WORKGROUP_Y)
-fn blur(@builtin(global_invocation_id) id: vec3u) {
-    let last = vec2i(textureDimensions(blurred_map)) - 1;
-    let first = vec2i(id.xy) * (1 + (OUTPUTS - 1) * AXIS);
-    if any(first > last) {
+fn blur(@builtin(local_invocation_id) local: vec3u, @builtin(workgroup_id) workgroup: vec3u, @builtin(num_workgroups) workgroups: vec3u) {
+    let outputs = vec2u(1 + (OUTPUTS - 1) * AXIS);
+    let tile = region_tile(workgroup, workgroups, textureDimensions(blurred_map), 0u, vec2u(WORKGROUP_X, WORKGROUP_Y) * outputs);
+    let place = tile.first + local.xy * outputs;
+    if any(place >= tile.region.extent) {
         return;
     }
-    let block = blur_block(moments_map, first, last);
+    let low = vec2i(tile.region.origin);
+    let last = low + vec2i(tile.region.extent) - 1;
+    let first = low + vec2i(place);
+    let block = blur_block(moments_map, first, low, last);
     blur_store(first, last, block[0]);
     blur_store(first + AXIS, last, block[1]);
     blur_store(first + 2 * AXIS, last, block[2]);

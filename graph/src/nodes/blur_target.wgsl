@@ -6,7 +6,7 @@ import moment_shadows::specialization::{GROUP, MomentsStorage, STORAGE};
 @group(GROUP) @binding(0) var moments_map: texture_2d<f32>;
 @group(GROUP) @binding(1) var blurred_map: MomentsStorage;
 
-// Stores a filtered texel unless it lies beyond `last`, the last texel of the map.
+// Stores a filtered texel unless it lies beyond `last`, the last texel of the region.
 fn blur_store(texel: vec2i, last: vec2i, value: vec4f) {
     if all(texel <= last) {
         textureStore(blurred_map, texel, moments_round_texel(value, STORAGE));

@@ -4,6 +4,7 @@ use moment_shadows::{DepthConversion, Storage, TextureFormat};
 use serde::{Deserialize, Serialize};
 
 use super::specialization::Specialization;
+use super::{MipLevels, region_tiles};
 use crate::{
     Access, Binding, BindingResource, Connected, CountRule, Direction, ExtentRule, FormatRule,
     GraphError, Lifetime, Node, NodeDesc, ParameterBlock, Pass, Slot, SlotResource, Stage, Work,
@@ -12,13 +13,16 @@ use crate::{
 const SHADER: &str = include_str!("resolve_moments.wgsl");
 
 /// Node `resolve_moments`: `depth` (1, 2, 4 or 8 samples of depth32float or depth16unorm, any number of layers) to
-/// `moments`, of the same size and layers. The *moments* of the samples are averaged, not their depths, so edges are
-/// antialiased. Parameters: a [`DepthConversion`] per layer.
+/// `moments`, of the same size, layers and regions. The *moments* of the samples are averaged, not their depths, so edges
+/// are antialiased. Parameters: a [`DepthConversion`] per layer and region.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct ResolveMoments {
     /// How the moments are stored.
     pub storage: Storage,
+    /// Room for mip levels, for a map that is not blurred; [`super::DownsampleMoments`] fills it.
+    #[serde(default)]
+    pub mip_levels: MipLevels,
 }
 
 impl Node for ResolveMoments {
@@ -29,15 +33,20 @@ impl Node for ResolveMoments {
         } else {
             "texture_depth_2d"
         };
-        let wgsl = Specialization::new(upstream.capabilities())
+        let mips = self.mip_levels.count(depth.size)?;
+        let specialization = Specialization::new(upstream.capabilities())
             .alias("DepthTexture", texture)
             .alias(
                 "MomentsStorage",
                 &format!("texture_storage_2d<{}, write>", self.storage.format()),
             )
             .constant("STORAGE", &format!("{}u", self.storage.wgsl_index()))
-            .constant("SAMPLES", &depth.samples.to_string())
-            .link("resolve_moments.wgsl", SHADER, &[])?;
+            .constant("SAMPLES", &depth.samples.to_string());
+        let wgsl = region_tiles::specialize(specialization, depth).link(
+            "resolve_moments.wgsl",
+            SHADER,
+            &[region_tiles::MODULE],
+        )?;
         Ok(NodeDesc {
             name: "resolve_moments".to_owned(),
             stage: Stage::AfterShadowMaps,
@@ -69,7 +78,7 @@ impl Node for ResolveMoments {
                         format: FormatRule::Exact(self.storage.format()),
                         extent: ExtentRule::SameAs("depth".to_owned()),
                         layers: CountRule::SameAs("depth".to_owned()),
-                        mips: CountRule::Exact(1),
+                        mips: CountRule::Exact(mips),
                         samples: CountRule::Exact(1),
                     },
                 },
@@ -91,17 +100,19 @@ impl Node for ResolveMoments {
                         binding: 2,
                         resource: BindingResource::StorageLayer("moments".to_owned()),
                     },
+                    region_tiles::binding("moments", 1),
                 ],
                 constants: [].into(),
-                work: Work::Compute {
+                work: Work::ComputeRegions {
                     covers: "moments".to_owned(),
+                    level: 0,
                     texels_per_workgroup: [8, 8],
-                    each_layer: true,
                 },
             }],
             parameters: Some(ParameterBlock {
                 name: "DepthConversion".to_owned(),
                 size: size_of::<DepthConversion>() as u32,
+                elements: depth.regions,
                 each_layer_of: Some("depth".to_owned()),
                 initial: bytemuck::bytes_of(&DepthConversion::orthographic()).to_vec(),
             }),

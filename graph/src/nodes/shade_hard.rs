@@ -1,7 +1,7 @@
 //! Turns a filtered map and the camera's depth into shadow intensity on the screen.
 
 use bytemuck::{Pod, Zeroable};
-use moment_shadows::{LeakReduction, ReceiverBias, Technique, TextureFormat};
+use moment_shadows::{LeakReduction, MapRegion, ReceiverBias, Technique, TextureFormat};
 use serde::{Deserialize, Serialize};
 
 use super::moments_input::moments_input;
@@ -17,41 +17,64 @@ mod parameters;
 pub use parameters::{CameraView, LightDepth, LightView, SingularCamera};
 
 const SHADER: &str = include_str!("shade_hard.wgsl");
-const SAMPLED_LOOKUP: &str = include_str!("map_lookup_sampled.wgsl");
-const LOADED_LOOKUP: &str = include_str!("map_lookup_loaded.wgsl");
+const SAMPLED_LOOKUP: &str = include_str!("moments_lookup_sampled.wgsl");
+const LOADED_LOOKUP: &str = include_str!("moments_lookup_loaded.wgsl");
 
 /// Node `shade_hard`: `moments` (a filtered map) and `camera_depth` to `shadow_intensity`, of the camera's size. A
-/// fullscreen pass: it can also be drawn into a render pass that the host has open. Parameters:
-/// [`ShadeHardParameters`].
+/// fullscreen pass: it can also be drawn into a render pass that the host has open.
+///
+/// It shades up to four lights, one in each channel of its output, through any number of views: cascades, faces and
+/// spots, each a region of a layer. Parameters: an array of [`ShadeHardParameters`], one per view. Where the map has mip
+/// levels, lookups average the texels that a pixel covers.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct ShadeHard {
     /// How moments become shadow intensity.
     #[serde(default)]
     pub technique: Technique,
-    /// The format of the shadow intensity: r8unorm, r16float or r32float.
-    #[serde(default = "default_format")]
-    pub format: TextureFormat,
+    /// The format of the shadow intensity, with at least as many channels as there are lights: r8unorm, r16float or
+    /// r32float for one, rgba8unorm, rgba16float or rgba32float for up to four. Where it is left out, r8unorm or
+    /// rgba8unorm.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub format: Option<TextureFormat>,
+    /// The lights, 1 to 4.
+    #[serde(default = "one")]
+    pub lights: u32,
+    /// The most views of all lights together.
+    #[serde(default = "one")]
+    pub views: u32,
+    /// The most probes of a lookup in a map with mip levels, 1 to 16: 1 is a trilinear lookup, more follow the direction
+    /// in which a pixel covers more texels.
+    #[serde(default = "default_anisotropy")]
+    pub anisotropy: u16,
     /// Some samples multiply moments by a constant. Refused: the result bounds nothing.
     #[serde(default, skip_serializing)]
     pub moment_scale: Option<f32>,
 }
 
-fn default_format() -> TextureFormat {
-    TextureFormat::R8Unorm
+fn one() -> u32 {
+    1
+}
+
+/// As many probes as hardware commonly takes at little cost.
+fn default_anisotropy() -> u16 {
+    8
 }
 
 impl Default for ShadeHard {
     fn default() -> Self {
         Self {
             technique: Technique::default(),
-            format: default_format(),
+            format: None,
+            lights: 1,
+            views: 1,
+            anisotropy: default_anisotropy(),
             moment_scale: None,
         }
     }
 }
 
-/// What a view's [`ShadeHard`] node needs to know: the uniform struct of its shader.
+/// What a [`ShadeHard`] node needs to know of a view of a light: the uniform struct of its shader.
 ///
 /// Made by [`ShadeHardParameters::new`] from a camera and a light.
 #[derive(Clone, Copy, Debug, PartialEq, Pod, Zeroable)]
@@ -65,17 +88,21 @@ pub struct ShadeHardParameters {
     pub receiver_bias: ReceiverBias,
     /// What is done about light leaking after the bound.
     pub leak_reduction: LeakReduction,
-    /// The stored depth of pixels that show no surface: 0 for reversed depth.
+    /// Where the view lies in its layer; [`MapRegion::NONE`] where there is no such view.
+    pub region: MapRegion,
+    /// The stored depth of pixels that show no surface: 0 for reversed depth. That of the first view counts for all.
     pub far_depth: f32,
     /// The map's layer.
     pub layer: u32,
+    /// The light's channel in the output, 0 to 3. Of the views of a channel the first that contains a pixel shades it.
+    pub channel: u32,
     /// Unused; keeps the WGSL layout.
-    pub padding: [f32; 2],
+    pub padding: f32,
 }
 
 impl Node for ShadeHard {
     fn describe(&self, upstream: &Connected<'_>) -> Result<NodeDesc, GraphError> {
-        self.check()?;
+        let format = self.check()?;
         let (moments, storage) = moments_input(upstream)?;
         let capabilities = upstream.capabilities();
         let sampled = capabilities.support(moments.format).filterable;
@@ -86,7 +113,10 @@ impl Node for ShadeHard {
         };
         let wgsl = Specialization::new(capabilities)
             .constant("STORAGE", &format!("{}u", storage.wgsl_index()))
-            .link("shade_hard.wgsl", SHADER, &[("map_lookup", lookup)])?;
+            .constant("LEVELS", &format!("{}u", moments.mips))
+            .constant("VIEWS", &format!("{}u", self.views))
+            .constant("ANISOTROPY", &format!("{}.0", self.anisotropy))
+            .link("shade_hard.wgsl", SHADER, &[("moments_lookup", lookup)])?;
         let mut bindings = vec![
             Binding {
                 binding: 0,
@@ -104,10 +134,13 @@ impl Node for ShadeHard {
         if sampled {
             bindings.push(Binding {
                 binding: 3,
-                resource: BindingResource::Sampler { filtering: true },
+                resource: BindingResource::Sampler {
+                    filtering: true,
+                    anisotropy: if moments.mips > 1 { self.anisotropy } else { 1 },
+                },
             });
         }
-        let texture = |name: &str, direction, access, format, extent, layers| Slot {
+        let texture = |name: &str, direction, access, format, extent, layers, mips| Slot {
             name: name.to_owned(),
             direction,
             lifetime: Lifetime::Frame,
@@ -117,7 +150,7 @@ impl Node for ShadeHard {
                 format,
                 extent,
                 layers,
-                mips: CountRule::Exact(1),
+                mips,
                 samples: CountRule::Exact(1),
             },
         };
@@ -138,6 +171,7 @@ impl Node for ShadeHard {
                     ),
                     ExtentRule::Any,
                     CountRule::Any,
+                    CountRule::Any,
                 ),
                 texture(
                     "camera_depth",
@@ -149,13 +183,15 @@ impl Node for ShadeHard {
                     ]),
                     ExtentRule::Any,
                     CountRule::Exact(1),
+                    CountRule::Exact(1),
                 ),
                 texture(
                     "shadow_intensity",
                     Direction::Out,
                     Access::RENDER_TARGET,
-                    FormatRule::Exact(self.format),
+                    FormatRule::Exact(format),
                     ExtentRule::SameAs("camera_depth".to_owned()),
+                    CountRule::Exact(1),
                     CountRule::Exact(1),
                 ),
             ],
@@ -173,6 +209,7 @@ impl Node for ShadeHard {
             parameters: Some(ParameterBlock {
                 name: "ShadeHardParameters".to_owned(),
                 size: size_of::<ShadeHardParameters>() as u32,
+                elements: self.views,
                 each_layer_of: None,
                 initial: Vec::new(),
             }),
@@ -181,28 +218,68 @@ impl Node for ShadeHard {
 }
 
 impl ShadeHard {
-    fn check(&self) -> Result<(), GraphError> {
+    /// Checks the properties and gives the format of the output.
+    fn check(&self) -> Result<TextureFormat, GraphError> {
+        let property = |message: String| Err(GraphError::new(GraphErrorKind::Property, message));
         if self.moment_scale.is_some() {
-            return Err(GraphError::new(
-                GraphErrorKind::Property,
+            return property(
                 "'moment_scale' is refused: moments times a constant are the moments of no distribution, so that the result \
-                 bounds nothing; use the leak reduction of the node's parameters instead",
+                 bounds nothing; use the leak reduction of the node's parameters instead"
+                    .to_owned(),
+            );
+        }
+        if !(1..=4).contains(&self.lights) {
+            return property(format!(
+                "'lights' is {}; a node shades 1 to 4 lights, one per channel of its output, and more nodes shade more",
+                self.lights
             ));
         }
-        let formats = [
+        if self.views < self.lights {
+            return property(format!(
+                "'views' is {}, but there are {} lights; each has at least one view",
+                self.views, self.lights
+            ));
+        }
+        if !(1..=16).contains(&self.anisotropy) {
+            return property(format!(
+                "'anisotropy' is {}; it is from 1 (trilinear lookups) to 16",
+                self.anisotropy
+            ));
+        }
+        let one = [
             TextureFormat::R8Unorm,
             TextureFormat::R16Float,
             TextureFormat::R32Float,
         ];
-        if !formats.contains(&self.format) {
-            return Err(GraphError::new(
-                GraphErrorKind::Property,
-                format!(
-                    "shadow intensity is one number; 'format' is r8unorm, r16float or r32float, not {}",
-                    self.format
-                ),
-            ));
+        let four = [
+            TextureFormat::Rgba8Unorm,
+            TextureFormat::Rgba16Float,
+            TextureFormat::Rgba32Float,
+        ];
+        let format = self.format.unwrap_or(if self.lights == 1 {
+            TextureFormat::R8Unorm
+        } else {
+            TextureFormat::Rgba8Unorm
+        });
+        if four.contains(&format) || (self.lights == 1 && one.contains(&format)) {
+            return Ok(format);
         }
-        Ok(())
+        let names = |formats: &[TextureFormat]| {
+            let names: Vec<&str> = formats.iter().map(|format| format.name()).collect();
+            names.join(", ")
+        };
+        property(if self.lights == 1 {
+            format!(
+                "shadow intensity is one number per light; 'format' is {} or {}, not {format}",
+                names(&one),
+                names(&four)
+            )
+        } else {
+            format!(
+                "{} lights need a channel each; 'format' is {}, not {format}",
+                self.lights,
+                names(&four)
+            )
+        })
     }
 }

@@ -1,11 +1,14 @@
 import moment_shadows::hamburger::{hamburger_shadow_intensity};
 import moment_shadows::leak_reduction::{LeakReduction, leak_reduction_apply};
-import moment_shadows::map_lookup::{map_lookup, map_size};
+import moment_shadows::map_region::{MapRegion, map_region_within};
+import moment_shadows::minification::{minification_depth_variance, minification_footprint};
 import moment_shadows::moments::{moments_bias_of, moments_from_texel};
-import moment_shadows::receiver_bias::{ReceiverBias, receiver_bias_depth, receiver_bias_gradient};
-import moment_shadows::specialization::{GROUP, STORAGE};
+import moment_shadows::moments_lookup::{moments_lookup, moments_map};
+import moment_shadows::receiver_bias::{ReceiverBias, receiver_bias_depth, receiver_bias_depth_minified, receiver_bias_plane};
+import moment_shadows::specialization::{ANISOTROPY, GROUP, LEVELS, STORAGE, VIEWS};
 
-// Shadow intensity of every pixel, from the camera's depth and a map of moments: one light, one layer.
+// Shadow intensity of every pixel, from the camera's depth and a map of moments. A view of a light is one region of one
+// layer: a sun's cascade, a face of a point light, a spot light. Each light has a channel of the target.
 
 struct ShadeHardParameters {
     // From the camera's clip space (x, y, stored depth, 1) to the light: x and y are the place in the map in [0, 1], z its
@@ -16,14 +19,18 @@ struct ShadeHardParameters {
     scene_w_from_camera: vec4f,
     receiver_bias: ReceiverBias,
     leak_reduction: LeakReduction,
-    // The stored depth of pixels that show no surface.
+    // Where the view lies in its layer; without texels there is no such view.
+    region: MapRegion,
+    // The stored depth of pixels that show no surface; the same for all views.
     far_depth: f32,
     // The map's layer.
     layer: u32,
-    padding: vec2f,
+    // The target's channel, 0 to 3. Of the views of one channel the first that contains a pixel shades it.
+    channel: u32,
+    padding: f32,
 }
 
-@group(GROUP) @binding(0) var<uniform> parameters: ShadeHardParameters;
+@group(GROUP) @binding(0) var<uniform> views: array<ShadeHardParameters, VIEWS>;
 @group(GROUP) @binding(1) var camera_depth: texture_depth_2d;
 
 @vertex
@@ -43,12 +50,12 @@ struct Receiver {
     scene_w: f32,
 }
 
-fn receiver_at(pixel: vec2i, stored_depth: f32) -> Receiver {
+fn receiver_at(view: u32, pixel: vec2i, stored_depth: f32) -> Receiver {
     let uv = (vec2f(pixel) + 0.5) / vec2f(textureDimensions(camera_depth));
     let clip = vec4f(2.0 * uv.x - 1.0, 1.0 - 2.0 * uv.y, stored_depth, 1.0);
-    let light = parameters.light_from_camera * clip;
+    let light = views[view].light_from_camera * clip;
     // Results behind the camera or the light are not used.
-    let scene_w = max(dot(parameters.scene_w_from_camera, clip), 1e-30);
+    let scene_w = max(dot(views[view].scene_w_from_camera, clip), 1e-30);
     return Receiver(vec3f(light.xy / max(light.z, 1e-30), light.w / scene_w), light.z, scene_w);
 }
 
@@ -63,7 +70,7 @@ fn extrapolation_error(pixel: vec2i, step: vec2i, stored_depth: f32) -> f32 {
     let outside = any(neighbour < vec2i(0)) || any(neighbour >= vec2i(textureDimensions(camera_depth)));
     let depth = camera_depth_at(neighbour);
     let error = abs(2.0 * depth - camera_depth_at(neighbour + step) - stored_depth);
-    return select(error, UNUSABLE, outside || depth == parameters.far_depth);
+    return select(error, UNUSABLE, outside || depth == views[0].far_depth);
 }
 
 // Above every difference of stored depths.
@@ -72,49 +79,79 @@ const UNUSABLE: f32 = 1e30;
 // No place in the map is that many texels away. Products of two differences must not overflow.
 const LARGEST_DIFFERENCE: f32 = 1e9;
 
-// How the place in the map (in texels) and the moment depth change from a pixel to its neighbour along `axis`, on the
-// side that continues its surface: stored depth is linear on the screen where a surface is plane, so that is the side
-// which extrapolates to the pixel best. The other one may lie beyond a silhouette or an edge. Zero if there is no
-// neighbour, as on a surface that is edge-on to the light.
-fn receiver_difference(pixel: vec2i, axis: vec2i, stored_depth: f32, receiver: Receiver) -> vec3f {
+// The neighbour of a pixel along `axis` on the side that continues its surface: xy is the step to it and z the change of
+// stored depth. Stored depth is linear on the screen where a surface is plane, so that is the side which extrapolates to
+// the pixel best; the other one may lie beyond a silhouette or an edge. Zero if there is no neighbour.
+fn neighbour_of(pixel: vec2i, axis: vec2i, stored_depth: f32) -> vec3f {
     let error_before = extrapolation_error(pixel, -axis, stored_depth);
     let error_after = extrapolation_error(pixel, axis, stored_depth);
     if min(error_before, error_after) == UNUSABLE {
         return vec3f(0.0);
     }
     let direction = select(axis, -axis, error_before < error_after);
-    let across_screen = vec2f(2.0, -2.0) * vec2f(direction) / vec2f(textureDimensions(camera_depth));
-    let step = vec4f(across_screen, camera_depth_at(pixel + direction) - stored_depth, 0.0);
+    return vec3f(vec2f(direction), camera_depth_at(pixel + direction) - stored_depth);
+}
+
+// How the place in the map (in texels) and the moment depth change from a pixel to its neighbour; zero if there is none,
+// as on a surface that is edge-on to the light.
+fn receiver_difference(view: u32, neighbour: vec3f, receiver: Receiver, texels: vec2f) -> vec3f {
+    if all(neighbour.xy == vec2f(0.0)) {
+        return vec3f(0.0);
+    }
+    let across_screen = vec2f(2.0, -2.0) * neighbour.xy / vec2f(textureDimensions(camera_depth));
+    let step = vec4f(across_screen, neighbour.z, 0.0);
     // With numerators n and divisors w, n1 / w1 - n0 / w0 = (dn - (n0 / w0) dw) / w1. Other than the difference of two
     // places, this keeps its digits where a pixel covers a small part of a texel.
-    let light = parameters.light_from_camera * step;
-    let scene_w = dot(parameters.scene_w_from_camera, step);
+    let light = views[view].light_from_camera * step;
+    let scene_w = dot(views[view].scene_w_from_camera, step);
     let across = (light.xy - receiver.place.xy * light.z) / max(receiver.light_w + light.z, 1e-30);
     let along = (light.w - receiver.place.z * scene_w) / max(receiver.scene_w + scene_w, 1e-30);
-    return clamp(vec3f(across * map_size(), along), vec3f(-LARGEST_DIFFERENCE), vec3f(LARGEST_DIFFERENCE));
+    return clamp(vec3f(across * texels, along), vec3f(-LARGEST_DIFFERENCE), vec3f(LARGEST_DIFFERENCE));
+}
+
+// Shadow intensity of a receiver that a view contains.
+fn view_shadow_intensity(view: u32, receiver: Receiver, neighbour_x: vec3f, neighbour_y: vec3f, region: MapRegion) -> f32 {
+    let texels = vec2f(region.extent);
+    let difference_x = receiver_difference(view, neighbour_x, receiver, texels);
+    let difference_y = receiver_difference(view, neighbour_y, receiver, texels);
+    let gradient = receiver_bias_plane(difference_x, difference_y);
+    var bias = receiver_bias_depth(views[view].receiver_bias, length(gradient));
+    if LEVELS > 1u {
+        let footprint = minification_footprint(difference_x.xy, difference_y.xy, ANISOTROPY);
+        let variance = minification_depth_variance(footprint, gradient);
+        bias = receiver_bias_depth_minified(views[view].receiver_bias, length(gradient), variance);
+    }
+    // The map holds a surface that leaves the light's range at the far end. The bias counts from there, since some of the
+    // kernel may still see the surface within the range.
+    let fragment_depth = min(receiver.place.z, 1.0) - bias;
+    let texel = moments_lookup(views[view].layer, region, receiver.place.xy, difference_x.xy, difference_y.xy);
+    let intensity = hamburger_shadow_intensity(moments_from_texel(texel, STORAGE), fragment_depth, moments_bias_of(STORAGE));
+    return leak_reduction_apply(intensity, views[view].leak_reduction);
 }
 
 @fragment
 fn shade(@builtin(position) position: vec4f) -> @location(0) vec4f {
     let pixel = vec2i(position.xy);
     let stored_depth = textureLoad(camera_depth, pixel, 0);
-    if stored_depth == parameters.far_depth {
-        return vec4f(0.0);
+    // Outside its map a light casts no shadow, and where there is no surface, either.
+    var intensities = vec4f(0.0);
+    if stored_depth == views[0].far_depth {
+        return intensities;
     }
-    let receiver = receiver_at(pixel, stored_depth);
-    let uv = receiver.place.xy;
-    // Outside its map a light casts no shadow.
-    if receiver.light_w <= 0.0 || any(uv < vec2f(0.0)) || any(uv > vec2f(1.0)) {
-        return vec4f(0.0);
+    let neighbour_x = neighbour_of(pixel, vec2i(1, 0), stored_depth);
+    let neighbour_y = neighbour_of(pixel, vec2i(0, 1), stored_depth);
+    var open_channels = vec4<bool>(true);
+    for (var view = 0u; view < VIEWS; view++) {
+        let channel = vec4<bool>(vec4u(views[view].channel) == vec4u(0u, 1u, 2u, 3u));
+        let region = map_region_within(views[view].region, textureDimensions(moments_map));
+        let receiver = receiver_at(view, pixel, stored_depth);
+        let uv = receiver.place.xy;
+        let inside = receiver.light_w > 0.0 && all(uv >= vec2f(0.0)) && all(uv <= vec2f(1.0));
+        if inside && all(region.extent > vec2u(0u)) && any(channel & open_channels) {
+            let intensity = view_shadow_intensity(view, receiver, neighbour_x, neighbour_y, region);
+            intensities = select(intensities, vec4f(intensity), channel);
+            open_channels = open_channels & !channel;
+        }
     }
-    let gradient = receiver_bias_gradient(
-        receiver_difference(pixel, vec2i(1, 0), stored_depth, receiver),
-        receiver_difference(pixel, vec2i(0, 1), stored_depth, receiver),
-    );
-    // The map holds a surface that leaves the light's range at the far end. The bias counts from there, since some of the
-    // kernel may still see the surface within the range.
-    let fragment_depth = min(receiver.place.z, 1.0) - receiver_bias_depth(parameters.receiver_bias, gradient);
-    let moments = moments_from_texel(map_lookup(uv, parameters.layer), STORAGE);
-    let intensity = hamburger_shadow_intensity(moments, fragment_depth, moments_bias_of(STORAGE));
-    return vec4f(leak_reduction_apply(intensity, parameters.leak_reduction), 0.0, 0.0, 1.0);
+    return intensities;
 }

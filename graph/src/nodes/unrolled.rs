@@ -11,7 +11,8 @@ pub(super) const OUTPUTS_LITERAL: usize = 8;
 /// Outputs per invocation where weights are uniform.
 pub(super) const OUTPUTS_UNIFORM: usize = 16;
 
-/// `fn blur_block(map, first, last) -> array<vec4f, 8>`: the outputs at `first`, `first + AXIS`, .. with these weights.
+/// `fn blur_block(map, first, low, last) -> array<vec4f, 8>`: the outputs at `first`, `first + AXIS`, .. with these weights.
+/// Beyond `low` and `last`, the corners of the region, its texels repeat.
 pub(super) fn literal_weights(weights: &[f32]) -> String {
     let radius = weights.len() / 2;
     let mut body = String::new();
@@ -20,7 +21,7 @@ pub(super) fn literal_weights(weights: &[f32]) -> String {
         // Writing to a string cannot fail.
         let _ = writeln!(
             body,
-            "    let t{tap} = textureLoad(map, clamp(first + {offset} * AXIS, vec2i(0), last), 0);"
+            "    let t{tap} = textureLoad(map, clamp(first + {offset} * AXIS, low, last), 0);"
         );
         for output in 0..OUTPUTS_LITERAL {
             let Some(weight) = tap.checked_sub(output).and_then(|index| weights.get(index)) else {
@@ -38,13 +39,13 @@ pub(super) fn literal_weights(weights: &[f32]) -> String {
     }
     format!(
         "const OUTPUTS = {OUTPUTS_LITERAL};\n\
-         fn blur_block(map: texture_2d<f32>, first: vec2i, last: vec2i) -> array<vec4f, {OUTPUTS_LITERAL}> {{\n\
+         fn blur_block(map: texture_2d<f32>, first: vec2i, low: vec2i, last: vec2i) -> array<vec4f, {OUTPUTS_LITERAL}> {{\n\
          {body}    return array<vec4f, {OUTPUTS_LITERAL}>({});\n}}\n",
         list("o", OUTPUTS_LITERAL)
     )
 }
 
-/// `struct BlurSums` with 16 sums, and `fn blur_taps(map, first, last, sums, w0, .., w7) -> BlurSums`: adds the 16 texels
+/// `struct BlurSums` with 16 sums, and `fn blur_taps(map, first, low, last, sums, w0, .., w7) -> BlurSums`: adds the 16 texels
 /// at `first`, `first + AXIS`, .. to the sums of 16 outputs. Output o takes texel t with weight number t - o + 15.
 pub(super) fn uniform_weights() -> String {
     let components = ["x", "y", "z", "w"];
@@ -58,7 +59,7 @@ pub(super) fn uniform_weights() -> String {
     for tap in 0..16 {
         let _ = writeln!(
             body,
-            "    let t{tap} = textureLoad(map, clamp(first + {tap} * AXIS, vec2i(0), last), 0);"
+            "    let t{tap} = textureLoad(map, clamp(first + {tap} * AXIS, low, last), 0);"
         );
         for output in 0..OUTPUTS_UNIFORM {
             let _ = writeln!(
@@ -72,7 +73,7 @@ pub(super) fn uniform_weights() -> String {
     format!(
         "const OUTPUTS = {OUTPUTS_UNIFORM};\n\
          struct BlurSums {{\n{fields}}}\n\
-         fn blur_taps(map: texture_2d<f32>, first: vec2i, last: vec2i, sums: BlurSums{parameters}) -> BlurSums {{\n\
+         fn blur_taps(map: texture_2d<f32>, first: vec2i, low: vec2i, last: vec2i, sums: BlurSums{parameters}) -> BlurSums {{\n\
          {body}    return BlurSums({});\n}}\n",
         list("o", OUTPUTS_UNIFORM)
     )

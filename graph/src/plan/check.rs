@@ -37,6 +37,26 @@ pub enum PlanError {
         /// What it is.
         desc: String,
     },
+    /// A map's regions that do not lie within the view's block.
+    #[error("the regions of map '{map}' do not lie within a view's block; compile the graph again")]
+    Regions {
+        /// The map.
+        map: String,
+    },
+    /// A mip level that a texture does not have.
+    #[error(
+        "{what} refers to mip level {level} of '{resource}', which has {count}; compile the graph again"
+    )]
+    Level {
+        /// What refers.
+        what: String,
+        /// The mip level.
+        level: u32,
+        /// The resource's name.
+        resource: String,
+        /// How many mip levels it has.
+        count: u32,
+    },
     /// A node's parameters that do not lie within the view's block.
     #[error(
         "the parameters of node '{node}' do not lie within a view's block; compile the graph again"
@@ -81,11 +101,19 @@ impl Plan {
         }
         for block in &self.parameters.blocks {
             let last = u64::from(block.count.saturating_sub(1));
-            let end =
-                u64::from(block.offset) + last * u64::from(block.stride) + u64::from(block.size);
+            let end = u64::from(block.offset) + last * u64::from(block.stride) + block.array_size();
             if end > u64::from(self.parameters.size) || block.initial.len() > block.size as usize {
                 return Err(PlanError::Parameters {
                     node: block.node.clone(),
+                });
+            }
+        }
+        for table in &self.parameters.regions {
+            let last = u64::from(table.layers.saturating_sub(1));
+            let end = u64::from(table.offset) + last * u64::from(table.stride) + table.size();
+            if end > u64::from(self.parameters.size) || table.capacity == 0 {
+                return Err(PlanError::Regions {
+                    map: table.map.clone(),
                 });
             }
         }
@@ -106,9 +134,15 @@ impl Plan {
                         self.parameters.blocks.len(),
                     )?;
                 }
-                PlannedBindingResource::Texture { resource, .. }
-                | PlannedBindingResource::StorageTexture { resource } => {
+                PlannedBindingResource::Regions { table, .. } => {
+                    within(what(), "region table", table, self.parameters.regions.len())?;
+                }
+                PlannedBindingResource::Texture {
+                    resource, level, ..
+                }
+                | PlannedBindingResource::StorageTexture { resource, level } => {
                     self.check_kind(what(), resource, true)?;
+                    self.check_level(what(), resource, level)?;
                 }
                 PlannedBindingResource::Buffer { resource, .. } => {
                     self.check_kind(what(), resource, false)?;
@@ -123,6 +157,22 @@ impl Plan {
                 .iter()
                 .chain(depth)
                 .try_for_each(|&target| self.check_kind(what(), target, true)),
+        }
+    }
+
+    fn check_level(&self, what: String, index: usize, level: u32) -> Result<(), PlanError> {
+        let texture = self
+            .resources
+            .get(index)
+            .and_then(|resource| Some((&resource.name, resource.desc.texture()?)));
+        match texture {
+            Some((name, texture)) if level >= texture.mips => Err(PlanError::Level {
+                what,
+                level,
+                resource: name.clone(),
+                count: texture.mips,
+            }),
+            _ => Ok(()),
         }
     }
 

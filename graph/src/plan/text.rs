@@ -54,10 +54,21 @@ impl fmt::Display for Plan {
         }
         writeln!(f, "parameters ({} bytes per view)", self.parameters.size)?;
         for block in &self.parameters.blocks {
+            let elements = match block.elements {
+                1 => String::new(),
+                elements => format!(" x {elements}"),
+            };
             writeln!(
                 f,
-                "  {:<28} {} at {}, {} bytes x {}",
+                "  {:<28} {} at {}, {} bytes{elements} x {}",
                 block.node, block.name, block.offset, block.size, block.count
+            )?;
+        }
+        for table in &self.parameters.regions {
+            writeln!(
+                f,
+                "  {:<28} MapRegion at {}, up to {} regions x {} layers",
+                table.map, table.offset, table.capacity, table.layers
             )?;
         }
         writeln!(f, "outputs")?;

@@ -27,12 +27,25 @@ pub(super) struct Step {
     pub(super) label: String,
     pub(super) each_layer: bool,
     pub(super) layers: u32,
-    /// Offset of the node's parameters within a view's block and from layer to layer, where it has any.
-    pub(super) parameters: Option<(u32, u32)>,
+    /// The import or resource whose layers it follows.
+    pub(super) map: String,
+    /// Where its uniform data lies, in the order of the bindings.
+    pub(super) uniforms: Vec<Uniform>,
     /// One per layer.
     pub(super) bind_groups: Vec<wgpu::BindGroup>,
     pub(super) action: Action,
 }
+
+/// Uniform data of a pass within a view's block.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Uniform {
+    pub(super) offset: u32,
+    /// From layer to layer; 0 where there is one for all.
+    pub(super) stride: u32,
+}
+
+/// A pass has its node's parameters and the regions of its map.
+pub(super) const MOST_UNIFORMS: usize = 4;
 
 #[derive(Debug)]
 pub(super) enum Action {
@@ -158,23 +171,22 @@ impl Binder<'_> {
         pipeline: Option<(&Pipeline, &wgpu::BindGroupLayout)>,
     ) -> Result<Step, RecordError> {
         let label = label(pass);
-        let mut parameters = None;
         let mut bind_groups = Vec::new();
         if let Some((_, layout)) = pipeline {
             for layer in 0..pass.layers {
                 bind_groups.push(self.bind_group(pass, layout, layer, &label)?);
             }
         }
-        for binding in &pass.bindings {
-            if let PlannedBindingResource::Parameters { block, .. } = binding.resource {
-                let block = &self.plan.parameters.blocks[block];
-                let stride = if block.count > 1 { block.stride } else { 0 };
-                parameters = Some((block.offset, stride));
-            }
+        let uniforms = self.uniforms(pass);
+        if uniforms.len() > MOST_UNIFORMS {
+            return Err(RecordError::Device {
+                what: label,
+                reason: format!("it has {} uniform bindings", uniforms.len()),
+            });
         }
         let targets = |resource: usize, layers: u32| {
             (0..layers)
-                .map(|layer| self.view(resource, Some(layer)))
+                .map(|layer| self.view(resource, Some(Part { layer, level: 0 })))
                 .collect::<Result<Vec<_>, _>>()
         };
         let action = match (&pass.work, pipeline.map(|(pipeline, _)| pipeline)) {
@@ -200,9 +212,11 @@ impl Binder<'_> {
             ) => Action::Host {
                 targets: colours
                     .iter()
-                    .map(|&target| self.view(target, Some(0)))
+                    .map(|&target| self.view(target, Some(Part::default())))
                     .collect::<Result<_, _>>()?,
-                depth: depth.map(|target| self.view(target, Some(0))).transpose()?,
+                depth: depth
+                    .map(|target| self.view(target, Some(Part::default())))
+                    .transpose()?,
                 blend: *blend,
             },
             _ => return Err(RecordError::MissingPipeline { pass: label }),
@@ -213,10 +227,37 @@ impl Binder<'_> {
             label,
             each_layer: pass.each_layer,
             layers: pass.layers,
-            parameters,
+            map: pass.map.clone(),
+            uniforms,
             bind_groups,
             action,
         })
+    }
+
+    /// Uniform data in the order of the bindings, which is that of dynamic offsets.
+    fn uniforms(&self, pass: &PlannedPass) -> Vec<Uniform> {
+        let layout = &self.plan.parameters;
+        let mut uniforms: Vec<(u32, Uniform)> = pass
+            .bindings
+            .iter()
+            .filter_map(|binding| {
+                let (offset, stride, count) = match binding.resource {
+                    PlannedBindingResource::Parameters { block, .. } => {
+                        let block = &layout.blocks[block];
+                        (block.offset, block.stride, block.count)
+                    }
+                    PlannedBindingResource::Regions { table, .. } => {
+                        let table = &layout.regions[table];
+                        (table.offset, table.stride, table.layers)
+                    }
+                    _ => return None,
+                };
+                let stride = if count > 1 { stride } else { 0 };
+                Some((binding.binding, Uniform { offset, stride }))
+            })
+            .collect();
+        uniforms.sort_by_key(|(binding, _)| *binding);
+        uniforms.into_iter().map(|(_, uniform)| uniform).collect()
     }
 
     fn bind_group(
@@ -275,26 +316,30 @@ impl Binder<'_> {
         label: &str,
     ) -> Result<Bound, RecordError> {
         Ok(match *resource {
-            PlannedBindingResource::Parameters { size, .. } => Bound::Parameters(size),
+            PlannedBindingResource::Parameters { size, .. }
+            | PlannedBindingResource::Regions { size, .. } => Bound::Parameters(size),
             PlannedBindingResource::Texture {
                 resource,
                 one_layer,
+                level,
                 ..
-            } => Bound::View(self.view(resource, one_layer.then_some(layer))?),
-            PlannedBindingResource::StorageTexture { resource } => {
-                Bound::View(self.view(resource, Some(layer))?)
+            } => Bound::View(self.view(resource, one_layer.then_some(Part { layer, level }))?),
+            PlannedBindingResource::StorageTexture { resource, level } => {
+                Bound::View(self.view(resource, Some(Part { layer, level }))?)
             }
             PlannedBindingResource::Buffer { resource, .. } => {
                 Bound::Buffer(self.buffer(resource)?)
             }
-            PlannedBindingResource::Sampler { filtering } => {
-                Bound::Sampler(sampler(self.device, filtering, label))
-            }
+            PlannedBindingResource::Sampler {
+                filtering,
+                anisotropy,
+            } => Bound::Sampler(sampler(self.device, filtering, anisotropy, label)),
         })
     }
 
-    /// A view of one layer, or an array view of all.
-    fn view(&self, resource: usize, layer: Option<u32>) -> Result<wgpu::TextureView, RecordError> {
+    /// A view of one mip level of one layer, or an array view of all.
+    fn view(&self, resource: usize, part: Option<Part>) -> Result<wgpu::TextureView, RecordError> {
+        let layer = part.map(|part| part.layer);
         let planned = &self.plan.resources[resource];
         let (texture, layer) = match self.object(planned) {
             Some(Object::Texture(texture)) => (texture, layer),
@@ -315,7 +360,8 @@ impl Binder<'_> {
             }),
             base_array_layer: layer.unwrap_or(0),
             array_layer_count: layer.map(|_| 1),
-            mip_level_count: layer.map(|_| 1),
+            base_mip_level: part.map_or(0, |part| part.level),
+            mip_level_count: part.map(|_| 1),
             ..Default::default()
         }))
     }
@@ -351,13 +397,20 @@ impl Binder<'_> {
     }
 }
 
+/// One mip level of one layer.
+#[derive(Clone, Copy, Default)]
+struct Part {
+    layer: u32,
+    level: u32,
+}
+
 enum Object<'a> {
     Texture(&'a wgpu::Texture),
     Layers(&'a [wgpu::Texture]),
     Buffer(&'a wgpu::Buffer),
 }
 
-fn sampler(device: &wgpu::Device, filtering: bool, label: &str) -> wgpu::Sampler {
+fn sampler(device: &wgpu::Device, filtering: bool, anisotropy: u16, label: &str) -> wgpu::Sampler {
     let (filter, mipmap_filter) = if filtering {
         (wgpu::FilterMode::Linear, wgpu::MipmapFilterMode::Linear)
     } else {
@@ -371,6 +424,7 @@ fn sampler(device: &wgpu::Device, filtering: bool, label: &str) -> wgpu::Sampler
         mag_filter: filter,
         min_filter: filter,
         mipmap_filter,
+        anisotropy_clamp: anisotropy,
         ..Default::default()
     })
 }

@@ -93,6 +93,16 @@ pub enum RecordError {
         /// Bytes of the buffer.
         size: u64,
     },
+    /// A map that no pass follows.
+    #[error(
+        "layers of map '{map}' are marked dirty, but no pass follows that map; passes follow {known}"
+    )]
+    NoSuchMap {
+        /// The map that was named.
+        map: String,
+        /// The maps that passes follow.
+        known: String,
+    },
     /// A layer that the map does not have.
     #[error("layer {layer} is marked dirty, but pass '{pass}' has {layers} layers")]
     NoSuchLayer {

@@ -34,13 +34,17 @@ pub(super) fn check_parameters(
 }
 
 pub(super) fn check_alignment(plan: &Plan, alignment: u32) -> Result<(), RecordError> {
-    let uneven = plan.parameters.blocks.iter().find(|block| {
-        !(block.offset.is_multiple_of(alignment) && block.stride.is_multiple_of(alignment))
+    let blocks = plan.parameters.blocks.iter();
+    let blocks = blocks.map(|block| (&block.node, block.offset, block.stride));
+    let tables = plan.parameters.regions.iter();
+    let tables = tables.map(|table| (&table.map, table.offset, table.stride));
+    let uneven = blocks.chain(tables).find(|(_, offset, stride)| {
+        !(offset.is_multiple_of(alignment) && stride.is_multiple_of(alignment))
     });
-    uneven.map_or(Ok(()), |block| {
+    uneven.map_or(Ok(()), |(name, _, stride)| {
         Err(RecordError::Alignment {
-            node: block.node.clone(),
-            spacing: block.stride,
+            node: name.clone(),
+            spacing: stride,
             alignment,
         })
     })

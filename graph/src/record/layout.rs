@@ -36,7 +36,8 @@ impl LayoutKey {
             .iter()
             .map(|binding| {
                 let entry = match binding.resource {
-                    PlannedBindingResource::Parameters { size, .. } => EntryKey::Uniform(size),
+                    PlannedBindingResource::Parameters { size, .. }
+                    | PlannedBindingResource::Regions { size, .. } => EntryKey::Uniform(size),
                     PlannedBindingResource::Texture {
                         one_layer,
                         sample,
@@ -47,7 +48,7 @@ impl LayoutKey {
                         array: !one_layer,
                         multisampled,
                     },
-                    PlannedBindingResource::StorageTexture { resource } => EntryKey::Storage(
+                    PlannedBindingResource::StorageTexture { resource, .. } => EntryKey::Storage(
                         plan.resources[resource]
                             .desc
                             .texture()
@@ -56,7 +57,7 @@ impl LayoutKey {
                     PlannedBindingResource::Buffer { writable, .. } => {
                         EntryKey::Buffer { writable }
                     }
-                    PlannedBindingResource::Sampler { filtering } => {
+                    PlannedBindingResource::Sampler { filtering, .. } => {
                         EntryKey::Sampler { filtering }
                     }
                 };

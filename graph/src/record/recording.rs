@@ -1,6 +1,6 @@
 //! Recording: the only part that runs every frame. It creates no object and allocates nothing.
 
-use super::bindings::{Action, Step};
+use super::bindings::{Action, MOST_UNIFORMS, Step};
 use super::{Bindings, RecordError};
 use crate::Stage;
 
@@ -10,8 +10,11 @@ pub enum Layers<'a> {
     /// All of them.
     #[default]
     All,
-    /// These.
+    /// These, of every map.
     Only(&'a [u32]),
+    /// These of the maps with these names: an import's, or `node.slot` where a node makes a map of its own. Of other maps
+    /// none.
+    OfMaps(&'a [(&'a str, &'a [u32])]),
 }
 
 /// Which passes of a stage to record.
@@ -77,6 +80,7 @@ impl Bindings {
         self.check_offset(recording.parameter_offset)?;
         self.check_timestamps(recording.timestamps)?;
         self.check_passes(recording.passes)?;
+        self.check_maps(recording.layers)?;
         let passes = recording.passes;
         let in_stage = || {
             self.steps
@@ -147,12 +151,8 @@ impl Bindings {
             }
         })?;
         render_pass.set_pipeline(pipeline);
-        let (offset, count) = step.dynamic_offset(parameter_offset, 0);
-        render_pass.set_bind_group(
-            self.bind_group,
-            step.bind_groups.first(),
-            &[offset][..count],
-        );
+        let (offsets, count) = step.dynamic_offsets(parameter_offset, 0);
+        render_pass.set_bind_group(self.bind_group, step.bind_groups.first(), &offsets[..count]);
         render_pass.draw(0..3, 0..1);
         Ok(())
     }
@@ -179,11 +179,11 @@ impl Bindings {
         });
         pass.set_pipeline(pipeline);
         for layer in step.dirty(recording.layers) {
-            let (offset, count) = step.dynamic_offset(recording.parameter_offset, layer);
+            let (offsets, count) = step.dynamic_offsets(recording.parameter_offset, layer);
             pass.set_bind_group(
                 self.bind_group,
                 step.bind_groups.get(layer as usize),
-                &[offset][..count],
+                &offsets[..count],
             );
             pass.dispatch_workgroups(workgroups[0], workgroups[1], 1);
         }
@@ -226,11 +226,11 @@ impl Bindings {
                 multiview_mask: None,
             });
             pass.set_pipeline(pipeline);
-            let (offset, count) = step.dynamic_offset(recording.parameter_offset, layer);
+            let (offsets, count) = step.dynamic_offsets(recording.parameter_offset, layer);
             pass.set_bind_group(
                 self.bind_group,
                 step.bind_groups.get(layer as usize),
-                &[offset][..count],
+                &offsets[..count],
             );
             pass.draw(0..3, 0..1);
         }
@@ -262,6 +262,23 @@ impl Bindings {
         };
         beyond.map_or(Ok(()), |&pass| {
             Err(RecordError::NoSuchPassNumber { pass, count })
+        })
+    }
+
+    fn check_maps(&self, layers: Layers<'_>) -> Result<(), RecordError> {
+        let Layers::OfMaps(maps) = layers else {
+            return Ok(());
+        };
+        let known = |map: &str| self.steps.iter().any(|step| step.map == map);
+        let unknown = maps.iter().find(|(map, _)| !known(map));
+        unknown.map_or(Ok(()), |(map, _)| {
+            let mut names: Vec<&str> = self.steps.iter().map(|step| step.map.as_str()).collect();
+            names.sort_unstable();
+            names.dedup();
+            Err(RecordError::NoSuchMap {
+                map: (*map).to_owned(),
+                known: names.join(", "),
+            })
         })
     }
 
@@ -300,18 +317,23 @@ impl Step {
     fn dirty<'a>(&self, layers: Layers<'a>) -> impl Iterator<Item = u32> + use<'a> {
         let (range, listed) = match layers {
             Layers::Only(listed) if self.each_layer => (0..0, listed),
+            Layers::OfMaps(maps) if self.each_layer => {
+                let of_map = maps.iter().find(|(map, _)| *map == self.map);
+                (0..0, of_map.map_or(&[][..], |(_, listed)| listed))
+            }
             _ => (0..self.layers, &[][..]),
         };
         range.chain(listed.iter().copied())
     }
 
-    /// The dynamic offset of the parameters, and how many offsets there are: one or none.
-    fn dynamic_offset(&self, view: u64, layer: u32) -> (u32, usize) {
-        match self.parameters {
+    /// The dynamic offsets of the uniform data, and how many there are.
+    fn dynamic_offsets(&self, view: u64, layer: u32) -> ([u32; MOST_UNIFORMS], usize) {
+        let mut offsets = [0; MOST_UNIFORMS];
+        for (place, uniform) in offsets.iter_mut().zip(&self.uniforms) {
             // The check before recording keeps the sum within u32.
-            Some((offset, stride)) => (view as u32 + offset + layer * stride, 1),
-            None => (0, 0),
+            *place = view as u32 + uniform.offset + layer * uniform.stride;
         }
+        (offsets, self.uniforms.len())
     }
 
     fn check(&self, stage: Stage, recording: &Recording<'_>) -> Result<(), RecordError> {

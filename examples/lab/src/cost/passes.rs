@@ -154,7 +154,7 @@ fn written(plan: &Plan, pass: &PlannedPass) -> Option<CopyKey> {
                 .bindings
                 .iter()
                 .find_map(|binding| match binding.resource {
-                    PlannedBindingResource::StorageTexture { resource } => Some(resource),
+                    PlannedBindingResource::StorageTexture { resource, .. } => Some(resource),
                     _ => None,
                 })?;
             (stored, CopyWork::Compute)

@@ -1,6 +1,8 @@
 //! The parameters of `shade_hard`, from a camera and a light.
 
-use moment_shadows::{DepthConversion, DepthError, DepthRange, LeakReduction, ReceiverBias};
+use moment_shadows::{
+    DepthConversion, DepthError, DepthRange, LeakReduction, MapRegion, ReceiverBias,
+};
 use serde::{Deserialize, Serialize};
 
 use super::ShadeHardParameters;
@@ -17,7 +19,7 @@ pub struct CameraView {
     pub far_depth: f32,
 }
 
-/// A light's map.
+/// A view of a light: what one region of its map was drawn with.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct LightView {
     /// From scene to clip space, by columns, as the map was drawn with.
@@ -26,6 +28,10 @@ pub struct LightView {
     pub depth: LightDepth,
     /// The layer of the map of moments.
     pub layer: u32,
+    /// The region of that layer that the matrix's clip space covers; [`MapRegion::WHOLE`] where it has the layer to itself.
+    pub region: MapRegion,
+    /// The light's channel in the node's output, 0 to 3.
+    pub channel: u32,
 }
 
 /// How a light's depth map stores depth.
@@ -146,9 +152,11 @@ impl ShadeHardParameters {
             scene_w_from_camera: row(&world_from_clip, 3).map(|value| value as f32),
             receiver_bias,
             leak_reduction,
+            region: light.region,
             far_depth: camera.far_depth,
             layer: light.layer,
-            padding: [0.0; 2],
+            channel: light.channel,
+            padding: 0.0,
         })
     }
 }

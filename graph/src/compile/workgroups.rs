@@ -1,0 +1,154 @@
+//! How many workgroups a dispatch has.
+
+use crate::{Capabilities, GraphError, GraphErrorKind};
+
+/// A grid of workgroups over a texture.
+pub(super) fn grid(
+    size: [u32; 2],
+    texels_per_workgroup: [u32; 2],
+    capabilities: &Capabilities,
+) -> Result<[u32; 2], GraphError> {
+    let tile = checked(texels_per_workgroup)?;
+    let groups = [0, 1].map(|axis| size[axis].div_ceil(tile[axis]));
+    let largest = capabilities.max_workgroups;
+    if groups.iter().any(|&count| count > largest) {
+        return Err(GraphError::new(
+            GraphErrorKind::Size,
+            format!(
+                "covering {}x{} texels takes {}x{} workgroups; the device allows {largest}, so at most {}x{} texels",
+                size[0],
+                size[1],
+                groups[0],
+                groups[1],
+                u64::from(largest) * u64::from(tile[0]),
+                u64::from(largest) * u64::from(tile[1]),
+            ),
+        ));
+    }
+    Ok(groups)
+}
+
+/// Enough workgroups for any regions of a layer that do not overlap.
+///
+/// A single one is at most as large as the layer and gets a grid. Several with sides w and h take at most the sum of
+/// (w + t - 1) (h + u - 1) / (t u) workgroups of t x u texels, whose areas w h sum up to that of the layer. Of the sums of
+/// the sides, the sum of (u - 1) w + (t - 1) h is largest for strips as long as the layer, where it stays below
+/// (regions + 1) times the larger of (u - 1) width and (t - 1) height.
+pub(super) fn for_regions(
+    size: [u32; 2],
+    regions: u32,
+    texels_per_workgroup: [u32; 2],
+    capabilities: &Capabilities,
+) -> Result<[u32; 2], GraphError> {
+    let groups = grid(size, texels_per_workgroup, capabilities)?;
+    if regions <= 1 {
+        return Ok(groups);
+    }
+    let [width, height] = size.map(u64::from);
+    let [across, down] = texels_per_workgroup.map(u64::from);
+    let regions = u64::from(regions);
+    let strips = ((down - 1) * width).max((across - 1) * height);
+    let texels = width * height + (regions + 1) * strips + regions * (across - 1) * (down - 1);
+    let each_whole = regions * u64::from(groups[0]) * u64::from(groups[1]);
+    let count = (texels / (across * down)).min(each_whole).max(1);
+    let largest = u64::from(capabilities.max_workgroups);
+    let rows = count.div_ceil(largest);
+    if rows > largest {
+        return Err(GraphError::new(
+            GraphErrorKind::Size,
+            format!(
+                "{regions} regions of {width}x{height} texels take {count} workgroups; the device allows {largest} times \
+                 {largest}, so describe the map with fewer regions",
+            ),
+        ));
+    }
+    // Rows of equal length, so that few workgroups are left over; both fit u32.
+    Ok([count.div_ceil(rows) as u32, rows as u32])
+}
+
+fn checked(texels_per_workgroup: [u32; 2]) -> Result<[u32; 2], GraphError> {
+    if texels_per_workgroup.contains(&0) {
+        return Err(GraphError::new(
+            GraphErrorKind::Declaration,
+            "a workgroup covers no texel",
+        ));
+    }
+    Ok(texels_per_workgroup)
+}
+
+#[cfg(test)]
+mod tests {
+    use moment_shadows::{MapRegion, Profile};
+
+    use super::*;
+
+    /// Workgroups that the shaders number through for these regions.
+    fn needed(regions: &[MapRegion], tile: [u32; 2]) -> u64 {
+        let groups = |side: u32, tile: u32| u64::from(side.div_ceil(tile));
+        regions
+            .iter()
+            .map(|region| groups(region.extent[0], tile[0]) * groups(region.extent[1], tile[1]))
+            .sum()
+    }
+
+    /// A layer cut into `count` regions: rows, columns, or a guillotine that `seed` steers.
+    fn cut(size: [u32; 2], count: usize, seed: u32) -> Vec<MapRegion> {
+        let mut regions = vec![MapRegion::new([0, 0], size)];
+        let mut state = seed;
+        let mut next = |below: u32| {
+            state = state.wrapping_mul(1_664_525).wrapping_add(1_013_904_223);
+            (state >> 8) % below.max(1)
+        };
+        while regions.len() < count {
+            let index = next(regions.len() as u32) as usize;
+            let axis = if seed % 3 == 2 {
+                next(2) as usize
+            } else {
+                (seed % 3) as usize
+            };
+            let region = regions[index];
+            if region.extent[axis] < 2 {
+                if regions.iter().all(|region| region.extent[axis] < 2) {
+                    break;
+                }
+                continue;
+            }
+            let at = 1 + next(region.extent[axis] - 1);
+            regions[index].extent[axis] = at;
+            let mut rest = region;
+            rest.origin[axis] += at;
+            rest.extent[axis] -= at;
+            regions.push(rest);
+        }
+        regions
+    }
+
+    #[test]
+    fn there_are_enough_workgroups_for_any_regions() {
+        let capabilities = Capabilities::of_profile(Profile::Native);
+        for tile in [[8, 8], [64, 8], [64, 1], [8, 64], [128, 8], [8, 128]] {
+            for size in [[256, 256], [1000, 37], [64, 512]] {
+                for count in [2, 3, 7, 16, 36] {
+                    for seed in 0..60 {
+                        let regions = cut(size, count, seed);
+                        let [x, y] = for_regions(size, count as u32, tile, &capabilities)
+                            .unwrap_or_default();
+                        let given = u64::from(x) * u64::from(y);
+                        let needed = needed(&regions, tile);
+                        assert!(
+                            needed <= given,
+                            "{needed} of {given} for {count} regions of {size:?} by {tile:?}"
+                        );
+                    }
+                }
+            }
+        }
+    }
+
+    #[test]
+    fn one_region_takes_a_grid() {
+        let capabilities = Capabilities::of_profile(Profile::Native);
+        let groups = for_regions([1000, 37], 1, [64, 8], &capabilities);
+        assert_eq!(groups.ok(), Some([16, 5]));
+    }
+}

@@ -1,0 +1,94 @@
+//! Fills the mip levels of a map of moments.
+
+use moment_shadows::Storage;
+use serde::{Deserialize, Serialize};
+
+use super::moments_input::moments_input;
+use super::region_tiles;
+use super::specialization::Specialization;
+use crate::{
+    Access, Binding, BindingResource, Connected, CountRule, Direction, ExtentRule, FormatRule,
+    GraphError, GraphErrorKind, Lifetime, MipLevel, Node, NodeDesc, Pass, Slot, SlotResource,
+    Stage, Work,
+};
+
+const SHADER: &str = include_str!("downsample_moments.wgsl");
+
+/// Node `downsample_moments`: fills the mip levels of `moments` in place, within each region. The map has room for them
+/// where the node that made it says so (`mip_levels`). One pass per level; each texel is the mean over what it covers.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct DownsampleMoments {}
+
+impl Node for DownsampleMoments {
+    fn describe(&self, upstream: &Connected<'_>) -> Result<NodeDesc, GraphError> {
+        let (moments, storage) = moments_input(upstream)?;
+        if moments.mips < 2 {
+            return Err(GraphError::new(
+                GraphErrorKind::Size,
+                "the map has one mip level, so there is nothing to fill; set 'mip_levels' of the node that makes it to a number \
+                 or \"all\"",
+            )
+            .at_slot("moments"));
+        }
+        let specialization = Specialization::new(upstream.capabilities())
+            .alias(
+                "MomentsStorage",
+                &format!("texture_storage_2d<{}, write>", storage.format()),
+            )
+            .constant("STORAGE", &format!("{}u", storage.wgsl_index()));
+        let wgsl = region_tiles::specialize(specialization, moments).link(
+            "downsample_moments.wgsl",
+            SHADER,
+            &[region_tiles::MODULE],
+        )?;
+        let level_of = |level: u32| MipLevel {
+            slot: "moments".to_owned(),
+            level,
+        };
+        let passes = (1..moments.mips)
+            .map(|level| Pass {
+                label: format!("mip level {level}"),
+                wgsl: wgsl.clone(),
+                entry_point: "downsample".to_owned(),
+                bindings: vec![
+                    Binding {
+                        binding: 0,
+                        resource: BindingResource::Level(level_of(level - 1)),
+                    },
+                    Binding {
+                        binding: 1,
+                        resource: BindingResource::StorageLevel(level_of(level)),
+                    },
+                    region_tiles::binding("moments", 1),
+                ],
+                constants: [("LEVEL".to_owned(), f64::from(level))].into(),
+                work: Work::ComputeRegions {
+                    covers: "moments".to_owned(),
+                    level,
+                    texels_per_workgroup: [8, 8],
+                },
+            })
+            .collect();
+        Ok(NodeDesc {
+            name: "downsample_moments".to_owned(),
+            stage: Stage::AfterShadowMaps,
+            slots: vec![Slot {
+                name: "moments".to_owned(),
+                direction: Direction::InOut,
+                lifetime: Lifetime::Frame,
+                optional: false,
+                resource: SlotResource::Texture {
+                    access: Access::READ.union(Access::STORAGE_WRITE),
+                    format: FormatRule::OneOf(Storage::ALL.map(Storage::format).to_vec()),
+                    extent: ExtentRule::Any,
+                    layers: CountRule::Any,
+                    mips: CountRule::Any,
+                    samples: CountRule::Exact(1),
+                },
+            }],
+            passes,
+            parameters: None,
+        })
+    }
+}

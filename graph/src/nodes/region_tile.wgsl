@@ -1,0 +1,36 @@
+import moment_shadows::map_region::{MapRegion, map_region_at_level, map_region_within};
+import moment_shadows::specialization::{GROUP, REGIONS};
+
+// Which part of which region a workgroup makes. Regions change per frame; the number of workgroups does not, and suffices
+// for all of them.
+
+@group(GROUP) @binding(4) var<uniform> regions: array<MapRegion, REGIONS>;
+
+struct RegionTile {
+    // The region's number in its table.
+    number: u32,
+    // The region in texels of a mip level; empty where nothing is left to do.
+    region: MapRegion,
+    // The tile's first texel, from the region's origin on.
+    first: vec2u,
+}
+
+// The tile of a workgroup that covers `texels` of mip level `level`, in a layer of `size` texels on mip level 0.
+fn region_tile(workgroup: vec3u, workgroups: vec3u, size: vec2u, level: u32, texels: vec2u) -> RegionTile {
+    if REGIONS == 1u {
+        let only = map_region_at_level(map_region_within(regions[0], size), level);
+        return RegionTile(0u, only, workgroup.xy * texels);
+    }
+    // Workgroups are numbered through the regions.
+    var index = workgroup.y * workgroups.x + workgroup.x;
+    for (var number = 0u; number < REGIONS; number++) {
+        let region = map_region_at_level(map_region_within(regions[number], size), level);
+        let tiles = (region.extent + texels - 1u) / texels;
+        let count = tiles.x * tiles.y;
+        if index < count {
+            return RegionTile(number, region, vec2u(index % tiles.x, index / tiles.x) * texels);
+        }
+        index -= count;
+    }
+    return RegionTile(0u, MapRegion(vec2u(0u), vec2u(0u)), vec2u(0u));
+}

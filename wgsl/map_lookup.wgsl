@@ -1,0 +1,65 @@
+import super::map_region::{MapRegion, map_region_at_level, map_region_last_level, map_region_place};
+import super::minification::{MinificationFootprint, minification_footprint, minification_probe};
+
+// Lookups in a filterable map with mip levels: bilinear, trilinear, anisotropic. None reads across the edge of a region.
+//
+// `uv` runs from 0 to 1 across the region, v downwards; places are in texels of mip level 0. `levels` is the number of mip
+// levels of the map. The sampler filters linearly within and between levels and clamps to the edge. `map_load` has the
+// same lookups for maps that a device cannot filter.
+
+// The bilinearly filtered texel on one mip level.
+fn map_lookup_bilinear(map: texture_2d_array<f32>, linear: sampler, layer: u32, region: MapRegion, uv: vec2f, level: u32) -> vec4f {
+    let place = map_region_place(map_region_at_level(region, level), uv);
+    return textureSampleLevel(map, linear, place / vec2f(textureDimensions(map, level)), layer, f32(level));
+}
+
+// The same, blended between the two mip levels next to `level` >= 0, as far as the region has texels there.
+fn map_lookup_trilinear(map: texture_2d_array<f32>, linear: sampler, layer: u32, region: MapRegion, levels: u32, uv: vec2f, level: f32) -> vec4f {
+    let last = map_region_last_level(region, levels);
+    let fine = min(u32(clamp(level, 0.0, 31.0)), last);
+    let texel = map_lookup_bilinear(map, linear, layer, region, uv, fine);
+    let blend = level - f32(fine);
+    if fine == last || blend <= 0.0 {
+        return texel;
+    }
+    return mix(texel, map_lookup_bilinear(map, linear, layer, region, uv, fine + 1u), blend);
+}
+
+// The average over a footprint around `uv`: trilinear probes along its major axis.
+fn map_lookup_footprint(map: texture_2d_array<f32>, linear: sampler, layer: u32, region: MapRegion, levels: u32, uv: vec2f, footprint: MinificationFootprint) -> vec4f {
+    let per_texel = 1.0 / max(vec2f(region.extent), vec2f(1.0));
+    var sum = vec4f(0.0);
+    for (var probe = 0.0; probe < footprint.probes; probe += 1.0) {
+        let probe_uv = uv + minification_probe(footprint, probe) * per_texel;
+        sum += map_lookup_trilinear(map, linear, layer, region, levels, probe_uv, footprint.level);
+    }
+    return sum / footprint.probes;
+}
+
+// The average over a pixel, from the differences of place to its neighbours in x and y, in texels, each component at
+// most 1e9 in magnitude. Where the pixel's footprint lies well within a region that hardware would divide into the same
+// mip levels, hardware takes the probes, at most as many as the sampler's anisotropy clamp; elsewhere at most
+// `anisotropy` are taken here.
+fn map_lookup_gradient(map: texture_2d_array<f32>, linear: sampler, layer: u32, region: MapRegion, levels: u32, uv: vec2f, difference_x: vec2f, difference_y: vec2f, anisotropy: f32) -> vec4f {
+    let size = textureDimensions(map);
+    let place = vec2f(region.origin) + uv * vec2f(region.extent);
+    let whole = all(region.origin == vec2u(0u)) && all(region.extent == size);
+    if whole || map_lookup_is_inner(region, size, levels, place, abs(difference_x) + abs(difference_y)) {
+        let per_texel = 1.0 / vec2f(size);
+        return textureSampleGrad(map, linear, place * per_texel, layer, difference_x * per_texel, difference_y * per_texel);
+    }
+    let footprint = minification_footprint(difference_x, difference_y, anisotropy);
+    return map_lookup_footprint(map, linear, layer, region, levels, uv, footprint);
+}
+
+// Whether hardware that filters around `place` over a box of `reach` texels reads no texel of another region, and divides
+// the map into mip levels just as regions are divided: edges and size are multiples of a texel of the coarsest level.
+fn map_lookup_is_inner(region: MapRegion, size: vec2u, levels: u32, place: vec2f, reach: vec2f) -> bool {
+    let part_of_texel = vec2u((1u << min(max(levels, 1u) - 1u, 31u)) - 1u);
+    let aligned = all(((region.origin | region.extent | size) & part_of_texel) == vec2u(0u));
+    // Half of the box, and two texels of a mip level whose texels may be twice as wide as the box is long.
+    let margin = vec2f(2.0) + 0.5 * reach + 4.0 * max(reach.x, reach.y);
+    let low = vec2f(region.origin) + margin;
+    let high = vec2f(region.origin + region.extent) - margin;
+    return aligned && all(place >= low) && all(place <= high);
+}
