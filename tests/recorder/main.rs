@@ -17,6 +17,7 @@ mod layers;
 mod life_cycle;
 mod lost;
 mod recording;
+mod regions;
 mod resolve;
 mod setup;
 mod shade;

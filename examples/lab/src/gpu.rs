@@ -140,6 +140,19 @@ impl Gpu {
         layer: u32,
         label: &str,
     ) -> Result<Vec<u8>, GpuError> {
+        self.read_level(texture, layer, 0, label)
+    }
+
+    /// The same for another mip level.
+    pub fn read_level(
+        &self,
+        texture: &wgpu::Texture,
+        layer: u32,
+        level: u32,
+        label: &str,
+    ) -> Result<Vec<u8>, GpuError> {
+        let width = (texture.width() >> level).max(1);
+        let height = (texture.height() >> level).max(1);
         let failed = |reason: String| GpuError::Readback {
             what: label.to_owned(),
             reason,
@@ -153,11 +166,11 @@ impl Gpu {
             .format()
             .block_copy_size(Some(aspect))
             .ok_or_else(|| failed(format!("format {:?} cannot be copied", texture.format())))?;
-        let row = texture.width() * texel_bytes;
+        let row = width * texel_bytes;
         let padded = row.next_multiple_of(wgpu::COPY_BYTES_PER_ROW_ALIGNMENT);
         let staging = self.device.create_buffer(&wgpu::BufferDescriptor {
             label: Some(label),
-            size: u64::from(padded) * u64::from(texture.height()),
+            size: u64::from(padded) * u64::from(height),
             usage: wgpu::BufferUsages::MAP_READ | wgpu::BufferUsages::COPY_DST,
             mapped_at_creation: false,
         });
@@ -167,7 +180,7 @@ impl Gpu {
         encoder.copy_texture_to_buffer(
             wgpu::TexelCopyTextureInfo {
                 texture,
-                mip_level: 0,
+                mip_level: level,
                 origin: wgpu::Origin3d {
                     x: 0,
                     y: 0,
@@ -184,8 +197,8 @@ impl Gpu {
                 },
             },
             wgpu::Extent3d {
-                width: texture.width(),
-                height: texture.height(),
+                width,
+                height,
                 depth_or_array_layers: 1,
             },
         );
