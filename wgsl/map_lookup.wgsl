@@ -4,8 +4,9 @@ import super::minification::{MinificationFootprint, minification_footprint, mini
 // Lookups in a filterable map with mip levels: bilinear, trilinear, anisotropic. None reads across the edge of a region.
 //
 // `uv` runs from 0 to 1 across the region, v downwards; places are in texels of mip level 0. `levels` is the number of mip
-// levels of the map. The sampler filters linearly within and between levels and clamps to the edge. `map_load` has the
-// same lookups for maps that a device cannot filter.
+// levels of the map. Samplers filter linearly within and between levels and clamp to the edge; `linear` is not anisotropic:
+// a driver may apply anisotropy to lookups with an explicit level, too, and then they would reach beyond the region.
+// `map_load` has the same lookups for maps that a device cannot filter.
 
 // The bilinearly filtered texel on one mip level.
 fn map_lookup_bilinear(map: texture_2d_array<f32>, linear: sampler, layer: u32, region: MapRegion, uv: vec2f, level: u32) -> vec4f {
@@ -38,15 +39,15 @@ fn map_lookup_footprint(map: texture_2d_array<f32>, linear: sampler, layer: u32,
 
 // The average over a pixel, from the differences of place to its neighbours in x and y, in texels, each component at
 // most 1e9 in magnitude. Where the pixel's footprint lies well within a region that hardware would divide into the same
-// mip levels, hardware takes the probes, at most as many as the sampler's anisotropy clamp; elsewhere at most
+// mip levels, hardware takes the probes, at most as many as the clamp of the sampler `anisotropic`; elsewhere at most
 // `anisotropy` are taken here.
-fn map_lookup_gradient(map: texture_2d_array<f32>, linear: sampler, layer: u32, region: MapRegion, levels: u32, uv: vec2f, difference_x: vec2f, difference_y: vec2f, anisotropy: f32) -> vec4f {
+fn map_lookup_gradient(map: texture_2d_array<f32>, linear: sampler, anisotropic: sampler, layer: u32, region: MapRegion, levels: u32, uv: vec2f, difference_x: vec2f, difference_y: vec2f, anisotropy: f32) -> vec4f {
     let size = textureDimensions(map);
     let place = vec2f(region.origin) + uv * vec2f(region.extent);
     let whole = all(region.origin == vec2u(0u)) && all(region.extent == size);
     if whole || map_lookup_is_inner(region, size, levels, place, abs(difference_x) + abs(difference_y)) {
         let per_texel = 1.0 / vec2f(size);
-        return textureSampleGrad(map, linear, place * per_texel, layer, difference_x * per_texel, difference_y * per_texel);
+        return textureSampleGrad(map, anisotropic, place * per_texel, layer, difference_x * per_texel, difference_y * per_texel);
     }
     let footprint = minification_footprint(difference_x, difference_y, anisotropy);
     return map_lookup_footprint(map, linear, layer, region, levels, uv, footprint);

@@ -21,4 +21,5 @@ mod regions;
 mod resolve;
 mod setup;
 mod shade;
+mod shade_regions;
 mod views;

@@ -1,16 +1,13 @@
-import moment_shadows::map_lookup::{map_lookup_bilinear, map_lookup_gradient};
+import moment_shadows::map_lookup::{map_lookup_bilinear};
 import moment_shadows::map_region::{MapRegion};
-import moment_shadows::specialization::{ANISOTROPY, GROUP, LEVELS};
+import moment_shadows::specialization::{GROUP};
 
-// The lookup in a map that the device can filter.
+// The lookup in a map that the device can filter, without mip levels.
 
 @group(GROUP) @binding(2) var moments_map: texture_2d_array<f32>;
 @group(GROUP) @binding(3) var moments_sampler: sampler;
 
-// The texel at `uv` in [0, 1] across a region, filtered over a pixel with these differences of place to its neighbours.
+// The bilinearly filtered texel at `uv` in [0, 1] across a region. How far apart pixels lie does not matter.
 fn moments_lookup(layer: u32, region: MapRegion, uv: vec2f, difference_x: vec2f, difference_y: vec2f) -> vec4f {
-    if LEVELS == 1u {
-        return map_lookup_bilinear(moments_map, moments_sampler, layer, region, uv, 0u);
-    }
-    return map_lookup_gradient(moments_map, moments_sampler, layer, region, LEVELS, uv, difference_x, difference_y, ANISOTROPY);
+    return map_lookup_bilinear(moments_map, moments_sampler, layer, region, uv, 0u);
 }

@@ -18,6 +18,7 @@ pub use parameters::{CameraView, LightDepth, LightView, SingularCamera};
 
 const SHADER: &str = include_str!("shade_hard.wgsl");
 const SAMPLED_LOOKUP: &str = include_str!("moments_lookup_sampled.wgsl");
+const MINIFIED_LOOKUP: &str = include_str!("moments_lookup_minified.wgsl");
 const LOADED_LOOKUP: &str = include_str!("moments_lookup_loaded.wgsl");
 
 /// Node `shade_hard`: `moments` (a filtered map) and `camera_depth` to `shadow_intensity`, of the camera's size. A
@@ -106,10 +107,10 @@ impl Node for ShadeHard {
         let (moments, storage) = moments_input(upstream)?;
         let capabilities = upstream.capabilities();
         let sampled = capabilities.support(moments.format).filterable;
-        let lookup = if sampled {
-            SAMPLED_LOOKUP
-        } else {
-            LOADED_LOOKUP
+        let lookup = match (sampled, moments.mips > 1) {
+            (true, false) => SAMPLED_LOOKUP,
+            (true, true) => MINIFIED_LOOKUP,
+            (false, _) => LOADED_LOOKUP,
         };
         let wgsl = Specialization::new(capabilities)
             .constant("STORAGE", &format!("{}u", storage.wgsl_index()))
@@ -136,7 +137,16 @@ impl Node for ShadeHard {
                 binding: 3,
                 resource: BindingResource::Sampler {
                     filtering: true,
-                    anisotropy: if moments.mips > 1 { self.anisotropy } else { 1 },
+                    anisotropy: 1,
+                },
+            });
+        }
+        if sampled && moments.mips > 1 {
+            bindings.push(Binding {
+                binding: 5,
+                resource: BindingResource::Sampler {
+                    filtering: true,
+                    anisotropy: self.anisotropy,
                 },
             });
         }

@@ -1,0 +1,425 @@
+//! `shade_hard` over regions, layers and mip levels: which views shade which pixels, and what their lookups read.
+
+use moment_shadows::{LeakReduction, MapRegion, Profile, ReceiverBias, TextureFormat};
+use moment_shadows_graph::nodes::{CameraView, LightDepth, LightView, ShadeHardParameters};
+use moment_shadows_graph::record::{ImportedResource, Layers, RecordError, Recording};
+use moment_shadows_graph::{Capabilities, Stage, TextureDesc};
+use moment_shadows_lab::gpu::Gpu;
+
+use crate::depth_map;
+use crate::setup::{Bound, IDENTITY, bind, capabilities, compiled, gpu};
+
+const MAP: [u32; 2] = [128, 96];
+
+/// Resolve, a kernel of one texel, mip levels, shading.
+fn graph(storage: &str, mip_levels: u32, shade: &str) -> String {
+    let (downsample, edges, from) = if mip_levels > 1 {
+        (
+            r#"{ "name": "downsample", "type": "downsample_moments" },"#,
+            r#"{ "from": "resolve.moments", "to": "downsample.moments" },"#,
+            "downsample",
+        )
+    } else {
+        ("", "", "resolve")
+    };
+    format!(
+        r#"{{
+  "version": 1,
+  "imports": [{{ "name": "light_depth" }}, {{ "name": "camera_depth" }}],
+  "nodes": [
+    {{ "name": "resolve", "type": "resolve_moments",
+       "properties": {{ "storage": "{storage}", "mip_levels": {mip_levels} }} }},
+    {downsample}
+    {{ "name": "shade", "type": "shade_hard", "properties": {shade} }}
+  ],
+  "edges": [
+    {{ "from": "light_depth", "to": "resolve.depth" }},
+    {edges}
+    {{ "from": "{from}.moments", "to": "shade.moments" }},
+    {{ "from": "camera_depth", "to": "shade.camera_depth" }}
+  ],
+  "outputs": [{{ "name": "shadow_intensity", "from": "shade.shadow_intensity" }}]
+}}"#
+    )
+}
+
+/// A view whose clip space the light's matrix maps the scene to; the camera looks along it, over all of the picture.
+fn view(light: [[f32; 4]; 4], layer: u32, region: MapRegion, channel: u32) -> ShadeHardParameters {
+    ShadeHardParameters::new(
+        &CameraView {
+            clip_from_world: IDENTITY,
+            far_depth: 1.0,
+        },
+        &LightView {
+            clip_from_world: light,
+            depth: LightDepth::Orthographic { reversed: false },
+            layer,
+            region,
+            channel,
+        },
+        ReceiverBias::NONE,
+        LeakReduction::NONE,
+    )
+    .unwrap()
+}
+
+/// A light that covers the part of the picture around (`x`, `y`) in clip space, of half a picture's width and height.
+fn half_sized(x: f32, y: f32) -> [[f32; 4]; 4] {
+    let mut light = IDENTITY;
+    light[0][0] = 2.0;
+    light[1][1] = 2.0;
+    light[3] = [-2.0 * x, -2.0 * y, 0.0, 1.0];
+    light
+}
+
+struct Shading {
+    bound: Bound,
+    picture: [u32; 2],
+}
+
+impl Shading {
+    fn new(
+        gpu: &Gpu,
+        capabilities: &Capabilities,
+        text: &str,
+        light: (&wgpu::Texture, TextureDesc),
+        camera: (&wgpu::Texture, [u32; 2]),
+        views: &[ShadeHardParameters],
+        regions: &[MapRegion],
+    ) -> Self {
+        let desc = TextureDesc::new(TextureFormat::Depth32Float, camera.1);
+        let plan = compiled(
+            text,
+            capabilities,
+            &[("light_depth", light.1), ("camera_depth", desc)],
+        );
+        let mut bytes = plan.parameters.initial();
+        plan.parameters
+            .write_all(&mut bytes, "shade", 0, views)
+            .unwrap();
+        if !regions.is_empty() {
+            plan.parameters
+                .write_regions(&mut bytes, "light_depth", 0, regions)
+                .unwrap();
+        }
+        let imports = [
+            ("light_depth", ImportedResource::Texture(light.0)),
+            ("camera_depth", ImportedResource::Texture(camera.0)),
+        ];
+        let bound = bind(gpu, plan, &imports, &bytes);
+        Self {
+            bound,
+            picture: camera.1,
+        }
+    }
+
+    /// The channels of every pixel.
+    fn run(&self, gpu: &Gpu) -> Vec<[f32; 4]> {
+        self.bound.run(gpu);
+        let values = self.bound.read_floats(gpu, "shadow_intensity", 0);
+        assert_eq!(values.len() as u32, 4 * self.picture[0] * self.picture[1]);
+        values
+            .chunks_exact(4)
+            .map(|pixel| [pixel[0], pixel[1], pixel[2], pixel[3]])
+            .collect()
+    }
+}
+
+fn depth(regions: u32, layers: u32) -> TextureDesc {
+    TextureDesc {
+        regions,
+        layers,
+        ..TextureDesc::new(TextureFormat::Depth32Float, MAP)
+    }
+}
+
+/// Sampled and loaded lookups.
+fn devices(gpu: &Gpu) -> [(Capabilities, &'static str); 3] {
+    let native = capabilities(gpu);
+    let unfilterable = Capabilities {
+        float32_filterable: false,
+        ..native.clone()
+    };
+    [
+        (native, "unorm16"),
+        (unfilterable.clone(), "float32"),
+        (unfilterable, "float16"),
+    ]
+}
+
+#[test]
+fn a_view_reads_its_region_alone_however_far_pixels_reach() {
+    let gpu = gpu();
+    // Regions that touch on all sides and are aligned with no mip level; the middle one has no caster, the others are
+    // full of them.
+    let middle = MapRegion::new([37, 21], [51, 43]);
+    let others = [
+        MapRegion::new([0, 0], [37, 96]),
+        MapRegion::new([88, 0], [40, 96]),
+        MapRegion::new([37, 0], [51, 21]),
+        MapRegion::new([37, 64], [51, 32]),
+    ];
+    let regions: Vec<MapRegion> = [middle].into_iter().chain(others).collect();
+    let inside = |x: u32, y: u32| (37..88).contains(&x) && (21..64).contains(&y);
+    for caster_in_the_middle in [false, true] {
+        let map = depth_map::of(&gpu, MAP, |x, y| {
+            if inside(x, y) == caster_in_the_middle {
+                0.1
+            } else {
+                1.0
+            }
+        });
+        for (capabilities, storage) in devices(&gpu) {
+            // A texel per pixel, and 6 x 11 texels per pixel.
+            for (levels, picture) in [(1, [51, 43]), (6, [51, 43]), (6, [9, 4]), (6, [40, 3])] {
+                let camera = depth_map::of(&gpu, picture, |_, _| 0.8);
+                let shading = Shading::new(
+                    &gpu,
+                    &capabilities,
+                    &graph(storage, levels, r#"{ "format": "rgba32float" }"#),
+                    (&map, depth(5, 1)),
+                    (&camera, picture),
+                    &[view(IDENTITY, 0, middle, 0)],
+                    &regions,
+                );
+                for (pixel, [intensity, ..]) in shading.run(&gpu).into_iter().enumerate() {
+                    let expected = if caster_in_the_middle { 1.0 } else { 0.0 };
+                    // The moment bias is a light leak or a shadow of a few times alpha, which is 1e-3 in float16.
+                    let tolerance = if storage == "float16" { 5e-3 } else { 5e-4 };
+                    assert!(
+                        (intensity - expected).abs() <= tolerance,
+                        "{storage}, {levels} levels, {picture:?}, pixel {pixel}: {intensity} for {expected}"
+                    );
+                }
+            }
+        }
+    }
+}
+
+#[test]
+fn lights_have_a_channel_each_and_the_first_view_that_contains_a_pixel_shades_it() {
+    let gpu = gpu();
+    let left = MapRegion::new([0, 0], [64, 96]);
+    let right = MapRegion::new([64, 0], [64, 96]);
+    // Left: a caster everywhere. Right: none.
+    let map = depth_map::of(&gpu, MAP, |x, _| if x < 64 { 0.1 } else { 1.0 });
+    let picture = [32, 32];
+    let camera = depth_map::of(&gpu, picture, |_, _| 0.8);
+    let views = [
+        // Channel 0: a cascade without casters over the middle, one with casters over everything.
+        view(half_sized(0.0, 0.0), 0, right, 0),
+        view(IDENTITY, 0, left, 0),
+        // Channel 2: shadow in the upper left quarter alone; the rest lies outside of its map.
+        view(half_sized(-0.5, 0.5), 0, left, 2),
+        // Channel 3: no such view.
+        view(IDENTITY, 0, MapRegion::NONE, 3),
+        // Channel 1: a light without casters.
+        view(IDENTITY, 0, right, 1),
+    ];
+    let text = graph(
+        "float32",
+        1,
+        r#"{ "format": "rgba32float", "lights": 4, "views": 6 }"#,
+    );
+    let shading = Shading::new(
+        &gpu,
+        &capabilities(&gpu),
+        &text,
+        (&map, depth(2, 1)),
+        (&camera, picture),
+        &views,
+        &[left, right],
+    );
+    for (index, channels) in shading.run(&gpu).into_iter().enumerate() {
+        let (x, y) = (index as u32 % 32, index as u32 / 32);
+        let middle = (8..24).contains(&x) && (8..24).contains(&y);
+        let upper_left = x < 16 && y < 16;
+        let expected = [
+            if middle { 0.0 } else { 1.0 },
+            0.0,
+            if upper_left { 1.0 } else { 0.0 },
+            0.0,
+        ];
+        for (channel, (found, expected)) in channels.into_iter().zip(expected).enumerate() {
+            assert!(
+                (found - expected).abs() < 1e-3,
+                "pixel {x}, {y}, channel {channel}: {found} for {expected}"
+            );
+        }
+    }
+}
+
+#[test]
+fn views_read_their_layers() {
+    let gpu = gpu();
+    let map = depth_map::texture(&gpu, wgpu::TextureFormat::Depth32Float, MAP, 3, 1);
+    for layer in 0..3 {
+        depth_map::clear(&gpu, &map, layer, if layer == 1 { 0.1 } else { 1.0 });
+    }
+    let picture = [8, 8];
+    let camera = depth_map::of(&gpu, picture, |_, _| 0.8);
+    let views: Vec<ShadeHardParameters> = (0..3)
+        .map(|layer| view(IDENTITY, layer, MapRegion::WHOLE, layer))
+        .collect();
+    let text = graph(
+        "float32",
+        4,
+        r#"{ "format": "rgba32float", "lights": 3, "views": 3 }"#,
+    );
+    let capabilities = capabilities(&gpu);
+    let light = (&map, depth(1, 3));
+    let shading = Shading::new(
+        &gpu,
+        &capabilities,
+        &text,
+        light,
+        (&camera, picture),
+        &views,
+        &[],
+    );
+    for [first, second, third, fourth] in shading.run(&gpu) {
+        // The moment bias is a shadow of about alpha.
+        assert!(
+            first < 1e-5 && third < 1e-5 && fourth == 0.0,
+            "{first}, {third}, {fourth}"
+        );
+        assert!(second > 0.999, "{second}");
+    }
+}
+
+#[test]
+fn a_minified_lookup_is_the_mean_over_the_pixel() {
+    let gpu = gpu();
+    // Stripes of 3 texels of casters and 5 without, both ways: a pixel of 16 x 12 texels sees 9 / 64 of them at most by
+    // chance, and on average the share that it covers.
+    let covered = |x: u32, y: u32| x % 8 < 3 || y % 6 < 1;
+    let map = depth_map::of(&gpu, MAP, |x, y| if covered(x, y) { 0.1 } else { 1.0 });
+    let picture = [8, 8];
+    let camera = depth_map::of(&gpu, picture, |_, _| 0.8);
+    for (capabilities, storage) in devices(&gpu) {
+        for anisotropy in [1, 8] {
+            let properties =
+                format!(r#"{{ "format": "rgba32float", "anisotropy": {anisotropy} }}"#);
+            let shading = Shading::new(
+                &gpu,
+                &capabilities,
+                &graph(storage, 6, &properties),
+                (&map, depth(1, 1)),
+                (&camera, picture),
+                &[view(IDENTITY, 0, MapRegion::WHOLE, 0)],
+                &[],
+            );
+            // Every stripe pattern divides a pixel: each has this share of casters.
+            let share = 1.0 - (5.0 / 8.0) * (5.0 / 6.0);
+            for [intensity, ..] in shading.run(&gpu) {
+                // The bound of two surfaces this far apart is their share, less the leak of the moment bias. Levels whose
+                // texels are no whole number of stripes add their own deviation.
+                assert!(
+                    (intensity - share).abs() < 0.06,
+                    "{storage}, anisotropy {anisotropy}: {intensity} for {share}"
+                );
+            }
+        }
+    }
+}
+
+#[test]
+fn only_the_dirty_layers_of_the_named_map_are_recorded() {
+    let gpu = gpu();
+    let text = r#"{
+  "version": 1,
+  "imports": [{ "name": "sun" }, { "name": "spots" }],
+  "nodes": [
+    { "name": "a", "type": "resolve_moments", "properties": { "storage": "float32" } },
+    { "name": "b", "type": "resolve_moments", "properties": { "storage": "float32" } }
+  ],
+  "edges": [{ "from": "sun", "to": "a.depth" }, { "from": "spots", "to": "b.depth" }],
+  "outputs": [{ "name": "sun", "from": "a.moments" }, { "name": "spots", "from": "b.moments" }]
+}"#;
+    let plan = compiled(
+        text,
+        &capabilities(&gpu),
+        &[("sun", depth(1, 2)), ("spots", depth(1, 3))],
+    );
+    let maps = [2, 3]
+        .map(|layers| depth_map::texture(&gpu, wgpu::TextureFormat::Depth32Float, MAP, layers, 1));
+    let bytes = plan.parameters.initial();
+    let imports = [
+        ("sun", ImportedResource::Texture(&maps[0])),
+        ("spots", ImportedResource::Texture(&maps[1])),
+    ];
+    let bound = bind(&gpu, plan, &imports, &bytes);
+    let clear = |value: f32| {
+        (0..2).for_each(|layer| depth_map::clear(&gpu, &maps[0], layer, value));
+        (0..3).for_each(|layer| depth_map::clear(&gpu, &maps[1], layer, value));
+    };
+    // Depth 0.25 is the moment depth -0.5, 0.75 is 0.5.
+    clear(0.25);
+    bound.run(&gpu);
+    clear(0.75);
+    bound.run_layers(&gpu, Layers::OfMaps(&[("spots", &[2]), ("sun", &[])]));
+    let first = |output: &str, layer| bound.read_floats(&gpu, output, layer)[0];
+    assert_eq!([first("sun", 0), first("sun", 1)], [-0.5, -0.5]);
+    let spots = [0, 1, 2].map(|layer| first("spots", layer));
+    assert_eq!(spots, [-0.5, -0.5, 0.5]);
+    bound.run_layers(&gpu, Layers::OfMaps(&[("sun", &[0])]));
+    assert_eq!([first("sun", 0), first("sun", 1)], [0.5, -0.5]);
+    assert_eq!(first("spots", 0), -0.5);
+
+    let mut encoder = gpu.device.create_command_encoder(&Default::default());
+    let mut refused = |layers| {
+        let recording = Recording {
+            layers,
+            ..Recording::default()
+        };
+        bound
+            .bindings
+            .record(Stage::AfterShadowMaps, &mut encoder, recording)
+            .unwrap_err()
+    };
+    assert_eq!(
+        refused(Layers::OfMaps(&[("moon", &[0])])),
+        RecordError::NoSuchMap {
+            map: "moon".to_owned(),
+            known: "spots, sun".to_owned(),
+        }
+    );
+    assert!(matches!(
+        refused(Layers::OfMaps(&[("sun", &[2])])),
+        RecordError::NoSuchLayer {
+            layer: 2,
+            layers: 2,
+            ..
+        }
+    ));
+}
+
+#[test]
+fn core_webgpu_shades_regions_too() {
+    let gpu = Gpu::open(Profile::WebgpuCore).unwrap();
+    let left = MapRegion::new([0, 0], [61, 96]);
+    let right = MapRegion::new([61, 0], [67, 96]);
+    let map = depth_map::of(&gpu, MAP, |x, _| if x < 61 { 0.1 } else { 1.0 });
+    let picture = [8, 8];
+    let camera = depth_map::of(&gpu, picture, |_, _| 0.8);
+    let text = graph(
+        "float16",
+        5,
+        r#"{ "format": "rgba32float", "lights": 2, "views": 2 }"#,
+    );
+    let views = [view(IDENTITY, 0, left, 0), view(IDENTITY, 0, right, 1)];
+    let capabilities = capabilities(&gpu);
+    let light = (&map, depth(2, 1));
+    let shading = Shading::new(
+        &gpu,
+        &capabilities,
+        &text,
+        light,
+        (&camera, picture),
+        &views,
+        &[left, right],
+    );
+    for [first, second, ..] in shading.run(&gpu) {
+        assert!(first > 0.995 && second < 5e-3, "{first}, {second}");
+    }
+}
