@@ -59,6 +59,48 @@ impl GraphFile {
         Self::parse(&self.name, text, None)
     }
 
+    /// The same graph without mip levels: what read a downsampled map reads the map itself.
+    pub fn without_mip_levels(&self) -> Result<Self, LabError> {
+        let mut file: Value = serde_json::from_str(&self.text).unwrap_or_default();
+        let mut sources = std::collections::BTreeMap::new();
+        for node in nodes(&self.text) {
+            let name = node["name"].as_str().unwrap_or_default();
+            if node["type"] == "downsample_moments" {
+                sources.insert(format!("{name}.moments"), String::new());
+            }
+        }
+        if let Some(edges) = file["edges"].as_array_mut() {
+            edges.retain(|edge| {
+                let ends = [&edge["from"], &edge["to"]].map(|end| end.as_str().unwrap_or_default());
+                let source = sources.get_mut(ends[1]);
+                let goes = source.is_some();
+                if let Some(source) = source {
+                    *source = ends[0].to_owned();
+                }
+                !goes
+            });
+        }
+        for list in ["edges", "outputs"] {
+            if let Some(items) = file[list].as_array_mut() {
+                for item in items {
+                    let from = item["from"].as_str().unwrap_or_default().to_owned();
+                    if let Some(source) = sources.get(&from) {
+                        item["from"] = source.clone().into();
+                    }
+                }
+            }
+        }
+        if let Some(nodes) = file["nodes"].as_array_mut() {
+            nodes.retain(|node| node["type"] != "downsample_moments");
+            for node in nodes {
+                if let Some(properties) = node["properties"].as_object_mut() {
+                    properties.remove("mip_levels");
+                }
+            }
+        }
+        Self::parse(&self.name, file.to_string(), None)
+    }
+
     /// The kernel of the graph's blur; `None` where it has none.
     pub fn kernel(&self) -> Result<Option<Kernel>, LabError> {
         let kernels: Vec<KernelProperty> = nodes(&self.text)

@@ -6,6 +6,7 @@ pub mod batch;
 pub mod command;
 pub mod cost;
 pub mod error;
+pub mod footprint;
 pub mod frame;
 pub mod gpu;
 pub mod graph_file;

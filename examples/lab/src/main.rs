@@ -6,7 +6,7 @@ use std::process::ExitCode;
 use clap::{Parser, Subcommand, ValueEnum};
 use moment_shadows::{Profile, Storage};
 use moment_shadows_lab::command::render::{LightChoice, RenderOptions};
-use moment_shadows_lab::command::{cost, graph, measure, render, validate};
+use moment_shadows_lab::command::{cost, graph, measure, minification, render, validate};
 use moment_shadows_lab::gpu::Gpu;
 use moment_shadows_lab::vectors;
 
@@ -77,6 +77,24 @@ enum Command {
         /// The graph file.
         #[arg(long)]
         graph: PathBuf,
+    },
+    /// Prints the error of a graph with mip levels on a scene from afar, over the whole of each pixel, and how much it
+    /// flickers while the camera comes nearer; and the same without mip levels.
+    Minification {
+        #[command(flatten)]
+        frame: FrameArguments,
+        /// A glTF or GLB file, or a procedural scene: fence-and-foliage, hall.
+        #[arg(long, default_value = "fence-and-foliage")]
+        scene: String,
+        /// The graph file, with a downsample_moments node.
+        #[arg(long)]
+        graph: PathBuf,
+        /// The camera's distance, as a multiple of the viewpoint's.
+        #[arg(long, default_value_t = 8.0, value_parser = distance)]
+        distance: f64,
+        /// Prints JSON.
+        #[arg(long)]
+        json: bool,
     },
     /// Times the passes of a graph, or blurs of several radii, as ratios to copies, and counts their bytes.
     Cost {
@@ -182,6 +200,14 @@ impl FrameArguments {
     }
 }
 
+/// A multiple of a distance.
+fn distance(text: &str) -> Result<f64, String> {
+    match text.parse() {
+        Ok(distance) if (1.0..=1000.0).contains(&distance) => Ok(distance),
+        _ => Err("a distance is a number from 1 to 1000".to_owned()),
+    }
+}
+
 fn main() -> ExitCode {
     match run(Cli::parse().command) {
         Ok(code) => code,
@@ -254,6 +280,16 @@ fn run(command: Command) -> Result<ExitCode, Box<dyn std::error::Error>> {
             let rows = measure::run(&scene, &graph, &frame.options(String::new()))?;
             print!("{}", measure::table(&rows));
         }
+        Command::Minification {
+            frame,
+            scene,
+            graph,
+            distance,
+            json,
+        } => print(
+            &minification::run(&frame.options(scene), &graph, distance)?,
+            json,
+        )?,
         Command::Cost {
             subject,
             size,

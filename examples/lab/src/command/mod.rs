@@ -3,5 +3,6 @@
 pub mod cost;
 pub mod graph;
 pub mod measure;
+pub mod minification;
 pub mod render;
 pub mod validate;
