@@ -6,7 +6,7 @@ use std::process::ExitCode;
 use clap::{Parser, Subcommand, ValueEnum};
 use moment_shadows::{Profile, Storage};
 use moment_shadows_lab::command::render::{LightChoice, RenderOptions};
-use moment_shadows_lab::command::{cost, graph, measure, render, validate};
+use moment_shadows_lab::command::{cost, graph, measure, render, shaders, validate};
 use moment_shadows_lab::gpu::Gpu;
 use moment_shadows_lab::vectors;
 
@@ -77,6 +77,12 @@ enum Command {
         /// The graph file.
         #[arg(long)]
         graph: PathBuf,
+    },
+    /// Writes every linked shader of the library, as WGSL and SPIR-V with an index, for other compilers.
+    Shaders {
+        /// The folder to make.
+        #[arg(long)]
+        out: PathBuf,
     },
     /// Times the passes of a graph, or blurs of several radii, as ratios to copies, and counts their bytes.
     Cost {
@@ -253,6 +259,9 @@ fn run(command: Command) -> Result<ExitCode, Box<dyn std::error::Error>> {
         } => {
             let rows = measure::run(&scene, &graph, &frame.options(String::new()))?;
             print!("{}", measure::table(&rows));
+        }
+        Command::Shaders { out } => {
+            println!("{} shaders in {}", shaders::run(&out)?, out.display());
         }
         Command::Cost {
             subject,

@@ -4,4 +4,5 @@ pub mod cost;
 pub mod graph;
 pub mod measure;
 pub mod render;
+pub mod shaders;
 pub mod validate;
