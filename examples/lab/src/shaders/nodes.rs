@@ -61,13 +61,13 @@ fn variants(storage: Storage, capabilities: &Capabilities) -> Vec<Variant> {
     add(uniform, Box::new(blur(1, 0.6, true)), 1);
     add(
         format!("shade_hard_{storage}"),
-        Box::new(ShadeHard::default()),
+        Box::<ShadeHard>::default(),
         1,
     );
     if storage == Storage::Float32 {
         variants.push(Variant {
             name: format!("shade_hard_{storage}_filterable"),
-            node: Box::new(ShadeHard::default()),
+            node: Box::<ShadeHard>::default(),
             samples: 1,
             capabilities: Capabilities {
                 float32_filterable: true,
