@@ -61,24 +61,24 @@ async function scoped(device, work) {
 }
 
 // The ways to make a pipeline of an entry point, one of which has to do: a fragment stage fits one of the vertex stages.
-function pipelines(device, module, { name: entryPoint, stage, targets }, entryPoints) {
-  const stageOf = ({ name }) => ({ module, entryPoint: name });
+function pipelines(device, module, { name: entryPoint, stage, targets }, entryPoints, constants) {
+  const stageOf = ({ name }) => ({ module, entryPoint: name, constants });
   const layout = 'auto';
   if (stage === 'compute') {
-    return [() => device.createComputePipelineAsync({ layout, compute: { module, entryPoint } })];
+    return [() => device.createComputePipelineAsync({ layout, compute: { module, entryPoint, constants } })];
   }
   if (stage === 'vertex') {
     const depthStencil = { format: 'depth32float', depthWriteEnabled: true, depthCompare: 'less' };
-    return [() => device.createRenderPipelineAsync({ layout, vertex: { module, entryPoint }, depthStencil })];
+    return [() => device.createRenderPipelineAsync({ layout, vertex: { module, entryPoint, constants }, depthStencil })];
   }
-  const fragment = { module, entryPoint, targets: targets.map((format) => format && { format }) };
+  const fragment = { module, entryPoint, constants, targets: targets.map((format) => format && { format }) };
   const vertices = entryPoints.filter(({ stage }) => stage === 'vertex').map(stageOf);
   if (vertices.length === 0) vertices.push({ module: device.createShaderModule({ code: FULLSCREEN }) });
   return vertices.map((vertex) => () => device.createRenderPipelineAsync({ layout, vertex, fragment }));
 }
 
 // Compiles a text and makes a pipeline of each of `entryPoints`. Gives every objection; a warning is one.
-async function judge(device, code, entryPoints) {
+async function judge(device, code, entryPoints, constants = {}) {
   const [module, objections] = await scoped(device, () => device.createShaderModule({ code }));
   const { messages } = await module.getCompilationInfo();
   const spoken = messages
@@ -89,7 +89,7 @@ async function judge(device, code, entryPoints) {
 
   for (const entryPoint of entryPoints) {
     let refused = [];
-    for (const make of pipelines(device, module, entryPoint, entryPoints)) {
+    for (const make of pipelines(device, module, entryPoint, entryPoints, constants)) {
       [, refused] = await scoped(device, make);
       if (refused.length === 0) break;
     }
@@ -115,8 +115,9 @@ async function main(folder) {
   const counts = {};
   let entries = 0;
   let refused = 0;
-  for (const { kind, profile, wgsl, entry_points: entryPoints } of shaders) {
-    const objections = await judge(devices[profile], readFileSync(join(folder, wgsl), 'utf8'), entryPoints);
+  for (const { kind, profile, wgsl, constants, entry_points: entryPoints } of shaders) {
+    const code = readFileSync(join(folder, wgsl), 'utf8');
+    const objections = await judge(devices[profile], code, entryPoints, constants);
     for (const objection of objections) console.error(`${join(folder, wgsl)}:${objection}\n`);
     refused += objections.length > 0;
     counts[kind] = (counts[kind] ?? 0) + 1;

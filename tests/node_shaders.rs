@@ -35,13 +35,13 @@ fn every_node_of_the_registry_is_in_the_list_of_shaders() {
     );
 }
 
-/// Variants whose text is kept. The axis and the other storages of the blur change one constant each, a radius only
-/// repeats lines; so do 2 and 8 samples in place of 4.
+/// Variants whose text is kept. The others change a constant each, or repeat lines.
 fn is_kept(name: &str) -> bool {
-    let blur = name.starts_with("blur_moments");
-    let samples =
-        name.starts_with("resolve_moments") && (name.ends_with("_2") || name.ends_with("_8"));
-    !samples && (!blur || name.ends_with("unorm16_x") && !name.contains("radius"))
+    let ends = |suffixes: &[&str]| suffixes.iter().any(|suffix| name.ends_with(suffix));
+    if name.starts_with("blur_moments") || name.starts_with("downsample_moments") {
+        return !name.contains("radius") && ends(&["unorm16", "unorm16_x"]);
+    }
+    !ends(&["_2", "_8", "_regions", "_mips", "_views"])
 }
 
 fn snapshot(name: &str) -> PathBuf {

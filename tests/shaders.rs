@@ -6,7 +6,7 @@
     reason = "a test that fails says where"
 )]
 
-use std::collections::BTreeSet;
+use std::collections::{BTreeMap, BTreeSet};
 use std::path::Path;
 
 use moment_shadows::{Profile, Source, modules, validate};
@@ -19,6 +19,7 @@ fn shader(name: &str, wgsl: &str) -> Shader {
         kind: Kind::Node,
         profile: Profile::WebgpuCore,
         wgsl: wgsl.to_owned(),
+        constants: BTreeMap::new(),
     }
 }
 

@@ -6,6 +6,8 @@ mod nodes;
 mod spirv;
 mod write;
 
+use std::collections::BTreeMap;
+
 use moment_shadows::{Profile, Source, link, link_module, modules};
 
 pub use calls::calls;
@@ -25,6 +27,8 @@ pub struct Shader {
     pub profile: Profile,
     /// The linked text.
     pub wgsl: String,
+    /// Values for its `override` declarations.
+    pub constants: BTreeMap<String, f64>,
 }
 
 /// What a shader was made of.
@@ -56,12 +60,14 @@ pub fn all() -> Result<Vec<Shader>, ShadersError> {
             kind: Kind::Calls,
             profile: Profile::WebgpuCore,
             wgsl: calls(module.source, &linked),
+            constants: BTreeMap::new(),
         });
         all.push(Shader {
             name: format!("module_{}", module.name),
             kind: Kind::Module,
             profile: Profile::WebgpuCore,
             wgsl: linked,
+            constants: BTreeMap::new(),
         });
     }
     let nodes = nodes()?.into_iter();
@@ -78,6 +84,7 @@ pub fn all() -> Result<Vec<Shader>, ShadersError> {
             &[],
         )?
         .into_wgsl(),
+        constants: BTreeMap::new(),
     });
     Ok(all)
 }

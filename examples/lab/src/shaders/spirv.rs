@@ -1,5 +1,6 @@
 //! SPIR-V as wgpu hands it to a Vulkan driver.
 
+use naga::back::pipeline_constants::process_overrides;
 use naga::back::spv;
 use naga::proc::{BoundsCheckPolicies, BoundsCheckPolicy};
 use naga::valid::{Capabilities, ValidationFlags, Validator};
@@ -88,16 +89,20 @@ impl<'a> Compiled<'a> {
         entry_point: &naga::EntryPoint,
         target: Target,
     ) -> Result<Vec<u32>, ShadersError> {
+        let failed = |reason| ShadersError::Compile {
+            name: format!("{}, entry point {}", self.shader.name, entry_point.name),
+            reason,
+        };
         let pipeline = spv::PipelineOptions {
             shader_stage: entry_point.stage,
             entry_point: entry_point.name.clone(),
         };
-        spv::write_vec(&self.module, &self.info, &options(target), Some(&pipeline)).map_err(
-            |error| ShadersError::Compile {
-                name: format!("{}, entry point {}", self.shader.name, entry_point.name),
-                reason: error.to_string(),
-            },
-        )
+        let constants = self.shader.constants.clone().into_iter().collect();
+        let stage = Some((entry_point.stage, entry_point.name.as_str()));
+        let (module, info) = process_overrides(&self.module, &self.info, stage, &constants)
+            .map_err(|error| failed(error.to_string()))?;
+        spv::write_vec(&module, &info, &options(target), Some(&pipeline))
+            .map_err(|error| failed(error.to_string()))
     }
 }
 

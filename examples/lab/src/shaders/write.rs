@@ -1,5 +1,6 @@
 //! The shaders as files: WGSL, the SPIR-V of each entry point beside it, and an index.
 
+use std::collections::BTreeMap;
 use std::fs;
 use std::io;
 use std::path::Path;
@@ -24,6 +25,7 @@ struct Entry<'a> {
     kind: Kind,
     profile: Profile,
     wgsl: String,
+    constants: &'a BTreeMap<String, f64>,
     entry_points: Vec<EntryPoint>,
 }
 
@@ -42,8 +44,8 @@ struct Spirv {
     file: String,
 }
 
-/// Writes all of `shaders` into the new folder `folder`, with `index.json`: for each shader its name, kind, profile and
-/// entry points, and the files of its WGSL and SPIR-V. The folder is written beside and renamed: it is there complete or
+/// Writes all of `shaders` into the new folder `folder`, with `index.json`: for each shader its name, kind, profile, constants
+/// and entry points, and the files of its WGSL and SPIR-V. The folder is written beside and renamed: it is there complete or
 /// not at all.
 pub fn write(shaders: &[Shader], folder: &Path) -> Result<(), ShadersError> {
     let failed = |source| ShadersError::Write {
@@ -92,6 +94,7 @@ pub fn write(shaders: &[Shader], folder: &Path) -> Result<(), ShadersError> {
             kind: shader.kind,
             profile: shader.profile,
             wgsl,
+            constants: &shader.constants,
             entry_points,
         });
     }
