@@ -11,110 +11,37 @@
 use std::collections::BTreeSet;
 use std::path::PathBuf;
 
-use moment_shadows::{Backend, Profile, Source, Storage, TextureFormat, validate};
-use moment_shadows_graph::nodes::{BlurMoments, KernelProperty, ResolveMoments, ShadeHard};
-use moment_shadows_graph::{Capabilities, Connected, Node, ResourceDesc, TextureDesc};
+use moment_shadows::{Backend, Profile, Source, validate};
+use moment_shadows_graph::NodeRegistry;
+use moment_shadows_lab::shaders::{self, Shader};
 
-/// A node's shader for one storage, number of samples or axis.
-struct Variant {
-    name: String,
-    wgsl: String,
-    profile: Profile,
+fn variants() -> Vec<Shader> {
+    let nodes = shaders::nodes().unwrap();
+    nodes.into_iter().map(|node| node.shader).collect()
 }
 
-/// The least demanding profile that offers a storage.
-fn profile(storage: Storage) -> Profile {
-    match storage {
-        Storage::Unorm16 => Profile::Native,
-        _ => Profile::WebgpuCore,
-    }
+#[test]
+fn every_node_of_the_registry_is_in_the_list_of_shaders() {
+    let listed: BTreeSet<String> = shaders::nodes()
+        .unwrap()
+        .into_iter()
+        .map(|node| node.node)
+        .collect();
+    let registry = NodeRegistry::new();
+    let registered: BTreeSet<String> = registry.type_names().map(str::to_owned).collect();
+    assert_eq!(
+        listed, registered,
+        "a node's variants are listed in examples/lab/src/shaders/nodes.rs"
+    );
 }
 
-fn describe(
-    node: &dyn Node,
-    storage: Storage,
-    samples: u32,
-    capabilities: &Capabilities,
-) -> Vec<String> {
-    let depth = TextureDesc {
-        samples,
-        ..TextureDesc::new(TextureFormat::Depth32Float, [256, 256])
-    };
-    let camera = TextureDesc::new(TextureFormat::Depth32Float, [256, 256]);
-    let inputs = [
-        ("depth".to_owned(), ResourceDesc::Texture(depth)),
-        (
-            "moments".to_owned(),
-            ResourceDesc::Texture(TextureDesc::new(storage.format(), [256, 256])),
-        ),
-        ("camera_depth".to_owned(), ResourceDesc::Texture(camera)),
-    ]
-    .into();
-    let desc = node
-        .describe(&Connected::new(&inputs, capabilities))
-        .unwrap();
-    desc.passes.into_iter().map(|pass| pass.wgsl).collect()
-}
-
-fn variants() -> Vec<Variant> {
-    let mut all = Vec::new();
-    for storage in Storage::ALL {
-        let profile = profile(storage);
-        let capabilities = Capabilities::of_profile(profile);
-        let mut add = |name: String, wgsl: String| {
-            all.push(Variant {
-                name,
-                wgsl,
-                profile,
-            })
-        };
-        for samples in [1, 4] {
-            let mut texts = describe(
-                &ResolveMoments {
-                    storage,
-                    mip_levels: Default::default(),
-                },
-                storage,
-                samples,
-                &capabilities,
-            );
-            add(
-                format!("resolve_moments_{storage}_{samples}"),
-                texts.remove(0),
-            );
-        }
-        for per_frame in [false, true] {
-            let node = BlurMoments {
-                kernel: KernelProperty::gaussian(1, 0.6),
-                per_frame,
-                mip_levels: Default::default(),
-            };
-            let kind = if per_frame { "uniform" } else { "unrolled" };
-            for (axis, wgsl) in
-                ["x", "y"]
-                    .into_iter()
-                    .zip(describe(&node, storage, 1, &capabilities))
-            {
-                add(format!("blur_moments_{kind}_{storage}_{axis}"), wgsl);
-            }
-        }
-        let mut texts = describe(&ShadeHard::default(), storage, 1, &capabilities);
-        add(format!("shade_hard_{storage}"), texts.remove(0));
-        let filterable = Capabilities {
-            float32_filterable: true,
-            ..capabilities
-        };
-        if storage == Storage::Float32 {
-            let mut texts = describe(&ShadeHard::default(), storage, 1, &filterable);
-            add(format!("shade_hard_{storage}_filterable"), texts.remove(0));
-        }
-    }
-    all
-}
-
-/// Variants whose text is kept. The axis and the other storages of the blur change one constant each.
+/// Variants whose text is kept. The others change a constant each, or repeat lines.
 fn is_kept(name: &str) -> bool {
-    !name.starts_with("blur_moments") || name.ends_with("unorm16_x")
+    let ends = |suffixes: &[&str]| suffixes.iter().any(|suffix| name.ends_with(suffix));
+    if name.starts_with("blur_moments") || name.starts_with("downsample_moments") {
+        return !name.contains("radius") && ends(&["unorm16", "unorm16_x"]);
+    }
+    !ends(&["_2", "_8", "_regions", "_mips", "_views"])
 }
 
 fn snapshot(name: &str) -> PathBuf {

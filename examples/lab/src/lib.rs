@@ -19,6 +19,7 @@ pub mod oracle;
 pub mod picture;
 pub mod progress;
 pub mod scene;
+pub mod shaders;
 pub mod truth;
 pub mod vectors;
 pub mod view;

@@ -6,7 +6,7 @@ use std::process::ExitCode;
 use clap::{Parser, Subcommand, ValueEnum};
 use moment_shadows::{Profile, Storage};
 use moment_shadows_lab::command::render::{LightChoice, RenderOptions};
-use moment_shadows_lab::command::{cost, graph, measure, minification, render, validate};
+use moment_shadows_lab::command::{cost, graph, measure, minification, render, shaders, validate};
 use moment_shadows_lab::gpu::Gpu;
 use moment_shadows_lab::vectors;
 
@@ -95,6 +95,12 @@ enum Command {
         /// Prints JSON.
         #[arg(long)]
         json: bool,
+    },
+    /// Writes every linked shader of the library, as WGSL and SPIR-V with an index, for other compilers.
+    Shaders {
+        /// The folder to make.
+        #[arg(long)]
+        out: PathBuf,
     },
     /// Times the passes of a graph, or blurs of several radii, as ratios to copies, and counts their bytes.
     Cost {
@@ -290,6 +296,9 @@ fn run(command: Command) -> Result<ExitCode, Box<dyn std::error::Error>> {
             &minification::run(&frame.options(scene), &graph, distance)?,
             json,
         )?,
+        Command::Shaders { out } => {
+            println!("{} shaders in {}", shaders::run(&out)?, out.display());
+        }
         Command::Cost {
             subject,
             size,

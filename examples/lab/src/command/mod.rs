@@ -5,4 +5,5 @@ pub mod graph;
 pub mod measure;
 pub mod minification;
 pub mod render;
+pub mod shaders;
 pub mod validate;

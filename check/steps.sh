@@ -1,0 +1,154 @@
+# shellcheck shell=bash
+# The steps of `./run check`: what judges the shaders besides our own compiler and driver. Sourced by `run`.
+
+# What the steps fetch and write.
+work=${CARGO_TARGET_DIR:-target}/check
+
+lab() { cargo run --release --locked --quiet -p moment-shadows-lab -- "$@"; }
+
+# need_packages COMMAND PACKAGE...: installs Debian packages unless there is the command.
+need_packages() {
+  local command=$1
+  shift
+  if command -v "$command" >/dev/null; then return; fi
+  if ! command -v apt-get >/dev/null; then
+    echo "The command $command is needed; on Debian it is in the package $1." >&2
+    exit 1
+  fi
+  update_packages
+  as_root env DEBIAN_FRONTEND=noninteractive apt-get install -y -qq --no-install-recommends "$@" >/dev/null
+}
+
+# Fetches the lists of packages, once.
+update_packages() {
+  if [ -z "${packages_updated:-}" ]; then as_root apt-get update -qq; fi
+  packages_updated=1
+}
+
+# Every shader as WGSL and SPIR-V, in $work/shaders.
+write_shaders() {
+  mkdir -p "$work"
+  rm -rf "$work/shaders"
+  lab shaders --out "$work/shaders"
+}
+
+# Tint, the compiler of Chromium, in Dawn for Node.
+run_tint() {
+  need_packages node nodejs
+  need_packages npm npm
+  if [ ! check/node_modules/.package-lock.json -nt check/package-lock.json ]; then
+    # The package's script serves macOS alone.
+    (cd check && npm ci --ignore-scripts --no-audit --no-fund --loglevel=error)
+  fi
+  node check/tint.mjs "$work/shaders"
+}
+
+run_spirv_val() {
+  need_packages spirv-val spirv-tools
+  spirv-as --target-env vulkan1.1 check/planted/return.spvasm -o "$work/planted.spv"
+  if spirv-val --target-env vulkan1.1 "$work/planted.spv" 2>/dev/null; then
+    echo "spirv-val does not see the error planted in return.spvasm" >&2
+    return 1
+  fi
+  echo "planted return.spvasm: refused, as it should be"
+  local target file count=0 refused=0
+  for target in vulkan1.1 vulkan1.3; do
+    for file in "$work"/shaders/*."$target".spv; do
+      count=$((count + 1))
+      spirv-val --target-env "$target" "$file" || { echo "$file" >&2 && refused=$((refused + 1)); }
+    done
+  done
+  echo "spirv-val: $count files, $refused refused"
+  [ "$refused" = 0 ]
+}
+
+# SwiftShader, a rasteriser that shares nothing with Mesa: its driver file, in $work/swiftshader. Chromium carries it; the
+# browser itself is not installed.
+need_swiftshader() {
+  local folder=$work/swiftshader package
+  swiftshader=$folder/usr/lib/chromium/vk_swiftshader_icd.json
+  if [ -e "$swiftshader" ]; then return; fi
+  if [ -e /usr/lib/chromium/vk_swiftshader_icd.json ]; then
+    swiftshader=/usr/lib/chromium/vk_swiftshader_icd.json
+    return
+  fi
+  if ! command -v apt-get >/dev/null; then
+    echo "SwiftShader is needed; this script finds it in Debian's package chromium-common only." >&2
+    exit 1
+  fi
+  update_packages
+  package=$(mktemp -d)
+  (cd "$package" && apt-get download -qq -o APT::Sandbox::User=root chromium-common)
+  rm -rf "$folder"
+  mkdir -p "$folder"
+  dpkg-deb --fsys-tarfile "$package"/chromium-common_*.deb |
+    tar -x -C "$folder" --wildcards './usr/lib/chromium/*swiftshader*'
+  rm -r "$package"
+}
+
+# Tests that depend on the arithmetic of shaders, and on the recorder. Tests of pictures are left out: SwiftShader places
+# vertices on a grid of 1/16 of a pixel (others: 1/256), which moves a slope's depth by more than these tests allow.
+numerics_on_swiftshader() {
+  need_swiftshader
+  # Two names: the second one serves loaders of Vulkan before 1.3.207.
+  local driver
+  driver=$(realpath "$swiftshader")
+  (
+    export VK_DRIVER_FILES=$driver VK_ICD_FILENAMES=$driver
+    lab adapter | tee "$work/adapter"
+    if ! grep -q "^SwiftShader" "$work/adapter"; then
+      echo "the adapter should be SwiftShader" >&2
+      exit 1
+    fi
+    cargo test --release --locked --workspace --test numerics --test stability --test vector_files \
+      --test quantisation --test light_leaking --test receiver_bias --test blur --test recorder
+  )
+}
+
+# Prints the arguments for each combination of features of the library crates, a line each.
+feature_combinations() {
+  local manifest package features chosen set bit
+  for manifest in Cargo.toml graph/Cargo.toml; do
+    package=$(sed -n 's/^name = "\(.*\)"$/\1/p' "$manifest" | head -n 1)
+    mapfile -t features < <(awk '/^\[/ { inside = $0 == "[features]" } inside && /^[a-z]/ && $1 != "default" { print $1 }' "$manifest")
+    for ((set = 0; set < 1 << ${#features[@]}; set++)); do
+      chosen=()
+      for bit in "${!features[@]}"; do
+        if ((set >> bit & 1)); then chosen+=(--features "${features[bit]}"); fi
+      done
+      echo "-p $package --no-default-features ${chosen[*]}"
+    done
+  done
+}
+
+every_feature_combination() {
+  local arguments
+  while read -r -a arguments; do
+    echo "cargo clippy ${arguments[*]}"
+    cargo clippy --release --locked --quiet "${arguments[@]}" -- -D warnings
+  done < <(feature_combinations)
+}
+
+# The library crates for the web. Its standard library comes from rustup.
+check_wasm() {
+  local target=wasm32-unknown-unknown arguments
+  if [ ! -d "$(rustc --print target-libdir --target $target)" ] && ! rustup target add $target; then
+    echo "NOT CHECKED: the standard library for $target is absent and cannot be fetched here."
+    echo "With network access, get it by: rustup target add $target"
+    return
+  fi
+  while read -r -a arguments; do
+    echo "cargo check --target $target ${arguments[*]}"
+    cargo check --release --locked --quiet --target $target "${arguments[@]}"
+  done < <(feature_combinations)
+}
+
+check() {
+  step "A graphics adapter" need_adapter
+  step "The library crates with every combination of features" every_feature_combination
+  step "The library crates for wasm32" check_wasm
+  step "Every linked shader as WGSL and SPIR-V" write_shaders
+  step "A second compiler: Tint" run_tint
+  step "The SPIR-V: spirv-val" run_spirv_val
+  step "A second rasteriser: the tests of numerics on SwiftShader" numerics_on_swiftshader
+}

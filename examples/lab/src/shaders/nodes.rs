@@ -1,0 +1,211 @@
+//! The shaders of every node, in every variant that changes their text.
+
+use std::collections::BTreeMap;
+
+use moment_shadows::{Profile, Storage, TextureFormat};
+use moment_shadows_graph::nodes::{
+    BlurMoments, DownsampleMoments, KernelProperty, MipLevels, ResolveMoments, ShadeHard,
+};
+use moment_shadows_graph::{Capabilities, Connected, Node, ResourceDesc, TextureDesc};
+
+use super::{Kind, Shader, ShadersError};
+
+/// A pass of a variant of a node.
+#[derive(Clone, Debug)]
+pub struct NodeShader {
+    /// The node's name, by which the registry knows it.
+    pub node: String,
+    /// Its linked text.
+    pub shader: Shader,
+}
+
+/// A node with what changes its text.
+struct Variant {
+    name: String,
+    node: Box<dyn Node>,
+    /// Samples per texel of the depth map.
+    samples: u32,
+    /// Mip levels of the map of moments.
+    mips: u32,
+    /// Regions of a layer of either.
+    regions: u32,
+    capabilities: Capabilities,
+}
+
+impl Variant {
+    /// A node between maps of one sample, level and region.
+    fn new(name: String, node: impl Node + 'static, capabilities: &Capabilities) -> Self {
+        Self {
+            name,
+            node: Box::new(node),
+            samples: 1,
+            mips: 1,
+            regions: 1,
+            capabilities: capabilities.clone(),
+        }
+    }
+}
+
+/// Every node with its variants, for one storage. A new node is added here; a test asks for one variant at least of each
+/// node in the registry.
+fn variants(storage: Storage, capabilities: &Capabilities) -> Vec<Variant> {
+    let mut variants = Vec::new();
+    for (samples, regions) in [(1, 1), (2, 1), (4, 1), (8, 1), (4, 16)] {
+        let node = ResolveMoments {
+            storage,
+            mip_levels: MipLevels::default(),
+        };
+        let name = format!("resolve_moments_{storage}_{samples}{}", suffix(regions));
+        variants.push(Variant {
+            samples,
+            regions,
+            ..Variant::new(name, node, capabilities)
+        });
+    }
+    for (kind, radius, per_frame, regions) in [
+        ("unrolled", 1, false, 1),
+        ("unrolled_radius_4", 4, false, 1),
+        ("unrolled_radius_12", 12, false, 1),
+        ("unrolled_radius_12", 12, false, 16),
+        // The weights are parameters: one text for every radius.
+        ("uniform", 1, true, 1),
+        ("uniform", 1, true, 16),
+    ] {
+        let node = BlurMoments {
+            kernel: KernelProperty::gaussian(radius, 0.6 * radius as f32),
+            per_frame,
+            mip_levels: MipLevels::default(),
+        };
+        let name = format!("blur_moments_{kind}_{storage}{}", suffix(regions));
+        variants.push(Variant {
+            regions,
+            ..Variant::new(name, node, capabilities)
+        });
+    }
+    for regions in [1, 16] {
+        let name = format!("downsample_moments_{storage}{}", suffix(regions));
+        variants.push(Variant {
+            mips: 4,
+            regions,
+            ..Variant::new(name, DownsampleMoments::default(), capabilities)
+        });
+    }
+    variants.extend(shading(storage, capabilities));
+    variants
+}
+
+/// Shading with a lookup by the sampler and in the shader, with and without mip levels, for one light and for several.
+fn shading(storage: Storage, capabilities: &Capabilities) -> Vec<Variant> {
+    let mut all = vec![("", capabilities.clone())];
+    if storage == Storage::Float32 {
+        let filterable = Capabilities {
+            float32_filterable: true,
+            ..capabilities.clone()
+        };
+        all.push(("_filterable", filterable));
+    }
+    let mut variants = Vec::new();
+    for (kind, capabilities) in all {
+        for (levels, mips) in [("", 1), ("_mips", 4)] {
+            for (views, lights) in [(1, 1), (6, 2)] {
+                let node = ShadeHard {
+                    lights,
+                    views,
+                    ..ShadeHard::default()
+                };
+                let many = if views > 1 { "_views" } else { "" };
+                let name = format!("shade_hard_{storage}{kind}{levels}{many}");
+                variants.push(Variant {
+                    mips,
+                    ..Variant::new(name, node, &capabilities)
+                });
+            }
+        }
+    }
+    variants
+}
+
+/// What the names of variants with several regions end with.
+fn suffix(regions: u32) -> &'static str {
+    if regions > 1 { "_regions" } else { "" }
+}
+
+/// The least demanding profile that offers a storage.
+fn profile(storage: Storage) -> Profile {
+    match storage {
+        Storage::Unorm16 => Profile::Native,
+        _ => Profile::WebgpuCore,
+    }
+}
+
+/// The shader of each pass of every variant of every node.
+pub fn nodes() -> Result<Vec<NodeShader>, ShadersError> {
+    let mut all = Vec::new();
+    for storage in Storage::ALL {
+        let profile = profile(storage);
+        for variant in variants(storage, &Capabilities::of_profile(profile)) {
+            describe(&variant, storage, profile, &mut all)?;
+        }
+    }
+    Ok(all)
+}
+
+fn describe(
+    variant: &Variant,
+    storage: Storage,
+    profile: Profile,
+    all: &mut Vec<NodeShader>,
+) -> Result<(), ShadersError> {
+    let inputs = inputs(variant, storage);
+    let desc = variant
+        .node
+        .describe(&Connected::new(&inputs, &variant.capabilities))
+        .map_err(|error| ShadersError::Node {
+            name: variant.name.clone(),
+            error: Box::new(error),
+        })?;
+    // Passes that share a text differ by their constants only.
+    let mut passes = desc.passes;
+    passes.dedup_by(|pass, before| pass.wgsl == before.wgsl);
+    let several = passes.len() > 1;
+    for pass in passes {
+        // Passes are told apart by the last words of their labels: "blur along x", "blur along y".
+        let last = pass.label.rsplit(' ').next().filter(|_| several);
+        let suffix = last.map(|word| format!("_{word}")).unwrap_or_default();
+        all.push(NodeShader {
+            node: desc.name.clone(),
+            shader: Shader {
+                name: variant.name.clone() + &suffix,
+                kind: Kind::Node,
+                profile,
+                wgsl: pass.wgsl,
+                constants: pass.constants,
+            },
+        });
+    }
+    Ok(())
+}
+
+/// Whatever nodes take, by the names that their slots have.
+fn inputs(variant: &Variant, storage: Storage) -> BTreeMap<String, ResourceDesc> {
+    let texture = |format| TextureDesc {
+        regions: variant.regions,
+        ..TextureDesc::new(format, [256, 256])
+    };
+    let depth = TextureDesc {
+        samples: variant.samples,
+        ..texture(TextureFormat::Depth32Float)
+    };
+    let moments = TextureDesc {
+        mips: variant.mips,
+        ..texture(storage.format())
+    };
+    let camera = TextureDesc::new(TextureFormat::Depth32Float, [256, 256]);
+    [
+        ("depth", depth),
+        ("moments", moments),
+        ("camera_depth", camera),
+    ]
+    .map(|(name, desc)| (name.to_owned(), ResourceDesc::Texture(desc)))
+    .into()
+}

@@ -1,0 +1,134 @@
+//! SPIR-V as wgpu hands it to a Vulkan driver.
+
+use naga::back::pipeline_constants::process_overrides;
+use naga::back::spv;
+use naga::proc::{BoundsCheckPolicies, BoundsCheckPolicy};
+use naga::valid::{Capabilities, ValidationFlags, Validator};
+
+use super::{Shader, ShadersError};
+
+/// A version of Vulkan that SPIR-V is written for.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, serde::Serialize)]
+pub enum Target {
+    /// Vulkan 1.1, the oldest that most devices have.
+    #[serde(rename = "vulkan1.1")]
+    Vulkan11,
+    /// Vulkan 1.3.
+    #[serde(rename = "vulkan1.3")]
+    Vulkan13,
+}
+
+impl Target {
+    /// Both.
+    pub const ALL: [Target; 2] = [Target::Vulkan11, Target::Vulkan13];
+
+    /// The name that SPIRV-Tools know it by.
+    #[must_use]
+    pub fn name(self) -> &'static str {
+        match self {
+            Target::Vulkan11 => "vulkan1.1",
+            Target::Vulkan13 => "vulkan1.3",
+        }
+    }
+
+    /// The version of SPIR-V that wgpu chooses for it.
+    fn version(self) -> (u8, u8) {
+        match self {
+            Target::Vulkan11 => (1, 3),
+            Target::Vulkan13 => (1, 6),
+        }
+    }
+}
+
+/// A shader's module, parsed and validated by naga.
+pub struct Compiled<'a> {
+    shader: &'a Shader,
+    module: naga::Module,
+    info: naga::valid::ModuleInfo,
+}
+
+impl<'a> Compiled<'a> {
+    /// Parses and validates.
+    pub fn new(shader: &'a Shader) -> Result<Self, ShadersError> {
+        let failed = |reason| ShadersError::Compile {
+            name: shader.name.clone(),
+            reason,
+        };
+        // What a shader may ask for is checked per profile by the tests; here only that it translates.
+        let capabilities =
+            Capabilities::default() | Capabilities::STORAGE_TEXTURE_16BIT_NORM_FORMATS;
+        let mut options = naga::front::wgsl::Options::new();
+        options.capabilities = capabilities;
+        let module = naga::front::wgsl::Frontend::new_with_options(options)
+            .parse(&shader.wgsl)
+            .map_err(|error| failed(error.emit_to_string(&shader.wgsl)))?;
+        let info = Validator::new(ValidationFlags::all(), capabilities)
+            .validate(&module)
+            .map_err(|error| failed(error.emit_to_string(&shader.wgsl)))?;
+        Ok(Self {
+            shader,
+            module,
+            info,
+        })
+    }
+
+    /// The entry points.
+    pub fn entry_points(&self) -> impl Iterator<Item = &naga::EntryPoint> {
+        self.module.entry_points.iter()
+    }
+
+    /// The module.
+    #[must_use]
+    pub fn module(&self) -> &naga::Module {
+        &self.module
+    }
+
+    /// The SPIR-V of an entry point.
+    pub fn spirv(
+        &self,
+        entry_point: &naga::EntryPoint,
+        target: Target,
+    ) -> Result<Vec<u32>, ShadersError> {
+        let failed = |reason| ShadersError::Compile {
+            name: format!("{}, entry point {}", self.shader.name, entry_point.name),
+            reason,
+        };
+        let pipeline = spv::PipelineOptions {
+            shader_stage: entry_point.stage,
+            entry_point: entry_point.name.clone(),
+        };
+        let constants = self.shader.constants.clone().into_iter().collect();
+        let stage = Some((entry_point.stage, entry_point.name.as_str()));
+        let (module, info) = process_overrides(&self.module, &self.info, stage, &constants)
+            .map_err(|error| failed(error.to_string()))?;
+        spv::write_vec(&module, &info, &options(target), Some(&pipeline))
+            .map_err(|error| failed(error.to_string()))
+    }
+}
+
+/// wgpu's options for a device without optional features and without robust access to images and buffers.
+fn options(target: Target) -> spv::Options<'static> {
+    let capabilities = [
+        spv::Capability::Shader,
+        spv::Capability::Matrix,
+        spv::Capability::Sampled1D,
+        spv::Capability::Image1D,
+        spv::Capability::ImageQuery,
+        spv::Capability::DerivativeControl,
+        spv::Capability::StorageImageExtendedFormats,
+        spv::Capability::SampledCubeArray,
+        spv::Capability::SampleRateShading,
+    ];
+    spv::Options {
+        lang_version: target.version(),
+        flags: spv::WriterFlags::LABEL_VARYINGS | spv::WriterFlags::FORCE_POINT_SIZE,
+        capabilities: Some(capabilities.into_iter().collect()),
+        bounds_check_policies: BoundsCheckPolicies {
+            index: BoundsCheckPolicy::Restrict,
+            buffer: BoundsCheckPolicy::Restrict,
+            image_load: BoundsCheckPolicy::Restrict,
+            binding_array: BoundsCheckPolicy::Unchecked,
+        },
+        ..spv::Options::default()
+    }
+}

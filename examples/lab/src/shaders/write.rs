@@ -1,0 +1,166 @@
+//! The shaders as files: WGSL, the SPIR-V of each entry point beside it, and an index.
+
+use std::collections::BTreeMap;
+use std::fs;
+use std::io;
+use std::path::Path;
+
+use moment_shadows::Profile;
+use naga::{Binding, ScalarKind, ShaderStage, TypeInner};
+use serde::Serialize;
+
+use super::spirv::{Compiled, Target};
+use super::{Kind, Shader, ShadersError};
+
+/// The file `index.json`.
+#[derive(Serialize)]
+struct Index<'a> {
+    version: u32,
+    shaders: Vec<Entry<'a>>,
+}
+
+#[derive(Serialize)]
+struct Entry<'a> {
+    name: &'a str,
+    kind: Kind,
+    profile: Profile,
+    wgsl: String,
+    constants: &'a BTreeMap<String, f64>,
+    entry_points: Vec<EntryPoint>,
+}
+
+#[derive(Serialize)]
+struct EntryPoint {
+    name: String,
+    stage: &'static str,
+    /// For a fragment stage, a format that each output can be drawn to, by location.
+    targets: Vec<Option<&'static str>>,
+    spirv: Vec<Spirv>,
+}
+
+#[derive(Serialize)]
+struct Spirv {
+    target: Target,
+    file: String,
+}
+
+/// Writes all of `shaders` into the new folder `folder`, with `index.json`: for each shader its name, kind, profile, constants
+/// and entry points, and the files of its WGSL and SPIR-V. The folder is written beside and renamed: it is there complete or
+/// not at all.
+pub fn write(shaders: &[Shader], folder: &Path) -> Result<(), ShadersError> {
+    let failed = |source| ShadersError::Write {
+        folder: folder.to_owned(),
+        source,
+    };
+    if is_taken(folder).map_err(failed)? {
+        return Err(ShadersError::Exists(folder.to_owned()));
+    }
+    let parent = match folder.parent() {
+        Some(parent) if parent != Path::new("") => parent,
+        _ => Path::new("."),
+    };
+    let mut builder = tempfile::Builder::new();
+    builder.prefix(".moment-shadows-").suffix(".part");
+    // A temporary folder is private by default; a result is as readable as any other folder.
+    #[cfg(unix)]
+    builder.permissions(std::os::unix::fs::PermissionsExt::from_mode(0o777));
+    let part = builder.tempdir_in(parent).map_err(failed)?;
+    let mut index = Index {
+        version: 1,
+        shaders: Vec::new(),
+    };
+    for shader in shaders {
+        let wgsl = format!("{}.wgsl", shader.name);
+        fs::write(part.path().join(&wgsl), &shader.wgsl).map_err(failed)?;
+        let compiled = Compiled::new(shader)?;
+        let mut entry_points = Vec::new();
+        for entry_point in compiled.entry_points() {
+            let mut spirv = Vec::new();
+            for target in Target::ALL {
+                let file = format!("{}.{}.{}.spv", shader.name, entry_point.name, target.name());
+                let words = compiled.spirv(entry_point, target)?;
+                fs::write(part.path().join(&file), bytemuck::cast_slice(&words)).map_err(failed)?;
+                spirv.push(Spirv { target, file });
+            }
+            entry_points.push(EntryPoint {
+                name: entry_point.name.clone(),
+                stage: stage(entry_point.stage),
+                targets: targets(compiled.module(), entry_point),
+                spirv,
+            });
+        }
+        index.shaders.push(Entry {
+            name: &shader.name,
+            kind: shader.kind,
+            profile: shader.profile,
+            wgsl,
+            constants: &shader.constants,
+            entry_points,
+        });
+    }
+    let text = serde_json::to_string_pretty(&index).map_err(|error| failed(error.into()))?;
+    fs::write(part.path().join("index.json"), text).map_err(failed)?;
+    fs::rename(part.path(), folder).map_err(failed)?;
+    // It has been renamed: there is nothing left to remove.
+    let _ = part.keep();
+    Ok(())
+}
+
+/// Whether something is there that must not be replaced.
+fn is_taken(folder: &Path) -> io::Result<bool> {
+    match fs::read_dir(folder) {
+        Ok(mut files) => Ok(files.next().is_some()),
+        Err(error) if error.kind() == io::ErrorKind::NotFound => Ok(false),
+        Err(error) if error.kind() == io::ErrorKind::NotADirectory => Ok(true),
+        Err(error) => Err(error),
+    }
+}
+
+fn stage(stage: ShaderStage) -> &'static str {
+    match stage {
+        ShaderStage::Vertex => "vertex",
+        ShaderStage::Fragment => "fragment",
+        _ => "compute",
+    }
+}
+
+/// For each location that a fragment stage writes, a format with as many channels of its kind.
+fn targets(module: &naga::Module, entry_point: &naga::EntryPoint) -> Vec<Option<&'static str>> {
+    let mut targets = Vec::new();
+    let Some(result) = &entry_point.function.result else {
+        return targets;
+    };
+    if entry_point.stage != ShaderStage::Fragment {
+        return targets;
+    }
+    let mut push = |binding: &Option<Binding>, ty| {
+        if let Some(Binding::Location { location, .. }) = binding {
+            let location = *location as usize;
+            targets.resize(targets.len().max(location + 1), None);
+            targets[location] = format(&module.types[ty].inner);
+        }
+    };
+    push(&result.binding, result.ty);
+    if let TypeInner::Struct { members, .. } = &module.types[result.ty].inner {
+        for member in members {
+            push(&member.binding, member.ty);
+        }
+    }
+    targets
+}
+
+fn format(ty: &TypeInner) -> Option<&'static str> {
+    let (channels, kind) = match ty {
+        TypeInner::Scalar(scalar) => (1, scalar.kind),
+        TypeInner::Vector { size, scalar } => (*size as u32, scalar.kind),
+        _ => return None,
+    };
+    match (kind, channels) {
+        (ScalarKind::Float, 1) => Some("r8unorm"),
+        (ScalarKind::Float, 2) => Some("rg8unorm"),
+        (ScalarKind::Float, 4) => Some("rgba8unorm"),
+        (ScalarKind::Uint, 1) => Some("r32uint"),
+        (ScalarKind::Uint, 4) => Some("rgba32uint"),
+        _ => None,
+    }
+}

@@ -1,0 +1,258 @@
+// moment_shadows/map_region.wgsl
+// Regions: rectangles of a layer that share an atlas and know nothing of each other.
+//
+// Mip level k of a region runs from floor(first / 2^k) to floor(end / 2^k). Regions that touch share that edge on every
+// level, wherever it lies, so none covers a texel of another, and a gutter is not needed.
+
+// Filled by the host-side `MapRegion`: texels of mip level 0. No texels: no region. A rectangle that leaves the map is
+// cut off at its border.
+struct MapRegion {
+    origin: vec2u,
+    extent: vec2u,
+}
+
+// The part of a region that lies in a map of `size` texels.
+fn map_region_within(region: MapRegion, size: vec2u) -> MapRegion {
+    let origin = min(region.origin, size);
+    return MapRegion(origin, min(region.extent, size - origin));
+}
+
+// A region of a map (within it) on mip level `level`, below 32.
+fn map_region_at_level(region: MapRegion, level: u32) -> MapRegion {
+    let origin = region.origin >> vec2u(level);
+    return MapRegion(origin, ((region.origin + region.extent) >> vec2u(level)) - origin);
+}
+
+// The coarsest of `levels` mip levels on which a region still has texels.
+fn map_region_last_level(region: MapRegion, levels: u32) -> u32 {
+    var level = max(levels, 1u) - 1u;
+    while level > 0u && any(map_region_at_level(region, level).extent == vec2u(0u)) {
+        level--;
+    }
+    return level;
+}
+
+// The place of `uv` (from 0 to 1 across the region) in texels of a region's mip level, kept half a texel away from its
+// edge: a bilinear filter there reads no other region.
+fn map_region_place(region_on_level: MapRegion, uv: vec2f) -> vec2f {
+    let extent = vec2f(region_on_level.extent);
+    return vec2f(region_on_level.origin) + clamp(uv * extent, vec2f(0.5), max(extent - 0.5, vec2f(0.5)));
+}
+
+// moment_shadows/moments.wgsl
+// Four moments of depth: encoding, storage, bias.
+//
+// A texel holds b = (E[z], E[z^2], E[z^3], E[z^4]) of the moment depths z in [-1, 1] that it covers (Peters & Klein,
+// "Moment Shadow Mapping", i3D 2015, section 2). Linear filters keep moments valid as long as their weights are not
+// negative and sum to one. Storage with few bits holds an affine image of the moments that spreads them over the range
+// of every channel (Peters, GDC 2016; JCGT 6(1) 2017, section 3); affine maps commute with filtering.
+
+// A moment bias: b is moved by alpha towards (0, beta, 0, beta), which pulls moments that rounding has made
+// impossible back among the possible ones. (0, beta, 0, beta) are the moments of occluders at the near end, the middle
+// and the far end with the weights beta/2, 1 - beta and beta/2.
+struct MomentBias {
+    alpha: f32,
+    beta: f32,
+}
+
+// The bias belongs to a storage's rounding error, not to a scene. Each value covers a resolve and a two-pass blur,
+// every stage rounded to the storage; beta is optimal for the basis (JCGT 6(1) 2017, section 3).
+const MOMENTS_BIAS_UNORM16: MomentBias = MomentBias(6e-5, 0.628);
+const MOMENTS_BIAS_FLOAT16: MomentBias = MomentBias(1e-3, 0.628);
+const MOMENTS_BIAS_FLOAT32: MomentBias = MomentBias(1.5e-6, 0.375);
+
+// Storages, as a shader's specialisation names them.
+const MOMENTS_STORAGE_UNORM16: u32 = 0u;
+const MOMENTS_STORAGE_FLOAT16: u32 = 1u;
+const MOMENTS_STORAGE_FLOAT32: u32 = 2u;
+
+// sqrt(3), which the optimised basis and its inverse are made of.
+const MOMENTS_SQRT_3: f32 = 1.7320508075688772;
+
+// The moments of a single depth z in [-1, 1]: its powers (i3D 2015, equation 2).
+fn moments_from_depth(z: f32) -> vec4f {
+    let square = z * z;
+    return vec4f(z, square, z * square, square * square);
+}
+
+// The optimised basis of JCGT 6(1) 2017 (equation 5, GDC 2016): maps the moments of depths in [-1, 1] into [0, 1]^4.
+fn moments_quantize(b: vec4f) -> vec4f {
+    return vec4f(
+        fma(1.5, b.x, fma(-2.0, b.z, 0.5)),
+        4.0 * (b.y - b.w),
+        fma(0.5 * MOMENTS_SQRT_3, b.x, fma(-2.0 / 9.0 * MOMENTS_SQRT_3, b.z, 0.5)),
+        0.5 * (b.y + b.w),
+    );
+}
+
+// Inverse of `moments_quantize`. Channels in [0, 1] give |b| <= 2.1, whatever they hold.
+fn moments_dequantize(channels: vec4f) -> vec4f {
+    let odd = channels.xz - 0.5;
+    return vec4f(
+        fma(-1.0 / 3.0, odd.x, MOMENTS_SQRT_3 * odd.y),
+        fma(0.125, channels.y, channels.w),
+        0.75 * fma(MOMENTS_SQRT_3, odd.y, -odd.x),
+        fma(-0.125, channels.y, channels.w),
+    );
+}
+
+// The nearest float16 of each component, ties to even, for |value| < 65504. A driver may truncate when it stores to a
+// float16 texture, which would double the rounding error that the bias has to cover.
+fn moments_round_to_float16(value: vec4f) -> vec4f {
+    let bits = bitcast<vec4u>(value);
+    // 13 of 23 mantissa bits go; adding just under half a unit, plus the last kept bit, rounds ties to even.
+    let rounded = bitcast<vec4f>((bits + 0xfffu + ((bits >> vec4u(13u)) & vec4u(1u))) & vec4u(0xffffe000u));
+    // Below 2^-14 float16 is a fixed-point format with a step of 2^-24.
+    let small = round(value * 0x1p24) * 0x1p-24;
+    return select(rounded, small, abs(value) < vec4f(0x1p-14));
+}
+
+// Moments that certainly lie in their ranges: odd ones in [-1, 1], even ones in [0, 1]. Float storage can hold
+// anything, and finite values beyond 1e15 would overflow further on.
+fn moments_clamp(b: vec4f) -> vec4f {
+    return clamp(b, vec4f(-1.0, 0.0, -1.0, 0.0), vec4f(1.0));
+}
+
+// What to write to a texel of the storage.
+fn moments_to_texel(b: vec4f, storage: u32) -> vec4f {
+    if storage == MOMENTS_STORAGE_FLOAT32 {
+        return b;
+    }
+    let channels = saturate(moments_quantize(b));
+    if storage == MOMENTS_STORAGE_FLOAT16 {
+        // Half precision is finest around zero, so the channels are centred there.
+        return moments_round_to_float16(channels - 0.5);
+    }
+    return channels;
+}
+
+// A filtered combination of texels, as it has to be written back to the same storage.
+fn moments_round_texel(texel: vec4f, storage: u32) -> vec4f {
+    if storage == MOMENTS_STORAGE_FLOAT16 {
+        return moments_round_to_float16(texel);
+    }
+    return texel;
+}
+
+// The moments in a (filtered) texel of the storage. Float storage can hold anything; `moments_clamp` comes before any
+// arithmetic that relies on ranges.
+fn moments_from_texel(texel: vec4f, storage: u32) -> vec4f {
+    if storage == MOMENTS_STORAGE_FLOAT32 {
+        return texel;
+    }
+    if storage == MOMENTS_STORAGE_FLOAT16 {
+        return moments_dequantize(texel + 0.5);
+    }
+    return moments_dequantize(texel);
+}
+
+// The moment bias of a storage.
+fn moments_bias_of(storage: u32) -> MomentBias {
+    if storage == MOMENTS_STORAGE_FLOAT32 {
+        return MOMENTS_BIAS_FLOAT32;
+    }
+    if storage == MOMENTS_STORAGE_FLOAT16 {
+        return MOMENTS_BIAS_FLOAT16;
+    }
+    return MOMENTS_BIAS_UNORM16;
+}
+
+// Applies the moment bias (i3D 2015, section 3.3). Written as a step towards the target: 1 - alpha would keep only a
+// few bits of alpha.
+fn moments_apply_bias(b: vec4f, bias: MomentBias) -> vec4f {
+    return fma(vec4f(bias.alpha), vec4f(0.0, bias.beta, 0.0, bias.beta) - b, b);
+}
+
+// specialization
+const GROUP = 0;
+alias MomentsStorage = texture_storage_2d<rgba16unorm, write>;
+const STORAGE = 0u;
+const REGIONS = 1u;
+
+// region_tile
+
+// Which part of which region a workgroup makes. Regions change per frame; the number of workgroups does not, and suffices
+// for all of them.
+
+@group(GROUP) @binding(4) var<uniform> regions: array<MapRegion, REGIONS>;
+
+struct RegionTile {
+    // The region's number in its table.
+    number: u32,
+    // The region in texels of a mip level; empty where nothing is left to do.
+    region: MapRegion,
+    // The tile's first texel, from the region's origin on.
+    first: vec2u,
+}
+
+// The tile of a workgroup that covers `texels` of mip level `level`, in a layer of `size` texels on mip level 0.
+fn region_tile(workgroup: vec3u, workgroups: vec3u, size: vec2u, level: u32, texels: vec2u) -> RegionTile {
+    if REGIONS == 1u {
+        let only = map_region_at_level(map_region_within(regions[0], size), level);
+        return RegionTile(0u, only, workgroup.xy * texels);
+    }
+    // Workgroups are numbered through the regions.
+    var index = workgroup.y * workgroups.x + workgroup.x;
+    for (var number = 0u; number < REGIONS; number++) {
+        let region = map_region_at_level(map_region_within(regions[number], size), level);
+        let tiles = (region.extent + texels - 1u) / texels;
+        let count = tiles.x * tiles.y;
+        if index < count {
+            return RegionTile(number, region, vec2u(index % tiles.x, index / tiles.x) * texels);
+        }
+        index -= count;
+    }
+    return RegionTile(0u, MapRegion(vec2u(0u), vec2u(0u)), vec2u(0u));
+}
+
+// downsample_moments.wgsl
+
+// Makes one mip level of the regions of one layer out of the finer one: one texel per invocation.
+//
+// A texel is the exact mean over the part of the finer level that it covers, whatever the region's size: two texels along
+// an axis where that is even, up to three where it is odd. Other than with the two texels that are next to it, the last
+// row of a region with an odd size counts as much as the others.
+
+// The mip level that is made, at least 1.
+override LEVEL: u32;
+
+@group(GROUP) @binding(0) var finer_level: texture_2d<f32>;
+@group(GROUP) @binding(1) var coarser_level: MomentsStorage;
+
+// The weights of three texels in a row of a box that is `width` texels wide and begins at `start` in the first of them.
+fn box_weights(start: f32, width: f32) -> vec3f {
+    let texel = vec3f(0.0, 1.0, 2.0);
+    let covered = max(min(texel + 1.0, vec3f(start + width)) - max(texel, vec3f(start)), vec3f(0.0));
+    // The box covers at least one texel in all.
+    return covered / (covered.x + covered.y + covered.z);
+}
+
+@compute @workgroup_size(8, 8)
+fn downsample(@builtin(local_invocation_id) local: vec3u, @builtin(workgroup_id) workgroup: vec3u, @builtin(num_workgroups) workgroups: vec3u) {
+    let size = textureDimensions(finer_level) << vec2u(LEVEL - 1u);
+    let tile = region_tile(workgroup, workgroups, size, LEVEL, vec2u(8u));
+    let place = tile.first + local.xy;
+    if any(place >= tile.region.extent) {
+        return;
+    }
+    let finer = map_region_at_level(map_region_within(regions[tile.number], size), LEVEL - 1u);
+    // In whole numbers as far as possible: a texel at the far end of a large map loses no digits.
+    let start = place * finer.extent;
+    let width = vec2f(finer.extent) / vec2f(tile.region.extent);
+    let offset = vec2f(start % tile.region.extent) / vec2f(tile.region.extent);
+    let across = box_weights(offset.x, width.x);
+    let down = box_weights(offset.y, width.y);
+    let first = vec2i(finer.origin + start / tile.region.extent);
+    let last = vec2i(finer.origin + finer.extent) - 1;
+    var sum = vec4f(0.0);
+    for (var y = 0; y < 3; y++) {
+        for (var x = 0; x < 3; x++) {
+            let weight = across[x] * down[y];
+            if weight > 0.0 {
+                sum = fma(vec4f(weight), textureLoad(finer_level, min(first + vec2i(x, y), last), 0), sum);
+            }
+        }
+    }
+    let texel = tile.region.origin + place;
+    textureStore(coarser_level, texel, moments_round_texel(sum, STORAGE));
+}
