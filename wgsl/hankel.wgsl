@@ -14,31 +14,31 @@ struct HankelFactor {
     variance: f32,
     // The Schur complement of b4, the variance of z^2 that z does not explain; positive.
     residue: f32,
+    // residue / variance.
+    ratio: f32,
     // L32 - 2 b1, with L32 the slope of the regression of z^2 on z.
     shift: f32,
 }
 
 // Pivots of valid moments stay above these multiples of the moment bias alpha, so the guards bind only where rounding
-// has left the pivots without a correct digit (or the moments are none).
+// has left the pivots without a correct digit (or the moments are none). They also bound all that is divided by a pivot:
+// with alpha >= 1e-7 nothing below overflows on the way to a weight, whatever the moments.
 const HANKEL_SMALLEST_VARIANCE: f32 = 0.03;
 const HANKEL_SMALLEST_RESIDUE: f32 = 0.02;
 
-// |L32| <= 2 for every distribution on [-1, 1], since z^2 changes by at most 2 per unit of z. Twice that never touches
-// valid moments and keeps invalid ones from overflowing.
-const HANKEL_LARGEST_SLOPE: f32 = 4.0;
-
-// Factorises the Hankel matrix of moments biased by `alpha` > 0. Moments must lie within [-2, 2].
+// Factorises the Hankel matrix of moments biased by `alpha` >= 1e-7. Moments must lie within [-2.1, 2.1].
 // The differences of products lose almost all digits near a single surface; `fma` keeps them where it is fused.
 fn hankel_factor(biased: vec4f, alpha: f32) -> HankelFactor {
     let variance = max(fma(-biased.x, biased.x, biased.y), HANKEL_SMALLEST_VARIANCE * alpha);
+    // One division for all quotients.
+    let inverse = 1.0 / variance;
     let covariance = fma(-biased.x, biased.y, biased.z);
-    let slope = clamp(covariance / variance, -HANKEL_LARGEST_SLOPE, HANKEL_LARGEST_SLOPE);
-    let residue = fma(-covariance, slope, fma(-biased.y, biased.y, biased.w));
-    return HankelFactor(
-        variance,
-        max(residue, HANKEL_SMALLEST_RESIDUE * alpha),
-        fma(-2.0, biased.x, slope),
+    let slope = covariance * inverse;
+    let residue = max(
+        fma(-covariance, slope, fma(-biased.y, biased.y, biased.w)),
+        HANKEL_SMALLEST_RESIDUE * alpha,
     );
+    return HankelFactor(variance, residue, residue * inverse, fma(-2.0, biased.x, slope));
 }
 
 // P2 at x = z - b1. Negative exactly between the Gauss nodes.
@@ -46,12 +46,10 @@ fn hankel_second_polynomial(factor: HankelFactor, x: f32) -> f32 {
     return fma(x, x - factor.shift, -factor.variance);
 }
 
-// The Christoffel number of x = z - b1: the largest weight that a distribution with these moments can have at z, which is
-// the weight that the extremal distribution through z has there. A sum of positive terms: nothing cancels.
+// The Christoffel number of x = z - b1, 1 / (1 + x^2 / variance + P2^2 / residue): the largest weight that a distribution
+// with these moments can have at z, which is the weight that the extremal distribution through z has there. A sum of
+// positive terms, here times the residue: nothing cancels.
 fn hankel_christoffel_number(factor: HankelFactor, x: f32, second_polynomial: f32) -> f32 {
-    // One division for 1 / (1 + x^2 / variance + P2^2 / residue).
-    let x_term = x * x * factor.residue;
-    let polynomial_term = second_polynomial * second_polynomial * factor.variance;
-    let norm = factor.variance * factor.residue;
-    return norm / (norm + x_term + polynomial_term);
+    let x_term = fma(x * factor.ratio, x, factor.residue);
+    return factor.residue / fma(second_polynomial, second_polynomial, x_term);
 }

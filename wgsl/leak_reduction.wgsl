@@ -16,7 +16,7 @@ struct LeakReduction {
 
 // Shadow intensity after division by `full_shadow`.
 fn leak_reduction_full_shadow(shadow_intensity: f32, full_shadow: f32) -> f32 {
-    return min(shadow_intensity / max(full_shadow, 1e-6), 1.0);
+    return saturate(shadow_intensity / max(full_shadow, 1e-6));
 }
 
 // Shadow intensity in [0, 1] after all three reductions. Each only darkens; full light stays full light.

@@ -12,6 +12,7 @@ pub mod gpu;
 pub mod graph_file;
 pub mod graph_frame;
 pub mod host;
+pub mod isa;
 pub mod judgement;
 pub mod light;
 pub mod metric;

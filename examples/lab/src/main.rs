@@ -6,8 +6,10 @@ use std::process::ExitCode;
 use clap::{Parser, Subcommand, ValueEnum};
 use moment_shadows::{Profile, Storage};
 use moment_shadows_lab::command::render::{LightChoice, RenderOptions};
-use moment_shadows_lab::command::{cost, graph, measure, minification, render, shaders, validate};
+use moment_shadows_lab::command::{cost, graph, isa, measure, minification, render, shaders, validate};
 use moment_shadows_lab::gpu::Gpu;
+use moment_shadows_lab::isa::child;
+use moment_shadows_lab::isa::chip::Chip;
 use moment_shadows_lab::vectors;
 
 /// Filterable shadows: validate shaders, check graphs, render, and measure.
@@ -116,6 +118,54 @@ enum Command {
         #[arg(long)]
         json: bool,
     },
+    /// Compiles every shader for chips that need not be there, and counts what the code does (Linux, Mesa's RADV).
+    Isa(IsaArguments),
+    /// The process that compiles for one chip, which its environment names.
+    #[command(name = child::COMMAND, hide = true)]
+    IsaChip {
+        #[arg(value_enum)]
+        chip: Chip,
+        shader: Option<String>,
+    },
+}
+
+#[derive(clap::Args)]
+struct IsaArguments {
+    /// The chip.
+    #[arg(long, value_enum, default_value = "all")]
+    chip: ChipArgument,
+    /// Prints the table as JSON.
+    #[arg(long, conflicts_with_all = ["check", "update", "shader"])]
+    json: bool,
+    /// Compares with the table that is kept, and fails where a figure is over 5 % higher.
+    #[arg(long, conflicts_with_all = ["update", "shader"])]
+    check: bool,
+    /// Replaces the table that is kept.
+    #[arg(long, conflicts_with_all = ["chip", "shader"])]
+    update: bool,
+    /// Prints the code of one shader, by its name in the table.
+    #[arg(long)]
+    shader: Option<String>,
+    /// The table that is kept.
+    #[arg(long, default_value = isa::TABLE)]
+    table: PathBuf,
+}
+
+#[derive(Clone, Copy, ValueEnum)]
+enum ChipArgument {
+    Navi21,
+    Vega10,
+    All,
+}
+
+impl ChipArgument {
+    fn chips(self) -> &'static [Chip] {
+        match self {
+            ChipArgument::Navi21 => &[Chip::Navi21],
+            ChipArgument::Vega10 => &[Chip::Vega10],
+            ChipArgument::All => &Chip::ALL,
+        }
+    }
 }
 
 #[derive(clap::Args)]
@@ -299,6 +349,10 @@ fn run(command: Command) -> Result<ExitCode, Box<dyn std::error::Error>> {
         Command::Shaders { out } => {
             println!("{} shaders in {}", shaders::run(&out)?, out.display());
         }
+        Command::Isa(arguments) => return run_isa(&arguments),
+        Command::IsaChip { chip, shader } => {
+            print!("{}", child::compile(chip, shader.as_deref())?);
+        }
         Command::Cost {
             subject,
             size,
@@ -314,6 +368,27 @@ fn run(command: Command) -> Result<ExitCode, Box<dyn std::error::Error>> {
                 }
             }
         },
+    }
+    Ok(ExitCode::SUCCESS)
+}
+
+fn run_isa(arguments: &IsaArguments) -> Result<ExitCode, Box<dyn std::error::Error>> {
+    let chips = arguments.chip.chips();
+    if arguments.update {
+        isa::update(&arguments.table)?;
+        println!("{} is up to date", arguments.table.display());
+    } else if arguments.check {
+        let checked = isa::check(chips, &arguments.table)?;
+        print!("{checked}");
+        if !checked.passed() {
+            return Ok(ExitCode::FAILURE);
+        }
+    } else if let Some(shader) = &arguments.shader {
+        for &chip in chips {
+            println!("{chip}\n{}", child::disassembly(chip, shader)?);
+        }
+    } else {
+        print(&isa::table(chips)?, arguments.json)?;
     }
     Ok(ExitCode::SUCCESS)
 }

@@ -1,8 +1,7 @@
-import moment_shadows::hamburger::{hamburger_shadow_intensity};
+import moment_shadows::hamburger::{hamburger_shadow_intensity_of_texel};
 import moment_shadows::leak_reduction::{LeakReduction, leak_reduction_apply};
 import moment_shadows::map_region::{MapRegion, map_region_within};
 import moment_shadows::minification::{minification_depth_variance, minification_footprint};
-import moment_shadows::moments::{moments_bias_of, moments_from_texel};
 import moment_shadows::moments_lookup::{moments_lookup, moments_map};
 import moment_shadows::receiver_bias::{ReceiverBias, receiver_bias_depth, receiver_bias_depth_minified, receiver_bias_plane};
 import moment_shadows::specialization::{ANISOTROPY, GROUP, LEVELS, STORAGE, VIEWS};
@@ -125,7 +124,7 @@ fn view_shadow_intensity(view: u32, receiver: Receiver, neighbour_x: vec3f, neig
     // kernel may still see the surface within the range.
     let fragment_depth = min(receiver.place.z, 1.0) - bias;
     let texel = moments_lookup(views[view].layer, region, receiver.place.xy, difference_x.xy, difference_y.xy);
-    let intensity = hamburger_shadow_intensity(moments_from_texel(texel, STORAGE), fragment_depth, moments_bias_of(STORAGE));
+    let intensity = hamburger_shadow_intensity_of_texel(texel, fragment_depth, STORAGE);
     return leak_reduction_apply(intensity, views[view].leak_reduction);
 }
 

@@ -2,6 +2,7 @@
 
 pub mod cost;
 pub mod graph;
+pub mod isa;
 pub mod measure;
 pub mod minification;
 pub mod render;

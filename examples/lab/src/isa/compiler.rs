@@ -1,0 +1,89 @@
+//! Compiling the shaders of the table for the chip that the environment names.
+
+use super::chip::Chip;
+use super::driver::{Driver, loaded_sha256};
+use super::error::IsaError;
+use super::spirv;
+use super::subjects::{Subject, SubjectWork};
+use super::vulkan::{Executable, NullDevice, Program, ProgramStage};
+
+/// The driver, opened for a chip.
+pub(super) struct Compiler {
+    device: NullDevice,
+    /// The driver's name, version and hash.
+    pub(super) driver: Driver,
+}
+
+/// A compiled shader.
+pub(super) struct Compiled {
+    pub(super) executable: Executable,
+    /// Outputs of an invocation.
+    pub(super) outputs: f64,
+}
+
+impl Compiler {
+    /// Opens the driver that the environment names, and makes sure that it compiles for `chip`.
+    pub(super) fn open(chip: Chip) -> Result<Self, IsaError> {
+        let device = NullDevice::open()?;
+        if !device.chip_name.to_lowercase().contains(chip.name()) {
+            return Err(IsaError::NoChip {
+                chip,
+                found: device.chip_name.clone(),
+            });
+        }
+        let driver = Driver {
+            name: device.driver_name.clone(),
+            version: device.driver_version.clone(),
+            sha256: loaded_sha256()?,
+        };
+        Ok(Self { device, driver })
+    }
+
+    pub(super) fn compile(&self, subject: &Subject) -> Result<Compiled, IsaError> {
+        let write = |stage, entry_point| {
+            spirv::compile(
+                &subject.name,
+                &subject.wgsl,
+                stage,
+                entry_point,
+                &subject.constants,
+            )
+        };
+        match &subject.work {
+            SubjectWork::Compute {
+                texels_per_workgroup,
+            } => {
+                let module = write(naga::ShaderStage::Compute, &subject.entry_point)?;
+                let executable = self.device.compile(&Program {
+                    entry_point: &subject.entry_point,
+                    module: &module,
+                    stage: ProgramStage::Compute,
+                })?;
+                Ok(Compiled {
+                    executable,
+                    outputs: f64::from(*texels_per_workgroup) / f64::from(module.workgroup.max(1)),
+                })
+            }
+            SubjectWork::Fragment { targets } => {
+                let vertex = write(naga::ShaderStage::Vertex, VERTEX_ENTRY_POINT)?;
+                let module = write(naga::ShaderStage::Fragment, &subject.entry_point)?;
+                let executable = self.device.compile(&Program {
+                    entry_point: &subject.entry_point,
+                    module: &module,
+                    stage: ProgramStage::Fragment {
+                        vertex_entry_point: VERTEX_ENTRY_POINT,
+                        vertex: &vertex,
+                        targets,
+                    },
+                })?;
+                Ok(Compiled {
+                    executable,
+                    outputs: 1.0,
+                })
+            }
+        }
+    }
+}
+
+/// The vertex stage of every fullscreen pass.
+const VERTEX_ENTRY_POINT: &str = "fullscreen";

@@ -1,0 +1,150 @@
+//! The figures of one shader on one chip.
+
+use serde::{Deserialize, Serialize};
+
+use super::chip::Chip;
+use super::class::Class;
+use super::compiler::Compiled;
+use super::cycles;
+use super::error::IsaError;
+use super::loops;
+use super::subjects::Subject;
+use super::text;
+
+/// What a compiled shader needs. Lower is better, in all of them.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Figures {
+    /// Instructions of the code.
+    pub instructions: u64,
+    /// Vector registers.
+    pub vgprs: u64,
+    /// Scalar registers.
+    pub sgprs: u64,
+    /// Bytes of workgroup memory.
+    pub lds_bytes: u64,
+    /// Bytes of the code.
+    pub code_bytes: u64,
+    /// The compiler's estimate of cycles per wave when many waves share a unit. Loops are weighed by a fixed factor.
+    pub inverse_throughput: u64,
+    /// The compiler's estimate of cycles of one wave, with the same weights.
+    pub latency: u64,
+    /// Vector instructions per output, here and below loops weighed by how often they run.
+    pub valu: f64,
+    /// Scalar instructions per output.
+    pub salu: f64,
+    /// Texture loads and samples per output.
+    pub texture: f64,
+    /// Loads from buffers per output.
+    pub memory: f64,
+    /// Accesses to workgroup memory per output.
+    pub lds: f64,
+    /// Stores and exports per output.
+    pub store: f64,
+    /// Cycles of the arithmetic units per 64 outputs, in the model of [`cycles`](super::cycles).
+    pub alu_cycles: f64,
+    /// Cycles of the texture unit per 64 outputs.
+    pub texture_cycles: f64,
+    /// Cycles of the LDS per 64 outputs.
+    pub lds_cycles: f64,
+}
+
+/// A shader with its figures.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Row {
+    /// The shader's name.
+    pub shader: String,
+    /// Its figures.
+    pub figures: Figures,
+}
+
+impl Figures {
+    /// The number of figures.
+    pub const COUNT: usize = 16;
+
+    /// Every figure with its name.
+    #[must_use]
+    pub fn named(&self) -> [(&'static str, f64); Self::COUNT] {
+        [
+            ("instructions", self.instructions as f64),
+            ("VGPRs", self.vgprs as f64),
+            ("SGPRs", self.sgprs as f64),
+            ("LDS bytes", self.lds_bytes as f64),
+            ("code bytes", self.code_bytes as f64),
+            ("inverse throughput", self.inverse_throughput as f64),
+            ("latency", self.latency as f64),
+            ("VALU per output", self.valu),
+            ("SALU per output", self.salu),
+            ("textures per output", self.texture),
+            ("buffer loads per output", self.memory),
+            ("LDS per output", self.lds),
+            ("stores per output", self.store),
+            ("ALU cycles", self.alu_cycles),
+            ("texture cycles", self.texture_cycles),
+            ("LDS cycles", self.lds_cycles),
+        ]
+    }
+
+    /// The figures of a compiled shader.
+    pub(super) fn of(
+        subject: &Subject,
+        compiled: &Compiled,
+        chip: Chip,
+    ) -> Result<Figures, IsaError> {
+        let statistic = |statistic: &'static str| {
+            compiled
+                .executable
+                .statistics
+                .get(statistic)
+                .copied()
+                .ok_or_else(|| IsaError::Statistic {
+                    shader: subject.name.clone(),
+                    statistic,
+                })
+        };
+        let odd = |reason: String| IsaError::Text {
+            shader: subject.name.clone(),
+            chip,
+            reason,
+        };
+        let code = text::parse(&compiled.executable.isa).map_err(odd)?;
+        let loops = loops::find(&code).map_err(odd)?;
+        if loops.len() != subject.trips.len() {
+            return Err(IsaError::Loops {
+                shader: subject.name.clone(),
+                chip,
+                found: loops.len(),
+                listed: subject.trips.len(),
+            });
+        }
+        let weights = loops::weights(code.instructions.len(), &loops, &subject.trips);
+        let mut figures = Figures {
+            instructions: statistic("Instructions")?,
+            vgprs: statistic("VGPRs")?,
+            sgprs: statistic("SGPRs")?,
+            lds_bytes: statistic("LDS size")?,
+            code_bytes: statistic("Code size")?,
+            inverse_throughput: statistic("Inverse Throughput")?,
+            latency: statistic("Latency")?,
+            ..Figures::default()
+        };
+        for (instruction, weight) in code.instructions.iter().zip(weights) {
+            let per_output = weight / compiled.outputs;
+            match instruction.class {
+                Class::Valu => figures.valu += per_output,
+                Class::Salu => figures.salu += per_output,
+                Class::Texture => figures.texture += per_output,
+                Class::Memory => figures.memory += per_output,
+                Class::Lds => figures.lds += per_output,
+                Class::Store => figures.store += per_output,
+                Class::Control => {}
+            }
+            let cycles = cycles::of(instruction, subject.texel_bytes);
+            figures.alu_cycles += cycles.alu * per_output;
+            figures.texture_cycles += cycles.texture * per_output;
+            figures.lds_cycles += cycles.lds * per_output;
+        }
+        Ok(figures)
+    }
+}

@@ -1,0 +1,24 @@
+//! A Vulkan device that compiles shaders for a chip which need not be there.
+//!
+//! wgpu cannot open it: the driver's null device has no semaphores that can be shared. So this is Vulkan itself, and the
+//! only unsafe code of the project.
+
+#![allow(unsafe_code)]
+
+mod device;
+mod executable;
+mod pipeline;
+
+pub(super) use device::NullDevice;
+pub(super) use executable::Executable;
+pub(super) use pipeline::{Program, ProgramStage};
+
+use super::error::IsaError;
+
+/// Says which call failed.
+fn refused(what: &'static str) -> impl Fn(ash::vk::Result) -> IsaError {
+    move |result| IsaError::Driver {
+        what,
+        reason: result.to_string(),
+    }
+}
