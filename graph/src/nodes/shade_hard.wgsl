@@ -26,11 +26,18 @@ struct ShadeHardParameters {
 @group(GROUP) @binding(0) var<uniform> parameters: ShadeHardParameters;
 @group(GROUP) @binding(1) var camera_depth: texture_depth_2d;
 
+struct Covered {
+    @builtin(position) position: vec4f,
+    // The place in the picture from 0 to 1. Other than `position` it does not depend on where in its target a host has the
+    // viewport.
+    @location(0) uv: vec2f,
+}
+
 @vertex
-fn fullscreen(@builtin(vertex_index) index: u32) -> @builtin(position) vec4f {
-    // One triangle that covers the target: (-1, -1), (3, -1), (-1, 3).
-    let corner = vec2f(f32(index & 1u), f32(index >> 1u));
-    return vec4f(4.0 * corner - 1.0, 0.0, 1.0);
+fn fullscreen(@builtin(vertex_index) index: u32) -> Covered {
+    // One triangle that covers the viewport: (-1, -1), (3, -1), (-1, 3).
+    let corner = 4.0 * vec2f(f32(index & 1u), f32(index >> 1u)) - 1.0;
+    return Covered(vec4f(corner, 0.0, 1.0), 0.5 + vec2f(0.5, -0.5) * corner);
 }
 
 // A pixel's surface as the light sees it.
@@ -95,8 +102,9 @@ fn receiver_difference(pixel: vec2i, axis: vec2i, stored_depth: f32, receiver: R
 }
 
 @fragment
-fn shade(@builtin(position) position: vec4f) -> @location(0) vec4f {
-    let pixel = vec2i(position.xy);
+fn shade(@location(0) uv_of_pixel: vec2f) -> @location(0) vec4f {
+    let size = vec2i(textureDimensions(camera_depth));
+    let pixel = clamp(vec2i(uv_of_pixel * vec2f(size)), vec2i(0), size - 1);
     let stored_depth = textureLoad(camera_depth, pixel, 0);
     if stored_depth == parameters.far_depth {
         return vec4f(0.0);
@@ -116,5 +124,6 @@ fn shade(@builtin(position) position: vec4f) -> @location(0) vec4f {
     let fragment_depth = min(receiver.place.z, 1.0) - receiver_bias_depth(parameters.receiver_bias, gradient);
     let moments = moments_from_texel(map_lookup(uv, parameters.layer), STORAGE);
     let intensity = hamburger_shadow_intensity(moments, fragment_depth, moments_bias_of(STORAGE));
-    return vec4f(leak_reduction_apply(intensity, parameters.leak_reduction), 0.0, 0.0, 1.0);
+    // In all channels, so that a host can blend with it or show it.
+    return vec4f(leak_reduction_apply(intensity, parameters.leak_reduction));
 }
