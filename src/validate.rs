@@ -12,7 +12,7 @@ use naga::valid::{Capabilities, ModuleInfo, ValidationFlags, Validator};
 pub use backend::{Backend, Outcome};
 pub use diagnostic::{Diagnostic, Label};
 pub use error::ValidateError;
-pub use limits::{LONGEST_CHAIN, LONGEST_SHADER};
+pub use limits::{LONGEST_CHAIN, LONGEST_DEFINITION, LONGEST_SHADER};
 
 use crate::{Linked, Profile, Source, link, link_module};
 
@@ -49,8 +49,8 @@ impl ValidationReport {
 /// texture formats and accesses that every device has; `native` the 16-bit normalised ones as well; `native-adapter` every
 /// format that naga knows.
 ///
-/// The WGSL compiler runs on a thread of its own with a large stack; [`LONGEST_SHADER`] and [`LONGEST_CHAIN`] bound what it
-/// is given.
+/// The WGSL compiler runs on a thread of its own with a large stack; [`LONGEST_SHADER`], [`LONGEST_DEFINITION`] and
+/// [`LONGEST_CHAIN`] bound what it is given.
 ///
 /// # Errors
 /// [`ValidateError`], which points at the line of the file before linking.

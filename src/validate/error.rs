@@ -1,6 +1,6 @@
 //! Why a shader is not valid under a profile.
 
-use super::{Backend, Diagnostic, LONGEST_CHAIN, LONGEST_SHADER};
+use super::{Backend, Diagnostic, LONGEST_SHADER};
 use crate::{LinkError, Location};
 
 /// A shader that is not valid under a profile, or that a backend fails to write.
@@ -17,9 +17,12 @@ pub enum ValidateError {
         /// Its length, or that of the linked text.
         bytes: usize,
     },
-    /// The text has a chain longer than [`LONGEST_CHAIN`].
-    #[error("more than {LONGEST_CHAIN} {what}; split the shader\n{at}")]
-    TooDeep {
+    /// The text has a chain longer than [`LONGEST_CHAIN`](super::LONGEST_CHAIN), or a definition longer than
+    /// [`LONGEST_DEFINITION`](super::LONGEST_DEFINITION).
+    #[error("more than {limit} {what}; split the shader\n{at}")]
+    TooMany {
+        /// How much there may be.
+        limit: usize,
         /// What there is too much of.
         what: &'static str,
         /// Where it becomes too much.

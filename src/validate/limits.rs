@@ -7,7 +7,11 @@ use crate::token::{Kind, Token, tokens};
 use crate::{Linked, Location};
 
 /// The longest text that is validated, in bytes, before and after linking.
-pub const LONGEST_SHADER: usize = 4 << 20;
+pub const LONGEST_SHADER: usize = 1 << 20;
+
+/// The most words, numbers and symbols of one definition. The compiler takes time that grows with the square of a
+/// function's length.
+pub const LONGEST_DEFINITION: usize = 32_768;
 
 /// The most operators in one expression, branches in one chain of `else`, and definitions, each of which the compiler
 /// follows by recursion.
@@ -36,13 +40,17 @@ pub(super) fn refuse_too_long(file: &str, text: &str) -> Result<(), ValidateErro
 
 pub(super) fn refuse_long_chains(linked: &Linked) -> Result<(), ValidateError> {
     let tokens = tokens(linked.wgsl()).unwrap_or_default();
-    let too_long = |what, token: &Token<'_>| ValidateError::TooDeep {
+    let too_many = |limit, what, token: &Token<'_>| ValidateError::TooMany {
+        limit,
         what,
         at: at(linked, token),
     };
+    let too_long = |what, token: &Token<'_>| too_many(LONGEST_CHAIN, what, token);
     if let Some(token) = definitions(&tokens).get(LONGEST_CHAIN) {
         return Err(too_long("definitions", token));
     }
+    let mut open = 0_usize;
+    let mut length = 0_usize;
     let mut operators = Nested::default();
     let mut branches = Nested::default();
     let mut previous: Option<&Token<'_>> = None;
@@ -61,6 +69,17 @@ pub(super) fn refuse_long_chains(linked: &Linked) -> Result<(), ValidateError> {
             "if" if !previous.is_some_and(|token| token.is_word("else")) => branches.restart(),
             _ if token.kind == Kind::Symbol => operators.count(),
             _ => {}
+        }
+        match token.text {
+            "(" | "[" | "{" => open += 1,
+            ")" | "]" | "}" => open = open.saturating_sub(1),
+            _ => {}
+        }
+        let ends = open == 0 && matches!(token.text, ";" | "}");
+        length = if ends { 0 } else { length + 1 };
+        if length > LONGEST_DEFINITION {
+            let what = "words, numbers and symbols in one definition";
+            return Err(too_many(LONGEST_DEFINITION, what, token));
         }
         if operators.total > LONGEST_CHAIN {
             return Err(too_long("operators in one expression", token));

@@ -104,6 +104,17 @@ impl Gpu {
         })
     }
 
+    /// The device of a host that has one already. Errors outside any scope stay with the host's own handler, so that
+    /// [`check`](Self::check) finds none.
+    pub fn of_host(adapter: wgpu::Adapter, device: wgpu::Device, queue: wgpu::Queue) -> Self {
+        Self {
+            adapter,
+            device,
+            queue,
+            errors: Arc::default(),
+        }
+    }
+
     /// The first error that the device reported outside any scope, if there was one.
     pub fn check(&self) -> Result<(), GpuError> {
         let first = self.errors.lock().ok().and_then(|mut errors| {

@@ -6,7 +6,9 @@ use std::process::ExitCode;
 use clap::{Parser, Subcommand, ValueEnum};
 use moment_shadows::{Profile, Storage};
 use moment_shadows_lab::command::render::{LightChoice, RenderOptions};
-use moment_shadows_lab::command::{cost, graph, isa, measure, minification, render, shaders, validate};
+use moment_shadows_lab::command::{
+    cost, graph, isa, measure, minification, render, shaders, validate,
+};
 use moment_shadows_lab::gpu::Gpu;
 use moment_shadows_lab::isa::child;
 use moment_shadows_lab::isa::chip::Chip;

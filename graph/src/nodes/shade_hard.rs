@@ -24,7 +24,7 @@ const LOADED_LOOKUP: &str = include_str!("moments_lookup_loaded.wgsl");
 /// Node `shade_hard`: `moments` (a filtered map) and `camera_depth` to `shadow_intensity`, of the camera's size. A
 /// fullscreen pass: it can also be drawn into a render pass that the host has open.
 ///
-/// It shades up to four lights, one in each channel of its output, through any number of views: cascades, faces and
+/// It shades up to four lights, one in each channel of its output (a single one is in all of them), through any number of views: cascades, faces and
 /// spots, each a region of a layer. Parameters: an array of [`ShadeHardParameters`], one per view. Where the map has mip
 /// levels, lookups average the texels that a pixel covers.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -116,6 +116,7 @@ impl Node for ShadeHard {
             .constant("STORAGE", &format!("{}u", storage.wgsl_index()))
             .constant("LEVELS", &format!("{}u", moments.mips))
             .constant("VIEWS", &format!("{}u", self.views))
+            .constant("LIGHTS", &format!("{}u", self.lights))
             .constant("ANISOTROPY", &format!("{}.0", self.anisotropy))
             .link("shade_hard.wgsl", SHADER, &[("moments_lookup", lookup)])?;
         let mut bindings = vec![

@@ -4,7 +4,7 @@ import moment_shadows::map_region::{MapRegion, map_region_within};
 import moment_shadows::minification::{minification_depth_variance, minification_footprint};
 import moment_shadows::moments_lookup::{moments_lookup, moments_map};
 import moment_shadows::receiver_bias::{ReceiverBias, receiver_bias_depth, receiver_bias_depth_minified, receiver_bias_plane};
-import moment_shadows::specialization::{ANISOTROPY, GROUP, LEVELS, STORAGE, VIEWS};
+import moment_shadows::specialization::{ANISOTROPY, GROUP, LEVELS, LIGHTS, STORAGE, VIEWS};
 
 // Shadow intensity of every pixel, from the camera's depth and a map of moments. A view of a light is one region of one
 // layer: a sun's cascade, a face of a point light, a spot light. Each light has a channel of the target.
@@ -32,11 +32,18 @@ struct ShadeHardParameters {
 @group(GROUP) @binding(0) var<uniform> views: array<ShadeHardParameters, VIEWS>;
 @group(GROUP) @binding(1) var camera_depth: texture_depth_2d;
 
+struct Covered {
+    @builtin(position) position: vec4f,
+    // The place in the picture from 0 to 1. Other than `position` it does not depend on where in its target a host has the
+    // viewport.
+    @location(0) uv: vec2f,
+}
+
 @vertex
-fn fullscreen(@builtin(vertex_index) index: u32) -> @builtin(position) vec4f {
-    // One triangle that covers the target: (-1, -1), (3, -1), (-1, 3).
-    let corner = vec2f(f32(index & 1u), f32(index >> 1u));
-    return vec4f(4.0 * corner - 1.0, 0.0, 1.0);
+fn fullscreen(@builtin(vertex_index) index: u32) -> Covered {
+    // One triangle that covers the viewport: (-1, -1), (3, -1), (-1, 3).
+    let corner = 4.0 * vec2f(f32(index & 1u), f32(index >> 1u)) - 1.0;
+    return Covered(vec4f(corner, 0.0, 1.0), 0.5 + vec2f(0.5, -0.5) * corner);
 }
 
 // A pixel's surface as the light sees it.
@@ -129,8 +136,9 @@ fn view_shadow_intensity(view: u32, receiver: Receiver, neighbour_x: vec3f, neig
 }
 
 @fragment
-fn shade(@builtin(position) position: vec4f) -> @location(0) vec4f {
-    let pixel = vec2i(position.xy);
+fn shade(@location(0) uv_of_pixel: vec2f) -> @location(0) vec4f {
+    let size = vec2i(textureDimensions(camera_depth));
+    let pixel = clamp(vec2i(uv_of_pixel * vec2f(size)), vec2i(0), size - 1);
     let stored_depth = textureLoad(camera_depth, pixel, 0);
     // Outside its map a light casts no shadow, and where there is no surface, either.
     var intensities = vec4f(0.0);
@@ -152,5 +160,6 @@ fn shade(@builtin(position) position: vec4f) -> @location(0) vec4f {
             open_channels = open_channels & !channel;
         }
     }
-    return intensities;
+    // A single light is in all channels, so that a host can blend with it or show it.
+    return select(intensities, intensities.xxxx, LIGHTS == 1u);
 }

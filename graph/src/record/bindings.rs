@@ -1,7 +1,7 @@
 //! A plan bound to its pipelines, its resources and the host's imports.
 
 use super::given::{ImportedResource, check_alignment, check_parameters, find_import};
-use super::pipelines::{Pipeline, label};
+use super::pipelines::{Pipeline, label, name};
 use super::resources::Created;
 use super::scope::{check_alive, scoped};
 use super::{Pipelines, RecordError, Resources};
@@ -55,6 +55,8 @@ pub(super) enum Action {
     },
     Draw {
         pipeline: wgpu::RenderPipeline,
+        /// For a render pass of the host that looks different.
+        drawn: Option<wgpu::RenderPipeline>,
         /// One per layer.
         targets: Vec<wgpu::TextureView>,
     },
@@ -102,7 +104,10 @@ impl Bindings {
                 PlannedWork::Host { .. } => None,
                 _ => Some(pipelines.get(plan, pass)?),
             };
-            let step = scoped(device, &what, || binder.step(pass, pipeline)).await??;
+            let mut step = scoped(device, &what, || binder.step(pass, pipeline)).await??;
+            if let Action::Draw { drawn, .. } = &mut step.action {
+                *drawn = pipelines.drawn(plan, pass)?.cloned();
+            }
             steps.push(step);
         }
         check_alive(device)?;
@@ -199,6 +204,7 @@ impl Binder<'_> {
             (PlannedWork::Fullscreen { target }, Some(Pipeline::Render(pipeline))) => {
                 Action::Draw {
                     pipeline: pipeline.clone(),
+                    drawn: None,
                     targets: targets(*target, pass.layers)?,
                 }
             }
@@ -223,7 +229,7 @@ impl Binder<'_> {
         };
         Ok(Step {
             stage: pass.stage,
-            name: format!("{}/{}", pass.node, pass.label),
+            name: name(pass),
             label,
             each_layer: pass.each_layer,
             layers: pass.layers,

@@ -148,3 +148,18 @@ pub enum RecordError {
         count: usize,
     },
 }
+
+impl RecordError {
+    /// `pass` is none of `known`, the plan's fullscreen passes.
+    pub(super) fn no_such_pass<'a>(pass: &str, known: impl Iterator<Item = &'a str>) -> Self {
+        let known: Vec<&str> = known.collect();
+        Self::NoSuchPass {
+            pass: pass.to_owned(),
+            known: if known.is_empty() {
+                "none".to_owned()
+            } else {
+                known.join(", ")
+            },
+        }
+    }
+}

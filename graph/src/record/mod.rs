@@ -18,6 +18,6 @@ pub use bindings::Bindings;
 pub use error::RecordError;
 pub use format::texture_format;
 pub use given::ImportedResource;
-pub use pipelines::{PipelineOptions, Pipelines};
+pub use pipelines::{HostTarget, PipelineOptions, Pipelines};
 pub use recording::{HostPass, HostPassHandler, Layers, Passes, Recording, Timestamps};
 pub use resources::Resources;

@@ -13,6 +13,52 @@ use crate::{Plan, PlannedPass, PlannedWork};
 pub struct PipelineOptions<'a> {
     /// A cache of compiled shaders that the host keeps.
     pub cache: Option<&'a wgpu::PipelineCache>,
+    /// The fullscreen passes (`node/pass`) that [`crate::record::Bindings::draw`] draws into render passes other than
+    /// those of the plan, and what these look like.
+    pub host_targets: &'a [(&'a str, HostTarget)],
+}
+
+/// A render pass that the host has open, as far as a pipeline depends on it.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub struct HostTarget {
+    /// The format of its one colour target.
+    pub format: wgpu::TextureFormat,
+    /// How the pass is blended with what is there. `shade_hard` gives the shadow intensity in all four channels.
+    pub blend: Option<wgpu::BlendState>,
+    /// The format of its depth or stencil attachment, which is neither tested nor written.
+    pub depth_stencil: Option<wgpu::TextureFormat>,
+    /// Samples per pixel.
+    pub samples: u32,
+}
+
+impl HostTarget {
+    /// A colour target alone, with one sample per pixel and without blending.
+    #[must_use]
+    pub fn new(format: wgpu::TextureFormat) -> Self {
+        Self {
+            format,
+            blend: None,
+            depth_stencil: None,
+            samples: 1,
+        }
+    }
+
+    /// As [`new`](Self::new); what is there is multiplied by 1 - shadow intensity, and keeps its alpha.
+    #[must_use]
+    pub fn darkened(format: wgpu::TextureFormat) -> Self {
+        let component = |dst_factor| wgpu::BlendComponent {
+            src_factor: wgpu::BlendFactor::Zero,
+            dst_factor,
+            operation: wgpu::BlendOperation::Add,
+        };
+        Self {
+            blend: Some(wgpu::BlendState {
+                color: component(wgpu::BlendFactor::OneMinusSrc),
+                alpha: component(wgpu::BlendFactor::One),
+            }),
+            ..Self::new(format)
+        }
+    }
 }
 
 /// Every pipeline that one or more plans need. Made once; a change of sizes needs no new one.
@@ -20,6 +66,8 @@ pub struct PipelineOptions<'a> {
 pub struct Pipelines {
     layouts: HashMap<LayoutKey, wgpu::BindGroupLayout>,
     pipelines: HashMap<PipelineKey, Pipeline>,
+    /// Those for render passes of the host; of each shader the last that was asked for.
+    drawn: HashMap<PipelineKey, (HostTarget, wgpu::RenderPipeline)>,
 }
 
 /// What a pipeline depends on.
@@ -61,6 +109,18 @@ impl Pipelines {
     ) -> Result<usize, RecordError> {
         plan.check()?;
         check_alive(device)?;
+        let fullscreen: Vec<String> = plan
+            .passes
+            .iter()
+            .filter(|pass| matches!(pass.work, PlannedWork::Fullscreen { .. }))
+            .map(name)
+            .collect();
+        for (pass, _) in options.host_targets {
+            if !fullscreen.iter().any(|name| name == pass) {
+                let known = fullscreen.iter().map(String::as_str);
+                return Err(RecordError::no_such_pass(pass, known));
+            }
+        }
         let mut made = 0;
         for pass in &plan.passes {
             if matches!(pass.work, PlannedWork::Host { .. }) {
@@ -72,16 +132,29 @@ impl Pipelines {
                 let layout = scoped(device, &label, || key.layout.create(device, &label)).await?;
                 self.layouts.insert(key.layout.clone(), layout);
             }
-            if self.pipelines.contains_key(&key) {
+            let layout = self.layouts.get(&key.layout);
+            if !self.pipelines.contains_key(&key) {
+                let target = key.target.map(HostTarget::new);
+                let create = || key.create(device, &label, layout, pass, target, options.cache);
+                let pipeline = scoped(device, &label, create).await?;
+                check_alive(device)?;
+                self.pipelines.insert(key.clone(), pipeline);
+                made += 1;
+            }
+            let host = options
+                .host_targets
+                .iter()
+                .find(|(of, _)| *of == name(pass));
+            let Some(&(_, target)) = host else { continue };
+            if self.drawn.get(&key).is_some_and(|(of, _)| *of == target) {
                 continue;
             }
-            let pipeline = scoped(device, &label, || {
-                key.create(device, &label, self.layouts.get(&key.layout), pass, options)
-            })
-            .await?;
-            check_alive(device)?;
-            self.pipelines.insert(key, pipeline);
-            made += 1;
+            let create = || key.create(device, &label, layout, pass, Some(target), options.cache);
+            if let Pipeline::Render(pipeline) = scoped(device, &label, create).await? {
+                check_alive(device)?;
+                self.drawn.insert(key, (target, pipeline));
+                made += 1;
+            }
         }
         Ok(made)
     }
@@ -89,13 +162,23 @@ impl Pipelines {
     /// How many pipelines there are.
     #[must_use]
     pub fn len(&self) -> usize {
-        self.pipelines.len()
+        self.pipelines.len() + self.drawn.len()
     }
 
     /// Whether there are none.
     #[must_use]
     pub fn is_empty(&self) -> bool {
         self.pipelines.is_empty()
+    }
+
+    /// The pipeline that draws a fullscreen pass into a render pass of the host, where one was asked for.
+    pub(super) fn drawn(
+        &self,
+        plan: &Plan,
+        pass: &PlannedPass,
+    ) -> Result<Option<&wgpu::RenderPipeline>, RecordError> {
+        let key = PipelineKey::of(plan, pass, &label(pass))?;
+        Ok(self.drawn.get(&key).map(|(_, pipeline)| pipeline))
     }
 
     pub(super) fn get(
@@ -110,6 +193,11 @@ impl Pipelines {
             .zip(self.layouts.get(&key.layout))
             .ok_or(RecordError::MissingPipeline { pass: label })
     }
+}
+
+/// `node/pass`, by which hosts name a pass.
+pub(super) fn name(pass: &PlannedPass) -> String {
+    format!("{}/{}", pass.node, pass.label)
 }
 
 /// The label of every object that belongs to a pass.
@@ -156,7 +244,8 @@ impl PipelineKey {
         label: &str,
         layout: Option<&wgpu::BindGroupLayout>,
         pass: &PlannedPass,
-        options: PipelineOptions<'_>,
+        target: Option<HostTarget>,
+        cache: Option<&wgpu::PipelineCache>,
     ) -> Pipeline {
         let shader = device.create_shader_module(wgpu::ShaderModuleDescriptor {
             label: Some(label),
@@ -179,7 +268,7 @@ impl PipelineKey {
             constants: &constants,
             ..Default::default()
         };
-        match self.target {
+        match target {
             None => Pipeline::Compute(device.create_compute_pipeline(
                 &wgpu::ComputePipelineDescriptor {
                     label: Some(label),
@@ -187,10 +276,10 @@ impl PipelineKey {
                     module: &shader,
                     entry_point: Some(&self.entry_point),
                     compilation_options,
-                    cache: options.cache,
+                    cache,
                 },
             )),
-            Some(format) => Pipeline::Render(device.create_render_pipeline(
+            Some(target) => Pipeline::Render(device.create_render_pipeline(
                 &wgpu::RenderPipelineDescriptor {
                     label: Some(label),
                     layout: Some(&layout),
@@ -201,16 +290,28 @@ impl PipelineKey {
                         buffers: &[],
                     },
                     primitive: wgpu::PrimitiveState::default(),
-                    depth_stencil: None,
-                    multisample: wgpu::MultisampleState::default(),
+                    depth_stencil: target.depth_stencil.map(|format| wgpu::DepthStencilState {
+                        format,
+                        depth_write_enabled: Some(false),
+                        depth_compare: Some(wgpu::CompareFunction::Always),
+                        stencil: wgpu::StencilState::default(),
+                        bias: wgpu::DepthBiasState::default(),
+                    }),
+                    multisample: wgpu::MultisampleState {
+                        count: target.samples,
+                        ..Default::default()
+                    },
                     fragment: Some(wgpu::FragmentState {
                         module: &shader,
                         entry_point: Some(&self.entry_point),
                         compilation_options,
-                        targets: &[Some(format.into())],
+                        targets: &[Some(wgpu::ColorTargetState {
+                            blend: target.blend,
+                            ..target.format.into()
+                        })],
                     }),
                     multiview_mask: None,
-                    cache: options.cache,
+                    cache,
                 },
             )),
         }

@@ -101,7 +101,9 @@ impl Bindings {
                     pipeline,
                     workgroups,
                 } => self.dispatch(step, pipeline, *workgroups, encoder, &recording, queries),
-                Action::Draw { pipeline, targets } => {
+                Action::Draw {
+                    pipeline, targets, ..
+                } => {
                     self.draw_layers(step, pipeline, targets, encoder, &recording, queries);
                 }
                 Action::Host {
@@ -124,8 +126,11 @@ impl Bindings {
         Ok(())
     }
 
-    /// Draws a fullscreen pass (`node/pass`) into a render pass that the host has open; its target has the format that
-    /// the plan gives, one sample and no depth. The viewport is the host's.
+    /// Draws a fullscreen pass (`node/pass`) into a render pass that the host has open. The render pass looks as
+    /// [`PipelineOptions::host_targets`](super::PipelineOptions::host_targets) says for this pass; where nothing was said,
+    /// it has one target of the plan's format, one sample and no depth. The picture fills the host's viewport.
+    ///
+    /// Do not record the pass as well: leave its stage out, or the pass by [`Passes::Only`].
     pub fn draw(
         &self,
         pass: &str,
@@ -135,20 +140,14 @@ impl Bindings {
         self.check_offset(parameter_offset)?;
         let draws = || {
             self.steps.iter().filter_map(|step| match &step.action {
-                Action::Draw { pipeline, .. } => Some((step, pipeline)),
+                Action::Draw {
+                    pipeline, drawn, ..
+                } => Some((step, drawn.as_ref().unwrap_or(pipeline))),
                 _ => None,
             })
         };
         let (step, pipeline) = draws().find(|(step, _)| step.name == pass).ok_or_else(|| {
-            let known: Vec<&str> = draws().map(|(step, _)| step.name.as_str()).collect();
-            RecordError::NoSuchPass {
-                pass: pass.to_owned(),
-                known: if known.is_empty() {
-                    "none".to_owned()
-                } else {
-                    known.join(", ")
-                },
-            }
+            RecordError::no_such_pass(pass, draws().map(|(step, _)| step.name.as_str()))
         })?;
         render_pass.set_pipeline(pipeline);
         let (offsets, count) = step.dynamic_offsets(parameter_offset, 0);

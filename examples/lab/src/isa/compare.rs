@@ -63,10 +63,16 @@ impl fmt::Display for Difference {
             Difference::Worse(change) => write!(f, "worse: {change}"),
             Difference::Improved(change) => write!(f, "improved: {change}; update the table"),
             Difference::New { chip, shader } => {
-                write!(f, "new: {chip}, {shader}: not in the table; update the table")
+                write!(
+                    f,
+                    "new: {chip}, {shader}: not in the table; update the table"
+                )
             }
             Difference::Gone { chip, shader } => {
-                write!(f, "gone: {chip}, {shader}: only in the table; update the table")
+                write!(
+                    f,
+                    "gone: {chip}, {shader}: only in the table; update the table"
+                )
             }
         }
     }
@@ -145,11 +151,7 @@ pub fn compare(table: &Table, now: &Table) -> Vec<Difference> {
 }
 
 fn compare_rows(chip: Chip, before: &Row, now: &Row, differences: &mut Vec<Difference>) {
-    for ((figure, table), (_, value)) in before
-        .figures
-        .named()
-        .into_iter()
-        .zip(now.figures.named())
+    for ((figure, table), (_, value)) in before.figures.named().into_iter().zip(now.figures.named())
     {
         let change = || Change {
             chip,

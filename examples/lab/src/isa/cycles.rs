@@ -126,16 +126,34 @@ mod tests {
     fn each_unit_has_its_rate() {
         assert_eq!(cycles("v_fma_f32 v0, v1, v2, v3", 8), [1.0, 0.0, 0.0]);
         assert_eq!(cycles("v_rcp_f32_e32 v0, v1", 8), [4.0, 0.0, 0.0]);
-        assert_eq!(cycles("v_fma_f64 v[0:1], v[2:3], v[4:5], v[6:7]", 8), [16.0, 0.0, 0.0]);
-        assert_eq!(cycles("image_sample v[0:3], v[0:1], s[0:7], s[8:11] dmask:0xf", 8), [0.0, 16.0, 0.0]);
-        assert_eq!(cycles("image_load v[0:3], v[0:1], s[0:7] dmask:0xf", 16), [0.0, 32.0, 0.0]);
+        assert_eq!(
+            cycles("v_fma_f64 v[0:1], v[2:3], v[4:5], v[6:7]", 8),
+            [16.0, 0.0, 0.0]
+        );
+        assert_eq!(
+            cycles("image_sample v[0:3], v[0:1], s[0:7], s[8:11] dmask:0xf", 8),
+            [0.0, 16.0, 0.0]
+        );
+        assert_eq!(
+            cycles("image_load v[0:3], v[0:1], s[0:7] dmask:0xf", 16),
+            [0.0, 32.0, 0.0]
+        );
         // The camera's depth in a shader that also reads a wide map.
-        assert_eq!(cycles("image_load v0, v[0:1], s[0:7] dmask:0x1", 16), [0.0, 16.0, 0.0]);
-        assert_eq!(cycles("image_store v[0:3], v[4:5], s[0:7] dmask:0xf", 8), [0.0, 16.0, 0.0]);
+        assert_eq!(
+            cycles("image_load v0, v[0:1], s[0:7] dmask:0x1", 16),
+            [0.0, 16.0, 0.0]
+        );
+        assert_eq!(
+            cycles("image_store v[0:3], v[4:5], s[0:7] dmask:0xf", 8),
+            [0.0, 16.0, 0.0]
+        );
         assert_eq!(cycles("s_load_dwordx8 s[0:7], s[2:3], null", 8), [0.0; 3]);
         assert_eq!(cycles("exp mrt0 v0, v0, v1, v1 done compr vm", 8), [0.0; 3]);
         assert_eq!(cycles("ds_read_b128 v[0:3], v4", 8), [0.0, 0.0, 8.0]);
-        assert_eq!(cycles("ds_write2_b32 v0, v1, v2 offset1:1", 8), [0.0, 0.0, 4.0]);
+        assert_eq!(
+            cycles("ds_write2_b32 v0, v1, v2 offset1:1", 8),
+            [0.0, 0.0, 4.0]
+        );
         assert_eq!(cycles("ds_read_b32 v0, v1", 8), [0.0, 0.0, 2.0]);
     }
 }

@@ -32,6 +32,10 @@ pub(super) fn describe(entry: &Entry) -> Result<Vec<Subject>, IsaError> {
                 Work::Compute {
                     texels_per_workgroup,
                     ..
+                }
+                | Work::ComputeRegions {
+                    texels_per_workgroup,
+                    ..
                 } => SubjectWork::Compute {
                     texels_per_workgroup: texels_per_workgroup.iter().product(),
                 },

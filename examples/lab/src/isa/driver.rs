@@ -56,8 +56,7 @@ pub(super) fn loaded_sha256() -> Result<String, IsaError> {
     let library = library_in(&text).ok_or(IsaError::Incomplete {
         what: "which library it is",
     })?;
-    let bytes =
-        std::fs::read(library).map_err(|error| file_error(library.as_ref(), &error))?;
+    let bytes = std::fs::read(library).map_err(|error| file_error(library.as_ref(), &error))?;
     let digest = Sha256::digest(&bytes);
     Ok(digest.iter().map(|byte| format!("{byte:02x}")).collect())
 }
@@ -89,7 +88,13 @@ mod tests {
         let maps = "7f00-7f01 r--p 00000000 08:01 1   /usr/lib/libc.so.6\n\
                     7f02-7f03 rw-p 00000000 00:00 0\n\
                     7f04-7f05 r-xp 00000000 08:01 2   /usr/lib/x86 64/libvulkan_radeon.so\n";
-        assert_eq!(library_in(maps), Some("/usr/lib/x86 64/libvulkan_radeon.so"));
-        assert_eq!(library_in("7f00-7f01 r--p 0 0 0 /usr/lib/libvulkan_lvp.so"), None);
+        assert_eq!(
+            library_in(maps),
+            Some("/usr/lib/x86 64/libvulkan_radeon.so")
+        );
+        assert_eq!(
+            library_in("7f00-7f01 r--p 0 0 0 /usr/lib/libvulkan_lvp.so"),
+            None
+        );
     }
 }

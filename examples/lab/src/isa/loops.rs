@@ -55,11 +55,7 @@ pub fn find(code: &Code) -> Result<Vec<Loop>, String> {
 pub fn weights(instructions: usize, loops: &[Loop], trips: &[u32]) -> Vec<f64> {
     let mut weights = vec![1.0; instructions];
     for (around, &trips) in loops.iter().zip(trips) {
-        for weight in weights
-            .iter_mut()
-            .take(around.last + 1)
-            .skip(around.first)
-        {
+        for weight in weights.iter_mut().take(around.last + 1).skip(around.first) {
             *weight *= f64::from(trips);
         }
     }

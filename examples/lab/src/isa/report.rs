@@ -18,10 +18,7 @@ loops by their trip counts. cyc: cycles per 64 outputs that keep each unit of an
 impl fmt::Display for Table {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let names = self.chips.iter().flat_map(|chip| &chip.shaders);
-        let width = names
-            .map(|row| row.shader.len())
-            .max()
-            .unwrap_or_default();
+        let width = names.map(|row| row.shader.len()).max().unwrap_or_default();
         for chip in &self.chips {
             write!(f, "{:width$}", chip.chip.name())?;
             for head in HEADS {

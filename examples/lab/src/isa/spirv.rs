@@ -48,8 +48,8 @@ pub(super) fn compile(
         shader: shader.to_owned(),
         reason,
     };
-    let module = naga::front::wgsl::parse_str(wgsl)
-        .map_err(|error| failed(error.emit_to_string(wgsl)))?;
+    let module =
+        naga::front::wgsl::parse_str(wgsl).map_err(|error| failed(error.emit_to_string(wgsl)))?;
     let info = naga::valid::Validator::new(
         naga::valid::ValidationFlags::all(),
         naga::valid::Capabilities::STORAGE_TEXTURE_16BIT_NORM_FORMATS,

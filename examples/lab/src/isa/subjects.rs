@@ -4,12 +4,13 @@ use std::collections::BTreeMap;
 
 use moment_shadows::{LinkError, Profile, Source, Storage, TextureFormat, link};
 use moment_shadows_graph::nodes::{
-    BlurMoments, BlurParameters, KernelProperty, ResolveMoments, ShadeHard,
+    BlurMoments, BlurParameters, DownsampleMoments, KernelProperty, MipLevels, ResolveMoments,
+    ShadeHard,
 };
 use moment_shadows_graph::{Capabilities, Node, ResourceDesc, TextureDesc};
 
-use super::error::IsaError;
 use super::described::describe;
+use super::error::IsaError;
 
 /// A shader that is compiled.
 #[derive(Clone, Debug)]
@@ -84,10 +85,13 @@ fn nodes() -> Result<Vec<Entry>, IsaError> {
         for radius in [4, 12, 32, 64] {
             entries.push(blur(storage, radius)?);
         }
-        entries.push(shade(storage, false));
-        // Other storages can be filtered everywhere.
-        if storage == Storage::Float32 {
-            entries.push(shade(storage, true));
+        entries.push(downsample(storage));
+        for mips in [1, 10] {
+            entries.push(shade(storage, false, mips));
+            // Other storages can be filtered everywhere.
+            if storage == Storage::Float32 {
+                entries.push(shade(storage, true, mips));
+            }
         }
     }
     Ok(entries)
@@ -117,7 +121,10 @@ fn resolve(storage: Storage, samples: u32) -> Entry {
     };
     Entry {
         settings: format!("{storage}, {samples} samples"),
-        node: Box::new(ResolveMoments { storage }),
+        node: Box::new(ResolveMoments {
+            storage,
+            mip_levels: MipLevels::default(),
+        }),
         inputs: inputs([("depth", depth)]),
         capabilities: native(),
         trips: Vec::new(),
@@ -142,25 +149,54 @@ fn blur(storage: Storage, radius: u32) -> Result<Entry, IsaError> {
         node: Box::new(BlurMoments {
             kernel,
             per_frame: false,
+            mip_levels: MipLevels::default(),
         }),
         inputs: inputs([("moments", texture(storage.format()))]),
         capabilities: native(),
         // Up to radius 12 all is unrolled.
-        trips: if radius > 12 { vec![blocks] } else { Vec::new() },
+        trips: if radius > 12 {
+            vec![blocks]
+        } else {
+            Vec::new()
+        },
     })
 }
 
-fn shade(storage: Storage, float32_filterable: bool) -> Entry {
+/// One mip level: the same code makes all.
+fn downsample(storage: Storage) -> Entry {
+    let moments = TextureDesc {
+        mips: 2,
+        ..texture(storage.format())
+    };
+    Entry {
+        settings: storage.to_string(),
+        node: Box::new(DownsampleMoments::default()),
+        inputs: inputs([("moments", moments)]),
+        capabilities: native(),
+        trips: Vec::new(),
+    }
+}
+
+fn shade(storage: Storage, float32_filterable: bool, mips: u32) -> Entry {
     let lookup = if storage == Storage::Float32 && !float32_filterable {
         "loaded"
     } else {
         "sampled"
     };
     Entry {
-        settings: format!("{storage}, {lookup}"),
+        settings: match mips {
+            1 => format!("{storage}, {lookup}"),
+            _ => format!("{storage}, {lookup}, mip levels"),
+        },
         node: Box::new(ShadeHard::default()),
         inputs: inputs([
-            ("moments", texture(storage.format())),
+            (
+                "moments",
+                TextureDesc {
+                    mips,
+                    ..texture(storage.format())
+                },
+            ),
             ("camera_depth", texture(TextureFormat::Depth32Float)),
         ]),
         capabilities: Capabilities {

@@ -131,7 +131,12 @@ mod tests {
     fn a_table_is_the_same_text_every_time() {
         let text = table().to_json().unwrap_or_default();
         assert_eq!(text, table().to_json().unwrap_or_default());
-        assert_eq!(text.lines().filter(|line| line.contains("\"shader\"")).count(), 4);
+        assert_eq!(
+            text.lines()
+                .filter(|line| line.contains("\"shader\""))
+                .count(),
+            4
+        );
     }
 
     #[test]
@@ -144,7 +149,10 @@ mod tests {
             }
             let error = Table::read(&path).err().map(|error| error.to_string());
             let error = error.unwrap_or_default();
-            assert!(error.contains("table.json") && error.contains("isa --update"), "{error}");
+            assert!(
+                error.contains("table.json") && error.contains("isa --update"),
+                "{error}"
+            );
         }
         Ok(())
     }

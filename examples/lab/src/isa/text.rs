@@ -80,10 +80,7 @@ mod tests {
                 "s_endpgm"
             ]
         );
-        assert_eq!(
-            code.labels,
-            [("BB0".to_owned(), 0), ("BB1".to_owned(), 2)]
-        );
+        assert_eq!(code.labels, [("BB0".to_owned(), 0), ("BB1".to_owned(), 2)]);
         assert_eq!(code.instructions[2].class, Class::Texture);
         assert!(code.instructions[2].operands.contains("dmask:0xf"));
     }

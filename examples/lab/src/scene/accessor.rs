@@ -1,5 +1,7 @@
 //! Reading glTF accessors with every offset checked: the iterators of crate `gltf` trust the file.
 
+use std::cell::Cell;
+
 use gltf::json;
 use gltf::json::accessor::{ComponentType, Type};
 use gltf::json::validation::Checked;
@@ -7,10 +9,16 @@ use gltf::json::validation::Checked;
 /// No scene for this host has more of anything; what asks for more is broken or hostile.
 pub(super) const MOST_ELEMENTS: u64 = 1 << 23;
 
+/// The most elements that are read over all uses of all accessors: positions, normals, coordinates and indices of as many
+/// vertices as there may be, and some more. An accessor without data takes no room in a file, and may be used many times.
+const MOST_READ: u64 = 8 * MOST_ELEMENTS;
+
 /// The document and the bytes of its buffers.
 pub(super) struct Reader<'a> {
     pub(super) root: &'a json::Root,
     pub(super) buffers: &'a [Vec<u8>],
+    /// Elements read so far.
+    read: Cell<u64>,
 }
 
 /// `count` elements of equal size in a buffer, known to lie within it.
@@ -57,6 +65,14 @@ impl Elements<'_> {
 }
 
 impl<'a> Reader<'a> {
+    pub(super) fn new(root: &'a json::Root, buffers: &'a [Vec<u8>]) -> Self {
+        Self {
+            root,
+            buffers,
+            read: Cell::new(0),
+        }
+    }
+
     /// The bytes of buffer view `index`.
     pub(super) fn view(&self, index: usize) -> Result<&'a [u8], String> {
         let view = self
@@ -140,6 +156,12 @@ impl<'a> Reader<'a> {
             return Err(format!(
                 "it has {} elements, more than the limit of {MOST_ELEMENTS}",
                 accessor.count.0
+            ));
+        }
+        self.read.set(self.read.get() + accessor.count.0);
+        if self.read.get() > MOST_READ {
+            return Err(format!(
+                "the accessors up to this one have more than {MOST_READ} elements together, counted once per use"
             ));
         }
         match (accessor.component_type, accessor.type_) {

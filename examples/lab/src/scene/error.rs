@@ -87,6 +87,23 @@ pub enum SceneError {
         /// Its value.
         value: Vec<f32>,
     },
+    /// A vertex lies too far away.
+    #[error(
+        "'{}': {item}, vertex {vertex} lies at {position:?}, further than {limit:e} from the origin; scale the scene down",
+        file.display()
+    )]
+    Far {
+        /// The file.
+        file: PathBuf,
+        /// Mesh and primitive.
+        item: String,
+        /// The vertex's index.
+        vertex: usize,
+        /// Where it is placed.
+        position: [f32; 3],
+        /// The largest coordinate.
+        limit: f32,
+    },
     /// A node cannot be placed.
     #[error("'{}': {node} cannot be placed: {reason}", file.display())]
     Node {

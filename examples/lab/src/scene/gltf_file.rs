@@ -9,6 +9,7 @@ use gltf::material::AlphaMode;
 use super::accessor::Reader;
 use super::primitive::load_primitive;
 use super::resource;
+use super::total::Total;
 use super::{Material, Scene, SceneError};
 
 /// Loads a glTF or GLB file: triangles of the default scene in world space, base colour and alpha mask. What is left
@@ -18,10 +19,7 @@ pub fn load_gltf(file: &Path) -> Result<Scene, SceneError> {
     let gltf = parse(file, &bytes)?;
     let root = gltf.document.as_json();
     let buffers = resource::buffers(file, root, gltf.blob)?;
-    let reader = Reader {
-        root,
-        buffers: &buffers,
-    };
+    let reader = Reader::new(root, &buffers);
     let name = file.file_stem().unwrap_or(file.as_os_str());
     let mut scene = Scene {
         name: name.to_string_lossy().into_owned(),
@@ -33,6 +31,7 @@ pub fn load_gltf(file: &Path) -> Result<Scene, SceneError> {
         warnings: Vec::new(),
     };
     load_materials(file, &gltf.document, &reader, &mut scene)?;
+    let mut total = Total::default();
     for (node, world) in placed_nodes(file, &gltf.document)? {
         let Some(mesh) = node.mesh() else { continue };
         if node.skin().is_some() {
@@ -45,7 +44,12 @@ pub fn load_gltf(file: &Path) -> Result<Scene, SceneError> {
                 mesh.index(),
                 primitive.index()
             );
-            load_primitive(file, &reader, &primitive, &world, &item, &mut scene)?;
+            total.count_primitive(file, &item)?;
+            let mesh = load_primitive(file, &reader, &primitive, &world, &item, &mut scene)?;
+            if let Some(mesh) = mesh {
+                total.count(file, &item, &mesh)?;
+                scene.meshes.push(mesh);
+            }
         }
     }
     if scene.triangles() == 0 {
@@ -57,8 +61,13 @@ pub fn load_gltf(file: &Path) -> Result<Scene, SceneError> {
 }
 
 impl Scene {
-    /// Adds a warning once.
+    /// Adds a warning once. After many, one says that there are more.
     pub(super) fn warn(&mut self, warning: String) {
+        const MOST: usize = 100;
+        let warning = match self.warnings.len() {
+            0..MOST => warning,
+            _ => "further warnings are left out".to_owned(),
+        };
         if !self.warnings.contains(&warning) {
             self.warnings.push(warning);
         }
@@ -209,6 +218,7 @@ fn load_materials(
     scene: &mut Scene,
 ) -> Result<(), SceneError> {
     let mut loaded = std::collections::HashMap::new();
+    let mut image_bytes = 0;
     for material in document.materials() {
         let name = material.name().unwrap_or("unnamed").to_owned();
         let surface = material.pbr_metallic_roughness();
@@ -221,7 +231,18 @@ fn load_materials(
                     Some(&index) => index,
                     None => {
                         let index = scene.images.len();
-                        scene.images.push(resource::image(file, reader, source)?);
+                        let image = resource::image(file, reader, source)?;
+                        image_bytes += image.rgba.len() as u64;
+                        if image_bytes > resource::MOST_BYTES {
+                            return Err(SceneError::TooLarge {
+                                file: file.to_owned(),
+                                item: format!("the images up to image {source}"),
+                                count: image_bytes,
+                                unit: "bytes",
+                                limit: resource::MOST_BYTES,
+                            });
+                        }
+                        scene.images.push(image);
                         loaded.insert(source, index);
                         index
                     }

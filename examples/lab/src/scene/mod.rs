@@ -11,6 +11,7 @@ mod mesh;
 mod primitive;
 mod resource;
 mod shapes;
+mod total;
 
 use std::path::Path;
 

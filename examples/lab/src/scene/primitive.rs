@@ -6,10 +6,13 @@ use glam::{DMat3, DMat4, DVec3};
 use gltf::json::accessor::Type;
 use gltf::mesh::{Mode, Semantic};
 
-use super::accessor::{MOST_ELEMENTS, Reader};
+use super::accessor::Reader;
 use super::{Mesh, Scene, SceneError};
 
-/// Adds one primitive, placed by `world`.
+/// Products of two lengths in a scene, its ground plane among them, fit in single precision.
+const LARGEST_COORDINATE: f32 = 1e15;
+
+/// One primitive, placed by `world`; none where it has no triangles.
 pub(super) fn load_primitive(
     file: &Path,
     reader: &Reader<'_>,
@@ -17,7 +20,7 @@ pub(super) fn load_primitive(
     world: &DMat4,
     item: &str,
     scene: &mut Scene,
-) -> Result<(), SceneError> {
+) -> Result<Option<Mesh>, SceneError> {
     if primitive.morph_targets().next().is_some() {
         scene.warn(format!("{item}: its morph targets are ignored"));
     }
@@ -26,7 +29,7 @@ pub(super) fn load_primitive(
         Mode::Points | Mode::Lines | Mode::LineLoop | Mode::LineStrip
     ) {
         scene.warn(format!("{item}: points and lines are ignored"));
-        return Ok(());
+        return Ok(None);
     }
     let failed = |attribute: &str, accessor: usize, reason| SceneError::Accessor {
         file: file.to_owned(),
@@ -35,7 +38,7 @@ pub(super) fn load_primitive(
     };
     let Some(accessor) = primitive.get(&Semantic::Positions) else {
         scene.warn(format!("{item}: it has no positions and is ignored"));
-        return Ok(());
+        return Ok(None);
     };
     let local: Vec<[f32; 3]> = reader
         .vectors(accessor.index(), Type::Vec3)
@@ -113,6 +116,16 @@ pub(super) fn load_primitive(
         })
         .collect();
     check_finite(file, item, "placed POSITION", &positions)?;
+    let far = |position: &[f32; 3]| position.iter().any(|at| at.abs() > LARGEST_COORDINATE);
+    if let Some(vertex) = positions.iter().position(far) {
+        return Err(SceneError::Far {
+            file: file.to_owned(),
+            item: item.to_owned(),
+            vertex,
+            position: positions[vertex],
+            limit: LARGEST_COORDINATE,
+        });
+    }
     let to_world = DMat3::from_mat4(*world).inverse().transpose();
     let normals = normals.map(|normals| {
         normals
@@ -137,27 +150,7 @@ pub(super) fn load_primitive(
         },
         None => flat(&positions, &uvs, &indices, material),
     };
-    // Flattening multiplies instances, so the whole is limited, not only its parts.
-    let vertices: usize = scene.meshes.iter().map(|mesh| mesh.positions.len()).sum();
-    let all = [
-        ("vertices", vertices + mesh.positions.len()),
-        ("triangles", scene.triangles() + mesh.indices.len() / 3),
-    ];
-    for (unit, count) in all {
-        if count as u64 > MOST_ELEMENTS {
-            return Err(SceneError::TooLarge {
-                file: file.to_owned(),
-                item: format!("the scene up to {item}"),
-                count: count as u64,
-                unit,
-                limit: MOST_ELEMENTS,
-            });
-        }
-    }
-    if !mesh.indices.is_empty() {
-        scene.meshes.push(mesh);
-    }
-    Ok(())
+    Ok((!mesh.indices.is_empty()).then_some(mesh))
 }
 
 fn to_f64([x, y, z]: [f32; 3]) -> DVec3 {

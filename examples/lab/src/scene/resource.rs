@@ -9,7 +9,7 @@ use super::accessor::Reader;
 use super::{Image, SceneError};
 
 /// Files larger than this are refused before they are read.
-const MOST_BYTES: u64 = 1 << 30;
+pub(super) const MOST_BYTES: u64 = 1 << 30;
 /// The largest image edge that every device takes as a texture.
 const MOST_TEXELS: u32 = 8192;
 
@@ -19,7 +19,16 @@ pub(super) fn read_file(file: &Path) -> Result<Vec<u8>, SceneError> {
         file: file.to_owned(),
         source,
     };
-    let length = std::fs::metadata(file).map_err(failed)?.len();
+    let metadata = std::fs::metadata(file).map_err(failed)?;
+    // A device or a pipe may never end.
+    if !metadata.is_file() {
+        let reason = "it is no regular file";
+        return Err(failed(std::io::Error::new(
+            std::io::ErrorKind::InvalidInput,
+            reason,
+        )));
+    }
+    let length = metadata.len();
     if length > MOST_BYTES {
         return Err(SceneError::TooLarge {
             file: file.to_owned(),

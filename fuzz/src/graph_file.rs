@@ -1,0 +1,234 @@
+//! Graph files, compiled for devices and imports of all kinds.
+
+use moment_shadows::{Profile, TextureFormat};
+use moment_shadows_graph::{
+    Capabilities, Graph, Imports, NodeRegistry, Plan, ResourceDesc, TextureDesc, compile,
+};
+use serde_json::{Value, json};
+
+use crate::json::{mutate as mutate_json, mutate_text, strings};
+use crate::text::mutate_bytes;
+use crate::{Random, Target};
+
+/// Graph files.
+pub const TARGET: Target = Target {
+    name: "graph_file",
+    seeds,
+    mutate,
+    try_out,
+};
+
+const EXAMPLES: [&str; 2] = [
+    include_str!("../../examples/hard_shadows.json"),
+    include_str!("../../examples/forward_shading.json"),
+];
+
+/// More ways to write what the examples do not have.
+const FURTHER: [&str; 2] = [
+    r#"{"version": 1, "imports": [{"name": "d", "texture": {"format": "depth16unorm", "size": [64, 48], "layers": 3}}],
+ "nodes": [{"name": "r", "type": "resolve_moments", "properties": {"storage": "float32"}},
+  {"name": "a", "type": "blur_moments", "properties": {"kernel": {"weights": [1, 0.5, 0.25]}}},
+  {"name": "b", "type": "blur_moments", "properties": {"kernel": {"radius": 1, "sigma": 0.5}}}],
+ "edges": [{"from": "d", "to": "r.depth"}, {"from": "r.moments", "to": "a.moments"}, {"from": "a.blurred", "to": "b.moments"}],
+ "outputs": [{"name": "m", "from": "b.blurred"}, {"name": "n", "from": "a.blurred"}]}"#,
+    r#"{"version": 1, "imports": [{"name": "d"}, {"name": "c"}],
+ "nodes": [{"name": "r", "type": "resolve_moments", "properties": {"storage": "float16"}},
+  {"name": "s", "type": "shade_hard", "properties": {"format": "r32float", "technique": "hamburger4"}}],
+ "edges": [{"from": "d", "to": "r.depth"}, {"from": "r.moments", "to": "s.moments"}, {"from": "c", "to": "s.camera_depth"}],
+ "outputs": [{"name": "o", "from": "s.shadow_intensity"}]}"#,
+];
+
+fn seeds() -> Vec<Vec<u8>> {
+    EXAMPLES
+        .iter()
+        .chain(&FURTHER)
+        .map(|text| text.as_bytes().to_vec())
+        .collect()
+}
+
+fn mutate(data: &[u8], seeds: &[Vec<u8>], random: &mut Random) -> Vec<u8> {
+    let Ok(mut document) = serde_json::from_slice::<Value>(data) else {
+        return mutate_bytes(data, seeds, random);
+    };
+    match random.below(16) {
+        0 => mutate_bytes(data, seeds, random),
+        1 => mutate_text(&document.to_string(), random).into_bytes(),
+        2 => {
+            lengthen(&mut document, random);
+            document.to_string().into_bytes()
+        }
+        _ => {
+            let words = words(&document);
+            mutate_json(&mut document, &words, random);
+            document.to_string().into_bytes()
+        }
+    }
+}
+
+/// What may stand where another word stands: those of the document, and those that graph files know.
+fn words(document: &Value) -> Vec<String> {
+    let mut words = Vec::new();
+    strings(document, &mut words);
+    words.truncate(200);
+    words.extend(NodeRegistry::new().type_names().map(str::to_owned));
+    words.extend(TextureFormat::ALL.iter().map(ToString::to_string));
+    words.extend(
+        [
+            "",
+            ".",
+            "..",
+            "a.b.c",
+            "\u{0}",
+            "\u{1f312}",
+            "properties",
+            "version",
+            "texture",
+            "buffer_size",
+            "samples",
+            "layers",
+            "mips",
+            "size",
+            "format",
+            "kernel",
+            "radius",
+            "sigma",
+            "weights",
+            "storage",
+            "unorm16",
+            "float16",
+            "float32",
+            "technique",
+            "hamburger4",
+        ]
+        .map(str::to_owned),
+    );
+    words
+}
+
+/// The array of that name, where the document has one.
+fn array<'a>(document: &'a mut Value, name: &str) -> Option<&'a mut Vec<Value>> {
+    document.get_mut(name)?.as_array_mut()
+}
+
+/// Appends a chain of blurs, each with a kernel and so a shader of its own.
+fn lengthen(document: &mut Value, random: &mut Random) {
+    let from = document.pointer("/edges/0/from").cloned();
+    let mut before = from.unwrap_or_default();
+    let Some(nodes) = array(document, "nodes") else {
+        return;
+    };
+    let mut edges = Vec::new();
+    for number in 0..random.count(3000) {
+        let name = format!("blur {number}");
+        let sigma = 0.5 + number as f64 / 1000.0;
+        nodes.push(json!({ "name": name, "type": "blur_moments", "properties": { "kernel": { "radius": 1 + number % 9, "sigma": sigma } } }));
+        edges.push(json!({ "from": before, "to": format!("{name}.moments") }));
+        before = json!(format!("{name}.blurred"));
+    }
+    if let Some(all) = array(document, "edges") {
+        all.extend(edges);
+    }
+    if let Some(outputs) = array(document, "outputs") {
+        outputs.push(json!({ "name": "lengthened", "from": before }));
+    }
+}
+
+/// Reads a graph file and compiles it for a device and imports that depend on its bytes.
+pub fn try_out(data: &[u8]) {
+    let Ok(text) = std::str::from_utf8(data) else {
+        return;
+    };
+    let graph = match Graph::parse(text, &NodeRegistry::new()) {
+        Ok(graph) => graph,
+        Err(error) => {
+            assert!(!error.message.is_empty() && !error.to_string().is_empty());
+            return;
+        }
+    };
+    let mut random = Random::of_input(data);
+    let capabilities = capabilities(&mut random);
+    let imports = imports(&graph, &mut random);
+    match compile(&graph, &capabilities, &imports) {
+        Err(error) => assert!(!error.message.is_empty() && !error.to_string().is_empty()),
+        Ok(plan) => {
+            check(&plan);
+            let again = compile(&graph, &capabilities, &imports);
+            assert_eq!(again.as_ref(), Ok(&plan), "compiling is repeatable");
+        }
+    }
+}
+
+fn check(plan: &Plan) {
+    plan.check().expect("a compiled plan is whole");
+    let json = serde_json::to_string(plan).expect("a plan can be written");
+    let read: Plan = serde_json::from_str(&json).expect("a plan can be read");
+    assert_eq!(&read, plan, "a plan is read as it was written");
+    assert!(!plan.to_string().is_empty());
+    let _ = plan.bytes_resident();
+    let block = plan.parameters.initial();
+    assert_eq!(
+        block.len(),
+        plan.parameters.size as usize,
+        "a view's block has the plan's size"
+    );
+}
+
+/// Mostly what real devices offer.
+fn capabilities(random: &mut Random) -> Capabilities {
+    let profile = Profile::ALL[random.below(3)];
+    let mut capabilities = Capabilities::of_profile(profile);
+    capabilities.float32_filterable = random.once_in(2);
+    if random.once_in(3) {
+        capabilities.depth_samples = vec![1, 2, 4, 8];
+    }
+    if random.once_in(4) {
+        capabilities.bind_group = [1, 3, 255, u32::MAX][random.below(4)];
+    }
+    if random.once_in(4) {
+        capabilities.uniform_alignment = [0, 1, 16, 48, 1 << 31, u32::MAX][random.below(6)];
+    }
+    if random.once_in(4) {
+        capabilities.max_texture_size = [0, 1, 16, 16384, u32::MAX][random.below(5)];
+        capabilities.max_texture_layers = [0, 1, 2048, u32::MAX][random.below(4)];
+        capabilities.max_workgroups = [0, 1, 8, u32::MAX][random.below(4)];
+    }
+    capabilities
+}
+
+/// Descriptions of some imports.
+fn imports(graph: &Graph, random: &mut Random) -> Imports {
+    const COUNTS: [u32; 8] = [1, 1, 1, 2, 4, 8, 0, u32::MAX];
+    const SIZES: [u32; 9] = [1, 7, 64, 640, 1024, 8192, 0, 65_536, u32::MAX];
+    let mut imports = Imports::new();
+    for import in graph.imports.iter().take(16) {
+        if random.below(3) > 0 {
+            continue;
+        }
+        let desc = if random.once_in(8) {
+            ResourceDesc::Buffer {
+                size: [0, 16, u64::MAX][random.below(3)],
+            }
+        } else {
+            let formats = TextureFormat::ALL;
+            let format = if random.once_in(3) {
+                formats[random.below(formats.len())]
+            } else {
+                TextureFormat::Depth32Float
+            };
+            ResourceDesc::Texture(TextureDesc {
+                layers: COUNTS[random.below(COUNTS.len())],
+                mips: COUNTS[random.below(COUNTS.len())],
+                samples: COUNTS[random.below(COUNTS.len())],
+                ..TextureDesc::new(
+                    format,
+                    [
+                        SIZES[random.below(SIZES.len())],
+                        SIZES[random.below(SIZES.len())],
+                    ],
+                )
+            })
+        };
+        imports.insert(import.name.clone(), desc);
+    }
+    imports
+}
