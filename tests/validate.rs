@@ -388,10 +388,10 @@ fn text_that_no_compiler_survives_is_refused() {
     for (longest, longer, expected, line) in cases {
         core(&longest).unwrap_or_else(|error| panic!("{expected}: {error}"));
         match core(&longer).unwrap_err() {
-            ValidateError::TooDeep { what, at } => {
+            ValidateError::TooMany { limit, what, at } => {
                 assert_eq!(
-                    (what, at.file.as_str(), at.line),
-                    (expected, "user.wgsl", line)
+                    (limit, what, at.file.as_str(), at.line),
+                    (LONGEST_CHAIN, expected, "user.wgsl", line)
                 );
             }
             other => panic!("another error: {other}"),
