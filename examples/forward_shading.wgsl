@@ -1,6 +1,6 @@
-import moment_shadows::hamburger::{hamburger_shadow_intensity};
+import moment_shadows::hamburger::{hamburger_shadow_intensity_of_texel};
 import moment_shadows::leak_reduction::{leak_reduction_full_shadow};
-import moment_shadows::moments::{MOMENTS_BIAS_FLOAT16, MOMENTS_STORAGE_FLOAT16, moments_from_texel};
+import moment_shadows::moments::{MOMENTS_STORAGE_FLOAT16};
 import moment_shadows::receiver_bias::{ReceiverBias, receiver_bias_depth, receiver_bias_gradient_from_cosine};
 
 // A forward renderer's own shader: a floor with boxes on it, lit by a sun whose filtered map it samples itself.
@@ -74,8 +74,8 @@ fn shadow_intensity(world: vec3f, cosine: f32) -> f32 {
     let gradient = receiver_bias_gradient_from_cosine(cosine, frame.light.w);
     let fragment_depth = dot(frame.moment_depth, vec4f(world, 1.0)) - receiver_bias_depth(frame.receiver_bias, gradient);
     let texel = textureSampleLevel(shadow_map, shadow_sampler, uv, 0.0);
-    let moments = moments_from_texel(texel, MOMENTS_STORAGE_FLOAT16);
-    return leak_reduction_full_shadow(hamburger_shadow_intensity(moments, fragment_depth, MOMENTS_BIAS_FLOAT16), 0.98);
+    let intensity = hamburger_shadow_intensity_of_texel(texel, fragment_depth, MOMENTS_STORAGE_FLOAT16);
+    return leak_reduction_full_shadow(intensity, 0.98);
 }
 
 @fragment

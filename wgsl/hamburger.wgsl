@@ -27,6 +27,7 @@ struct HamburgerSupport {
     above: bool,
 }
 
+// The support of the extremal distribution through the fragment at x, where P2(x) is `second_polynomial`.
 fn hamburger_support(factor: HankelFactor, x: f32, second_polynomial: f32) -> HamburgerSupport {
     // -a y^2 + b y + c / 4 = 0 with a, c > 0, so both roots are real and 0 lies between them.
     let a = max(-second_polynomial, HAMBURGER_SMALLEST_LEADING_COEFFICIENT);

@@ -1,4 +1,4 @@
-import moment_shadows::hamburger::{hamburger_bounds};
+import moment_shadows::hamburger::{hamburger_bounds, hamburger_lower_bound};
 
 struct BatchInput {
     biased: vec4f,
@@ -7,8 +7,10 @@ struct BatchInput {
     padding: vec2f,
 }
 
-alias BatchOutput = vec2f;
+// The bounds, and the lower one by the way that shading takes.
+alias BatchOutput = vec4f;
 
 fn batch(input: BatchInput) -> BatchOutput {
-    return hamburger_bounds(input.biased, input.depth, input.alpha);
+    let lower = hamburger_lower_bound(input.biased, input.depth, input.alpha);
+    return vec4f(hamburger_bounds(input.biased, input.depth, input.alpha), lower, 0.0);
 }

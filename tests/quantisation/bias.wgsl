@@ -1,4 +1,4 @@
-import moment_shadows::moments::{moments_apply_bias, moments_bias_of};
+import moment_shadows::moments::{moments_apply_bias, moments_bias_of, moments_biased_from_texel, moments_clamp, moments_from_depth, moments_from_texel, moments_to_texel};
 
 struct BatchInput {
     moments: vec4f,
@@ -11,9 +11,22 @@ struct BatchOutput {
     alpha: f32,
     beta: f32,
     padding: vec2f,
+    // What a texel of the moments gives: bias and all in one step, and one step after the other.
+    at_once: vec4f,
+    in_turn: vec4f,
 }
 
 fn batch(input: BatchInput) -> BatchOutput {
     let bias = moments_bias_of(input.storage);
-    return BatchOutput(moments_apply_bias(input.moments, bias), bias.alpha, bias.beta, vec2f(0.0));
+    // Two surfaces: moments that need no clamping.
+    let valid = mix(moments_from_depth(input.moments.x), moments_from_depth(input.moments.z), input.moments.y);
+    let texel = moments_to_texel(valid, input.storage);
+    return BatchOutput(
+        moments_apply_bias(input.moments, bias),
+        bias.alpha,
+        bias.beta,
+        vec2f(0.0),
+        moments_biased_from_texel(texel, input.storage),
+        moments_apply_bias(moments_clamp(moments_from_texel(texel, input.storage)), bias),
+    );
 }

@@ -1,6 +1,6 @@
 import moment_shadows::depth::{DepthConversion, depth_to_moment_depth};
-import moment_shadows::moments::{MOMENTS_BIAS_FLOAT32, moments_apply_bias, moments_bias_of, moments_clamp, moments_from_depth, moments_from_texel, moments_to_texel};
-import moment_shadows::hamburger::{hamburger_bounds, hamburger_shadow_intensity};
+import moment_shadows::moments::{MOMENTS_BIAS_FLOAT32, MOMENTS_STORAGE_FLOAT16, MOMENTS_STORAGE_FLOAT32, MOMENTS_STORAGE_UNORM16, moments_apply_bias, moments_bias_of, moments_clamp, moments_from_depth, moments_from_texel, moments_to_texel};
+import moment_shadows::hamburger::{hamburger_bounds, hamburger_shadow_intensity, hamburger_shadow_intensity_of_texel};
 
 // Random and hostile inputs, made on the device: one invocation tries `count` of them and keeps the first that fails.
 struct BatchInput {
@@ -141,7 +141,7 @@ fn batch(input: BatchInput) -> BatchOutput {
         let kind = index % CLASSES;
         let texel = random_moments(kind);
         let depth = random_depth(texel);
-        var results: array<f32, 12>;
+        var results: array<f32, 15>;
         for (var storage = 0u; storage < 3u; storage++) {
             let bias = moments_bias_of(storage);
             // Moments as the solver may get them: out of any storage, or given by a host.
@@ -152,6 +152,10 @@ fn batch(input: BatchInput) -> BatchOutput {
             results[3u + 2u * storage] = bounds.x;
             results[4u + 2u * storage] = bounds.y;
         }
+        // Texels as textures can hold them: unorm channels are in [0, 1].
+        results[12] = hamburger_shadow_intensity_of_texel(saturate(texel), depth, MOMENTS_STORAGE_UNORM16);
+        results[13] = hamburger_shadow_intensity_of_texel(texel, depth, MOMENTS_STORAGE_FLOAT16);
+        results[14] = hamburger_shadow_intensity_of_texel(texel, depth, MOMENTS_STORAGE_FLOAT32);
         // Moments that no bias has pulled back.
         results[9] = hamburger_bounds(moments_clamp(texel), depth, MOMENTS_BIAS_FLOAT32.alpha).x;
         // Depth of any bits on its way into a map.
@@ -166,7 +170,7 @@ fn batch(input: BatchInput) -> BatchOutput {
         results[10] = 0.5 * (moment_depth + 1.0);
         let channels = moments_to_texel(moments_from_depth(moment_depth), random_bits() % 2u);
         results[11] = select(channels.x, abs(channels.x) * 2.0, channels.x < 0.0);
-        for (var result = 0u; result < 12u; result++) {
+        for (var result = 0u; result < 15u; result++) {
             if is_fault(results[result]) {
                 if output.faults == 0u {
                     output.first_class = kind;

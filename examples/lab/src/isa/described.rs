@@ -97,6 +97,9 @@ impl Formats<'_> {
             BindingResource::Layer(slot)
             | BindingResource::Layers(slot)
             | BindingResource::StorageLayer(slot) => self.of(slot),
+            BindingResource::Level(level) | BindingResource::StorageLevel(level) => {
+                self.of(&level.slot)
+            }
             _ => None,
         };
         pass.bindings

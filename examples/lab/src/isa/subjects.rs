@@ -65,7 +65,7 @@ pub fn subjects() -> Result<Vec<Subject>, IsaError> {
             include_str!("reference/bilinear.wgsl"),
         )?,
         reference(
-            "reference: Hamburger 4 with one fetch, dequantisation, bias and leak reduction",
+            "reference: Hamburger 4 (fetch, decoding, bias, leak reduction)",
             include_str!("reference/hamburger.wgsl"),
         )?,
     ];
@@ -75,30 +75,35 @@ pub fn subjects() -> Result<Vec<Subject>, IsaError> {
     Ok(subjects)
 }
 
-/// The settings of every node, for every storage.
-fn nodes() -> Result<Vec<Entry>, IsaError> {
+/// The settings of every node, for every storage, and of what loops over regions and views for one.
+pub(super) fn nodes() -> Result<Vec<Entry>, IsaError> {
     let mut entries = Vec::new();
     for storage in Storage::ALL {
         for samples in [1, 4] {
             entries.push(resolve(storage, samples));
         }
         for radius in [4, 12, 32, 64] {
-            entries.push(blur(storage, radius)?);
+            entries.push(blur(storage, radius, 1)?);
         }
         entries.push(downsample(storage));
-        for mips in [1, 10] {
-            entries.push(shade(storage, false, mips));
-            // Other storages can be filtered everywhere.
-            if storage == Storage::Float32 {
-                entries.push(shade(storage, true, mips));
-            }
-        }
+        entries.push(shade(storage, 1, 1, false));
+        entries.push(shade(storage, MIPS, 1, false));
     }
+    // Other storages can be filtered everywhere.
+    entries.push(shade(Storage::Float32, 1, 1, true));
+    entries.push(blur(Storage::Unorm16, 4, MANY)?);
+    entries.push(shade(Storage::Unorm16, 1, MANY, false));
     Ok(entries)
 }
 
 /// Texels per side of all maps. The code does not depend on it.
 const SIZE: [u32; 2] = [1024, 1024];
+
+/// Mip levels of a map that has them.
+const MIPS: u32 = 6;
+
+/// Regions of an atlas, and views of a node that has several.
+const MANY: u32 = 4;
 
 fn texture(format: TextureFormat) -> TextureDesc {
     TextureDesc::new(format, SIZE)
@@ -119,11 +124,12 @@ fn resolve(storage: Storage, samples: u32) -> Entry {
         samples,
         ..texture(TextureFormat::Depth32Float)
     };
+    let mip_levels = MipLevels::default();
     Entry {
         settings: format!("{storage}, {samples} samples"),
         node: Box::new(ResolveMoments {
             storage,
-            mip_levels: MipLevels::default(),
+            mip_levels,
         }),
         inputs: inputs([("depth", depth)]),
         capabilities: native(),
@@ -131,19 +137,29 @@ fn resolve(storage: Storage, samples: u32) -> Entry {
     }
 }
 
-fn blur(storage: Storage, radius: u32) -> Result<Entry, IsaError> {
+fn blur(storage: Storage, radius: u32, regions: u32) -> Result<Entry, IsaError> {
     let kernel = KernelProperty {
         radius: Some(radius),
         ..KernelProperty::default()
     };
-    let settings = format!("{storage}, radius {radius}");
-    let blocks = kernel
-        .kernel()
-        .map(|kernel| BlurParameters::new(&kernel).blocks)
-        .map_err(|error| IsaError::Node {
+    let mut settings = format!("{storage}, radius {radius}");
+    let mut trips = Vec::new();
+    if regions > 1 {
+        // A workgroup looks for its region; it may be the last.
+        settings += &format!(", {regions} regions");
+        trips.push(regions);
+    }
+    if radius > LARGEST_UNROLLED_RADIUS {
+        let weights = kernel.kernel().map_err(|error| IsaError::Node {
             shader: settings.clone(),
             error,
         })?;
+        trips.push(BlurParameters::new(&weights).blocks);
+    }
+    let moments = TextureDesc {
+        regions,
+        ..texture(storage.format())
+    };
     Ok(Entry {
         settings,
         node: Box::new(BlurMoments {
@@ -151,59 +167,64 @@ fn blur(storage: Storage, radius: u32) -> Result<Entry, IsaError> {
             per_frame: false,
             mip_levels: MipLevels::default(),
         }),
-        inputs: inputs([("moments", texture(storage.format()))]),
+        inputs: inputs([("moments", moments)]),
         capabilities: native(),
-        // Up to radius 12 all is unrolled.
-        trips: if radius > 12 {
-            vec![blocks]
-        } else {
-            Vec::new()
-        },
+        trips,
     })
 }
 
-/// One mip level: the same code makes all.
+/// Up to this radius the blur has no loop.
+const LARGEST_UNROLLED_RADIUS: u32 = 12;
+
 fn downsample(storage: Storage) -> Entry {
+    // Every level but the first has a pass with the same shader.
     let moments = TextureDesc {
         mips: 2,
         ..texture(storage.format())
     };
     Entry {
         settings: storage.to_string(),
-        node: Box::new(DownsampleMoments::default()),
+        node: Box::new(DownsampleMoments {}),
         inputs: inputs([("moments", moments)]),
         capabilities: native(),
         trips: Vec::new(),
     }
 }
 
-fn shade(storage: Storage, float32_filterable: bool, mips: u32) -> Entry {
-    let lookup = if storage == Storage::Float32 && !float32_filterable {
-        "loaded"
-    } else {
-        "sampled"
+fn shade(storage: Storage, mips: u32, views: u32, float32_filterable: bool) -> Entry {
+    let node = ShadeHard {
+        views,
+        ..ShadeHard::default()
+    };
+    let mut settings = storage.to_string();
+    let sampled = storage != Storage::Float32 || float32_filterable;
+    settings += if sampled { ", sampled" } else { ", loaded" };
+    let mut trips = Vec::new();
+    if views > 1 {
+        settings += &format!(", {views} views");
+        trips.push(views);
+    }
+    if mips > 1 {
+        settings += ", mip levels";
+        // Each of at most so many probes looks for the coarsest level with texels: the last one, in a large region.
+        trips.extend([u32::from(node.anisotropy), 1]);
+    }
+    let moments = TextureDesc {
+        mips,
+        ..texture(storage.format())
     };
     Entry {
-        settings: match mips {
-            1 => format!("{storage}, {lookup}"),
-            _ => format!("{storage}, {lookup}, mip levels"),
-        },
-        node: Box::new(ShadeHard::default()),
+        settings,
+        node: Box::new(node),
         inputs: inputs([
-            (
-                "moments",
-                TextureDesc {
-                    mips,
-                    ..texture(storage.format())
-                },
-            ),
+            ("moments", moments),
             ("camera_depth", texture(TextureFormat::Depth32Float)),
         ]),
         capabilities: Capabilities {
             float32_filterable,
             ..native()
         },
-        trips: Vec::new(),
+        trips,
     }
 }
 
@@ -230,4 +251,49 @@ fn reference(name: &str, text: &str) -> Result<Subject, IsaError> {
         texel_bytes: 8,
         trips: Vec::new(),
     })
+}
+
+#[cfg(test)]
+mod tests {
+    use std::collections::BTreeSet;
+
+    use moment_shadows_graph::NodeRegistry;
+
+    use super::*;
+
+    #[test]
+    fn every_node_type_is_in_the_list_and_every_name_once() -> Result<(), IsaError> {
+        let subjects = subjects()?;
+        let names: BTreeSet<&str> = subjects
+            .iter()
+            .map(|subject| subject.name.as_str())
+            .collect();
+        assert_eq!(names.len(), subjects.len());
+        for node in NodeRegistry::new().type_names() {
+            let begins = |name: &&str| name.starts_with(&format!("{node}, "));
+            assert!(names.iter().any(begins), "no shader of '{node}'");
+        }
+        Ok(())
+    }
+
+    #[test]
+    fn a_subject_knows_its_outputs_its_texels_and_its_loops() -> Result<(), IsaError> {
+        let subjects = subjects()?;
+        let find = |name: &str| subjects.iter().find(|subject| subject.name == name);
+        let blur = find("blur_moments, float32, radius 64: blur along x");
+        let blur = blur.map(|blur| (&blur.work, blur.texel_bytes, &blur.trips));
+        let expected = SubjectWork::Compute {
+            // 64 invocations of 16 texels.
+            texels_per_workgroup: 1024,
+        };
+        // 128 + 16 taps in blocks of 16.
+        assert_eq!(blur, Some((&expected, 16, &vec![9])));
+        let shade = find("shade_hard, unorm16, sampled: shade");
+        let shade = shade.map(|shade| (&shade.work, shade.texel_bytes));
+        let expected = SubjectWork::Fragment {
+            targets: vec![TextureFormat::R8Unorm],
+        };
+        assert_eq!(shade, Some((&expected, 8)));
+        Ok(())
+    }
 }
