@@ -62,6 +62,16 @@ run_spirv_val() {
   [ "$refused" = 0 ]
 }
 
+# What a compiler for GPUs makes of every shader, against the table that is kept: Mesa's driver for AMD chips compiles
+# without one.
+run_isa() {
+  if ! compgen -G '/usr/share/vulkan/icd.d/radeon_icd*.json' >/dev/null && command -v apt-get >/dev/null; then
+    update_packages
+    as_root env DEBIAN_FRONTEND=noninteractive apt-get install -y -qq mesa-vulkan-drivers >/dev/null
+  fi
+  lab isa --check
+}
+
 # SwiftShader, a rasteriser that shares nothing with Mesa: its driver file, in $work/swiftshader. Chromium carries it; the
 # browser itself is not installed.
 need_swiftshader() {
@@ -150,5 +160,6 @@ check() {
   step "Every linked shader as WGSL and SPIR-V" write_shaders
   step "A second compiler: Tint" run_tint
   step "The SPIR-V: spirv-val" run_spirv_val
+  step "What the code costs: instructions for two AMD chips" run_isa
   step "A second rasteriser: the tests of numerics on SwiftShader" numerics_on_swiftshader
 }
