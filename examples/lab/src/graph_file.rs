@@ -112,7 +112,9 @@ impl GraphFile {
         }
         let kernel = serde_json::json!({ "radius": radius });
         let text = with_property(&self.text, "blur_moments", "kernel", kernel);
-        Self::parse(&self.name, text, None)
+        let file = Self::parse(&self.name, text, None)?;
+        file.kernel()?;
+        Ok(file)
     }
 
     /// The same graph, which also gives out the filtered map that its `shade_hard` node looks up, and the output's name.

@@ -220,9 +220,10 @@ impl fmt::Display for ErrorReport {
             "{:<26} {:>10} {:>10} {:>10} {:>10} {:>10} {:>10}",
             "mean absolute error", "samples", "mean abs", "leaking", "too dark", "95 %", "maximum"
         )?;
-        let rows: [(&str, &ErrorFigures); 5] = [
+        let rows: [(&str, &ErrorFigures); 6] = [
             ("all surfaces, shading", &surfaces.shading),
-            ("  with empty ground", &surfaces.shading_with_empty_ground),
+            ("  facing the light", &surfaces.shading_facing),
+            ("  on all rays", &surfaces.shading_all_rays),
             ("all surfaces, distribution", &surfaces.distribution),
             ("picture, facing the light", &picture.facing),
             ("  in the penumbra", &picture.penumbra),

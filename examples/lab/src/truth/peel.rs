@@ -37,6 +37,9 @@ pub struct LightSurface {
     pub distance: f64,
     /// Length of the gradient of distance along the axis per texel of the map; infinite edge-on.
     pub distance_per_texel: f64,
+    /// Whether it shows the light its front (the triangle's vertices run counter-clockwise as seen from there), or is of
+    /// a material that has two.
+    pub faces_light: bool,
     /// Whether it belongs to the ground, which lights are not fitted to.
     pub ground: bool,
 }
@@ -165,17 +168,22 @@ impl<'a> Peeler<'a> {
         let mesh = &self.scene.meshes[triangle.mesh as usize];
         let [a, b, c] = triangle.corners.map(|corner| position(mesh, corner));
         let slope = triangle.seen.distance_gradient(centre(texel)).length();
+        let position = a * hit.weights.x + b * hit.weights.y + c * hit.weights.z;
+        let normal = (b - a).cross(c - a).normalize_or_zero();
+        let material = self.scene.materials.get(mesh.material);
+        let front = normal.dot(self.projection.light.towards_light(position)) > 0.0;
         LightSurface {
             texel,
             layer,
-            position: a * hit.weights.x + b * hit.weights.y + c * hit.weights.z,
-            normal: (b - a).cross(c - a).normalize_or_zero(),
+            position,
+            normal,
             distance: hit.distance,
             distance_per_texel: if slope.is_finite() {
                 slope
             } else {
                 f64::INFINITY
             },
+            faces_light: front || material.is_some_and(|material| material.double_sided),
             ground: mesh.ground,
         }
     }
