@@ -24,6 +24,18 @@ fn disagreement(name: &str, light: LightChoice) -> f64 {
     let stored = read_depth_samples(&gpu, &frame.light_map.texture).unwrap();
     let map = frame.desc.map;
     let surfaces = Peeler::new(&scene, light, map).unwrap().rows(0..map[1]);
+    // Casters are closed, or have two fronts: what the light sees first of them is a front.
+    let of_casters = surfaces
+        .iter()
+        .filter(|surface| surface.layer == 0 && !surface.ground);
+    let [fronts, all] = of_casters.fold([0, 0], |[fronts, all], surface| {
+        [fronts + u32::from(surface.faces_light), all + 1]
+    });
+    println!("{name}: {fronts} fronts of {all} surfaces");
+    assert!(
+        f64::from(fronts) > 0.99 * f64::from(all),
+        "{name}: {fronts} of {all}"
+    );
     let mut first = vec![(1.0, 0.0); stored.values.len()];
     for surface in surfaces.iter().filter(|surface| surface.layer == 0) {
         let [x, y] = surface.texel;
