@@ -112,7 +112,7 @@ fn points_are_evaluated_as_by_shade_hard() {
         let evaluation = Evaluation {
             receiver_bias: ReceiverBias::NONE,
             leak_reduction: LeakReduction::DEFAULT,
-            moment_bias: storage.moment_bias(),
+            moment_bias: None,
         };
         let evaluator = MapEvaluator::new(&gpu, map, storage).unwrap();
         let found = evaluator.run(evaluation, &points).unwrap();

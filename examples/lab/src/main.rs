@@ -447,13 +447,13 @@ fn run_isa(arguments: &IsaArguments) -> Result<ExitCode, Box<dyn std::error::Err
 }
 
 fn print<T: serde::Serialize + std::fmt::Display>(
-    cost: &T,
+    report: &T,
     json: bool,
 ) -> Result<(), serde_json::Error> {
     if json {
-        println!("{}", serde_json::to_string_pretty(cost)?);
+        println!("{}", serde_json::to_string_pretty(report)?);
     } else {
-        print!("{cost}");
+        print!("{report}");
     }
     Ok(())
 }

@@ -10,7 +10,7 @@
 //!   per texel is this mean times surfaces per ray. Rays that meet nothing but the ground are left out, unless said
 //!   otherwise: they would dilute the mean by as much as there happens to be empty ground around a scene.
 //! - **Estimate.** Made on the device by the functions that `shade_hard` calls, from the filtered map of the graph, at the
-//!   texel's centre.
+//!   texel's centre and on mip level 0: one ray stands for one texel.
 //! - **Truth.** The share of samples of the *unfiltered* depth map of the device, under the same kernel and with all
 //!   its samples per texel, that lie in front of the surface: [`pcf_at`].
 //!
@@ -232,13 +232,13 @@ impl SurfaceTruth {
 }
 
 impl Evaluation {
-    /// That of `shade_hard` in a graph on a frame, for a map in `storage`.
-    pub fn shading(frame: &Frame, file: &GraphFile, storage: Storage) -> Result<Self, LabError> {
+    /// That of `shade_hard` in a graph on a frame.
+    pub fn shading(frame: &Frame, file: &GraphFile) -> Result<Self, LabError> {
         let parameters = shade_parameters(&frame.desc, file)?;
         Ok(Self {
             receiver_bias: parameters.receiver_bias,
             leak_reduction: parameters.leak_reduction,
-            moment_bias: storage.moment_bias(),
+            moment_bias: None,
         })
     }
 }

@@ -123,8 +123,10 @@ impl ErrorSubject {
         };
         let map = graph.bindings.output(&map).ok_or_else(unsuitable)?;
         let storage = storage_of(map).ok_or_else(unsuitable)?;
-        let mut shading = Evaluation::shading(&self.frame, &file, storage)?;
-        shading.moment_bias = moment_bias.unwrap_or(shading.moment_bias);
+        let shading = Evaluation {
+            moment_bias,
+            ..Evaluation::shading(&self.frame, &file)?
+        };
         let shadow = graph.read_shadow(gpu, &file)?;
         Ok(GraphErrors {
             storage,

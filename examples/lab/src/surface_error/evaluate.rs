@@ -9,31 +9,32 @@ use crate::error::LabError;
 use crate::gpu::Gpu;
 
 const SHADER: &str = include_str!("evaluate.wgsl");
-const SAMPLED_LOOKUP: &str = include_str!("map_lookup_sampled.wgsl");
-const LOADED_LOOKUP: &str = include_str!("map_lookup_loaded.wgsl");
+const SAMPLED_LOOKUP: &str = include_str!("point_lookup_sampled.wgsl");
+const LOADED_LOOKUP: &str = include_str!("point_lookup_loaded.wgsl");
 const LABEL: &str = "lab/surface shadows";
 
 /// Points of one dispatch: 16 MiB of them, 16,384 workgroups.
 const POINTS: usize = 1 << 20;
 const WORKGROUP: u32 = 64;
 
-/// How a fragment is evaluated, `Parameters` of the shader.
-#[derive(Clone, Copy, Debug, PartialEq, Pod, Zeroable)]
-#[repr(C)]
+/// How a fragment is evaluated.
+#[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Evaluation {
     /// How far fragments move towards the light.
     pub receiver_bias: ReceiverBias,
     /// What is done about light leaking after the bound.
     pub leak_reduction: LeakReduction,
-    /// The bias of the filtered moments.
-    pub moment_bias: MomentBias,
+    /// A bias of the filtered moments in place of that of their storage; its `alpha` is above 0.
+    pub moment_bias: Option<MomentBias>,
 }
 
-/// `Parameters` as a uniform buffer lays it out: the struct is a multiple of 16 bytes.
+/// `Parameters` of the shader.
 #[derive(Clone, Copy, Pod, Zeroable)]
 #[repr(C)]
 struct Uniform {
-    evaluation: Evaluation,
+    receiver_bias: ReceiverBias,
+    leak_reduction: LeakReduction,
+    moment_bias: MomentBias,
     padding: [f32; 2],
 }
 
@@ -74,7 +75,7 @@ impl<'a> MapEvaluator<'a> {
         let shader = link(
             source("evaluate.wgsl", SHADER),
             &[
-                source("map_lookup", lookup),
+                source("point_lookup", lookup),
                 source("specialization", &specialization),
             ],
         )?;
@@ -137,8 +138,14 @@ impl<'a> MapEvaluator<'a> {
                 usage,
             })
         };
+        let storage_s_own = MomentBias {
+            alpha: 0.0,
+            beta: 0.0,
+        };
         let uniform = Uniform {
-            evaluation,
+            receiver_bias: evaluation.receiver_bias,
+            leak_reduction: evaluation.leak_reduction,
+            moment_bias: evaluation.moment_bias.unwrap_or(storage_s_own),
             padding: [0.0; 2],
         };
         let parameters = filled(bytemuck::bytes_of(&uniform), wgpu::BufferUsages::UNIFORM);

@@ -1,7 +1,7 @@
-import moment_shadows::hamburger::{hamburger_shadow_intensity};
+import moment_shadows::hamburger::{hamburger_shadow_intensity, hamburger_shadow_intensity_of_texel};
 import moment_shadows::leak_reduction::{LeakReduction, leak_reduction_apply};
-import moment_shadows::map_lookup::{map_lookup};
 import moment_shadows::moments::{MomentBias, moments_from_texel};
+import moment_shadows::point_lookup::{point_lookup};
 import moment_shadows::receiver_bias::{ReceiverBias, receiver_bias_depth};
 import moment_shadows::specialization::{STORAGE};
 
@@ -10,6 +10,7 @@ import moment_shadows::specialization::{STORAGE};
 struct Parameters {
     receiver_bias: ReceiverBias,
     leak_reduction: LeakReduction,
+    // In place of that of the storage, if its alpha is not 0.
     moment_bias: MomentBias,
 }
 
@@ -33,7 +34,11 @@ fn evaluate(@builtin(global_invocation_id) id: vec3u) {
     }
     let point = points[id.x];
     let fragment_depth = min(point.moment_depth, 1.0) - receiver_bias_depth(parameters.receiver_bias, point.gradient);
-    let moments = moments_from_texel(map_lookup(point.uv, 0u), STORAGE);
-    let intensity = hamburger_shadow_intensity(moments, fragment_depth, parameters.moment_bias);
+    let texel = point_lookup(point.uv);
+    var intensity = hamburger_shadow_intensity_of_texel(texel, fragment_depth, STORAGE);
+    if parameters.moment_bias.alpha > 0.0 {
+        let moments = moments_from_texel(texel, STORAGE);
+        intensity = hamburger_shadow_intensity(moments, fragment_depth, parameters.moment_bias);
+    }
     intensities[id.x] = leak_reduction_apply(intensity, parameters.leak_reduction);
 }
