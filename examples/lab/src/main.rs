@@ -7,7 +7,7 @@ use clap::{Parser, Subcommand, ValueEnum};
 use moment_shadows::{Profile, Storage};
 use moment_shadows_lab::command::render::{LightChoice, RenderOptions};
 use moment_shadows_lab::command::{
-use moment_shadows_lab::command::{};
+    cost, error, error_table, graph, isa, measure, minification, render, shaders, validate,
 };
 use moment_shadows_lab::gpu::Gpu;
 use moment_shadows_lab::isa::child;
