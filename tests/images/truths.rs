@@ -92,7 +92,7 @@ fn check(name: &str, light: LightChoice) {
         );
         assert_eq!(found.error.nan_pixels, 0, "{name} {light:?} {storage}");
         // Enough of the picture is in half shadow for the figures to mean something.
-        assert!(found.error.penumbra.pixels > 3000, "{name} {light:?}");
+        assert!(found.error.penumbra.samples > 3000, "{name} {light:?}");
         assert!(
             rounding < limits.rounding,
             "{name} {light:?} {storage}: {rounding}"

@@ -8,11 +8,11 @@ fn error_figures_are_those_of_the_definition() {
     let estimate = [0.25, 0.5, 0.5, 0.25, f32::NAN];
     let comparison = compare(&estimate, &truth, &[true, true, true, true, false]).unwrap();
     let facing = comparison.facing;
-    assert_eq!(facing.pixels, 4);
+    assert_eq!(facing.samples, 4);
     assert_eq!((facing.leaking, facing.overdarkening), (0.1875, 0.0625));
     assert_eq!(facing.mean_absolute, 0.25);
     assert_eq!((facing.percentile_95, facing.maximum), (0.5, 0.5));
-    assert_eq!(comparison.penumbra.pixels, 2);
+    assert_eq!(comparison.penumbra.samples, 2);
     assert_eq!(comparison.penumbra.mean_absolute, 0.125);
     assert_eq!(comparison.nan_pixels, 1);
     assert_eq!(comparison.picture_mean_absolute, 2.0 / 5.0);

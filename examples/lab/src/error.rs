@@ -9,6 +9,7 @@ use crate::light::LightError;
 use crate::metric::MetricError;
 use crate::picture::PictureError;
 use crate::scene::SceneError;
+use crate::truth::peel::PeelError;
 use crate::truth::surface::TruthError;
 
 /// Why the lab could not do what it was asked for. Each names its culprit.
@@ -66,6 +67,12 @@ pub enum LabError {
     /// A truth.
     #[error(transparent)]
     Truth(#[from] TruthError),
+    /// A scene that cannot be peeled.
+    #[error(transparent)]
+    Peel(#[from] PeelError),
+    /// A shader of the lab that cannot be linked.
+    #[error(transparent)]
+    Link(#[from] moment_shadows::LinkError),
     /// A comparison.
     #[error(transparent)]
     Metric(#[from] MetricError),

@@ -101,6 +101,52 @@ impl GraphFile {
         Self::parse(&self.name, file.to_string(), None)
     }
 
+    /// The same graph with a Gaussian of this radius and 0.6 times that as its standard deviation in place of its kernel.
+    pub fn with_radius(&self, radius: u32) -> Result<Self, LabError> {
+        if self.kernel()?.is_none() {
+            return Err(LabError::Unsuitable {
+                file: self.name.clone(),
+                reason: "it has no blur_moments node whose radius could be another; add one"
+                    .to_owned(),
+            });
+        }
+        let kernel = serde_json::json!({ "radius": radius });
+        let text = with_property(&self.text, "blur_moments", "kernel", kernel);
+        let file = Self::parse(&self.name, text, None)?;
+        file.kernel()?;
+        Ok(file)
+    }
+
+    /// The same graph, which also gives out the filtered map that its `shade_hard` node looks up, and the output's name.
+    pub fn with_filtered_map(&self) -> Result<(Self, String), LabError> {
+        let unsuitable = |reason: &str| LabError::Unsuitable {
+            file: self.name.clone(),
+            reason: reason.to_owned(),
+        };
+        let shade = nodes(&self.text)
+            .into_iter()
+            .find(|node| node["type"] == "shade_hard")
+            .ok_or_else(|| unsuitable("it has no shade_hard node whose map could be judged"))?;
+        let slot = format!("{}.moments", shade["name"].as_str().unwrap_or_default());
+        let mut file: Value = serde_json::from_str(&self.text).unwrap_or_default();
+        let edges = file["edges"].as_array().cloned().unwrap_or_default();
+        let source = edges
+            .into_iter()
+            .find(|edge| edge["to"] == slot.as_str())
+            .map(|edge| edge["from"].clone())
+            .ok_or_else(|| unsuitable("no edge leads to the moments of its shade_hard node"))?;
+        let Some(outputs) = file["outputs"].as_array_mut() else {
+            return Err(unsuitable("it has no outputs"));
+        };
+        if let Some(output) = outputs.iter().find(|output| output["from"] == source) {
+            let name = output["name"].as_str().unwrap_or_default().to_owned();
+            return Ok((Self::parse(&self.name, self.text.clone(), None)?, name));
+        }
+        let name = "lab_filtered_map".to_owned();
+        outputs.push(serde_json::json!({ "name": name, "from": source }));
+        Ok((Self::parse(&self.name, file.to_string(), None)?, name))
+    }
+
     /// The kernel of the graph's blur; `None` where it has none.
     pub fn kernel(&self) -> Result<Option<Kernel>, LabError> {
         let kernels: Vec<KernelProperty> = nodes(&self.text)

@@ -42,8 +42,24 @@ pub struct Judgement {
     pub excess: Excess,
 }
 
-impl Truth {
-    /// Reads the frame back and computes both pictures. Takes seconds.
+/// What truths for a graph on a frame are computed from: the unfiltered map of the light, and the graph's kernel.
+pub struct Unfiltered {
+    /// All samples of the depth map.
+    pub depths: MomentDepths,
+    /// What the filtered map combines of them.
+    pub taps: TapPattern,
+}
+
+/// Brute-force shadow intensity of a picture.
+pub struct PictureTruth {
+    /// Per pixel.
+    pub shadow: Vec<f32>,
+    /// Pixels whose surface faces the light.
+    pub facing: Vec<bool>,
+}
+
+impl Unfiltered {
+    /// Reads the light's map of a frame back.
     pub fn of(gpu: &Gpu, frame: &Frame, file: &GraphFile) -> Result<Self, LabError> {
         let light = &frame.desc.light;
         let stored = read_depth_samples(gpu, &frame.light_map.texture)?;
@@ -51,12 +67,31 @@ impl Truth {
             wgpu::TextureFormat::Depth16Unorm => DepthRounding::Unorm16,
             _ => DepthRounding::Float32,
         };
-        let depths = MomentDepths::from_stored(light, &stored, rounding)?;
+        Ok(Self {
+            depths: MomentDepths::from_stored(light, &stored, rounding)?,
+            taps: file.kernel()?.map_or_else(TapPattern::unblurred, |kernel| {
+                TapPattern::of_kernel(&kernel)
+            }),
+        })
+    }
+
+    /// The truth of what the frame's camera sees.
+    pub fn picture(&self, gpu: &Gpu, frame: &Frame) -> Result<PictureTruth, LabError> {
+        let light = &frame.desc.light;
         let pixels = read_gbuffer(gpu, &frame.surface)?;
-        let taps = file.kernel()?.map_or_else(TapPattern::unblurred, |kernel| {
-            TapPattern::of_kernel(&kernel)
-        });
-        let truth = pcf(light, &depths, &taps, &pixels)?;
+        Ok(PictureTruth {
+            shadow: pcf(light, &self.depths, &self.taps, &pixels)?,
+            facing: facing(light, &pixels),
+        })
+    }
+}
+
+impl Truth {
+    /// Reads the frame back and computes both pictures. Takes seconds.
+    pub fn of(gpu: &Gpu, frame: &Frame, file: &GraphFile) -> Result<Self, LabError> {
+        let unfiltered = Unfiltered::of(gpu, frame, file)?;
+        let picture = unfiltered.picture(gpu, frame)?;
+        let Unfiltered { depths, taps } = unfiltered;
         let camera_depth = read_depth_samples(gpu, &frame.surface.depth)?;
         let parameters = shade_parameters(&frame.desc, file)?;
         let lookups = fragments(&parameters, &camera_depth, frame.desc.map);
@@ -65,12 +100,11 @@ impl Truth {
             .into_iter()
             .map(|bound| (bound / full_shadow).min(1.0))
             .collect();
-        let facing = facing(light, &pixels);
-        let bound_error = compare(&bound, &truth, &facing)?;
+        let bound_error = compare(&bound, &picture.shadow, &picture.facing)?;
         Ok(Self {
-            truth,
+            truth: picture.shadow,
             bound,
-            facing,
+            facing: picture.facing,
             bound_error,
             depths,
             taps,

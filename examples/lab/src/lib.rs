@@ -21,6 +21,7 @@ pub mod picture;
 pub mod progress;
 pub mod scene;
 pub mod shaders;
+pub mod surface_error;
 pub mod truth;
 pub mod vectors;
 pub mod view;

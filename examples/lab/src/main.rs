@@ -7,7 +7,7 @@ use clap::{Parser, Subcommand, ValueEnum};
 use moment_shadows::{Profile, Storage};
 use moment_shadows_lab::command::render::{LightChoice, RenderOptions};
 use moment_shadows_lab::command::{
-    cost, graph, isa, measure, minification, render, shaders, validate,
+    cost, error, error_table, graph, isa, measure, minification, render, shaders, validate,
 };
 use moment_shadows_lab::gpu::Gpu;
 use moment_shadows_lab::isa::child;
@@ -105,6 +105,40 @@ enum Command {
         /// The folder to make.
         #[arg(long)]
         out: PathBuf,
+    },
+    /// Prints the error of a graph over all surfaces that the light's rays meet, and over a picture.
+    Error {
+        #[command(flatten)]
+        frame: FrameArguments,
+        /// A glTF or GLB file, or a procedural scene: fence-and-foliage, hall.
+        #[arg(long, default_value = "fence-and-foliage")]
+        scene: String,
+        /// The graph file.
+        #[arg(long)]
+        graph: PathBuf,
+        /// A Gaussian of this radius, in texels, in place of the graph's own kernel.
+        #[arg(long, value_parser = clap::value_parser!(u32).range(1..=64))]
+        radius: Option<u32>,
+        /// Prints JSON.
+        #[arg(long)]
+        json: bool,
+    },
+    /// Prints the error over all surfaces of several scenes, for several radii and every storage.
+    ErrorTable {
+        #[command(flatten)]
+        frame: FrameArguments,
+        /// glTF or GLB files, or procedural scenes.
+        #[arg(long, num_args = 1.., default_values = ["fence-and-foliage", "hall"])]
+        scene: Vec<String>,
+        /// The graph file.
+        #[arg(long)]
+        graph: PathBuf,
+        /// Radii of the Gaussian, in texels, in place of the graph's own kernel.
+        #[arg(long, num_args = 1.., default_values = ["1", "4", "12"], value_parser = clap::value_parser!(u32).range(1..=64))]
+        radius: Vec<u32>,
+        /// Prints JSON.
+        #[arg(long)]
+        json: bool,
     },
     /// Times the passes of a graph, or blurs of several radii, as ratios to copies, and counts their bytes.
     Cost {
@@ -355,6 +389,23 @@ fn run(command: Command) -> Result<ExitCode, Box<dyn std::error::Error>> {
         Command::IsaChip { chip, shader } => {
             print!("{}", child::compile(chip, shader.as_deref())?);
         }
+        Command::Error {
+            frame,
+            scene,
+            graph,
+            radius,
+            json,
+        } => print(&error::run(&frame.options(scene), &graph, radius)?, json)?,
+        Command::ErrorTable {
+            frame,
+            scene,
+            graph,
+            radius,
+            json,
+        } => {
+            let options = frame.options(String::new());
+            print(&error_table::run(&scene, &radius, &graph, &options)?, json)?;
+        }
         Command::Cost {
             subject,
             size,
@@ -396,13 +447,13 @@ fn run_isa(arguments: &IsaArguments) -> Result<ExitCode, Box<dyn std::error::Err
 }
 
 fn print<T: serde::Serialize + std::fmt::Display>(
-    cost: &T,
+    report: &T,
     json: bool,
 ) -> Result<(), serde_json::Error> {
     if json {
-        println!("{}", serde_json::to_string_pretty(cost)?);
+        println!("{}", serde_json::to_string_pretty(report)?);
     } else {
-        print!("{cost}");
+        print!("{report}");
     }
     Ok(())
 }

@@ -27,18 +27,19 @@ pub enum MetricError {
     },
 }
 
-/// Figures of the absolute error over a set of pixels. All are 0 for an empty set.
+/// Figures of the absolute error over a set of samples: pixels, or surfaces that a light's rays meet. All are 0 for an
+/// empty set.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize)]
 pub struct ErrorFigures {
-    /// How many pixels the set has.
-    pub pixels: usize,
+    /// How many samples the set has.
+    pub samples: usize,
     /// Mean absolute error: `leaking + overdarkening`.
     pub mean_absolute: f64,
     /// The part of it where the estimate is too light.
     pub leaking: f64,
     /// The part of it where the estimate is too dark.
     pub overdarkening: f64,
-    /// 95 % of the pixels have at most this absolute error.
+    /// 95 % of the samples have at most this absolute error.
     pub percentile_95: f64,
     /// The largest absolute error.
     pub maximum: f64,
@@ -85,12 +86,8 @@ pub fn compare(
     let mut penumbra_errors = Vec::new();
     let (mut total, mut nan_pixels) = (0.0, 0);
     for ((&estimate, &truth), &facing) in estimate.iter().zip(truth).zip(facing) {
-        let error = if estimate.is_nan() {
-            nan_pixels += 1;
-            1.0
-        } else {
-            f64::from(estimate) - f64::from(truth)
-        };
+        nan_pixels += usize::from(estimate.is_nan());
+        let error = signed_error(estimate, truth);
         total += error.abs();
         if facing {
             errors.push(error);
@@ -116,8 +113,17 @@ pub fn excess(estimate: &Comparison, exact: &Comparison) -> Excess {
     }
 }
 
-/// Figures of signed errors, estimate less truth.
-fn figures(errors: &[f64]) -> ErrorFigures {
+/// Estimate less truth; a NaN counts as an error of 1, too dark.
+pub(crate) fn signed_error(estimate: f32, truth: f32) -> f64 {
+    if estimate.is_nan() {
+        1.0
+    } else {
+        f64::from(estimate) - f64::from(truth)
+    }
+}
+
+/// Figures of signed errors, estimate less truth. Sums run over them in order.
+pub(crate) fn figures(errors: &[f64]) -> ErrorFigures {
     if errors.is_empty() {
         return ErrorFigures::default();
     }
@@ -126,10 +132,10 @@ fn figures(errors: &[f64]) -> ErrorFigures {
     let overdarkening = errors.iter().map(|error| error.max(0.0)).sum::<f64>() / count;
     let mut sorted: Vec<f64> = errors.iter().map(|error| error.abs()).collect();
     sorted.sort_unstable_by(f64::total_cmp);
-    // The nearest rank: the least value that is not exceeded by 95 % of the pixels.
+    // The nearest rank: the least value that is not exceeded by 95 % of the samples.
     let rank = (errors.len() * 95).div_ceil(100).max(1) - 1;
     ErrorFigures {
-        pixels: errors.len(),
+        samples: errors.len(),
         mean_absolute: leaking + overdarkening,
         leaking,
         overdarkening,
@@ -149,7 +155,7 @@ impl fmt::Display for Comparison {
             writeln!(
                 f,
                 "{name:<9} {:>9} {:>9.6} {:>9.6} {:>9.6} {:>9.6} {:>9.6}",
-                row.pixels,
+                row.samples,
                 row.mean_absolute,
                 row.leaking,
                 row.overdarkening,

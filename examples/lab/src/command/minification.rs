@@ -134,7 +134,7 @@ impl fmt::Display for Minification {
         writeln!(
             f,
             "{}: {} judged pixels, half of them over {:.1} texels; {} over 8 and more",
-            self.scene, self.with_mips.all.pixels, self.median_texels, self.with_mips.far.pixels
+            self.scene, self.with_mips.all.samples, self.median_texels, self.with_mips.far.samples
         )?;
         writeln!(
             f,

@@ -1,6 +1,8 @@
 //! The subcommands of `moment-shadows`.
 
 pub mod cost;
+pub mod error;
+pub mod error_table;
 pub mod graph;
 pub mod isa;
 pub mod measure;

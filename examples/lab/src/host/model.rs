@@ -5,7 +5,7 @@ use wgpu::util::DeviceExt;
 use super::error::created;
 use super::{HostError, Renderer, UNIFORM, binding, texture_type};
 use crate::gpu::Gpu;
-use crate::scene::{Image, Scene};
+use crate::scene::{Image, Scene, mips};
 
 /// A scene in the device's memory, ready to be drawn.
 pub struct Model {
@@ -247,14 +247,8 @@ fn buffer(gpu: &Gpu, contents: &[u8], usage: wgpu::BufferUsages) -> wgpu::Buffer
 
 /// A texture with all its mips.
 fn upload_image(gpu: &Gpu, image: &Image) -> wgpu::TextureView {
-    let mut levels = vec![image.rgba.clone()];
-    let mut size = [image.width, image.height];
-    while size != [1, 1] {
-        let finer = levels.last().map_or(&[][..], Vec::as_slice);
-        let (coarser, smaller) = halved(finer, size);
-        levels.push(coarser);
-        size = smaller;
-    }
+    let mips = mips(image);
+    let bytes: Vec<u8> = mips.iter().flat_map(|mip| &mip.rgba).copied().collect();
     let texture = gpu.device.create_texture_with_data(
         &gpu.queue,
         &wgpu::TextureDescriptor {
@@ -264,7 +258,7 @@ fn upload_image(gpu: &Gpu, image: &Image) -> wgpu::TextureView {
                 height: image.height,
                 depth_or_array_layers: 1,
             },
-            mip_level_count: levels.len() as u32,
+            mip_level_count: mips.len() as u32,
             sample_count: 1,
             dimension: wgpu::TextureDimension::D2,
             format: wgpu::TextureFormat::Rgba8UnormSrgb,
@@ -272,27 +266,7 @@ fn upload_image(gpu: &Gpu, image: &Image) -> wgpu::TextureView {
             view_formats: &[],
         },
         wgpu::util::TextureDataOrder::LayerMajor,
-        &levels.concat(),
+        &bytes,
     );
     texture.create_view(&wgpu::TextureViewDescriptor::default())
-}
-
-/// The next mip: means of 2x2 texels, of the bytes as they are, which is near enough for a base colour.
-fn halved(rgba: &[u8], [width, height]: [u32; 2]) -> (Vec<u8>, [u32; 2]) {
-    let smaller = [(width / 2).max(1), (height / 2).max(1)];
-    let mut result = Vec::with_capacity((smaller[0] * smaller[1] * 4) as usize);
-    for y in 0..smaller[1] {
-        for x in 0..smaller[0] {
-            for channel in 0..4 {
-                let texel = |dx: u32, dy: u32| {
-                    let x = (2 * x + dx).min(width - 1);
-                    let y = (2 * y + dy).min(height - 1);
-                    u32::from(rgba[((y * width + x) * 4 + channel) as usize])
-                };
-                let sum = texel(0, 0) + texel(1, 0) + texel(0, 1) + texel(1, 1);
-                result.push(((sum + 2) / 4) as u8);
-            }
-        }
-    }
-    (result, smaller)
 }

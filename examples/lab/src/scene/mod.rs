@@ -8,6 +8,7 @@ mod ground;
 mod hall;
 mod material;
 mod mesh;
+mod mips;
 mod primitive;
 mod resource;
 mod shapes;
@@ -24,6 +25,7 @@ pub use ground::place_on_ground;
 pub use hall::hall_with_open_roof;
 pub use material::{Image, Material};
 pub use mesh::{Bounds, Mesh};
+pub(crate) use mips::{Mip, mips};
 
 /// Names under which [`load`] knows the procedural scenes.
 pub const PROCEDURAL: [&str; 2] = ["fence-and-foliage", "hall"];

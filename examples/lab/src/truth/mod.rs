@@ -3,5 +3,7 @@
 pub mod exact_bound;
 pub mod fragment;
 pub mod kernel;
+mod opacity;
 pub mod pcf;
+pub mod peel;
 pub mod surface;

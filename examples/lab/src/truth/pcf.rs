@@ -45,6 +45,7 @@ pub fn pcf(
         light,
         depths,
         taps,
+        normal_error: NORMAL,
     };
     Ok((0..pixels)
         .into_par_iter()
@@ -60,6 +61,36 @@ pub fn pcf(
         .collect())
 }
 
+/// A point of a surface and the unit normal of its plane, on either side, without rounding.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Receiver {
+    /// In world space.
+    pub position: DVec3,
+    /// In world space.
+    pub normal: DVec3,
+}
+
+/// The same for points that are known without the rounding of a G-buffer.
+pub fn pcf_at(
+    light: &LightView,
+    depths: &MomentDepths,
+    taps: &TapPattern,
+    receivers: &[Receiver],
+) -> Vec<f32> {
+    let filter = Filter {
+        light,
+        depths,
+        taps,
+        normal_error: 0.0,
+    };
+    receivers
+        .par_iter()
+        .map_init(Scratch::default, |scratch, receiver| {
+            filter.intensity(receiver.position, receiver.normal, scratch) as f32
+        })
+        .collect()
+}
+
 /// Lists that are reused from pixel to pixel.
 #[derive(Default)]
 struct Scratch {
@@ -73,6 +104,8 @@ struct Filter<'a> {
     light: &'a LightView,
     depths: &'a MomentDepths,
     taps: &'a TapPattern,
+    /// By which angle normals may be off.
+    normal_error: f64,
 }
 
 impl Filter<'_> {
@@ -90,7 +123,7 @@ impl Filter<'_> {
         self.taps.along_axis(uv.x, width, columns);
         self.taps.along_axis(uv.y, height, rows);
         let extent = DVec2::new(columns.weights.len() as f64, rows.weights.len() as f64);
-        let plane = ReceiverPlane::new(self.light, self.depths, position, normal, uv, extent);
+        let plane = ReceiverPlane::new(self, position, normal, uv, extent);
         let texel = DVec2::new(f64::from(width), f64::from(height)).recip();
         let positions = self.depths.positions();
         fronts.clear();
@@ -131,14 +164,8 @@ struct ReceiverPlane {
 
 impl ReceiverPlane {
     /// The plane through `position` with `normal`, which projects to `uv`, for taps over `extent` texels.
-    fn new(
-        light: &LightView,
-        depths: &MomentDepths,
-        position: DVec3,
-        normal: DVec3,
-        uv: DVec2,
-        extent: DVec2,
-    ) -> Self {
+    fn new(filter: &Filter<'_>, position: DVec3, normal: DVec3, uv: DVec2, extent: DVec2) -> Self {
+        let Filter { light, depths, .. } = *filter;
         let normal = light
             .view_from_world
             .transform_vector3(normal)
@@ -173,7 +200,7 @@ impl ReceiverPlane {
         // turns it about the position, and where the ray meets it moves most at the tap that is farthest.
         let moved = ROUNDINGS * SINGLE * position.abs().max_element() / slope.abs();
         let farthest = 0.5 * (extent / size * per_uv).length();
-        let turned = NORMAL * farthest * ray.length() / (slope * slope);
+        let turned = filter.normal_error * farthest * ray.length() / (slope * slope);
         let (moved, turned) = if edge_on { (0.0, 0.0) } else { (moved, turned) };
         let stored = stored_interval(light, depths.rounding(), distance);
         let depth = light.moment_depth_of_distance(distance);

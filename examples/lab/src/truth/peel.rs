@@ -1,0 +1,237 @@
+//! Depth peeling in light space: every surface that the light's rays meet, layer by layer, in f64 on the processor.
+//!
+//! A ray goes through the centre of each texel of the light's map and begins at the light's near plane. It meets all
+//! triangles, from either side and however far away, except where a masked material has a hole. Surfaces that a peel in
+//! single-precision depth could not tell apart, closer than 2^-24 of the light's range, count once.
+
+mod error;
+mod triangle;
+
+use std::ops::Range;
+
+use glam::{DVec2, DVec3};
+use rayon::prelude::*;
+
+pub use error::PeelError;
+use triangle::{Hit, Projection, Triangle};
+
+use super::opacity::Opacity;
+use crate::light::LightView;
+use crate::scene::{Mesh, Scene};
+
+/// Distances closer than this, relative to the light's range, are those of one surface.
+const SAME_SURFACE: f64 = 1.0 / (1 << 24) as f64;
+
+/// A surface where a ray meets it.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct LightSurface {
+    /// Column and row of the ray's texel.
+    pub texel: [u32; 2],
+    /// How many surfaces lie in front of it on the ray.
+    pub layer: u32,
+    /// Where, in world space.
+    pub position: DVec3,
+    /// The unit normal of the triangle, on either side.
+    pub normal: DVec3,
+    /// Distance along the light's axis.
+    pub distance: f64,
+    /// Length of the gradient of distance along the axis per texel of the map; infinite edge-on.
+    pub distance_per_texel: f64,
+    /// Whether it shows the light its front (the triangle's vertices run counter-clockwise as seen from there), or is of
+    /// a material that has two.
+    pub faces_light: bool,
+    /// Whether it belongs to the ground, which lights are not fitted to.
+    pub ground: bool,
+}
+
+/// A scene made ready to be peeled.
+pub struct Peeler<'a> {
+    scene: &'a Scene,
+    projection: Projection<'a>,
+    triangles: Vec<SceneTriangle>,
+    /// Of each material.
+    opacity: Vec<Option<Opacity>>,
+}
+
+struct SceneTriangle {
+    mesh: u32,
+    corners: [u32; 3],
+    seen: Triangle,
+}
+
+/// A hit on a ray of one row.
+struct RowHit {
+    column: u32,
+    triangle: u32,
+    hit: Hit,
+}
+
+impl<'a> Peeler<'a> {
+    /// Projects all triangles of the scene into a map of `map` texels.
+    pub fn new(scene: &'a Scene, light: &'a LightView, map: [u32; 2]) -> Result<Self, PeelError> {
+        if map.contains(&0) {
+            return Err(PeelError::Empty { map });
+        }
+        let projection = Projection { light, map };
+        let mut triangles = Vec::new();
+        for (index, mesh) in scene.meshes.iter().enumerate() {
+            check(scene, index, mesh)?;
+            for &corners in mesh.indices.as_chunks::<3>().0 {
+                let seen = Triangle::new(&projection, corners.map(|corner| position(mesh, corner)));
+                triangles.extend(seen.map(|seen| SceneTriangle {
+                    mesh: index as u32,
+                    corners,
+                    seen,
+                }));
+            }
+        }
+        Ok(Self {
+            scene,
+            projection,
+            triangles,
+            opacity: scene
+                .materials
+                .iter()
+                .map(|material| Opacity::of(material, &scene.images))
+                .collect(),
+        })
+    }
+
+    /// The surfaces on the rays of some rows of the map: row by row, column by column, from the light on.
+    pub fn rows(&self, rows: Range<u32>) -> Vec<LightSurface> {
+        let rows = rows.start..rows.end.min(self.projection.map[1]);
+        let mut of_row: Vec<Vec<u32>> = vec![Vec::new(); rows.len()];
+        for (index, triangle) in self.triangles.iter().enumerate() {
+            let [first, end] = triangle.seen.rows;
+            for row in first.max(rows.start)..end.min(rows.end) {
+                of_row[(row - rows.start) as usize].push(index as u32);
+            }
+        }
+        let surfaces: Vec<Vec<LightSurface>> = of_row
+            .par_iter()
+            .zip(rows)
+            .map(|(triangles, row)| self.row(row, triangles))
+            .collect();
+        surfaces.concat()
+    }
+
+    fn row(&self, row: u32, triangles: &[u32]) -> Vec<LightSurface> {
+        let mut hits = Vec::new();
+        for &index in triangles {
+            let triangle = &self.triangles[index as usize];
+            let [first, end] = triangle.seen.columns;
+            for column in first..end {
+                let place = centre([column, row]);
+                let hit = triangle.seen.hit(place).filter(|hit| {
+                    hit.distance >= self.projection.near() && !self.is_hole(triangle, place, hit)
+                });
+                hits.extend(hit.map(|hit| RowHit {
+                    column,
+                    triangle: index,
+                    hit,
+                }));
+            }
+        }
+        hits.sort_unstable_by(|a, b| {
+            let by_distance = a.hit.distance.total_cmp(&b.hit.distance);
+            let by_place = a.column.cmp(&b.column).then(by_distance);
+            by_place.then(a.triangle.cmp(&b.triangle))
+        });
+        let [near, far] = self.projection.light.range;
+        let same = SAME_SURFACE * (far - near);
+        let mut surfaces: Vec<LightSurface> = Vec::with_capacity(hits.len());
+        for RowHit {
+            column,
+            triangle,
+            hit,
+        } in hits
+        {
+            let texel = [column, row];
+            let front = surfaces.last().filter(|front| front.texel == texel);
+            let layer = match front {
+                Some(front) if hit.distance - front.distance <= same => continue,
+                Some(front) => front.layer + 1,
+                None => 0,
+            };
+            surfaces.push(self.surface(texel, layer, &self.triangles[triangle as usize], &hit));
+        }
+        surfaces
+    }
+
+    fn surface(
+        &self,
+        texel: [u32; 2],
+        layer: u32,
+        triangle: &SceneTriangle,
+        hit: &Hit,
+    ) -> LightSurface {
+        let mesh = &self.scene.meshes[triangle.mesh as usize];
+        let [a, b, c] = triangle.corners.map(|corner| position(mesh, corner));
+        let slope = triangle.seen.distance_gradient(centre(texel)).length();
+        let position = a * hit.weights.x + b * hit.weights.y + c * hit.weights.z;
+        let normal = (b - a).cross(c - a).normalize_or_zero();
+        let material = self.scene.materials.get(mesh.material);
+        let front = normal.dot(self.projection.light.towards_light(position)) > 0.0;
+        LightSurface {
+            texel,
+            layer,
+            position,
+            normal,
+            distance: hit.distance,
+            distance_per_texel: if slope.is_finite() {
+                slope
+            } else {
+                f64::INFINITY
+            },
+            faces_light: front || material.is_some_and(|material| material.double_sided),
+            ground: mesh.ground,
+        }
+    }
+
+    fn is_hole(&self, triangle: &SceneTriangle, place: DVec2, hit: &Hit) -> bool {
+        let mesh = &self.scene.meshes[triangle.mesh as usize];
+        let Some(opacity) = self.opacity.get(mesh.material).and_then(Option::as_ref) else {
+            return false;
+        };
+        let [u, v] = [0, 1].map(|axis| {
+            let at = |corner: u32| f64::from(mesh.uvs[corner as usize][axis]);
+            DVec3::from_array(triangle.corners.map(at))
+        });
+        let uv = DVec2::new(hit.weights.dot(u), hit.weights.dot(v));
+        let [u, v] = [u, v].map(|values| triangle.seen.gradient(place, values));
+        opacity.is_hole(uv, DVec2::new(u.x, v.x), DVec2::new(u.y, v.y))
+    }
+}
+
+/// The place of a texel's centre, in texels.
+fn centre(texel: [u32; 2]) -> DVec2 {
+    DVec2::from_array(texel.map(f64::from)) + 0.5
+}
+
+fn position(mesh: &Mesh, corner: u32) -> DVec3 {
+    DVec3::from_array(mesh.positions[corner as usize].map(f64::from))
+}
+
+/// Refuses a mesh whose triangles have not all their vertices, or one at no finite place.
+fn check(scene: &Scene, index: usize, mesh: &Mesh) -> Result<(), PeelError> {
+    let refuse = |reason: String| {
+        Err(PeelError::Mesh {
+            scene: scene.name.clone(),
+            mesh: index,
+            reason,
+        })
+    };
+    let vertices = mesh.positions.len().min(mesh.uvs.len());
+    if let Some(corner) = mesh
+        .indices
+        .iter()
+        .find(|&&corner| corner as usize >= vertices)
+    {
+        return refuse(format!("has a triangle with vertex {corner} of {vertices}"));
+    }
+    let finite = |position: &[f32; 3]| position.iter().all(|coordinate| coordinate.is_finite());
+    if let Some(vertex) = mesh.positions.iter().position(|position| !finite(position)) {
+        return refuse(format!("has vertex {vertex} at no finite place"));
+    }
+    Ok(())
+}

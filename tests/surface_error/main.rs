@@ -1,0 +1,9 @@
+//! The error over all surfaces that a light's rays meet: the instrument itself, and whether it moves as theory says when
+//! something is made better or worse.
+#![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic)]
+
+mod device;
+mod figures;
+mod peeling;
+mod sensitivity;
+mod setup;
