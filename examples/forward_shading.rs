@@ -63,7 +63,7 @@ fn frame_uniform() -> Result<FrameUniform, Box<dyn Error>> {
         clip_from_world: camera.to_cols_array_2d(),
         light_clip_from_world,
         moment_depth,
-        light: towards_light.extend(depth_per_texel).to_array(),
+        light: towards_light.extend(0.0).to_array(),
         receiver_bias: ReceiverBias::for_kernel(
             Kernel::gaussian(4, 2.4)?.standard_deviation(),
             depth_per_texel,
@@ -132,14 +132,19 @@ fn main() -> Result<(), Box<dyn Error>> {
         resource: frame.as_entire_binding(),
     }];
     let shadow_view = shadow_map.create_view(&wgpu::TextureViewDescriptor {
-        dimension: Some(wgpu::TextureViewDimension::D2),
+        dimension: Some(wgpu::TextureViewDimension::D2Array),
         ..Default::default()
     });
-    let sampler = device.create_sampler(&wgpu::SamplerDescriptor {
-        mag_filter: wgpu::FilterMode::Linear,
-        min_filter: wgpu::FilterMode::Linear,
-        ..Default::default()
-    });
+    let sampler = |anisotropy_clamp| {
+        device.create_sampler(&wgpu::SamplerDescriptor {
+            mag_filter: wgpu::FilterMode::Linear,
+            min_filter: wgpu::FilterMode::Linear,
+            mipmap_filter: wgpu::MipmapFilterMode::Linear,
+            anisotropy_clamp,
+            ..Default::default()
+        })
+    };
+    let (linear, anisotropic) = (sampler(1), sampler(8));
     let shadow_entries = [
         wgpu::BindGroupEntry {
             binding: 0,
@@ -147,7 +152,11 @@ fn main() -> Result<(), Box<dyn Error>> {
         },
         wgpu::BindGroupEntry {
             binding: 1,
-            resource: wgpu::BindingResource::Sampler(&sampler),
+            resource: wgpu::BindingResource::Sampler(&linear),
+        },
+        wgpu::BindGroupEntry {
+            binding: 2,
+            resource: wgpu::BindingResource::Sampler(&anisotropic),
         },
     ];
 

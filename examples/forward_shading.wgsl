@@ -10,14 +10,18 @@ struct Frame {
     light_clip_from_world: mat4x4f,
     // Gives the moment depth of a scene position (x, y, z, 1).
     moment_depth: vec4f,
-    // xyz: towards the light; w: moment depth of a texel's width.
+    // xyz: towards the light.
     light: vec4f,
     receiver_bias: ReceiverBias,
 }
 
 @group(0) @binding(0) var<uniform> frame: Frame;
-@group(1) @binding(0) var shadow_map: texture_2d<f32>;
-@group(1) @binding(1) var shadow_sampler: sampler;
+@group(1) @binding(0) var shadow_map: texture_2d_array<f32>;
+@group(1) @binding(1) var linear_sampler: sampler;
+@group(1) @binding(2) var anisotropic_sampler: sampler;
+
+// Probes of an anisotropic lookup, at most.
+const ANISOTROPY = 8.0;
 
 struct Vertex {
     @builtin(position) clip: vec4f,
@@ -65,24 +69,48 @@ fn scene(@builtin(vertex_index) index: u32, @builtin(instance_index) instance: u
     return box_vertex(index, instance);
 }
 
-fn shadow_intensity(world: vec3f, cosine: f32) -> f32 {
+// A scene position as the light sees it: x and y in its map from 0 to 1, z in moment depth.
+fn place_in_map(world: vec3f) -> vec3f {
     let clip = frame.light_clip_from_world * vec4f(world, 1.0);
-    let uv = vec2f(0.5, -0.5) * clip.xy + 0.5;
-    if any(uv < vec2f(0.0)) || any(uv > vec2f(1.0)) {
+    return vec3f(vec2f(0.5, -0.5) * clip.xy + 0.5, dot(frame.moment_depth, vec4f(world, 1.0)));
+}
+
+// `difference_x` and `difference_y`: how the place changes to the next pixel, in texels and moment depth.
+fn shadow_intensity(place: vec3f, difference_x: vec3f, difference_y: vec3f) -> f32 {
+    if any(place.xy < vec2f(0.0)) || any(place.xy > vec2f(1.0)) {
         return 0.0;
     }
-    let gradient = receiver_bias_gradient_from_cosine(cosine, frame.light.w);
-    let fragment_depth = dot(frame.moment_depth, vec4f(world, 1.0)) - receiver_bias_depth(frame.receiver_bias, gradient);
-    let texel = textureSampleLevel(shadow_map, shadow_sampler, uv, 0.0);
-    let intensity = hamburger_shadow_intensity_of_texel(texel, fragment_depth, MOMENTS_STORAGE_FLOAT16);
+    let gradient = receiver_bias_plane(difference_x, difference_y);
+    let footprint = minification_footprint(difference_x.xy, difference_y.xy, ANISOTROPY);
+    let variance = minification_depth_variance(footprint, gradient);
+    let bias = receiver_bias_depth_minified(frame.receiver_bias, length(gradient), variance);
+    let whole = MapRegion(vec2u(0u), textureDimensions(shadow_map));
+    let texel = map_lookup_gradient(
+        shadow_map,
+        linear_sampler,
+        anisotropic_sampler,
+        0u,
+        whole,
+        textureNumLevels(shadow_map),
+        place.xy,
+        difference_x.xy,
+        difference_y.xy,
+        ANISOTROPY,
+    );
+    let intensity = hamburger_shadow_intensity_of_texel(texel, place.z - bias, MOMENTS_STORAGE_FLOAT16);
     return leak_reduction_full_shadow(intensity, 0.98);
 }
 
 @fragment
 fn lit(vertex: Vertex) -> @location(0) vec4f {
+    // Derivatives need uniform control flow, so they come first.
+    let place = place_in_map(vertex.world);
+    let texels = vec3f(vec2f(textureDimensions(shadow_map)), 1.0);
+    let difference_x = dpdx(place) * texels;
+    let difference_y = dpdy(place) * texels;
     let normal = normalize(vertex.normal);
     let cosine = dot(normal, frame.light.xyz);
-    let sun = max(cosine, 0.0) * (1.0 - shadow_intensity(vertex.world, cosine));
+    let sun = max(cosine, 0.0) * (1.0 - shadow_intensity(place, difference_x, difference_y));
     let sky = 0.25 + 0.1 * normal.y;
     return vec4f(vertex.colour * (sun * vec3f(1.0, 0.95, 0.85) + sky * vec3f(0.75, 0.85, 1.0)), 1.0);
 }

@@ -6,7 +6,7 @@ use std::sync::Arc;
 use serde::de::DeserializeOwned;
 
 use crate::Node;
-use crate::nodes::{BlurMoments, DownsampleMoments, ResolveMoments, ShadeHard};
+use crate::nodes::{BlurMoments, DebugMoments, DownsampleMoments, ResolveMoments, ShadeHard};
 
 /// Makes a node of its properties, which are JSON text.
 type Factory = Arc<dyn Fn(&str) -> Result<Box<dyn Node>, serde_json::Error> + Send + Sync>;
@@ -27,6 +27,7 @@ impl NodeRegistry {
         registry.register::<ResolveMoments>("resolve_moments");
         registry.register::<BlurMoments>("blur_moments");
         registry.register::<DownsampleMoments>("downsample_moments");
+        registry.register::<DebugMoments>("debug_moments");
         registry.register::<ShadeHard>("shade_hard");
         registry
     }

@@ -15,6 +15,7 @@ mod file;
 mod host_node;
 mod memory;
 mod plan;
+mod regions;
 mod resources;
 mod shaders;
 mod targets;

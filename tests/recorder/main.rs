@@ -6,6 +6,7 @@
     reason = "a test that fails says where"
 )]
 
+mod debug;
 mod depth_map;
 mod errors;
 #[allow(dead_code, reason = "shared with the tests of the compiler")]

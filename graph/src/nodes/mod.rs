@@ -1,6 +1,7 @@
 //! The library's nodes. Each is a pair: a declaration here, and thin WGSL entry points beside it.
 
 mod blur_moments;
+mod debug_moments;
 mod downsample_moments;
 mod kernel_property;
 mod mip_levels;
@@ -12,6 +13,7 @@ mod specialization;
 mod unrolled;
 
 pub use blur_moments::{BlurMoments, BlurParameters};
+pub use debug_moments::{DebugMoments, Show};
 pub use downsample_moments::DownsampleMoments;
 pub use kernel_property::KernelProperty;
 pub use mip_levels::{AllLevels, MipLevels};

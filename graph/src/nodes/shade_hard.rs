@@ -5,7 +5,7 @@ use moment_shadows::{LeakReduction, MapRegion, ReceiverBias, Technique, TextureF
 use serde::{Deserialize, Serialize};
 
 use super::moments_input::moments_input;
-use super::specialization::Specialization;
+use super::specialization::{FULLSCREEN, Specialization};
 use crate::{
     Access, Binding, BindingResource, Connected, CountRule, Direction, ExtentRule, FormatRule,
     GraphError, GraphErrorKind, Lifetime, Node, NodeDesc, ParameterBlock, Pass, Slot, SlotResource,
@@ -118,7 +118,11 @@ impl Node for ShadeHard {
             .constant("VIEWS", &format!("{}u", self.views))
             .constant("LIGHTS", &format!("{}u", self.lights))
             .constant("ANISOTROPY", &format!("{}.0", self.anisotropy))
-            .link("shade_hard.wgsl", SHADER, &[("moments_lookup", lookup)])?;
+            .link(
+                "shade_hard.wgsl",
+                SHADER,
+                &[("moments_lookup", lookup), FULLSCREEN],
+            )?;
         let mut bindings = vec![
             Binding {
                 binding: 0,

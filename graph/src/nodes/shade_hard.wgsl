@@ -1,3 +1,4 @@
+import moment_shadows::fullscreen::{Covered};
 import moment_shadows::hamburger::{hamburger_shadow_intensity_of_texel};
 import moment_shadows::leak_reduction::{LeakReduction, leak_reduction_apply};
 import moment_shadows::map_region::{MapRegion, map_region_within};
@@ -31,20 +32,6 @@ struct ShadeHardParameters {
 
 @group(GROUP) @binding(0) var<uniform> views: array<ShadeHardParameters, VIEWS>;
 @group(GROUP) @binding(1) var camera_depth: texture_depth_2d;
-
-struct Covered {
-    @builtin(position) position: vec4f,
-    // The place in the picture from 0 to 1. Other than `position` it does not depend on where in its target a host has the
-    // viewport.
-    @location(0) uv: vec2f,
-}
-
-@vertex
-fn fullscreen(@builtin(vertex_index) index: u32) -> Covered {
-    // One triangle that covers the viewport: (-1, -1), (3, -1), (-1, 3).
-    let corner = 4.0 * vec2f(f32(index & 1u), f32(index >> 1u)) - 1.0;
-    return Covered(vec4f(corner, 0.0, 1.0), 0.5 + vec2f(0.5, -0.5) * corner);
-}
 
 // A pixel's surface as the light sees it.
 struct Receiver {
@@ -136,9 +123,9 @@ fn view_shadow_intensity(view: u32, receiver: Receiver, neighbour_x: vec3f, neig
 }
 
 @fragment
-fn shade(@location(0) uv_of_pixel: vec2f) -> @location(0) vec4f {
+fn shade(covered: Covered) -> @location(0) vec4f {
     let size = vec2i(textureDimensions(camera_depth));
-    let pixel = clamp(vec2i(uv_of_pixel * vec2f(size)), vec2i(0), size - 1);
+    let pixel = clamp(vec2i(covered.uv * vec2f(size)), vec2i(0), size - 1);
     let stored_depth = textureLoad(camera_depth, pixel, 0);
     // Outside its map a light casts no shadow, and where there is no surface, either.
     var intensities = vec4f(0.0);

@@ -9,6 +9,9 @@ use moment_shadows::{Source, link};
 
 use crate::{Capabilities, GraphError, GraphErrorKind};
 
+/// The virtual module with the vertex stage of fullscreen passes.
+pub(super) const FULLSCREEN: (&str, &str) = ("fullscreen", include_str!("fullscreen.wgsl"));
+
 /// The text of a `specialization` module.
 #[derive(Clone, Debug)]
 pub(super) struct Specialization {

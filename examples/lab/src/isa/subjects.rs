@@ -4,8 +4,8 @@ use std::collections::BTreeMap;
 
 use moment_shadows::{LinkError, Profile, Source, Storage, TextureFormat, link};
 use moment_shadows_graph::nodes::{
-    BlurMoments, BlurParameters, DownsampleMoments, KernelProperty, MipLevels, ResolveMoments,
-    ShadeHard,
+    BlurMoments, BlurParameters, DebugMoments, DownsampleMoments, KernelProperty, MipLevels,
+    ResolveMoments, ShadeHard, Show,
 };
 use moment_shadows_graph::{Capabilities, Node, ResourceDesc, TextureDesc};
 
@@ -89,6 +89,7 @@ pub(super) fn nodes() -> Result<Vec<Entry>, IsaError> {
         entries.push(shade(storage, 1, 1, false));
         entries.push(shade(storage, MIPS, 1, false));
     }
+    entries.push(debug(Storage::Unorm16));
     // Other storages can be filtered everywhere.
     entries.push(shade(Storage::Float32, 1, 1, true));
     entries.push(blur(Storage::Unorm16, 4, MANY)?);
@@ -186,6 +187,19 @@ fn downsample(storage: Storage) -> Entry {
         settings: storage.to_string(),
         node: Box::new(DownsampleMoments {}),
         inputs: inputs([("moments", moments)]),
+        capabilities: native(),
+        trips: Vec::new(),
+    }
+}
+
+fn debug(storage: Storage) -> Entry {
+    Entry {
+        settings: storage.to_string(),
+        node: Box::new(DebugMoments {
+            show: Show::Validity,
+            level: 0,
+        }),
+        inputs: inputs([("moments", texture(storage.format()))]),
         capabilities: native(),
         trips: Vec::new(),
     }

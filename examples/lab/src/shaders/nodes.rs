@@ -4,7 +4,8 @@ use std::collections::BTreeMap;
 
 use moment_shadows::{Profile, Storage, TextureFormat};
 use moment_shadows_graph::nodes::{
-    BlurMoments, DownsampleMoments, KernelProperty, MipLevels, ResolveMoments, ShadeHard,
+    BlurMoments, DebugMoments, DownsampleMoments, KernelProperty, MipLevels, ResolveMoments,
+    ShadeHard, Show,
 };
 use moment_shadows_graph::{Capabilities, Connected, Node, ResourceDesc, TextureDesc};
 
@@ -89,6 +90,19 @@ fn variants(storage: Storage, capabilities: &Capabilities) -> Vec<Variant> {
             regions,
             ..Variant::new(name, DownsampleMoments::default(), capabilities)
         });
+    }
+    for (name, show) in [
+        ("moments", Show::Moments),
+        ("mean", Show::Mean),
+        ("deviation", Show::Deviation),
+        ("validity", Show::Validity),
+    ] {
+        let name = format!("debug_moments_{storage}_{name}");
+        variants.push(Variant::new(
+            name,
+            DebugMoments { show, level: 0 },
+            capabilities,
+        ));
     }
     variants.extend(shading(storage, capabilities));
     variants

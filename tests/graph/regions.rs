@@ -1,0 +1,207 @@
+//! Regions and mip levels: what the compiler and a view's block refuse, and with which words.
+
+use moment_shadows::{MapRegion, Profile};
+use moment_shadows_graph::{Capabilities, GraphErrorKind, Plan, RegionError};
+
+use crate::example::{TEXT, compiled, edited, native, refused};
+
+/// The example with an atlas of so many regions.
+fn atlas(regions: u32) -> Plan {
+    let text = TEXT.replace("\"samples\": 4", &format!("\"regions\": {regions}"));
+    compiled(&text, &native()).unwrap()
+}
+
+#[test]
+fn regions_that_a_map_cannot_have_are_refused() {
+    let plan = atlas(3);
+    let mut block = plan.parameters.initial();
+    let mut write = |regions: &[MapRegion]| {
+        plan.parameters
+            .write_regions(&mut block, "light_depth", 0, regions)
+    };
+    let region = |x, y, width, height| MapRegion::new([x, y], [width, height]);
+    write(&[region(0, 0, 512, 1024), region(512, 0, 512, 1024)]).unwrap();
+    write(&[MapRegion::WHOLE]).unwrap();
+    write(&[]).unwrap();
+    // Radius 4: nine texels.
+    write(&[region(1015, 1015, 9, 9)]).unwrap();
+    assert!(matches!(
+        write(&[region(0, 0, 9, 8)]),
+        Err(RegionError::Small {
+            index: 0,
+            smallest: 9,
+            ..
+        })
+    ));
+    assert!(matches!(
+        write(&[region(0, 0, 64, 64), MapRegion::NONE]),
+        Err(RegionError::Small { index: 1, .. })
+    ));
+    for outside in [
+        region(1000, 0, 25, 20),
+        region(0, 1024, 9, 9),
+        region(9, 9, u32::MAX, 9),
+    ] {
+        assert!(matches!(
+            write(&[outside]),
+            Err(RegionError::Outside { index: 0, .. })
+        ));
+    }
+    assert!(matches!(
+        write(&[
+            region(0, 0, 20, 20),
+            region(30, 30, 20, 20),
+            region(19, 19, 20, 20)
+        ]),
+        Err(RegionError::Overlap {
+            first: 0,
+            second: 2,
+            ..
+        })
+    ));
+    assert!(matches!(
+        write(&[MapRegion::WHOLE, region(5, 5, 20, 20)]),
+        Err(RegionError::Overlap {
+            first: 0,
+            second: 1,
+            ..
+        })
+    ));
+    assert!(matches!(
+        write(&[region(0, 0, 20, 20); 4]),
+        Err(RegionError::Count {
+            capacity: 3,
+            given: 4,
+            ..
+        })
+    ));
+    let layout = &plan.parameters;
+    assert!(matches!(
+        layout.write_regions(&mut block, "light_depth", 1, &[]),
+        Err(RegionError::Layer {
+            layers: 1,
+            layer: 1,
+            ..
+        })
+    ));
+    let unknown = layout.write_regions(&mut block, "light", 0, &[]);
+    assert!(
+        matches!(unknown, Err(RegionError::UnknownMap { known, .. }) if known == "light_depth")
+    );
+    assert!(matches!(
+        layout.write_regions(&mut block[..64], "light_depth", 0, &[]),
+        Err(RegionError::Block { given: 64, .. })
+    ));
+}
+
+#[test]
+fn all_nodes_of_a_map_share_one_table() {
+    let plan = atlas(5);
+    let [table] = &plan.parameters.regions[..] else {
+        panic!("{} tables", plan.parameters.regions.len());
+    };
+    assert_eq!(
+        (table.map.as_str(), table.capacity, table.extent),
+        ("light_depth", 5, [1024, 1024])
+    );
+    assert_eq!(table.smallest, 9);
+    // A conversion per region.
+    let resolve = &plan.parameters.blocks[0];
+    assert_eq!((resolve.node.as_str(), resolve.elements), ("resolve", 5));
+}
+
+#[test]
+fn more_regions_than_a_uniform_binding_holds_are_refused() {
+    // 65536 bytes: 2048 conversions of 32 bytes.
+    let text = |regions: u32| TEXT.replace("\"samples\": 4", &format!("\"regions\": {regions}"));
+    compiled(&text(2048), &native()).unwrap();
+    let error = refused(&text(2049));
+    assert_eq!(error.kind, GraphErrorKind::Size);
+    assert!(error.to_string().contains("at most 2048"), "{error}");
+    let small = Capabilities {
+        max_uniform_size: 16384,
+        ..Capabilities::of_profile(Profile::Native)
+    };
+    let error = compiled(&text(513), &small).unwrap_err();
+    assert!(error.to_string().contains("at most 512"), "{error}");
+    let error = refused(&text(0));
+    assert!(
+        error
+            .to_string()
+            .contains("at least one layer, mip level and region"),
+        "{error}"
+    );
+}
+
+#[test]
+fn mip_levels_are_counted_and_downsampling_needs_some() {
+    let blur = |property: &str| {
+        edited(
+            "\"sigma\": 2.4 }",
+            &format!("\"sigma\": 2.4 }}, \"mip_levels\": {property}"),
+        )
+    };
+    let mips = |property: &str| {
+        compiled(&blur(property), &native()).map(|plan| {
+            plan.memory
+                .iter()
+                .map(|memory| memory.desc.texture().map_or(0, |texture| texture.mips))
+                .max()
+        })
+    };
+    assert_eq!(mips("\"all\"").unwrap(), Some(11));
+    assert_eq!(mips("4").unwrap(), Some(4));
+    for wrong in ["0", "12"] {
+        let error = mips(wrong).unwrap_err();
+        assert_eq!(error.kind, GraphErrorKind::Size);
+        assert!(
+            error.to_string().contains("from 1 to 11, or \"all\""),
+            "{error}"
+        );
+    }
+    let text = TEXT
+        .replace(
+            "{ \"name\": \"shade\",",
+            "{ \"name\": \"downsample\", \"type\": \"downsample_moments\" },\n    { \"name\": \"shade\",",
+        )
+        .replace(
+            "{ \"from\": \"blur.blurred\", \"to\": \"shade.moments\" }",
+            "{ \"from\": \"blur.blurred\", \"to\": \"downsample.moments\" },\n    { \"from\": \"downsample.moments\", \"to\": \"shade.moments\" }",
+        );
+    let error = refused(&text);
+    assert_eq!(
+        (error.kind, error.node.as_deref()),
+        (GraphErrorKind::Size, Some("downsample"))
+    );
+    assert!(error.to_string().contains("set 'mip_levels'"), "{error}");
+}
+
+#[test]
+fn lights_views_and_anisotropy_are_within_their_ranges() {
+    let shade = |properties: &str| {
+        edited(
+            "\"type\": \"shade_hard\"",
+            &format!("\"type\": \"shade_hard\", \"properties\": {properties}"),
+        )
+    };
+    for (properties, expected) in [
+        ("{ \"lights\": 5, \"views\": 5 }", "1 to 4 lights"),
+        ("{ \"lights\": 0 }", "1 to 4 lights"),
+        (
+            "{ \"lights\": 3, \"views\": 2 }",
+            "each has at least one view",
+        ),
+        ("{ \"anisotropy\": 17 }", "from 1 (trilinear lookups) to 16"),
+        (
+            "{ \"lights\": 2, \"views\": 2, \"format\": \"r8unorm\" }",
+            "need a channel each",
+        ),
+    ] {
+        let error = refused(&shade(properties));
+        assert_eq!(error.kind, GraphErrorKind::Property);
+        assert!(error.to_string().contains(expected), "{error}");
+    }
+    let error = refused(&shade("{ \"views\": 456 }"));
+    assert!(error.to_string().contains("at most 455"), "{error}");
+    compiled(&shade("{ \"lights\": 4, \"views\": 455 }"), &native()).unwrap();
+}
