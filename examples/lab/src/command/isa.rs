@@ -74,19 +74,17 @@ impl core::fmt::Display for Checked {
             .iter()
             .filter(|difference| difference.fails())
             .count();
-        let percent = TOLERANCE * 100.0;
+        let (rows, percent) = (self.rows, TOLERANCE * 100.0);
         if failed == 0 {
             writeln!(
                 f,
-                "none of {} shaders costs over {percent} % more than in the table",
-                self.rows
+                "no figure of {rows} rows is more than {percent} % above the table"
             )
         } else {
             writeln!(
                 f,
-                "{failed} differences close the gate ({} shaders, {percent} %); if they are meant, run `isa --update` and \
-                 say why in the commit",
-                self.rows
+                "the table of {rows} rows does not hold: {failed} above; if that is meant, run `isa --update` and say why in \
+                 the commit"
             )
         }
     }

@@ -136,11 +136,11 @@ pub enum IsaError {
         now: String,
     },
     /// There is no such shader.
-    #[error("there is no shader '{name}'; the nearest is '{nearest}'")]
+    #[error("there is no shader '{name}'; the nearest are {nearest}")]
     UnknownShader {
         /// What was asked for.
         name: String,
-        /// A shader of a similar name.
+        /// Shaders of similar names.
         nearest: String,
     },
 }
