@@ -115,6 +115,9 @@ numerics_on_swiftshader() {
   )
 }
 
+# Graph files, models and shaders that are mutated at random, from a fixed seed on.
+run_fuzzing() { cargo run --release --locked --quiet -p moment-shadows-fuzz --bin moment-shadows-fuzz -- --seconds 60 --seed 1; }
+
 # Prints the arguments for each combination of features of the library crates, a line each.
 feature_combinations() {
   local manifest package features chosen set bit
@@ -162,4 +165,5 @@ check() {
   step "The SPIR-V: spirv-val" run_spirv_val
   step "What the code costs: instructions for two AMD chips" run_isa
   step "A second rasteriser: the tests of numerics on SwiftShader" numerics_on_swiftshader
+  step "Fuzzing" run_fuzzing
 }
