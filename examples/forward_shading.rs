@@ -135,16 +135,13 @@ fn main() -> Result<(), Box<dyn Error>> {
         dimension: Some(wgpu::TextureViewDimension::D2Array),
         ..Default::default()
     });
-    let sampler = |anisotropy_clamp| {
-        device.create_sampler(&wgpu::SamplerDescriptor {
-            mag_filter: wgpu::FilterMode::Linear,
-            min_filter: wgpu::FilterMode::Linear,
-            mipmap_filter: wgpu::MipmapFilterMode::Linear,
-            anisotropy_clamp,
-            ..Default::default()
-        })
-    };
-    let (linear, anisotropic) = (sampler(1), sampler(8));
+    let sampler = device.create_sampler(&wgpu::SamplerDescriptor {
+        mag_filter: wgpu::FilterMode::Linear,
+        min_filter: wgpu::FilterMode::Linear,
+        mipmap_filter: wgpu::MipmapFilterMode::Linear,
+        anisotropy_clamp: 8,
+        ..Default::default()
+    });
     let shadow_entries = [
         wgpu::BindGroupEntry {
             binding: 0,
@@ -152,11 +149,7 @@ fn main() -> Result<(), Box<dyn Error>> {
         },
         wgpu::BindGroupEntry {
             binding: 1,
-            resource: wgpu::BindingResource::Sampler(&linear),
-        },
-        wgpu::BindGroupEntry {
-            binding: 2,
-            resource: wgpu::BindingResource::Sampler(&anisotropic),
+            resource: wgpu::BindingResource::Sampler(&sampler),
         },
     ];
 

@@ -17,8 +17,7 @@ struct Frame {
 
 @group(0) @binding(0) var<uniform> frame: Frame;
 @group(1) @binding(0) var shadow_map: texture_2d_array<f32>;
-@group(1) @binding(1) var linear_sampler: sampler;
-@group(1) @binding(2) var anisotropic_sampler: sampler;
+@group(1) @binding(1) var shadow_sampler: sampler;
 
 // Probes of an anisotropic lookup, at most.
 const ANISOTROPY = 8.0;
@@ -87,8 +86,7 @@ fn shadow_intensity(place: vec3f, difference_x: vec3f, difference_y: vec3f) -> f
     let whole = MapRegion(vec2u(0u), textureDimensions(shadow_map));
     let texel = map_lookup_gradient(
         shadow_map,
-        linear_sampler,
-        anisotropic_sampler,
+        shadow_sampler,
         0u,
         whole,
         textureNumLevels(shadow_map),

@@ -1,9 +1,11 @@
 import super::map_region::{MapRegion, map_region_at_level, map_region_last_level, map_region_place};
 import super::minification::{MinificationFootprint, minification_probe};
 
-// The lookups of `map_lookup` for maps that a device cannot filter: texels are loaded and blended here, in f32, while
-// hardware may use weights of as few as 8 bits. Blending texels of moments is a convex combination, so it keeps moments
-// valid.
+// Lookups in a map that a device cannot filter, and where a sampler would read across the edge of a region: bilinear,
+// trilinear, averaged over a footprint. `uv`, `levels` and regions are those of `map_lookup`.
+//
+// Texels are loaded and blended here, in f32, while hardware may use weights of as few as 8 bits. Blending texels of moments
+// is a convex combination, so it keeps moments valid.
 
 // The bilinearly filtered texel on one mip level. `uv` is finite; values outside [0, 1] count as the nearer edge.
 fn map_load_bilinear(map: texture_2d_array<f32>, layer: u32, region: MapRegion, uv: vec2f, level: u32) -> vec4f {

@@ -1,47 +1,26 @@
-import super::map_region::{MapRegion, map_region_at_level, map_region_last_level, map_region_place};
-import super::minification::{MinificationFootprint, minification_footprint, minification_probe};
+import super::map_load::{map_load_footprint};
+import super::map_region::{MapRegion, map_region_at_level, map_region_place};
+import super::minification::{minification_footprint};
 
-// Lookups in a filterable map with mip levels: bilinear, trilinear, anisotropic. None reads across the edge of a region.
+// Lookups in a filterable map by a sampler: bilinear, and averaged over a pixel. None reads across the edge of a region.
 //
 // `uv` runs from 0 to 1 across the region, v downwards; places are in texels of mip level 0. `levels` is the number of mip
-// levels of the map. Samplers filter linearly within and between levels and clamp to the edge; `linear` is not anisotropic:
-// a driver may apply anisotropy to lookups with an explicit level, too, and then they would reach beyond the region.
-// `map_load` has the same lookups for maps that a device cannot filter.
+// levels of the map. Samplers filter linearly within and between levels and clamp to the edge. `map_load` has lookups for
+// maps that a device cannot filter.
 
-// The bilinearly filtered texel on one mip level.
+// The bilinearly filtered texel on one mip level. The sampler is not anisotropic: a driver may apply anisotropy to lookups
+// with an explicit level, too, and then they reach beyond the region.
 fn map_lookup_bilinear(map: texture_2d_array<f32>, linear: sampler, layer: u32, region: MapRegion, uv: vec2f, level: u32) -> vec4f {
     let place = map_region_place(map_region_at_level(region, level), uv);
     return textureSampleLevel(map, linear, place / vec2f(textureDimensions(map, level)), layer, f32(level));
 }
 
-// The same, blended between the two mip levels next to `level` >= 0, as far as the region has texels there.
-fn map_lookup_trilinear(map: texture_2d_array<f32>, linear: sampler, layer: u32, region: MapRegion, levels: u32, uv: vec2f, level: f32) -> vec4f {
-    let last = map_region_last_level(region, levels);
-    let fine = min(u32(clamp(level, 0.0, 31.0)), last);
-    let texel = map_lookup_bilinear(map, linear, layer, region, uv, fine);
-    let blend = level - f32(fine);
-    if fine == last || blend <= 0.0 {
-        return texel;
-    }
-    return mix(texel, map_lookup_bilinear(map, linear, layer, region, uv, fine + 1u), blend);
-}
-
-// The average over a footprint around `uv`: trilinear probes along its major axis.
-fn map_lookup_footprint(map: texture_2d_array<f32>, linear: sampler, layer: u32, region: MapRegion, levels: u32, uv: vec2f, footprint: MinificationFootprint) -> vec4f {
-    let per_texel = 1.0 / max(vec2f(region.extent), vec2f(1.0));
-    var sum = vec4f(0.0);
-    for (var probe = 0.0; probe < footprint.probes; probe += 1.0) {
-        let probe_uv = uv + minification_probe(footprint, probe) * per_texel;
-        sum += map_lookup_trilinear(map, linear, layer, region, levels, probe_uv, footprint.level);
-    }
-    return sum / footprint.probes;
-}
-
 // The average over a pixel, from the differences of place to its neighbours in x and y, in texels, each component at
 // most 1e9 in magnitude. Where the pixel's footprint lies well within a region that hardware would divide into the same
 // mip levels, hardware takes the probes, at most as many as the clamp of the sampler `anisotropic`; elsewhere at most
-// `anisotropy` are taken here.
-fn map_lookup_gradient(map: texture_2d_array<f32>, linear: sampler, anisotropic: sampler, layer: u32, region: MapRegion, levels: u32, uv: vec2f, difference_x: vec2f, difference_y: vec2f, anisotropy: f32) -> vec4f {
+// `anisotropy` are taken here, from loaded texels. Regions are read by hardware for the most part if their edges and the
+// size of the map are multiples of a texel of the coarsest level.
+fn map_lookup_gradient(map: texture_2d_array<f32>, anisotropic: sampler, layer: u32, region: MapRegion, levels: u32, uv: vec2f, difference_x: vec2f, difference_y: vec2f, anisotropy: f32) -> vec4f {
     let size = textureDimensions(map);
     let place = vec2f(region.origin) + uv * vec2f(region.extent);
     let whole = all(region.origin == vec2u(0u)) && all(region.extent == size);
@@ -50,7 +29,7 @@ fn map_lookup_gradient(map: texture_2d_array<f32>, linear: sampler, anisotropic:
         return textureSampleGrad(map, anisotropic, place * per_texel, layer, difference_x * per_texel, difference_y * per_texel);
     }
     let footprint = minification_footprint(difference_x, difference_y, anisotropy);
-    return map_lookup_footprint(map, linear, layer, region, levels, uv, footprint);
+    return map_load_footprint(map, layer, region, levels, uv, footprint);
 }
 
 // Whether hardware that filters around `place` over a box of `reach` texels reads no texel of another region, and divides

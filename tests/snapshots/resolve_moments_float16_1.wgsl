@@ -162,6 +162,27 @@ fn moments_apply_bias(b: vec4f, bias: MomentBias) -> vec4f {
     return fma(vec4f(bias.alpha), vec4f(0.0, bias.beta, 0.0, bias.beta) - b, b);
 }
 
+// The biased moments in a (filtered) texel of the storage, with the storage's own bias, within [-2.1, 2.1]: for unorm
+// storage if the channels are in [0, 1], as no texture can help, and for float storage whatever finite numbers it holds.
+fn moments_biased_from_texel(texel: vec4f, storage: u32) -> vec4f {
+    let bias = moments_bias_of(storage);
+    if storage == MOMENTS_STORAGE_FLOAT32 {
+        return moments_apply_bias(moments_clamp(texel), bias);
+    }
+    // The inverse of the basis and the bias are both affine, and so one step. These biases are large enough for 1 - alpha.
+    let keep = 1.0 - bias.alpha;
+    let of_xy = keep * vec4f(-1.0 / 3.0, 0.125, -0.75, -0.125);
+    let of_zw = keep * vec4f(MOMENTS_SQRT_3, 1.0, 0.75 * MOMENTS_SQRT_3, 1.0);
+    // Odd moments are 0 for channels of one half, and float16 storage holds one half less.
+    let middle = select(vec4f(-0.5, 0.0, -0.5, 0.0), vec4f(0.0, 0.5, 0.0, 0.5), storage == MOMENTS_STORAGE_FLOAT16);
+    let shift = fma(middle, of_xy + of_zw, bias.alpha * vec4f(0.0, bias.beta, 0.0, bias.beta));
+    let biased = fma(of_xy, texel.xyxy, fma(of_zw, texel.zwzw, shift));
+    if storage == MOMENTS_STORAGE_FLOAT16 {
+        return moments_clamp(biased);
+    }
+    return biased;
+}
+
 // moment_shadows/map_region.wgsl
 // Regions: rectangles of a layer that share an atlas and know nothing of each other.
 //

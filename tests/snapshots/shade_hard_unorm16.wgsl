@@ -1,3 +1,20 @@
+// fullscreen
+// The vertex stage of fullscreen passes.
+
+struct Covered {
+    @builtin(position) position: vec4f,
+    // The place in the picture from 0 to 1. Other than `position` it does not depend on where in its target a host has the
+    // viewport.
+    @location(0) uv: vec2f,
+}
+
+@vertex
+fn fullscreen(@builtin(vertex_index) index: u32) -> Covered {
+    // One triangle that covers the viewport: (-1, -1), (3, -1), (-1, 3).
+    let corner = 4.0 * vec2f(f32(index & 1u), f32(index >> 1u)) - 1.0;
+    return Covered(vec4f(corner, 0.0, 1.0), 0.5 + vec2f(0.5, -0.5) * corner);
+}
+
 // moment_shadows/hankel.wgsl
 // The shared factorisation: LDL^T of the Hankel matrix of four moments.
 //
@@ -15,31 +32,31 @@ struct HankelFactor {
     variance: f32,
     // The Schur complement of b4, the variance of z^2 that z does not explain; positive.
     residue: f32,
+    // residue / variance.
+    ratio: f32,
     // L32 - 2 b1, with L32 the slope of the regression of z^2 on z.
     shift: f32,
 }
 
 // Pivots of valid moments stay above these multiples of the moment bias alpha, so the guards bind only where rounding
-// has left the pivots without a correct digit (or the moments are none).
+// has left the pivots without a correct digit (or the moments are none). They also bound all that is divided by a pivot:
+// with alpha >= 1e-7 nothing below overflows on the way to a weight, whatever the moments.
 const HANKEL_SMALLEST_VARIANCE: f32 = 0.03;
 const HANKEL_SMALLEST_RESIDUE: f32 = 0.02;
 
-// |L32| <= 2 for every distribution on [-1, 1], since z^2 changes by at most 2 per unit of z. Twice that never touches
-// valid moments and keeps invalid ones from overflowing.
-const HANKEL_LARGEST_SLOPE: f32 = 4.0;
-
-// Factorises the Hankel matrix of moments biased by `alpha` > 0. Moments must lie within [-2, 2].
+// Factorises the Hankel matrix of moments biased by `alpha` >= 1e-7. Moments must lie within [-2.1, 2.1].
 // The differences of products lose almost all digits near a single surface; `fma` keeps them where it is fused.
 fn hankel_factor(biased: vec4f, alpha: f32) -> HankelFactor {
     let variance = max(fma(-biased.x, biased.x, biased.y), HANKEL_SMALLEST_VARIANCE * alpha);
+    // One division for all quotients.
+    let inverse = 1.0 / variance;
     let covariance = fma(-biased.x, biased.y, biased.z);
-    let slope = clamp(covariance / variance, -HANKEL_LARGEST_SLOPE, HANKEL_LARGEST_SLOPE);
-    let residue = fma(-covariance, slope, fma(-biased.y, biased.y, biased.w));
-    return HankelFactor(
-        variance,
-        max(residue, HANKEL_SMALLEST_RESIDUE * alpha),
-        fma(-2.0, biased.x, slope),
+    let slope = covariance * inverse;
+    let residue = max(
+        fma(-covariance, slope, fma(-biased.y, biased.y, biased.w)),
+        HANKEL_SMALLEST_RESIDUE * alpha,
     );
+    return HankelFactor(variance, residue, residue * inverse, fma(-2.0, biased.x, slope));
 }
 
 // P2 at x = z - b1. Negative exactly between the Gauss nodes.
@@ -47,14 +64,12 @@ fn hankel_second_polynomial(factor: HankelFactor, x: f32) -> f32 {
     return fma(x, x - factor.shift, -factor.variance);
 }
 
-// The Christoffel number of x = z - b1: the largest weight that a distribution with these moments can have at z, which is
-// the weight that the extremal distribution through z has there. A sum of positive terms: nothing cancels.
+// The Christoffel number of x = z - b1, 1 / (1 + x^2 / variance + P2^2 / residue): the largest weight that a distribution
+// with these moments can have at z, which is the weight that the extremal distribution through z has there. A sum of
+// positive terms, here times the residue: nothing cancels.
 fn hankel_christoffel_number(factor: HankelFactor, x: f32, second_polynomial: f32) -> f32 {
-    // One division for 1 / (1 + x^2 / variance + P2^2 / residue).
-    let x_term = x * x * factor.residue;
-    let polynomial_term = second_polynomial * second_polynomial * factor.variance;
-    let norm = factor.variance * factor.residue;
-    return norm / (norm + x_term + polynomial_term);
+    let x_term = fma(x * factor.ratio, x, factor.residue);
+    return factor.residue / fma(second_polynomial, second_polynomial, x_term);
 }
 
 // moment_shadows/moments.wgsl
@@ -181,6 +196,27 @@ fn moments_apply_bias(b: vec4f, bias: MomentBias) -> vec4f {
     return fma(vec4f(bias.alpha), vec4f(0.0, bias.beta, 0.0, bias.beta) - b, b);
 }
 
+// The biased moments in a (filtered) texel of the storage, with the storage's own bias, within [-2.1, 2.1]: for unorm
+// storage if the channels are in [0, 1], as no texture can help, and for float storage whatever finite numbers it holds.
+fn moments_biased_from_texel(texel: vec4f, storage: u32) -> vec4f {
+    let bias = moments_bias_of(storage);
+    if storage == MOMENTS_STORAGE_FLOAT32 {
+        return moments_apply_bias(moments_clamp(texel), bias);
+    }
+    // The inverse of the basis and the bias are both affine, and so one step. These biases are large enough for 1 - alpha.
+    let keep = 1.0 - bias.alpha;
+    let of_xy = keep * vec4f(-1.0 / 3.0, 0.125, -0.75, -0.125);
+    let of_zw = keep * vec4f(MOMENTS_SQRT_3, 1.0, 0.75 * MOMENTS_SQRT_3, 1.0);
+    // Odd moments are 0 for channels of one half, and float16 storage holds one half less.
+    let middle = select(vec4f(-0.5, 0.0, -0.5, 0.0), vec4f(0.0, 0.5, 0.0, 0.5), storage == MOMENTS_STORAGE_FLOAT16);
+    let shift = fma(middle, of_xy + of_zw, bias.alpha * vec4f(0.0, bias.beta, 0.0, bias.beta));
+    let biased = fma(of_xy, texel.xyxy, fma(of_zw, texel.zwzw, shift));
+    if storage == MOMENTS_STORAGE_FLOAT16 {
+        return moments_clamp(biased);
+    }
+    return biased;
+}
+
 // moment_shadows/hamburger.wgsl
 
 // Hamburger four-moment shadow mapping: the sharpest bounds on shadow intensity that four moments allow.
@@ -197,28 +233,38 @@ fn moments_apply_bias(b: vec4f, bias: MomentBias) -> vec4f {
 // Support points farther than this from the mean have a weight below 1e-8, and squaring them must not overflow.
 const HAMBURGER_FARTHEST_SUPPORT: f32 = 1e4;
 
-// The leading coefficient stays below this, so that dividing by it is defined when the fragment is at a Gauss node.
-const HAMBURGER_LARGEST_LEADING_COEFFICIENT: f32 = -1e-20;
+// The leading coefficient stays above this, so that dividing by it is defined when the fragment is at a Gauss node.
+const HAMBURGER_SMALLEST_LEADING_COEFFICIENT: f32 = 1e-20;
 
-// The two support points besides the fragment, relative to the mean, in order, for a fragment at x = z - b1 between the
-// Gauss nodes: x_1 < x < x_2. Elsewhere the result is finite and without meaning.
-fn hamburger_support(factor: HankelFactor, x: f32, second_polynomial: f32) -> vec2f {
-    // a y^2 + b y + c = 0 with a < 0 < c, so both roots are real and 0 lies between them.
-    let a = min(second_polynomial, HAMBURGER_LARGEST_LEADING_COEFFICIENT);
-    let b = fma(factor.residue / factor.variance, x, -factor.shift * a);
-    let c = fma(-factor.variance, a, factor.residue);
-    // sign(0) is 0 and would lose both roots.
-    let q = -0.5 * (b + select(-1.0, 1.0, b >= 0.0) * sqrt(max(fma(b, b, -4.0 * a * c), 0.0)));
-    let roots = clamp(
-        vec2f(q / a, c / q),
-        vec2f(-HAMBURGER_FARTHEST_SUPPORT),
-        vec2f(HAMBURGER_FARTHEST_SUPPORT),
+// The two support points besides the fragment, relative to the mean, for a fragment at x = z - b1.
+struct HamburgerSupport {
+    // x_1 < x < x_2 if the fragment is between the Gauss nodes. Elsewhere finite; x_1 is then the farthest point where
+    // x < 0, and without meaning where x > 0.
+    points: vec2f,
+    // Outside the Gauss nodes: whether x > 0.
+    above: bool,
+}
+
+// The support of the extremal distribution through the fragment at x, where P2(x) is `second_polynomial`.
+fn hamburger_support(factor: HankelFactor, x: f32, second_polynomial: f32) -> HamburgerSupport {
+    // -a y^2 + b y + c / 4 = 0 with a, c > 0, so both roots are real and 0 lies between them.
+    let a = max(-second_polynomial, HAMBURGER_SMALLEST_LEADING_COEFFICIENT);
+    let b = fma(factor.ratio, x, factor.shift * a);
+    let c = 4.0 * fma(factor.variance, a, factor.residue);
+    // The roots' magnitudes are sum / (2 a) and c / (2 sum); the greater one has the sign of b. No term cancels.
+    let sum = abs(b) + sqrt(fma(a, c, b * b));
+    let above = b >= 0.0;
+    let lower = select(sum, c, above) / select(a, sum, above);
+    let upper = select(c, sum, above) / select(sum, a, above);
+    let doubled = vec2f(
+        max(-lower, -2.0 * HAMBURGER_FARTHEST_SUPPORT),
+        min(upper, 2.0 * HAMBURGER_FARTHEST_SUPPORT),
     );
-    return vec2f(min(roots.x, roots.y), max(roots.x, roots.y));
+    return HamburgerSupport(0.5 * doubled, above);
 }
 
 // The sharp bounds of shadow intensity: x = inf S(z < fragment_depth), y = sup S(z <= fragment_depth) over all
-// distributions S with the moments `biased`, which are already biased by `alpha` > 0 and lie within [-2, 2].
+// distributions S with the moments `biased`, which are already biased by `alpha` >= 1e-7 and lie within [-2, 2].
 // Both are in [0, 1] for all such moments, valid or not, and every finite fragment depth; farther out than 1e4 the
 // fragment depth counts as 1e4. Error: |error| <= 8 * 2^-24 * (1 + sensitivity) where fma is fused.
 fn hamburger_bounds(biased: vec4f, fragment_depth: f32, alpha: f32) -> vec2f {
@@ -227,29 +273,42 @@ fn hamburger_bounds(biased: vec4f, fragment_depth: f32, alpha: f32) -> vec2f {
     let polynomial = hankel_second_polynomial(factor, x);
     if polynomial >= 0.0 {
         // Outside the Gauss nodes no support point lies beyond the fragment: no root is needed.
-        let weight = hankel_christoffel_number(factor, x, polynomial);
+        let weight = saturate(hankel_christoffel_number(factor, x, polynomial));
         return select(vec2f(0.0, weight), vec2f(1.0 - weight, 1.0), x > 0.0);
     }
-    let support = hamburger_support(factor, x, polynomial);
+    let support = hamburger_support(factor, x, polynomial).points;
     let below = hankel_christoffel_number(factor, support.x, hankel_second_polynomial(factor, support.x));
     let above = hankel_christoffel_number(factor, support.y, hankel_second_polynomial(factor, support.y));
     return saturate(vec2f(below, 1.0 - above));
+}
+
+// The lower one of `hamburger_bounds`, with fragment depths beyond the light's range counting as its ends; where the
+// bound is 0 the result is below 1e-8.
+fn hamburger_lower_bound(biased: vec4f, fragment_depth: f32, alpha: f32) -> f32 {
+    let factor = hankel_factor(biased, alpha);
+    let x = clamp(fragment_depth, -1.0, 1.0) - biased.x;
+    let polynomial = hankel_second_polynomial(factor, x);
+    let support = hamburger_support(factor, x, polynomial);
+    // One Christoffel number serves all cases: at the fragment itself where it is above the Gauss nodes, or else at the
+    // support point below it. Where the fragment is below the Gauss nodes that one is at infinity, without weight.
+    let beyond = polynomial >= 0.0 && support.above;
+    let t = select(support.points.x, x, beyond);
+    let weight = saturate(hankel_christoffel_number(factor, t, hankel_second_polynomial(factor, t)));
+    return select(weight, 1.0 - weight, beyond);
 }
 
 // Shadow intensity in [0, 1] (1 = shadowed) of a fragment at `fragment_depth` (moment depth) under the filtered moments
 // of its map: the lower bound, never darker than the truth but for the bias. Moments may be anything finite; fragment
 // depths beyond the light's range count as its ends.
 fn hamburger_shadow_intensity(moments: vec4f, fragment_depth: f32, bias: MomentBias) -> f32 {
-    let biased = moments_apply_bias(moments_clamp(moments), bias);
-    let factor = hankel_factor(biased, bias.alpha);
-    let x = clamp(fragment_depth, -1.0, 1.0) - biased.x;
-    let polynomial = hankel_second_polynomial(factor, x);
-    let outside = polynomial >= 0.0;
-    // One Christoffel number serves both cases: at the fragment itself, or at the support point in front of it.
-    let support = hamburger_support(factor, x, polynomial).x;
-    let t = select(support, x, outside);
-    let weight = hankel_christoffel_number(factor, t, hankel_second_polynomial(factor, t));
-    return saturate(select(weight, select(0.0, 1.0 - weight, x > 0.0), outside));
+    return hamburger_lower_bound(moments_apply_bias(moments_clamp(moments), bias), fragment_depth, bias.alpha);
+}
+
+// The same for a filtered texel of a storage, with the bias of the storage. Cheaper, since decoding and bias are one step
+// and a texel of unorm storage needs no clamping.
+fn hamburger_shadow_intensity_of_texel(texel: vec4f, fragment_depth: f32, storage: u32) -> f32 {
+    let biased = moments_biased_from_texel(texel, storage);
+    return hamburger_lower_bound(biased, fragment_depth, moments_bias_of(storage).alpha);
 }
 
 // moment_shadows/leak_reduction.wgsl
@@ -271,7 +330,7 @@ struct LeakReduction {
 
 // Shadow intensity after division by `full_shadow`.
 fn leak_reduction_full_shadow(shadow_intensity: f32, full_shadow: f32) -> f32 {
-    return min(shadow_intensity / max(full_shadow, 1e-6), 1.0);
+    return saturate(shadow_intensity / max(full_shadow, 1e-6));
 }
 
 // Shadow intensity in [0, 1] after all three reductions. Each only darkens; full light stays full light.
@@ -391,57 +450,80 @@ fn minification_depth_variance(footprint: MinificationFootprint, gradient: vec2f
     return (1.13 / 4.0) * across * across + along * along / 12.0;
 }
 
+// moment_shadows/map_load.wgsl
+
+// Lookups in a map that a device cannot filter, and where a sampler would read across the edge of a region: bilinear,
+// trilinear, averaged over a footprint. `uv`, `levels` and regions are those of `map_lookup`.
+//
+// Texels are loaded and blended here, in f32, while hardware may use weights of as few as 8 bits. Blending texels of moments
+// is a convex combination, so it keeps moments valid.
+
+// The bilinearly filtered texel on one mip level. `uv` is finite; values outside [0, 1] count as the nearer edge.
+fn map_load_bilinear(map: texture_2d_array<f32>, layer: u32, region: MapRegion, uv: vec2f, level: u32) -> vec4f {
+    let rectangle = map_region_at_level(region, level);
+    let place = map_region_place(rectangle, uv) - 0.5;
+    let base = floor(place);
+    let weight = place - base;
+    let low = vec2i(base);
+    let high = min(low + 1, vec2i(rectangle.origin + rectangle.extent) - 1);
+    let top = mix(textureLoad(map, low, layer, level), textureLoad(map, vec2i(high.x, low.y), layer, level), weight.x);
+    let bottom = mix(textureLoad(map, vec2i(low.x, high.y), layer, level), textureLoad(map, high, layer, level), weight.x);
+    return mix(top, bottom, weight.y);
+}
+
+// The same, blended between the two mip levels next to `level` >= 0, as far as the region has texels there.
+fn map_load_trilinear(map: texture_2d_array<f32>, layer: u32, region: MapRegion, levels: u32, uv: vec2f, level: f32) -> vec4f {
+    let last = map_region_last_level(region, levels);
+    let fine = min(u32(clamp(level, 0.0, 31.0)), last);
+    let texel = map_load_bilinear(map, layer, region, uv, fine);
+    let blend = level - f32(fine);
+    if fine == last || blend <= 0.0 {
+        return texel;
+    }
+    return mix(texel, map_load_bilinear(map, layer, region, uv, fine + 1u), blend);
+}
+
+// The average over a footprint around `uv`: trilinear probes along its major axis.
+fn map_load_footprint(map: texture_2d_array<f32>, layer: u32, region: MapRegion, levels: u32, uv: vec2f, footprint: MinificationFootprint) -> vec4f {
+    let per_texel = 1.0 / max(vec2f(region.extent), vec2f(1.0));
+    var sum = vec4f(0.0);
+    for (var probe = 0.0; probe < footprint.probes; probe += 1.0) {
+        let probe_uv = uv + minification_probe(footprint, probe) * per_texel;
+        sum += map_load_trilinear(map, layer, region, levels, probe_uv, footprint.level);
+    }
+    return sum / footprint.probes;
+}
+
 // moment_shadows/map_lookup.wgsl
 
-// Lookups in a filterable map with mip levels: bilinear, trilinear, anisotropic. None reads across the edge of a region.
+// Lookups in a filterable map by a sampler: bilinear, and averaged over a pixel. None reads across the edge of a region.
 //
 // `uv` runs from 0 to 1 across the region, v downwards; places are in texels of mip level 0. `levels` is the number of mip
-// levels of the map. The sampler filters linearly within and between levels and clamps to the edge. `map_load` has the
-// same lookups for maps that a device cannot filter.
+// levels of the map. Samplers filter linearly within and between levels and clamp to the edge. `map_load` has lookups for
+// maps that a device cannot filter.
 
-// The bilinearly filtered texel on one mip level.
+// The bilinearly filtered texel on one mip level. The sampler is not anisotropic: a driver may apply anisotropy to lookups
+// with an explicit level, too, and then they reach beyond the region.
 fn map_lookup_bilinear(map: texture_2d_array<f32>, linear: sampler, layer: u32, region: MapRegion, uv: vec2f, level: u32) -> vec4f {
     let place = map_region_place(map_region_at_level(region, level), uv);
     return textureSampleLevel(map, linear, place / vec2f(textureDimensions(map, level)), layer, f32(level));
 }
 
-// The same, blended between the two mip levels next to `level` >= 0, as far as the region has texels there.
-fn map_lookup_trilinear(map: texture_2d_array<f32>, linear: sampler, layer: u32, region: MapRegion, levels: u32, uv: vec2f, level: f32) -> vec4f {
-    let last = map_region_last_level(region, levels);
-    let fine = min(u32(clamp(level, 0.0, 31.0)), last);
-    let texel = map_lookup_bilinear(map, linear, layer, region, uv, fine);
-    let blend = level - f32(fine);
-    if fine == last || blend <= 0.0 {
-        return texel;
-    }
-    return mix(texel, map_lookup_bilinear(map, linear, layer, region, uv, fine + 1u), blend);
-}
-
-// The average over a footprint around `uv`: trilinear probes along its major axis.
-fn map_lookup_footprint(map: texture_2d_array<f32>, linear: sampler, layer: u32, region: MapRegion, levels: u32, uv: vec2f, footprint: MinificationFootprint) -> vec4f {
-    let per_texel = 1.0 / max(vec2f(region.extent), vec2f(1.0));
-    var sum = vec4f(0.0);
-    for (var probe = 0.0; probe < footprint.probes; probe += 1.0) {
-        let probe_uv = uv + minification_probe(footprint, probe) * per_texel;
-        sum += map_lookup_trilinear(map, linear, layer, region, levels, probe_uv, footprint.level);
-    }
-    return sum / footprint.probes;
-}
-
 // The average over a pixel, from the differences of place to its neighbours in x and y, in texels, each component at
 // most 1e9 in magnitude. Where the pixel's footprint lies well within a region that hardware would divide into the same
-// mip levels, hardware takes the probes, at most as many as the sampler's anisotropy clamp; elsewhere at most
-// `anisotropy` are taken here.
-fn map_lookup_gradient(map: texture_2d_array<f32>, linear: sampler, layer: u32, region: MapRegion, levels: u32, uv: vec2f, difference_x: vec2f, difference_y: vec2f, anisotropy: f32) -> vec4f {
+// mip levels, hardware takes the probes, at most as many as the clamp of the sampler `anisotropic`; elsewhere at most
+// `anisotropy` are taken here, from loaded texels. Regions are read by hardware for the most part if their edges and the
+// size of the map are multiples of a texel of the coarsest level.
+fn map_lookup_gradient(map: texture_2d_array<f32>, anisotropic: sampler, layer: u32, region: MapRegion, levels: u32, uv: vec2f, difference_x: vec2f, difference_y: vec2f, anisotropy: f32) -> vec4f {
     let size = textureDimensions(map);
     let place = vec2f(region.origin) + uv * vec2f(region.extent);
     let whole = all(region.origin == vec2u(0u)) && all(region.extent == size);
     if whole || map_lookup_is_inner(region, size, levels, place, abs(difference_x) + abs(difference_y)) {
         let per_texel = 1.0 / vec2f(size);
-        return textureSampleGrad(map, linear, place * per_texel, layer, difference_x * per_texel, difference_y * per_texel);
+        return textureSampleGrad(map, anisotropic, place * per_texel, layer, difference_x * per_texel, difference_y * per_texel);
     }
     let footprint = minification_footprint(difference_x, difference_y, anisotropy);
-    return map_lookup_footprint(map, linear, layer, region, levels, uv, footprint);
+    return map_load_footprint(map, layer, region, levels, uv, footprint);
 }
 
 // Whether hardware that filters around `place` over a box of `reach` texels reads no texel of another region, and divides
@@ -461,21 +543,19 @@ const GROUP = 0;
 const STORAGE = 0u;
 const LEVELS = 1u;
 const VIEWS = 1u;
+const LIGHTS = 1u;
 const ANISOTROPY = 8.0;
 
 // moments_lookup
 
-// The lookup in a map that the device can filter.
+// The lookup in a map that the device can filter, without mip levels.
 
 @group(GROUP) @binding(2) var moments_map: texture_2d_array<f32>;
 @group(GROUP) @binding(3) var moments_sampler: sampler;
 
-// The texel at `uv` in [0, 1] across a region, filtered over a pixel with these differences of place to its neighbours.
+// The bilinearly filtered texel at `uv` in [0, 1] across a region. How far apart pixels lie does not matter.
 fn moments_lookup(layer: u32, region: MapRegion, uv: vec2f, difference_x: vec2f, difference_y: vec2f) -> vec4f {
-    if LEVELS == 1u {
-        return map_lookup_bilinear(moments_map, moments_sampler, layer, region, uv, 0u);
-    }
-    return map_lookup_gradient(moments_map, moments_sampler, layer, region, LEVELS, uv, difference_x, difference_y, ANISOTROPY);
+    return map_lookup_bilinear(moments_map, moments_sampler, layer, region, uv, 0u);
 }
 
 // moment_shadows/receiver_bias.wgsl
@@ -588,13 +668,6 @@ struct ShadeHardParameters {
 @group(GROUP) @binding(0) var<uniform> views: array<ShadeHardParameters, VIEWS>;
 @group(GROUP) @binding(1) var camera_depth: texture_depth_2d;
 
-@vertex
-fn fullscreen(@builtin(vertex_index) index: u32) -> @builtin(position) vec4f {
-    // One triangle that covers the target: (-1, -1), (3, -1), (-1, 3).
-    let corner = vec2f(f32(index & 1u), f32(index >> 1u));
-    return vec4f(4.0 * corner - 1.0, 0.0, 1.0);
-}
-
 // A pixel's surface as the light sees it.
 struct Receiver {
     // x and y in the map from 0 to 1, z in moment depth.
@@ -680,13 +753,14 @@ fn view_shadow_intensity(view: u32, receiver: Receiver, neighbour_x: vec3f, neig
     // kernel may still see the surface within the range.
     let fragment_depth = min(receiver.place.z, 1.0) - bias;
     let texel = moments_lookup(views[view].layer, region, receiver.place.xy, difference_x.xy, difference_y.xy);
-    let intensity = hamburger_shadow_intensity(moments_from_texel(texel, STORAGE), fragment_depth, moments_bias_of(STORAGE));
+    let intensity = hamburger_shadow_intensity_of_texel(texel, fragment_depth, STORAGE);
     return leak_reduction_apply(intensity, views[view].leak_reduction);
 }
 
 @fragment
-fn shade(@builtin(position) position: vec4f) -> @location(0) vec4f {
-    let pixel = vec2i(position.xy);
+fn shade(covered: Covered) -> @location(0) vec4f {
+    let size = vec2i(textureDimensions(camera_depth));
+    let pixel = clamp(vec2i(covered.uv * vec2f(size)), vec2i(0), size - 1);
     let stored_depth = textureLoad(camera_depth, pixel, 0);
     // Outside its map a light casts no shadow, and where there is no surface, either.
     var intensities = vec4f(0.0);
@@ -708,5 +782,6 @@ fn shade(@builtin(position) position: vec4f) -> @location(0) vec4f {
             open_channels = open_channels & !channel;
         }
     }
-    return intensities;
+    // A single light is in all channels, so that a host can blend with it or show it.
+    return select(intensities, intensities.xxxx, LIGHTS == 1u);
 }

@@ -142,16 +142,7 @@ impl Node for ShadeHard {
                 binding: 3,
                 resource: BindingResource::Sampler {
                     filtering: true,
-                    anisotropy: 1,
-                },
-            });
-        }
-        if sampled && moments.mips > 1 {
-            bindings.push(Binding {
-                binding: 5,
-                resource: BindingResource::Sampler {
-                    filtering: true,
-                    anisotropy: self.anisotropy,
+                    anisotropy: if moments.mips > 1 { self.anisotropy } else { 1 },
                 },
             });
         }
