@@ -1,4 +1,4 @@
-import moment_shadows::moments::{moments_apply_bias, moments_bias_of, moments_biased_from_texel, moments_clamp, moments_from_depth, moments_from_texel, moments_to_texel};
+import moment_shadows::moments::{moments_apply_bias, moments_bias_of, moments_biased_from_texel, moments_from_depth, moments_from_texel, moments_to_texel};
 
 struct BatchInput {
     moments: vec4f,
@@ -18,7 +18,7 @@ struct BatchOutput {
 
 fn batch(input: BatchInput) -> BatchOutput {
     let bias = moments_bias_of(input.storage);
-    // Two surfaces: moments that need no clamping.
+    // Two surfaces: moments in their ranges but for the rounding of the texel.
     let valid = mix(moments_from_depth(input.moments.x), moments_from_depth(input.moments.z), input.moments.y);
     let texel = moments_to_texel(valid, input.storage);
     return BatchOutput(
@@ -27,6 +27,6 @@ fn batch(input: BatchInput) -> BatchOutput {
         bias.beta,
         vec2f(0.0),
         moments_biased_from_texel(texel, input.storage),
-        moments_apply_bias(moments_clamp(moments_from_texel(texel, input.storage)), bias),
+        moments_apply_bias(moments_from_texel(texel, input.storage), bias),
     );
 }
