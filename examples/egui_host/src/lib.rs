@@ -19,7 +19,7 @@ const PASS: &str = "shade/shade";
 
 /// An application with a picture of its own renderer, and a callback that shadows it.
 pub struct App {
-    picture: egui::TextureId,
+    pub picture: egui::TextureId,
 }
 
 impl App {

@@ -5,7 +5,7 @@ use std::error::Error;
 
 use eframe::egui_wgpu::RenderState;
 use eframe::wgpu;
-use moment_shadows::{Kernel, LeakReduction, ReceiverBias};
+use moment_shadows::{Kernel, LeakReduction, MapRegion, ReceiverBias};
 use moment_shadows_graph::Plan;
 use moment_shadows_graph::nodes::{CameraView, LightDepth, LightView, ShadeHardParameters};
 use moment_shadows_graph::record::ImportedResource;
@@ -57,6 +57,8 @@ impl StandIn {
             clip_from_world: desc.light.clip_from_world().as_mat4().to_cols_array_2d(),
             depth: LightDepth::Orthographic { reversed: false },
             layer: 0,
+            region: MapRegion::WHOLE,
+            channel: 0,
         };
         let camera = CameraView {
             clip_from_world: desc.camera.clip_from_world_columns()?,
