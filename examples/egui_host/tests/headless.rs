@@ -40,11 +40,8 @@ fn shadow_intensity() -> Vec<f32> {
 fn drawn(show: impl Fn(&App, &mut egui::Ui) -> egui::Response) -> (RgbaImage, [u32; 2]) {
     let render_state = create_render_state(default_wgpu_setup(), RendererOptions::PREDICTABLE);
     // Not sRGB: what is blended are the bytes themselves.
-    assert_eq!(
-        render_state.target_format,
-        wgpu::TextureFormat::Rgba8Unorm
-    );
-    let app = App::new(&render_state).unwrap();
+    assert_eq!(render_state.target_format, wgpu::TextureFormat::Rgba8Unorm);
+    let app = pollster::block_on(App::new(&render_state)).unwrap();
     let at = Cell::new([0; 2]);
     let mut harness = Harness::builder()
         .with_size(WINDOW)
@@ -52,7 +49,10 @@ fn drawn(show: impl Fn(&App, &mut egui::Ui) -> egui::Response) -> (RgbaImage, [u
         .build_ui(|ui| {
             ui.set_max_size(PICTURE.map(|side| side as f32).into());
             let rect = show(&app, ui).rect;
-            assert_eq!([rect.width(), rect.height()], PICTURE.map(|side| side as f32));
+            assert_eq!(
+                [rect.width(), rect.height()],
+                PICTURE.map(|side| side as f32)
+            );
             at.set([rect.left() as u32, rect.top() as u32]);
         });
     let image = harness.render().unwrap();
@@ -65,7 +65,7 @@ fn the_callback_darkens_the_picture_by_the_shadow_intensity() {
     let (shadowed, at) = drawn(|app, ui| app.show(ui));
     let (plain, plain_at) = drawn(|app, ui| {
         let size = egui::Vec2::from(PICTURE.map(|side| side as f32));
-        ui.add(egui::Image::new((app.picture, size)))
+        ui.add(egui::Image::new((app.0, size)))
     });
     assert_eq!(at, plain_at);
     // The pane does not begin at the window's corner: a pass that took its pixels from there would miss.
@@ -81,7 +81,10 @@ fn the_callback_darkens_the_picture_by_the_shadow_intensity() {
             // The byte that is blended to is rounded, and so is the intensity that is read back: half a byte each; and
             // the place in the picture is interpolated, not exact.
             let difference = (f32::from(*found) - expected).abs();
-            assert!(difference < 2.0, "({x}, {y}): {found} in place of {expected}");
+            assert!(
+                difference < 2.0,
+                "({x}, {y}): {found} in place of {expected}"
+            );
         }
         dark += u32::from(*intensity > 0.5);
     }
