@@ -64,8 +64,9 @@ pub use storage::{MomentBias, Storage, UnsupportedStorage};
 pub use technique::Technique;
 #[cfg(feature = "validate")]
 pub use validate::{
-    Backend, Diagnostic, LONGEST_CHAIN, LONGEST_DEFINITION, LONGEST_SHADER, Label, Outcome,
-    ValidateError, ValidationReport, validate, validate_module,
+    Backend, Diagnostic, LARGEST_CONSTANT, LARGEST_VALUE, LONGEST_CHAIN, LONGEST_DEFINITION,
+    LONGEST_SHADER, Label, MOST_CONSTANTS, MOST_EXPRESSIONS, MOST_VALUES, Outcome, ValidateError,
+    ValidationReport, validate, validate_module,
 };
 
 #[cfg(doctest)]

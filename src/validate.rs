@@ -1,18 +1,22 @@
 //! Validation: whether a shader that imports our modules can be used everywhere that a profile promises.
 
 mod backend;
+mod constants;
 mod diagnostic;
 mod error;
 mod exercise;
 mod limits;
 mod storage_format;
+mod values;
 
 use naga::valid::{Capabilities, ModuleInfo, ValidationFlags, Validator};
 
 pub use backend::{Backend, Outcome};
+pub use constants::{LARGEST_CONSTANT, MOST_CONSTANTS};
 pub use diagnostic::{Diagnostic, Label};
 pub use error::ValidateError;
 pub use limits::{LONGEST_CHAIN, LONGEST_DEFINITION, LONGEST_SHADER};
+pub use values::{LARGEST_VALUE, MOST_EXPRESSIONS, MOST_VALUES};
 
 use crate::{Linked, Profile, Source, link, link_module};
 
@@ -49,8 +53,9 @@ impl ValidationReport {
 /// texture formats and accesses that every device has; `native` the 16-bit normalised ones as well; `native-adapter` every
 /// format that naga knows.
 ///
-/// The WGSL compiler runs on a thread of its own with a large stack; [`LONGEST_SHADER`], [`LONGEST_DEFINITION`] and
-/// [`LONGEST_CHAIN`] bound what it is given.
+/// The WGSL compiler runs on a thread of its own with a large stack; [`LONGEST_SHADER`], [`LONGEST_DEFINITION`],
+/// [`LONGEST_CHAIN`], [`LARGEST_CONSTANT`], [`MOST_CONSTANTS`], [`LARGEST_VALUE`], [`MOST_VALUES`] and
+/// [`MOST_EXPRESSIONS`] bound what it is given, so that an answer takes seconds at most.
 ///
 /// # Errors
 /// [`ValidateError`], which points at the line of the file before linking.
@@ -108,6 +113,7 @@ fn compile(
             file, linked, &module, &error,
         ))
     })?;
+    values::refuse_large(linked, &module, &info)?;
     let shader = if module.entry_points.is_empty() {
         exercise::exercise(&module, info, capabilities)
     } else {

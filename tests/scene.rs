@@ -505,3 +505,80 @@ fn a_scene_far_from_the_origin_is_brought_to_it() {
     );
     assert_eq!(scene.ground, Some(0.0));
 }
+
+#[test]
+fn vertices_too_far_away_are_refused() {
+    let mut files = Files::triangle();
+    files.bytes[12..16].copy_from_slice(&1.0e38_f32.to_le_bytes());
+    match files.load() {
+        Err(error @ SceneError::Far { .. }) => {
+            let text = error.to_string();
+            assert!(text.contains("vertex 1") && text.contains("1e15"), "{text}");
+        }
+        other => panic!("{other:?}"),
+    }
+}
+
+#[test]
+#[cfg(unix)]
+fn what_never_ends_is_not_read() {
+    let mut files = Files::triangle();
+    for uri in ["/dev/zero", "%2Fdev/zero"] {
+        files.document["buffers"][0]["uri"] = json!(uri);
+        match files.load() {
+            Err(error @ SceneError::Buffer { buffer: 0, .. }) => {
+                assert!(error.to_string().contains("no regular file"), "{error}");
+            }
+            other => panic!("{other:?}"),
+        }
+    }
+    match load_gltf(Path::new("/dev/zero")) {
+        Err(error @ SceneError::Read { .. }) => {
+            assert!(error.to_string().contains("no regular file"), "{error}");
+        }
+        other => panic!("{other:?}"),
+    }
+}
+
+#[test]
+fn small_files_do_not_multiply_without_limit() {
+    // Millions of zeros that take no room in the file, in many primitives without triangles.
+    let mut files = Files::triangle();
+    let accessor = &mut files.document["accessors"][0];
+    accessor["count"] = json!(1 << 23);
+    accessor.as_object_mut().unwrap().remove("bufferView");
+    files.document["accessors"][1]["count"] = json!(1);
+    let primitive = files.document["meshes"][0]["primitives"][0].clone();
+    files.document["meshes"][0]["primitives"] = vec![primitive; 20].into();
+    match files.load() {
+        Err(error @ SceneError::Accessor { .. }) => {
+            assert!(
+                error.to_string().contains("counted once per use"),
+                "{error}"
+            );
+        }
+        other => panic!("{other:?}"),
+    }
+    // Many nodes with the same many primitives, of lines that are left out.
+    let mut files = Files::triangle();
+    let mut primitive = files.document["meshes"][0]["primitives"][0].clone();
+    primitive["mode"] = json!(1);
+    files.document["meshes"][0]["primitives"] = vec![primitive; 2000].into();
+    files.document["nodes"] = vec![json!({ "mesh": 0 }); 2000].into();
+    files.document["scenes"] = json!([{ "nodes": (0..2000).collect::<Vec<_>>() }]);
+    match files.load() {
+        Err(SceneError::TooLarge {
+            unit, count, limit, ..
+        }) => {
+            assert_eq!((unit, count, limit), ("primitives", (1 << 20) + 1, 1 << 20));
+        }
+        other => panic!("{other:?}"),
+    }
+    // As many warnings are not repeated for each.
+    files.document["nodes"] = vec![json!({ "mesh": 0 }); 20].into();
+    files.document["scenes"] = json!([{ "nodes": (0..20).collect::<Vec<_>>() }]);
+    files.document["meshes"][0]["primitives"][0]["mode"] = json!(4);
+    let scene = files.load().unwrap();
+    assert_eq!(scene.warnings.len(), 101);
+    assert_eq!(scene.warnings[100], "further warnings are left out");
+}

@@ -18,13 +18,23 @@ pub const TARGET: Target = Target {
     try_out,
 };
 
-const EXAMPLES: [&str; 2] = [
+const EXAMPLES: [&str; 3] = [
     include_str!("../../examples/hard_shadows.json"),
+    include_str!("../../examples/mipmapped_shadows.json"),
     include_str!("../../examples/forward_shading.json"),
 ];
 
 /// More ways to write what the examples do not have.
-const FURTHER: [&str; 2] = [
+const FURTHER: [&str; 3] = [
+    r#"{"version": 1, "imports": [{"name": "d", "texture": {"format": "depth32float", "size": [100, 60], "layers": 4, "samples": 2}}, {"name": "c"}],
+ "nodes": [{"name": "r", "type": "resolve_moments", "properties": {"storage": "float16", "mip_levels": "all"}},
+  {"name": "a", "type": "blur_moments", "properties": {"kernel": {"radius": 32, "sigma": 9.0}, "per_frame": true, "mip_levels": "all"}},
+  {"name": "m", "type": "downsample_moments"},
+  {"name": "g", "type": "debug_moments", "properties": {"level": 1}},
+  {"name": "s", "type": "shade_hard", "properties": {"lights": 3, "views": 5, "anisotropy": 4}}],
+ "edges": [{"from": "d", "to": "r.depth"}, {"from": "r.moments", "to": "a.moments"}, {"from": "a.blurred", "to": "m.moments"},
+  {"from": "m.moments", "to": "g.moments"}, {"from": "m.moments", "to": "s.moments"}, {"from": "c", "to": "s.camera_depth"}],
+ "outputs": [{"name": "o", "from": "s.shadow_intensity"}]}"#,
     r#"{"version": 1, "imports": [{"name": "d", "texture": {"format": "depth16unorm", "size": [64, 48], "layers": 3}}],
  "nodes": [{"name": "r", "type": "resolve_moments", "properties": {"storage": "float32"}},
   {"name": "a", "type": "blur_moments", "properties": {"kernel": {"weights": [1, 0.5, 0.25]}}},
@@ -99,6 +109,15 @@ fn words(document: &Value) -> Vec<String> {
             "float32",
             "technique",
             "hamburger4",
+            "mip_levels",
+            "all",
+            "per_frame",
+            "views",
+            "lights",
+            "anisotropy",
+            "show",
+            "level",
+            "deviation",
         ]
         .map(str::to_owned),
     );

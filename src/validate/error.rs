@@ -17,8 +17,9 @@ pub enum ValidateError {
         /// Its length, or that of the linked text.
         bytes: usize,
     },
-    /// The text has a chain longer than [`LONGEST_CHAIN`](super::LONGEST_CHAIN), or a definition longer than
-    /// [`LONGEST_DEFINITION`](super::LONGEST_DEFINITION).
+    /// The text has more of something than [`LONGEST_CHAIN`](super::LONGEST_CHAIN),
+    /// [`LONGEST_DEFINITION`](super::LONGEST_DEFINITION), [`LARGEST_CONSTANT`](super::LARGEST_CONSTANT),
+    /// [`LARGEST_VALUE`](super::LARGEST_VALUE) or [`MOST_VALUES`](super::MOST_VALUES) allows.
     #[error("more than {limit} {what}; split the shader\n{at}")]
     TooMany {
         /// How much there may be.

@@ -1,7 +1,7 @@
 //! Limits on a shader's size and depth. The WGSL compiler recurses over long chains, and a stack that overflows takes the
 //! whole process down; nothing that a GPU should run comes near.
 
-use super::ValidateError;
+use super::{ValidateError, constants};
 use crate::file::definitions;
 use crate::token::{Kind, Token, tokens};
 use crate::{Linked, Location};
@@ -49,6 +49,8 @@ pub(super) fn refuse_long_chains(linked: &Linked) -> Result<(), ValidateError> {
     if let Some(token) = definitions(&tokens).get(LONGEST_CHAIN) {
         return Err(too_long("definitions", token));
     }
+    constants::check(&tokens)
+        .map_err(|too_large| too_many(too_large.limit, too_large.what, &too_large.at))?;
     let mut open = 0_usize;
     let mut length = 0_usize;
     let mut operators = Nested::default();

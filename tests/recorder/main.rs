@@ -14,6 +14,7 @@ mod errors;
 mod host_node;
 mod host_nodes;
 mod host_passes;
+mod host_targets;
 mod layers;
 mod life_cycle;
 mod lost;

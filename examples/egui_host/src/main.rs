@@ -3,11 +3,10 @@
 use moment_shadows_egui_host::App;
 
 fn main() -> eframe::Result {
-    let mut options = eframe::NativeOptions::default();
-    options.viewport.inner_size = Some([980.0, 600.0].into());
     let create = |context: &eframe::CreationContext<'_>| {
-        let host = context.wgpu_render_state.as_ref();
-        Ok(Box::new(App::new(host.ok_or("egui draws without wgpu")?)?) as Box<dyn eframe::App>)
+        let egui = context.wgpu_render_state.as_ref();
+        let app = pollster::block_on(App::new(egui.ok_or("egui draws without wgpu")?))?;
+        Ok(Box::new(app) as Box<dyn eframe::App>)
     };
-    eframe::run_native("moment-shadows", options, Box::new(create))
+    eframe::run_native("moment-shadows", Default::default(), Box::new(create))
 }

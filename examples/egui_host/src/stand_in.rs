@@ -4,25 +4,28 @@
 use std::error::Error;
 
 use eframe::egui_wgpu::RenderState;
-use eframe::wgpu;
-use moment_shadows::{Kernel, LeakReduction, ReceiverBias};
+use eframe::{egui, wgpu};
+use moment_shadows::{Kernel, LeakReduction, MapRegion, ReceiverBias};
 use moment_shadows_graph::Plan;
 use moment_shadows_graph::nodes::{CameraView, LightDepth, LightView, ShadeHardParameters};
 use moment_shadows_graph::record::ImportedResource;
 use moment_shadows_lab::command::render::RenderOptions;
 use moment_shadows_lab::{frame::Frame, gpu::Gpu, scene};
 
-/// Width and height of the picture.
-pub const SIZE: [u32; 2] = [960, 540];
+/// Why the example does not start.
+pub type Failure = Box<dyn Error + Send + Sync>;
+
+/// Width and height of the picture in pixels.
+pub(crate) const SIZE: egui::Vec2 = egui::vec2(960.0, 540.0);
 
 pub(crate) struct StandIn(Frame);
 
 impl StandIn {
-    pub(crate) fn new(egui: &RenderState) -> Result<Self, Box<dyn Error + Send + Sync>> {
+    pub(crate) fn new(egui: &RenderState) -> Result<Self, Failure> {
         let (device, queue) = (egui.device.clone(), egui.queue.clone());
         let gpu = Gpu::of_host(egui.adapter.clone(), device, queue);
         let options = RenderOptions {
-            size: SIZE,
+            size: [SIZE.x as u32, SIZE.y as u32],
             ..Default::default()
         };
         let scene = scene::load(&options.scene)?;
@@ -47,7 +50,7 @@ impl StandIn {
         &self,
         egui: &RenderState,
         plan: &Plan,
-    ) -> Result<wgpu::Buffer, Box<dyn Error + Send + Sync>> {
+    ) -> Result<wgpu::Buffer, Failure> {
         let desc = &self.0.desc;
         let kernel = Kernel::gaussian(4, 2.4)?;
         let [width, height] = desc.light.texel_size(desc.map);
@@ -57,6 +60,8 @@ impl StandIn {
             clip_from_world: desc.light.clip_from_world().as_mat4().to_cols_array_2d(),
             depth: LightDepth::Orthographic { reversed: false },
             layer: 0,
+            region: MapRegion::WHOLE,
+            channel: 0,
         };
         let camera = CameraView {
             clip_from_world: desc.camera.clip_from_world_columns()?,

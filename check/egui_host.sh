@@ -1,0 +1,70 @@
+#!/usr/bin/env bash
+# A host that is not ours: builds examples/egui_host, draws it without a window, opens its window on a virtual screen, and
+# compares the two pictures. They stay in the folder check/egui_host of the target folder.
+set -euo pipefail
+cd "$(dirname "$0")/.."
+
+out=$(realpath -m "${CARGO_TARGET_DIR:-target}")/check/egui_host
+mkdir -p "$out"
+
+as_root() {
+  if [ "$(id -u)" = 0 ]; then "$@"; else sudo "$@"; fi
+}
+
+# The screen, what finds windows, what takes and compares pictures, and what winit and Mesa load while they run.
+need_packages() {
+  if command -v Xvfb xdotool import compare >/dev/null && ldconfig -p | grep -q libxkbcommon-x11; then return; fi
+  if ! command -v apt-get >/dev/null; then
+    echo "Xvfb, xdotool, ImageMagick and the X11 client libraries are needed; install them and try again." >&2
+    exit 1
+  fi
+  as_root apt-get update -qq
+  as_root env DEBIAN_FRONTEND=noninteractive apt-get install -y -qq --no-install-recommends xvfb xdotool imagemagick \
+    libx11-6 libx11-xcb1 libxcb1 libxcb-dri3-0 libxcb-present0 libxcb-randr0 libxcb-shm0 libxcb-sync1 libxcb-xfixes0 \
+    libxcursor1 libxi6 libxkbcommon-x11-0 >/dev/null
+}
+
+need_packages
+# Its own target folder: its dependencies have other features than those of the workspace.
+cargo=(--release --locked --manifest-path examples/egui_host/Cargo.toml --target-dir "$out/target")
+cargo build --quiet "${cargo[@]}"
+cargo test --quiet "${cargo[@]}"
+cp "$out/target/tmp/egui_host.png" "$out/headless.png"
+
+processes=()
+trap 'kill "${processes[@]}" 2>/dev/null || true' EXIT
+Xvfb -displayfd 3 -screen 0 1280x800x24 -nolisten tcp 3>"$out/display" 2>"$out/xvfb.log" &
+processes+=($!)
+for _ in $(seq 100); do
+  if [ -s "$out/display" ]; then break; fi
+  sleep 0.1
+done
+DISPLAY=:$(cat "$out/display")
+export DISPLAY
+unset WAYLAND_DISPLAY
+"$out/target/release/moment-shadows-egui-host" 2>"$out/window.log" &
+processes+=($!)
+
+# The window, and then two pictures of it that are equal: the first ones may be from before it is drawn.
+window=
+for _ in $(seq 120); do
+  window=$(xdotool search --onlyvisible --name '^moment-shadows$' 2>/dev/null | head -n 1 || true)
+  if [ -n "$window" ]; then break; fi
+  if ! kill -0 "${processes[1]}" 2>/dev/null; then break; fi
+  sleep 0.5
+done
+if [ -z "$window" ]; then
+  echo "the window did not open:" >&2
+  cat "$out/window.log" >&2
+  exit 1
+fi
+rm -f "$out"/shot*.png
+for _ in $(seq 60); do
+  sleep 1
+  import -window "$window" "$out/shot.png"
+  # A window that shows nothing has few colours.
+  colours=$(identify -format '%k' "$out/shot.png")
+  if [ "$colours" -gt 1000 ] && [ -e "$out/shot-before.png" ] && cmp -s "$out/shot.png" "$out/shot-before.png"; then break; fi
+  cp "$out/shot.png" "$out/shot-before.png"
+done
+if [ -s "$out/window.log" ]; then cat "$out/window.log" >&2; fi
