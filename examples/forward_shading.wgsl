@@ -1,9 +1,13 @@
 import moment_shadows::hamburger::{hamburger_shadow_intensity_of_texel};
 import moment_shadows::leak_reduction::{leak_reduction_full_shadow};
+import moment_shadows::map_lookup::{map_lookup_gradient};
+import moment_shadows::map_region::{MapRegion};
+import moment_shadows::minification::{minification_depth_variance, minification_footprint};
 import moment_shadows::moments::{MOMENTS_STORAGE_FLOAT16};
-import moment_shadows::receiver_bias::{ReceiverBias, receiver_bias_depth, receiver_bias_gradient_from_cosine};
+import moment_shadows::receiver_bias::{ReceiverBias, receiver_bias_depth_minified, receiver_bias_plane};
 
-// A forward renderer's own shader: a floor with boxes on it, lit by a sun whose filtered map it samples itself.
+// A forward renderer's own shader: a floor with boxes on it, lit by a sun whose filtered map it samples itself, with mip
+// levels.
 
 struct Frame {
     clip_from_world: mat4x4f,

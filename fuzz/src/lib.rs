@@ -15,6 +15,9 @@ pub mod wgsl;
 
 pub use random::Random;
 
+/// Changes an input; the seeds are what it may take parts from.
+pub type Mutate = fn(&[u8], &[Vec<u8>], &mut Random) -> Vec<u8>;
+
 /// Something that reads untrusted input.
 pub struct Target {
     /// Its name, on command lines and in reports.
@@ -22,7 +25,7 @@ pub struct Target {
     /// Inputs to start from.
     pub seeds: fn() -> Vec<Vec<u8>>,
     /// Changes an input, with knowledge of its format.
-    pub mutate: fn(&[u8], &[Vec<u8>], &mut Random) -> Vec<u8>,
+    pub mutate: Mutate,
     /// Reads an input. Panics where something is wrong.
     pub try_out: fn(&[u8]),
 }

@@ -41,7 +41,7 @@ pub struct Figures {
     pub lds: f64,
     /// Stores and exports per output.
     pub store: f64,
-    /// Cycles of the arithmetic units per 64 outputs, in the model of [`cycles`](super::cycles).
+    /// Cycles of the arithmetic units per 64 outputs, in the model of [`super::cycles`].
     pub alu_cycles: f64,
     /// Cycles of the texture unit per 64 outputs.
     pub texture_cycles: f64,

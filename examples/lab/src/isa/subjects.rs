@@ -1,4 +1,4 @@
-//! The shaders of the table. A new node gets an entry in [`nodes`]; a test asks for one of every node type.
+//! The shaders of the table. A new node gets an entry in `nodes`; a test asks for one of every node type.
 
 use std::collections::BTreeMap;
 

@@ -1,0 +1,787 @@
+// fullscreen
+// The vertex stage of fullscreen passes.
+
+struct Covered {
+    @builtin(position) position: vec4f,
+    // The place in the picture from 0 to 1. Other than `position` it does not depend on where in its target a host has the
+    // viewport.
+    @location(0) uv: vec2f,
+}
+
+@vertex
+fn fullscreen(@builtin(vertex_index) index: u32) -> Covered {
+    // One triangle that covers the viewport: (-1, -1), (3, -1), (-1, 3).
+    let corner = 4.0 * vec2f(f32(index & 1u), f32(index >> 1u)) - 1.0;
+    return Covered(vec4f(corner, 0.0, 1.0), 0.5 + vec2f(0.5, -0.5) * corner);
+}
+
+// moment_shadows/hankel.wgsl
+// The shared factorisation: LDL^T of the Hankel matrix of four moments.
+//
+//       | 1  b1 b2 |
+//   B = | b1 b2 b3 |     B is positive semi-definite exactly if some distribution on the real line has these moments
+//       | b2 b3 b4 |     (Hamburger moment problem; Peters & Klein, i3D 2015, section 2.2 and Algorithm 3).
+//
+// Its pivots define the monic orthogonal polynomials of the distribution, with x = z - b1:
+//   P0 = 1,  P1(x) = x,  P2(x) = x (x - shift) - variance,
+// with squared norms 1, variance and residue. The roots of P2 are the two Gauss nodes.
+
+// The pivots of B and what the orthogonal polynomials need.
+struct HankelFactor {
+    // b2 - b1^2, the variance of z; positive.
+    variance: f32,
+    // The Schur complement of b4, the variance of z^2 that z does not explain; positive.
+    residue: f32,
+    // residue / variance.
+    ratio: f32,
+    // L32 - 2 b1, with L32 the slope of the regression of z^2 on z.
+    shift: f32,
+}
+
+// Pivots of valid moments stay above these multiples of the moment bias alpha, so the guards bind only where rounding
+// has left the pivots without a correct digit (or the moments are none). They also bound all that is divided by a pivot:
+// with alpha >= 1e-7 nothing below overflows on the way to a weight, whatever the moments.
+const HANKEL_SMALLEST_VARIANCE: f32 = 0.03;
+const HANKEL_SMALLEST_RESIDUE: f32 = 0.02;
+
+// Factorises the Hankel matrix of moments biased by `alpha` >= 1e-7. Moments must lie within [-2.1, 2.1].
+// The differences of products lose almost all digits near a single surface; `fma` keeps them where it is fused.
+fn hankel_factor(biased: vec4f, alpha: f32) -> HankelFactor {
+    let variance = max(fma(-biased.x, biased.x, biased.y), HANKEL_SMALLEST_VARIANCE * alpha);
+    // One division for all quotients.
+    let inverse = 1.0 / variance;
+    let covariance = fma(-biased.x, biased.y, biased.z);
+    let slope = covariance * inverse;
+    let residue = max(
+        fma(-covariance, slope, fma(-biased.y, biased.y, biased.w)),
+        HANKEL_SMALLEST_RESIDUE * alpha,
+    );
+    return HankelFactor(variance, residue, residue * inverse, fma(-2.0, biased.x, slope));
+}
+
+// P2 at x = z - b1. Negative exactly between the Gauss nodes.
+fn hankel_second_polynomial(factor: HankelFactor, x: f32) -> f32 {
+    return fma(x, x - factor.shift, -factor.variance);
+}
+
+// The Christoffel number of x = z - b1, 1 / (1 + x^2 / variance + P2^2 / residue): the largest weight that a distribution
+// with these moments can have at z, which is the weight that the extremal distribution through z has there. A sum of
+// positive terms, here times the residue: nothing cancels.
+fn hankel_christoffel_number(factor: HankelFactor, x: f32, second_polynomial: f32) -> f32 {
+    let x_term = fma(x * factor.ratio, x, factor.residue);
+    return factor.residue / fma(second_polynomial, second_polynomial, x_term);
+}
+
+// moment_shadows/moments.wgsl
+// Four moments of depth: encoding, storage, bias.
+//
+// A texel holds b = (E[z], E[z^2], E[z^3], E[z^4]) of the moment depths z in [-1, 1] that it covers (Peters & Klein,
+// "Moment Shadow Mapping", i3D 2015, section 2). Linear filters keep moments valid as long as their weights are not
+// negative and sum to one. Storage with few bits holds an affine image of the moments that spreads them over the range
+// of every channel (Peters, GDC 2016; JCGT 6(1) 2017, section 3); affine maps commute with filtering.
+
+// A moment bias: b is moved by alpha towards (0, beta, 0, beta), which pulls moments that rounding has made
+// impossible back among the possible ones. (0, beta, 0, beta) are the moments of occluders at the near end, the middle
+// and the far end with the weights beta/2, 1 - beta and beta/2.
+struct MomentBias {
+    alpha: f32,
+    beta: f32,
+}
+
+// The bias belongs to a storage's rounding error, not to a scene. Each value covers a resolve and a two-pass blur,
+// every stage rounded to the storage; beta is optimal for the basis (JCGT 6(1) 2017, section 3).
+const MOMENTS_BIAS_UNORM16: MomentBias = MomentBias(6e-5, 0.628);
+const MOMENTS_BIAS_FLOAT16: MomentBias = MomentBias(1e-3, 0.628);
+const MOMENTS_BIAS_FLOAT32: MomentBias = MomentBias(1.5e-6, 0.375);
+
+// Storages, as a shader's specialisation names them.
+const MOMENTS_STORAGE_UNORM16: u32 = 0u;
+const MOMENTS_STORAGE_FLOAT16: u32 = 1u;
+const MOMENTS_STORAGE_FLOAT32: u32 = 2u;
+
+// sqrt(3), which the optimised basis and its inverse are made of.
+const MOMENTS_SQRT_3: f32 = 1.7320508075688772;
+
+// The moments of a single depth z in [-1, 1]: its powers (i3D 2015, equation 2).
+fn moments_from_depth(z: f32) -> vec4f {
+    let square = z * z;
+    return vec4f(z, square, z * square, square * square);
+}
+
+// The optimised basis of JCGT 6(1) 2017 (equation 5, GDC 2016): maps the moments of depths in [-1, 1] into [0, 1]^4.
+fn moments_quantize(b: vec4f) -> vec4f {
+    return vec4f(
+        fma(1.5, b.x, fma(-2.0, b.z, 0.5)),
+        4.0 * (b.y - b.w),
+        fma(0.5 * MOMENTS_SQRT_3, b.x, fma(-2.0 / 9.0 * MOMENTS_SQRT_3, b.z, 0.5)),
+        0.5 * (b.y + b.w),
+    );
+}
+
+// Inverse of `moments_quantize`. Channels in [0, 1] give |b| <= 2.1, whatever they hold.
+fn moments_dequantize(channels: vec4f) -> vec4f {
+    let odd = channels.xz - 0.5;
+    return vec4f(
+        fma(-1.0 / 3.0, odd.x, MOMENTS_SQRT_3 * odd.y),
+        fma(0.125, channels.y, channels.w),
+        0.75 * fma(MOMENTS_SQRT_3, odd.y, -odd.x),
+        fma(-0.125, channels.y, channels.w),
+    );
+}
+
+// The nearest float16 of each component, ties to even, for |value| < 65504. A driver may truncate when it stores to a
+// float16 texture, which would double the rounding error that the bias has to cover.
+fn moments_round_to_float16(value: vec4f) -> vec4f {
+    let bits = bitcast<vec4u>(value);
+    // 13 of 23 mantissa bits go; adding just under half a unit, plus the last kept bit, rounds ties to even.
+    let rounded = bitcast<vec4f>((bits + 0xfffu + ((bits >> vec4u(13u)) & vec4u(1u))) & vec4u(0xffffe000u));
+    // Below 2^-14 float16 is a fixed-point format with a step of 2^-24.
+    let small = round(value * 0x1p24) * 0x1p-24;
+    return select(rounded, small, abs(value) < vec4f(0x1p-14));
+}
+
+// Moments that certainly lie in their ranges: odd ones in [-1, 1], even ones in [0, 1]. Float storage can hold
+// anything, and finite values beyond 1e15 would overflow further on.
+fn moments_clamp(b: vec4f) -> vec4f {
+    return clamp(b, vec4f(-1.0, 0.0, -1.0, 0.0), vec4f(1.0));
+}
+
+// What to write to a texel of the storage.
+fn moments_to_texel(b: vec4f, storage: u32) -> vec4f {
+    if storage == MOMENTS_STORAGE_FLOAT32 {
+        return b;
+    }
+    let channels = saturate(moments_quantize(b));
+    if storage == MOMENTS_STORAGE_FLOAT16 {
+        // Half precision is finest around zero, so the channels are centred there.
+        return moments_round_to_float16(channels - 0.5);
+    }
+    return channels;
+}
+
+// A filtered combination of texels, as it has to be written back to the same storage.
+fn moments_round_texel(texel: vec4f, storage: u32) -> vec4f {
+    if storage == MOMENTS_STORAGE_FLOAT16 {
+        return moments_round_to_float16(texel);
+    }
+    return texel;
+}
+
+// The moments in a (filtered) texel of the storage. Float storage can hold anything; `moments_clamp` comes before any
+// arithmetic that relies on ranges.
+fn moments_from_texel(texel: vec4f, storage: u32) -> vec4f {
+    if storage == MOMENTS_STORAGE_FLOAT32 {
+        return texel;
+    }
+    if storage == MOMENTS_STORAGE_FLOAT16 {
+        return moments_dequantize(texel + 0.5);
+    }
+    return moments_dequantize(texel);
+}
+
+// The moment bias of a storage.
+fn moments_bias_of(storage: u32) -> MomentBias {
+    if storage == MOMENTS_STORAGE_FLOAT32 {
+        return MOMENTS_BIAS_FLOAT32;
+    }
+    if storage == MOMENTS_STORAGE_FLOAT16 {
+        return MOMENTS_BIAS_FLOAT16;
+    }
+    return MOMENTS_BIAS_UNORM16;
+}
+
+// Applies the moment bias (i3D 2015, section 3.3). Written as a step towards the target: 1 - alpha would keep only a
+// few bits of alpha.
+fn moments_apply_bias(b: vec4f, bias: MomentBias) -> vec4f {
+    return fma(vec4f(bias.alpha), vec4f(0.0, bias.beta, 0.0, bias.beta) - b, b);
+}
+
+// The biased moments in a (filtered) texel of the storage, with the storage's own bias, within [-2.1, 2.1]: for unorm
+// storage if the channels are in [0, 1], as no texture can help, and for float storage whatever finite numbers it holds.
+fn moments_biased_from_texel(texel: vec4f, storage: u32) -> vec4f {
+    let bias = moments_bias_of(storage);
+    if storage == MOMENTS_STORAGE_FLOAT32 {
+        return moments_apply_bias(moments_clamp(texel), bias);
+    }
+    // The inverse of the basis and the bias are both affine, and so one step. These biases are large enough for 1 - alpha.
+    let keep = 1.0 - bias.alpha;
+    let of_xy = keep * vec4f(-1.0 / 3.0, 0.125, -0.75, -0.125);
+    let of_zw = keep * vec4f(MOMENTS_SQRT_3, 1.0, 0.75 * MOMENTS_SQRT_3, 1.0);
+    // Odd moments are 0 for channels of one half, and float16 storage holds one half less.
+    let middle = select(vec4f(-0.5, 0.0, -0.5, 0.0), vec4f(0.0, 0.5, 0.0, 0.5), storage == MOMENTS_STORAGE_FLOAT16);
+    let shift = fma(middle, of_xy + of_zw, bias.alpha * vec4f(0.0, bias.beta, 0.0, bias.beta));
+    let biased = fma(of_xy, texel.xyxy, fma(of_zw, texel.zwzw, shift));
+    if storage == MOMENTS_STORAGE_FLOAT16 {
+        return moments_clamp(biased);
+    }
+    return biased;
+}
+
+// moment_shadows/hamburger.wgsl
+
+// Hamburger four-moment shadow mapping: the sharpest bounds on shadow intensity that four moments allow.
+//
+// Among all distributions on the real line with the given moments, the share of depth in front of the fragment is
+// smallest and largest for the canonical distribution that has the fragment depth and two more points as its support
+// (Peters & Klein, i3D 2015, Proposition 3 and Algorithm 3). The published evaluation divides by a coefficient that
+// vanishes when the fragment is at a Gauss node and takes the root of a difference that rounds below zero. This one
+// gives the same values without either:
+//   - the weight of a support point is its Christoffel number, a sum of positive terms;
+//   - support points interlace with the Gauss nodes, so the sign of P2 tells on which side of the fragment they lie;
+//   - where both sides have one, the discriminant of their quadratic is a sum of positive terms.
+
+// Support points farther than this from the mean have a weight below 1e-8, and squaring them must not overflow.
+const HAMBURGER_FARTHEST_SUPPORT: f32 = 1e4;
+
+// The leading coefficient stays above this, so that dividing by it is defined when the fragment is at a Gauss node.
+const HAMBURGER_SMALLEST_LEADING_COEFFICIENT: f32 = 1e-20;
+
+// The two support points besides the fragment, relative to the mean, for a fragment at x = z - b1.
+struct HamburgerSupport {
+    // x_1 < x < x_2 if the fragment is between the Gauss nodes. Elsewhere finite; x_1 is then the farthest point where
+    // x < 0, and without meaning where x > 0.
+    points: vec2f,
+    // Outside the Gauss nodes: whether x > 0.
+    above: bool,
+}
+
+// The support of the extremal distribution through the fragment at x, where P2(x) is `second_polynomial`.
+fn hamburger_support(factor: HankelFactor, x: f32, second_polynomial: f32) -> HamburgerSupport {
+    // -a y^2 + b y + c / 4 = 0 with a, c > 0, so both roots are real and 0 lies between them.
+    let a = max(-second_polynomial, HAMBURGER_SMALLEST_LEADING_COEFFICIENT);
+    let b = fma(factor.ratio, x, factor.shift * a);
+    let c = 4.0 * fma(factor.variance, a, factor.residue);
+    // The roots' magnitudes are sum / (2 a) and c / (2 sum); the greater one has the sign of b. No term cancels.
+    let sum = abs(b) + sqrt(fma(a, c, b * b));
+    let above = b >= 0.0;
+    let lower = select(sum, c, above) / select(a, sum, above);
+    let upper = select(c, sum, above) / select(sum, a, above);
+    let doubled = vec2f(
+        max(-lower, -2.0 * HAMBURGER_FARTHEST_SUPPORT),
+        min(upper, 2.0 * HAMBURGER_FARTHEST_SUPPORT),
+    );
+    return HamburgerSupport(0.5 * doubled, above);
+}
+
+// The sharp bounds of shadow intensity: x = inf S(z < fragment_depth), y = sup S(z <= fragment_depth) over all
+// distributions S with the moments `biased`, which are already biased by `alpha` >= 1e-7 and lie within [-2, 2].
+// Both are in [0, 1] for all such moments, valid or not, and every finite fragment depth; farther out than 1e4 the
+// fragment depth counts as 1e4. Error: |error| <= 8 * 2^-24 * (1 + sensitivity) where fma is fused.
+fn hamburger_bounds(biased: vec4f, fragment_depth: f32, alpha: f32) -> vec2f {
+    let factor = hankel_factor(biased, alpha);
+    let x = clamp(fragment_depth, -HAMBURGER_FARTHEST_SUPPORT, HAMBURGER_FARTHEST_SUPPORT) - biased.x;
+    let polynomial = hankel_second_polynomial(factor, x);
+    if polynomial >= 0.0 {
+        // Outside the Gauss nodes no support point lies beyond the fragment: no root is needed.
+        let weight = saturate(hankel_christoffel_number(factor, x, polynomial));
+        return select(vec2f(0.0, weight), vec2f(1.0 - weight, 1.0), x > 0.0);
+    }
+    let support = hamburger_support(factor, x, polynomial).points;
+    let below = hankel_christoffel_number(factor, support.x, hankel_second_polynomial(factor, support.x));
+    let above = hankel_christoffel_number(factor, support.y, hankel_second_polynomial(factor, support.y));
+    return saturate(vec2f(below, 1.0 - above));
+}
+
+// The lower one of `hamburger_bounds`, with fragment depths beyond the light's range counting as its ends; where the
+// bound is 0 the result is below 1e-8.
+fn hamburger_lower_bound(biased: vec4f, fragment_depth: f32, alpha: f32) -> f32 {
+    let factor = hankel_factor(biased, alpha);
+    let x = clamp(fragment_depth, -1.0, 1.0) - biased.x;
+    let polynomial = hankel_second_polynomial(factor, x);
+    let support = hamburger_support(factor, x, polynomial);
+    // One Christoffel number serves all cases: at the fragment itself where it is above the Gauss nodes, or else at the
+    // support point below it. Where the fragment is below the Gauss nodes that one is at infinity, without weight.
+    let beyond = polynomial >= 0.0 && support.above;
+    let t = select(support.points.x, x, beyond);
+    let weight = saturate(hankel_christoffel_number(factor, t, hankel_second_polynomial(factor, t)));
+    return select(weight, 1.0 - weight, beyond);
+}
+
+// Shadow intensity in [0, 1] (1 = shadowed) of a fragment at `fragment_depth` (moment depth) under the filtered moments
+// of its map: the lower bound, never darker than the truth but for the bias. Moments may be anything finite; fragment
+// depths beyond the light's range count as its ends.
+fn hamburger_shadow_intensity(moments: vec4f, fragment_depth: f32, bias: MomentBias) -> f32 {
+    return hamburger_lower_bound(moments_apply_bias(moments_clamp(moments), bias), fragment_depth, bias.alpha);
+}
+
+// The same for a filtered texel of a storage, with the bias of the storage. Cheaper, since decoding and bias are one step
+// and a texel of unorm storage needs no clamping.
+fn hamburger_shadow_intensity_of_texel(texel: vec4f, fragment_depth: f32, storage: u32) -> f32 {
+    let biased = moments_biased_from_texel(texel, storage);
+    return hamburger_lower_bound(biased, fragment_depth, moments_bias_of(storage).alpha);
+}
+
+// moment_shadows/leak_reduction.wgsl
+// Light leaking, reduced after the bound: none of this touches the moments.
+//
+// Multiplying the moments by a constant before solving ("moment scale" in some samples) is not offered: it makes the
+// total weight differ from one, so that the result bounds nothing.
+
+// Filled by the host-side `LeakReduction`.
+struct LeakReduction {
+    // Shadow intensity that counts as full shadow, in (0, 1]; 0.98 hides weak leaks (Peters, GDC 2016).
+    full_shadow: f32,
+    // Visibility that counts as none, in [0, 1) (light bleeding reduction; Lauritzen, thesis 2008, section 3.4).
+    bleed_reduction: f32,
+    // Exponent of visibility, > 0; above 1 darkens penumbrae.
+    visibility_exponent: f32,
+    padding: f32,
+}
+
+// Shadow intensity after division by `full_shadow`.
+fn leak_reduction_full_shadow(shadow_intensity: f32, full_shadow: f32) -> f32 {
+    return saturate(shadow_intensity / max(full_shadow, 1e-6));
+}
+
+// Shadow intensity in [0, 1] after all three reductions. Each only darkens; full light stays full light.
+fn leak_reduction_apply(shadow_intensity: f32, reduction: LeakReduction) -> f32 {
+    let visibility = 1.0 - leak_reduction_full_shadow(clamp(shadow_intensity, 0.0, 1.0), reduction.full_shadow);
+    let bleed = clamp(reduction.bleed_reduction, 0.0, 0.999);
+    let remaining = saturate((visibility - bleed) / (1.0 - bleed));
+    // pow(0, e) goes through the logarithm of 0, and e = 1 is to change nothing at all.
+    let curved = pow(max(remaining, 1e-30), max(reduction.visibility_exponent, 1e-6));
+    let plain = remaining <= 0.0 || reduction.visibility_exponent == 1.0;
+    return 1.0 - select(curved, remaining, plain);
+}
+
+// moment_shadows/map_region.wgsl
+// Regions: rectangles of a layer that share an atlas and know nothing of each other.
+//
+// Mip level k of a region runs from floor(first / 2^k) to floor(end / 2^k). Regions that touch share that edge on every
+// level, wherever it lies, so none covers a texel of another, and a gutter is not needed.
+
+// Filled by the host-side `MapRegion`: texels of mip level 0. No texels: no region. A rectangle that leaves the map is
+// cut off at its border.
+struct MapRegion {
+    origin: vec2u,
+    extent: vec2u,
+}
+
+// The part of a region that lies in a map of `size` texels.
+fn map_region_within(region: MapRegion, size: vec2u) -> MapRegion {
+    let origin = min(region.origin, size);
+    return MapRegion(origin, min(region.extent, size - origin));
+}
+
+// A region of a map (within it) on mip level `level`, below 32.
+fn map_region_at_level(region: MapRegion, level: u32) -> MapRegion {
+    let origin = region.origin >> vec2u(level);
+    return MapRegion(origin, ((region.origin + region.extent) >> vec2u(level)) - origin);
+}
+
+// The coarsest of `levels` mip levels on which a region still has texels.
+fn map_region_last_level(region: MapRegion, levels: u32) -> u32 {
+    var level = max(levels, 1u) - 1u;
+    while level > 0u && any(map_region_at_level(region, level).extent == vec2u(0u)) {
+        level--;
+    }
+    return level;
+}
+
+// The place of `uv` (from 0 to 1 across the region) in texels of a region's mip level, kept half a texel away from its
+// edge: a bilinear filter there reads no other region.
+fn map_region_place(region_on_level: MapRegion, uv: vec2f) -> vec2f {
+    let extent = vec2f(region_on_level.extent);
+    return vec2f(region_on_level.origin) + clamp(uv * extent, vec2f(0.5), max(extent - 0.5, vec2f(0.5)));
+}
+
+// moment_shadows/minification.wgsl
+// Minification: what part of a map a pixel covers.
+//
+// A pixel maps to a parallelogram of texels. Its singular values are the axes of the ellipse that stands for it
+// (Heckbert, "Fundamentals of Texture Mapping and Image Warping", 1989, section 3.5): a lookup takes probes along the
+// major axis, each on the mip level that fits the minor axis. Averages of moments are moments, which is what filterable
+// shadow maps exist for (Donnelly & Lauritzen, "Variance Shadow Maps", i3D 2006, section 3).
+
+// Probes along the major axis, at most.
+const MINIFICATION_LARGEST_ANISOTROPY: f32 = 16.0;
+
+struct MinificationFootprint {
+    // The major axis, from end to end, in texels of mip level 0; zero where a pixel covers no more than a texel.
+    major: vec2f,
+    // Probes along it, a whole number from 1 to 16.
+    probes: f32,
+    // The mip level of each probe, at least 0.
+    level: f32,
+}
+
+// The footprint of a pixel from the differences of place, in texels, to its neighbours in x and y; each component at
+// most 1e9 in magnitude. `anisotropy`, from 1 to 16, is the ratio of the axes up to which probes follow the major axis;
+// beyond it the minor axis is taken for longer than it is.
+fn minification_footprint(difference_x: vec2f, difference_y: vec2f, anisotropy: f32) -> MinificationFootprint {
+    let xx = difference_x.x * difference_x.x + difference_y.x * difference_y.x;
+    let xy = difference_x.x * difference_x.y + difference_y.x * difference_y.y;
+    let yy = difference_x.y * difference_x.y + difference_y.y * difference_y.y;
+    // The squares of the axes are the eigenvalues of the symmetric matrix (xx xy, xy yy).
+    let half_difference = 0.5 * (xx - yy);
+    let root = sqrt(half_difference * half_difference + xy * xy);
+    let major_length = sqrt(0.5 * (xx + yy) + root);
+    // The product of the axes is the parallelogram's area; a difference of eigenvalues would cancel.
+    let area = abs(difference_x.x * difference_y.y - difference_x.y * difference_y.x);
+    let minor_length = area / max(major_length, 1e-20);
+    // Both rows of the matrix less its smaller eigenvalue point along the major axis; this is the one that does not cancel.
+    let along = select(vec2f(xy, root - half_difference), vec2f(root + half_difference, xy), half_difference >= 0.0);
+    // A circle has no direction; its probes number one.
+    let direction = along / max(max(abs(along.x), abs(along.y)), 1e-30);
+    let unit = direction / max(length(direction), 1e-6);
+    let largest = clamp(anisotropy, 1.0, MINIFICATION_LARGEST_ANISOTROPY);
+    let width = max(max(minor_length, major_length / largest), 1.0);
+    return MinificationFootprint(
+        select(vec2f(0.0), unit * major_length, major_length > 1.0),
+        clamp(ceil(major_length / width - 1e-3), 1.0, MINIFICATION_LARGEST_ANISOTROPY),
+        log2(width),
+    );
+}
+
+// Where probe `index` lies on the major axis: the offset, in texels, from the footprint's centre.
+fn minification_probe(footprint: MinificationFootprint, index: f32) -> vec2f {
+    return ((index + 0.5) / footprint.probes - 0.5) * footprint.major;
+}
+
+// The variance that minification adds to the moment depths of a plane, whose moment depth changes by `gradient` per texel.
+//
+// A trilinear lookup on level l averages boxes of 2^l texels, and blends neighbours that are 2^l texels apart: (1/12 +
+// 1/6) 4^l. Between two levels their mixture has at most 1.13 times the variance of the level between them. The probes
+// together add the variance of a box along the major axis.
+fn minification_depth_variance(footprint: MinificationFootprint, gradient: vec2f) -> f32 {
+    let width = select(0.0, exp2(footprint.level), footprint.level > 0.0);
+    let across = width * length(gradient);
+    let along = select(0.0, dot(footprint.major, gradient), footprint.probes > 1.0);
+    return (1.13 / 4.0) * across * across + along * along / 12.0;
+}
+
+// moment_shadows/map_load.wgsl
+
+// Lookups in a map that a device cannot filter, and where a sampler would read across the edge of a region: bilinear,
+// trilinear, averaged over a footprint. `uv`, `levels` and regions are those of `map_lookup`.
+//
+// Texels are loaded and blended here, in f32, while hardware may use weights of as few as 8 bits. Blending texels of moments
+// is a convex combination, so it keeps moments valid.
+
+// The bilinearly filtered texel on one mip level. `uv` is finite; values outside [0, 1] count as the nearer edge.
+fn map_load_bilinear(map: texture_2d_array<f32>, layer: u32, region: MapRegion, uv: vec2f, level: u32) -> vec4f {
+    let rectangle = map_region_at_level(region, level);
+    let place = map_region_place(rectangle, uv) - 0.5;
+    let base = floor(place);
+    let weight = place - base;
+    let low = vec2i(base);
+    let high = min(low + 1, vec2i(rectangle.origin + rectangle.extent) - 1);
+    let top = mix(textureLoad(map, low, layer, level), textureLoad(map, vec2i(high.x, low.y), layer, level), weight.x);
+    let bottom = mix(textureLoad(map, vec2i(low.x, high.y), layer, level), textureLoad(map, high, layer, level), weight.x);
+    return mix(top, bottom, weight.y);
+}
+
+// The same, blended between the two mip levels next to `level` >= 0, as far as the region has texels there.
+fn map_load_trilinear(map: texture_2d_array<f32>, layer: u32, region: MapRegion, levels: u32, uv: vec2f, level: f32) -> vec4f {
+    let last = map_region_last_level(region, levels);
+    let fine = min(u32(clamp(level, 0.0, 31.0)), last);
+    let texel = map_load_bilinear(map, layer, region, uv, fine);
+    let blend = level - f32(fine);
+    if fine == last || blend <= 0.0 {
+        return texel;
+    }
+    return mix(texel, map_load_bilinear(map, layer, region, uv, fine + 1u), blend);
+}
+
+// The average over a footprint around `uv`: trilinear probes along its major axis.
+fn map_load_footprint(map: texture_2d_array<f32>, layer: u32, region: MapRegion, levels: u32, uv: vec2f, footprint: MinificationFootprint) -> vec4f {
+    let per_texel = 1.0 / max(vec2f(region.extent), vec2f(1.0));
+    var sum = vec4f(0.0);
+    for (var probe = 0.0; probe < footprint.probes; probe += 1.0) {
+        let probe_uv = uv + minification_probe(footprint, probe) * per_texel;
+        sum += map_load_trilinear(map, layer, region, levels, probe_uv, footprint.level);
+    }
+    return sum / footprint.probes;
+}
+
+// moment_shadows/map_lookup.wgsl
+
+// Lookups in a filterable map by a sampler: bilinear, and averaged over a pixel. None reads across the edge of a region.
+//
+// `uv` runs from 0 to 1 across the region, v downwards; places are in texels of mip level 0. `levels` is the number of mip
+// levels of the map. Samplers filter linearly within and between levels and clamp to the edge. `map_load` has lookups for
+// maps that a device cannot filter.
+
+// The bilinearly filtered texel on one mip level. The sampler is not anisotropic: a driver may apply anisotropy to lookups
+// with an explicit level, too, and then they reach beyond the region.
+fn map_lookup_bilinear(map: texture_2d_array<f32>, linear: sampler, layer: u32, region: MapRegion, uv: vec2f, level: u32) -> vec4f {
+    let place = map_region_place(map_region_at_level(region, level), uv);
+    return textureSampleLevel(map, linear, place / vec2f(textureDimensions(map, level)), layer, f32(level));
+}
+
+// The average over a pixel, from the differences of place to its neighbours in x and y, in texels, each component at
+// most 1e9 in magnitude. Where the pixel's footprint lies well within a region that hardware would divide into the same
+// mip levels, hardware takes the probes, at most as many as the clamp of the sampler `anisotropic`; elsewhere at most
+// `anisotropy` are taken here, from loaded texels. Regions are read by hardware for the most part if their edges and the
+// size of the map are multiples of a texel of the coarsest level.
+fn map_lookup_gradient(map: texture_2d_array<f32>, anisotropic: sampler, layer: u32, region: MapRegion, levels: u32, uv: vec2f, difference_x: vec2f, difference_y: vec2f, anisotropy: f32) -> vec4f {
+    let size = textureDimensions(map);
+    let place = vec2f(region.origin) + uv * vec2f(region.extent);
+    let whole = all(region.origin == vec2u(0u)) && all(region.extent == size);
+    if whole || map_lookup_is_inner(region, size, levels, place, abs(difference_x) + abs(difference_y)) {
+        let per_texel = 1.0 / vec2f(size);
+        return textureSampleGrad(map, anisotropic, place * per_texel, layer, difference_x * per_texel, difference_y * per_texel);
+    }
+    let footprint = minification_footprint(difference_x, difference_y, anisotropy);
+    return map_load_footprint(map, layer, region, levels, uv, footprint);
+}
+
+// Whether hardware that filters around `place` over a box of `reach` texels reads no texel of another region, and divides
+// the map into mip levels just as regions are divided: edges and size are multiples of a texel of the coarsest level.
+fn map_lookup_is_inner(region: MapRegion, size: vec2u, levels: u32, place: vec2f, reach: vec2f) -> bool {
+    let part_of_texel = vec2u((1u << min(max(levels, 1u) - 1u, 31u)) - 1u);
+    let aligned = all(((region.origin | region.extent | size) & part_of_texel) == vec2u(0u));
+    // Half of the box, and two texels of a mip level whose texels may be twice as wide as the box is long.
+    let margin = vec2f(2.0) + 0.5 * reach + 4.0 * max(reach.x, reach.y);
+    let low = vec2f(region.origin) + margin;
+    let high = vec2f(region.origin + region.extent) - margin;
+    return aligned && all(place >= low) && all(place <= high);
+}
+
+// specialization
+const GROUP = 0;
+const STORAGE = 0u;
+const LEVELS = 4u;
+const VIEWS = 1u;
+const LIGHTS = 1u;
+const ANISOTROPY = 8.0;
+
+// moments_lookup
+
+// The lookup in a map with mip levels that the device can filter.
+
+@group(GROUP) @binding(2) var moments_map: texture_2d_array<f32>;
+@group(GROUP) @binding(3) var anisotropic_sampler: sampler;
+
+// The texel at `uv` in [0, 1] across a region, filtered over a pixel with these differences of place to its neighbours.
+fn moments_lookup(layer: u32, region: MapRegion, uv: vec2f, difference_x: vec2f, difference_y: vec2f) -> vec4f {
+    return map_lookup_gradient(moments_map, anisotropic_sampler, layer, region, LEVELS, uv, difference_x, difference_y, ANISOTROPY);
+}
+
+// moment_shadows/receiver_bias.wgsl
+// Receiver bias: how far the fragment depth moves towards the light so that a surface does not shadow itself.
+//
+// Not to be confused with the moment bias, which belongs to storage. A plane tilted against the light fills the filter
+// kernel with depths whose standard deviation is
+//   (the kernel's standard deviation in texels) x (change of depth per texel).
+// The lower bound of four moments is exactly 0 for fragments in front of the lower Gauss node, which for a symmetric
+// distribution lies one standard deviation in front of the mean. So a slope-scaled bias of somewhat more than one
+// standard deviation removes self-shadowing on planes, and nothing about it has to be tuned to a scene.
+
+// Standard deviations of depth under the filter by which a receiver moves: one, and what covers moment bias and rounding.
+const RECEIVER_BIAS_STANDARD_DEVIATIONS: f32 = 1.25;
+
+// A gradient steeper than any surface that a light sees; its square is still finite.
+const RECEIVER_BIAS_EDGE_ON: f32 = 1e15;
+
+// Filled by the host-side `ReceiverBias`.
+struct ReceiverBias {
+    // Moment depth that is always subtracted.
+    constant: f32,
+    // Multiplies the length of the gradient of moment depth per texel: the kernel's standard deviation in texels, times
+    // a safety factor slightly above 1.
+    slope_scale: f32,
+    // The largest bias in moment depth; reached where the surface is seen edge-on by the light.
+    maximum: f32,
+    // Scene units by which a receiver moves along its normal at grazing light; 0 where only depth is biased.
+    normal_offset: f32,
+}
+
+// The gradient of moment depth per texel on the receiver's plane, from the differences of two neighbouring points on it
+// in light space: xy in texels of the map, z in moment depth, each at most 1e9. Where the differences in xy are parallel
+// or zero (the plane is edge-on to the light, or a neighbour is missing) the result is huge, and `receiver_bias_depth`
+// limits it.
+fn receiver_bias_plane(difference_x: vec3f, difference_y: vec3f) -> vec2f {
+    let determinant = difference_x.x * difference_y.y - difference_x.y * difference_y.x;
+    if abs(determinant) < 1e-20 {
+        return vec2f(RECEIVER_BIAS_EDGE_ON, 0.0);
+    }
+    // Cramer's rule for the gradient g in dot(g, difference.xy) = difference.z.
+    let scaled = vec2f(
+        difference_x.z * difference_y.y - difference_y.z * difference_x.y,
+        difference_y.z * difference_x.x - difference_x.z * difference_y.x,
+    );
+    return clamp(scaled / determinant, vec2f(-RECEIVER_BIAS_EDGE_ON), vec2f(RECEIVER_BIAS_EDGE_ON));
+}
+
+// The length of that gradient.
+fn receiver_bias_gradient(difference_x: vec3f, difference_y: vec3f) -> f32 {
+    return length(receiver_bias_plane(difference_x, difference_y));
+}
+
+// The same from the cosine between surface normal and direction to the light: `depth_per_texel` is the moment depth
+// of one texel's width, along the light's axis.
+fn receiver_bias_gradient_from_cosine(cosine: f32, depth_per_texel: f32) -> f32 {
+    let c = clamp(cosine, 0.0, 1.0);
+    let sine = sqrt(max(1.0 - c * c, 0.0));
+    return depth_per_texel * sine / max(c, 1e-6);
+}
+
+// The receiver bias in moment depth, to be subtracted from the fragment depth.
+fn receiver_bias_depth(bias: ReceiverBias, gradient: f32) -> f32 {
+    return clamp(fma(bias.slope_scale, gradient, bias.constant), 0.0, bias.maximum);
+}
+
+// The receiver bias where a lookup averages more of the map than its filter kernel: `variance` is the variance that this
+// adds to the depths of a plane with that gradient (`minification_depth_variance`). Variances of filters add up.
+fn receiver_bias_depth_minified(bias: ReceiverBias, gradient: f32, variance: f32) -> f32 {
+    let kernel = bias.slope_scale * gradient;
+    let added = RECEIVER_BIAS_STANDARD_DEVIATIONS * sqrt(max(variance, 0.0));
+    let deviation = length(vec2f(kernel, added));
+    // The limit is one of slope, not of depth: a filter that is wider by a factor may move by that factor more.
+    let limit = (bias.maximum - bias.constant) * deviation / max(kernel, 1e-30);
+    return max(bias.constant + min(deviation, max(limit, 0.0)), 0.0);
+}
+
+// The position, in scene units, at which to look the map up when the receiver moves along its normal: the offset
+// grows with the sine of the angle between normal and light (`cosine` > 0 faces the light).
+fn receiver_bias_offset_position(bias: ReceiverBias, position: vec3f, normal: vec3f, cosine: f32) -> vec3f {
+    let c = clamp(cosine, -1.0, 1.0);
+    return fma(vec3f(bias.normal_offset * sqrt(max(1.0 - c * c, 0.0))), normal, position);
+}
+
+// shade_hard.wgsl
+
+// Shadow intensity of every pixel, from the camera's depth and a map of moments. A view of a light is one region of one
+// layer: a sun's cascade, a face of a point light, a spot light. Each light has a channel of the target.
+
+struct ShadeHardParameters {
+    // From the camera's clip space (x, y, stored depth, 1) to the light: x and y are the place in the map in [0, 1], z its
+    // homogeneous coordinate (positive in front of the light) and w the moment depth, all times the factors they are
+    // divided by. Camera and light are combined in one matrix so that no large scene coordinates occur.
+    light_from_camera: mat4x4f,
+    // The homogeneous coordinate of the scene position, which divides the moment depth.
+    scene_w_from_camera: vec4f,
+    receiver_bias: ReceiverBias,
+    leak_reduction: LeakReduction,
+    // Where the view lies in its layer; without texels there is no such view.
+    region: MapRegion,
+    // The stored depth of pixels that show no surface; the same for all views.
+    far_depth: f32,
+    // The map's layer.
+    layer: u32,
+    // The target's channel, 0 to 3. Of the views of one channel the first that contains a pixel shades it.
+    channel: u32,
+    padding: f32,
+}
+
+@group(GROUP) @binding(0) var<uniform> views: array<ShadeHardParameters, VIEWS>;
+@group(GROUP) @binding(1) var camera_depth: texture_depth_2d;
+
+// A pixel's surface as the light sees it.
+struct Receiver {
+    // x and y in the map from 0 to 1, z in moment depth.
+    place: vec3f,
+    // What x and y were divided by; positive in front of the light.
+    light_w: f32,
+    // What z was divided by; positive in front of the camera.
+    scene_w: f32,
+}
+
+fn receiver_at(view: u32, pixel: vec2i, stored_depth: f32) -> Receiver {
+    let uv = (vec2f(pixel) + 0.5) / vec2f(textureDimensions(camera_depth));
+    let clip = vec4f(2.0 * uv.x - 1.0, 1.0 - 2.0 * uv.y, stored_depth, 1.0);
+    let light = views[view].light_from_camera * clip;
+    // Results behind the camera or the light are not used.
+    let scene_w = max(dot(views[view].scene_w_from_camera, clip), 1e-30);
+    return Receiver(vec3f(light.xy / max(light.z, 1e-30), light.w / scene_w), light.z, scene_w);
+}
+
+fn camera_depth_at(pixel: vec2i) -> f32 {
+    return textureLoad(camera_depth, clamp(pixel, vec2i(0), vec2i(textureDimensions(camera_depth)) - 1), 0);
+}
+
+// By how much the two pixels next to `pixel` along `step`, extrapolated, miss its stored depth; huge if the first one
+// shows no surface or lies outside of the picture.
+fn extrapolation_error(pixel: vec2i, step: vec2i, stored_depth: f32) -> f32 {
+    let neighbour = pixel + step;
+    let outside = any(neighbour < vec2i(0)) || any(neighbour >= vec2i(textureDimensions(camera_depth)));
+    let depth = camera_depth_at(neighbour);
+    let error = abs(2.0 * depth - camera_depth_at(neighbour + step) - stored_depth);
+    return select(error, UNUSABLE, outside || depth == views[0].far_depth);
+}
+
+// Above every difference of stored depths.
+const UNUSABLE: f32 = 1e30;
+
+// No place in the map is that many texels away. Products of two differences must not overflow.
+const LARGEST_DIFFERENCE: f32 = 1e9;
+
+// The neighbour of a pixel along `axis` on the side that continues its surface: xy is the step to it and z the change of
+// stored depth. Stored depth is linear on the screen where a surface is plane, so that is the side which extrapolates to
+// the pixel best; the other one may lie beyond a silhouette or an edge. Zero if there is no neighbour.
+fn neighbour_of(pixel: vec2i, axis: vec2i, stored_depth: f32) -> vec3f {
+    let error_before = extrapolation_error(pixel, -axis, stored_depth);
+    let error_after = extrapolation_error(pixel, axis, stored_depth);
+    if min(error_before, error_after) == UNUSABLE {
+        return vec3f(0.0);
+    }
+    let direction = select(axis, -axis, error_before < error_after);
+    return vec3f(vec2f(direction), camera_depth_at(pixel + direction) - stored_depth);
+}
+
+// How the place in the map (in texels) and the moment depth change from a pixel to its neighbour; zero if there is none,
+// as on a surface that is edge-on to the light.
+fn receiver_difference(view: u32, neighbour: vec3f, receiver: Receiver, texels: vec2f) -> vec3f {
+    if all(neighbour.xy == vec2f(0.0)) {
+        return vec3f(0.0);
+    }
+    let across_screen = vec2f(2.0, -2.0) * neighbour.xy / vec2f(textureDimensions(camera_depth));
+    let step = vec4f(across_screen, neighbour.z, 0.0);
+    // With numerators n and divisors w, n1 / w1 - n0 / w0 = (dn - (n0 / w0) dw) / w1. Other than the difference of two
+    // places, this keeps its digits where a pixel covers a small part of a texel.
+    let light = views[view].light_from_camera * step;
+    let scene_w = dot(views[view].scene_w_from_camera, step);
+    let across = (light.xy - receiver.place.xy * light.z) / max(receiver.light_w + light.z, 1e-30);
+    let along = (light.w - receiver.place.z * scene_w) / max(receiver.scene_w + scene_w, 1e-30);
+    return clamp(vec3f(across * texels, along), vec3f(-LARGEST_DIFFERENCE), vec3f(LARGEST_DIFFERENCE));
+}
+
+// Shadow intensity of a receiver that a view contains.
+fn view_shadow_intensity(view: u32, receiver: Receiver, neighbour_x: vec3f, neighbour_y: vec3f, region: MapRegion) -> f32 {
+    let texels = vec2f(region.extent);
+    let difference_x = receiver_difference(view, neighbour_x, receiver, texels);
+    let difference_y = receiver_difference(view, neighbour_y, receiver, texels);
+    let gradient = receiver_bias_plane(difference_x, difference_y);
+    var bias = receiver_bias_depth(views[view].receiver_bias, length(gradient));
+    if LEVELS > 1u {
+        let footprint = minification_footprint(difference_x.xy, difference_y.xy, ANISOTROPY);
+        let variance = minification_depth_variance(footprint, gradient);
+        bias = receiver_bias_depth_minified(views[view].receiver_bias, length(gradient), variance);
+    }
+    // The map holds a surface that leaves the light's range at the far end. The bias counts from there, since some of the
+    // kernel may still see the surface within the range.
+    let fragment_depth = min(receiver.place.z, 1.0) - bias;
+    let texel = moments_lookup(views[view].layer, region, receiver.place.xy, difference_x.xy, difference_y.xy);
+    let intensity = hamburger_shadow_intensity_of_texel(texel, fragment_depth, STORAGE);
+    return leak_reduction_apply(intensity, views[view].leak_reduction);
+}
+
+@fragment
+fn shade(covered: Covered) -> @location(0) vec4f {
+    let size = vec2i(textureDimensions(camera_depth));
+    let pixel = clamp(vec2i(covered.uv * vec2f(size)), vec2i(0), size - 1);
+    let stored_depth = textureLoad(camera_depth, pixel, 0);
+    // Outside its map a light casts no shadow, and where there is no surface, either.
+    var intensities = vec4f(0.0);
+    if stored_depth == views[0].far_depth {
+        return intensities;
+    }
+    let neighbour_x = neighbour_of(pixel, vec2i(1, 0), stored_depth);
+    let neighbour_y = neighbour_of(pixel, vec2i(0, 1), stored_depth);
+    var open_channels = vec4<bool>(true);
+    for (var view = 0u; view < VIEWS; view++) {
+        let channel = vec4<bool>(vec4u(views[view].channel) == vec4u(0u, 1u, 2u, 3u));
+        let region = map_region_within(views[view].region, textureDimensions(moments_map));
+        let receiver = receiver_at(view, pixel, stored_depth);
+        let uv = receiver.place.xy;
+        let inside = receiver.light_w > 0.0 && all(uv >= vec2f(0.0)) && all(uv <= vec2f(1.0));
+        if inside && all(region.extent > vec2u(0u)) && any(channel & open_channels) {
+            let intensity = view_shadow_intensity(view, receiver, neighbour_x, neighbour_y, region);
+            intensities = select(intensities, vec4f(intensity), channel);
+            open_channels = open_channels & !channel;
+        }
+    }
+    // A single light is in all channels, so that a host can blend with it or show it.
+    return select(intensities, intensities.xxxx, LIGHTS == 1u);
+}
