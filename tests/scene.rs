@@ -547,6 +547,11 @@ fn small_files_do_not_multiply_without_limit() {
     let accessor = &mut files.document["accessors"][0];
     accessor["count"] = json!(1 << 23);
     accessor.as_object_mut().unwrap().remove("bufferView");
+    accessor["sparse"] = json!({
+        "count": 1,
+        "indices": { "bufferView": 1, "componentType": 5121 },
+        "values": { "bufferView": 0 }
+    });
     files.document["accessors"][1]["count"] = json!(1);
     let primitive = files.document["meshes"][0]["primitives"][0].clone();
     files.document["meshes"][0]["primitives"] = vec![primitive; 20].into();

@@ -168,6 +168,14 @@ fn huge_accessor(document: &mut Value, random: &mut Random) {
             fields.insert("count".to_owned(), json!(count));
             fields.remove("bufferView");
             fields.remove("byteOffset");
+            fields.insert(
+                "sparse".to_owned(),
+                json!({
+                    "count": 1,
+                    "indices": { "bufferView": 1, "componentType": 5121 },
+                    "values": { "bufferView": 0 }
+                }),
+            );
         }
     }
 }
