@@ -474,7 +474,7 @@ fn text_that_would_take_the_compiler_minutes_is_refused() {
     core("@group(0) @binding(0) var<storage> b: array<vec4f, 10000000>; fn f(i: u32) -> f32 { return b[i].x; }").unwrap();
     // GLSL is written once for each entry point.
     let body = "x = 2.0;".repeat(8000);
-    let entries: String = (0..400)
+    let entries: String = (0..800)
         .map(|i| format!("@compute @workgroup_size(1) fn m{i}() {{ f(); g(); h(); }}\n"))
         .collect();
     let functions = ["f", "g", "h"].map(|name| format!("fn {name}() {{ var x = 1.0; {body} }}\n"));
