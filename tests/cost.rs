@@ -2,18 +2,20 @@
 
 #![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic)]
 
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
 use moment_shadows::{DepthConversion, Profile, Storage};
 use moment_shadows_graph::TextureDesc;
 use moment_shadows_graph::nodes::KernelProperty;
 use moment_shadows_graph::record::{Passes, RecordError};
 use moment_shadows_lab::command::cost;
+use moment_shadows_lab::command::cost_growth::{self, GrowthOptions};
 use moment_shadows_lab::cost::CostError;
+use moment_shadows_lab::cost::bandwidth::Memory;
 use moment_shadows_lab::cost::baseline::{Copies, CopyWork};
 use moment_shadows_lab::cost::blur::{BOUNDS, BlurredMap, Bound};
 use moment_shadows_lab::cost::clock::{Clock, ClockKind, FEATURES};
-use moment_shadows_lab::cost::protocol::{FEWEST_ROUNDS, Rounds, Subject};
+use moment_shadows_lab::cost::protocol::{CopyNumbers, FEWEST_ROUNDS, Rounds, Subject};
 use moment_shadows_lab::cost::reference;
 use moment_shadows_lab::cost::report::{BlurRow, Time};
 use moment_shadows_lab::cost::statistics::Distribution;
@@ -27,8 +29,9 @@ fn time(median: f64, interquartile_range: f64) -> Time {
         interquartile_range,
     };
     Time {
-        x_shader_copy: figure,
-        x_interface_copy: figure,
+        x_compute_copy: figure,
+        x_api_copy: figure,
+        x_draw_copy: None,
         seconds: figure,
         wall: figure,
         reliable: figure.reliable(),
@@ -167,9 +170,23 @@ fn every_subject_is_recorded_in_every_round_after_a_warm_up() {
     let rounds = Rounds::run(&clock, &subjects, 1, || ended.set(ended.get() + 1)).unwrap();
     assert_eq!(ended.get(), FEWEST_ROUNDS);
     assert!(counted.get() > FEWEST_ROUNDS, "{}", counted.get());
-    let time = rounds.time(1, [0, 0]);
+    let copies = CopyNumbers {
+        compute: 0,
+        api: 1,
+        draw: None,
+    };
+    let time = rounds.time(0, copies);
     assert!(time.seconds.median > 0.0);
-    assert_eq!(rounds.time(0, [0, 0]).x_shader_copy.median, 1.0);
+    assert_eq!(time.x_compute_copy.median, 1.0);
+    // In each round the two ratios are each other's inverse, and the sum of both subjects is one more than either.
+    let inverse = rounds.ratio(&[1], &[0]);
+    assert_eq!(rounds.time(1, copies).x_compute_copy, inverse);
+    let both = rounds.total(&[(0, copies), (1, copies)]);
+    let one_more = rounds.ratio(&[0, 1], &[0]);
+    // Up to the rounding of sums.
+    assert!((2.0 * both.x_compute_copy.median - one_more.median).abs() < 1e-12);
+    assert!((one_more.median - 1.0 - inverse.median).abs() < 1e-12);
+    assert_eq!(both.x_draw_copy, None);
 }
 
 #[test]
@@ -206,37 +223,236 @@ fn a_format_that_cannot_be_copied_is_an_error() {
     );
 }
 
-/// Every pass of the example is found right where there is a reference, and its bytes are those of its textures.
+fn example(name: &str) -> PathBuf {
+    let root = Path::new(env!("CARGO_MANIFEST_DIR"));
+    root.join("examples").join(name)
+}
+
+/// Every pass of the example is found right, and its bytes are those of its textures.
 #[test]
 fn the_example_graph_is_checked_and_its_bytes_are_counted() {
-    let graph = Path::new(env!("CARGO_MANIFEST_DIR")).join("examples/hard_shadows.json");
-    let cost = cost::graph(&graph, 256, FEWEST_ROUNDS).unwrap();
+    let memories: Vec<Memory> = vec!["224:GTX 970".parse().unwrap(), "100".parse().unwrap()];
+    let cost = cost::graph(
+        &example("hard_shadows.json"),
+        256,
+        FEWEST_ROUNDS,
+        memories.clone(),
+    )
+    .unwrap();
     let rows: Vec<_> = cost
         .passes
         .iter()
-        .map(|pass| (pass.pass.as_str(), pass.copy, pass.error.is_some()))
+        .map(|pass| {
+            let cost = &pass.cost;
+            assert!(cost.time.x_compute_copy.median > 0.0, "{}", cost.pass);
+            assert!(cost.time.x_api_copy.median > 0.0, "{}", cost.pass);
+            assert!(cost.error.is_some(), "{}", cost.pass);
+            (
+                cost.pass.as_str(),
+                cost.work,
+                cost.time.x_draw_copy.is_some(),
+            )
+        })
         .collect();
     assert_eq!(
         rows,
         [
-            ("resolve/resolve", CopyWork::Compute, true),
-            ("blur/blur along x", CopyWork::Compute, true),
-            ("blur/blur along y", CopyWork::Compute, true),
-            ("shade/shade", CopyWork::Fullscreen, false),
+            ("resolve/resolve", CopyWork::Compute, false),
+            ("blur/blur along x", CopyWork::Compute, false),
+            ("blur/blur along y", CopyWork::Compute, false),
+            ("shade/shade", CopyWork::Fullscreen, true),
         ]
     );
     // 4 samples of 4 bytes and the parameters are read, 8 bytes are written; the blur reads and writes 8 bytes.
     let texels = 256 * 256;
-    assert_eq!(cost.passes[0].bytes_written, 8 * texels);
-    assert!(cost.passes[0].bytes_read >= 16 * texels);
+    let costs: Vec<_> = cost.passes.iter().map(|pass| &pass.cost).collect();
+    assert_eq!(costs[0].bytes_written, 8 * texels);
+    assert!(costs[0].bytes_read >= 16 * texels);
     // And the map's one region of 16 bytes.
-    assert_eq!(cost.passes[1].bytes_read, 8 * texels + 16);
-    assert_eq!(cost.passes[1].minimum_bytes, 16 * texels + 16);
-    let moved: u64 = cost.passes.iter().map(|pass| pass.minimum_bytes).sum();
+    assert_eq!(costs[1].bytes_read, 8 * texels + 16);
+    assert_eq!(costs[1].minimum_bytes, 16 * texels + 16);
+    let moved: u64 = costs.iter().map(|pass| pass.minimum_bytes).sum();
     assert_eq!(cost.bytes_moved, moved);
+    // 1,048,592 bytes at 100 GB/s.
+    assert!((cost.passes[1].bounds[1].microseconds - 10.48592).abs() < 1e-9);
+    for (bound, memory) in cost.bounds.iter().zip(&memories) {
+        assert_eq!(*bound, memory.bound(moved));
+    }
     let json = serde_json::to_value(&cost).unwrap();
     assert!(json["conditions"]["adapter"].is_string(), "{json}");
-    assert!(cost.to_string().contains("resident"), "{cost}");
+    assert!(json["passes"][3]["time"]["x_api_copy"]["median"].is_number());
+    assert_eq!(json["passes"][0]["bounds"][0]["memory"], "GTX 970");
+    let text = cost.to_string();
+    for part in [
+        "resident",
+        "total",
+        "a lower bound, not a measurement",
+        "GTX 970, 224 GB/s",
+    ] {
+        assert!(text.contains(part), "{text}");
+    }
+}
+
+/// 16 MiB at 224 GB/s: 16,777,216 / 224,000 bytes per microsecond.
+#[test]
+fn a_bandwidth_bounds_time_from_below() {
+    let memory: Memory = "224:GTX 970".parse().unwrap();
+    assert_eq!(memory.to_string(), "GTX 970, 224 GB/s");
+    let bound = memory.bound(16 << 20);
+    assert!((bound.microseconds - 74.898_285_714).abs() < 1e-6);
+    assert_eq!("448".parse::<Memory>().unwrap().name, "448 GB/s");
+    for wrong in ["", "fast", "0", "-1", "inf", "NaN", ":GTX 970"] {
+        let refused = wrong.parse::<Memory>().unwrap_err().to_string();
+        assert!(
+            refused.starts_with(&format!("'{wrong}' is no bandwidth")),
+            "{refused}"
+        );
+    }
+}
+
+/// Mip levels are compared with copies of their own size, and those below 64x64 texels are one row.
+#[test]
+fn mip_levels_are_checked_and_small_ones_are_summed() {
+    let path = example("mipmapped_shadows.json");
+    let cost = cost::graph(&path, 256, FEWEST_ROUNDS, Memory::known()).unwrap();
+    let rows: Vec<_> = cost
+        .passes
+        .iter()
+        .map(|pass| {
+            (
+                pass.cost.pass.as_str(),
+                pass.cost.texture.as_str(),
+                pass.cost.small,
+            )
+        })
+        .collect();
+    assert_eq!(
+        rows,
+        [
+            ("resolve/resolve", "rgba16unorm 256x256", false),
+            ("blur/blur along x", "rgba16unorm 256x256", false),
+            ("blur/blur along y", "rgba16unorm 256x256", false),
+            ("downsample/mip level 1", "rgba16unorm 128x128", false),
+            ("downsample/mip level 2", "rgba16unorm 64x64", false),
+            (
+                "downsample/mip level 3 to mip level 8",
+                "rgba16unorm 32x32 .. rgba16unorm 1x1",
+                true
+            ),
+            ("shade/shade", "r8unorm 1280x720", false),
+        ]
+    );
+    let checked: Vec<_> = cost
+        .passes
+        .iter()
+        .map(|pass| pass.cost.error.is_some())
+        .collect();
+    // The reference of shading knows no mip levels.
+    assert_eq!(checked, [true, true, true, true, true, true, false]);
+    // 32 x 32 texels and a third of it, 8 bytes each.
+    assert_eq!(cost.passes[5].cost.bytes_written, 8 * 1365);
+}
+
+/// Three texels become one, and five become two of two and a half each.
+#[test]
+fn the_downsample_reference_covers_every_texel_once() {
+    let row: Vec<[f64; 4]> = [1.0, 2.0, 3.0, 4.0, 10.0].map(|value| [value; 4]).to_vec();
+    assert_eq!(reference::downsample(&row[..3], [3, 1], [1, 1]).len(), 1);
+    let third = reference::downsample(&row[..3], [1, 3], [1, 1])[0][0];
+    assert!((third - 2.0).abs() < 1e-12, "{third}");
+    let halves = reference::downsample(&row, [5, 1], [2, 1]);
+    let wanted = [(1.0 + 2.0 + 1.5) / 2.5, (1.5 + 4.0 + 10.0) / 2.5];
+    for (found, wanted) in halves.iter().zip(wanted) {
+        assert!((found[2] - wanted).abs() < 1e-12, "{found:?}");
+    }
+}
+
+/// Layered textures are copied layer by layer, and the device accepts it.
+#[test]
+fn copies_have_the_layers_of_their_texture() {
+    let gpu = Gpu::open(Profile::WebgpuCore).unwrap();
+    let desc = TextureDesc {
+        layers: 3,
+        ..TextureDesc::new(Storage::Float16.format(), [64, 64])
+    };
+    for work in [CopyWork::Compute, CopyWork::Fullscreen] {
+        let copies = Copies::new(&gpu, &desc, work).unwrap();
+        let mut encoder = gpu.device.create_command_encoder(&Default::default());
+        copies.by_shader()(&mut encoder).unwrap();
+        copies.by_interface()(&mut encoder).unwrap();
+        gpu.queue.submit([encoder.finish()]);
+        gpu.check().unwrap();
+    }
+}
+
+/// Every axis is measured and plotted, with its nodes named, and nothing but the plots is left in the folder.
+#[test]
+fn growth_is_plotted() {
+    let folder = tempfile::tempdir().unwrap();
+    let out = folder.path().join("plots");
+    let options = GrowthOptions {
+        map_sizes: vec![128, 256],
+        widths: vec![160, 320],
+        radii: vec![1, 4],
+        rounds: FEWEST_ROUNDS,
+    };
+    let growth = cost_growth::run(&example("hard_shadows.json"), &out, &options).unwrap();
+    let curves: Vec<Vec<_>> = growth
+        .growths
+        .iter()
+        .map(|growth| {
+            growth
+                .curves
+                .iter()
+                .map(|curve| curve.node.as_str())
+                .collect()
+        })
+        .collect();
+    assert_eq!(
+        curves,
+        [
+            vec!["resolve", "blur", "shade"],
+            vec!["shade"],
+            vec!["blur"]
+        ]
+    );
+    for curve in growth.growths.iter().flat_map(|growth| &growth.curves) {
+        assert_eq!(curve.points.len(), 2);
+        assert_eq!(curve.points[0].per_texel.median, 1.0);
+        assert!(curve.points[1].x_copy().median > 0.0);
+    }
+    let mut written: Vec<_> = std::fs::read_dir(&out)
+        .unwrap()
+        .map(|entry| entry.unwrap().file_name().into_string().unwrap())
+        .collect();
+    written.sort();
+    let stems = ["cost-by-map-size", "cost-by-output-size", "cost-by-radius"];
+    let wanted = stems.map(|stem| [format!("{stem}.png"), format!("{stem}.svg")]);
+    assert_eq!(written, wanted.concat());
+    for ([png, svg], curves) in wanted.iter().zip(&curves) {
+        let svg = std::fs::read_to_string(out.join(svg)).unwrap();
+        assert!(
+            svg.starts_with("<svg") && svg.trim_end().ends_with("</svg>"),
+            "{svg}"
+        );
+        for part in curves
+            .iter()
+            .chain(&["time (copies of the output)", "median of 9 rounds"])
+        {
+            assert!(svg.contains(part), "{part} is missing in {svg}");
+        }
+        let bytes = std::fs::read(out.join(png)).unwrap();
+        let picture = image::load_from_memory(&bytes).unwrap().into_luma8();
+        assert_eq!(picture.dimensions(), (1280, 560));
+        let picture = picture.as_raw();
+        // Text and lines, but mostly paper.
+        let dark = picture.iter().filter(|&&value| value < 128).count();
+        assert!(
+            (2000..picture.len() / 10).contains(&dark),
+            "{png}: {dark} of {}",
+            picture.len()
+        );
+    }
 }
 
 /// One direction of a blur alone leaves the other undone; a number beyond the plan's passes is refused.

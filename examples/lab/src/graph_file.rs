@@ -147,6 +147,15 @@ impl GraphFile {
         Ok((Self::parse(&self.name, file.to_string(), None)?, name))
     }
 
+    /// An entry of a node as the file has it, such as its type; null where there is none.
+    #[must_use]
+    pub fn node_entry(&self, node: &str, entry: &str) -> Value {
+        nodes(&self.text)
+            .into_iter()
+            .find(|candidate| candidate["name"] == node)
+            .map_or(Value::Null, |found| found[entry].clone())
+    }
+
     /// The kernel of the graph's blur; `None` where it has none.
     pub fn kernel(&self) -> Result<Option<Kernel>, LabError> {
         let kernels: Vec<KernelProperty> = nodes(&self.text)

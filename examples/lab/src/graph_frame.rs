@@ -99,19 +99,21 @@ impl GraphFrame {
 
     /// The shadow intensity per pixel, the top row first.
     pub fn read_shadow(&self, gpu: &Gpu, file: &GraphFile) -> Result<Vec<f32>, LabError> {
-        let texture = self.shadow(file)?;
-        let bytes = gpu.read_texture(texture, 0, SHADOW_INTENSITY)?;
-        Ok(match texture.format() {
-            wgpu::TextureFormat::R8Unorm => {
-                bytes.iter().map(|&byte| f32::from(byte) / 255.0).collect()
-            }
-            wgpu::TextureFormat::R16Float => bytes
-                .chunks_exact(2)
-                .map(|pair| half::f16::from_le_bytes([pair[0], pair[1]]).to_f32())
-                .collect(),
-            _ => bytemuck::pod_collect_to_vec(&bytes),
-        })
+        read_intensity(gpu, self.shadow(file)?)
     }
+}
+
+/// What a texture with one channel of shadow intensity holds, the top row first.
+pub fn read_intensity(gpu: &Gpu, texture: &wgpu::Texture) -> Result<Vec<f32>, LabError> {
+    let bytes = gpu.read_texture(texture, 0, SHADOW_INTENSITY)?;
+    Ok(match texture.format() {
+        wgpu::TextureFormat::R8Unorm => bytes.iter().map(|&byte| f32::from(byte) / 255.0).collect(),
+        wgpu::TextureFormat::R16Float => bytes
+            .chunks_exact(2)
+            .map(|pair| half::f16::from_le_bytes([pair[0], pair[1]]).to_f32())
+            .collect(),
+        _ => bytemuck::pod_collect_to_vec(&bytes),
+    })
 }
 
 /// The storage of a map of moments; `None` for a texture that can be no such map.

@@ -5,10 +5,13 @@ use std::process::ExitCode;
 
 use clap::{Parser, Subcommand, ValueEnum};
 use moment_shadows::{Profile, Storage};
+use moment_shadows_lab::command::cost_growth::GrowthOptions;
 use moment_shadows_lab::command::render::{LightChoice, RenderOptions};
 use moment_shadows_lab::command::{
-    cost, error, error_table, graph, isa, measure, minification, render, shaders, validate,
+    cost, cost_growth, error, error_table, graph, isa, measure, minification, render, shaders,
+    validate,
 };
+use moment_shadows_lab::cost::bandwidth::Memory;
 use moment_shadows_lab::gpu::Gpu;
 use moment_shadows_lab::isa::child;
 use moment_shadows_lab::isa::chip::Chip;
@@ -144,6 +147,10 @@ enum Command {
     Cost {
         #[command(flatten)]
         subject: CostSubject,
+        /// A memory to bound the time by, in 10^9 bytes per second, with a name if you like: 224:GTX 970. Several may be
+        /// given; by default three cards.
+        #[arg(long, value_name = "GB/S[:NAME]", conflicts_with = "blur")]
+        bandwidth: Vec<Memory>,
         /// Texels per side of the light's map.
         #[arg(long, default_value_t = 1024, value_parser = clap::value_parser!(u32).range(256..=8192))]
         size: u32,
@@ -154,6 +161,9 @@ enum Command {
         #[arg(long)]
         json: bool,
     },
+    /// Times the nodes of a graph at several sizes of the map and of the output and at several radii, and plots how their
+    /// cost grows. Takes minutes.
+    CostGrowth(CostGrowthArguments),
     /// Compiles every shader for chips that need not be there, and counts what the code does (Linux, Mesa's RADV).
     Isa(IsaArguments),
     /// The process that compiles for one chip, which its environment names.
@@ -163,6 +173,30 @@ enum Command {
         chip: Chip,
         shader: Option<String>,
     },
+}
+
+#[derive(clap::Args)]
+struct CostGrowthArguments {
+    /// The graph file.
+    graph: PathBuf,
+    /// The folder for the plots, as SVG and PNG; it is made if need be.
+    #[arg(long)]
+    out: PathBuf,
+    /// Texels per side of the light's map.
+    #[arg(long, num_args = 1.., default_values = ["256", "512", "1024", "2048", "4096"], value_parser = clap::value_parser!(u32).range(64..=8192))]
+    map: Vec<u32>,
+    /// Widths of the output; heights follow at 16 to 9.
+    #[arg(long, num_args = 1.., default_values = ["640", "1280", "1920", "2560", "3840"], value_parser = clap::value_parser!(u32).range(64..=8192))]
+    width: Vec<u32>,
+    /// Radii of the Gaussian, in texels.
+    #[arg(long, num_args = 1.., default_values = ["1", "2", "4", "8", "12", "16", "32", "64"], value_parser = clap::value_parser!(u32).range(1..=64))]
+    radius: Vec<u32>,
+    /// Rounds, at least 9.
+    #[arg(long, default_value_t = 15, value_parser = clap::value_parser!(u32).range(9..=1000))]
+    rounds: u32,
+    /// Prints JSON.
+    #[arg(long)]
+    json: bool,
 }
 
 #[derive(clap::Args)]
@@ -207,8 +241,7 @@ impl ChipArgument {
 #[derive(clap::Args)]
 #[group(required = true, multiple = false)]
 struct CostSubject {
-    /// A graph file: each of its passes.
-    #[arg(long)]
+    /// A graph file: each of its passes, and all together.
     graph: Option<PathBuf>,
     /// The blur in both directions. Fails where a radius costs more than it may on a software adapter.
     #[arg(long)]
@@ -288,6 +321,17 @@ impl FrameArguments {
                 StorageArgument::Float16 => Storage::Float16,
                 StorageArgument::Float32 => Storage::Float32,
             }),
+        }
+    }
+}
+
+impl From<CostGrowthArguments> for GrowthOptions {
+    fn from(arguments: CostGrowthArguments) -> Self {
+        Self {
+            map_sizes: arguments.map,
+            widths: arguments.width,
+            radii: arguments.radius,
+            rounds: arguments.rounds,
         }
     }
 }
@@ -406,13 +450,27 @@ fn run(command: Command) -> Result<ExitCode, Box<dyn std::error::Error>> {
             let options = frame.options(String::new());
             print(&error_table::run(&scene, &radius, &graph, &options)?, json)?;
         }
+        Command::CostGrowth(arguments) => {
+            let json = arguments.json;
+            let (graph, out) = (arguments.graph.clone(), arguments.out.clone());
+            let growth = cost_growth::run(&graph, &out, &arguments.into())?;
+            print(&growth, json)?;
+        }
         Command::Cost {
             subject,
+            bandwidth,
             size,
             rounds,
             json,
         } => match subject.graph {
-            Some(graph) => print(&cost::graph(&graph, size, rounds)?, json)?,
+            Some(graph) => {
+                let memories = if bandwidth.is_empty() {
+                    Memory::known()
+                } else {
+                    bandwidth
+                };
+                print(&cost::graph(&graph, size, rounds, memories)?, json)?;
+            }
             None => {
                 let cost = cost::blur(size, rounds)?;
                 print(&cost, json)?;

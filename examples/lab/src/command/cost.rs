@@ -8,20 +8,28 @@ use moment_shadows_graph::nodes::KernelProperty;
 
 use super::render::RenderOptions;
 use crate::cost::CostError;
+use crate::cost::bandwidth::Memory;
 use crate::cost::baseline::{Copies, CopyWork};
 use crate::cost::blur::{BOUNDS, BlurredMap, PROFILE};
 use crate::cost::clock::{Clock, ClockKind, FEATURES};
-use crate::cost::passes::PassSubjects;
-use crate::cost::protocol::{Rounds, Subject};
-use crate::cost::report::{BlurCost, BlurRow, Conditions, GraphCost};
+use crate::cost::graph_cost::GraphCost;
+use crate::cost::passes::{Grouping, PassSubjects};
+use crate::cost::protocol::{CopyNumbers, Rounds, Subject};
+use crate::cost::report::{BlurCost, BlurRow, Conditions};
 use crate::cost::texels::noise;
 use crate::gpu::Gpu;
 use crate::graph_file::GraphFile;
 use crate::progress;
 use crate::scene;
 
-/// Times every pass of a graph on its own, on a scene with a light's map of `size` texels squared.
-pub fn graph(path: &Path, size: u32, rounds: u32) -> Result<GraphCost, CostError> {
+/// Times every pass of a graph on its own, on a scene with a light's map of `size` texels squared, and says how long its
+/// bytes take with each of the memories at least.
+pub fn graph(
+    path: &Path,
+    size: u32,
+    rounds: u32,
+    memories: Vec<Memory>,
+) -> Result<GraphCost, CostError> {
     let file = GraphFile::read(path, None)?;
     let gpu = Gpu::open_with(PROFILE, FEATURES)?;
     let options = RenderOptions {
@@ -31,18 +39,27 @@ pub fn graph(path: &Path, size: u32, rounds: u32) -> Result<GraphCost, CostError
     let scene = scene::load(&options.scene).map_err(crate::error::LabError::from)?;
     let margin = file.kernel()?.map_or(0, |kernel| kernel.radius());
     let frame = options.frame(&gpu, &scene, margin)?;
-    let subjects = PassSubjects::new(&gpu, &frame, &file)?;
+    let passes = PassSubjects::new(&gpu, &frame, &file, Grouping::Passes, |_| true)?;
     let clock = Clock::new(&gpu, ClockKind::for_device(&gpu));
     let bar = progress::bar(u64::from(rounds), "timing");
-    let passes = subjects.run(&clock, rounds, || bar.inc(1))?;
+    let times = Rounds::run(&clock, &passes.subjects(), rounds, || bar.inc(1))?;
     bar.finish_and_clear();
-    Ok(GraphCost {
-        conditions: Conditions::of(&clock, rounds),
-        passes,
-        bytes_resident: subjects.plan().bytes_resident(),
-        bytes_moved: subjects.plan().bytes_moved(),
-    })
+    let plan = passes.plan();
+    Ok(GraphCost::new(
+        Conditions::of(&clock, rounds),
+        passes.costs(&times),
+        times.total(&passes.numbers(0)),
+        [plan.bytes_resident(), plan.bytes_moved()],
+        memories,
+    ))
 }
+
+/// The numbers of the copies beside the blurs.
+const COPIES: CopyNumbers = CopyNumbers {
+    compute: 0,
+    api: 1,
+    draw: None,
+};
 
 /// Times blurs of a map of `size` texels squared, both directions together, against their bounds.
 pub fn blur(size: u32, rounds: u32) -> Result<BlurCost, CostError> {
@@ -86,7 +103,7 @@ pub fn blur(size: u32, rounds: u32) -> Result<BlurCost, CostError> {
         .iter()
         .enumerate()
         .map(|(index, (bound, _, error))| {
-            BlurRow::new(*bound, times.time(index + 2, [0, 1]), *error, software)
+            BlurRow::new(*bound, times.time(index + 2, COPIES), *error, software)
         })
         .collect();
     Ok(BlurCost {

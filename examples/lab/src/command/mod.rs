@@ -1,6 +1,7 @@
 //! The subcommands of `moment-shadows`.
 
 pub mod cost;
+pub mod cost_growth;
 pub mod error;
 pub mod error_table;
 pub mod graph;

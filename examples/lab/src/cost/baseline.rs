@@ -11,8 +11,14 @@ use crate::gpu::Gpu;
 pub struct Copies {
     from: wgpu::Texture,
     to: wgpu::Texture,
-    group: wgpu::BindGroup,
+    /// Per layer.
+    layers: Vec<Layer>,
     pipeline: CopyPipeline,
+}
+
+struct Layer {
+    group: wgpu::BindGroup,
+    target: wgpu::TextureView,
 }
 
 enum CopyPipeline {
@@ -33,7 +39,7 @@ pub enum CopyWork {
 const WORKGROUP: u32 = 64;
 
 impl Copies {
-    /// Textures as `desc` says, one layer of them.
+    /// Textures as `desc` says: all layers of its first mip level.
     pub fn new(gpu: &Gpu, desc: &TextureDesc, work: CopyWork) -> Result<Self, CostError> {
         let refused = |reason: String| CostError::Baseline {
             format: desc.format,
@@ -61,7 +67,7 @@ impl Copies {
                 size: wgpu::Extent3d {
                     width: desc.size[0],
                     height: desc.size[1],
-                    depth_or_array_layers: 1,
+                    depth_or_array_layers: desc.layers,
                 },
                 mip_level_count: 1,
                 sample_count: 1,
@@ -115,28 +121,35 @@ impl Copies {
                 },
             )),
         };
-        let views = [&from, &to].map(|texture| texture.create_view(&Default::default()));
-        let entry = |binding: u32| wgpu::BindGroupEntry {
-            binding,
-            resource: wgpu::BindingResource::TextureView(&views[binding as usize]),
+        let layout = match &pipeline {
+            CopyPipeline::Compute(pipeline) => pipeline.get_bind_group_layout(0),
+            CopyPipeline::Fullscreen(pipeline) => pipeline.get_bind_group_layout(0),
         };
-        let (layout, entries) = match &pipeline {
-            CopyPipeline::Compute(pipeline) => {
-                (pipeline.get_bind_group_layout(0), vec![entry(0), entry(1)])
-            }
-            CopyPipeline::Fullscreen(pipeline) => {
-                (pipeline.get_bind_group_layout(0), vec![entry(0)])
-            }
-        };
-        let group = device.create_bind_group(&wgpu::BindGroupDescriptor {
-            label: Some("cost/copy"),
-            layout: &layout,
-            entries: &entries,
-        });
+        let layers = (0..desc.layers)
+            .map(|layer| {
+                let [source, target] = [&from, &to].map(|texture| one_layer(texture, layer));
+                let entry = |binding, view| wgpu::BindGroupEntry {
+                    binding,
+                    resource: wgpu::BindingResource::TextureView(view),
+                };
+                let entries = [entry(0, &source), entry(1, &target)];
+                // A fullscreen copy has its target as an attachment.
+                let bound = match work {
+                    CopyWork::Compute => 2,
+                    CopyWork::Fullscreen => 1,
+                };
+                let group = device.create_bind_group(&wgpu::BindGroupDescriptor {
+                    label: Some("cost/copy"),
+                    layout: &layout,
+                    entries: &entries[..bound],
+                });
+                Layer { group, target }
+            })
+            .collect();
         Self {
             from,
             to,
-            group,
+            layers,
             pipeline,
         }
     }
@@ -144,35 +157,40 @@ impl Copies {
     /// The copy by a shader: the unit of all costs.
     pub fn by_shader(&self) -> Record<'_> {
         Box::new(|encoder| {
-            match &self.pipeline {
-                CopyPipeline::Compute(pipeline) => {
-                    let mut pass = encoder.begin_compute_pass(&Default::default());
-                    pass.set_pipeline(pipeline);
-                    pass.set_bind_group(0, &self.group, &[]);
-                    let columns = self.to.width().div_ceil(WORKGROUP);
-                    pass.dispatch_workgroups(columns, self.to.height(), 1);
-                }
-                CopyPipeline::Fullscreen(pipeline) => {
-                    let view = self.to.create_view(&Default::default());
-                    let mut pass = encoder.begin_render_pass(&wgpu::RenderPassDescriptor {
-                        color_attachments: &[Some(wgpu::RenderPassColorAttachment {
-                            view: &view,
-                            depth_slice: None,
-                            resolve_target: None,
-                            ops: wgpu::Operations {
-                                load: wgpu::LoadOp::Clear(wgpu::Color::TRANSPARENT),
-                                store: wgpu::StoreOp::Store,
-                            },
-                        })],
-                        ..Default::default()
-                    });
-                    pass.set_pipeline(pipeline);
-                    pass.set_bind_group(0, &self.group, &[]);
-                    pass.draw(0..3, 0..1);
-                }
+            for layer in &self.layers {
+                self.record_layer(encoder, layer);
             }
             Ok(())
         })
+    }
+
+    fn record_layer(&self, encoder: &mut wgpu::CommandEncoder, layer: &Layer) {
+        match &self.pipeline {
+            CopyPipeline::Compute(pipeline) => {
+                let mut pass = encoder.begin_compute_pass(&Default::default());
+                pass.set_pipeline(pipeline);
+                pass.set_bind_group(0, &layer.group, &[]);
+                let columns = self.to.width().div_ceil(WORKGROUP);
+                pass.dispatch_workgroups(columns, self.to.height(), 1);
+            }
+            CopyPipeline::Fullscreen(pipeline) => {
+                let mut pass = encoder.begin_render_pass(&wgpu::RenderPassDescriptor {
+                    color_attachments: &[Some(wgpu::RenderPassColorAttachment {
+                        view: &layer.target,
+                        depth_slice: None,
+                        resolve_target: None,
+                        ops: wgpu::Operations {
+                            load: wgpu::LoadOp::Clear(wgpu::Color::TRANSPARENT),
+                            store: wgpu::StoreOp::Store,
+                        },
+                    })],
+                    ..Default::default()
+                });
+                pass.set_pipeline(pipeline);
+                pass.set_bind_group(0, &layer.group, &[]);
+                pass.draw(0..3, 0..1);
+            }
+        }
     }
 
     /// The copy by the interface: on a graphics processor the fastest there is, on a software adapter a memcpy.
@@ -186,6 +204,15 @@ impl Copies {
             Ok(())
         })
     }
+}
+
+fn one_layer(texture: &wgpu::Texture, layer: u32) -> wgpu::TextureView {
+    texture.create_view(&wgpu::TextureViewDescriptor {
+        dimension: Some(wgpu::TextureViewDimension::D2),
+        base_array_layer: layer,
+        array_layer_count: Some(1),
+        ..Default::default()
+    })
 }
 
 fn shader(work: CopyWork, format: &str) -> String {

@@ -6,6 +6,7 @@ use moment_shadows_graph::record::RecordError;
 
 use crate::error::LabError;
 use crate::gpu::GpuError;
+use crate::picture::PictureError;
 
 /// Why a cost was not reported.
 #[derive(Debug, thiserror::Error)]
@@ -20,6 +21,17 @@ pub enum CostError {
     /// The library's recorder.
     #[error(transparent)]
     Record(#[from] RecordError),
+    /// A file that cannot be written.
+    #[error(transparent)]
+    Picture(#[from] PictureError),
+    /// A plot that cannot be drawn.
+    #[error("the plot '{title}' cannot be drawn: {reason}")]
+    Plot {
+        /// Its title.
+        title: String,
+        /// Why.
+        reason: String,
+    },
     /// A graph that the harness makes itself.
     #[error(transparent)]
     Graph(#[from] GraphError),

@@ -3,10 +3,10 @@
 use moment_shadows::{DepthConversion, Storage};
 use moment_shadows_graph::nodes::KernelProperty;
 use moment_shadows_graph::{Endpoint, Output};
-use serde_json::Value;
 
 use super::CostError;
 use super::reference;
+use super::shading;
 use super::texels::{Channels, decode};
 use crate::frame::Frame;
 use crate::gpu::Gpu;
@@ -28,7 +28,10 @@ impl OpenedGraph {
     pub(super) fn run(gpu: &Gpu, frame: &Frame, file: &GraphFile) -> Result<Self, CostError> {
         let mut file = GraphFile::parse(&file.name, file.text.clone(), None)?;
         let given = file.graph.outputs.iter().map(|output| output.from.clone());
-        let connected = file.graph.edges.iter().map(|edge| edge.from.clone());
+        // What a node changes in place can be had only after it.
+        let edges = file.graph.edges.iter();
+        let kept = edges.filter(|edge| changes_in_place(&file, &edge.to).is_none());
+        let connected = kept.map(|edge| edge.from.clone());
         let mut ends: Vec<Endpoint> = given
             .chain(connected)
             .filter(|end| end.slot.is_some())
@@ -51,16 +54,19 @@ impl OpenedGraph {
         })
     }
 
-    /// Compares a node's output with the reference, and gives the largest error; `None` for a node without a reference.
+    /// Compares a node's output with the reference, and gives the largest error (for shading, the mean error of some
+    /// pixels); `None` for a node without a reference.
     pub(super) fn check(
         &self,
         gpu: &Gpu,
         frame: &Frame,
         node: &str,
     ) -> Result<Option<f64>, CostError> {
-        match self.property(node, "type").as_str() {
+        match self.file.node_entry(node, "type").as_str() {
             Some("resolve_moments") => self.check_resolve(gpu, frame, node),
             Some("blur_moments") => self.check_blur(gpu, node),
+            Some("downsample_moments") => self.check_downsample(gpu, node),
+            Some("shade_hard") => self.check_shade(gpu, frame, node),
             _ => Ok(None),
         }
     }
@@ -71,7 +77,7 @@ impl OpenedGraph {
         frame: &Frame,
         node: &str,
     ) -> Result<Option<f64>, CostError> {
-        let Some((storage, moments)) = self.moments(gpu, &format!("{node} moments"))? else {
+        let Some((storage, moments)) = self.moments(gpu, &self.held(node, "moments"))? else {
             return Ok(None);
         };
         if self.source(node, "depth") != Some(LIGHT_DEPTH.to_owned()) {
@@ -92,12 +98,12 @@ impl OpenedGraph {
         };
         let (Some((storage, moments)), Some((_, blurred))) = (
             self.moments(gpu, &source)?,
-            self.moments(gpu, &format!("{node} blurred"))?,
+            self.moments(gpu, &self.held(node, "blurred"))?,
         ) else {
             return Ok(None);
         };
         let kernel: KernelProperty =
-            serde_json::from_value(self.property(node, "properties")["kernel"].clone())
+            serde_json::from_value(self.file.node_entry(node, "properties")["kernel"].clone())
                 .unwrap_or_default();
         let kernel = kernel.kernel()?;
         let size = self
@@ -110,8 +116,61 @@ impl OpenedGraph {
         reference::check(node, &blurred, &reference, tolerance).map(Some)
     }
 
+    /// Each mip level against the one before it, as that is stored.
+    fn check_downsample(&self, gpu: &Gpu, node: &str) -> Result<Option<f64>, CostError> {
+        let output = format!("{node} moments");
+        let Some(desc) = self.frame.plan.output_texture(&output).cloned() else {
+            return Ok(None);
+        };
+        let mut largest = 0.0_f64;
+        let Some((storage, mut finer)) = self.level(gpu, &output, 0)? else {
+            return Ok(None);
+        };
+        let size = |level: u32| desc.size_at(level).map(|side| side as usize);
+        for level in 1..desc.mips {
+            let reference = reference::downsample(&finer, size(level - 1), size(level));
+            let Some((_, found)) = self.level(gpu, &output, level)? else {
+                return Ok(None);
+            };
+            let what = format!("{node}, mip level {level}");
+            let tolerance = reference::downsample_tolerance(storage);
+            largest = largest.max(reference::check(&what, &found, &reference, tolerance)?);
+            finer = found;
+        }
+        Ok(Some(largest))
+    }
+
+    /// Only a map without mip levels: the reference looks up the finest.
+    fn check_shade(&self, gpu: &Gpu, frame: &Frame, node: &str) -> Result<Option<f64>, CostError> {
+        let map = self.source(node, "moments");
+        let map = map.and_then(|map| self.frame.plan.output_texture(&map));
+        let intensity = self
+            .frame
+            .bindings
+            .output(&self.held(node, "shadow_intensity"));
+        let (Some(map), Some(intensity)) = (map, intensity) else {
+            return Ok(None);
+        };
+        if map.mips > 1 || map.size != frame.desc.map {
+            return Ok(None);
+        }
+        let storage =
+            Storage::of_format(map.format).ok_or(CostError::Format { format: map.format })?;
+        shading::check(gpu, frame, &self.file, (node, intensity), storage)
+    }
+
     /// The stored channels of an output that holds moments.
     fn moments(&self, gpu: &Gpu, output: &str) -> Result<Option<(Storage, Channels)>, CostError> {
+        self.level(gpu, output, 0)
+    }
+
+    /// The same of one of its mip levels.
+    fn level(
+        &self,
+        gpu: &Gpu,
+        output: &str,
+        level: u32,
+    ) -> Result<Option<(Storage, Channels)>, CostError> {
         let (Some(desc), Some(texture)) = (
             self.frame.plan.output_texture(output),
             self.frame.bindings.output(output),
@@ -121,7 +180,7 @@ impl OpenedGraph {
         let storage = Storage::of_format(desc.format).ok_or(CostError::Format {
             format: desc.format,
         })?;
-        let bytes = gpu.read_texture(texture, 0, output)?;
+        let bytes = gpu.read_level(texture, 0, level, output)?;
         Ok(Some((storage, decode(storage, &bytes))))
     }
 
@@ -130,18 +189,28 @@ impl OpenedGraph {
         let to = format!("{node}.{slot}");
         let edges = &self.file.graph.edges;
         let edge = edges.iter().find(|edge| edge.to.to_string() == to)?;
-        Some(output_name(&edge.from))
+        Some(match &edge.from.slot {
+            Some(slot) => self.held(&edge.from.owner, slot),
+            None => output_name(&edge.from),
+        })
     }
 
-    /// An entry of a node in the graph file, whose text has been parsed before.
-    fn property(&self, node: &str, property: &str) -> Value {
-        let file: Value = serde_json::from_str(&self.file.text).unwrap_or_default();
-        let nodes = file["nodes"].as_array().cloned().unwrap_or_default();
-        nodes
-            .into_iter()
-            .find(|candidate| candidate["name"] == node)
-            .map_or(Value::Null, |found| found[property].clone())
+    /// The output that holds what a node gives: its own, or that of the node which changes it in place. What those have
+    /// here, the finest level, they leave as it is.
+    fn held(&self, node: &str, slot: &str) -> String {
+        let from = format!("{node}.{slot}");
+        let mut edges = self.file.graph.edges.iter();
+        let changed = edges.find_map(|edge| {
+            let changes = changes_in_place(&self.file, &edge.to);
+            changes.filter(|_| edge.from.to_string() == from)
+        });
+        changed.unwrap_or_else(|| format!("{node} {slot}"))
     }
+}
+
+/// The output of the node that an edge leads to, if it is the same texture as this input.
+fn changes_in_place(file: &GraphFile, to: &Endpoint) -> Option<String> {
+    (file.node_entry(&to.owner, "type") == "downsample_moments").then(|| output_name(to))
 }
 
 /// The name of the output that a connection is made: `node slot`. An import keeps its name.

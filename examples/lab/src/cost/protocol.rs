@@ -25,6 +25,17 @@ pub struct Subject<'a> {
     pub record: Record<'a>,
 }
 
+/// Which subjects are the copies that another one is compared with, by their numbers.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct CopyNumbers {
+    /// The copy by a dispatch.
+    pub compute: usize,
+    /// The copy by the interface.
+    pub api: usize,
+    /// The copy by a draw, for what draws.
+    pub draw: Option<usize>,
+}
+
 /// Times of all subjects, round by round.
 pub struct Rounds {
     /// Per subject and round, for one repetition.
@@ -80,31 +91,50 @@ impl Rounds {
         Ok(Self { readings })
     }
 
-    /// A subject's time, beside that of the subjects that are its copies by a shader and by the interface.
+    /// A subject's time, beside that of its copies.
     #[must_use]
-    pub fn time(&self, subject: usize, [shader_copy, interface_copy]: [usize; 2]) -> Time {
-        let of_reading =
-            |figure: fn(&Reading) -> f64| Distribution::of(self.of(subject).iter().map(figure));
-        let x_shader_copy = self.ratio(subject, shader_copy);
+    pub fn time(&self, subject: usize, copies: CopyNumbers) -> Time {
+        self.total(&[(subject, copies)])
+    }
+
+    /// The time of several subjects together, beside that of all their copies together.
+    #[must_use]
+    pub fn total(&self, parts: &[(usize, CopyNumbers)]) -> Time {
+        let subjects: Vec<usize> = parts.iter().map(|(subject, _)| *subject).collect();
+        let copies = |number: fn(&CopyNumbers) -> usize| -> Vec<usize> {
+            parts.iter().map(|(_, copies)| number(copies)).collect()
+        };
+        let draws: Option<Vec<usize>> = parts.iter().map(|(_, copies)| copies.draw).collect();
+        let seconds = self.summed(&subjects, |reading| reading.seconds);
+        let wall = self.summed(&subjects, |reading| reading.wall);
+        let x_compute_copy = self.ratio(&subjects, &copies(|copies| copies.compute));
         Time {
-            x_shader_copy,
-            x_interface_copy: self.ratio(subject, interface_copy),
-            seconds: of_reading(|reading| reading.seconds),
-            wall: of_reading(|reading| reading.wall / reading.seconds),
-            reliable: x_shader_copy.reliable(),
+            x_compute_copy,
+            x_api_copy: self.ratio(&subjects, &copies(|copies| copies.api)),
+            x_draw_copy: draws.map(|draws| self.ratio(&subjects, &draws)),
+            wall: Distribution::of(wall.iter().zip(&seconds).map(|(wall, clock)| wall / clock)),
+            seconds: Distribution::of(seconds),
+            reliable: x_compute_copy.reliable(),
         }
     }
 
-    fn ratio(&self, subject: usize, to: usize) -> Distribution {
-        Distribution::of(
-            self.of(subject)
-                .iter()
-                .zip(self.of(to))
-                .map(|(subject, to)| subject.seconds / to.seconds),
-        )
+    /// Some subjects' time as a ratio to that of others, both in the same round.
+    #[must_use]
+    pub fn ratio(&self, subjects: &[usize], to: &[usize]) -> Distribution {
+        let [subjects, to] =
+            [subjects, to].map(|subjects| self.summed(subjects, |reading| reading.seconds));
+        Distribution::of(subjects.iter().zip(to).map(|(subject, to)| subject / to))
     }
 
-    fn of(&self, subject: usize) -> &[Reading] {
-        self.readings.get(subject).map_or(&[], Vec::as_slice)
+    /// Per round, the sum of a figure over some subjects.
+    fn summed(&self, subjects: &[usize], figure: fn(&Reading) -> f64) -> Vec<f64> {
+        let rounds = self.readings.first().map_or(0, Vec::len);
+        let of = |subject: &usize, round: usize| {
+            let reading = self.readings.get(*subject).and_then(|all| all.get(round));
+            reading.map_or(f64::NAN, figure)
+        };
+        (0..rounds)
+            .map(|round| subjects.iter().map(|subject| of(subject, round)).sum())
+            .collect()
     }
 }

@@ -20,6 +20,20 @@ pub fn blur_tolerance(storage: Storage, kernel: &Kernel) -> f64 {
     tolerance(storage, 2, kernel.weights().len())
 }
 
+/// The next coarser mip level: every texel is the mean over the part of the finer level that it covers.
+#[must_use]
+pub fn downsample(finer: &[[f64; 4]], from: [usize; 2], to: [usize; 2]) -> Channels {
+    let narrow = transposed(&shrunk_rows(finer, from[0], to[0]), to[0]);
+    transposed(&shrunk_rows(&narrow, from[1], to[1]), to[1])
+}
+
+/// The largest error of one such step.
+#[must_use]
+pub fn downsample_tolerance(storage: Storage) -> f64 {
+    // Nine products, and weights that divisions rounded.
+    tolerance(storage, 1, 32)
+}
+
 /// The channels of a resolve: the mean of the moments of every texel's samples.
 #[must_use]
 pub fn resolve(depth: &DepthSamples, conversion: &DepthConversion, storage: Storage) -> Channels {
@@ -99,6 +113,30 @@ fn blur_rows(map: &[[f64; 4]], width: usize, kernel: &Kernel) -> Channels {
                     let texel = row[(x + tap).saturating_sub(radius).min(row.len() - 1)];
                     for channel in 0..4 {
                         sum[channel] += f64::from(weight) * texel[channel];
+                    }
+                }
+                sum
+            })
+        })
+        .collect()
+}
+
+/// Rows of `to` texels instead of `from`.
+fn shrunk_rows(map: &[[f64; 4]], from: usize, to: usize) -> Channels {
+    let width = from as f64 / to as f64;
+    map.par_chunks(from)
+        .flat_map_iter(|row| {
+            (0..to).map(move |x| {
+                let (start, end) = (x as f64 * width, (x + 1) as f64 * width);
+                let mut sum = [0.0; 4];
+                for (index, texel) in row.iter().enumerate().skip(start as usize) {
+                    let begin = index as f64;
+                    let covered = end.min(begin + 1.0) - start.max(begin);
+                    if covered <= 0.0 {
+                        break;
+                    }
+                    for channel in 0..4 {
+                        sum[channel] += covered / width * texel[channel];
                     }
                 }
                 sum

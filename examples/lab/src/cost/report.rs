@@ -4,7 +4,6 @@ use core::fmt;
 
 use serde::Serialize;
 
-use super::baseline::CopyWork;
 use super::blur::Bound;
 use super::clock::{Clock, ClockKind};
 use super::protocol::FEWEST_ROUNDS;
@@ -31,53 +30,18 @@ pub struct Conditions {
 /// A time, as ratios to the copies of the same round.
 #[derive(Clone, Debug, Serialize)]
 pub struct Time {
-    /// In copies by a shader.
-    pub x_shader_copy: Distribution,
-    /// In copies by the interface.
-    pub x_interface_copy: Distribution,
+    /// In copies by a dispatch, of the same bytes.
+    pub x_compute_copy: Distribution,
+    /// In copies by the interface, of the same bytes.
+    pub x_api_copy: Distribution,
+    /// In copies by a draw, of the same format and size; only for what draws.
+    pub x_draw_copy: Option<Distribution>,
     /// In seconds by the clock.
     pub seconds: Distribution,
     /// Seconds by the wall, as a part of those by the clock.
     pub wall: Distribution,
-    /// Whether the spread of the ratio to a copy by a shader is small enough to judge by.
+    /// Whether the spread of the ratio to a copy by a dispatch is small enough to judge by.
     pub reliable: bool,
-}
-
-/// What one pass of a plan costs.
-#[derive(Clone, Debug, Serialize)]
-pub struct PassCost {
-    /// `node/pass`.
-    pub pass: String,
-    /// The texture that it writes; the copies are of its format and size.
-    pub texture: String,
-    /// What the copy by a shader is.
-    pub copy: CopyWork,
-    /// The time.
-    pub time: Time,
-    /// Bytes read, each texel once.
-    pub bytes_read: u64,
-    /// Bytes written.
-    pub bytes_written: u64,
-    /// The fewest bytes that any implementation of the pass moves: both of the above.
-    pub minimum_bytes: u64,
-    /// Minimum bytes per second, as a part of the bytes per second of the copy by a shader.
-    pub efficiency: f64,
-    /// The largest difference of the node's output from the reference, in the channels' unit; none where there is no
-    /// reference.
-    pub error: Option<f64>,
-}
-
-/// What a graph costs.
-#[derive(Clone, Debug, Serialize)]
-pub struct GraphCost {
-    /// Where and how.
-    pub conditions: Conditions,
-    /// Every pass that a shader does.
-    pub passes: Vec<PassCost>,
-    /// Bytes of everything that the plan creates.
-    pub bytes_resident: u64,
-    /// Bytes that all passes move.
-    pub bytes_moved: u64,
 }
 
 /// What a blur costs in both directions.
@@ -138,7 +102,7 @@ impl BlurRow {
     #[must_use]
     pub fn passed(&self) -> bool {
         self.gate
-            .is_none_or(|gate| self.time.x_shader_copy.median <= gate)
+            .is_none_or(|gate| self.time.x_compute_copy.median <= gate)
     }
 }
 
@@ -161,58 +125,6 @@ impl fmt::Display for Conditions {
             ClockKind::Wall => "wall, from submission to completion",
         };
         writeln!(f, "clock    {clock}, {} rounds", self.rounds)
-    }
-}
-
-impl fmt::Display for GraphCost {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        writeln!(f, "{}", self.conditions)?;
-        writeln!(
-            f,
-            "{:<24} {:<26} {:>8} {:>6} {:>8} {:>9} {:>9} {:>9} {:>10} {:>9}",
-            "pass",
-            "writes",
-            "x copy",
-            "IQR",
-            "x API",
-            "read",
-            "written",
-            "minimum",
-            "efficiency",
-            "error"
-        )?;
-        for pass in &self.passes {
-            writeln!(
-                f,
-                "{:<24} {:<26} {:>8.2} {:>6} {:>8.2} {:>9} {:>9} {:>9} {:>10} {:>9}{}",
-                pass.pass,
-                pass.texture,
-                pass.time.x_shader_copy.median,
-                percent(pass.time.x_shader_copy.spread()),
-                pass.time.x_interface_copy.median,
-                mebibytes(pass.bytes_read),
-                mebibytes(pass.bytes_written),
-                mebibytes(pass.minimum_bytes),
-                percent(pass.efficiency),
-                pass.error
-                    .map_or("-".to_owned(), |error| format!("{error:.1e}")),
-                mark(&pass.time, self.conditions.clock),
-            )?;
-        }
-        writeln!(f)?;
-        writeln!(
-            f,
-            "x copy: the median ratio to a copy of what the pass writes: by a dispatch of 64x1 workgroups, for a fullscreen \
-             pass by a fullscreen draw"
-        )?;
-        writeln!(
-            f,
-            "efficiency: minimum bytes per second as a part of the copy's; error: the largest difference of the node's \
-             output from the reference in f64"
-        )?;
-        writeln!(f)?;
-        writeln!(f, "resident {}", mebibytes(self.bytes_resident))?;
-        writeln!(f, "moved    {}", mebibytes(self.bytes_moved))
     }
 }
 
@@ -241,9 +153,9 @@ impl fmt::Display for BlurCost {
                 f,
                 "{:>6} {:>8.2} {:>6} {:>8.2} {:>6} {:>6} {:>9.1e}{verdict}{}",
                 row.radius,
-                row.time.x_shader_copy.median,
-                percent(row.time.x_shader_copy.spread()),
-                row.time.x_interface_copy.median,
+                row.time.x_compute_copy.median,
+                percent(row.time.x_compute_copy.spread()),
+                row.time.x_api_copy.median,
                 bound(row.gate),
                 bound(row.goal),
                 row.error,
@@ -255,7 +167,7 @@ impl fmt::Display for BlurCost {
 }
 
 /// What to doubt about a time. Processor time has no reason to agree with the wall; a device's timestamps do.
-fn mark(time: &Time, clock: ClockKind) -> &'static str {
+pub(super) fn mark(time: &Time, clock: ClockKind) -> &'static str {
     let disagrees = (time.wall.median - 1.0).abs() > LARGEST_DISAGREEMENT;
     match (time.reliable, clock) {
         (false, _) => "  unreliable",
@@ -264,10 +176,10 @@ fn mark(time: &Time, clock: ClockKind) -> &'static str {
     }
 }
 
-fn percent(part: f64) -> String {
+pub(super) fn percent(part: f64) -> String {
     format!("{:.0} %", 100.0 * part)
 }
 
-fn mebibytes(bytes: u64) -> String {
+pub(super) fn mebibytes(bytes: u64) -> String {
     format!("{:.2} MiB", bytes as f64 / f64::from(1 << 20))
 }

@@ -26,6 +26,15 @@ impl Distribution {
         }
     }
 
+    /// The distribution of the figures times a factor above 0.
+    #[must_use]
+    pub fn scaled(self, factor: f64) -> Self {
+        Self {
+            median: factor * self.median,
+            interquartile_range: factor * self.interquartile_range,
+        }
+    }
+
     /// The interquartile range as a part of the median.
     #[must_use]
     pub fn spread(self) -> f64 {
