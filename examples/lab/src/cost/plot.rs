@@ -167,7 +167,7 @@ fn draw_panel<B: DrawingBackend>(
         near.map_or(String::new(), |value| value.1.to_owned())
     };
     let logarithmic = panel.logarithmic;
-    let figure = |y: &f64| format!("{}", if logarithmic { y.exp2() } else { *y });
+    let figure = |y: &f64| number(if logarithmic { y.exp2() } else { *y });
     chart
         .configure_mesh()
         .x_desc(growth.axis.label())
@@ -218,6 +218,12 @@ fn name(curve: &Curve, panel: &Panel) -> String {
         (true, CopyWork::Fullscreen) => format!("{} (copies by a draw)", curve.node),
         (false, _) => curve.node.clone(),
     }
+}
+
+/// Without the digits that rounding adds to a multiple of a step.
+fn number(value: f64) -> String {
+    let text = format!("{value:.4}");
+    text.trim_end_matches('0').trim_end_matches('.').to_owned()
 }
 
 /// A linear scale with ticks of our choice.
