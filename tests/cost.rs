@@ -313,7 +313,13 @@ fn a_bandwidth_bounds_time_from_below() {
 /// Mip levels are compared with copies of their own size, and those below 64x64 texels are one row.
 #[test]
 fn mip_levels_are_checked_and_small_ones_are_summed() {
-    let path = example("mipmapped_shadows.json");
+    // Eight probes per pixel take a software adapter many seconds per picture.
+    let text = std::fs::read_to_string(example("mipmapped_shadows.json")).unwrap();
+    let fewer = text.replace("\"anisotropy\": 8", "\"anisotropy\": 1");
+    assert_ne!(text, fewer);
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("mipmapped.json");
+    std::fs::write(&path, fewer).unwrap();
     let cost = cost::graph(&path, 256, FEWEST_ROUNDS, Memory::known()).unwrap();
     let rows: Vec<_> = cost
         .passes
