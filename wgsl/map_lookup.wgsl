@@ -1,6 +1,6 @@
 import super::map_load::{map_load_footprint};
 import super::map_region::{MapRegion, map_region_at_level, map_region_place};
-import super::minification::{minification_footprint};
+import super::minification::{minification_footprint, minification_gradients};
 
 // Lookups in a filterable map by a sampler: bilinear, and averaged over a pixel. None reads across the edge of a region.
 //
@@ -21,14 +21,15 @@ fn map_lookup_bilinear(map: texture_2d_array<f32>, linear: sampler, layer: u32, 
 // `anisotropy` are taken here, from loaded texels. Regions are read by hardware for the most part if their edges and the
 // size of the map are multiples of a texel of the coarsest level.
 fn map_lookup_gradient(map: texture_2d_array<f32>, anisotropic: sampler, layer: u32, region: MapRegion, levels: u32, uv: vec2f, difference_x: vec2f, difference_y: vec2f, anisotropy: f32) -> vec4f {
+    let footprint = minification_footprint(difference_x, difference_y, anisotropy);
     let size = textureDimensions(map);
     let place = vec2f(region.origin) + uv * vec2f(region.extent);
     let whole = all(region.origin == vec2u(0u)) && all(region.extent == size);
     if whole || map_lookup_is_inner(region, size, levels, place, abs(difference_x) + abs(difference_y)) {
         let per_texel = 1.0 / vec2f(size);
-        return textureSampleGrad(map, anisotropic, place * per_texel, layer, difference_x * per_texel, difference_y * per_texel);
+        let gradients = minification_gradients(footprint);
+        return textureSampleGrad(map, anisotropic, place * per_texel, layer, gradients[0] * per_texel, gradients[1] * per_texel);
     }
-    let footprint = minification_footprint(difference_x, difference_y, anisotropy);
     return map_load_footprint(map, layer, region, levels, uv, footprint);
 }
 

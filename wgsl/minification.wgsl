@@ -2,14 +2,21 @@
 //
 // A pixel maps to a parallelogram of texels. Its singular values are the axes of the ellipse that stands for it
 // (Heckbert, "Fundamentals of Texture Mapping and Image Warping", 1989, section 3.5): a lookup takes probes along the
-// major axis, each on the mip level that fits the minor axis. Averages of moments are moments, which is what filterable
+// major axis, each on a mip level that fits the minor axis. Averages of moments are moments, which is what filterable
 // shadow maps exist for (Donnelly & Lauritzen, "Variance Shadow Maps", i3D 2006, section 3).
+//
+// A pixel averages a box: over w texels its variance is w^2 / 12. A trilinear lookup on a mip level whose texels are t wide
+// averages boxes of t and blends neighbours that are t apart: (1/12 + 1/6) t^2. Lookups are as wide as pixels if their
+// variances are equal, t = w / sqrt(3); a level with t = w, as colour textures take it, would filter three times as much.
 
 // Probes along the major axis, at most.
 const MINIFICATION_LARGEST_ANISOTROPY: f32 = 16.0;
 
+// The width of a mip level's texels that makes trilinear lookups as wide as a box: 1 / sqrt(3).
+const MINIFICATION_TEXEL_PER_WIDTH: f32 = 0.57735026;
+
 struct MinificationFootprint {
-    // The major axis, from end to end, in texels of mip level 0; zero where a pixel covers no more than a texel.
+    // The line on which the probes lie, along the major axis and from end to end, in texels of mip level 0.
     major: vec2f,
     // Probes along it, a whole number from 1 to 16.
     probes: f32,
@@ -18,8 +25,8 @@ struct MinificationFootprint {
 }
 
 // The footprint of a pixel from the differences of place, in texels, to its neighbours in x and y; each component at
-// most 1e9 in magnitude. `anisotropy`, from 1 to 16, is the ratio of the axes up to which probes follow the major axis;
-// beyond it the minor axis is taken for longer than it is.
+// most 1e9 in magnitude. `anisotropy`, from 1 to 16, is the largest number of probes; where more were needed, the minor
+// axis is taken for longer than it is.
 fn minification_footprint(difference_x: vec2f, difference_y: vec2f, anisotropy: f32) -> MinificationFootprint {
     let xx = difference_x.x * difference_x.x + difference_y.x * difference_y.x;
     let xy = difference_x.x * difference_x.y + difference_y.x * difference_y.y;
@@ -37,12 +44,13 @@ fn minification_footprint(difference_x: vec2f, difference_y: vec2f, anisotropy: 
     let direction = along / max(max(abs(along.x), abs(along.y)), 1e-30);
     let unit = direction / max(length(direction), 1e-6);
     let largest = clamp(anisotropy, 1.0, MINIFICATION_LARGEST_ANISOTROPY);
-    let width = max(max(minor_length, major_length / largest), 1.0);
-    return MinificationFootprint(
-        select(vec2f(0.0), unit * major_length, major_length > 1.0),
-        clamp(ceil(major_length / width - 1e-3), 1.0, MINIFICATION_LARGEST_ANISOTROPY),
-        log2(width),
-    );
+    // With so many probes a texel apart the major axis is filled: w^2 = 3 major_length^2 / (largest^2 + 2).
+    let filled = major_length * sqrt(3.0 / fma(largest, largest, 2.0));
+    let width = max(max(minor_length, filled), 1.0);
+    // A probe has the variance of the width along the major axis, too: the line of probes is shorter by that.
+    let line = sqrt(max(fma(-width, width, major_length * major_length), 0.0));
+    let texel = max(width * MINIFICATION_TEXEL_PER_WIDTH, 1.0);
+    return MinificationFootprint(unit * line, clamp(ceil(line / texel - 1e-3), 1.0, largest), log2(texel));
 }
 
 // Where probe `index` lies on the major axis: the offset, in texels, from the footprint's centre.
@@ -50,14 +58,21 @@ fn minification_probe(footprint: MinificationFootprint, index: f32) -> vec2f {
     return ((index + 0.5) / footprint.probes - 0.5) * footprint.major;
 }
 
-// The variance that minification adds to the moment depths of a plane, whose moment depth changes by `gradient` per texel.
-//
-// A trilinear lookup on level l averages boxes of 2^l texels, and blends neighbours that are 2^l texels apart: (1/12 +
-// 1/6) 4^l. Between two levels their mixture has at most 1.13 times the variance of the level between them. The probes
-// together add the variance of a box along the major axis.
+// The two axes of a footprint as the differences of place, in texels, that make a sampler with anisotropy take just these
+// probes: x is the column of the line, at least as long as the other one.
+fn minification_gradients(footprint: MinificationFootprint) -> mat2x2f {
+    let texel = exp2(footprint.level);
+    let line = length(footprint.major);
+    let unit = select(vec2f(1.0, 0.0), footprint.major / max(line, 1e-6), line >= 1e-3);
+    return mat2x2f(unit * max(line, texel), vec2f(-unit.y, unit.x) * texel);
+}
+
+// The variance that minification adds to the moment depths of a plane, whose moment depth changes by `gradient` per texel:
+// that of the probes' trilinear lookups, and that of the line they lie on. Between two levels the mixture of both has at
+// most 1.13 times the variance of the level between them.
 fn minification_depth_variance(footprint: MinificationFootprint, gradient: vec2f) -> f32 {
-    let width = select(0.0, exp2(footprint.level), footprint.level > 0.0);
-    let across = width * length(gradient);
+    let texel = select(0.0, exp2(footprint.level), footprint.level > 0.0);
+    let across = texel * length(gradient);
     let along = select(0.0, dot(footprint.major, gradient), footprint.probes > 1.0);
     return (1.13 / 4.0) * across * across + along * along / 12.0;
 }

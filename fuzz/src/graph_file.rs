@@ -197,6 +197,7 @@ fn capabilities(random: &mut Random) -> Capabilities {
     let profile = Profile::ALL[random.below(3)];
     let mut capabilities = Capabilities::of_profile(profile);
     capabilities.float32_filterable = random.once_in(2);
+    capabilities.anisotropic_sampling = random.once_in(2);
     if random.once_in(3) {
         capabilities.depth_samples = vec![1, 2, 4, 8];
     }

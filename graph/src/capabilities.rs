@@ -10,6 +10,10 @@ pub struct Capabilities {
     pub profile: Profile,
     /// Whether single-precision textures can be sampled with a filtering sampler.
     pub float32_filterable: bool,
+    /// Whether samplers take the probes of a minified lookup, rather than the shader. Software adapters need many times as
+    /// long for an anisotropic lookup, and may filter twice as much as the pixel covers.
+    #[serde(default = "yes")]
+    pub anisotropic_sampling: bool,
     /// Samples per texel that depth textures can have.
     pub depth_samples: Vec<u32>,
     /// The largest width or height of a texture.
@@ -32,6 +36,10 @@ fn default_uniform_size() -> u32 {
     65536
 }
 
+fn yes() -> bool {
+    true
+}
+
 impl Capabilities {
     /// What every device of the profile offers, with WebGPU's default limits.
     #[must_use]
@@ -39,6 +47,7 @@ impl Capabilities {
         Self {
             profile,
             float32_filterable: false,
+            anisotropic_sampling: true,
             depth_samples: vec![1, 4],
             max_texture_size: 8192,
             max_texture_layers: 256,
@@ -89,6 +98,7 @@ impl Capabilities {
         Self {
             profile,
             float32_filterable: features.contains(wgpu::Features::FLOAT32_FILTERABLE),
+            anisotropic_sampling: adapter.get_info().device_type != wgpu::DeviceType::Cpu,
             depth_samples,
             max_texture_size: limits.max_texture_dimension_2d,
             max_texture_layers: limits.max_texture_array_layers,

@@ -133,15 +133,23 @@ fn depth(regions: u32, layers: u32) -> TextureDesc {
     }
 }
 
-/// Sampled and loaded lookups.
-fn devices(gpu: &Gpu) -> [(Capabilities, &'static str); 3] {
-    let native = capabilities(gpu);
+/// Sampled and loaded lookups, the former with the sampler's anisotropy whatever the adapter.
+fn devices(gpu: &Gpu) -> [(Capabilities, &'static str); 4] {
+    let native = Capabilities {
+        anisotropic_sampling: true,
+        ..capabilities(gpu)
+    };
+    let in_shader = Capabilities {
+        anisotropic_sampling: false,
+        ..native.clone()
+    };
     let unfilterable = Capabilities {
         float32_filterable: false,
         ..native.clone()
     };
     [
         (native, "unorm16"),
+        (in_shader, "unorm16"),
         (unfilterable.clone(), "float32"),
         (unfilterable, "float16"),
     ]

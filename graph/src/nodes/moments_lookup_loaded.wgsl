@@ -3,7 +3,7 @@ import moment_shadows::map_region::{MapRegion};
 import moment_shadows::minification::{minification_footprint};
 import moment_shadows::specialization::{ANISOTROPY, GROUP, LEVELS};
 
-// The lookup in a map that the device cannot filter.
+// The lookup in a map that the device cannot filter, or not as well over a pixel.
 
 @group(GROUP) @binding(2) var moments_map: texture_2d_array<f32>;
 

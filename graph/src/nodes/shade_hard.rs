@@ -106,8 +106,10 @@ impl Node for ShadeHard {
         let format = self.check()?;
         let (moments, storage) = moments_input(upstream)?;
         let capabilities = upstream.capabilities();
-        let sampled = capabilities.support(moments.format).filterable;
-        let lookup = match (sampled, moments.mips > 1) {
+        let minified = moments.mips > 1;
+        let sampled = capabilities.support(moments.format).filterable
+            && (capabilities.anisotropic_sampling || !minified);
+        let lookup = match (sampled, minified) {
             (true, false) => SAMPLED_LOOKUP,
             (true, true) => MINIFIED_LOOKUP,
             (false, _) => LOADED_LOOKUP,
@@ -142,7 +144,7 @@ impl Node for ShadeHard {
                 binding: 3,
                 resource: BindingResource::Sampler {
                     filtering: true,
-                    anisotropy: if moments.mips > 1 { self.anisotropy } else { 1 },
+                    anisotropy: if minified { self.anisotropy } else { 1 },
                 },
             });
         }
