@@ -19,17 +19,25 @@ macro_rules! modules {
 #[must_use]
 pub fn modules() -> &'static [Module] {
     const MODULES: &[Module] = modules![
+        "convolution",
         "depth",
+        "exponential",
+        "exponential_variance",
         "gaussian",
         "hamburger",
         "hankel",
+        "hausdorff",
+        "layered_variance",
         "leak_reduction",
+        "lloyd",
         "map_load",
         "map_lookup",
         "map_region",
         "minification",
         "moments",
         "receiver_bias",
+        "storage",
+        "variance",
     ];
     MODULES
 }

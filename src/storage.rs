@@ -27,7 +27,7 @@ pub enum Storage {
     Float32,
 }
 
-/// A moment bias: `b + alpha ((0, beta, 0, beta) - b)` (Peters & Klein, i3D 2015, section 3.3).
+/// A moment bias: `b + alpha ((0, second, 0, fourth) - b)` (Peters & Klein, i3D 2015, section 3.3).
 #[derive(
     Clone, Copy, Debug, PartialEq, Serialize, Deserialize, bytemuck::Pod, bytemuck::Zeroable,
 )]
@@ -35,8 +35,10 @@ pub enum Storage {
 pub struct MomentBias {
     /// The step towards the target, in (0, 1).
     pub alpha: f32,
-    /// Second and fourth moment of the target; the odd ones are 0.
-    pub beta: f32,
+    /// The second moment of the target; the odd ones are 0.
+    pub second: f32,
+    /// The fourth moment of the target.
+    pub fourth: f32,
 }
 
 /// A storage that a profile does not offer.
@@ -100,20 +102,46 @@ impl Storage {
         match self {
             Storage::Unorm16 => MomentBias {
                 alpha: 6e-5,
-                beta: 0.628,
+                second: 0.628,
+                fourth: 0.628,
             },
             Storage::Float16 => MomentBias {
                 alpha: 1e-3,
-                beta: 0.628,
+                second: 0.628,
+                fourth: 0.628,
             },
             Storage::Float32 => MomentBias {
                 alpha: 1.5e-6,
-                beta: 0.375,
+                second: 0.375,
+                fourth: 0.375,
             },
         }
     }
 
-    /// The number by which the WGSL module `moments` knows this storage (`MOMENTS_STORAGE_UNORM16` and so on).
+    /// The same for distributions on the depth interval (Hausdorff): their moments lie in a smaller set, so that the target
+    /// is another one and the step longer.
+    #[must_use]
+    pub fn hausdorff_moment_bias(self) -> MomentBias {
+        match self {
+            Storage::Unorm16 => MomentBias {
+                alpha: 8e-5,
+                second: 0.6036,
+                fourth: 0.4875,
+            },
+            Storage::Float16 => MomentBias {
+                alpha: 1.3e-3,
+                second: 0.6036,
+                fourth: 0.4875,
+            },
+            Storage::Float32 => MomentBias {
+                alpha: 2.8e-6,
+                second: 0.4403,
+                fourth: 0.3124,
+            },
+        }
+    }
+
+    /// The number by which the WGSL module `storage` knows this storage (`STORAGE_UNORM16` and so on).
     #[must_use]
     pub fn wgsl_index(self) -> u32 {
         match self {

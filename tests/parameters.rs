@@ -124,7 +124,8 @@ fn structs_of_the_modules_are_laid_out_alike() {
         size_of::<MomentBias>(),
         &fields!(MomentBias {
             alpha: f32,
-            beta: f32
+            second: f32,
+            fourth: f32
         }),
     );
 }
@@ -269,15 +270,23 @@ fn numbers(module: &Module, expression: naga::Handle<Expression>) -> Vec<f64> {
 fn storages_have_the_numbers_and_biases_of_the_module() {
     for storage in Storage::ALL {
         let name = storage.name().to_uppercase();
-        let index = format!("MOMENTS_STORAGE_{name}");
-        let found = constant(&module("moments", &index), &index);
+        let index = format!("STORAGE_{name}");
+        let found = constant(&module("storage", &index), &index);
         assert_eq!(found, [f64::from(storage.wgsl_index())], "{index}");
         let bias = format!("MOMENTS_BIAS_{name}");
         let found = constant(&module("moments", &bias), &bias);
         let expected = storage.moment_bias();
         assert_eq!(
             found,
-            [f64::from(expected.alpha), f64::from(expected.beta)],
+            [expected.alpha, expected.second, expected.fourth].map(f64::from),
+            "{bias}"
+        );
+        let bias = format!("HAUSDORFF_BIAS_{name}");
+        let found = constant(&module("hausdorff", &bias), &bias);
+        let expected = storage.hausdorff_moment_bias();
+        assert_eq!(
+            found,
+            [expected.alpha, expected.second, expected.fourth].map(f64::from),
             "{bias}"
         );
     }

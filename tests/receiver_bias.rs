@@ -119,7 +119,7 @@ fn looked_up(storage: Storage, kernel: &Kernel, depth: &dyn Fn(f64, f64) -> f64)
         _ => result,
     };
     let bias = storage.moment_bias();
-    let (alpha, beta) = (f64::from(bias.alpha), f64::from(bias.beta));
+    let (alpha, beta) = (f64::from(bias.alpha), f64::from(bias.second));
     let target = [0.0, beta, 0.0, beta];
     std::array::from_fn(|j| moments[j] + alpha * (target[j] - moments[j]))
 }

@@ -85,7 +85,7 @@ fn a_users_shader_is_written_for_every_backend() {
          @group(0) @binding(1) var map_sampler: sampler;\n\
          @fragment fn main(@location(0) uv: vec2f) -> @location(0) vec4f {\n\
              let moments = textureSampleLevel(map, map_sampler, uv, 0.0);\n\
-             return vec4f(hamburger_shadow_intensity(moments, 0.0, MomentBias(1e-3, 0.6)));\n\
+             return vec4f(hamburger_shadow_intensity(moments, 0.0, MomentBias(1e-3, 0.6, 0.6)));\n\
          }\n",
     )
     .unwrap();

@@ -36,3 +36,9 @@ fn depth_to_moment_depth(stored: f32, conversion: DepthConversion) -> f32 {
     let ratio = dot(ends, conversion.numerator) / max(dot(ends, conversion.denominator), DEPTH_SMALLEST_DENOMINATOR);
     return select(clamp(ratio, -1.0, 1.0), 1.0, depth_is_nan(stored));
 }
+
+// The depth of a fragment in [-1, 1]: beyond the light's range it counts as the nearer end, and NaN as the near end, where
+// every lower bound is 0.
+fn depth_of_fragment(fragment_depth: f32) -> f32 {
+    return select(clamp(fragment_depth, -1.0, 1.0), -1.0, depth_is_nan(fragment_depth));
+}

@@ -45,14 +45,8 @@ fn hamburger_support(factor: HankelFactor, x: f32, second_polynomial: f32) -> Ha
     return HamburgerSupport(0.5 * doubled, above);
 }
 
-// The sharp bounds of shadow intensity: x = inf S(z < fragment_depth), y = sup S(z <= fragment_depth) over all
-// distributions S with the moments `biased`, which are already biased by `alpha` >= 1e-7 and lie within [-2, 2].
-// Both are in [0, 1] for all such moments, valid or not, and every finite fragment depth; farther out than 1e4 the
-// fragment depth counts as 1e4. Error: |error| <= 8 * 2^-24 * (1 + sensitivity) where fma is fused.
-fn hamburger_bounds(biased: vec4f, fragment_depth: f32, alpha: f32) -> vec2f {
-    let factor = hankel_factor(biased, alpha);
-    let x = clamp(fragment_depth, -HAMBURGER_FARTHEST_SUPPORT, HAMBURGER_FARTHEST_SUPPORT) - biased.x;
-    let polynomial = hankel_second_polynomial(factor, x);
+// Both bounds for a fragment at x = z - b1, where P2(x) is `polynomial`.
+fn hamburger_bounds_at(factor: HankelFactor, x: f32, polynomial: f32) -> vec2f {
     if polynomial >= 0.0 {
         // Outside the Gauss nodes no support point lies beyond the fragment: no root is needed.
         let weight = saturate(hankel_christoffel_number(factor, x, polynomial));
@@ -64,12 +58,8 @@ fn hamburger_bounds(biased: vec4f, fragment_depth: f32, alpha: f32) -> vec2f {
     return saturate(vec2f(below, 1.0 - above));
 }
 
-// The lower one of `hamburger_bounds`, with fragment depths beyond the light's range counting as its ends; where the
-// bound is 0 the result is below 1e-8.
-fn hamburger_lower_bound(biased: vec4f, fragment_depth: f32, alpha: f32) -> f32 {
-    let factor = hankel_factor(biased, alpha);
-    let x = clamp(fragment_depth, -1.0, 1.0) - biased.x;
-    let polynomial = hankel_second_polynomial(factor, x);
+// The lower one of them; where it is 0 the result is below 1e-8.
+fn hamburger_lower_bound_at(factor: HankelFactor, x: f32, polynomial: f32) -> f32 {
     let support = hamburger_support(factor, x, polynomial);
     // One Christoffel number serves all cases: at the fragment itself where it is above the Gauss nodes, or else at the
     // support point below it. Where the fragment is below the Gauss nodes that one is at infinity, without weight.
@@ -77,6 +67,24 @@ fn hamburger_lower_bound(biased: vec4f, fragment_depth: f32, alpha: f32) -> f32 
     let t = select(support.points.x, x, beyond);
     let weight = saturate(hankel_christoffel_number(factor, t, hankel_second_polynomial(factor, t)));
     return select(weight, 1.0 - weight, beyond);
+}
+
+// The sharp bounds of shadow intensity: x = inf S(z < fragment_depth), y = sup S(z <= fragment_depth) over all
+// distributions S with the moments `biased`, which are already biased by `alpha` >= 1e-7 and lie within [-2, 2].
+// Both are in [0, 1] for all such moments, valid or not, and every finite fragment depth; farther out than 1e4 the
+// fragment depth counts as 1e4. Error: |error| <= 8 * 2^-24 * (1 + sensitivity) where fma is fused.
+fn hamburger_bounds(biased: vec4f, fragment_depth: f32, alpha: f32) -> vec2f {
+    let factor = hankel_factor(biased, alpha);
+    let x = clamp(fragment_depth, -HAMBURGER_FARTHEST_SUPPORT, HAMBURGER_FARTHEST_SUPPORT) - biased.x;
+    return hamburger_bounds_at(factor, x, hankel_second_polynomial(factor, x));
+}
+
+// The lower one of `hamburger_bounds`, with fragment depths beyond the light's range counting as its ends; where the
+// bound is 0 the result is below 1e-8.
+fn hamburger_lower_bound(biased: vec4f, fragment_depth: f32, alpha: f32) -> f32 {
+    let factor = hankel_factor(biased, alpha);
+    let x = clamp(fragment_depth, -1.0, 1.0) - biased.x;
+    return hamburger_lower_bound_at(factor, x, hankel_second_polynomial(factor, x));
 }
 
 // Shadow intensity in [0, 1] (1 = shadowed) of a fragment at `fragment_depth` (moment depth) under the filtered moments
@@ -89,6 +97,6 @@ fn hamburger_shadow_intensity(moments: vec4f, fragment_depth: f32, bias: MomentB
 // The same for a filtered texel of a storage, with the bias of the storage. Cheaper, since decoding and bias are one step
 // and a texel of unorm storage needs no clamping.
 fn hamburger_shadow_intensity_of_texel(texel: vec4f, fragment_depth: f32, storage: u32) -> f32 {
-    let biased = moments_biased_from_texel(texel, storage);
-    return hamburger_lower_bound(biased, fragment_depth, moments_bias_of(storage).alpha);
+    let bias = moments_bias_of(storage);
+    return hamburger_lower_bound(moments_biased_from_texel(texel, storage, bias), fragment_depth, bias.alpha);
 }

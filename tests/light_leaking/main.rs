@@ -98,7 +98,7 @@ fn ratios(storage: Storage, occluders: &[f32]) -> Vec<[f64; 3]> {
     const STEP: f64 = 1.002;
     const STEPS: i32 = 4610;
     let bias = storage.moment_bias();
-    let (alpha, beta) = (f64::from(bias.alpha), f64::from(bias.beta));
+    let (alpha, beta) = (f64::from(bias.alpha), f64::from(bias.second));
     let inputs: Vec<Input> = occluders
         .iter()
         .flat_map(|&occluder| {

@@ -1,5 +1,6 @@
 import moment_shadows::hamburger::{hamburger_bounds, hamburger_shadow_intensity};
-import moment_shadows::moments::{MOMENTS_STORAGE_FLOAT16, MOMENTS_STORAGE_UNORM16, moments_apply_bias, moments_bias_of, moments_clamp, moments_from_depth, moments_from_texel, moments_to_texel};
+import moment_shadows::moments::{moments_apply_bias, moments_bias_of, moments_clamp, moments_from_depth, moments_from_texel, moments_to_texel};
+import moment_shadows::storage::{STORAGE_FLOAT16, STORAGE_UNORM16};
 
 // One or two surfaces, encoded, rounded to a storage as a texture would hold them, decoded and evaluated.
 struct BatchInput {
@@ -21,10 +22,10 @@ struct BatchOutput {
 }
 
 fn stored(texel: vec4f, storage: u32) -> vec4f {
-    if storage == MOMENTS_STORAGE_UNORM16 {
+    if storage == STORAGE_UNORM16 {
         return vec4f(unpack2x16unorm(pack2x16unorm(texel.xy)), unpack2x16unorm(pack2x16unorm(texel.zw)));
     }
-    if storage == MOMENTS_STORAGE_FLOAT16 {
+    if storage == STORAGE_FLOAT16 {
         return vec4f(unpack2x16float(pack2x16float(texel.xy)), unpack2x16float(pack2x16float(texel.zw)));
     }
     return texel;

@@ -78,7 +78,7 @@ fn biases() -> Vec<(f64, f64)> {
     Storage::ALL
         .iter()
         .map(|storage| storage.moment_bias())
-        .map(|bias| (f64::from(bias.alpha), f64::from(bias.beta)))
+        .map(|bias| (f64::from(bias.alpha), f64::from(bias.second)))
         .chain([(3e-7, 0.375)])
         .collect()
 }

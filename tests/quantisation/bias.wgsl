@@ -9,8 +9,9 @@ struct BatchInput {
 struct BatchOutput {
     biased: vec4f,
     alpha: f32,
-    beta: f32,
-    padding: vec2f,
+    second: f32,
+    fourth: f32,
+    padding: f32,
     // What a texel of the moments gives: bias and all in one step, and one step after the other.
     at_once: vec4f,
     in_turn: vec4f,
@@ -24,9 +25,10 @@ fn batch(input: BatchInput) -> BatchOutput {
     return BatchOutput(
         moments_apply_bias(input.moments, bias),
         bias.alpha,
-        bias.beta,
-        vec2f(0.0),
-        moments_biased_from_texel(texel, input.storage),
+        bias.second,
+        bias.fourth,
+        0.0,
+        moments_biased_from_texel(texel, input.storage, bias),
         moments_apply_bias(moments_from_texel(texel, input.storage), bias),
     );
 }

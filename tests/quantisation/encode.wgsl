@@ -1,5 +1,6 @@
 import moment_shadows::depth::{DepthConversion, depth_to_moment_depth};
-import moment_shadows::moments::{moments_dequantize, moments_from_depth, moments_quantize, moments_round_to_float16};
+import moment_shadows::moments::{moments_dequantize, moments_from_depth, moments_quantize};
+import moment_shadows::storage::{storage_round_to_float16};
 
 // Two stored depths and their shares, encoded and decoded; and the rounding to float16.
 struct BatchInput {
@@ -25,6 +26,6 @@ fn batch(input: BatchInput) -> BatchOutput {
     let moments = mix(moments_from_depth(near), moments_from_depth(far), input.far_weight);
     let channels = moments_quantize(moments);
     let decoded = moments_dequantize(channels);
-    let rounded = moments_round_to_float16(vec4f(input.value)).x;
+    let rounded = storage_round_to_float16(vec4f(input.value)).x;
     return BatchOutput(channels, decoded, near, rounded, vec2f(0.0));
 }

@@ -182,7 +182,7 @@ fn the_moment_bias_is_applied_with_a_single_rounding() {
     let order = [Storage::Unorm16, Storage::Float16, Storage::Float32];
     for (case, output) in cases.iter().zip(&outputs) {
         let bias = order[case.storage as usize].moment_bias();
-        assert_eq!([output[4], output[5]], [bias.alpha, bias.beta]);
+        assert_eq!(output[4..7], [bias.alpha, bias.second, bias.fourth]);
         let (at_once, in_turn) = output[8..].split_at(4);
         for (at_once, in_turn) in at_once.iter().zip(in_turn) {
             // Either way takes a handful of roundings of numbers up to 1.8 (2^-24 each): far below the bias.
@@ -190,7 +190,7 @@ fn the_moment_bias_is_applied_with_a_single_rounding() {
         }
         for index in 0..4 {
             let moment = f64::from(case.moments[index]);
-            let target = f64::from(if index % 2 == 1 { bias.beta } else { 0.0 });
+            let target = f64::from([0.0, bias.second, 0.0, bias.fourth][index]);
             let exact = moment + f64::from(bias.alpha) * (target - moment);
             let error = (f64::from(output[index]) - exact).abs();
             // Half a unit in the last place; the step itself, where it is rounded apart, adds a millionth of its size.
@@ -212,7 +212,7 @@ fn the_moment_bias_covers_three_roundings_to_each_storage() {
     const PATCHES: u64 = 100_000;
     for storage in Storage::ALL {
         let bias = storage.moment_bias();
-        let (alpha, beta) = (f64::from(bias.alpha), f64::from(bias.beta));
+        let [alpha, second, fourth] = [bias.alpha, bias.second, bias.fourth].map(f64::from);
         let count = |alpha: f64| {
             (0..PATCHES)
                 .into_par_iter()
@@ -220,7 +220,8 @@ fn the_moment_bias_covers_three_roundings_to_each_storage() {
                     let depths = patches::patch(&mut ChaCha8Rng::seed_from_u64(seed));
                     let [b1, b2, b3, b4] = patches::filtered(&depths, storage);
                     let [b1, b3] = [b1, b3].map(|moment| moment - alpha * moment);
-                    let [b2, b4] = [b2, b4].map(|moment| moment + alpha * (beta - moment));
+                    let b2 = b2 + alpha * (second - b2);
+                    let b4 = b4 + alpha * (fourth - b4);
                     let variance = b2 - b1 * b1;
                     let covariance = b3 - b1 * b2;
                     let residue = b4 - b2 * b2 - covariance * covariance / variance;
@@ -235,5 +236,48 @@ fn the_moment_bias_covers_three_roundings_to_each_storage() {
         assert!(failures as f64 <= 1e-4 * PATCHES as f64);
         // The patches are hard enough to tell a good bias from a bad one.
         assert!(with_a_fifth as f64 > 1e-3 * PATCHES as f64);
+    }
+}
+
+/// The same for distributions on the depth interval, where the Hankel matrix of E[z^j (1 - z^2)] has to be positive as well.
+#[test]
+fn the_hausdorff_bias_covers_three_roundings_to_each_storage() {
+    const PATCHES: u64 = 100_000;
+    for storage in Storage::ALL {
+        let bias = storage.hausdorff_moment_bias();
+        let [alpha, second, fourth] = [bias.alpha, bias.second, bias.fourth].map(f64::from);
+        let count = |alpha: f64, second: f64, fourth: f64| {
+            (0..PATCHES)
+                .into_par_iter()
+                .filter(|&seed| {
+                    let depths = patches::patch(&mut ChaCha8Rng::seed_from_u64(seed));
+                    let [b1, b2, b3, b4] = patches::filtered(&depths, storage);
+                    let [b1, b3] = [b1, b3].map(|moment| moment - alpha * moment);
+                    let b2 = b2 + alpha * (second - b2);
+                    let b4 = b4 + alpha * (fourth - b4);
+                    let variance = b2 - b1 * b1;
+                    let covariance = b3 - b1 * b2;
+                    let residue = b4 - b2 * b2 - covariance * covariance / variance;
+                    let (m0, m1, m2) = (1.0 - b2, b1 - b3, b2 - b4);
+                    let within = m2 - m1 * m1 / m0;
+                    variance <= 0.0 || residue <= 0.0 || m0 <= 0.0 || within <= 0.0
+                })
+                .count()
+        };
+        let failures = count(alpha, second, fourth);
+        let with_a_fifth = count(0.2 * alpha, second, fourth);
+        let hamburger = storage.moment_bias();
+        let with_the_other_target = count(
+            alpha,
+            f64::from(hamburger.second),
+            f64::from(hamburger.fourth),
+        );
+        println!(
+            "{storage:<8} impossible on the interval: {failures} of {PATCHES} patches, {with_a_fifth} with a fifth of the \
+             bias, {with_the_other_target} with the target for the real line"
+        );
+        assert!(failures as f64 <= 1e-4 * PATCHES as f64);
+        assert!(with_a_fifth as f64 > 1e-3 * PATCHES as f64);
+        assert!(with_the_other_target as f64 > 1e-3 * PATCHES as f64);
     }
 }

@@ -1,5 +1,6 @@
 import moment_shadows::depth::{DepthConversion, depth_to_moment_depth};
-import moment_shadows::moments::{MOMENTS_BIAS_FLOAT32, MOMENTS_STORAGE_FLOAT16, MOMENTS_STORAGE_FLOAT32, MOMENTS_STORAGE_UNORM16, moments_apply_bias, moments_bias_of, moments_clamp, moments_from_depth, moments_from_texel, moments_to_texel};
+import moment_shadows::moments::{MOMENTS_BIAS_FLOAT32, moments_apply_bias, moments_bias_of, moments_clamp, moments_from_depth, moments_from_texel, moments_to_texel};
+import moment_shadows::storage::{STORAGE_FLOAT16, STORAGE_FLOAT32, STORAGE_UNORM16};
 import moment_shadows::hamburger::{hamburger_bounds, hamburger_shadow_intensity, hamburger_shadow_intensity_of_texel};
 
 // Random and hostile inputs, made on the device: one invocation tries `count` of them and keeps the first that fails.
@@ -153,9 +154,9 @@ fn batch(input: BatchInput) -> BatchOutput {
             results[4u + 2u * storage] = bounds.y;
         }
         // Texels as textures can hold them: unorm channels are in [0, 1].
-        results[12] = hamburger_shadow_intensity_of_texel(saturate(texel), depth, MOMENTS_STORAGE_UNORM16);
-        results[13] = hamburger_shadow_intensity_of_texel(texel, depth, MOMENTS_STORAGE_FLOAT16);
-        results[14] = hamburger_shadow_intensity_of_texel(texel, depth, MOMENTS_STORAGE_FLOAT32);
+        results[12] = hamburger_shadow_intensity_of_texel(saturate(texel), depth, STORAGE_UNORM16);
+        results[13] = hamburger_shadow_intensity_of_texel(texel, depth, STORAGE_FLOAT16);
+        results[14] = hamburger_shadow_intensity_of_texel(texel, depth, STORAGE_FLOAT32);
         // Moments that no bias has pulled back.
         results[9] = hamburger_bounds(moments_clamp(texel), depth, MOMENTS_BIAS_FLOAT32.alpha).x;
         // Depth of any bits on its way into a map.

@@ -56,7 +56,8 @@ fn two_plates_have_the_error_of_leak_reduction_alone() {
     // in full shadow, and get no more than the first of these.
     let forgetful = MomentBias {
         alpha: 1.0,
-        beta: 0.628,
+        second: 0.628,
+        fourth: 0.628,
     };
     let file = graph(Storage::Float32, radius);
     let found = subject

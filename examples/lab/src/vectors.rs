@@ -124,7 +124,7 @@ fn collect<'a>(vector: &'a file::Vector, cases: &mut Vec<Case<'a>>, report: &mut
                 moments: [b1 as f32, b2 as f32, b3 as f32, b4 as f32],
                 depth: vector.depth as f32,
                 alpha: bias.alpha,
-                beta: bias.beta,
+                beta: bias.second,
                 padding: 0.0,
             },
             truth: Truth::Oracle(storage),

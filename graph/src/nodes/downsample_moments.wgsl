@@ -1,5 +1,5 @@
 import moment_shadows::map_region::{map_region_at_level, map_region_within};
-import moment_shadows::moments::{moments_round_texel};
+import moment_shadows::storage::{storage_round_texel};
 import moment_shadows::region_tile::{region_tile, regions};
 import moment_shadows::specialization::{GROUP, MomentsStorage, STORAGE};
 
@@ -50,5 +50,5 @@ fn downsample(@builtin(local_invocation_id) local: vec3u, @builtin(workgroup_id)
         }
     }
     let texel = tile.region.origin + place;
-    textureStore(coarser_level, texel, moments_round_texel(sum, STORAGE));
+    textureStore(coarser_level, texel, storage_round_texel(sum, STORAGE));
 }

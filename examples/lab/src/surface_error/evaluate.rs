@@ -35,7 +35,7 @@ struct Uniform {
     receiver_bias: ReceiverBias,
     leak_reduction: LeakReduction,
     moment_bias: MomentBias,
-    padding: [f32; 2],
+    padding: f32,
 }
 
 /// A point of a surface, `Point` of the shader.
@@ -140,13 +140,14 @@ impl<'a> MapEvaluator<'a> {
         };
         let storage_s_own = MomentBias {
             alpha: 0.0,
-            beta: 0.0,
+            second: 0.0,
+            fourth: 0.0,
         };
         let uniform = Uniform {
             receiver_bias: evaluation.receiver_bias,
             leak_reduction: evaluation.leak_reduction,
             moment_bias: evaluation.moment_bias.unwrap_or(storage_s_own),
-            padding: [0.0; 2],
+            padding: 0.0,
         };
         let parameters = filled(bytemuck::bytes_of(&uniform), wgpu::BufferUsages::UNIFORM);
         let input = filled(bytemuck::cast_slice(points), wgpu::BufferUsages::STORAGE);

@@ -50,14 +50,14 @@ pub fn biased_bound(
     lookups: &[Option<Lookup>],
     bias: MomentBias,
 ) -> Vec<f32> {
-    let (alpha, beta) = (f64::from(bias.alpha), f64::from(bias.beta));
+    let [alpha, second, fourth] = [bias.alpha, bias.second, bias.fourth].map(f64::from);
     lookups
         .par_iter()
         .map_init(Scratch::default, |scratch, lookup| {
             lookup.map_or(0.0, |lookup| {
                 scratch.gather(depths, taps, lookup.uv);
                 let moments = [1, 2, 3, 4].map(|power| {
-                    let target = if power % 2 == 0 { beta } else { 0.0 };
+                    let target = [0.0, second, 0.0, fourth][power as usize - 1];
                     let moment = weighted_sum(&scratch.depths, &scratch.weights, |z| z.powi(power));
                     moment + alpha * (target - moment)
                 });

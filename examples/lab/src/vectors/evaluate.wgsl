@@ -20,7 +20,7 @@ struct BatchOutput {
 fn batch(input: BatchInput) -> BatchOutput {
     var biased = input.moments;
     if input.beta >= 0.0 {
-        biased = moments_apply_bias(input.moments, MomentBias(input.alpha, input.beta));
+        biased = moments_apply_bias(input.moments, MomentBias(input.alpha, input.beta, input.beta));
     }
     return BatchOutput(biased, hamburger_bounds(biased, input.depth, input.alpha), vec2f(0.0));
 }

@@ -1,0 +1,67 @@
+import moment_shadows::convolution::{convolution_plane, convolution_receiver, convolution_shadow_intensity};
+import moment_shadows::exponential::{exponential_shadow_intensity_of_texel};
+import moment_shadows::exponential_variance::{exponential_variance_shadow_intensity_of_texel};
+import moment_shadows::hausdorff::{hausdorff_shadow_intensity_of_texel};
+import moment_shadows::layered_variance::{LayeredVarianceLayers, layered_variance_choice, layered_variance_shadow_intensity_of_texel};
+import moment_shadows::storage::{storage_is_float};
+import moment_shadows::variance::{variance_from_texel, variance_shadow_intensity_of_texel, variance_smallest_of, variance_upper_bound};
+
+// Any bits for texel and depth, evaluated by every technique.
+struct BatchInput {
+    texel: vec4u,
+    splits: vec4f,
+    exponents: vec2f,
+    depth: u32,
+    storage: u32,
+    terms: u32,
+    layers: u32,
+    overlap: f32,
+    damping: f32,
+}
+
+struct BatchOutput {
+    intensities: array<vec4f, 3>,
+}
+
+fn batch(input: BatchInput) -> BatchOutput {
+    let storage = input.storage;
+    let depth = bitcast<f32>(input.depth);
+    var texel = bitcast<vec4f>(input.texel);
+    if !storage_is_float(storage) {
+        // All that a unorm texture can hold.
+        texel = vec4f(input.texel >> vec4u(16u)) / 65535.0;
+    }
+    let exponents = input.exponents;
+    let layers = LayeredVarianceLayers(array<vec4f, 2>(input.splits, vec4f(1.0)), input.layers, input.overlap, vec2f(0.0));
+    let choice = layered_variance_choice(layers, depth);
+    var sums = vec2f(0.0);
+    for (var plane = 0u; plane < 8u; plane++) {
+        let lower = convolution_receiver(depth, input.terms, true);
+        let series = convolution_receiver(depth, input.terms, false);
+        sums += vec2f(
+            convolution_plane(texel, storage, plane, input.terms, lower, input.damping),
+            convolution_plane(texel, storage, plane, input.terms, series, input.damping),
+        );
+    }
+    let moments = variance_from_texel(texel, storage).xy;
+    return BatchOutput(array<vec4f, 3>(
+        vec4f(
+            variance_shadow_intensity_of_texel(texel, depth, storage),
+            variance_upper_bound(moments, clamp(depth, -1.0, 1.0), variance_smallest_of(storage)),
+            layered_variance_shadow_intensity_of_texel(texel, depth, storage, layers, choice.layer),
+            layered_variance_shadow_intensity_of_texel(texel, depth, storage, layers, choice.neighbor),
+        ),
+        vec4f(
+            choice.neighbor_share,
+            exponential_shadow_intensity_of_texel(texel, depth, storage, exponents.x, false),
+            exponential_shadow_intensity_of_texel(texel, depth, storage, exponents.x, true),
+            exponential_variance_shadow_intensity_of_texel(texel, depth, storage, exponents, false),
+        ),
+        vec4f(
+            exponential_variance_shadow_intensity_of_texel(texel, depth, storage, exponents, true),
+            convolution_shadow_intensity(sums.x, input.terms, true),
+            convolution_shadow_intensity(sums.y, input.terms, false),
+            hausdorff_shadow_intensity_of_texel(texel, depth, storage),
+        ),
+    ));
+}

@@ -1,0 +1,47 @@
+// Storages: how the channels of a texel lie in memory, whatever they mean.
+//
+// Every technique filters linearly and writes after each filter, so each write is a rounding error that its bound has to
+// cover. Nothing here depends on a technique: how one spreads its quantities over the range of a storage is its own.
+
+// Storages, as a shader's specialisation names them.
+const STORAGE_UNORM16: u32 = 0u;
+const STORAGE_FLOAT16: u32 = 1u;
+const STORAGE_FLOAT32: u32 = 2u;
+const STORAGE_UNORM8: u32 = 3u;
+
+// The largest finite float16.
+const STORAGE_LARGEST_FLOAT16: f32 = 65504.0;
+
+// Whether the channels of the storage are floats, which can be anything, rather than numbers in [0, 1].
+fn storage_is_float(storage: u32) -> bool {
+    return storage == STORAGE_FLOAT16 || storage == STORAGE_FLOAT32;
+}
+
+// The nearest float16 of each component, ties to even, for |value| <= 65504. A driver may truncate when it stores to a
+// float16 texture, which would double the rounding error that a bound has to cover.
+fn storage_round_to_float16(value: vec4f) -> vec4f {
+    let bits = bitcast<vec4u>(value);
+    // 13 of 23 mantissa bits go; adding just under half a unit, plus the last kept bit, rounds ties to even.
+    let rounded = bitcast<vec4f>((bits + 0xfffu + ((bits >> vec4u(13u)) & vec4u(1u))) & vec4u(0xffffe000u));
+    // Below 2^-14 float16 is a fixed-point format with a step of 2^-24.
+    let small = round(value * 0x1p24) * 0x1p-24;
+    return select(rounded, small, abs(value) < vec4f(0x1p-14));
+}
+
+// A filtered combination of texels, as it has to be written back to the same storage.
+fn storage_round_texel(texel: vec4f, storage: u32) -> vec4f {
+    if storage == STORAGE_FLOAT16 {
+        return storage_round_to_float16(texel);
+    }
+    return texel;
+}
+
+// A texel in which channels that are NaN or infinite count as 0, found by their bits since a compiler may assume that
+// there is neither. Unorm texels pass as they are.
+fn storage_finite_texel(texel: vec4f, storage: u32) -> vec4f {
+    if !storage_is_float(storage) {
+        return texel;
+    }
+    let exponent = bitcast<vec4u>(texel) & vec4u(0x7f800000u);
+    return select(texel, vec4f(0.0), exponent == vec4u(0x7f800000u));
+}
