@@ -20,6 +20,7 @@ macro_rules! modules {
 pub fn modules() -> &'static [Module] {
     const MODULES: &[Module] = modules![
         "depth",
+        "disk_samples",
         "gaussian",
         "hamburger",
         "hankel",
@@ -29,7 +30,11 @@ pub fn modules() -> &'static [Module] {
         "map_region",
         "minification",
         "moments",
+        "percentage_closer",
+        "percentage_closer_hardware",
+        "percentage_closer_soft",
         "receiver_bias",
+        "receiver_plane",
     ];
     MODULES
 }
