@@ -21,6 +21,7 @@ pub fn modules() -> &'static [Module] {
     const MODULES: &[Module] = modules![
         "convolution",
         "depth",
+        "disk_samples",
         "exponential",
         "exponential_variance",
         "gaussian",
@@ -35,7 +36,11 @@ pub fn modules() -> &'static [Module] {
         "map_region",
         "minification",
         "moments",
+        "percentage_closer",
+        "percentage_closer_hardware",
+        "percentage_closer_soft",
         "receiver_bias",
+        "receiver_plane",
         "storage",
         "variance",
     ];

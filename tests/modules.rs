@@ -267,6 +267,10 @@ fn files_and_functions_open_with_a_comment() {
     assert_none(&failures);
 }
 
+/// Modules that test the plain depth map texel by texel. GLSL samples depth textures through comparison samplers only, so
+/// on OpenGL they are not to be had; `percentage_closer_hardware` is.
+const LOADS_DEPTH: [&str; 2] = ["percentage_closer", "percentage_closer_soft"];
+
 #[test]
 fn every_module_validates_alone_on_every_backend() {
     let mut failures = Vec::new();
@@ -277,9 +281,14 @@ fn every_module_validates_alone_on_every_backend() {
                 Ok(report) => {
                     assert_eq!(report.outcomes.len(), Backend::ALL.len());
                     for (backend, outcome) in report.outcomes {
-                        if let Outcome::CannotExpress(reason) = outcome {
-                            failures
-                                .push(format!("{}: {profile}: {backend}: {reason}", module.name));
+                        let glsl = matches!(backend, Backend::Glsl450 | Backend::GlslEs300);
+                        let expected = !(glsl && LOADS_DEPTH.contains(&module.name));
+                        match outcome {
+                            Outcome::Written if expected => {}
+                            Outcome::CannotExpress(reason)
+                                if !expected && reason.contains("textureLoad") => {}
+                            other => failures
+                                .push(format!("{}: {profile}: {backend}: {other:?}", module.name)),
                         }
                     }
                 }

@@ -9,8 +9,9 @@
 use std::mem::offset_of;
 
 use moment_shadows::{
-    DepthConversion, LARGEST_RADIUS, LeakReduction, MapRegion, MomentBias, Profile, ReceiverBias,
-    STANDARD_DEVIATIONS, Source, Storage, TextureFormat, link,
+    DepthConversion, Kernel, LARGEST_RADIUS, LeakReduction, MapRegion, MomentBias,
+    PercentageCloserKernel, PercentageCloserSoftLight, Profile, ReceiverBias, STANDARD_DEVIATIONS,
+    Source, Storage, TextureFormat, link,
 };
 use moment_shadows_graph::nodes::{
     BlurMoments, BlurParameters, KernelProperty, ResolveMoments, ShadeHard, ShadeHardParameters,
@@ -126,6 +127,29 @@ fn structs_of_the_modules_are_laid_out_alike() {
             alpha: f32,
             second: f32,
             fourth: f32
+        }),
+    );
+    assert_same_layout(
+        &module("percentage_closer", "PercentageCloserKernel"),
+        "PercentageCloserKernel",
+        size_of::<PercentageCloserKernel>(),
+        &fields!(PercentageCloserKernel {
+            radius: u32,
+            weights: [[f32; 4]; 33]
+        }),
+    );
+    assert_same_layout(
+        &module("percentage_closer_soft", "PercentageCloserSoftLight"),
+        "PercentageCloserSoftLight",
+        size_of::<PercentageCloserSoftLight>(),
+        &fields!(PercentageCloserSoftLight {
+            size: [f32; 2],
+            near: f32,
+            far: f32,
+            perspective: u32,
+            smallest_radius: f32,
+            largest_radius: f32,
+            padding: f32
         }),
     );
 }
@@ -297,6 +321,30 @@ fn the_receiver_bias_moves_by_as_many_standard_deviations_on_both_sides() {
     let name = "RECEIVER_BIAS_STANDARD_DEVIATIONS";
     let found = constant(&module("receiver_bias", name), name);
     assert_eq!(found, [f64::from(STANDARD_DEVIATIONS)]);
+}
+
+#[test]
+fn the_largest_kernel_of_percentage_closer_filtering_fits_its_uniform_struct() {
+    let kernel = Kernel::gaussian(LARGEST_RADIUS, 20.0).unwrap();
+    let uniform = PercentageCloserKernel::new(&kernel);
+    assert_eq!(uniform.radius, LARGEST_RADIUS);
+    let flat = uniform.weights.as_flattened();
+    assert_eq!(flat[..kernel.weights().len()], *kernel.weights());
+    assert!(
+        flat[kernel.weights().len()..]
+            .iter()
+            .all(|&weight| weight == 0.0)
+    );
+    for (name, item) in [
+        ("percentage_closer", "PERCENTAGE_CLOSER_LARGEST_RADIUS"),
+        (
+            "percentage_closer_hardware",
+            "PERCENTAGE_CLOSER_HARDWARE_LARGEST_RADIUS",
+        ),
+    ] {
+        let found = constant(&module(name, item), item);
+        assert_eq!(found, [f64::from(LARGEST_RADIUS)]);
+    }
 }
 
 #[test]

@@ -23,6 +23,9 @@ struct DepthConversion {
 // The smallest denominator: the far end of an infinite projection divides by zero.
 const DEPTH_SMALLEST_DENOMINATOR: f32 = 1e-30;
 
+// The moment depth of a light with parallel rays.
+const DEPTH_INFINITELY_FAR: f32 = -1e30;
+
 // Whether `value` is NaN, by its bits: WGSL lets a compiler assume that no NaN occurs, so `value != value` may be folded.
 fn depth_is_nan(value: f32) -> bool {
     return (bitcast<u32>(value) & 0x7fffffffu) > 0x7f800000u;
@@ -41,4 +44,30 @@ fn depth_to_moment_depth(stored: f32, conversion: DepthConversion) -> f32 {
 // every lower bound is 0.
 fn depth_of_fragment(fragment_depth: f32) -> f32 {
     return select(clamp(fragment_depth, -1.0, 1.0), -1.0, depth_is_nan(fragment_depth));
+}
+
+// The stored depth of a moment depth: the inverse of the above, as the reference value of a comparison sampler. Moment
+// depths that the stored interval does not reach count as its nearer end, NaN as the far end.
+fn depth_from_moment_depth(moment_depth: f32, conversion: DepthConversion) -> f32 {
+    let z = select(clamp(moment_depth, -1.0, 1.0), 1.0, depth_is_nan(moment_depth));
+    let numerator = conversion.numerator;
+    let denominator = conversion.denominator;
+    // The weights d and 1 - d of the two ends, up to a factor that is positive where depth is stored from near to far.
+    let weights = vec2f(fma(z, denominator.x, -numerator.x), fma(-z, denominator.y, numerator.y));
+    let reversed = numerator.y * denominator.x < numerator.x * denominator.y;
+    let positive = max(select(weights, -weights, reversed), vec2f(0.0));
+    let d = positive.x / max(positive.x + positive.y, DEPTH_SMALLEST_DENOMINATOR);
+    let scale = select(max(conversion.scale, DEPTH_SMALLEST_DENOMINATOR), min(conversion.scale, -DEPTH_SMALLEST_DENOMINATOR), conversion.scale < 0.0);
+    return clamp((d - conversion.offset) / scale, -3e38, 3e38);
+}
+
+// The moment depth of a light's own place, below -1; DEPTH_INFINITELY_FAR where the stored depth is linear, as parallel rays
+// have it.
+fn depth_of_light(conversion: DepthConversion) -> f32 {
+    // A perspective conversion tends to it where d grows without bounds.
+    let divisor = conversion.denominator.y - conversion.denominator.x;
+    if abs(divisor) < DEPTH_SMALLEST_DENOMINATOR {
+        return DEPTH_INFINITELY_FAR;
+    }
+    return clamp((conversion.numerator.y - conversion.numerator.x) / divisor, DEPTH_INFINITELY_FAR, -1.0);
 }

@@ -1,0 +1,187 @@
+//! The host side of the WGSL module `percentage_closer_soft`.
+
+use bytemuck::{Pod, Zeroable};
+
+use crate::{DepthError, DepthRange};
+
+/// The largest radius in texels.
+const LARGEST_SOFT_RADIUS: f64 = 4096.0;
+
+/// A light of some size over its depth map: the uniform struct of the WGSL module `percentage_closer_soft`.
+#[derive(Clone, Copy, Debug, PartialEq, Pod, Zeroable)]
+#[repr(C)]
+pub struct PercentageCloserSoftLight {
+    /// Diameter of the filter in texels (x and y): for parallel rays per scene unit between blocker and receiver, for rays
+    /// from a point per 1 / scene unit between their inverse distances.
+    pub size: [f32; 2],
+    /// Distance from the light of moment depth -1, in scene units.
+    pub near: f32,
+    /// Distance from the light of moment depth 1, in scene units.
+    pub far: f32,
+    /// 0 for parallel rays, 1 for rays from a point.
+    pub perspective: u32,
+    /// Smallest radius of search and filter in texels.
+    pub smallest_radius: f32,
+    /// Largest radius of search and filter in texels.
+    pub largest_radius: f32,
+    /// Unused; keeps the WGSL layout.
+    pub padding: f32,
+}
+
+/// The radii in texels that search and filter keep to.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct SoftRadii {
+    /// At least 0; 0.5 and more softens the edges of texels near contacts.
+    pub smallest: f64,
+    /// At least `smallest`, above 0, at most 4096. With n taps their distance is 1.8 times the radius over sqrt(n).
+    pub largest: f64,
+}
+
+/// A light that no soft shadows can be made of.
+#[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
+#[non_exhaustive]
+pub enum SoftLightError {
+    /// A number is out of range.
+    #[error("a light's soft shadows: {name} is {value}, but must be {range}")]
+    Value {
+        /// What is wrong.
+        name: &'static str,
+        /// What was given.
+        value: f64,
+        /// What it may be.
+        range: &'static str,
+    },
+    /// The range of moment depth is empty.
+    #[error(transparent)]
+    Range(#[from] DepthError),
+}
+
+impl PercentageCloserSoftLight {
+    /// A light with parallel rays that is seen under `angular_diameter` radians, above 0 and below pi; the sun's is
+    /// 0.0093. `texel` is a texel's width and height in scene units, `range` that of the map's moment depth.
+    ///
+    /// # Errors
+    /// [`SoftLightError`], which names the number that is out of range.
+    pub fn directional(
+        angular_diameter: f64,
+        texel: [f64; 2],
+        range: DepthRange,
+        radii: SoftRadii,
+    ) -> Result<Self, SoftLightError> {
+        check(
+            "the angular diameter",
+            angular_diameter,
+            angular_diameter > 0.0 && angular_diameter < std::f64::consts::PI,
+            "above 0 and below pi radians",
+        )?;
+        Self::new(
+            2.0 * (0.5 * angular_diameter).tan(),
+            texel,
+            range,
+            radii,
+            false,
+        )
+    }
+
+    /// A light with rays from a point: a disk of the given diameter in scene units, facing along the light's axis. `texel`
+    /// is a texel's width and height at distance 1 along it: 2 tan(full angle / 2) over the texels. `range` is that of the
+    /// map's moment depth; it begins in front of the light.
+    ///
+    /// # Errors
+    /// [`SoftLightError`], which names the number that is out of range.
+    pub fn spot(
+        diameter: f64,
+        texel: [f64; 2],
+        range: DepthRange,
+        radii: SoftRadii,
+    ) -> Result<Self, SoftLightError> {
+        check(
+            "the diameter",
+            diameter,
+            diameter > 0.0 && diameter.is_finite(),
+            "above 0 and finite",
+        )?;
+        check(
+            "the distance of the range's near end",
+            range.near,
+            range.near > 0.0,
+            "above 0, in front of the light",
+        )?;
+        Self::new(diameter, texel, range, radii, true)
+    }
+
+    fn new(
+        size: f64,
+        texel: [f64; 2],
+        range: DepthRange,
+        radii: SoftRadii,
+        perspective: bool,
+    ) -> Result<Self, SoftLightError> {
+        range.check()?;
+        for (name, length) in [
+            ("a texel's width", texel[0]),
+            ("a texel's height", texel[1]),
+        ] {
+            let valid = length > 0.0 && length.is_finite();
+            check(name, length, valid, "above 0 and finite")?;
+        }
+        let SoftRadii { smallest, largest } = radii;
+        check(
+            "the smallest radius",
+            smallest,
+            smallest >= 0.0 && smallest <= largest,
+            "at least 0 and at most the largest",
+        )?;
+        check(
+            "the largest radius",
+            largest,
+            largest > 0.0 && largest <= LARGEST_SOFT_RADIUS,
+            "above 0 and at most 4096 texels",
+        )?;
+        let texels = texel.map(|length| size / length);
+        // Sizes that single precision cannot hold come from units that do not fit together.
+        for value in texels {
+            let single = value as f32;
+            check(
+                "the light's size in texels",
+                value,
+                single.is_normal(),
+                "within single precision; choose another unit of length",
+            )?;
+        }
+        for (name, value) in [
+            ("the range's near end", range.near),
+            ("the range's far end", range.far),
+        ] {
+            let single = value as f32;
+            check(
+                name,
+                value,
+                single.is_finite(),
+                "within single precision; choose another unit of length",
+            )?;
+        }
+        Ok(Self {
+            size: texels.map(|value| value as f32),
+            near: range.near as f32,
+            far: range.far as f32,
+            perspective: u32::from(perspective),
+            smallest_radius: smallest as f32,
+            largest_radius: largest as f32,
+            padding: 0.0,
+        })
+    }
+}
+
+fn check(
+    name: &'static str,
+    value: f64,
+    valid: bool,
+    range: &'static str,
+) -> Result<(), SoftLightError> {
+    if valid {
+        Ok(())
+    } else {
+        Err(SoftLightError::Value { name, value, range })
+    }
+}
