@@ -15,10 +15,18 @@ pub enum TextureFormat {
     R8Unorm,
     /// Four channels of 8 bits in [0, 1].
     Rgba8Unorm,
+    /// One channel of 16 bits in [0, 1].
+    R16Unorm,
+    /// Two channels of 16 bits in [0, 1].
+    Rg16Unorm,
     /// One half-precision channel.
     R16Float,
+    /// Two half-precision channels.
+    Rg16Float,
     /// One single-precision channel.
     R32Float,
+    /// Two single-precision channels.
+    Rg32Float,
     /// Four channels of 16 bits in [0, 1].
     Rgba16Unorm,
     /// Four half-precision channels.
@@ -53,11 +61,15 @@ const NOTHING: FormatSupport = FormatSupport {
 
 impl TextureFormat {
     /// Every format.
-    pub const ALL: [TextureFormat; 9] = [
+    pub const ALL: [TextureFormat; 13] = [
         TextureFormat::R8Unorm,
         TextureFormat::Rgba8Unorm,
+        TextureFormat::R16Unorm,
+        TextureFormat::Rg16Unorm,
         TextureFormat::R16Float,
+        TextureFormat::Rg16Float,
         TextureFormat::R32Float,
+        TextureFormat::Rg32Float,
         TextureFormat::Rgba16Unorm,
         TextureFormat::Rgba16Float,
         TextureFormat::Rgba32Float,
@@ -71,8 +83,12 @@ impl TextureFormat {
         match self {
             TextureFormat::R8Unorm => "r8unorm",
             TextureFormat::Rgba8Unorm => "rgba8unorm",
+            TextureFormat::R16Unorm => "r16unorm",
+            TextureFormat::Rg16Unorm => "rg16unorm",
             TextureFormat::R16Float => "r16float",
+            TextureFormat::Rg16Float => "rg16float",
             TextureFormat::R32Float => "r32float",
+            TextureFormat::Rg32Float => "rg32float",
             TextureFormat::Rgba16Unorm => "rgba16unorm",
             TextureFormat::Rgba16Float => "rgba16float",
             TextureFormat::Rgba32Float => "rgba32float",
@@ -86,9 +102,13 @@ impl TextureFormat {
     pub fn bytes_per_texel(self) -> u32 {
         match self {
             TextureFormat::R8Unorm => 1,
-            TextureFormat::R16Float | TextureFormat::Depth16Unorm => 2,
-            TextureFormat::Rgba8Unorm | TextureFormat::R32Float | TextureFormat::Depth32Float => 4,
-            TextureFormat::Rgba16Unorm | TextureFormat::Rgba16Float => 8,
+            TextureFormat::R16Unorm | TextureFormat::R16Float | TextureFormat::Depth16Unorm => 2,
+            TextureFormat::Rgba8Unorm
+            | TextureFormat::Rg16Unorm
+            | TextureFormat::Rg16Float
+            | TextureFormat::R32Float
+            | TextureFormat::Depth32Float => 4,
+            TextureFormat::Rg32Float | TextureFormat::Rgba16Unorm | TextureFormat::Rgba16Float => 8,
             TextureFormat::Rgba32Float => 16,
         }
     }
@@ -112,26 +132,35 @@ impl TextureFormat {
             blendable: true,
         };
         match self {
-            TextureFormat::R8Unorm | TextureFormat::R16Float => colour,
+            TextureFormat::R8Unorm => colour,
+            // To be written as storage they need what an adapter adds of its own.
+            TextureFormat::R16Float | TextureFormat::Rg16Float => FormatSupport {
+                storage_write: profile == Profile::NativeAdapter,
+                ..colour
+            },
             TextureFormat::Rgba8Unorm | TextureFormat::Rgba16Float => FormatSupport {
                 storage_write: true,
                 ..colour
             },
             // Filtering and blending of single precision are optional features everywhere.
-            TextureFormat::R32Float | TextureFormat::Rgba32Float => FormatSupport {
-                filterable: false,
-                storage_write: true,
-                renderable: true,
-                blendable: false,
-            },
-            TextureFormat::Rgba16Unorm => match profile {
-                Profile::WebgpuCore => NOTHING,
-                Profile::Native | Profile::NativeAdapter => FormatSupport {
-                    filterable: true,
+            TextureFormat::R32Float | TextureFormat::Rg32Float | TextureFormat::Rgba32Float => {
+                FormatSupport {
+                    filterable: false,
                     storage_write: true,
-                    ..NOTHING
-                },
-            },
+                    renderable: true,
+                    blendable: false,
+                }
+            }
+            TextureFormat::R16Unorm | TextureFormat::Rg16Unorm | TextureFormat::Rgba16Unorm => {
+                match profile {
+                    Profile::WebgpuCore => NOTHING,
+                    Profile::Native | Profile::NativeAdapter => FormatSupport {
+                        filterable: true,
+                        storage_write: true,
+                        ..NOTHING
+                    },
+                }
+            }
             TextureFormat::Depth16Unorm | TextureFormat::Depth32Float => FormatSupport {
                 renderable: true,
                 ..NOTHING

@@ -65,7 +65,10 @@ pub use percentage_closer_soft::{PercentageCloserSoftLight, SoftLightError, Soft
 pub use profile::Profile;
 pub use receiver_bias::{ReceiverBias, STANDARD_DEVIATIONS};
 pub use storage::{MomentBias, Storage, UnsupportedStorage};
-pub use technique::Technique;
+pub use technique::{
+    EsmFiltering, Finite, LayerSplits, MapEncoding, NotFinite, PcfTaps, Pcss, Technique,
+    TechniqueError,
+};
 #[cfg(feature = "validate")]
 pub use validate::{
     Backend, Diagnostic, LARGEST_CONSTANT, LARGEST_VALUE, LONGEST_CHAIN, LONGEST_DEFINITION,

@@ -57,6 +57,17 @@ pub enum SoftLightError {
 }
 
 impl PercentageCloserSoftLight {
+    /// A light without size: shadows without penumbrae.
+    pub const NONE: PercentageCloserSoftLight = PercentageCloserSoftLight {
+        size: [0.0; 2],
+        near: 0.0,
+        far: 1.0,
+        perspective: 0,
+        smallest_radius: 0.0,
+        largest_radius: 0.0,
+        padding: 0.0,
+    };
+
     /// A light with parallel rays that is seen under `angular_diameter` radians, above 0 and below pi; the sun's is
     /// 0.0093. `texel` is a texel's width and height in scene units, `range` that of the map's moment depth.
     ///

@@ -25,6 +25,8 @@ pub enum Storage {
     Float16,
     /// Single precision, raw moments.
     Float32,
+    /// 8-bit normalised channels: for bounded functions of depth, not for moments.
+    Unorm8,
 }
 
 /// A moment bias: `b + alpha ((0, second, 0, fourth) - b)` (Peters & Klein, i3D 2015, section 3.3).
@@ -59,7 +61,7 @@ pub struct UnsupportedStorage {
 }
 
 impl Storage {
-    /// Every storage.
+    /// The storages of four moments.
     pub const ALL: [Storage; 3] = [Storage::Unorm16, Storage::Float16, Storage::Float32];
 
     /// The name in graph files and on command lines.
@@ -69,20 +71,37 @@ impl Storage {
             Storage::Unorm16 => "unorm16",
             Storage::Float16 => "float16",
             Storage::Float32 => "float32",
+            Storage::Unorm8 => "unorm8",
         }
     }
 
-    /// The format of the texture.
+    /// The format of a texture with four channels.
     #[must_use]
     pub fn format(self) -> TextureFormat {
         match self {
             Storage::Unorm16 => TextureFormat::Rgba16Unorm,
             Storage::Float16 => TextureFormat::Rgba16Float,
             Storage::Float32 => TextureFormat::Rgba32Float,
+            Storage::Unorm8 => TextureFormat::Rgba8Unorm,
         }
     }
 
-    /// The storage whose texture has this format.
+    /// The format of a texture with 1, 2 or 4 channels, where there is one.
+    #[must_use]
+    pub fn format_of(self, channels: u32) -> Option<TextureFormat> {
+        match (self, channels) {
+            (Storage::Unorm16, 1) => Some(TextureFormat::R16Unorm),
+            (Storage::Unorm16, 2) => Some(TextureFormat::Rg16Unorm),
+            (Storage::Float16, 1) => Some(TextureFormat::R16Float),
+            (Storage::Float16, 2) => Some(TextureFormat::Rg16Float),
+            (Storage::Float32, 1) => Some(TextureFormat::R32Float),
+            (Storage::Float32, 2) => Some(TextureFormat::Rg32Float),
+            (_, 4) => Some(self.format()),
+            _ => None,
+        }
+    }
+
+    /// The storage of four moments whose texture has this format.
     #[must_use]
     pub fn of_format(format: TextureFormat) -> Option<Storage> {
         Storage::ALL
@@ -90,16 +109,22 @@ impl Storage {
             .find(|storage| storage.format() == format)
     }
 
-    /// Bits of one texel.
+    /// Bits of one texel of four channels.
     #[must_use]
     pub fn bits_per_texel(self) -> u32 {
         self.format().bytes_per_texel() * 8
     }
 
-    /// The smallest moment bias that covers a resolve and a two-pass blur, every stage rounded to the storage.
+    /// The smallest moment bias that covers a resolve and a two-pass blur, every stage rounded to the storage. With 8 bits it
+    /// leaks so far that no technique stores four moments like that.
     #[must_use]
     pub fn moment_bias(self) -> MomentBias {
         match self {
+            Storage::Unorm8 => MomentBias {
+                alpha: 1.8e-2,
+                second: 0.628,
+                fourth: 0.628,
+            },
             Storage::Unorm16 => MomentBias {
                 alpha: 6e-5,
                 second: 0.628,
@@ -123,6 +148,11 @@ impl Storage {
     #[must_use]
     pub fn hausdorff_moment_bias(self) -> MomentBias {
         match self {
+            Storage::Unorm8 => MomentBias {
+                alpha: 2.4e-2,
+                second: 0.6036,
+                fourth: 0.4875,
+            },
             Storage::Unorm16 => MomentBias {
                 alpha: 8e-5,
                 second: 0.6036,
@@ -148,6 +178,7 @@ impl Storage {
             Storage::Unorm16 => 0,
             Storage::Float16 => 1,
             Storage::Float32 => 2,
+            Storage::Unorm8 => 3,
         }
     }
 

@@ -2,7 +2,7 @@
 
 use std::collections::BTreeMap;
 
-use moment_shadows::TextureFormat;
+use moment_shadows::{MapEncoding, TextureFormat};
 use serde::{Deserialize, Serialize};
 
 use crate::{Access, Capabilities, GraphError, GraphErrorKind, ResourceDesc, TextureDesc};
@@ -110,9 +110,11 @@ pub enum SlotResource {
 pub enum FormatRule {
     /// This one.
     Exact(TextureFormat),
+    /// That of a filterable map with this encoding, which the texture then has.
+    Encoded(MapEncoding),
     /// One of these. Only for inputs.
     OneOf(Vec<TextureFormat>),
-    /// That of another slot.
+    /// That of another slot, with its planes and encoding.
     SameAs(String),
 }
 
@@ -155,6 +157,9 @@ pub struct Pass {
     pub bindings: Vec<Binding>,
     /// Values of the shader's `override` constants.
     pub constants: BTreeMap<String, f64>,
+    /// The plane that bindings of a single layer mean, where a map has several.
+    #[serde(default)]
+    pub plane: u32,
     /// What is recorded.
     pub work: Work,
 }
@@ -181,7 +186,7 @@ pub enum BindingResource {
     Layer(String),
     /// The same of another mip level.
     Level(MipLevel),
-    /// All layers of a texture, loaded or sampled.
+    /// All layers of a texture, with all their planes, loaded or sampled.
     Layers(String),
     /// One layer of a texture, mip level 0, written.
     StorageLayer(String),
@@ -195,6 +200,12 @@ pub enum BindingResource {
         filtering: bool,
         /// The most probes of an anisotropic lookup, 1 to 16. More than one needs `filtering`.
         anisotropy: u16,
+    },
+    /// A comparison sampler that clamps to the edge and filters linearly.
+    ComparisonSampler {
+        /// Passes references that are less than the texel, for maps that store 1 at the near plane; otherwise those that are
+        /// greater.
+        reversed: bool,
     },
 }
 

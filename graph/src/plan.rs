@@ -104,6 +104,9 @@ pub enum PlannedBindingResource {
         one_layer: bool,
         /// The one mip level of a view of one layer; an array view has all.
         level: u32,
+        /// The plane of a view of one layer: it shows texture layer `layer x planes + plane`.
+        #[serde(default)]
+        plane: u32,
         /// What a load gives.
         sample: SampleType,
         /// Whether texels have several samples.
@@ -115,6 +118,9 @@ pub enum PlannedBindingResource {
         resource: usize,
         /// The mip level.
         level: u32,
+        /// The plane, as above.
+        #[serde(default)]
+        plane: u32,
     },
     /// A storage buffer.
     Buffer {
@@ -129,6 +135,11 @@ pub enum PlannedBindingResource {
         filtering: bool,
         /// The most probes of an anisotropic lookup, 1 to 16.
         anisotropy: u16,
+    },
+    /// A comparison sampler that clamps to the edge and filters linearly.
+    ComparisonSampler {
+        /// Passes references that are less than the texel; otherwise those that are greater.
+        reversed: bool,
     },
 }
 

@@ -2,7 +2,7 @@
 
 use core::fmt;
 
-use moment_shadows::TextureFormat;
+use moment_shadows::{MapEncoding, TextureFormat};
 use serde::{Deserialize, Serialize};
 
 /// A texture.
@@ -23,6 +23,12 @@ pub struct TextureDesc {
     /// otherwise, is the whole layer.
     #[serde(default = "one")]
     pub regions: u32,
+    /// Texture layers that each layer of a map consists of, for techniques with more than four channels.
+    #[serde(default = "one")]
+    pub planes: u32,
+    /// What the texels of a filterable map mean. A map without it holds four moments.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub encoding: Option<MapEncoding>,
     /// Samples per texel. A multisampled texture with several layers is a list of textures, one per layer.
     #[serde(default = "one")]
     pub samples: u32,
@@ -42,8 +48,26 @@ impl TextureDesc {
             layers: 1,
             mips: 1,
             regions: 1,
+            planes: 1,
+            encoding: None,
             samples: 1,
         }
+    }
+
+    /// A filterable map with one layer and one mip level.
+    #[must_use]
+    pub fn of_map(encoding: MapEncoding, size: [u32; 2]) -> Self {
+        Self {
+            planes: encoding.planes(),
+            encoding: Some(encoding.clone()),
+            ..Self::new(encoding.format(), size)
+        }
+    }
+
+    /// Layers of the texture: all planes of all layers of the map. Plane p of layer l is texture layer l x planes + p.
+    #[must_use]
+    pub fn array_layers(&self) -> u32 {
+        self.layers.saturating_mul(self.planes)
     }
 
     /// Width and height of a mip level.
@@ -52,19 +76,20 @@ impl TextureDesc {
         self.size.map(|side| (side >> level.min(31)).max(1))
     }
 
-    /// Bytes of one mip level of one layer, all samples.
+    /// Bytes of one mip level of one plane of a layer, all samples.
     #[must_use]
     pub fn bytes_per_level(&self, level: u32) -> u64 {
         let [width, height] = self.size_at(level).map(u64::from);
         width * height * u64::from(self.format.bytes_per_texel()) * u64::from(self.samples)
     }
 
-    /// Bytes of one layer, all mip levels and samples.
+    /// Bytes of one layer, all planes, mip levels and samples.
     #[must_use]
     pub fn bytes_per_layer(&self) -> u64 {
-        (0..self.mips)
+        let plane: u64 = (0..self.mips)
             .map(|level| self.bytes_per_level(level))
-            .sum()
+            .sum();
+        plane * u64::from(self.planes)
     }
 
     /// The number of mip levels of a map whose shorter side has at least one texel on each of them.
@@ -85,6 +110,9 @@ impl fmt::Display for TextureDesc {
         write!(f, "{} {}x{}", self.format, self.size[0], self.size[1])?;
         if self.layers > 1 {
             write!(f, " x {} layers", self.layers)?;
+        }
+        if self.planes > 1 {
+            write!(f, " of {} planes", self.planes)?;
         }
         if self.mips > 1 {
             write!(f, ", {} mips", self.mips)?;

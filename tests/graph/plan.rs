@@ -93,6 +93,7 @@ fn compiling_and_describing_are_repeatable() {
     let connected = Connected::new(&inputs, &capabilities);
     let nodes: [Box<dyn Node>; 4] = [
         Box::new(ResolveMoments {
+            technique: moment_shadows::Technique::Hamburger4,
             storage: moment_shadows::Storage::Float16,
             mip_levels: Default::default(),
         }),

@@ -339,6 +339,7 @@ fn fullscreen(wgsl: &str, format: TextureFormat, resources: Vec<BindingResource>
             entry_point: "main".to_owned(),
             bindings: bindings(resources),
             constants: [].into(),
+            plane: 0,
             work: Work::Fullscreen {
                 target: "to".to_owned(),
                 each_layer: false,

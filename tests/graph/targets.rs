@@ -37,6 +37,7 @@ fn drawn(slots: Vec<Slot>, targets: &[&str], blend: bool, depth: Option<&str>) -
             entry_point: String::new(),
             bindings: Vec::new(),
             constants: [].into(),
+            plane: 0,
             work: Work::Host {
                 targets: targets.iter().map(|&target| target.to_owned()).collect(),
                 blend,

@@ -213,6 +213,7 @@ pub(crate) fn fullscreen_by_layer(layers: u32) -> NodeDesc {
             entry_point: "main".to_owned(),
             bindings: bindings([BindingResource::Parameters]),
             constants: [].into(),
+            plane: 0,
             work: Work::Fullscreen {
                 target: "to".to_owned(),
                 each_layer: true,

@@ -33,6 +33,7 @@ fn plan(capabilities: &moment_shadows_graph::Capabilities) -> Plan {
             entry_point: String::new(),
             bindings: bindings([]),
             constants: [].into(),
+            plane: 0,
             work: Work::Host {
                 targets: vec!["colour".to_owned()],
                 blend: false,

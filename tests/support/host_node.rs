@@ -138,6 +138,7 @@ pub(crate) fn compute(
         entry_point: "main".to_owned(),
         bindings: bindings(resources),
         constants: [].into(),
+        plane: 0,
         work: Work::Compute {
             covers: covers.to_owned(),
             texels_per_workgroup: [8, 8],

@@ -57,7 +57,7 @@ pub enum LabError {
     Parameters(#[from] ParameterError),
     /// A camera without an inverse.
     #[error(transparent)]
-    Camera(#[from] moment_shadows_graph::nodes::SingularCamera),
+    Camera(#[from] moment_shadows_graph::nodes::ViewError),
     /// A light's depth convention.
     #[error(transparent)]
     Depth(#[from] moment_shadows::DepthError),

@@ -22,6 +22,7 @@ pub mod progress;
 pub mod scene;
 pub mod shaders;
 pub mod surface_error;
+pub mod techniques;
 pub mod truth;
 pub mod vectors;
 pub mod view;

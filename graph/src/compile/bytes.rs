@@ -23,6 +23,7 @@ pub(super) fn count(pass: &mut PlannedPass, resources: &[PlannedResource]) {
             PlannedBindingResource::StorageTexture {
                 resource,
                 level: bound,
+                ..
             } => written += level(*resource, *bound),
             PlannedBindingResource::Buffer { resource, writable } => {
                 read += whole(*resource);
@@ -30,7 +31,8 @@ pub(super) fn count(pass: &mut PlannedPass, resources: &[PlannedResource]) {
             }
             PlannedBindingResource::Parameters { size, .. }
             | PlannedBindingResource::Regions { size, .. } => read += u64::from(*size) * layers,
-            PlannedBindingResource::Sampler { .. } => {}
+            PlannedBindingResource::Sampler { .. }
+            | PlannedBindingResource::ComparisonSampler { .. } => {}
         }
     }
     match &pass.work {

@@ -141,6 +141,15 @@ impl Planner<'_> {
         filtered: bool,
         resources: &[PlannedResource],
     ) -> Result<PlannedBindingResource, GraphError> {
+        let plane_of = |slot: &str, texture: &TextureDesc| match texture.planes {
+            1 => Ok(0),
+            planes if pass.plane < planes => Ok(pass.plane),
+            planes => Err(declaration(format!(
+                "pass '{}' uses plane {} of '{slot}', which has {planes}",
+                pass.label, pass.plane
+            ))
+            .at_slot(slot)),
+        };
         let loaded = |slot: &str, one_layer: bool, level: u32| {
             let (resource, texture) = self.level(pass, slot, level, resources)?;
             let filterable = self.capabilities.support(texture.format).filterable;
@@ -149,6 +158,11 @@ impl Planner<'_> {
                 resource,
                 one_layer,
                 level,
+                plane: if one_layer {
+                    plane_of(slot, texture)?
+                } else {
+                    0
+                },
                 sample: if texture.format.is_depth() {
                     SampleType::Depth
                 } else if filterable && filtered && !multisampled {
@@ -160,8 +174,12 @@ impl Planner<'_> {
             })
         };
         let stored = |slot: &str, level: u32| {
-            let (resource, _) = self.level(pass, slot, level, resources)?;
-            Ok::<_, GraphError>(PlannedBindingResource::StorageTexture { resource, level })
+            let (resource, texture) = self.level(pass, slot, level, resources)?;
+            Ok::<_, GraphError>(PlannedBindingResource::StorageTexture {
+                resource,
+                level,
+                plane: plane_of(slot, texture)?,
+            })
         };
         match resource {
             BindingResource::Parameters => {
@@ -218,6 +236,11 @@ impl Planner<'_> {
                 Ok(PlannedBindingResource::Sampler {
                     filtering: *filtering,
                     anisotropy: *anisotropy,
+                })
+            }
+            BindingResource::ComparisonSampler { reversed } => {
+                Ok(PlannedBindingResource::ComparisonSampler {
+                    reversed: *reversed,
                 })
             }
         }

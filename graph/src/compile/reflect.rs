@@ -250,6 +250,10 @@ fn difference(
             matches!(actual, TypeInner::Sampler { comparison: false }),
             "a sampler".to_owned(),
         ),
+        PlannedBindingResource::ComparisonSampler { .. } => (
+            matches!(actual, TypeInner::Sampler { comparison: true }),
+            "a comparison sampler".to_owned(),
+        ),
         PlannedBindingResource::StorageTexture { resource, .. } => {
             let format = resources[*resource]
                 .desc

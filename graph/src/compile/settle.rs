@@ -125,7 +125,10 @@ fn renumber_pass(pass: &mut PlannedPass, renumbered: &impl Fn(&mut usize)) {
             Resource::Texture { resource, .. }
             | Resource::StorageTexture { resource, .. }
             | Resource::Buffer { resource, .. } => renumbered(resource),
-            Resource::Parameters { .. } | Resource::Regions { .. } | Resource::Sampler { .. } => {}
+            Resource::Parameters { .. }
+            | Resource::Regions { .. }
+            | Resource::Sampler { .. }
+            | Resource::ComparisonSampler { .. } => {}
         }
     }
     match &mut pass.work {

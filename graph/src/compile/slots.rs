@@ -100,8 +100,21 @@ fn make(
             Ok(ResourceDesc::Texture(TextureDesc {
                 format: match format {
                     FormatRule::Exact(format) => *format,
+                    FormatRule::Encoded(encoding) => encoding.format(),
                     FormatRule::SameAs(other) => texture_of(slot, other, resolved)?.format,
                     FormatRule::OneOf(_) => return Err(undetermined("format")),
+                },
+                planes: match format {
+                    FormatRule::Encoded(encoding) => encoding.planes(),
+                    FormatRule::SameAs(other) => texture_of(slot, other, resolved)?.planes,
+                    _ => 1,
+                },
+                encoding: match format {
+                    FormatRule::Encoded(encoding) => Some(encoding.clone()),
+                    FormatRule::SameAs(other) => {
+                        texture_of(slot, other, resolved)?.encoding.clone()
+                    }
+                    _ => None,
                 },
                 size: match extent {
                     ExtentRule::Exact(size) => *size,
@@ -195,6 +208,7 @@ fn check(
         ) => {
             let formats: Vec<TextureFormat> = match format {
                 FormatRule::Exact(format) => vec![*format],
+                FormatRule::Encoded(encoding) => vec![encoding.format()],
                 FormatRule::OneOf(formats) => formats.clone(),
                 FormatRule::SameAs(other) => vec![texture_of(slot, other, resolved)?.format],
             };
@@ -254,7 +268,7 @@ fn check(
                 }
             }
             limits(texture, capabilities).map_err(|error| error.at_slot(&slot.name))?;
-            usable(texture.format, *access, capabilities).map_err(|error| error.at_slot(&slot.name))
+            usable(texture, *access, capabilities).map_err(|error| error.at_slot(&slot.name))
         }
     }
 }
@@ -265,12 +279,17 @@ const BUFFER_ALIGNMENT: u64 = 4;
 /// Whether the device can have such a texture.
 fn limits(texture: &TextureDesc, capabilities: &Capabilities) -> Result<(), GraphError> {
     let largest = capabilities.max_texture_size;
-    let counts = [texture.layers, texture.mips, texture.regions];
+    let counts = [
+        texture.layers,
+        texture.mips,
+        texture.regions,
+        texture.planes,
+    ];
     if texture.size.contains(&0) || counts.contains(&0) {
         return Err(GraphError::new(
             GraphErrorKind::Size,
             format!(
-                "the texture is empty ({texture}); it has at least one layer, mip level and region, and sides from 1 to {largest}"
+                "the texture is empty ({texture}); it has at least one layer, plane, mip level and region, and sides from 1 to {largest}"
             ),
         ));
     }
@@ -283,12 +302,27 @@ fn limits(texture: &TextureDesc, capabilities: &Capabilities) -> Result<(), Grap
             ),
         ));
     }
-    if texture.layers > capabilities.max_texture_layers {
+    if texture.array_layers() > capabilities.max_texture_layers {
         return Err(GraphError::new(
             GraphErrorKind::Size,
             format!(
                 "the texture has {} layers; the device allows {}",
-                texture.layers, capabilities.max_texture_layers
+                texture.array_layers(),
+                capabilities.max_texture_layers
+            ),
+        ));
+    }
+    if let Some(encoding) = &texture.encoding
+        && (encoding.format(), encoding.planes()) != (texture.format, texture.planes)
+    {
+        return Err(GraphError::new(
+            GraphErrorKind::Format,
+            format!(
+                "the texture is to hold {encoding}, but has {} planes of {}; that takes {} of {}",
+                texture.planes,
+                texture.format,
+                encoding.planes(),
+                encoding.format()
             ),
         ));
     }
@@ -328,10 +362,11 @@ fn limits(texture: &TextureDesc, capabilities: &Capabilities) -> Result<(), Grap
 
 /// Whether the profile allows what passes do with the format.
 fn usable(
-    format: TextureFormat,
+    texture: &TextureDesc,
     access: Access,
     capabilities: &Capabilities,
 ) -> Result<(), GraphError> {
+    let format = texture.format;
     let support = capabilities.support(format);
     let missing = if access.storage_write && !support.storage_write {
         Some("written as a storage texture")
@@ -343,13 +378,15 @@ fn usable(
     let Some(missing) = missing else {
         return Ok(());
     };
-    let alternative = match Storage::of_format(format) {
-        Some(_) => format!(
-            "use storage '{}', which works there",
-            Storage::best_for(capabilities.profile)
-        ),
-        None => "use another format".to_owned(),
+    let of_moments = Storage::of_format(format).map(|_| Storage::best_for(capabilities.profile));
+    let storage = match &texture.encoding {
+        Some(encoding) => encoding.technique().best_storage(capabilities.profile),
+        None => of_moments,
     };
+    let alternative = storage.map_or_else(
+        || "use another format".to_owned(),
+        |storage| format!("use storage '{storage}', which works there"),
+    );
     Err(GraphError::new(
         GraphErrorKind::Capability,
         format!(

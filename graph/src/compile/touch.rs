@@ -41,9 +41,9 @@ pub(super) fn touched(pass: &PlannedPass) -> Vec<Touch> {
                 let level = one_layer.then_some(level);
                 Some(touch(resource, Access::READ, one_layer, level))
             }
-            PlannedBindingResource::StorageTexture { resource, level } => {
-                Some(touch(resource, Access::STORAGE_WRITE, true, Some(level)))
-            }
+            PlannedBindingResource::StorageTexture {
+                resource, level, ..
+            } => Some(touch(resource, Access::STORAGE_WRITE, true, Some(level))),
             PlannedBindingResource::Buffer { resource, writable } => {
                 let write = Access {
                     storage_write: writable,
@@ -53,7 +53,8 @@ pub(super) fn touched(pass: &PlannedPass) -> Vec<Touch> {
             }
             PlannedBindingResource::Parameters { .. }
             | PlannedBindingResource::Regions { .. }
-            | PlannedBindingResource::Sampler { .. } => None,
+            | PlannedBindingResource::Sampler { .. }
+            | PlannedBindingResource::ComparisonSampler { .. } => None,
         });
     let mut touched: Vec<Touch> = bound.collect();
     match &pass.work {

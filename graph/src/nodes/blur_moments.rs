@@ -1,13 +1,13 @@
 //! Filters a map of moments with a separable kernel.
 
 use bytemuck::{Pod, Zeroable};
-use moment_shadows::{Kernel, LARGEST_RADIUS, Storage};
+use moment_shadows::{Kernel, LARGEST_RADIUS, MapEncoding};
 use serde::{Deserialize, Serialize};
 
-use super::moments_input::moments_input;
+use super::moments_input::{map_formats, moments_input};
 use super::specialization::Specialization;
 use super::unrolled;
-use super::{KernelProperty, MipLevels, region_tiles};
+use super::{KernelProperty, MipLevels, region_tiles, techniques};
 use crate::{
     Access, Binding, BindingResource, Connected, CountRule, Direction, ExtentRule, FormatRule,
     GraphError, GraphErrorKind, Lifetime, Node, NodeDesc, ParameterBlock, Pass, Slot, SlotResource,
@@ -84,15 +84,27 @@ impl BlurParameters {
 
 impl Node for BlurMoments {
     fn describe(&self, upstream: &Connected<'_>) -> Result<NodeDesc, GraphError> {
-        let (moments, storage) = moments_input(upstream)?;
+        let (moments, encoding) = moments_input(upstream)?;
         let kernel = self.kernel.kernel()?;
         check_fits(&kernel, moments)?;
         let mips = self.mip_levels.count(moments.size)?;
         let unrolled = !self.per_frame && kernel.radius() <= LARGEST_UNROLLED_RADIUS;
-        let passes = ALONG
+        let along = ALONG
             .iter()
-            .map(|along| along.pass(upstream, moments, storage, &kernel, unrolled))
+            .map(|along| along.pass(upstream, moments, &encoding, &kernel, unrolled))
             .collect::<Result<Vec<_>, _>>()?;
+        // The planes take turns with one intermediate map.
+        let passes = (0..moments.planes)
+            .flat_map(|plane| along.iter().map(move |pass| (plane, pass)))
+            .map(|(plane, pass)| Pass {
+                label: match moments.planes {
+                    1 => pass.label.clone(),
+                    _ => format!("plane {plane}: {}", pass.label),
+                },
+                plane,
+                ..pass.clone()
+            })
+            .collect();
         Ok(NodeDesc {
             name: "blur_moments".to_owned(),
             stage: Stage::AfterShadowMaps,
@@ -101,14 +113,14 @@ impl Node for BlurMoments {
                     "moments",
                     Direction::In,
                     Access::READ,
-                    FormatRule::OneOf(Storage::ALL.map(Storage::format).to_vec()),
+                    FormatRule::OneOf(map_formats()),
                     CountRule::Any,
                 ),
                 slot(
                     "half_blurred",
                     Direction::Internal,
                     Access::READ.union(Access::STORAGE_WRITE),
-                    FormatRule::SameAs("moments".to_owned()),
+                    FormatRule::Exact(encoding.format()),
                     CountRule::Exact(1),
                 ),
                 slot(
@@ -165,7 +177,7 @@ impl Along {
         &self,
         upstream: &Connected<'_>,
         moments: &TextureDesc,
-        storage: Storage,
+        encoding: &MapEncoding,
         kernel: &Kernel,
         unrolled: bool,
     ) -> Result<Pass, GraphError> {
@@ -175,15 +187,12 @@ impl Along {
             WORKGROUP
         };
         let specialization = Specialization::new(upstream.capabilities())
-            .alias(
-                "MomentsStorage",
-                &format!("texture_storage_2d<{}, write>", storage.format()),
-            )
-            .constant("STORAGE", &format!("{}u", storage.wgsl_index()))
             .constant("WORKGROUP_X", &workgroup[0].to_string())
             .constant("WORKGROUP_Y", &workgroup[1].to_string())
             .constant("AXIS", self.step);
+        let specialization = techniques::specialize_map(specialization, encoding);
         let specialization = region_tiles::specialize(specialization, moments);
+        let filtering = techniques::filtering(encoding.technique());
         let mut bindings = vec![
             Binding {
                 binding: 0,
@@ -197,12 +206,17 @@ impl Along {
             region_tiles::binding(self.to, 2 * kernel.radius() + 1),
         ];
         let (wgsl, outputs) = if unrolled {
-            let text = specialization.text(&unrolled::literal_weights(kernel.weights()));
+            let text = unrolled::literal_weights(kernel.weights());
             (
-                text.link(
+                specialization.link(
                     "blur_moments_unrolled.wgsl",
                     UNROLLED_SHADER,
-                    &[("blur_target", TARGET), region_tiles::MODULE],
+                    &[
+                        ("blur_target", TARGET),
+                        (unrolled::MODULE, &text),
+                        filtering,
+                        region_tiles::MODULE,
+                    ],
                 )?,
                 unrolled::OUTPUTS_LITERAL,
             )
@@ -211,12 +225,17 @@ impl Along {
                 binding: 2,
                 resource: BindingResource::Parameters,
             });
-            let text = specialization.text(&unrolled::uniform_weights());
+            let text = unrolled::uniform_weights();
             (
-                text.link(
+                specialization.link(
                     "blur_moments_uniform.wgsl",
                     UNIFORM_SHADER,
-                    &[("blur_target", TARGET), region_tiles::MODULE],
+                    &[
+                        ("blur_target", TARGET),
+                        (unrolled::MODULE, &text),
+                        filtering,
+                        region_tiles::MODULE,
+                    ],
                 )?,
                 unrolled::OUTPUTS_UNIFORM,
             )
@@ -229,6 +248,7 @@ impl Along {
             entry_point: "blur".to_owned(),
             bindings,
             constants: [].into(),
+            plane: 0,
             work: Work::ComputeRegions {
                 covers: self.to.to_owned(),
                 level: 0,

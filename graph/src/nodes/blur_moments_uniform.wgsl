@@ -1,6 +1,7 @@
 import moment_shadows::blur_target::{blur_store, blurred_map, moments_map};
+import moment_shadows::blur_unrolled::{BlurSums, OUTPUTS, blur_taps};
 import moment_shadows::region_tile::{region_tile};
-import moment_shadows::specialization::{AXIS, BlurSums, GROUP, OUTPUTS, WORKGROUP_X, WORKGROUP_Y, blur_taps};
+import moment_shadows::specialization::{AXIS, GROUP, WORKGROUP_X, WORKGROUP_Y};
 
 // One direction of a separable filter over the regions of one layer, with weights that a host can change per frame.
 // An invocation makes OUTPUTS texels in a row along AXIS; it runs through the texels in blocks of 16 and through the

@@ -1,6 +1,7 @@
 import moment_shadows::blur_target::{blur_store, blurred_map, moments_map};
+import moment_shadows::blur_unrolled::{OUTPUTS, blur_block};
 import moment_shadows::region_tile::{region_tile};
-import moment_shadows::specialization::{AXIS, OUTPUTS, WORKGROUP_X, WORKGROUP_Y, blur_block};
+import moment_shadows::specialization::{AXIS, WORKGROUP_X, WORKGROUP_Y};
 
 // One direction of a separable filter over the regions of one layer, with weights that are known when the graph is compiled.
 // An invocation makes OUTPUTS texels in a row along AXIS, out of texels that it loads once.

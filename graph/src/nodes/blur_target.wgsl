@@ -1,5 +1,5 @@
-import moment_shadows::storage::{storage_round_texel};
-import moment_shadows::specialization::{GROUP, MomentsStorage, STORAGE};
+import moment_shadows::map_filtering::{filtering_texel};
+import moment_shadows::specialization::{GROUP, MomentsStorage};
 
 // Where a direction of the blur reads and writes: one layer each.
 
@@ -9,6 +9,6 @@ import moment_shadows::specialization::{GROUP, MomentsStorage, STORAGE};
 // Stores a filtered texel unless it lies beyond `last`, the last texel of the region.
 fn blur_store(texel: vec2i, last: vec2i, value: vec4f) {
     if all(texel <= last) {
-        textureStore(blurred_map, texel, storage_round_texel(value, STORAGE));
+        textureStore(blurred_map, texel, filtering_texel(value));
     }
 }

@@ -1,6 +1,6 @@
 //! Shows a map of moments as a picture.
 
-use moment_shadows::{Storage, TextureFormat};
+use moment_shadows::{Storage, Technique, TextureFormat};
 use serde::{Deserialize, Serialize};
 
 use super::moments_input::moments_input;
@@ -44,7 +44,17 @@ pub struct DebugMoments {
 
 impl Node for DebugMoments {
     fn describe(&self, upstream: &Connected<'_>) -> Result<NodeDesc, GraphError> {
-        let (moments, storage) = moments_input(upstream)?;
+        let (moments, encoding) = moments_input(upstream)?;
+        if !encoding.technique().shares_map_with(&Technique::Hamburger4) {
+            return Err(GraphError::new(
+                GraphErrorKind::Format,
+                format!(
+                    "the map holds {encoding}; this node shows four moments: give the node that makes the map the technique \
+                     'hamburger4'"
+                ),
+            )
+            .at_slot("moments"));
+        }
         if self.level >= moments.mips {
             return Err(GraphError::new(
                 GraphErrorKind::Property,
@@ -55,7 +65,7 @@ impl Node for DebugMoments {
             ));
         }
         let wgsl = Specialization::new(upstream.capabilities())
-            .constant("STORAGE", &format!("{}u", storage.wgsl_index()))
+            .constant("STORAGE", &format!("{}u", encoding.storage().wgsl_index()))
             .constant("SHOW", &format!("{}u", self.show as u32))
             .link("debug_moments.wgsl", SHADER, &[FULLSCREEN])?;
         let texture = |name: &str, direction, access, format, extent, layers, mips| Slot {
@@ -107,6 +117,7 @@ impl Node for DebugMoments {
                     }),
                 }],
                 constants: [].into(),
+                plane: 0,
                 work: Work::Fullscreen {
                     target: "picture".to_owned(),
                     each_layer: true,

@@ -1,11 +1,10 @@
 //! Fills the mip levels of a map of moments.
 
-use moment_shadows::Storage;
 use serde::{Deserialize, Serialize};
 
-use super::moments_input::moments_input;
-use super::region_tiles;
+use super::moments_input::{map_formats, moments_input};
 use super::specialization::Specialization;
+use super::{region_tiles, techniques};
 use crate::{
     Access, Binding, BindingResource, Connected, CountRule, Direction, ExtentRule, FormatRule,
     GraphError, GraphErrorKind, Lifetime, MipLevel, Node, NodeDesc, Pass, Slot, SlotResource,
@@ -22,7 +21,7 @@ pub struct DownsampleMoments {}
 
 impl Node for DownsampleMoments {
     fn describe(&self, upstream: &Connected<'_>) -> Result<NodeDesc, GraphError> {
-        let (moments, storage) = moments_input(upstream)?;
+        let (moments, encoding) = moments_input(upstream)?;
         if moments.mips < 2 {
             return Err(GraphError::new(
                 GraphErrorKind::Size,
@@ -31,24 +30,36 @@ impl Node for DownsampleMoments {
             )
             .at_slot("moments"));
         }
-        let specialization = Specialization::new(upstream.capabilities())
-            .alias(
-                "MomentsStorage",
-                &format!("texture_storage_2d<{}, write>", storage.format()),
+        if techniques::is_logarithmic(encoding.technique()) {
+            return Err(GraphError::new(
+                GraphErrorKind::Property,
+                "a map that is filtered logarithmically has no mip levels, since no lookup could average them; use the \
+                 filtering 'linear'",
             )
-            .constant("STORAGE", &format!("{}u", storage.wgsl_index()));
+            .at_slot("moments"));
+        }
+        let specialization = Specialization::new(upstream.capabilities());
+        let specialization = techniques::specialize_map(specialization, &encoding);
         let wgsl = region_tiles::specialize(specialization, moments).link(
             "downsample_moments.wgsl",
             SHADER,
-            &[region_tiles::MODULE],
+            &[
+                region_tiles::MODULE,
+                techniques::filtering(encoding.technique()),
+            ],
         )?;
         let level_of = |level: u32| MipLevel {
             slot: "moments".to_owned(),
             level,
         };
         let passes = (1..moments.mips)
-            .map(|level| Pass {
-                label: format!("mip level {level}"),
+            .flat_map(|level| (0..moments.planes).map(move |plane| (level, plane)))
+            .map(|(level, plane)| Pass {
+                label: match moments.planes {
+                    1 => format!("mip level {level}"),
+                    _ => format!("plane {plane}: mip level {level}"),
+                },
+                plane,
                 wgsl: wgsl.clone(),
                 entry_point: "downsample".to_owned(),
                 bindings: vec![
@@ -80,7 +91,7 @@ impl Node for DownsampleMoments {
                 optional: false,
                 resource: SlotResource::Texture {
                     access: Access::READ.union(Access::STORAGE_WRITE),
-                    format: FormatRule::OneOf(Storage::ALL.map(Storage::format).to_vec()),
+                    format: FormatRule::OneOf(map_formats()),
                     extent: ExtentRule::Any,
                     layers: CountRule::Any,
                     mips: CountRule::Any,

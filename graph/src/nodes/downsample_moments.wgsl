@@ -1,7 +1,7 @@
+import moment_shadows::map_filtering::{filtering_texel};
 import moment_shadows::map_region::{map_region_at_level, map_region_within};
-import moment_shadows::storage::{storage_round_texel};
 import moment_shadows::region_tile::{region_tile, regions};
-import moment_shadows::specialization::{GROUP, MomentsStorage, STORAGE};
+import moment_shadows::specialization::{GROUP, MomentsStorage};
 
 // Makes one mip level of the regions of one layer out of the finer one: one texel per invocation.
 //
@@ -50,5 +50,5 @@ fn downsample(@builtin(local_invocation_id) local: vec3u, @builtin(workgroup_id)
         }
     }
     let texel = tile.region.origin + place;
-    textureStore(coarser_level, texel, storage_round_texel(sum, STORAGE));
+    textureStore(coarser_level, texel, filtering_texel(sum));
 }

@@ -10,6 +10,7 @@ mod region_tiles;
 mod resolve_moments;
 mod shade_hard;
 mod specialization;
+mod techniques;
 mod unrolled;
 
 pub use blur_moments::{BlurMoments, BlurParameters};
@@ -19,5 +20,5 @@ pub use kernel_property::KernelProperty;
 pub use mip_levels::{AllLevels, MipLevels};
 pub use resolve_moments::ResolveMoments;
 pub use shade_hard::{
-    CameraView, LightDepth, LightView, ShadeHard, ShadeHardParameters, SingularCamera,
+    CameraView, LightDepth, LightView, ShadeHard, ShadeHardParameters, ViewError,
 };

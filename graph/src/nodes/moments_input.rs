@@ -1,23 +1,47 @@
-//! The input `moments` that nodes share: a map whose format tells its storage.
+//! The input `moments` that nodes share: a filterable map that knows its encoding.
 
-use moment_shadows::Storage;
+use moment_shadows::MapEncoding;
 
 use crate::{Connected, GraphError, GraphErrorKind, TextureDesc};
 
-/// The map of moments that is connected to the slot `moments`, and its storage.
+/// The map that is connected to the slot `moments`, and its encoding: four moments, unless the map says otherwise.
 pub(super) fn moments_input<'a>(
     upstream: &Connected<'a>,
-) -> Result<(&'a TextureDesc, Storage), GraphError> {
+) -> Result<(&'a TextureDesc, MapEncoding), GraphError> {
     let moments = upstream.texture("moments")?;
-    let storage = Storage::of_format(moments.format).ok_or_else(|| {
+    let encoding = moments
+        .encoding
+        .clone()
+        .or_else(|| MapEncoding::of_four_moments(moments.format));
+    let encoding = encoding.ok_or_else(|| {
         GraphError::new(
             GraphErrorKind::Format,
             format!(
-                "{} holds no moments; connect a map of moments",
+                "{} holds no moments; connect a map of moments, or say in its description how it is encoded",
                 moments.format
             ),
         )
         .at_slot("moments")
     })?;
-    Ok((moments, storage))
+    Ok((moments, encoding))
+}
+
+/// The formats that a filterable map can have.
+pub(super) fn map_formats() -> Vec<moment_shadows::TextureFormat> {
+    use moment_shadows::TextureFormat::{
+        R16Float, R16Unorm, R32Float, Rg16Float, Rg16Unorm, Rg32Float, Rgba8Unorm, Rgba16Float,
+        Rgba16Unorm, Rgba32Float,
+    };
+    vec![
+        Rgba16Unorm,
+        Rgba16Float,
+        Rgba32Float,
+        Rg16Unorm,
+        Rg16Float,
+        Rg32Float,
+        R16Unorm,
+        R16Float,
+        R32Float,
+        Rgba8Unorm,
+    ]
 }

@@ -1,10 +1,10 @@
 //! Turns a light's depth map into a map of moments.
 
-use moment_shadows::{DepthConversion, Storage, TextureFormat};
+use moment_shadows::{DepthConversion, MapEncoding, Storage, Technique, TextureFormat};
 use serde::{Deserialize, Serialize};
 
 use super::specialization::Specialization;
-use super::{MipLevels, region_tiles};
+use super::{MipLevels, region_tiles, techniques};
 use crate::{
     Access, Binding, BindingResource, Connected, CountRule, Direction, ExtentRule, FormatRule,
     GraphError, Lifetime, Node, NodeDesc, ParameterBlock, Pass, Slot, SlotResource, Stage, Work,
@@ -13,11 +13,15 @@ use crate::{
 const SHADER: &str = include_str!("resolve_moments.wgsl");
 
 /// Node `resolve_moments`: `depth` (1, 2, 4 or 8 samples of depth32float or depth16unorm, any number of layers) to
-/// `moments`, of the same size, layers and regions. The *moments* of the samples are averaged, not their depths, so edges
-/// are antialiased. Parameters: a [`DepthConversion`] per layer and region.
+/// `moments`, a filterable map of the same size, layers and regions, encoded for a technique. The *moments* (or what else the
+/// technique stores) of the samples are averaged, not their depths, so edges are antialiased. With splits placed by Lloyd
+/// relaxation there is a second input, `splits`. Parameters: a [`DepthConversion`] per layer and region.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct ResolveMoments {
+    /// What the map is made for; nodes that read it need not be told.
+    #[serde(default)]
+    pub technique: Technique,
     /// How the moments are stored.
     pub storage: Storage,
     /// Room for mip levels, for a map that is not blurred; [`super::DownsampleMoments`] fills it.
@@ -34,23 +38,67 @@ impl Node for ResolveMoments {
             "texture_depth_2d"
         };
         let mips = self.mip_levels.count(depth.size)?;
+        let technique = &self.technique;
+        let encoding =
+            MapEncoding::new(technique.clone(), self.storage).map_err(techniques::property)?;
         let specialization = Specialization::new(upstream.capabilities())
             .alias("DepthTexture", texture)
-            .alias(
-                "MomentsStorage",
-                &format!("texture_storage_2d<{}, write>", self.storage.format()),
-            )
-            .constant("STORAGE", &format!("{}u", self.storage.wgsl_index()))
             .constant("SAMPLES", &depth.samples.to_string());
+        let specialization = techniques::specialize_map(specialization, &encoding);
         let wgsl = region_tiles::specialize(specialization, depth).link(
             "resolve_moments.wgsl",
             SHADER,
-            &[region_tiles::MODULE],
+            &[
+                region_tiles::MODULE,
+                techniques::encoding(technique),
+                ("technique_layers", techniques::layers(technique, true)),
+            ],
         )?;
+        let splits = techniques::places_layers(technique).then(|| techniques::splits_input(true));
+        let pass = |plane: u32| {
+            let mut bindings = vec![
+                Binding {
+                    binding: 0,
+                    resource: BindingResource::Parameters,
+                },
+                Binding {
+                    binding: 1,
+                    resource: BindingResource::Layer("depth".to_owned()),
+                },
+                Binding {
+                    binding: 2,
+                    resource: BindingResource::StorageLayer("moments".to_owned()),
+                },
+                region_tiles::binding("moments", 1),
+            ];
+            bindings.extend(splits.iter().map(|(_, binding)| binding.clone()));
+            let (label, constants) = if techniques::encodes_planes(technique) {
+                (
+                    format!("resolve plane {plane}"),
+                    [("PLANE".to_owned(), f64::from(plane))].into(),
+                )
+            } else {
+                ("resolve".to_owned(), [].into())
+            };
+            Pass {
+                label,
+                wgsl: wgsl.clone(),
+                entry_point: "resolve".to_owned(),
+                bindings,
+                constants,
+                plane,
+                work: Work::ComputeRegions {
+                    covers: "moments".to_owned(),
+                    level: 0,
+                    texels_per_workgroup: [8, 8],
+                },
+            }
+        };
+        let passes = (0..encoding.planes()).map(pass).collect();
         Ok(NodeDesc {
             name: "resolve_moments".to_owned(),
             stage: Stage::AfterShadowMaps,
-            slots: vec![
+            slots: [
                 Slot {
                     name: "depth".to_owned(),
                     direction: Direction::In,
@@ -75,40 +123,18 @@ impl Node for ResolveMoments {
                     optional: false,
                     resource: SlotResource::Texture {
                         access: Access::STORAGE_WRITE,
-                        format: FormatRule::Exact(self.storage.format()),
+                        format: FormatRule::Encoded(encoding),
                         extent: ExtentRule::SameAs("depth".to_owned()),
                         layers: CountRule::SameAs("depth".to_owned()),
                         mips: CountRule::Exact(mips),
                         samples: CountRule::Exact(1),
                     },
                 },
-            ],
-            passes: vec![Pass {
-                label: "resolve".to_owned(),
-                wgsl,
-                entry_point: "resolve".to_owned(),
-                bindings: vec![
-                    Binding {
-                        binding: 0,
-                        resource: BindingResource::Parameters,
-                    },
-                    Binding {
-                        binding: 1,
-                        resource: BindingResource::Layer("depth".to_owned()),
-                    },
-                    Binding {
-                        binding: 2,
-                        resource: BindingResource::StorageLayer("moments".to_owned()),
-                    },
-                    region_tiles::binding("moments", 1),
-                ],
-                constants: [].into(),
-                work: Work::ComputeRegions {
-                    covers: "moments".to_owned(),
-                    level: 0,
-                    texels_per_workgroup: [8, 8],
-                },
-            }],
+            ]
+            .into_iter()
+            .chain(splits.map(|(slot, _)| slot))
+            .collect(),
+            passes,
             parameters: Some(ParameterBlock {
                 name: "DepthConversion".to_owned(),
                 size: size_of::<DepthConversion>() as u32,

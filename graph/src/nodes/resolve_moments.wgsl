@@ -1,11 +1,11 @@
 import moment_shadows::depth::{DepthConversion, depth_to_moment_depth};
-import moment_shadows::moments::{moments_from_depth, moments_to_texel};
+import moment_shadows::map_encoding::{encoding_channels, encoding_texel};
 import moment_shadows::region_tile::{region_tile};
-import moment_shadows::specialization::{DepthTexture, GROUP, MomentsStorage, REGIONS, SAMPLES, STORAGE};
+import moment_shadows::specialization::{DepthTexture, GROUP, MomentsStorage, REGIONS, SAMPLES};
 
-// Resolves the regions of one layer of a depth map to moments: one texel per invocation.
+// Resolves the regions of one layer of a depth map to one plane of a filterable map: one texel per invocation.
 //
-// The moments of the samples are averaged. Averaging depths instead would put an occluder between foreground and
+// The moments (or other channels) of the samples are averaged. Averaging depths instead would put an occluder between foreground and
 // background, where there is none (Peters & Klein, i3D 2015, section 4).
 
 @group(GROUP) @binding(0) var<uniform> conversions: array<DepthConversion, REGIONS>;
@@ -25,7 +25,7 @@ fn resolve(@builtin(local_invocation_id) local: vec3u, @builtin(workgroup_id) wo
     // For a single sample the last argument of the load is its mip level, 0.
     for (var sample = 0; sample < SAMPLES; sample++) {
         let stored = textureLoad(depth_map, texel, sample);
-        sum += moments_from_depth(depth_to_moment_depth(stored, conversion));
+        sum += encoding_channels(depth_to_moment_depth(stored, conversion));
     }
-    textureStore(moments_map, texel, moments_to_texel(sum / f32(SAMPLES), STORAGE));
+    textureStore(moments_map, texel, encoding_texel(sum / f32(SAMPLES)));
 }

@@ -1,11 +1,15 @@
 //! Turns a filtered map and the camera's depth into shadow intensity on the screen.
 
 use bytemuck::{Pod, Zeroable};
-use moment_shadows::{LeakReduction, MapRegion, ReceiverBias, Technique, TextureFormat};
+use moment_shadows::{
+    DepthConversion, LeakReduction, MapRegion, PcfTaps, PercentageCloserSoftLight, ReceiverBias,
+    Technique, TextureFormat,
+};
 use serde::{Deserialize, Serialize};
 
-use super::moments_input::moments_input;
+use super::moments_input::{map_formats, moments_input};
 use super::specialization::{FULLSCREEN, Specialization};
+use super::techniques;
 use crate::{
     Access, Binding, BindingResource, Connected, CountRule, Direction, ExtentRule, FormatRule,
     GraphError, GraphErrorKind, Lifetime, Node, NodeDesc, ParameterBlock, Pass, Slot, SlotResource,
@@ -14,7 +18,7 @@ use crate::{
 
 mod parameters;
 
-pub use parameters::{CameraView, LightDepth, LightView, SingularCamera};
+pub use parameters::{CameraView, LightDepth, LightView, ViewError};
 
 const SHADER: &str = include_str!("shade_hard.wgsl");
 const SAMPLED_LOOKUP: &str = include_str!("moments_lookup_sampled.wgsl");
@@ -22,17 +26,18 @@ const MINIFIED_LOOKUP: &str = include_str!("moments_lookup_minified.wgsl");
 const LOADED_LOOKUP: &str = include_str!("moments_lookup_loaded.wgsl");
 
 /// Node `shade_hard`: `moments` (a filtered map) and `camera_depth` to `shadow_intensity`, of the camera's size. A
-/// fullscreen pass: it can also be drawn into a render pass that the host has open.
+/// fullscreen pass: it can also be drawn into a render pass that the host has open. Techniques that read the plain depth map
+/// take it as the input `depth` instead of `moments`; layers that are placed on the device come from the input `splits`.
 ///
-/// It shades up to four lights, one in each channel of its output (a single one is in all of them), through any number of views: cascades, faces and
-/// spots, each a region of a layer. Parameters: an array of [`ShadeHardParameters`], one per view. Where the map has mip
+/// It shades up to four lights, one in each channel of its output (a single one is in all of them), through any number of
+/// views: cascades, faces and spots, each a region of a layer. Parameters: an array of [`ShadeHardParameters`], one per view. Where the map has mip
 /// levels, lookups average the texels that a pixel covers.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct ShadeHard {
-    /// How moments become shadow intensity.
-    #[serde(default)]
-    pub technique: Technique,
+    /// How the map becomes shadow intensity. Where it is left out, that which the map was made for.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub technique: Option<Technique>,
     /// The format of the shadow intensity, with at least as many channels as there are lights: r8unorm, r16float or
     /// r32float for one, rgba8unorm, rgba16float or rgba32float for up to four. Where it is left out, r8unorm or
     /// rgba8unorm.
@@ -65,7 +70,7 @@ fn default_anisotropy() -> u16 {
 impl Default for ShadeHard {
     fn default() -> Self {
         Self {
-            technique: Technique::default(),
+            technique: None,
             format: None,
             lights: 1,
             views: 1,
@@ -99,32 +104,33 @@ pub struct ShadeHardParameters {
     pub channel: u32,
     /// Unused; keeps the WGSL layout.
     pub padding: f32,
+    /// How the light's map stores depth: for techniques that read the plain depth map.
+    pub conversion: DepthConversion,
+    /// The light's size: for percentage-closer soft shadows.
+    pub light: PercentageCloserSoftLight,
 }
 
 impl Node for ShadeHard {
     fn describe(&self, upstream: &Connected<'_>) -> Result<NodeDesc, GraphError> {
         let format = self.check()?;
-        let (moments, storage) = moments_input(upstream)?;
         let capabilities = upstream.capabilities();
-        let minified = moments.mips > 1;
-        let sampled = capabilities.support(moments.format).filterable
-            && (capabilities.anisotropic_sampling || !minified);
-        let lookup = match (sampled, minified) {
-            (true, false) => SAMPLED_LOOKUP,
-            (true, true) => MINIFIED_LOOKUP,
-            (false, _) => LOADED_LOOKUP,
-        };
-        let wgsl = Specialization::new(capabilities)
-            .constant("STORAGE", &format!("{}u", storage.wgsl_index()))
-            .constant("LEVELS", &format!("{}u", moments.mips))
+        let (technique, map) = self.technique_and_map(upstream)?;
+        let mut specialization = Specialization::new(capabilities)
+            .constant("LEVELS", &format!("{}u", map.levels))
             .constant("VIEWS", &format!("{}u", self.views))
             .constant("LIGHTS", &format!("{}u", self.lights))
             .constant("ANISOTROPY", &format!("{}.0", self.anisotropy))
-            .link(
-                "shade_hard.wgsl",
-                SHADER,
-                &[("moments_lookup", lookup), FULLSCREEN],
-            )?;
+            .constant("PLANES", &format!("{}u", technique.planes()));
+        if let Some(storage) = map.storage {
+            specialization = specialization.constant("STORAGE", &format!("{storage}u"));
+        }
+        let mut modules = techniques::evaluation(&technique);
+        modules.extend([("moments_lookup", map.lookup), FULLSCREEN]);
+        let wgsl = techniques::specialize(specialization, &technique).link(
+            "shade_hard.wgsl",
+            SHADER,
+            &modules,
+        )?;
         let mut bindings = vec![
             Binding {
                 binding: 0,
@@ -136,18 +142,15 @@ impl Node for ShadeHard {
             },
             Binding {
                 binding: 2,
-                resource: BindingResource::Layers("moments".to_owned()),
+                resource: BindingResource::Layers(map.slot.to_owned()),
             },
         ];
-        if sampled {
-            bindings.push(Binding {
-                binding: 3,
-                resource: BindingResource::Sampler {
-                    filtering: true,
-                    anisotropy: if minified { self.anisotropy } else { 1 },
-                },
-            });
-        }
+        bindings.extend(map.sampler.map(|resource| Binding {
+            binding: 3,
+            resource,
+        }));
+        let splits = techniques::places_layers(&technique).then(|| techniques::splits_input(false));
+        bindings.extend(splits.iter().map(|(_, binding)| binding.clone()));
         let texture = |name: &str, direction, access, format, extent, layers, mips| Slot {
             name: name.to_owned(),
             direction,
@@ -165,18 +168,12 @@ impl Node for ShadeHard {
         Ok(NodeDesc {
             name: "shade_hard".to_owned(),
             stage: Stage::AfterMainPass,
-            slots: vec![
+            slots: [
                 texture(
-                    "moments",
+                    map.slot,
                     Direction::In,
                     Access::READ,
-                    FormatRule::OneOf(
-                        self.technique
-                            .storages()
-                            .iter()
-                            .map(|storage| storage.format())
-                            .collect(),
-                    ),
+                    FormatRule::OneOf(map.formats),
                     ExtentRule::Any,
                     CountRule::Any,
                     CountRule::Any,
@@ -202,13 +199,17 @@ impl Node for ShadeHard {
                     CountRule::Exact(1),
                     CountRule::Exact(1),
                 ),
-            ],
+            ]
+            .into_iter()
+            .chain(splits.map(|(slot, _)| slot))
+            .collect(),
             passes: vec![Pass {
                 label: "shade".to_owned(),
                 wgsl,
                 entry_point: "shade".to_owned(),
                 bindings,
                 constants: [].into(),
+                plane: 0,
                 work: Work::Fullscreen {
                     target: "shadow_intensity".to_owned(),
                     each_layer: false,
@@ -225,7 +226,64 @@ impl Node for ShadeHard {
     }
 }
 
+/// The map that is shaded with.
+struct Map {
+    slot: &'static str,
+    formats: Vec<TextureFormat>,
+    /// The storage's number in WGSL, of a filterable map.
+    storage: Option<u32>,
+    levels: u32,
+    lookup: &'static str,
+    sampler: Option<BindingResource>,
+}
+
 impl ShadeHard {
+    /// The technique, and the map that it reads.
+    fn technique_and_map(&self, upstream: &Connected<'_>) -> Result<(Technique, Map), GraphError> {
+        if let Some(technique) = &self.technique {
+            technique.check().map_err(techniques::property)?;
+            if technique.reads_depth() {
+                return Ok((technique.clone(), depth_map(technique)));
+            }
+        }
+        let (moments, encoding) = moments_input(upstream)?;
+        let made_for = encoding.technique();
+        let technique = self.technique.as_ref().unwrap_or(made_for);
+        if !technique.shares_map_with(made_for) {
+            return Err(GraphError::new(
+                GraphErrorKind::Format,
+                format!(
+                    "the map was made for '{made_for}', with its settings; '{technique}' cannot read it: give the node that \
+                     makes it the same 'technique', or leave it out here"
+                ),
+            )
+            .at_slot("moments"));
+        }
+        let capabilities = upstream.capabilities();
+        let logarithmic = techniques::is_logarithmic(technique);
+        let minified = moments.mips > 1;
+        let sampled = !logarithmic
+            && capabilities.support(moments.format).filterable
+            && (capabilities.anisotropic_sampling || !minified);
+        let map = Map {
+            slot: "moments",
+            formats: map_formats(),
+            storage: Some(encoding.storage().wgsl_index()),
+            // Logarithms have no mip levels.
+            levels: if logarithmic { 1 } else { moments.mips },
+            lookup: match (sampled, minified) {
+                (true, false) => SAMPLED_LOOKUP,
+                (true, true) => MINIFIED_LOOKUP,
+                (false, _) => LOADED_LOOKUP,
+            },
+            sampler: sampled.then_some(BindingResource::Sampler {
+                filtering: true,
+                anisotropy: if minified { self.anisotropy } else { 1 },
+            }),
+        };
+        Ok((technique.clone(), map))
+    }
+
     /// Checks the properties and gives the format of the output.
     fn check(&self) -> Result<TextureFormat, GraphError> {
         let property = |message: String| Err(GraphError::new(GraphErrorKind::Property, message));
@@ -289,5 +347,24 @@ impl ShadeHard {
                 names(&four)
             )
         })
+    }
+}
+
+/// The plain depth map.
+fn depth_map(technique: &Technique) -> Map {
+    Map {
+        slot: "depth",
+        formats: vec![TextureFormat::Depth32Float, TextureFormat::Depth16Unorm],
+        storage: None,
+        levels: 1,
+        lookup: LOADED_LOOKUP,
+        sampler: match technique {
+            Technique::Pcf(PcfTaps::Hardware { reversed, .. }) => {
+                Some(BindingResource::ComparisonSampler {
+                    reversed: *reversed,
+                })
+            }
+            _ => None,
+        },
     }
 }

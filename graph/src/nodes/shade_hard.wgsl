@@ -1,13 +1,16 @@
 import moment_shadows::fullscreen::{Covered};
-import moment_shadows::hamburger::{hamburger_shadow_intensity_of_texel};
+import moment_shadows::depth::{DepthConversion};
 import moment_shadows::leak_reduction::{LeakReduction, leak_reduction_apply};
 import moment_shadows::map_region::{MapRegion, map_region_within};
 import moment_shadows::minification::{minification_depth_variance, minification_footprint};
-import moment_shadows::moments_lookup::{moments_lookup, moments_map};
+import moment_shadows::percentage_closer_soft::{PercentageCloserSoftLight};
 import moment_shadows::receiver_bias::{ReceiverBias, receiver_bias_depth, receiver_bias_depth_minified, receiver_bias_plane};
-import moment_shadows::specialization::{ANISOTROPY, GROUP, LEVELS, LIGHTS, STORAGE, VIEWS};
+import moment_shadows::specialization::{ANISOTROPY, GROUP, LEVELS, LIGHTS, VIEWS};
+import moment_shadows::technique::{technique_shadow_intensity};
+import moment_shadows::technique_map::{technique_map_size};
+import moment_shadows::technique_receiver::{TechniqueReceiver};
 
-// Shadow intensity of every pixel, from the camera's depth and a map of moments. A view of a light is one region of one
+// Shadow intensity of every pixel, from the camera's depth and a light's map, by the technique of the map. A view of a light is one region of one
 // layer: a sun's cascade, a face of a point light, a spot light. Each light has a channel of the target.
 
 struct ShadeHardParameters {
@@ -28,6 +31,9 @@ struct ShadeHardParameters {
     // The target's channel, 0 to 3. Of the views of one channel the first that contains a pixel shades it.
     channel: u32,
     padding: f32,
+    // How the light's map stores depth, and how large the light is: for tests on the plain depth map.
+    conversion: DepthConversion,
+    light: PercentageCloserSoftLight,
 }
 
 @group(GROUP) @binding(0) var<uniform> views: array<ShadeHardParameters, VIEWS>;
@@ -103,22 +109,35 @@ fn receiver_difference(view: u32, neighbour: vec3f, receiver: Receiver, texels: 
 }
 
 // Shadow intensity of a receiver that a view contains.
-fn view_shadow_intensity(view: u32, receiver: Receiver, neighbour_x: vec3f, neighbour_y: vec3f, region: MapRegion) -> f32 {
+fn view_shadow_intensity(view: u32, pixel: vec2i, receiver: Receiver, neighbour_x: vec3f, neighbour_y: vec3f, region: MapRegion) -> f32 {
     let texels = vec2f(region.extent);
     let difference_x = receiver_difference(view, neighbour_x, receiver, texels);
     let difference_y = receiver_difference(view, neighbour_y, receiver, texels);
     let gradient = receiver_bias_plane(difference_x, difference_y);
-    var bias = receiver_bias_depth(views[view].receiver_bias, length(gradient));
+    let settings = views[view].receiver_bias;
+    var bias = receiver_bias_depth(settings, length(gradient));
     if LEVELS > 1u {
         let footprint = minification_footprint(difference_x.xy, difference_y.xy, ANISOTROPY);
         let variance = minification_depth_variance(footprint, gradient);
-        bias = receiver_bias_depth_minified(views[view].receiver_bias, length(gradient), variance);
+        bias = receiver_bias_depth_minified(settings, length(gradient), variance);
     }
     // The map holds a surface that leaves the light's range at the far end. The bias counts from there, since some of the
     // kernel may still see the surface within the range.
-    let fragment_depth = min(receiver.place.z, 1.0) - bias;
-    let texel = moments_lookup(views[view].layer, region, receiver.place.xy, difference_x.xy, difference_y.xy);
-    let intensity = hamburger_shadow_intensity_of_texel(texel, fragment_depth, STORAGE);
+    let depth = min(receiver.place.z, 1.0);
+    let intensity = technique_shadow_intensity(TechniqueReceiver(
+        views[view].layer,
+        region,
+        receiver.place.xy,
+        difference_x.xy,
+        difference_y.xy,
+        gradient,
+        depth - bias,
+        depth - settings.constant,
+        (settings.maximum - settings.constant) / max(settings.slope_scale, 1e-30),
+        views[view].conversion,
+        views[view].light,
+        vec2f(pixel),
+    ));
     return leak_reduction_apply(intensity, views[view].leak_reduction);
 }
 
@@ -137,12 +156,12 @@ fn shade(covered: Covered) -> @location(0) vec4f {
     var open_channels = vec4<bool>(true);
     for (var view = 0u; view < VIEWS; view++) {
         let channel = vec4<bool>(vec4u(views[view].channel) == vec4u(0u, 1u, 2u, 3u));
-        let region = map_region_within(views[view].region, textureDimensions(moments_map));
+        let region = map_region_within(views[view].region, technique_map_size());
         let receiver = receiver_at(view, pixel, stored_depth);
         let uv = receiver.place.xy;
         let inside = receiver.light_w > 0.0 && all(uv >= vec2f(0.0)) && all(uv <= vec2f(1.0));
         if inside && all(region.extent > vec2u(0u)) && any(channel & open_channels) {
-            let intensity = view_shadow_intensity(view, receiver, neighbour_x, neighbour_y, region);
+            let intensity = view_shadow_intensity(view, pixel, receiver, neighbour_x, neighbour_y, region);
             intensities = select(intensities, vec4f(intensity), channel);
             open_channels = open_channels & !channel;
         }

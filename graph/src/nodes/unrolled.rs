@@ -5,6 +5,13 @@
 
 use core::fmt::Write;
 
+/// The name of the generated module.
+pub(super) const MODULE: &str = "blur_unrolled";
+
+/// What it imports.
+const IMPORTS: &str = "import moment_shadows::map_filtering::{filtering_value};\n\
+                       import moment_shadows::specialization::{AXIS};\n\n";
+
 /// Outputs per invocation where weights are literals.
 pub(super) const OUTPUTS_LITERAL: usize = 8;
 
@@ -21,7 +28,7 @@ pub(super) fn literal_weights(weights: &[f32]) -> String {
         // Writing to a string cannot fail.
         let _ = writeln!(
             body,
-            "    let t{tap} = textureLoad(map, clamp(first + {offset} * AXIS, low, last), 0);"
+            "    let t{tap} = filtering_value(textureLoad(map, clamp(first + {offset} * AXIS, low, last), 0));"
         );
         for output in 0..OUTPUTS_LITERAL {
             let Some(weight) = tap.checked_sub(output).and_then(|index| weights.get(index)) else {
@@ -38,7 +45,7 @@ pub(super) fn literal_weights(weights: &[f32]) -> String {
         }
     }
     format!(
-        "const OUTPUTS = {OUTPUTS_LITERAL};\n\
+        "{IMPORTS}const OUTPUTS = {OUTPUTS_LITERAL};\n\
          fn blur_block(map: texture_2d<f32>, first: vec2i, low: vec2i, last: vec2i) -> array<vec4f, {OUTPUTS_LITERAL}> {{\n\
          {body}    return array<vec4f, {OUTPUTS_LITERAL}>({});\n}}\n",
         list("o", OUTPUTS_LITERAL)
@@ -59,7 +66,7 @@ pub(super) fn uniform_weights() -> String {
     for tap in 0..16 {
         let _ = writeln!(
             body,
-            "    let t{tap} = textureLoad(map, clamp(first + {tap} * AXIS, low, last), 0);"
+            "    let t{tap} = filtering_value(textureLoad(map, clamp(first + {tap} * AXIS, low, last), 0));"
         );
         for output in 0..OUTPUTS_UNIFORM {
             let _ = writeln!(
@@ -71,7 +78,7 @@ pub(super) fn uniform_weights() -> String {
     }
     let parameters: String = (0..8).map(|index| format!(", w{index}: vec4f")).collect();
     format!(
-        "const OUTPUTS = {OUTPUTS_UNIFORM};\n\
+        "{IMPORTS}const OUTPUTS = {OUTPUTS_UNIFORM};\n\
          struct BlurSums {{\n{fields}}}\n\
          fn blur_taps(map: texture_2d<f32>, first: vec2i, low: vec2i, last: vec2i, sums: BlurSums{parameters}) -> BlurSums {{\n\
          {body}    return BlurSums({});\n}}\n",

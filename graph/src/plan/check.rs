@@ -138,16 +138,25 @@ impl Plan {
                     within(what(), "region table", table, self.parameters.regions.len())?;
                 }
                 PlannedBindingResource::Texture {
-                    resource, level, ..
+                    resource,
+                    level,
+                    plane,
+                    ..
                 }
-                | PlannedBindingResource::StorageTexture { resource, level } => {
+                | PlannedBindingResource::StorageTexture {
+                    resource,
+                    level,
+                    plane,
+                } => {
                     self.check_kind(what(), resource, true)?;
                     self.check_level(what(), resource, level)?;
+                    self.check_plane(what(), resource, plane)?;
                 }
                 PlannedBindingResource::Buffer { resource, .. } => {
                     self.check_kind(what(), resource, false)?;
                 }
-                PlannedBindingResource::Sampler { .. } => {}
+                PlannedBindingResource::Sampler { .. }
+                | PlannedBindingResource::ComparisonSampler { .. } => {}
             }
         }
         match &pass.work {
@@ -158,6 +167,14 @@ impl Plan {
                 .chain(depth)
                 .try_for_each(|&target| self.check_kind(what(), target, true)),
         }
+    }
+
+    fn check_plane(&self, what: String, index: usize, plane: u32) -> Result<(), PlanError> {
+        let texture = self.resources.get(index);
+        let planes = texture
+            .and_then(|resource| resource.desc.texture())
+            .map_or(1, |texture| texture.planes);
+        within(what, "plane", plane as usize, planes as usize)
     }
 
     fn check_level(&self, what: String, index: usize, level: u32) -> Result<(), PlanError> {

@@ -191,7 +191,13 @@ impl Binder<'_> {
         }
         let targets = |resource: usize, layers: u32| {
             (0..layers)
-                .map(|layer| self.view(resource, Some(Part { layer, level: 0 })))
+                .map(|layer| {
+                    let part = Part {
+                        layer,
+                        ..Part::default()
+                    };
+                    self.view(resource, Some(part))
+                })
                 .collect::<Result<Vec<_>, _>>()
         };
         let action = match (&pass.work, pipeline.map(|(pipeline, _)| pipeline)) {
@@ -328,10 +334,27 @@ impl Binder<'_> {
                 resource,
                 one_layer,
                 level,
+                plane,
                 ..
-            } => Bound::View(self.view(resource, one_layer.then_some(Part { layer, level }))?),
-            PlannedBindingResource::StorageTexture { resource, level } => {
-                Bound::View(self.view(resource, Some(Part { layer, level }))?)
+            } => {
+                let part = Part {
+                    layer,
+                    plane,
+                    level,
+                };
+                Bound::View(self.view(resource, one_layer.then_some(part))?)
+            }
+            PlannedBindingResource::StorageTexture {
+                resource,
+                level,
+                plane,
+            } => {
+                let part = Part {
+                    layer,
+                    plane,
+                    level,
+                };
+                Bound::View(self.view(resource, Some(part))?)
             }
             PlannedBindingResource::Buffer { resource, .. } => {
                 Bound::Buffer(self.buffer(resource)?)
@@ -340,13 +363,17 @@ impl Binder<'_> {
                 filtering,
                 anisotropy,
             } => Bound::Sampler(sampler(self.device, filtering, anisotropy, label)),
+            PlannedBindingResource::ComparisonSampler { reversed } => {
+                Bound::Sampler(comparison_sampler(self.device, reversed, label))
+            }
         })
     }
 
-    /// A view of one mip level of one layer, or an array view of all.
+    /// A view of one mip level of one plane of a layer, or an array view of all.
     fn view(&self, resource: usize, part: Option<Part>) -> Result<wgpu::TextureView, RecordError> {
-        let layer = part.map(|part| part.layer);
         let planned = &self.plan.resources[resource];
+        let planes = planned.desc.texture().map_or(1, |texture| texture.planes);
+        let layer = part.map(|part| part.layer * planes + part.plane);
         let (texture, layer) = match self.object(planned) {
             Some(Object::Texture(texture)) => (texture, layer),
             Some(Object::Layers(textures)) => {
@@ -403,10 +430,11 @@ impl Binder<'_> {
     }
 }
 
-/// One mip level of one layer.
+/// One mip level of one plane of a layer.
 #[derive(Clone, Copy, Default)]
 struct Part {
     layer: u32,
+    plane: u32,
     level: u32,
 }
 
@@ -431,6 +459,23 @@ fn sampler(device: &wgpu::Device, filtering: bool, anisotropy: u16, label: &str)
         min_filter: filter,
         mipmap_filter,
         anisotropy_clamp: anisotropy,
+        ..Default::default()
+    })
+}
+
+fn comparison_sampler(device: &wgpu::Device, reversed: bool, label: &str) -> wgpu::Sampler {
+    device.create_sampler(&wgpu::SamplerDescriptor {
+        label: Some(label),
+        address_mode_u: wgpu::AddressMode::ClampToEdge,
+        address_mode_v: wgpu::AddressMode::ClampToEdge,
+        address_mode_w: wgpu::AddressMode::ClampToEdge,
+        mag_filter: wgpu::FilterMode::Linear,
+        min_filter: wgpu::FilterMode::Linear,
+        compare: Some(if reversed {
+            wgpu::CompareFunction::Less
+        } else {
+            wgpu::CompareFunction::Greater
+        }),
         ..Default::default()
     })
 }

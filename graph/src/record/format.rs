@@ -10,8 +10,12 @@ pub fn texture_format(format: TextureFormat) -> Option<wgpu::TextureFormat> {
     Some(match format {
         TextureFormat::R8Unorm => wgpu::TextureFormat::R8Unorm,
         TextureFormat::Rgba8Unorm => wgpu::TextureFormat::Rgba8Unorm,
+        TextureFormat::R16Unorm => wgpu::TextureFormat::R16Unorm,
+        TextureFormat::Rg16Unorm => wgpu::TextureFormat::Rg16Unorm,
         TextureFormat::R16Float => wgpu::TextureFormat::R16Float,
+        TextureFormat::Rg16Float => wgpu::TextureFormat::Rg16Float,
         TextureFormat::R32Float => wgpu::TextureFormat::R32Float,
+        TextureFormat::Rg32Float => wgpu::TextureFormat::Rg32Float,
         TextureFormat::Rgba16Unorm => wgpu::TextureFormat::Rgba16Unorm,
         TextureFormat::Rgba16Float => wgpu::TextureFormat::Rgba16Float,
         TextureFormat::Rgba32Float => wgpu::TextureFormat::Rgba32Float,

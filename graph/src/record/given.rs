@@ -66,10 +66,10 @@ pub(super) fn find_import<'a>(
     };
     let difference = match (given, &planned.desc) {
         (ImportedResource::Texture(texture), ResourceDesc::Texture(desc)) => {
-            texture_difference(texture, desc, desc.layers, planned.access)
+            texture_difference(texture, desc, desc.array_layers(), planned.access)
         }
         (ImportedResource::Layers(textures), ResourceDesc::Texture(desc)) => {
-            if textures.len() == desc.layers as usize {
+            if textures.len() == desc.array_layers() as usize {
                 textures
                     .iter()
                     .find_map(|texture| texture_difference(texture, desc, 1, planned.access))

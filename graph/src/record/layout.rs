@@ -27,6 +27,7 @@ enum EntryKey {
     Sampler {
         filtering: bool,
     },
+    ComparisonSampler,
 }
 
 impl LayoutKey {
@@ -60,6 +61,7 @@ impl LayoutKey {
                     PlannedBindingResource::Sampler { filtering, .. } => {
                         EntryKey::Sampler { filtering }
                     }
+                    PlannedBindingResource::ComparisonSampler { .. } => EntryKey::ComparisonSampler,
                 };
                 (binding.binding, entry)
             })
@@ -137,5 +139,8 @@ fn binding_type(entry: &EntryKey) -> wgpu::BindingType {
         } else {
             wgpu::SamplerBindingType::NonFiltering
         }),
+        EntryKey::ComparisonSampler => {
+            wgpu::BindingType::Sampler(wgpu::SamplerBindingType::Comparison)
+        }
     }
 }

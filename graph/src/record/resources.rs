@@ -36,7 +36,7 @@ impl Resources {
                         size: wgpu::Extent3d {
                             width: texture.size[0],
                             height: texture.size[1],
-                            depth_or_array_layers: texture.layers,
+                            depth_or_array_layers: texture.array_layers(),
                         },
                         mip_level_count: texture.mips,
                         sample_count: texture.samples,

@@ -251,9 +251,9 @@ fn written(plan: &Plan, pass: &PlannedPass) -> Option<Target> {
                 pass.bindings
                     .iter()
                     .find_map(|binding| match binding.resource {
-                        PlannedBindingResource::StorageTexture { resource, level } => {
-                            Some((resource, level))
-                        }
+                        PlannedBindingResource::StorageTexture {
+                            resource, level, ..
+                        } => Some((resource, level)),
                         _ => None,
                     })?;
             (resource, level, CopyWork::Compute)

@@ -83,6 +83,7 @@ impl Formats<'_> {
         };
         match format {
             FormatRule::Exact(format) => Some(*format),
+            FormatRule::Encoded(encoding) => Some(encoding.format()),
             FormatRule::SameAs(input) => {
                 let texture = self.inputs.get(input)?.texture()?;
                 Some(texture.format)

@@ -2,7 +2,7 @@
 
 use std::collections::BTreeMap;
 
-use moment_shadows::{LinkError, Profile, Source, Storage, TextureFormat, link};
+use moment_shadows::{LinkError, Profile, Source, Storage, Technique, TextureFormat, link};
 use moment_shadows_graph::nodes::{
     BlurMoments, BlurParameters, DebugMoments, DownsampleMoments, KernelProperty, MipLevels,
     ResolveMoments, ShadeHard, Show,
@@ -129,6 +129,7 @@ fn resolve(storage: Storage, samples: u32) -> Entry {
     Entry {
         settings: format!("{storage}, {samples} samples"),
         node: Box::new(ResolveMoments {
+            technique: Technique::Hamburger4,
             storage,
             mip_levels,
         }),

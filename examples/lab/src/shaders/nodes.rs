@@ -2,7 +2,7 @@
 
 use std::collections::BTreeMap;
 
-use moment_shadows::{Profile, Storage, TextureFormat};
+use moment_shadows::{LayerSplits, MapEncoding, Profile, Storage, Technique, TextureFormat};
 use moment_shadows_graph::nodes::{
     BlurMoments, DebugMoments, DownsampleMoments, KernelProperty, MipLevels, ResolveMoments,
     ShadeHard, Show,
@@ -10,6 +10,7 @@ use moment_shadows_graph::nodes::{
 use moment_shadows_graph::{Capabilities, Connected, Node, ResourceDesc, TextureDesc};
 
 use super::{Kind, Shader, ShadersError};
+use crate::techniques;
 
 /// A pass of a variant of a node.
 #[derive(Clone, Debug)]
@@ -30,6 +31,8 @@ struct Variant {
     mips: u32,
     /// Regions of a layer of either.
     regions: u32,
+    /// How the map is encoded.
+    encoding: Option<MapEncoding>,
     capabilities: Capabilities,
 }
 
@@ -42,6 +45,7 @@ impl Variant {
             samples: 1,
             mips: 1,
             regions: 1,
+            encoding: None,
             capabilities: capabilities.clone(),
         }
     }
@@ -53,6 +57,7 @@ fn variants(storage: Storage, capabilities: &Capabilities) -> Vec<Variant> {
     let mut variants = Vec::new();
     for (samples, regions) in [(1, 1), (2, 1), (4, 1), (8, 1), (4, 16)] {
         let node = ResolveMoments {
+            technique: Technique::Hamburger4,
             storage,
             mip_levels: MipLevels::default(),
         };
@@ -139,26 +144,105 @@ fn shading(storage: Storage, capabilities: &Capabilities) -> Vec<Variant> {
     variants
 }
 
+/// What another technique's map changes: how it is made, filtered and shaded with. Each with one lookup; four moments have all.
+fn of_technique(encoding: &MapEncoding, capabilities: &Capabilities) -> Vec<Variant> {
+    let (technique, storage) = (encoding.technique(), encoding.storage());
+    let suffix = format!("{}_{storage}", techniques::label(technique));
+    let with_map = |name: &str, node: Box<dyn Node>, mips: u32| Variant {
+        name: format!("{name}_{suffix}"),
+        node,
+        samples: 4,
+        mips,
+        regions: 1,
+        encoding: Some(encoding.clone()),
+        capabilities: capabilities.clone(),
+    };
+    let shade = |technique: Option<Technique>| {
+        Box::new(ShadeHard {
+            technique,
+            ..ShadeHard::default()
+        })
+    };
+    let mut variants = vec![with_map("shade_hard", shade(None), 1)];
+    let resolve = ResolveMoments {
+        technique: technique.clone(),
+        storage,
+        mip_levels: MipLevels::default(),
+    };
+    variants.push(with_map("resolve_moments", Box::new(resolve), 1));
+    let blur = BlurMoments {
+        kernel: KernelProperty::gaussian(1, 0.6),
+        per_frame: false,
+        mip_levels: MipLevels::default(),
+    };
+    variants.push(with_map("blur_moments", Box::new(blur), 1));
+    if let Technique::Convolution { terms, .. } = technique {
+        let series = Technique::Convolution {
+            terms: *terms,
+            lower_bound: false,
+        };
+        variants.push(Variant {
+            name: format!("shade_hard_{}_{storage}", techniques::label(&series)),
+            ..with_map("", shade(Some(series)), 1)
+        });
+    }
+    variants
+}
+
+/// Techniques without a filterable map.
+fn reading_depth(capabilities: &Capabilities) -> Vec<Variant> {
+    let variant = |technique: Technique| {
+        let name = format!("shade_hard_{}", techniques::label(&technique));
+        let node = ShadeHard {
+            technique: Some(technique),
+            ..ShadeHard::default()
+        };
+        Variant::new(name, node, capabilities)
+    };
+    techniques::reading_depth()
+        .into_iter()
+        .map(variant)
+        .collect()
+}
+
 /// What the names of variants with several regions end with.
 fn suffix(regions: u32) -> &'static str {
     if regions > 1 { "_regions" } else { "" }
 }
 
-/// The least demanding profile that offers a storage.
-fn profile(storage: Storage) -> Profile {
-    match storage {
-        Storage::Unorm16 => Profile::Native,
-        _ => Profile::WebgpuCore,
-    }
+/// The least demanding profile that can write a format as a storage texture.
+fn profile(format: TextureFormat) -> Profile {
+    Profile::ALL
+        .into_iter()
+        .find(|profile| format.support(*profile).storage_write)
+        .unwrap_or(Profile::NativeAdapter)
 }
 
 /// The shader of each pass of every variant of every node.
 pub fn nodes() -> Result<Vec<NodeShader>, ShadersError> {
     let mut all = Vec::new();
     for storage in Storage::ALL {
-        let profile = profile(storage);
+        let profile = profile(storage.format());
         for variant in variants(storage, &Capabilities::of_profile(profile)) {
             describe(&variant, storage, profile, &mut all)?;
+        }
+    }
+    let core = Profile::WebgpuCore;
+    for variant in reading_depth(&Capabilities::of_profile(core)) {
+        describe(&variant, Storage::Float16, core, &mut all)?;
+    }
+    let mut encodings = techniques::filterable();
+    encodings.retain(|encoding| *encoding.technique() != Technique::Hamburger4);
+    let lloyd = Technique::Lvsm {
+        layers: 4,
+        overlap: Default::default(),
+        splits: LayerSplits::Lloyd,
+    };
+    encodings.extend(MapEncoding::new(lloyd, Storage::Unorm16));
+    for encoding in encodings {
+        let profile = profile(encoding.format());
+        for variant in of_technique(&encoding, &Capabilities::of_profile(profile)) {
+            describe(&variant, encoding.storage(), profile, &mut all)?;
         }
     }
     Ok(all)
@@ -210,14 +294,20 @@ fn inputs(variant: &Variant, storage: Storage) -> BTreeMap<String, ResourceDesc>
         samples: variant.samples,
         ..texture(TextureFormat::Depth32Float)
     };
+    let moments = match &variant.encoding {
+        Some(encoding) => TextureDesc::of_map(encoding.clone(), [256, 256]),
+        None => texture(storage.format()),
+    };
     let moments = TextureDesc {
         mips: variant.mips,
-        ..texture(storage.format())
+        ..moments
     };
+    let splits = TextureDesc::new(TextureFormat::Rgba32Float, [2, 1]);
     let camera = TextureDesc::new(TextureFormat::Depth32Float, [256, 256]);
     [
         ("depth", depth),
         ("moments", moments),
+        ("splits", splits),
         ("camera_depth", camera),
     ]
     .map(|(name, desc)| (name.to_owned(), ResourceDesc::Texture(desc)))

@@ -1,7 +1,8 @@
 //! The parameters of `shade_hard`, from a camera and a light.
 
 use moment_shadows::{
-    DepthConversion, DepthError, DepthRange, LeakReduction, MapRegion, ReceiverBias,
+    DepthConversion, DepthError, DepthRange, LeakReduction, MapRegion, PercentageCloserSoftLight,
+    ReceiverBias,
 };
 use serde::{Deserialize, Serialize};
 
@@ -108,12 +109,25 @@ impl LightDepth {
     }
 }
 
-/// A camera matrix that cannot be inverted.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
-#[error(
-    "the camera's clip_from_world is singular or not finite; it has to be an invertible projection of the scene"
-)]
-pub struct SingularCamera;
+/// A camera or a light that no parameters can be made for.
+#[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
+#[non_exhaustive]
+pub enum ViewError {
+    /// A matrix cannot be inverted.
+    #[error(
+        "the camera's clip_from_world is singular or not finite; it has to be an invertible projection of the scene"
+    )]
+    SingularCamera,
+    /// The same of the light.
+    #[error(
+        "the light's clip_from_world is singular or not finite; it has to be the invertible projection that its map was drawn \
+         with"
+    )]
+    SingularLight,
+    /// The light's planes or range of depth are no such.
+    #[error(transparent)]
+    Depth(#[from] DepthError),
+}
 
 impl ShadeHardParameters {
     /// The parameters of a camera that looks at receivers of a light's shadow.
@@ -124,9 +138,12 @@ impl ShadeHardParameters {
         light: &LightView,
         receiver_bias: ReceiverBias,
         leak_reduction: LeakReduction,
-    ) -> Result<Self, SingularCamera> {
-        let world_from_clip = invert(&wide(&camera.clip_from_world)).ok_or(SingularCamera)?;
+    ) -> Result<Self, ViewError> {
+        let world_from_clip =
+            invert(&wide(&camera.clip_from_world)).ok_or(ViewError::SingularCamera)?;
         let light_clip = wide(&light.clip_from_world);
+        invert(&light_clip).ok_or(ViewError::SingularLight)?;
+        let conversion = light.depth.conversion()?;
         let (x, y, w) = (
             row(&light_clip, 0),
             row(&light_clip, 1),
@@ -157,6 +174,8 @@ impl ShadeHardParameters {
             layer: light.layer,
             channel: light.channel,
             padding: 0.0,
+            conversion,
+            light: PercentageCloserSoftLight::NONE,
         })
     }
 }

@@ -1,0 +1,10 @@
+import moment_shadows::depth::{depth_of_light};
+import moment_shadows::percentage_closer::{percentage_closer_binary};
+import moment_shadows::receiver_plane::{receiver_plane_through};
+import moment_shadows::technique_map::{depth_map};
+import moment_shadows::technique_receiver::{TechniqueReceiver};
+
+fn technique_shadow_intensity(receiver: TechniqueReceiver) -> f32 {
+    let plane = receiver_plane_through(receiver.uv, receiver.depth, receiver.gradient, receiver.steepest, depth_of_light(receiver.conversion));
+    return percentage_closer_binary(depth_map, receiver.layer, receiver.region, plane, receiver.conversion);
+}

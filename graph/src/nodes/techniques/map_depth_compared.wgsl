@@ -1,0 +1,11 @@
+import moment_shadows::specialization::{GROUP};
+
+// A plain depth map with a comparison sampler.
+
+@group(GROUP) @binding(2) var depth_map: texture_depth_2d_array;
+@group(GROUP) @binding(3) var comparison_sampler: sampler_comparison;
+
+// Width and height of the map in texels.
+fn technique_map_size() -> vec2u {
+    return textureDimensions(depth_map);
+}

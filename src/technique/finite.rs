@@ -1,0 +1,71 @@
+//! A finite number as a setting: settings are compared, and name pipelines.
+
+use core::fmt;
+use core::hash::{Hash, Hasher};
+
+use serde::{Deserialize, Serialize};
+
+/// A finite number. Equal numbers have equal hashes; there is neither NaN nor a negative zero.
+#[derive(Clone, Copy, Debug, Default, PartialEq, PartialOrd, Serialize, Deserialize)]
+#[serde(try_from = "f32", into = "f32")]
+pub struct Finite(f32);
+
+/// NaN or an infinity was given.
+#[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
+#[error("{0} is not a finite number")]
+pub struct NotFinite(pub f32);
+
+impl Finite {
+    /// Zero.
+    pub const ZERO: Finite = Finite(0.0);
+
+    /// The number.
+    pub fn new(value: f32) -> Result<Self, NotFinite> {
+        if value.is_finite() {
+            // Adding zero turns -0 into 0.
+            Ok(Self(value + 0.0))
+        } else {
+            Err(NotFinite(value))
+        }
+    }
+
+    /// As a plain number.
+    #[must_use]
+    pub fn get(self) -> f32 {
+        self.0
+    }
+}
+
+impl Eq for Finite {}
+
+impl Hash for Finite {
+    fn hash<H: Hasher>(&self, state: &mut H) {
+        self.0.to_bits().hash(state);
+    }
+}
+
+impl From<u16> for Finite {
+    fn from(value: u16) -> Self {
+        Self(f32::from(value))
+    }
+}
+
+impl From<Finite> for f32 {
+    fn from(value: Finite) -> f32 {
+        value.0
+    }
+}
+
+impl TryFrom<f32> for Finite {
+    type Error = NotFinite;
+
+    fn try_from(value: f32) -> Result<Self, NotFinite> {
+        Self::new(value)
+    }
+}
+
+impl fmt::Display for Finite {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        self.0.fmt(f)
+    }
+}
