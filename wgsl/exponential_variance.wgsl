@@ -27,8 +27,18 @@ const EXPONENTIAL_VARIANCE_LARGEST_WARP: f32 = 0x1p63;
 // E[w^2] - E[w]^2: with the relative error u = 2^-11 or 2^-24 of a rounding at most 3 (u + 2 u) E[w^2] = 4.4e-3 or 5.4e-7
 // times E[w^2]. In depth, where w has the slope c w, that is a variance of x / c^2. As in `variance` half of it covers
 // 99.999 % of kernels in float16. y covers numbers below the normal ones: 3 steps of 2^-25, or what float32 flushes to zero.
-const EXPONENTIAL_VARIANCE_SMALLEST_FLOAT16: vec2f = vec2f(2.5e-3, 9e-8);
-const EXPONENTIAL_VARIANCE_SMALLEST_FLOAT32: vec2f = vec2f(1e-6, 1e-37);
+const EXPONENTIAL_VARIANCE_SMALLEST_FLOAT16: vec2f = vec2f(2.2e-3, 9e-8);
+const EXPONENTIAL_VARIANCE_SMALLEST_FLOAT32: vec2f = vec2f(6e-7, 1e-37);
+
+// The largest exponent of a storage, for either warp.
+fn exponential_variance_largest_exponent(storage: u32) -> f32 {
+    let is_half = storage == STORAGE_FLOAT16;
+    return select(
+        EXPONENTIAL_VARIANCE_LARGEST_EXPONENT_FLOAT32,
+        EXPONENTIAL_VARIANCE_LARGEST_EXPONENT_FLOAT16,
+        is_half,
+    );
+}
 
 // The warps (w+, w-) of a depth in [-1, 1] with the exponents (c+, c-).
 fn exponential_variance_warp(z: f32, exponents: vec2f) -> vec2f {

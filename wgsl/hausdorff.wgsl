@@ -41,14 +41,16 @@ fn hausdorff_bias_of(storage: u32) -> MomentBias {
 }
 
 // Whether the distribution on the real line through x = z - b1, where P2(x) is `polynomial`, lies in [-1, 1]. The kernel
-// 1 + x t / variance + P2(x) P2(t) / residue vanishes at its other support points t, so its signs at both ends tell.
+// 1 + x t / variance + P2(x) P2(t) / residue vanishes at its other support points t, so its signs at both ends tell: they
+// are that of P2(x), which it has at infinity.
 fn hausdorff_contains_support(factor: HankelFactor, mean: f32, x: f32, polynomial: f32) -> bool {
     let near = -1.0 - mean;
     let far = 1.0 - mean;
     let slope = x * factor.ratio;
     let at_near = fma(polynomial, hankel_second_polynomial(factor, near), fma(slope, near, factor.residue));
     let at_far = fma(polynomial, hankel_second_polynomial(factor, far), fma(slope, far, factor.residue));
-    return polynomial * at_near >= 0.0 && polynomial * at_far >= 0.0;
+    // At a Gauss node, where P2 is 0, one of the support points is infinite: the signs at both ends differ.
+    return (polynomial >= 0.0) == (at_near >= 0.0) && (polynomial >= 0.0) == (at_far >= 0.0);
 }
 
 // Both bounds by the distribution with support at both ends, for z = `fragment_depth` in [-1, 1].

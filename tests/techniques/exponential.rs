@@ -5,7 +5,7 @@ use rand::{RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
 
 use crate::HALF_ULP;
-use crate::mixture::{self, Input};
+use crate::mixture::{self, Input, limits};
 
 /// The module's largest exponents, plain and logarithmic.
 pub(crate) fn largest(storage: Storage) -> [f64; 2] {
@@ -114,6 +114,10 @@ fn exponents_are_as_large_as_the_storages_allow() {
         (Storage::Float32, [float32, float32]),
     ];
     for (storage, derived) in derived {
+        assert_eq!(
+            limits(storage).exponential,
+            largest(storage).map(|limit| limit as f32)
+        );
         for (limit, derived) in largest(storage).into_iter().zip(derived) {
             println!("{storage}: {limit} of {derived:.3}");
             assert!(limit <= derived && derived - limit < 0.05 * derived.min(8.0));

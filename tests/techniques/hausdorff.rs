@@ -13,6 +13,9 @@ use rand_chacha::ChaCha8Rng;
 use crate::HALF_ULP;
 use crate::mixture;
 
+/// As for Hamburger's bounds: a dozen roundings whose effects are seldom all of one sign.
+const TOLERANCE: f64 = 8.0;
+
 #[repr(C)]
 #[derive(Clone, Copy, Debug, Pod, Zeroable)]
 struct Input {
@@ -160,7 +163,7 @@ fn published_vectors_are_within_tolerance() {
         // the second pivot without a digit, no solver in f32 has one: the guards are all that is asked.
         let [b1, b2, b3, b4] = input.biased.map(f64::from);
         let (m0, m1, m2) = (1.0 - b2, b1 - b3, b2 - b4);
-        if m2 - m1 * m1 / m0 < 0.1 * f64::from(input.alpha) {
+        if m2 - m1 * m1 / m0 < 0.02 * f64::from(input.alpha) {
             continue;
         }
         let exact = exact(input.biased.map(f64::from), f64::from(input.depth));
@@ -170,7 +173,7 @@ fn published_vectors_are_within_tolerance() {
         let units = units(input, output.hausdorff, *truth);
         largest = largest.max(units[0]).max(units[1]);
         assert!(
-            units[0].max(units[1]) <= 32.0,
+            units[0].max(units[1]) <= TOLERANCE,
             "{id}: {input:?} {output:?}: {units:?} of {truth:?}"
         );
         compared += 1;
@@ -180,7 +183,7 @@ fn published_vectors_are_within_tolerance() {
         inputs.len()
     );
     assert!(largest_of_f64 < 1e-7);
-    assert_eq!(inputs.len() + outside, 160);
+    assert_eq!(inputs.len() + outside, 161);
     assert!(compared >= 100);
 }
 
@@ -225,7 +228,7 @@ fn random_distributions_are_within_tolerance() {
         let [below, above] = units(input, output.hausdorff, truth);
         let [shading, _] = units(input, [output.lower, upper], truth);
         errors.push(below.max(above).max(shading));
-        let slack = sensitivity.map(|value| 32.0 * HALF_ULP * (1.0 + value));
+        let slack = sensitivity.map(|value| TOLERANCE * HALF_ULP * (1.0 + value));
         // Never looser than on the whole real line. Hamburger's bounds are as sensitive to the moments as these.
         assert!(
             f64::from(lower) >= f64::from(output.hamburger[0]) - slack[0]
@@ -248,8 +251,7 @@ fn random_distributions_are_within_tolerance() {
         errors[count * 9999 / 10000],
         errors[count - 1]
     );
-    assert!(errors[count * 9999 / 10000] <= 32.0);
-    assert!(errors[count - 1] <= 128.0);
+    assert!(errors[count - 1] <= TOLERANCE);
 }
 
 /// Knowing the interval is worth something: on many mixtures the bound is darker than Hamburger's for the same moments.

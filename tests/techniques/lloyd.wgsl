@@ -33,8 +33,8 @@ fn batch(input: BatchInput) -> BatchOutput {
         let first = (2u * frame) % splits;
         var sums = vec4f(0.0);
         for (var y = 0u; y + 1u < SIZE; y++) {
-            // The halves of the map are maps of their own.
-            if y + 1u == SIZE / 2u {
+            // Halves with different planes are maps of their own.
+            if y + 1u == SIZE / 2u && any(input.planes.xy != input.planes.zw) {
                 continue;
             }
             for (var x = 0u; x + 1u < SIZE; x++) {

@@ -73,6 +73,41 @@ pub(crate) fn run(inputs: &[Input]) -> Vec<Output> {
         .unwrap()
 }
 
+const LIMITS: &str = "
+import moment_shadows::exponential::{exponential_largest_exponent};
+import moment_shadows::exponential_variance::{exponential_variance_largest_exponent};
+
+alias BatchInput = vec4u;
+alias BatchOutput = vec3f;
+
+fn batch(storage: BatchInput) -> BatchOutput {
+    return vec3f(
+        exponential_largest_exponent(storage.x, false),
+        exponential_largest_exponent(storage.x, true),
+        exponential_variance_largest_exponent(storage.x),
+    );
+}
+";
+
+/// The largest exponents that the modules state.
+pub(crate) struct Limits {
+    /// Plain and logarithmic.
+    pub(crate) exponential: [f32; 2],
+    pub(crate) exponential_variance: f32,
+}
+
+pub(crate) fn limits(storage: Storage) -> Limits {
+    let gpu = Gpu::open(Profile::WebgpuCore).unwrap();
+    let found: Vec<[f32; 4]> = Batch::new(&gpu, "limits", LIMITS)
+        .unwrap()
+        .run(&[[storage.wgsl_index(); 4]])
+        .unwrap();
+    Limits {
+        exponential: [found[0][0], found[0][1]],
+        exponential_variance: found[0][2],
+    }
+}
+
 impl Input {
     /// Surfaces (depth, weight), whose weights are multiples of 2^-12 and sum to 1.
     pub(crate) fn new(surfaces: &[(f32, f32)], fragment_depth: f32, storage: Storage) -> Self {
