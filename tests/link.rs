@@ -56,6 +56,7 @@ fn joins_the_closure_once_in_dependency_order() {
     .unwrap();
     let files: Vec<_> = linked.files().collect();
     let expected = [
+        "moment_shadows/storage.wgsl",
         "moment_shadows/moments.wgsl",
         "moment_shadows/hankel.wgsl",
         "moment_shadows/hamburger.wgsl",
@@ -167,7 +168,12 @@ fn generated_modules_import_library_modules() {
     let files: Vec<_> = linked.files().collect();
     assert_eq!(
         files,
-        ["moment_shadows/moments.wgsl", "specialization", "user.wgsl"]
+        [
+            "moment_shadows/storage.wgsl",
+            "moment_shadows/moments.wgsl",
+            "specialization",
+            "user.wgsl"
+        ]
     );
 }
 

@@ -107,8 +107,7 @@ fn sensitivities(biased: [f64; 4], depth: f64) -> [f64; 2] {
         exact(moments, depth)
     };
     let mut sum = [0.0; 2];
-    for index in 0..5 {
-        let value = if index == 4 { depth } else { biased[index] };
+    for (index, value) in biased.into_iter().chain([depth]).enumerate() {
         // Far below the pivots, which are above 1e-8, and far above the rounding of f64 in them.
         let step = 1e-11;
         let (ahead, behind) = (at(index, step), at(index, -step));
