@@ -38,6 +38,11 @@ fn every_node_of_the_registry_is_in_the_list_of_shaders() {
 /// Variants whose text is kept. The others change a constant each, or repeat lines.
 fn is_kept(name: &str) -> bool {
     let ends = |suffixes: &[&str]| suffixes.iter().any(|suffix| name.ends_with(suffix));
+    // Other storages change a constant.
+    if OTHER_TECHNIQUES.iter().any(|other| name.contains(other)) {
+        let blurred_alike = name.starts_with("blur_moments") && !name.contains("logarithmic");
+        return ends(&["float32", "unorm8", "lloyd_unorm16"]) && !blurred_alike;
+    }
     if name.starts_with("blur_moments") || name.starts_with("downsample_moments") {
         return !name.contains("radius") && ends(&["unorm16", "unorm16_x"]);
     }
@@ -46,6 +51,9 @@ fn is_kept(name: &str) -> bool {
     }
     name == "shade_hard_unorm16_mips" || !ends(&["_2", "_8", "_regions", "_mips", "_views"])
 }
+
+/// Techniques whose maps hold something else than four moments, or are read by other means.
+const OTHER_TECHNIQUES: [&str; 5] = ["esm", "vsm", "convolution", "hausdorff4", "pcf"];
 
 fn snapshot(name: &str) -> PathBuf {
     [

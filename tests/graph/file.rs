@@ -99,7 +99,7 @@ fn unknown_keys_are_refused_where_they_stand() {
         "\"storag\"",
         "resolve",
         "\"storag\"",
-        "unknown field `storag`, expected `storage`",
+        "unknown field `storag`, expected one of",
     );
     assert_syntax(
         "\"sigma\"",

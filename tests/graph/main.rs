@@ -19,4 +19,5 @@ mod regions;
 mod resources;
 mod shaders;
 mod targets;
+mod techniques;
 mod wiring;

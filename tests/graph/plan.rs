@@ -159,13 +159,13 @@ fn parameters_are_aligned_to_the_device_and_do_not_overlap() {
         .iter()
         .map(|block| (block.node.as_str(), block.offset, block.size, block.count))
         .collect();
-    // 32 bytes of a conversion for each of three layers, the regions of each, 656 of a kernel, 144 of a view.
+    // 32 bytes of a conversion for each of three layers, the regions of each, 656 of a kernel, 208 of a view.
     assert_eq!(
         blocks,
         [
             ("resolve", 0, 32, 3),
             ("blur", 1536, 656, 1),
-            ("shade", 2304, 144, 1)
+            ("shade", 2304, 208, 1)
         ]
     );
 }
@@ -242,12 +242,12 @@ fn bytes_are_those_counted_by_hand() {
         .map(|pass| (pass.bytes_read, pass.bytes_written))
         .collect();
     // Four samples of four bytes, a conversion of 32 and a region of 16; two blurs; the camera's depth, the map and a view
-    // of 144 bytes.
+    // of 208 bytes.
     let expected = [
         (1024 * 1024 * 16 + 32 + 16, map),
         (map + 16, map),
         (map + 16, map),
-        (picture * 4 + map + 144, picture),
+        (picture * 4 + map + 208, picture),
     ];
     assert_eq!(moved, expected);
     assert_eq!(
@@ -381,7 +381,7 @@ memory (16.88 MiB resident)
   shade.shadow_intensity       r8unorm 1280x720, 0.88 MiB
 parameters (768 bytes per view)
   resolve                      DepthConversion at 0, 32 bytes x 1
-  shade                        ShadeHardParameters at 512, 144 bytes x 1
+  shade                        ShadeHardParameters at 512, 208 bytes x 1
   light_depth                  MapRegion at 256, up to 1 regions x 1 layers
 outputs
   shadow_intensity             shade.shadow_intensity

@@ -24,4 +24,5 @@ mod resolve;
 mod setup;
 mod shade;
 mod shade_regions;
+mod techniques;
 mod views;

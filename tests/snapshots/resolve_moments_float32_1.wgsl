@@ -24,6 +24,9 @@ struct DepthConversion {
 // The smallest denominator: the far end of an infinite projection divides by zero.
 const DEPTH_SMALLEST_DENOMINATOR: f32 = 1e-30;
 
+// The moment depth of a light with parallel rays.
+const DEPTH_INFINITELY_FAR: f32 = -1e30;
+
 // Whether `value` is NaN, by its bits: WGSL lets a compiler assume that no NaN occurs, so `value != value` may be folded.
 fn depth_is_nan(value: f32) -> bool {
     return (bitcast<u32>(value) & 0x7fffffffu) > 0x7f800000u;
@@ -38,7 +41,89 @@ fn depth_to_moment_depth(stored: f32, conversion: DepthConversion) -> f32 {
     return select(clamp(ratio, -1.0, 1.0), 1.0, depth_is_nan(stored));
 }
 
+// The depth of a fragment in [-1, 1]: beyond the light's range it counts as the nearer end, and NaN as the near end, where
+// every lower bound is 0.
+fn depth_of_fragment(fragment_depth: f32) -> f32 {
+    return select(clamp(fragment_depth, -1.0, 1.0), -1.0, depth_is_nan(fragment_depth));
+}
+
+// The stored depth of a moment depth: the inverse of the above, as the reference value of a comparison sampler. Moment
+// depths that the stored interval does not reach count as its nearer end, NaN as the far end.
+fn depth_from_moment_depth(moment_depth: f32, conversion: DepthConversion) -> f32 {
+    let z = select(clamp(moment_depth, -1.0, 1.0), 1.0, depth_is_nan(moment_depth));
+    let numerator = conversion.numerator;
+    let denominator = conversion.denominator;
+    // The weights d and 1 - d of the two ends, up to a factor that is positive where depth is stored from near to far.
+    let weights = vec2f(fma(z, denominator.x, -numerator.x), fma(-z, denominator.y, numerator.y));
+    let reversed = numerator.y * denominator.x < numerator.x * denominator.y;
+    let positive = max(select(weights, -weights, reversed), vec2f(0.0));
+    let d = positive.x / max(positive.x + positive.y, DEPTH_SMALLEST_DENOMINATOR);
+    let scale = select(max(conversion.scale, DEPTH_SMALLEST_DENOMINATOR), min(conversion.scale, -DEPTH_SMALLEST_DENOMINATOR), conversion.scale < 0.0);
+    return clamp((d - conversion.offset) / scale, -3e38, 3e38);
+}
+
+// The moment depth of a light's own place, below -1; DEPTH_INFINITELY_FAR where the stored depth is linear, as parallel rays
+// have it.
+fn depth_of_light(conversion: DepthConversion) -> f32 {
+    // A perspective conversion tends to it where d grows without bounds.
+    let divisor = conversion.denominator.y - conversion.denominator.x;
+    if abs(divisor) < DEPTH_SMALLEST_DENOMINATOR {
+        return DEPTH_INFINITELY_FAR;
+    }
+    return clamp((conversion.numerator.y - conversion.numerator.x) / divisor, DEPTH_INFINITELY_FAR, -1.0);
+}
+
+// moment_shadows/storage.wgsl
+// Storages: how the channels of a texel lie in memory, whatever they mean.
+//
+// Every technique filters linearly and writes after each filter, so each write is a rounding error that its bound has to
+// cover. Nothing here depends on a technique: how one spreads its quantities over the range of a storage is its own.
+
+// Storages, as a shader's specialisation names them.
+const STORAGE_UNORM16: u32 = 0u;
+const STORAGE_FLOAT16: u32 = 1u;
+const STORAGE_FLOAT32: u32 = 2u;
+const STORAGE_UNORM8: u32 = 3u;
+
+// The largest finite float16.
+const STORAGE_LARGEST_FLOAT16: f32 = 65504.0;
+
+// Whether the channels of the storage are floats, which can be anything, rather than numbers in [0, 1].
+fn storage_is_float(storage: u32) -> bool {
+    return storage == STORAGE_FLOAT16 || storage == STORAGE_FLOAT32;
+}
+
+// The nearest float16 of each component, ties to even, for |value| <= 65504. A driver may truncate when it stores to a
+// float16 texture, which would double the rounding error that a bound has to cover.
+fn storage_round_to_float16(value: vec4f) -> vec4f {
+    let bits = bitcast<vec4u>(value);
+    // 13 of 23 mantissa bits go; adding just under half a unit, plus the last kept bit, rounds ties to even.
+    let rounded = bitcast<vec4f>((bits + 0xfffu + ((bits >> vec4u(13u)) & vec4u(1u))) & vec4u(0xffffe000u));
+    // Below 2^-14 float16 is a fixed-point format with a step of 2^-24.
+    let small = round(value * 0x1p24) * 0x1p-24;
+    return select(rounded, small, abs(value) < vec4f(0x1p-14));
+}
+
+// A filtered combination of texels, as it has to be written back to the same storage.
+fn storage_round_texel(texel: vec4f, storage: u32) -> vec4f {
+    if storage == STORAGE_FLOAT16 {
+        return storage_round_to_float16(texel);
+    }
+    return texel;
+}
+
+// A texel in which channels that are NaN or infinite count as 0, found by their bits since a compiler may assume that
+// there is neither. Unorm texels pass as they are.
+fn storage_finite_texel(texel: vec4f, storage: u32) -> vec4f {
+    if !storage_is_float(storage) {
+        return texel;
+    }
+    let exponent = bitcast<vec4u>(texel) & vec4u(0x7f800000u);
+    return select(texel, vec4f(0.0), exponent == vec4u(0x7f800000u));
+}
+
 // moment_shadows/moments.wgsl
+
 // Four moments of depth: encoding, storage, bias.
 //
 // A texel holds b = (E[z], E[z^2], E[z^3], E[z^4]) of the moment depths z in [-1, 1] that it covers (Peters & Klein,
@@ -46,24 +131,21 @@ fn depth_to_moment_depth(stored: f32, conversion: DepthConversion) -> f32 {
 // negative and sum to one. Storage with few bits holds an affine image of the moments that spreads them over the range
 // of every channel (Peters, GDC 2016; JCGT 6(1) 2017, section 3); affine maps commute with filtering.
 
-// A moment bias: b is moved by alpha towards (0, beta, 0, beta), which pulls moments that rounding has made
-// impossible back among the possible ones. (0, beta, 0, beta) are the moments of occluders at the near end, the middle
-// and the far end with the weights beta/2, 1 - beta and beta/2.
+// A moment bias: b is moved by alpha towards (0, second, 0, fourth), which pulls moments that rounding has made
+// impossible back among the possible ones. With one number beta for both these are the moments of occluders at the near
+// end, the middle and the far end with the weights beta/2, 1 - beta and beta/2.
 struct MomentBias {
     alpha: f32,
-    beta: f32,
+    second: f32,
+    fourth: f32,
 }
 
 // The bias belongs to a storage's rounding error, not to a scene. Each value covers a resolve and a two-pass blur,
-// every stage rounded to the storage; beta is optimal for the basis (JCGT 6(1) 2017, section 3).
-const MOMENTS_BIAS_UNORM16: MomentBias = MomentBias(6e-5, 0.628);
-const MOMENTS_BIAS_FLOAT16: MomentBias = MomentBias(1e-3, 0.628);
-const MOMENTS_BIAS_FLOAT32: MomentBias = MomentBias(1.5e-6, 0.375);
-
-// Storages, as a shader's specialisation names them.
-const MOMENTS_STORAGE_UNORM16: u32 = 0u;
-const MOMENTS_STORAGE_FLOAT16: u32 = 1u;
-const MOMENTS_STORAGE_FLOAT32: u32 = 2u;
+// every stage rounded to the storage; the target is optimal for the basis and for distributions on the real line (JCGT
+// 6(1) 2017, section 3).
+const MOMENTS_BIAS_UNORM16: MomentBias = MomentBias(6e-5, 0.628, 0.628);
+const MOMENTS_BIAS_FLOAT16: MomentBias = MomentBias(1e-3, 0.628, 0.628);
+const MOMENTS_BIAS_FLOAT32: MomentBias = MomentBias(1.5e-6, 0.375, 0.375);
 
 // sqrt(3), which the optimised basis and its inverse are made of.
 const MOMENTS_SQRT_3: f32 = 1.7320508075688772;
@@ -95,17 +177,6 @@ fn moments_dequantize(channels: vec4f) -> vec4f {
     );
 }
 
-// The nearest float16 of each component, ties to even, for |value| < 65504. A driver may truncate when it stores to a
-// float16 texture, which would double the rounding error that the bias has to cover.
-fn moments_round_to_float16(value: vec4f) -> vec4f {
-    let bits = bitcast<vec4u>(value);
-    // 13 of 23 mantissa bits go; adding just under half a unit, plus the last kept bit, rounds ties to even.
-    let rounded = bitcast<vec4f>((bits + 0xfffu + ((bits >> vec4u(13u)) & vec4u(1u))) & vec4u(0xffffe000u));
-    // Below 2^-14 float16 is a fixed-point format with a step of 2^-24.
-    let small = round(value * 0x1p24) * 0x1p-24;
-    return select(rounded, small, abs(value) < vec4f(0x1p-14));
-}
-
 // Moments that certainly lie in their ranges: odd ones in [-1, 1], even ones in [0, 1]. Float storage can hold
 // anything, and finite values beyond 1e15 would overflow further on.
 fn moments_clamp(b: vec4f) -> vec4f {
@@ -114,32 +185,24 @@ fn moments_clamp(b: vec4f) -> vec4f {
 
 // What to write to a texel of the storage.
 fn moments_to_texel(b: vec4f, storage: u32) -> vec4f {
-    if storage == MOMENTS_STORAGE_FLOAT32 {
+    if storage == STORAGE_FLOAT32 {
         return b;
     }
     let channels = saturate(moments_quantize(b));
-    if storage == MOMENTS_STORAGE_FLOAT16 {
+    if storage == STORAGE_FLOAT16 {
         // Half precision is finest around zero, so the channels are centred there.
-        return moments_round_to_float16(channels - 0.5);
+        return storage_round_to_float16(channels - 0.5);
     }
     return channels;
-}
-
-// A filtered combination of texels, as it has to be written back to the same storage.
-fn moments_round_texel(texel: vec4f, storage: u32) -> vec4f {
-    if storage == MOMENTS_STORAGE_FLOAT16 {
-        return moments_round_to_float16(texel);
-    }
-    return texel;
 }
 
 // The moments in a (filtered) texel of the storage. Float storage can hold anything; `moments_clamp` comes before any
 // arithmetic that relies on ranges.
 fn moments_from_texel(texel: vec4f, storage: u32) -> vec4f {
-    if storage == MOMENTS_STORAGE_FLOAT32 {
+    if storage == STORAGE_FLOAT32 {
         return texel;
     }
-    if storage == MOMENTS_STORAGE_FLOAT16 {
+    if storage == STORAGE_FLOAT16 {
         return moments_dequantize(texel + 0.5);
     }
     return moments_dequantize(texel);
@@ -147,10 +210,10 @@ fn moments_from_texel(texel: vec4f, storage: u32) -> vec4f {
 
 // The moment bias of a storage.
 fn moments_bias_of(storage: u32) -> MomentBias {
-    if storage == MOMENTS_STORAGE_FLOAT32 {
+    if storage == STORAGE_FLOAT32 {
         return MOMENTS_BIAS_FLOAT32;
     }
-    if storage == MOMENTS_STORAGE_FLOAT16 {
+    if storage == STORAGE_FLOAT16 {
         return MOMENTS_BIAS_FLOAT16;
     }
     return MOMENTS_BIAS_UNORM16;
@@ -159,14 +222,13 @@ fn moments_bias_of(storage: u32) -> MomentBias {
 // Applies the moment bias (i3D 2015, section 3.3). Written as a step towards the target: 1 - alpha would keep only a
 // few bits of alpha.
 fn moments_apply_bias(b: vec4f, bias: MomentBias) -> vec4f {
-    return fma(vec4f(bias.alpha), vec4f(0.0, bias.beta, 0.0, bias.beta) - b, b);
+    return fma(vec4f(bias.alpha), vec4f(0.0, bias.second, 0.0, bias.fourth) - b, b);
 }
 
-// The biased moments in a (filtered) texel of the storage, with the storage's own bias, within [-2.1, 2.1]: for unorm
-// storage if the channels are in [0, 1], as no texture can help, and for float storage whatever finite numbers it holds.
-fn moments_biased_from_texel(texel: vec4f, storage: u32) -> vec4f {
-    let bias = moments_bias_of(storage);
-    if storage == MOMENTS_STORAGE_FLOAT32 {
+// The biased moments in a (filtered) texel of the storage, within [-2.1, 2.1]: for unorm storage if the channels are in
+// [0, 1], as no texture can help, and for float storage whatever finite numbers it holds.
+fn moments_biased_from_texel(texel: vec4f, storage: u32, bias: MomentBias) -> vec4f {
+    if storage == STORAGE_FLOAT32 {
         return moments_apply_bias(moments_clamp(texel), bias);
     }
     // The inverse of the basis and the bias are both affine, and so one step. These biases are large enough for 1 - alpha.
@@ -174,13 +236,33 @@ fn moments_biased_from_texel(texel: vec4f, storage: u32) -> vec4f {
     let of_xy = keep * vec4f(-1.0 / 3.0, 0.125, -0.75, -0.125);
     let of_zw = keep * vec4f(MOMENTS_SQRT_3, 1.0, 0.75 * MOMENTS_SQRT_3, 1.0);
     // Odd moments are 0 for channels of one half, and float16 storage holds one half less.
-    let middle = select(vec4f(-0.5, 0.0, -0.5, 0.0), vec4f(0.0, 0.5, 0.0, 0.5), storage == MOMENTS_STORAGE_FLOAT16);
-    let shift = fma(middle, of_xy + of_zw, bias.alpha * vec4f(0.0, bias.beta, 0.0, bias.beta));
+    let middle = select(vec4f(-0.5, 0.0, -0.5, 0.0), vec4f(0.0, 0.5, 0.0, 0.5), storage == STORAGE_FLOAT16);
+    let shift = fma(middle, of_xy + of_zw, bias.alpha * vec4f(0.0, bias.second, 0.0, bias.fourth));
     let biased = fma(of_xy, texel.xyxy, fma(of_zw, texel.zwzw, shift));
-    if storage == MOMENTS_STORAGE_FLOAT16 {
+    if storage == STORAGE_FLOAT16 {
         return moments_clamp(biased);
     }
     return biased;
+}
+
+// specialization
+const GROUP = 0;
+alias DepthTexture = texture_depth_2d;
+const SAMPLES = 1;
+alias MomentsStorage = texture_storage_2d<rgba32float, write>;
+const STORAGE = 2u;
+const REGIONS = 1u;
+
+// map_encoding
+
+// Four moments: what is averaged for a moment depth, and the texel for the mean.
+
+fn encoding_channels(z: f32) -> vec4f {
+    return moments_from_depth(z);
+}
+
+fn encoding_texel(mean: vec4f) -> vec4f {
+    return moments_to_texel(mean, STORAGE);
 }
 
 // moment_shadows/map_region.wgsl
@@ -224,14 +306,6 @@ fn map_region_place(region_on_level: MapRegion, uv: vec2f) -> vec2f {
     return vec2f(region_on_level.origin) + clamp(uv * extent, vec2f(0.5), max(extent - 0.5, vec2f(0.5)));
 }
 
-// specialization
-const GROUP = 0;
-alias DepthTexture = texture_depth_2d;
-alias MomentsStorage = texture_storage_2d<rgba32float, write>;
-const STORAGE = 2u;
-const SAMPLES = 1;
-const REGIONS = 1u;
-
 // region_tile
 
 // Which part of which region a workgroup makes. Regions change per frame; the number of workgroups does not, and suffices
@@ -270,9 +344,9 @@ fn region_tile(workgroup: vec3u, workgroups: vec3u, size: vec2u, level: u32, tex
 
 // resolve_moments.wgsl
 
-// Resolves the regions of one layer of a depth map to moments: one texel per invocation.
+// Resolves the regions of one layer of a depth map to one plane of a filterable map: one texel per invocation.
 //
-// The moments of the samples are averaged. Averaging depths instead would put an occluder between foreground and
+// The moments (or other channels) of the samples are averaged. Averaging depths instead would put an occluder between foreground and
 // background, where there is none (Peters & Klein, i3D 2015, section 4).
 
 @group(GROUP) @binding(0) var<uniform> conversions: array<DepthConversion, REGIONS>;
@@ -292,7 +366,7 @@ fn resolve(@builtin(local_invocation_id) local: vec3u, @builtin(workgroup_id) wo
     // For a single sample the last argument of the load is its mip level, 0.
     for (var sample = 0; sample < SAMPLES; sample++) {
         let stored = textureLoad(depth_map, texel, sample);
-        sum += moments_from_depth(depth_to_moment_depth(stored, conversion));
+        sum += encoding_channels(depth_to_moment_depth(stored, conversion));
     }
-    textureStore(moments_map, texel, moments_to_texel(sum / f32(SAMPLES), STORAGE));
+    textureStore(moments_map, texel, encoding_texel(sum / f32(SAMPLES)));
 }

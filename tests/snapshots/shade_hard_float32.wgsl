@@ -15,300 +15,79 @@ fn fullscreen(@builtin(vertex_index) index: u32) -> Covered {
     return Covered(vec4f(corner, 0.0, 1.0), 0.5 + vec2f(0.5, -0.5) * corner);
 }
 
-// moment_shadows/hankel.wgsl
-// The shared factorisation: LDL^T of the Hankel matrix of four moments.
+// moment_shadows/depth.wgsl
+// Moment depth: the one interval that all moment arithmetic uses.
 //
-//       | 1  b1 b2 |
-//   B = | b1 b2 b3 |     B is positive semi-definite exactly if some distribution on the real line has these moments
-//       | b2 b3 b4 |     (Hamburger moment problem; Peters & Klein, i3D 2015, section 2.2 and Algorithm 3).
+// Moment depth z is in [-1, 1], -1 at the light's near end and 1 at its far end, linear in distance along the light's
+// axis. Signed depth needs a far smaller moment bias than depth in [0, 1] (Peters et al., JCGT 6(1) 2017, section 3).
+// Every way in which a host stores depth (forward or reversed, orthographic or perspective, finite or infinite far
+// plane, linear distance) is a ratio of two functions that are linear in the stored value, so one conversion serves all.
+
+// How stored depth becomes moment depth. Filled by the host-side `DepthConversion`.
 //
-// Its pivots define the monic orthogonal polynomials of the distribution, with x = z - b1:
-//   P0 = 1,  P1(x) = x,  P2(x) = x (x - shift) - variance,
-// with squared norms 1, variance and residue. The roots of P2 are the two Gauss nodes.
-
-// The pivots of B and what the orthogonal polynomials need.
-struct HankelFactor {
-    // b2 - b1^2, the variance of z; positive.
-    variance: f32,
-    // The Schur complement of b4, the variance of z^2 that z does not explain; positive.
-    residue: f32,
-    // residue / variance.
-    ratio: f32,
-    // L32 - 2 b1, with L32 the slope of the regression of z^2 on z.
-    shift: f32,
+// With d = clamp(scale * stored + offset, 0, 1) the moment depth is
+//   ((1 - d) * numerator.x + d * numerator.y) / ((1 - d) * denominator.x + d * denominator.y).
+// Weighting the ends by 1 - d and d keeps both sums free of cancellation: a light with a near/far ratio of 1e5 in
+// reversed float depth keeps its precision. The denominators are not negative, and not both zero.
+struct DepthConversion {
+    numerator: vec2f,
+    denominator: vec2f,
+    scale: f32,
+    offset: f32,
+    // Keeps the size a multiple of 16, as uniform buffers ask for arrays of it.
+    padding: vec2f,
 }
 
-// Pivots of valid moments stay above these multiples of the moment bias alpha, so the guards bind only where rounding
-// has left the pivots without a correct digit (or the moments are none). They also bound all that is divided by a pivot:
-// with alpha >= 1e-7 nothing below overflows on the way to a weight, whatever the moments.
-const HANKEL_SMALLEST_VARIANCE: f32 = 0.03;
-const HANKEL_SMALLEST_RESIDUE: f32 = 0.02;
+// The smallest denominator: the far end of an infinite projection divides by zero.
+const DEPTH_SMALLEST_DENOMINATOR: f32 = 1e-30;
 
-// Factorises the Hankel matrix of moments biased by `alpha` >= 1e-7. Moments must lie within [-2.1, 2.1].
-// The differences of products lose almost all digits near a single surface; `fma` keeps them where it is fused.
-fn hankel_factor(biased: vec4f, alpha: f32) -> HankelFactor {
-    let variance = max(fma(-biased.x, biased.x, biased.y), HANKEL_SMALLEST_VARIANCE * alpha);
-    // One division for all quotients.
-    let inverse = 1.0 / variance;
-    let covariance = fma(-biased.x, biased.y, biased.z);
-    let slope = covariance * inverse;
-    let residue = max(
-        fma(-covariance, slope, fma(-biased.y, biased.y, biased.w)),
-        HANKEL_SMALLEST_RESIDUE * alpha,
-    );
-    return HankelFactor(variance, residue, residue * inverse, fma(-2.0, biased.x, slope));
+// The moment depth of a light with parallel rays.
+const DEPTH_INFINITELY_FAR: f32 = -1e30;
+
+// Whether `value` is NaN, by its bits: WGSL lets a compiler assume that no NaN occurs, so `value != value` may be folded.
+fn depth_is_nan(value: f32) -> bool {
+    return (bitcast<u32>(value) & 0x7fffffffu) > 0x7f800000u;
 }
 
-// P2 at x = z - b1. Negative exactly between the Gauss nodes.
-fn hankel_second_polynomial(factor: HankelFactor, x: f32) -> f32 {
-    return fma(x, x - factor.shift, -factor.variance);
+// Moment depth in [-1, 1] of a stored depth. NaN counts as the far end (no caster), infinities and values out of
+// range as the nearer end of the interval.
+fn depth_to_moment_depth(stored: f32, conversion: DepthConversion) -> f32 {
+    let d = clamp(fma(clamp(stored, -3e38, 3e38), conversion.scale, conversion.offset), 0.0, 1.0);
+    let ends = vec2f(1.0 - d, d);
+    let ratio = dot(ends, conversion.numerator) / max(dot(ends, conversion.denominator), DEPTH_SMALLEST_DENOMINATOR);
+    return select(clamp(ratio, -1.0, 1.0), 1.0, depth_is_nan(stored));
 }
 
-// The Christoffel number of x = z - b1, 1 / (1 + x^2 / variance + P2^2 / residue): the largest weight that a distribution
-// with these moments can have at z, which is the weight that the extremal distribution through z has there. A sum of
-// positive terms, here times the residue: nothing cancels.
-fn hankel_christoffel_number(factor: HankelFactor, x: f32, second_polynomial: f32) -> f32 {
-    let x_term = fma(x * factor.ratio, x, factor.residue);
-    return factor.residue / fma(second_polynomial, second_polynomial, x_term);
+// The depth of a fragment in [-1, 1]: beyond the light's range it counts as the nearer end, and NaN as the near end, where
+// every lower bound is 0.
+fn depth_of_fragment(fragment_depth: f32) -> f32 {
+    return select(clamp(fragment_depth, -1.0, 1.0), -1.0, depth_is_nan(fragment_depth));
 }
 
-// moment_shadows/moments.wgsl
-// Four moments of depth: encoding, storage, bias.
-//
-// A texel holds b = (E[z], E[z^2], E[z^3], E[z^4]) of the moment depths z in [-1, 1] that it covers (Peters & Klein,
-// "Moment Shadow Mapping", i3D 2015, section 2). Linear filters keep moments valid as long as their weights are not
-// negative and sum to one. Storage with few bits holds an affine image of the moments that spreads them over the range
-// of every channel (Peters, GDC 2016; JCGT 6(1) 2017, section 3); affine maps commute with filtering.
-
-// A moment bias: b is moved by alpha towards (0, beta, 0, beta), which pulls moments that rounding has made
-// impossible back among the possible ones. (0, beta, 0, beta) are the moments of occluders at the near end, the middle
-// and the far end with the weights beta/2, 1 - beta and beta/2.
-struct MomentBias {
-    alpha: f32,
-    beta: f32,
+// The stored depth of a moment depth: the inverse of the above, as the reference value of a comparison sampler. Moment
+// depths that the stored interval does not reach count as its nearer end, NaN as the far end.
+fn depth_from_moment_depth(moment_depth: f32, conversion: DepthConversion) -> f32 {
+    let z = select(clamp(moment_depth, -1.0, 1.0), 1.0, depth_is_nan(moment_depth));
+    let numerator = conversion.numerator;
+    let denominator = conversion.denominator;
+    // The weights d and 1 - d of the two ends, up to a factor that is positive where depth is stored from near to far.
+    let weights = vec2f(fma(z, denominator.x, -numerator.x), fma(-z, denominator.y, numerator.y));
+    let reversed = numerator.y * denominator.x < numerator.x * denominator.y;
+    let positive = max(select(weights, -weights, reversed), vec2f(0.0));
+    let d = positive.x / max(positive.x + positive.y, DEPTH_SMALLEST_DENOMINATOR);
+    let scale = select(max(conversion.scale, DEPTH_SMALLEST_DENOMINATOR), min(conversion.scale, -DEPTH_SMALLEST_DENOMINATOR), conversion.scale < 0.0);
+    return clamp((d - conversion.offset) / scale, -3e38, 3e38);
 }
 
-// The bias belongs to a storage's rounding error, not to a scene. Each value covers a resolve and a two-pass blur,
-// every stage rounded to the storage; beta is optimal for the basis (JCGT 6(1) 2017, section 3).
-const MOMENTS_BIAS_UNORM16: MomentBias = MomentBias(6e-5, 0.628);
-const MOMENTS_BIAS_FLOAT16: MomentBias = MomentBias(1e-3, 0.628);
-const MOMENTS_BIAS_FLOAT32: MomentBias = MomentBias(1.5e-6, 0.375);
-
-// Storages, as a shader's specialisation names them.
-const MOMENTS_STORAGE_UNORM16: u32 = 0u;
-const MOMENTS_STORAGE_FLOAT16: u32 = 1u;
-const MOMENTS_STORAGE_FLOAT32: u32 = 2u;
-
-// sqrt(3), which the optimised basis and its inverse are made of.
-const MOMENTS_SQRT_3: f32 = 1.7320508075688772;
-
-// The moments of a single depth z in [-1, 1]: its powers (i3D 2015, equation 2).
-fn moments_from_depth(z: f32) -> vec4f {
-    let square = z * z;
-    return vec4f(z, square, z * square, square * square);
-}
-
-// The optimised basis of JCGT 6(1) 2017 (equation 5, GDC 2016): maps the moments of depths in [-1, 1] into [0, 1]^4.
-fn moments_quantize(b: vec4f) -> vec4f {
-    return vec4f(
-        fma(1.5, b.x, fma(-2.0, b.z, 0.5)),
-        4.0 * (b.y - b.w),
-        fma(0.5 * MOMENTS_SQRT_3, b.x, fma(-2.0 / 9.0 * MOMENTS_SQRT_3, b.z, 0.5)),
-        0.5 * (b.y + b.w),
-    );
-}
-
-// Inverse of `moments_quantize`. Channels in [0, 1] give |b| <= 2.1, whatever they hold.
-fn moments_dequantize(channels: vec4f) -> vec4f {
-    let odd = channels.xz - 0.5;
-    return vec4f(
-        fma(-1.0 / 3.0, odd.x, MOMENTS_SQRT_3 * odd.y),
-        fma(0.125, channels.y, channels.w),
-        0.75 * fma(MOMENTS_SQRT_3, odd.y, -odd.x),
-        fma(-0.125, channels.y, channels.w),
-    );
-}
-
-// The nearest float16 of each component, ties to even, for |value| < 65504. A driver may truncate when it stores to a
-// float16 texture, which would double the rounding error that the bias has to cover.
-fn moments_round_to_float16(value: vec4f) -> vec4f {
-    let bits = bitcast<vec4u>(value);
-    // 13 of 23 mantissa bits go; adding just under half a unit, plus the last kept bit, rounds ties to even.
-    let rounded = bitcast<vec4f>((bits + 0xfffu + ((bits >> vec4u(13u)) & vec4u(1u))) & vec4u(0xffffe000u));
-    // Below 2^-14 float16 is a fixed-point format with a step of 2^-24.
-    let small = round(value * 0x1p24) * 0x1p-24;
-    return select(rounded, small, abs(value) < vec4f(0x1p-14));
-}
-
-// Moments that certainly lie in their ranges: odd ones in [-1, 1], even ones in [0, 1]. Float storage can hold
-// anything, and finite values beyond 1e15 would overflow further on.
-fn moments_clamp(b: vec4f) -> vec4f {
-    return clamp(b, vec4f(-1.0, 0.0, -1.0, 0.0), vec4f(1.0));
-}
-
-// What to write to a texel of the storage.
-fn moments_to_texel(b: vec4f, storage: u32) -> vec4f {
-    if storage == MOMENTS_STORAGE_FLOAT32 {
-        return b;
+// The moment depth of a light's own place, below -1; DEPTH_INFINITELY_FAR where the stored depth is linear, as parallel rays
+// have it.
+fn depth_of_light(conversion: DepthConversion) -> f32 {
+    // A perspective conversion tends to it where d grows without bounds.
+    let divisor = conversion.denominator.y - conversion.denominator.x;
+    if abs(divisor) < DEPTH_SMALLEST_DENOMINATOR {
+        return DEPTH_INFINITELY_FAR;
     }
-    let channels = saturate(moments_quantize(b));
-    if storage == MOMENTS_STORAGE_FLOAT16 {
-        // Half precision is finest around zero, so the channels are centred there.
-        return moments_round_to_float16(channels - 0.5);
-    }
-    return channels;
-}
-
-// A filtered combination of texels, as it has to be written back to the same storage.
-fn moments_round_texel(texel: vec4f, storage: u32) -> vec4f {
-    if storage == MOMENTS_STORAGE_FLOAT16 {
-        return moments_round_to_float16(texel);
-    }
-    return texel;
-}
-
-// The moments in a (filtered) texel of the storage. Float storage can hold anything; `moments_clamp` comes before any
-// arithmetic that relies on ranges.
-fn moments_from_texel(texel: vec4f, storage: u32) -> vec4f {
-    if storage == MOMENTS_STORAGE_FLOAT32 {
-        return texel;
-    }
-    if storage == MOMENTS_STORAGE_FLOAT16 {
-        return moments_dequantize(texel + 0.5);
-    }
-    return moments_dequantize(texel);
-}
-
-// The moment bias of a storage.
-fn moments_bias_of(storage: u32) -> MomentBias {
-    if storage == MOMENTS_STORAGE_FLOAT32 {
-        return MOMENTS_BIAS_FLOAT32;
-    }
-    if storage == MOMENTS_STORAGE_FLOAT16 {
-        return MOMENTS_BIAS_FLOAT16;
-    }
-    return MOMENTS_BIAS_UNORM16;
-}
-
-// Applies the moment bias (i3D 2015, section 3.3). Written as a step towards the target: 1 - alpha would keep only a
-// few bits of alpha.
-fn moments_apply_bias(b: vec4f, bias: MomentBias) -> vec4f {
-    return fma(vec4f(bias.alpha), vec4f(0.0, bias.beta, 0.0, bias.beta) - b, b);
-}
-
-// The biased moments in a (filtered) texel of the storage, with the storage's own bias, within [-2.1, 2.1]: for unorm
-// storage if the channels are in [0, 1], as no texture can help, and for float storage whatever finite numbers it holds.
-fn moments_biased_from_texel(texel: vec4f, storage: u32) -> vec4f {
-    let bias = moments_bias_of(storage);
-    if storage == MOMENTS_STORAGE_FLOAT32 {
-        return moments_apply_bias(moments_clamp(texel), bias);
-    }
-    // The inverse of the basis and the bias are both affine, and so one step. These biases are large enough for 1 - alpha.
-    let keep = 1.0 - bias.alpha;
-    let of_xy = keep * vec4f(-1.0 / 3.0, 0.125, -0.75, -0.125);
-    let of_zw = keep * vec4f(MOMENTS_SQRT_3, 1.0, 0.75 * MOMENTS_SQRT_3, 1.0);
-    // Odd moments are 0 for channels of one half, and float16 storage holds one half less.
-    let middle = select(vec4f(-0.5, 0.0, -0.5, 0.0), vec4f(0.0, 0.5, 0.0, 0.5), storage == MOMENTS_STORAGE_FLOAT16);
-    let shift = fma(middle, of_xy + of_zw, bias.alpha * vec4f(0.0, bias.beta, 0.0, bias.beta));
-    let biased = fma(of_xy, texel.xyxy, fma(of_zw, texel.zwzw, shift));
-    if storage == MOMENTS_STORAGE_FLOAT16 {
-        return moments_clamp(biased);
-    }
-    return biased;
-}
-
-// moment_shadows/hamburger.wgsl
-
-// Hamburger four-moment shadow mapping: the sharpest bounds on shadow intensity that four moments allow.
-//
-// Among all distributions on the real line with the given moments, the share of depth in front of the fragment is
-// smallest and largest for the canonical distribution that has the fragment depth and two more points as its support
-// (Peters & Klein, i3D 2015, Proposition 3 and Algorithm 3). The published evaluation divides by a coefficient that
-// vanishes when the fragment is at a Gauss node and takes the root of a difference that rounds below zero. This one
-// gives the same values without either:
-//   - the weight of a support point is its Christoffel number, a sum of positive terms;
-//   - support points interlace with the Gauss nodes, so the sign of P2 tells on which side of the fragment they lie;
-//   - where both sides have one, the discriminant of their quadratic is a sum of positive terms.
-
-// Support points farther than this from the mean have a weight below 1e-8, and squaring them must not overflow.
-const HAMBURGER_FARTHEST_SUPPORT: f32 = 1e4;
-
-// The leading coefficient stays above this, so that dividing by it is defined when the fragment is at a Gauss node.
-const HAMBURGER_SMALLEST_LEADING_COEFFICIENT: f32 = 1e-20;
-
-// The two support points besides the fragment, relative to the mean, for a fragment at x = z - b1.
-struct HamburgerSupport {
-    // x_1 < x < x_2 if the fragment is between the Gauss nodes. Elsewhere finite; x_1 is then the farthest point where
-    // x < 0, and without meaning where x > 0.
-    points: vec2f,
-    // Outside the Gauss nodes: whether x > 0.
-    above: bool,
-}
-
-// The support of the extremal distribution through the fragment at x, where P2(x) is `second_polynomial`.
-fn hamburger_support(factor: HankelFactor, x: f32, second_polynomial: f32) -> HamburgerSupport {
-    // -a y^2 + b y + c / 4 = 0 with a, c > 0, so both roots are real and 0 lies between them.
-    let a = max(-second_polynomial, HAMBURGER_SMALLEST_LEADING_COEFFICIENT);
-    let b = fma(factor.ratio, x, factor.shift * a);
-    let c = 4.0 * fma(factor.variance, a, factor.residue);
-    // The roots' magnitudes are sum / (2 a) and c / (2 sum); the greater one has the sign of b. No term cancels.
-    let sum = abs(b) + sqrt(fma(a, c, b * b));
-    let above = b >= 0.0;
-    let lower = select(sum, c, above) / select(a, sum, above);
-    let upper = select(c, sum, above) / select(sum, a, above);
-    let doubled = vec2f(
-        max(-lower, -2.0 * HAMBURGER_FARTHEST_SUPPORT),
-        min(upper, 2.0 * HAMBURGER_FARTHEST_SUPPORT),
-    );
-    return HamburgerSupport(0.5 * doubled, above);
-}
-
-// The sharp bounds of shadow intensity: x = inf S(z < fragment_depth), y = sup S(z <= fragment_depth) over all
-// distributions S with the moments `biased`, which are already biased by `alpha` >= 1e-7 and lie within [-2, 2].
-// Both are in [0, 1] for all such moments, valid or not, and every finite fragment depth; farther out than 1e4 the
-// fragment depth counts as 1e4. Error: |error| <= 8 * 2^-24 * (1 + sensitivity) where fma is fused.
-fn hamburger_bounds(biased: vec4f, fragment_depth: f32, alpha: f32) -> vec2f {
-    let factor = hankel_factor(biased, alpha);
-    let x = clamp(fragment_depth, -HAMBURGER_FARTHEST_SUPPORT, HAMBURGER_FARTHEST_SUPPORT) - biased.x;
-    let polynomial = hankel_second_polynomial(factor, x);
-    if polynomial >= 0.0 {
-        // Outside the Gauss nodes no support point lies beyond the fragment: no root is needed.
-        let weight = saturate(hankel_christoffel_number(factor, x, polynomial));
-        return select(vec2f(0.0, weight), vec2f(1.0 - weight, 1.0), x > 0.0);
-    }
-    let support = hamburger_support(factor, x, polynomial).points;
-    let below = hankel_christoffel_number(factor, support.x, hankel_second_polynomial(factor, support.x));
-    let above = hankel_christoffel_number(factor, support.y, hankel_second_polynomial(factor, support.y));
-    return saturate(vec2f(below, 1.0 - above));
-}
-
-// The lower one of `hamburger_bounds`, with fragment depths beyond the light's range counting as its ends; where the
-// bound is 0 the result is below 1e-8.
-fn hamburger_lower_bound(biased: vec4f, fragment_depth: f32, alpha: f32) -> f32 {
-    let factor = hankel_factor(biased, alpha);
-    let x = clamp(fragment_depth, -1.0, 1.0) - biased.x;
-    let polynomial = hankel_second_polynomial(factor, x);
-    let support = hamburger_support(factor, x, polynomial);
-    // One Christoffel number serves all cases: at the fragment itself where it is above the Gauss nodes, or else at the
-    // support point below it. Where the fragment is below the Gauss nodes that one is at infinity, without weight.
-    let beyond = polynomial >= 0.0 && support.above;
-    let t = select(support.points.x, x, beyond);
-    let weight = saturate(hankel_christoffel_number(factor, t, hankel_second_polynomial(factor, t)));
-    return select(weight, 1.0 - weight, beyond);
-}
-
-// Shadow intensity in [0, 1] (1 = shadowed) of a fragment at `fragment_depth` (moment depth) under the filtered moments
-// of its map: the lower bound, never darker than the truth but for the bias. Moments may be anything finite; fragment
-// depths beyond the light's range count as its ends.
-fn hamburger_shadow_intensity(moments: vec4f, fragment_depth: f32, bias: MomentBias) -> f32 {
-    return hamburger_lower_bound(moments_apply_bias(moments_clamp(moments), bias), fragment_depth, bias.alpha);
-}
-
-// The same for a filtered texel of a storage, with the bias of the storage. Cheaper, since decoding and bias are one step
-// and a texel of unorm storage needs no clamping.
-fn hamburger_shadow_intensity_of_texel(texel: vec4f, fragment_depth: f32, storage: u32) -> f32 {
-    let biased = moments_biased_from_texel(texel, storage);
-    return hamburger_lower_bound(biased, fragment_depth, moments_bias_of(storage).alpha);
+    return clamp((conversion.numerator.y - conversion.numerator.x) / divisor, DEPTH_INFINITELY_FAR, -1.0);
 }
 
 // moment_shadows/leak_reduction.wgsl
@@ -390,14 +169,21 @@ fn map_region_place(region_on_level: MapRegion, uv: vec2f) -> vec2f {
 //
 // A pixel maps to a parallelogram of texels. Its singular values are the axes of the ellipse that stands for it
 // (Heckbert, "Fundamentals of Texture Mapping and Image Warping", 1989, section 3.5): a lookup takes probes along the
-// major axis, each on the mip level that fits the minor axis. Averages of moments are moments, which is what filterable
+// major axis, each on a mip level that fits the minor axis. Averages of moments are moments, which is what filterable
 // shadow maps exist for (Donnelly & Lauritzen, "Variance Shadow Maps", i3D 2006, section 3).
+//
+// A pixel averages a box: over w texels its variance is w^2 / 12. A trilinear lookup on a mip level whose texels are t wide
+// averages boxes of t and blends neighbours that are t apart: (1/12 + 1/6) t^2. Lookups are as wide as pixels if their
+// variances are equal, t = w / sqrt(3); a level with t = w, as colour textures take it, would filter three times as much.
 
 // Probes along the major axis, at most.
 const MINIFICATION_LARGEST_ANISOTROPY: f32 = 16.0;
 
+// The width of a mip level's texels that makes trilinear lookups as wide as a box: 1 / sqrt(3).
+const MINIFICATION_TEXEL_PER_WIDTH: f32 = 0.57735026;
+
 struct MinificationFootprint {
-    // The major axis, from end to end, in texels of mip level 0; zero where a pixel covers no more than a texel.
+    // The line on which the probes lie, along the major axis and from end to end, in texels of mip level 0.
     major: vec2f,
     // Probes along it, a whole number from 1 to 16.
     probes: f32,
@@ -406,8 +192,8 @@ struct MinificationFootprint {
 }
 
 // The footprint of a pixel from the differences of place, in texels, to its neighbours in x and y; each component at
-// most 1e9 in magnitude. `anisotropy`, from 1 to 16, is the ratio of the axes up to which probes follow the major axis;
-// beyond it the minor axis is taken for longer than it is.
+// most 1e9 in magnitude. `anisotropy`, from 1 to 16, is the largest number of probes; where more were needed, the minor
+// axis is taken for longer than it is.
 fn minification_footprint(difference_x: vec2f, difference_y: vec2f, anisotropy: f32) -> MinificationFootprint {
     let xx = difference_x.x * difference_x.x + difference_y.x * difference_y.x;
     let xy = difference_x.x * difference_x.y + difference_y.x * difference_y.y;
@@ -425,12 +211,13 @@ fn minification_footprint(difference_x: vec2f, difference_y: vec2f, anisotropy: 
     let direction = along / max(max(abs(along.x), abs(along.y)), 1e-30);
     let unit = direction / max(length(direction), 1e-6);
     let largest = clamp(anisotropy, 1.0, MINIFICATION_LARGEST_ANISOTROPY);
-    let width = max(max(minor_length, major_length / largest), 1.0);
-    return MinificationFootprint(
-        select(vec2f(0.0), unit * major_length, major_length > 1.0),
-        clamp(ceil(major_length / width - 1e-3), 1.0, MINIFICATION_LARGEST_ANISOTROPY),
-        log2(width),
-    );
+    // With so many probes a texel apart the major axis is filled: w^2 = 3 major_length^2 / (largest^2 + 2).
+    let filled = major_length * sqrt(3.0 / fma(largest, largest, 2.0));
+    let width = max(max(minor_length, filled), 1.0);
+    // A probe has the variance of the width along the major axis, too: the line of probes is shorter by that.
+    let line = sqrt(max(fma(-width, width, major_length * major_length), 0.0));
+    let texel = max(width * MINIFICATION_TEXEL_PER_WIDTH, 1.0);
+    return MinificationFootprint(unit * line, clamp(ceil(line / texel - 1e-3), 1.0, largest), log2(texel));
 }
 
 // Where probe `index` lies on the major axis: the offset, in texels, from the footprint's centre.
@@ -438,83 +225,429 @@ fn minification_probe(footprint: MinificationFootprint, index: f32) -> vec2f {
     return ((index + 0.5) / footprint.probes - 0.5) * footprint.major;
 }
 
-// The variance that minification adds to the moment depths of a plane, whose moment depth changes by `gradient` per texel.
-//
-// A trilinear lookup on level l averages boxes of 2^l texels, and blends neighbours that are 2^l texels apart: (1/12 +
-// 1/6) 4^l. Between two levels their mixture has at most 1.13 times the variance of the level between them. The probes
-// together add the variance of a box along the major axis.
+// The two axes of a footprint as the differences of place, in texels, that make a sampler with anisotropy take just these
+// probes: x is the column of the line, at least as long as the other one.
+fn minification_gradients(footprint: MinificationFootprint) -> mat2x2f {
+    let texel = exp2(footprint.level);
+    let line = length(footprint.major);
+    let unit = select(vec2f(1.0, 0.0), footprint.major / max(line, 1e-6), line >= 1e-3);
+    return mat2x2f(unit * max(line, texel), vec2f(-unit.y, unit.x) * texel);
+}
+
+// The variance that minification adds to the moment depths of a plane, whose moment depth changes by `gradient` per texel:
+// that of the probes' trilinear lookups, and that of the line they lie on. Between two levels the mixture of both has at
+// most 1.13 times the variance of the level between them.
 fn minification_depth_variance(footprint: MinificationFootprint, gradient: vec2f) -> f32 {
-    let width = select(0.0, exp2(footprint.level), footprint.level > 0.0);
-    let across = width * length(gradient);
+    let texel = select(0.0, exp2(footprint.level), footprint.level > 0.0);
+    let across = texel * length(gradient);
     let along = select(0.0, dot(footprint.major, gradient), footprint.probes > 1.0);
     return (1.13 / 4.0) * across * across + along * along / 12.0;
 }
 
-// moment_shadows/map_load.wgsl
-
-// Lookups in a map that a device cannot filter, and where a sampler would read across the edge of a region: bilinear,
-// trilinear, averaged over a footprint. `uv`, `levels` and regions are those of `map_lookup`.
+// moment_shadows/disk_samples.wgsl
+// Samples that are spread over the unit disk, and the rotation by which each pixel turns them.
 //
-// Texels are loaded and blended here, in f32, while hardware may use weights of as few as 8 bits. Blending texels of moments
-// is a convex combination, so it keeps moments valid.
+// With few samples a filter makes bands; turned by another angle in each pixel it makes noise, which the eye and temporal
+// filters forgive.
 
-// The bilinearly filtered texel on one mip level. `uv` is finite; values outside [0, 1] count as the nearer edge.
-fn map_load_bilinear(map: texture_2d_array<f32>, layer: u32, region: MapRegion, uv: vec2f, level: u32) -> vec4f {
-    let rectangle = map_region_at_level(region, level);
-    let place = map_region_place(rectangle, uv) - 0.5;
-    let base = floor(place);
-    let weight = place - base;
-    let low = vec2i(base);
-    let high = min(low + 1, vec2i(rectangle.origin + rectangle.extent) - 1);
-    let top = mix(textureLoad(map, low, layer, level), textureLoad(map, vec2i(high.x, low.y), layer, level), weight.x);
-    let bottom = mix(textureLoad(map, vec2i(low.x, high.y), layer, level), textureLoad(map, high, layer, level), weight.x);
-    return mix(top, bottom, weight.y);
+// How many samples the Poisson disk has.
+const DISK_SAMPLES_POISSON_COUNT: u32 = 16u;
+
+// A Poisson disk: no two samples are closer than 0.455. Sample i lies at radius sqrt((i + 0.5) / 16), in the middle of one
+// of 16 rings of equal area, so that turned by every angle they cover the disk evenly. Their angles were found by best
+// candidates and random relaxation of the smallest distance.
+const DISK_SAMPLES_POISSON = array<vec2f, 16>(
+    vec2f(0.027483, -0.174627),
+    vec2f(0.059710, 0.300308),
+    vec2f(-0.383554, 0.095584),
+    vec2f(0.465980, 0.040162),
+    vec2f(-0.389073, -0.360378),
+    vec2f(0.415935, -0.413217),
+    vec2f(-0.321242, 0.550503),
+    vec2f(0.471743, 0.496194),
+    vec2f(0.000066, -0.728869),
+    vec2f(0.083704, 0.765992),
+    vec2f(-0.806214, -0.079181),
+    vec2f(-0.750352, 0.394616),
+    vec2f(0.858217, -0.211455),
+    vec2f(0.876628, 0.274358),
+    vec2f(-0.520274, -0.797223),
+    vec2f(0.435590, -0.882616),
+);
+
+// A full turn in radians.
+const DISK_SAMPLES_TURN: f32 = 6.2831853;
+
+// The angle between two neighbours of a sunflower's seeds: a full turn times (3 - sqrt(5)) / 2.
+const DISK_SAMPLES_GOLDEN_ANGLE: f32 = 2.3999632;
+
+// The angle in radians, from 0 to a full turn, by which a pixel turns its samples: interleaved gradient noise of its
+// coordinates (Jimenez, "Next Generation Post Processing in Call of Duty: Advanced Warfare", SIGGRAPH 2014). `pixel` from
+// 0 to 65536.
+fn disk_samples_angle(pixel: vec2f) -> f32 {
+    return DISK_SAMPLES_TURN * fract(52.9829189 * fract(dot(pixel, vec2f(0.06711056, 0.00583715))));
 }
 
-// The same, blended between the two mip levels next to `level` >= 0, as far as the region has texels there.
-fn map_load_trilinear(map: texture_2d_array<f32>, layer: u32, region: MapRegion, levels: u32, uv: vec2f, level: f32) -> vec4f {
-    let last = map_region_last_level(region, levels);
-    let fine = min(u32(clamp(level, 0.0, 31.0)), last);
-    let texel = map_load_bilinear(map, layer, region, uv, fine);
-    let blend = level - f32(fine);
-    if fine == last || blend <= 0.0 {
-        return texel;
-    }
-    return mix(texel, map_load_bilinear(map, layer, region, uv, fine + 1u), blend);
+// Cosine and sine of an angle in radians, which `disk_samples_rotate` takes.
+fn disk_samples_rotation(angle: f32) -> vec2f {
+    // Devices need not know sines beyond a turn.
+    let turned = DISK_SAMPLES_TURN * fract(angle / DISK_SAMPLES_TURN);
+    return vec2f(cos(turned), sin(turned));
 }
 
-// The average over a footprint around `uv`: trilinear probes along its major axis.
-fn map_load_footprint(map: texture_2d_array<f32>, layer: u32, region: MapRegion, levels: u32, uv: vec2f, footprint: MinificationFootprint) -> vec4f {
-    let per_texel = 1.0 / max(vec2f(region.extent), vec2f(1.0));
+// A sample turned by a rotation.
+fn disk_samples_rotate(sample: vec2f, rotation: vec2f) -> vec2f {
+    return vec2f(dot(sample, vec2f(rotation.x, -rotation.y)), dot(sample, rotation.yx));
+}
+
+// Sample `index` of the Poisson disk, 0 to 15, turned.
+fn disk_samples_poisson(index: u32, rotation: vec2f) -> vec2f {
+    return disk_samples_rotate(DISK_SAMPLES_POISSON[min(index, DISK_SAMPLES_POISSON_COUNT - 1u)], rotation);
+}
+
+// Sample `index` of a disk of any number of samples, which cover it evenly (Vogel, "A better way to construct the
+// sunflower head", Mathematical Biosciences 44, 1979), turned. `count` at least 1.
+fn disk_samples_vogel(index: u32, count: u32, rotation: vec2f) -> vec2f {
+    let radius = sqrt((f32(index) + 0.5) / f32(max(count, 1u)));
+    return disk_samples_rotate(vec2f(radius, 0.0), disk_samples_rotate(disk_samples_rotation(f32(index) * DISK_SAMPLES_GOLDEN_ANGLE), rotation));
+}
+
+// moment_shadows/gaussian.wgsl
+// Gaussian filter weights, and the plain form of the separable filter.
+//
+// Filters of moments need weights that are not negative and sum to one; the Gaussian, cut off at a radius and
+// normalised, is the one that the moment shadow mapping papers use (9 x 9 texels with sigma 2.4; i3D 2015, section 4).
+// Render-graph nodes filter with blocks of texels held in registers; this form is for shaders of one's own, and is what
+// those are compared with.
+
+// Gaussian at `offset` texels from the centre, not normalised. `sigma` > 0 in texels; smaller values count as 1e-3.
+fn gaussian_weight(offset: f32, sigma: f32) -> f32 {
+    let ratio = offset / max(sigma, 1e-3);
+    return exp(-0.5 * ratio * ratio);
+}
+
+// One direction of the separable filter at `texel`: 2 radius + 1 texels of mip 0 along `direction` ((1, 0) or (0, 1)),
+// weighted and normalised. Beyond the border the last texel repeats. `radius` from 0 to 64.
+fn gaussian_filter(map: texture_2d<f32>, texel: vec2i, direction: vec2i, radius: i32, sigma: f32) -> vec4f {
+    let last = vec2i(textureDimensions(map)) - 1;
+    let reach = clamp(radius, 0, 64);
     var sum = vec4f(0.0);
-    for (var probe = 0.0; probe < footprint.probes; probe += 1.0) {
-        let probe_uv = uv + minification_probe(footprint, probe) * per_texel;
-        sum += map_load_trilinear(map, layer, region, levels, probe_uv, footprint.level);
+    var total = 0.0;
+    for (var offset = -reach; offset <= reach; offset++) {
+        let weight = gaussian_weight(f32(offset), sigma);
+        sum = fma(vec4f(weight), textureLoad(map, clamp(texel + offset * direction, vec2i(0), last), 0), sum);
+        total += weight;
     }
-    return sum / footprint.probes;
+    // The centre's weight is 1, so the total is at least 1.
+    return sum / total;
 }
 
-// specialization
-const GROUP = 0;
-const STORAGE = 2u;
-const LEVELS = 1u;
-const VIEWS = 1u;
-const LIGHTS = 1u;
-const ANISOTROPY = 8.0;
+// moment_shadows/receiver_plane.wgsl
 
-// moments_lookup
+// The plane of a receiver over a depth map: what each tap of a filter is compared with.
+//
+// A filter that compares every tap with the fragment's own depth counts half of a tilted receiver as its occluder. Comparing
+// with the depth of the receiver's plane at the tap instead leaves what stands in front of that plane. For parallel rays
+// moment depth on a plane is linear over the map. For rays from a point its distance from the light is the receiver's
+// over a linear function.
 
-// The lookup in a map that the device cannot filter.
+// A receiver as a region of a depth map sees it.
+struct ReceiverPlane {
+    // Its place from 0 to 1 across the region.
+    uv: vec2f,
+    // The gradient of moment depth per texel there.
+    gradient: vec2f,
+    // Its moment depth, less a bias for what depths are rounded by.
+    depth: f32,
+    // 1 / the difference of moment depth between receiver and light; 0 for parallel rays.
+    inverse_reach: f32,
+}
 
-@group(GROUP) @binding(2) var moments_map: texture_2d_array<f32>;
+// Above every gradient and depth that matters; products of it with distances in texels are finite.
+const RECEIVER_PLANE_LARGEST: f32 = 1e15;
 
-// The texel at `uv` in [0, 1] across a region, filtered over a pixel with these differences of place to its neighbours.
-fn moments_lookup(layer: u32, region: MapRegion, uv: vec2f, difference_x: vec2f, difference_y: vec2f) -> vec4f {
-    if LEVELS == 1u {
-        return map_load_bilinear(moments_map, layer, region, uv, 0u);
+// The plane of a receiver. `uv` outside of [0, 1] counts as the nearer edge, a `depth` that is NaN as the far end.
+// `gradient` is that of moment depth per texel (`receiver_bias_plane`); if it is longer than `steepest`, which keeps its
+// direction, the surface is edge-on to the light, or its neighbours belong to another surface. `light_depth` is the moment depth
+// of the light itself (`depth_of_light`), below -1: DEPTH_INFINITELY_FAR for parallel rays.
+fn receiver_plane_through(uv: vec2f, depth: f32, gradient: vec2f, steepest: f32, light_depth: f32) -> ReceiverPlane {
+    let z = select(clamp(depth, -1e6, 1e6), 1.0, depth_is_nan(depth));
+    let full = clamp(gradient, vec2f(-RECEIVER_PLANE_LARGEST), vec2f(RECEIVER_PLANE_LARGEST));
+    let limit = clamp(steepest, 0.0, RECEIVER_PLANE_LARGEST);
+    let steepness = length(full);
+    let limited = select(full, full * (limit / max(steepness, 1e-30)), steepness > limit);
+    return ReceiverPlane(clamp(uv, vec2f(0.0), vec2f(1.0)), limited, z, 1.0 / max(z - light_depth, 1e-6));
+}
+
+// The moment depth in [-1, 1] of the plane at `offset` texels from the receiver. It ends at the far end, which texels without a
+// caster hold: they never shadow.
+fn receiver_plane_depth(plane: ReceiverPlane, offset: vec2f) -> f32 {
+    let rise = dot(plane.gradient, offset);
+    let divisor = 1.0 - rise * plane.inverse_reach;
+    let z = plane.depth + rise / max(divisor, 1e-18);
+    // A ray that the plane has turned away from never meets it.
+    return select(clamp(z, -1.0, 1.0), 1.0, divisor <= 0.0);
+}
+
+// moment_shadows/percentage_closer.wgsl
+
+// Percentage closer filtering: tests against the plain depth map, whose results are filtered (Reeves, Salesin and Cook,
+// "Rendering Antialiased Shadows with Depth Maps", SIGGRAPH 1987).
+//
+// Each tap compares one texel with the depth of the receiver's plane at that very texel and is 1 where the map is
+// nearer to the light, 0 where it is not or equal. A receiver without gradient is compared with its own depth. Beyond the
+// edge of its region (within the map, see `map_region_within`) the last texel repeats; a region without texels does not
+// shadow. All intensities are in [0, 1]. The cost grows with the square of the kernel; filterable maps are there to avoid that.
+
+// The largest radius of a kernel in texels.
+const PERCENTAGE_CLOSER_LARGEST_RADIUS: i32 = 64;
+
+// The largest radius of a disk in texels.
+const PERCENTAGE_CLOSER_LARGEST_DISK: f32 = 4096.0;
+
+// Any separable kernel. Filled by the host-side `PercentageCloserKernel`.
+struct PercentageCloserKernel {
+    // Texels on either side of the centre, at most 64.
+    radius: u32,
+    // 2 radius + 1 weights, not negative, the same along both axes; they need not sum to 1. A kernel of an even number of
+    // texels has a 0 at one end.
+    weights: array<vec4f, 33>,
+}
+
+// Where the taps of a kernel are centred.
+struct PercentageCloserPlace {
+    // A texel, counted from the region's origin.
+    base: vec2i,
+    // The share of the kernel around the next texel in x and y, in [0, 1).
+    fraction: vec2f,
+}
+
+// The texel of the region that stands for `texel` (counted from its origin): itself or the nearest one.
+fn percentage_closer_texel(region: MapRegion, texel: vec2i) -> vec2i {
+    return clamp(texel, vec2i(0), max(vec2i(region.extent), vec2i(1)) - 1);
+}
+
+// The moment depth of that texel.
+fn percentage_closer_map_depth(map: texture_depth_2d_array, layer: u32, region: MapRegion, conversion: DepthConversion, texel: vec2i) -> f32 {
+    return depth_to_moment_depth(textureLoad(map, vec2i(region.origin) + percentage_closer_texel(region, texel), layer, 0), conversion);
+}
+
+// The moment depth of the receiver's plane at the centre of that texel.
+fn percentage_closer_plane_depth(region: MapRegion, plane: ReceiverPlane, texel: vec2i) -> f32 {
+    let centre = vec2f(percentage_closer_texel(region, texel)) + 0.5;
+    return receiver_plane_depth(plane, centre - plane.uv * vec2f(region.extent));
+}
+
+// One tap: 1 if the map is nearer to the light than the receiver's plane, else 0.
+fn percentage_closer_tap(map: texture_depth_2d_array, layer: u32, region: MapRegion, plane: ReceiverPlane, conversion: DepthConversion, texel: vec2i) -> f32 {
+    let nearer = percentage_closer_map_depth(map, layer, region, conversion, texel) < percentage_closer_plane_depth(region, plane, texel);
+    return select(0.0, 1.0, nearer && all(region.extent > vec2u(0u)));
+}
+
+// The binary test at the nearest texel: 0 or 1.
+fn percentage_closer_binary(map: texture_depth_2d_array, layer: u32, region: MapRegion, plane: ReceiverPlane, conversion: DepthConversion) -> f32 {
+    return percentage_closer_tap(map, layer, region, plane, conversion, vec2i(plane.uv * vec2f(region.extent)));
+}
+
+// Where a kernel is centred: at the nearest texel, or, interpolated as in a bilinear lookup, between the four next ones.
+fn percentage_closer_place(region: MapRegion, plane: ReceiverPlane, interpolated: bool) -> PercentageCloserPlace {
+    let extent = max(vec2f(region.extent), vec2f(1.0));
+    let place = clamp(plane.uv * extent, vec2f(0.5), extent - 0.5);
+    let low = floor(place - 0.5);
+    if interpolated {
+        return PercentageCloserPlace(vec2i(low), place - 0.5 - low);
     }
-    let footprint = minification_footprint(difference_x, difference_y, ANISOTROPY);
-    return map_load_footprint(moments_map, layer, region, LEVELS, uv, footprint);
+    return PercentageCloserPlace(vec2i(place), vec2f(0.0));
+}
+
+// The weight of an offset along one axis: the Gaussian, or 1 for a sigma of 0, up to the radius `reach`.
+fn percentage_closer_weight(offset: i32, reach: i32, sigma: f32) -> f32 {
+    if abs(offset) > reach {
+        return 0.0;
+    }
+    if sigma == 0.0 {
+        return 1.0;
+    }
+    return gaussian_weight(f32(offset), sigma);
+}
+
+// Shadow intensity with equal weights: n x n texels with n = 2 radius + 1. `radius` from 0 to 64. Interpolated, results are
+// blended as a bilinear lookup in a filtered map does, with n + 1 taps along each axis.
+fn percentage_closer_box(map: texture_depth_2d_array, layer: u32, region: MapRegion, plane: ReceiverPlane, conversion: DepthConversion, radius: i32, interpolated: bool) -> f32 {
+    return percentage_closer_filter(map, layer, region, plane, conversion, radius, 0.0, interpolated);
+}
+
+// The same with the weights of a Gaussian of standard deviation `sigma` > 0 texels, cut off at `radius`; a smaller sigma
+// counts as 1e-3.
+fn percentage_closer_gaussian(map: texture_depth_2d_array, layer: u32, region: MapRegion, plane: ReceiverPlane, conversion: DepthConversion, radius: i32, sigma: f32, interpolated: bool) -> f32 {
+    return percentage_closer_filter(map, layer, region, plane, conversion, radius, max(sigma, 1e-3), interpolated);
+}
+
+// Both of them: a sigma of 0 stands for equal weights.
+fn percentage_closer_filter(map: texture_depth_2d_array, layer: u32, region: MapRegion, plane: ReceiverPlane, conversion: DepthConversion, radius: i32, sigma: f32, interpolated: bool) -> f32 {
+    let reach = clamp(radius, 0, PERCENTAGE_CLOSER_LARGEST_RADIUS);
+    let place = percentage_closer_place(region, plane, interpolated);
+    let end = reach + select(0, 1, interpolated);
+    var sum = 0.0;
+    var total = 0.0;
+    for (var y = -reach; y <= end; y++) {
+        let row = mix(percentage_closer_weight(y, reach, sigma), percentage_closer_weight(y - 1, reach, sigma), place.fraction.y);
+        for (var x = -reach; x <= end; x++) {
+            let column = mix(percentage_closer_weight(x, reach, sigma), percentage_closer_weight(x - 1, reach, sigma), place.fraction.x);
+            sum = fma(row * column, percentage_closer_tap(map, layer, region, plane, conversion, place.base + vec2i(x, y)), sum);
+            total = fma(row, column, total);
+        }
+    }
+    // The centre's weight is 1, so the total is not much below 1.
+    return clamp(sum / total, 0.0, 1.0);
+}
+
+// The weight of an offset along one axis in a kernel of that radius.
+fn percentage_closer_kernel_weight(kernel: PercentageCloserKernel, offset: i32, reach: i32) -> f32 {
+    if abs(offset) > reach {
+        return 0.0;
+    }
+    let index = u32(offset + reach);
+    return clamp(kernel.weights[index / 4u][index % 4u], 0.0, 1e9);
+}
+
+// The same with any separable kernel. Without a positive weight nothing is shadowed.
+fn percentage_closer_kernel(map: texture_depth_2d_array, layer: u32, region: MapRegion, plane: ReceiverPlane, conversion: DepthConversion, kernel: PercentageCloserKernel, interpolated: bool) -> f32 {
+    let reach = i32(min(kernel.radius, u32(PERCENTAGE_CLOSER_LARGEST_RADIUS)));
+    let place = percentage_closer_place(region, plane, interpolated);
+    let end = reach + select(0, 1, interpolated);
+    var sum = 0.0;
+    var total = 0.0;
+    for (var y = -reach; y <= end; y++) {
+        let row = mix(percentage_closer_kernel_weight(kernel, y, reach), percentage_closer_kernel_weight(kernel, y - 1, reach), place.fraction.y);
+        for (var x = -reach; x <= end; x++) {
+            let column = mix(percentage_closer_kernel_weight(kernel, x, reach), percentage_closer_kernel_weight(kernel, x - 1, reach), place.fraction.x);
+            sum = fma(row * column, percentage_closer_tap(map, layer, region, plane, conversion, place.base + vec2i(x, y)), sum);
+            total = fma(row, column, total);
+        }
+    }
+    return clamp(sum / max(total, 1e-30), 0.0, 1.0);
+}
+
+// The texel, counted from the region's origin, that lies `offset` texels from the receiver, which may be outside.
+fn percentage_closer_texel_at(region: MapRegion, plane: ReceiverPlane, offset: vec2f) -> vec2i {
+    return vec2i(floor(plane.uv * vec2f(region.extent) + offset));
+}
+
+// Shadow intensity with a Poisson disk of 16 taps: `radius` in texels, 0 to 4096, turned by `angle` in radians, another
+// one in each pixel (`disk_samples_angle`).
+fn percentage_closer_poisson(map: texture_depth_2d_array, layer: u32, region: MapRegion, plane: ReceiverPlane, conversion: DepthConversion, radius: f32, angle: f32) -> f32 {
+    let rotation = disk_samples_rotation(angle) * clamp(radius, 0.0, PERCENTAGE_CLOSER_LARGEST_DISK);
+    var sum = 0.0;
+    for (var tap = 0u; tap < DISK_SAMPLES_POISSON_COUNT; tap++) {
+        let texel = percentage_closer_texel_at(region, plane, disk_samples_poisson(tap, rotation));
+        sum += percentage_closer_tap(map, layer, region, plane, conversion, texel);
+    }
+    return sum / f32(DISK_SAMPLES_POISSON_COUNT);
+}
+
+// moment_shadows/percentage_closer_soft.wgsl
+
+// Percentage closer soft shadows: penumbrae that widen with the distance from the occluder (Fernando, "Percentage-Closer
+// Soft Shadows", SIGGRAPH 2005 sketches).
+//
+// A first set of taps searches for blockers, texels nearer to the light than the receiver's plane. Their mean depth tells
+// how wide the light appears from the receiver when it is projected through the blockers onto the map: that disk is
+// filtered with a second set. It is exact for a disk-shaped light and one blocker parallel to the map.
+//
+// The plane, regions and what lies beyond their edge are those of `percentage_closer`. Taps lie on disks of any number of
+// samples, which each pixel turns by another angle.
+
+// A light of some size. Filled by the host-side `PercentageCloserSoftLight`.
+struct PercentageCloserSoftLight {
+    // Parallel rays: diameter of the filter in texels (x and y) per scene unit between blocker and receiver. Rays from a
+    // point: the same in texels per 1 / scene unit of difference between the inverse distances.
+    size: vec2f,
+    // Distances from the light along its axis, in scene units, of the moment depths -1 and 1.
+    near: f32,
+    far: f32,
+    // 0 for parallel rays, 1 for rays from a point.
+    perspective: u32,
+    // Smallest and largest radius in texels of search and filter. The smallest softens shadows near contacts; the largest
+    // bounds the noise.
+    smallest_radius: f32,
+    largest_radius: f32,
+    padding: f32,
+}
+
+// What the search has found.
+struct PercentageCloserSoftBlockers {
+    // The share of taps that are blockers, in [0, 1].
+    share: f32,
+    // Their mean moment depth; -1 without blockers.
+    depth: f32,
+}
+
+// The largest number of taps.
+const PERCENTAGE_CLOSER_SOFT_MOST_TAPS: u32 = 4096u;
+
+// The largest radius in texels.
+const PERCENTAGE_CLOSER_SOFT_LARGEST_RADIUS: f32 = 4096.0;
+
+// The radius in texels (x and y) of the light as a receiver sees it through a blocker, projected onto the map. Both depths are
+// moment depths; in front of the blocker the radius is the smallest one.
+fn percentage_closer_soft_radius(light: PercentageCloserSoftLight, blocker_depth: f32, receiver_depth: f32) -> vec2f {
+    let ends = clamp(vec2f(blocker_depth, receiver_depth), vec2f(-1.0), vec2f(1.0));
+    let distances = clamp(mix(vec2f(light.near), vec2f(light.far), 0.5 * ends + 0.5), vec2f(-1e15), vec2f(1e15));
+    var apart = distances.y - distances.x;
+    if light.perspective != 0u {
+        // 1 / near - 1 / far as one quotient keeps its digits.
+        let positive = max(distances, vec2f(1e-9));
+        apart = apart / (positive.x * positive.y);
+    }
+    let radius = 0.5 * clamp(light.size, vec2f(0.0), vec2f(1e15)) * clamp(apart, 0.0, 1e18);
+    let smallest = vec2f(clamp(light.smallest_radius, 0.0, PERCENTAGE_CLOSER_SOFT_LARGEST_RADIUS));
+    let largest = vec2f(clamp(light.largest_radius, 0.0, PERCENTAGE_CLOSER_SOFT_LARGEST_RADIUS));
+    return min(max(radius, smallest), largest);
+}
+
+// Searches a disk of the given radius in texels for blockers.
+fn percentage_closer_soft_search(map: texture_depth_2d_array, layer: u32, region: MapRegion, plane: ReceiverPlane, conversion: DepthConversion, radius: vec2f, taps: u32, rotation: vec2f) -> PercentageCloserSoftBlockers {
+    let count = clamp(taps, 1u, PERCENTAGE_CLOSER_SOFT_MOST_TAPS);
+    var blockers = 0.0;
+    var sum = 0.0;
+    for (var tap = 0u; tap < count; tap++) {
+        let texel = percentage_closer_texel_at(region, plane, radius * disk_samples_vogel(tap, count, rotation));
+        let depth = percentage_closer_map_depth(map, layer, region, conversion, texel);
+        if depth < percentage_closer_plane_depth(region, plane, texel) {
+            blockers += 1.0;
+            sum += depth;
+        }
+    }
+    return PercentageCloserSoftBlockers(blockers / f32(count), select(-1.0, sum / max(blockers, 1.0), blockers > 0.0));
+}
+
+// The share in [0, 1] of a disk's taps, of the given radius in texels, that are in shadow.
+fn percentage_closer_soft_filter(map: texture_depth_2d_array, layer: u32, region: MapRegion, plane: ReceiverPlane, conversion: DepthConversion, radius: vec2f, taps: u32, rotation: vec2f) -> f32 {
+    let count = clamp(taps, 1u, PERCENTAGE_CLOSER_SOFT_MOST_TAPS);
+    var sum = 0.0;
+    for (var tap = 0u; tap < count; tap++) {
+        let texel = percentage_closer_texel_at(region, plane, radius * disk_samples_vogel(tap, count, rotation));
+        sum += percentage_closer_tap(map, layer, region, plane, conversion, texel);
+    }
+    return clamp(sum / f32(count), 0.0, 1.0);
+}
+
+// Shadow intensity in [0, 1]: 0 without blockers, 1 where the search found nothing else. `search_taps` and `filter_taps`
+// from 1 to 4096; both disks are turned by `angle` in radians (`disk_samples_angle`).
+fn percentage_closer_soft_intensity(map: texture_depth_2d_array, layer: u32, region: MapRegion, plane: ReceiverPlane, conversion: DepthConversion, light: PercentageCloserSoftLight, search_taps: u32, filter_taps: u32, angle: f32) -> f32 {
+    if any(region.extent == vec2u(0u)) {
+        return 0.0;
+    }
+    let rotation = disk_samples_rotation(angle);
+    // A blocker at the near end spreads farthest.
+    let search_radius = percentage_closer_soft_radius(light, -1.0, plane.depth);
+    let blockers = percentage_closer_soft_search(map, layer, region, plane, conversion, search_radius, search_taps, rotation);
+    if blockers.share <= 0.0 || blockers.share >= 1.0 {
+        return select(0.0, 1.0, blockers.share >= 1.0);
+    }
+    let radius = percentage_closer_soft_radius(light, blockers.depth, plane.depth);
+    return percentage_closer_soft_filter(map, layer, region, plane, conversion, radius, filter_taps, rotation);
 }
 
 // moment_shadows/receiver_bias.wgsl
@@ -599,9 +732,454 @@ fn receiver_bias_offset_position(bias: ReceiverBias, position: vec3f, normal: ve
     return fma(vec3f(bias.normal_offset * sqrt(max(1.0 - c * c, 0.0))), normal, position);
 }
 
+// specialization
+const GROUP = 0;
+const LEVELS = 1u;
+const VIEWS = 1u;
+const LIGHTS = 1u;
+const ANISOTROPY = 8.0;
+const PLANES = 1u;
+const STORAGE = 2u;
+
+// moment_shadows/hankel.wgsl
+// The shared factorisation: LDL^T of the Hankel matrix of four moments.
+//
+//       | 1  b1 b2 |
+//   B = | b1 b2 b3 |     B is positive semi-definite exactly if some distribution on the real line has these moments
+//       | b2 b3 b4 |     (Hamburger moment problem; Peters & Klein, i3D 2015, section 2.2 and Algorithm 3).
+//
+// Its pivots define the monic orthogonal polynomials of the distribution, with x = z - b1:
+//   P0 = 1,  P1(x) = x,  P2(x) = x (x - shift) - variance,
+// with squared norms 1, variance and residue. The roots of P2 are the two Gauss nodes.
+
+// The pivots of B and what the orthogonal polynomials need.
+struct HankelFactor {
+    // b2 - b1^2, the variance of z; positive.
+    variance: f32,
+    // The Schur complement of b4, the variance of z^2 that z does not explain; positive.
+    residue: f32,
+    // residue / variance.
+    ratio: f32,
+    // L32 - 2 b1, with L32 the slope of the regression of z^2 on z.
+    shift: f32,
+}
+
+// Pivots of valid moments stay above these multiples of the moment bias alpha, so the guards bind only where rounding
+// has left the pivots without a correct digit (or the moments are none). They also bound all that is divided by a pivot:
+// with alpha >= 1e-7 nothing below overflows on the way to a weight, whatever the moments.
+const HANKEL_SMALLEST_VARIANCE: f32 = 0.03;
+const HANKEL_SMALLEST_RESIDUE: f32 = 0.02;
+
+// Factorises the Hankel matrix of moments biased by `alpha` >= 1e-7. Moments must lie within [-2.1, 2.1].
+// The differences of products lose almost all digits near a single surface; `fma` keeps them where it is fused.
+fn hankel_factor(biased: vec4f, alpha: f32) -> HankelFactor {
+    let variance = max(fma(-biased.x, biased.x, biased.y), HANKEL_SMALLEST_VARIANCE * alpha);
+    // One division for all quotients.
+    let inverse = 1.0 / variance;
+    let covariance = fma(-biased.x, biased.y, biased.z);
+    let slope = covariance * inverse;
+    let residue = max(
+        fma(-covariance, slope, fma(-biased.y, biased.y, biased.w)),
+        HANKEL_SMALLEST_RESIDUE * alpha,
+    );
+    return HankelFactor(variance, residue, residue * inverse, fma(-2.0, biased.x, slope));
+}
+
+// P2 at x = z - b1. Negative exactly between the Gauss nodes.
+fn hankel_second_polynomial(factor: HankelFactor, x: f32) -> f32 {
+    return fma(x, x - factor.shift, -factor.variance);
+}
+
+// The Christoffel number of x = z - b1, 1 / (1 + x^2 / variance + P2^2 / residue): the largest weight that a distribution
+// with these moments can have at z, which is the weight that the extremal distribution through z has there. A sum of
+// positive terms, here times the residue: nothing cancels.
+fn hankel_christoffel_number(factor: HankelFactor, x: f32, second_polynomial: f32) -> f32 {
+    let x_term = fma(x * factor.ratio, x, factor.residue);
+    return factor.residue / fma(second_polynomial, second_polynomial, x_term);
+}
+
+// moment_shadows/storage.wgsl
+// Storages: how the channels of a texel lie in memory, whatever they mean.
+//
+// Every technique filters linearly and writes after each filter, so each write is a rounding error that its bound has to
+// cover. Nothing here depends on a technique: how one spreads its quantities over the range of a storage is its own.
+
+// Storages, as a shader's specialisation names them.
+const STORAGE_UNORM16: u32 = 0u;
+const STORAGE_FLOAT16: u32 = 1u;
+const STORAGE_FLOAT32: u32 = 2u;
+const STORAGE_UNORM8: u32 = 3u;
+
+// The largest finite float16.
+const STORAGE_LARGEST_FLOAT16: f32 = 65504.0;
+
+// Whether the channels of the storage are floats, which can be anything, rather than numbers in [0, 1].
+fn storage_is_float(storage: u32) -> bool {
+    return storage == STORAGE_FLOAT16 || storage == STORAGE_FLOAT32;
+}
+
+// The nearest float16 of each component, ties to even, for |value| <= 65504. A driver may truncate when it stores to a
+// float16 texture, which would double the rounding error that a bound has to cover.
+fn storage_round_to_float16(value: vec4f) -> vec4f {
+    let bits = bitcast<vec4u>(value);
+    // 13 of 23 mantissa bits go; adding just under half a unit, plus the last kept bit, rounds ties to even.
+    let rounded = bitcast<vec4f>((bits + 0xfffu + ((bits >> vec4u(13u)) & vec4u(1u))) & vec4u(0xffffe000u));
+    // Below 2^-14 float16 is a fixed-point format with a step of 2^-24.
+    let small = round(value * 0x1p24) * 0x1p-24;
+    return select(rounded, small, abs(value) < vec4f(0x1p-14));
+}
+
+// A filtered combination of texels, as it has to be written back to the same storage.
+fn storage_round_texel(texel: vec4f, storage: u32) -> vec4f {
+    if storage == STORAGE_FLOAT16 {
+        return storage_round_to_float16(texel);
+    }
+    return texel;
+}
+
+// A texel in which channels that are NaN or infinite count as 0, found by their bits since a compiler may assume that
+// there is neither. Unorm texels pass as they are.
+fn storage_finite_texel(texel: vec4f, storage: u32) -> vec4f {
+    if !storage_is_float(storage) {
+        return texel;
+    }
+    let exponent = bitcast<vec4u>(texel) & vec4u(0x7f800000u);
+    return select(texel, vec4f(0.0), exponent == vec4u(0x7f800000u));
+}
+
+// moment_shadows/moments.wgsl
+
+// Four moments of depth: encoding, storage, bias.
+//
+// A texel holds b = (E[z], E[z^2], E[z^3], E[z^4]) of the moment depths z in [-1, 1] that it covers (Peters & Klein,
+// "Moment Shadow Mapping", i3D 2015, section 2). Linear filters keep moments valid as long as their weights are not
+// negative and sum to one. Storage with few bits holds an affine image of the moments that spreads them over the range
+// of every channel (Peters, GDC 2016; JCGT 6(1) 2017, section 3); affine maps commute with filtering.
+
+// A moment bias: b is moved by alpha towards (0, second, 0, fourth), which pulls moments that rounding has made
+// impossible back among the possible ones. With one number beta for both these are the moments of occluders at the near
+// end, the middle and the far end with the weights beta/2, 1 - beta and beta/2.
+struct MomentBias {
+    alpha: f32,
+    second: f32,
+    fourth: f32,
+}
+
+// The bias belongs to a storage's rounding error, not to a scene. Each value covers a resolve and a two-pass blur,
+// every stage rounded to the storage; the target is optimal for the basis and for distributions on the real line (JCGT
+// 6(1) 2017, section 3).
+const MOMENTS_BIAS_UNORM16: MomentBias = MomentBias(6e-5, 0.628, 0.628);
+const MOMENTS_BIAS_FLOAT16: MomentBias = MomentBias(1e-3, 0.628, 0.628);
+const MOMENTS_BIAS_FLOAT32: MomentBias = MomentBias(1.5e-6, 0.375, 0.375);
+
+// sqrt(3), which the optimised basis and its inverse are made of.
+const MOMENTS_SQRT_3: f32 = 1.7320508075688772;
+
+// The moments of a single depth z in [-1, 1]: its powers (i3D 2015, equation 2).
+fn moments_from_depth(z: f32) -> vec4f {
+    let square = z * z;
+    return vec4f(z, square, z * square, square * square);
+}
+
+// The optimised basis of JCGT 6(1) 2017 (equation 5, GDC 2016): maps the moments of depths in [-1, 1] into [0, 1]^4.
+fn moments_quantize(b: vec4f) -> vec4f {
+    return vec4f(
+        fma(1.5, b.x, fma(-2.0, b.z, 0.5)),
+        4.0 * (b.y - b.w),
+        fma(0.5 * MOMENTS_SQRT_3, b.x, fma(-2.0 / 9.0 * MOMENTS_SQRT_3, b.z, 0.5)),
+        0.5 * (b.y + b.w),
+    );
+}
+
+// Inverse of `moments_quantize`. Channels in [0, 1] give |b| <= 2.1, whatever they hold.
+fn moments_dequantize(channels: vec4f) -> vec4f {
+    let odd = channels.xz - 0.5;
+    return vec4f(
+        fma(-1.0 / 3.0, odd.x, MOMENTS_SQRT_3 * odd.y),
+        fma(0.125, channels.y, channels.w),
+        0.75 * fma(MOMENTS_SQRT_3, odd.y, -odd.x),
+        fma(-0.125, channels.y, channels.w),
+    );
+}
+
+// Moments that certainly lie in their ranges: odd ones in [-1, 1], even ones in [0, 1]. Float storage can hold
+// anything, and finite values beyond 1e15 would overflow further on.
+fn moments_clamp(b: vec4f) -> vec4f {
+    return clamp(b, vec4f(-1.0, 0.0, -1.0, 0.0), vec4f(1.0));
+}
+
+// What to write to a texel of the storage.
+fn moments_to_texel(b: vec4f, storage: u32) -> vec4f {
+    if storage == STORAGE_FLOAT32 {
+        return b;
+    }
+    let channels = saturate(moments_quantize(b));
+    if storage == STORAGE_FLOAT16 {
+        // Half precision is finest around zero, so the channels are centred there.
+        return storage_round_to_float16(channels - 0.5);
+    }
+    return channels;
+}
+
+// The moments in a (filtered) texel of the storage. Float storage can hold anything; `moments_clamp` comes before any
+// arithmetic that relies on ranges.
+fn moments_from_texel(texel: vec4f, storage: u32) -> vec4f {
+    if storage == STORAGE_FLOAT32 {
+        return texel;
+    }
+    if storage == STORAGE_FLOAT16 {
+        return moments_dequantize(texel + 0.5);
+    }
+    return moments_dequantize(texel);
+}
+
+// The moment bias of a storage.
+fn moments_bias_of(storage: u32) -> MomentBias {
+    if storage == STORAGE_FLOAT32 {
+        return MOMENTS_BIAS_FLOAT32;
+    }
+    if storage == STORAGE_FLOAT16 {
+        return MOMENTS_BIAS_FLOAT16;
+    }
+    return MOMENTS_BIAS_UNORM16;
+}
+
+// Applies the moment bias (i3D 2015, section 3.3). Written as a step towards the target: 1 - alpha would keep only a
+// few bits of alpha.
+fn moments_apply_bias(b: vec4f, bias: MomentBias) -> vec4f {
+    return fma(vec4f(bias.alpha), vec4f(0.0, bias.second, 0.0, bias.fourth) - b, b);
+}
+
+// The biased moments in a (filtered) texel of the storage, within [-2.1, 2.1]: for unorm storage if the channels are in
+// [0, 1], as no texture can help, and for float storage whatever finite numbers it holds.
+fn moments_biased_from_texel(texel: vec4f, storage: u32, bias: MomentBias) -> vec4f {
+    if storage == STORAGE_FLOAT32 {
+        return moments_apply_bias(moments_clamp(texel), bias);
+    }
+    // The inverse of the basis and the bias are both affine, and so one step. These biases are large enough for 1 - alpha.
+    let keep = 1.0 - bias.alpha;
+    let of_xy = keep * vec4f(-1.0 / 3.0, 0.125, -0.75, -0.125);
+    let of_zw = keep * vec4f(MOMENTS_SQRT_3, 1.0, 0.75 * MOMENTS_SQRT_3, 1.0);
+    // Odd moments are 0 for channels of one half, and float16 storage holds one half less.
+    let middle = select(vec4f(-0.5, 0.0, -0.5, 0.0), vec4f(0.0, 0.5, 0.0, 0.5), storage == STORAGE_FLOAT16);
+    let shift = fma(middle, of_xy + of_zw, bias.alpha * vec4f(0.0, bias.second, 0.0, bias.fourth));
+    let biased = fma(of_xy, texel.xyxy, fma(of_zw, texel.zwzw, shift));
+    if storage == STORAGE_FLOAT16 {
+        return moments_clamp(biased);
+    }
+    return biased;
+}
+
+// moment_shadows/hamburger.wgsl
+
+// Hamburger four-moment shadow mapping: the sharpest bounds on shadow intensity that four moments allow.
+//
+// Among all distributions on the real line with the given moments, the share of depth in front of the fragment is
+// smallest and largest for the canonical distribution that has the fragment depth and two more points as its support
+// (Peters & Klein, i3D 2015, Proposition 3 and Algorithm 3). The published evaluation divides by a coefficient that
+// vanishes when the fragment is at a Gauss node and takes the root of a difference that rounds below zero. This one
+// gives the same values without either:
+//   - the weight of a support point is its Christoffel number, a sum of positive terms;
+//   - support points interlace with the Gauss nodes, so the sign of P2 tells on which side of the fragment they lie;
+//   - where both sides have one, the discriminant of their quadratic is a sum of positive terms.
+
+// Support points farther than this from the mean have a weight below 1e-8, and squaring them must not overflow.
+const HAMBURGER_FARTHEST_SUPPORT: f32 = 1e4;
+
+// The leading coefficient stays above this, so that dividing by it is defined when the fragment is at a Gauss node.
+const HAMBURGER_SMALLEST_LEADING_COEFFICIENT: f32 = 1e-20;
+
+// The two support points besides the fragment, relative to the mean, for a fragment at x = z - b1.
+struct HamburgerSupport {
+    // x_1 < x < x_2 if the fragment is between the Gauss nodes. Elsewhere finite; x_1 is then the farthest point where
+    // x < 0, and without meaning where x > 0.
+    points: vec2f,
+    // Outside the Gauss nodes: whether x > 0.
+    above: bool,
+}
+
+// The support of the extremal distribution through the fragment at x, where P2(x) is `second_polynomial`.
+fn hamburger_support(factor: HankelFactor, x: f32, second_polynomial: f32) -> HamburgerSupport {
+    // -a y^2 + b y + c / 4 = 0 with a, c > 0, so both roots are real and 0 lies between them.
+    let a = max(-second_polynomial, HAMBURGER_SMALLEST_LEADING_COEFFICIENT);
+    let b = fma(factor.ratio, x, factor.shift * a);
+    let c = 4.0 * fma(factor.variance, a, factor.residue);
+    // The roots' magnitudes are sum / (2 a) and c / (2 sum); the greater one has the sign of b. No term cancels.
+    let sum = abs(b) + sqrt(fma(a, c, b * b));
+    let above = b >= 0.0;
+    let lower = select(sum, c, above) / select(a, sum, above);
+    let upper = select(c, sum, above) / select(sum, a, above);
+    let doubled = vec2f(
+        max(-lower, -2.0 * HAMBURGER_FARTHEST_SUPPORT),
+        min(upper, 2.0 * HAMBURGER_FARTHEST_SUPPORT),
+    );
+    return HamburgerSupport(0.5 * doubled, above);
+}
+
+// Both bounds for a fragment at x = z - b1, where P2(x) is `polynomial`.
+fn hamburger_bounds_at(factor: HankelFactor, x: f32, polynomial: f32) -> vec2f {
+    if polynomial >= 0.0 {
+        // Outside the Gauss nodes no support point lies beyond the fragment: no root is needed.
+        let weight = saturate(hankel_christoffel_number(factor, x, polynomial));
+        return select(vec2f(0.0, weight), vec2f(1.0 - weight, 1.0), x > 0.0);
+    }
+    let support = hamburger_support(factor, x, polynomial).points;
+    let below = hankel_christoffel_number(factor, support.x, hankel_second_polynomial(factor, support.x));
+    let above = hankel_christoffel_number(factor, support.y, hankel_second_polynomial(factor, support.y));
+    return saturate(vec2f(below, 1.0 - above));
+}
+
+// The lower one of them; where it is 0 the result is below 1e-8.
+fn hamburger_lower_bound_at(factor: HankelFactor, x: f32, polynomial: f32) -> f32 {
+    let support = hamburger_support(factor, x, polynomial);
+    // One Christoffel number serves all cases: at the fragment itself where it is above the Gauss nodes, or else at the
+    // support point below it. Where the fragment is below the Gauss nodes that one is at infinity, without weight.
+    let beyond = polynomial >= 0.0 && support.above;
+    let t = select(support.points.x, x, beyond);
+    let weight = saturate(hankel_christoffel_number(factor, t, hankel_second_polynomial(factor, t)));
+    return select(weight, 1.0 - weight, beyond);
+}
+
+// The sharp bounds of shadow intensity: x = inf S(z < fragment_depth), y = sup S(z <= fragment_depth) over all
+// distributions S with the moments `biased`, which are already biased by `alpha` >= 1e-7 and lie within [-2, 2].
+// Both are in [0, 1] for all such moments, valid or not, and every finite fragment depth; farther out than 1e4 the
+// fragment depth counts as 1e4. Error: |error| <= 8 * 2^-24 * (1 + sensitivity) where fma is fused.
+fn hamburger_bounds(biased: vec4f, fragment_depth: f32, alpha: f32) -> vec2f {
+    let factor = hankel_factor(biased, alpha);
+    let x = clamp(fragment_depth, -HAMBURGER_FARTHEST_SUPPORT, HAMBURGER_FARTHEST_SUPPORT) - biased.x;
+    return hamburger_bounds_at(factor, x, hankel_second_polynomial(factor, x));
+}
+
+// The lower one of `hamburger_bounds`, with fragment depths beyond the light's range counting as its ends; where the
+// bound is 0 the result is below 1e-8.
+fn hamburger_lower_bound(biased: vec4f, fragment_depth: f32, alpha: f32) -> f32 {
+    let factor = hankel_factor(biased, alpha);
+    let x = clamp(fragment_depth, -1.0, 1.0) - biased.x;
+    return hamburger_lower_bound_at(factor, x, hankel_second_polynomial(factor, x));
+}
+
+// Shadow intensity in [0, 1] (1 = shadowed) of a fragment at `fragment_depth` (moment depth) under the filtered moments
+// of its map: the lower bound, never darker than the truth but for the bias. Moments may be anything finite; fragment
+// depths beyond the light's range count as its ends.
+fn hamburger_shadow_intensity(moments: vec4f, fragment_depth: f32, bias: MomentBias) -> f32 {
+    return hamburger_lower_bound(moments_apply_bias(moments_clamp(moments), bias), fragment_depth, bias.alpha);
+}
+
+// The same for a filtered texel of a storage, with the bias of the storage. Cheaper, since decoding and bias are one step
+// and a texel of unorm storage needs no clamping.
+fn hamburger_shadow_intensity_of_texel(texel: vec4f, fragment_depth: f32, storage: u32) -> f32 {
+    let bias = moments_bias_of(storage);
+    return hamburger_lower_bound(moments_biased_from_texel(texel, storage, bias), fragment_depth, bias.alpha);
+}
+
+// moment_shadows/map_load.wgsl
+
+// Lookups in a map that a device cannot filter, and where a sampler would read across the edge of a region: bilinear,
+// trilinear, averaged over a footprint. `uv`, `levels` and regions are those of `map_lookup`.
+//
+// Texels are loaded and blended here, in f32, while hardware may use weights of as few as 8 bits. Blending texels of moments
+// is a convex combination, so it keeps moments valid.
+
+// The bilinearly filtered texel on one mip level. `uv` is finite; values outside [0, 1] count as the nearer edge.
+fn map_load_bilinear(map: texture_2d_array<f32>, layer: u32, region: MapRegion, uv: vec2f, level: u32) -> vec4f {
+    let rectangle = map_region_at_level(region, level);
+    let place = map_region_place(rectangle, uv) - 0.5;
+    let base = floor(place);
+    let weight = place - base;
+    let low = vec2i(base);
+    let high = min(low + 1, vec2i(rectangle.origin + rectangle.extent) - 1);
+    let top = mix(textureLoad(map, low, layer, level), textureLoad(map, vec2i(high.x, low.y), layer, level), weight.x);
+    let bottom = mix(textureLoad(map, vec2i(low.x, high.y), layer, level), textureLoad(map, high, layer, level), weight.x);
+    return mix(top, bottom, weight.y);
+}
+
+// The same, blended between the two mip levels next to `level` >= 0, as far as the region has texels there.
+fn map_load_trilinear(map: texture_2d_array<f32>, layer: u32, region: MapRegion, levels: u32, uv: vec2f, level: f32) -> vec4f {
+    let last = map_region_last_level(region, levels);
+    let fine = min(u32(clamp(level, 0.0, 31.0)), last);
+    let texel = map_load_bilinear(map, layer, region, uv, fine);
+    let blend = level - f32(fine);
+    if fine == last || blend <= 0.0 {
+        return texel;
+    }
+    return mix(texel, map_load_bilinear(map, layer, region, uv, fine + 1u), blend);
+}
+
+// The average over a footprint around `uv`: trilinear probes along its major axis.
+fn map_load_footprint(map: texture_2d_array<f32>, layer: u32, region: MapRegion, levels: u32, uv: vec2f, footprint: MinificationFootprint) -> vec4f {
+    let per_texel = 1.0 / max(vec2f(region.extent), vec2f(1.0));
+    var sum = vec4f(0.0);
+    for (var probe = 0.0; probe < footprint.probes; probe += 1.0) {
+        let probe_uv = uv + minification_probe(footprint, probe) * per_texel;
+        sum += map_load_trilinear(map, layer, region, levels, probe_uv, footprint.level);
+    }
+    return sum / footprint.probes;
+}
+
+// moments_lookup
+
+// The lookup in a map that the device cannot filter, or not as well over a pixel.
+
+@group(GROUP) @binding(2) var moments_map: texture_2d_array<f32>;
+
+// The texel at `uv` in [0, 1] across a region, filtered over a pixel with these differences of place to its neighbours.
+fn moments_lookup(layer: u32, region: MapRegion, uv: vec2f, difference_x: vec2f, difference_y: vec2f) -> vec4f {
+    if LEVELS == 1u {
+        return map_load_bilinear(moments_map, layer, region, uv, 0u);
+    }
+    let footprint = minification_footprint(difference_x, difference_y, ANISOTROPY);
+    return map_load_footprint(moments_map, layer, region, LEVELS, uv, footprint);
+}
+
+// technique_receiver
+
+// What a technique is told about a surface that a view of a light contains.
+
+struct TechniqueReceiver {
+    // The map's layer, and the region with texels.
+    layer: u32,
+    region: MapRegion,
+    // The place from 0 to 1 across the region, and how it changes, in texels, to the pixels beside and below.
+    uv: vec2f,
+    difference_x: vec2f,
+    difference_y: vec2f,
+    // The gradient of moment depth per texel on the surface.
+    gradient: vec2f,
+    // Moment depth: less the receiver bias, and less what depths are rounded by alone.
+    fragment_depth: f32,
+    depth: f32,
+    // The steepest slope per texel that is no edge.
+    steepest: f32,
+    // How the light's map stores depth, and the light's size: for tests on the plain depth map.
+    conversion: DepthConversion,
+    light: PercentageCloserSoftLight,
+    // The pixel's coordinates.
+    pixel: vec2f,
+}
+
+// map_texel
+
+// The filtered texel of a plane of the map at a receiver.
+fn map_texel(receiver: TechniqueReceiver, plane: u32) -> vec4f {
+    return moments_lookup(receiver.layer * PLANES + plane, receiver.region, receiver.uv, receiver.difference_x, receiver.difference_y);
+}
+
+// technique
+
+fn technique_shadow_intensity(receiver: TechniqueReceiver) -> f32 {
+    return hamburger_shadow_intensity_of_texel(map_texel(receiver, 0u), receiver.fragment_depth, STORAGE);
+}
+
+// technique_map
+
+// Width and height of the map in texels.
+fn technique_map_size() -> vec2u {
+    return textureDimensions(moments_map);
+}
+
 // shade_hard.wgsl
 
-// Shadow intensity of every pixel, from the camera's depth and a map of moments. A view of a light is one region of one
+// Shadow intensity of every pixel, from the camera's depth and a light's map, by the technique of the map. A view of a light is one region of one
 // layer: a sun's cascade, a face of a point light, a spot light. Each light has a channel of the target.
 
 struct ShadeHardParameters {
@@ -622,6 +1200,9 @@ struct ShadeHardParameters {
     // The target's channel, 0 to 3. Of the views of one channel the first that contains a pixel shades it.
     channel: u32,
     padding: f32,
+    // How the light's map stores depth, and how large the light is: for tests on the plain depth map.
+    conversion: DepthConversion,
+    light: PercentageCloserSoftLight,
 }
 
 @group(GROUP) @binding(0) var<uniform> views: array<ShadeHardParameters, VIEWS>;
@@ -697,22 +1278,35 @@ fn receiver_difference(view: u32, neighbour: vec3f, receiver: Receiver, texels: 
 }
 
 // Shadow intensity of a receiver that a view contains.
-fn view_shadow_intensity(view: u32, receiver: Receiver, neighbour_x: vec3f, neighbour_y: vec3f, region: MapRegion) -> f32 {
+fn view_shadow_intensity(view: u32, pixel: vec2i, receiver: Receiver, neighbour_x: vec3f, neighbour_y: vec3f, region: MapRegion) -> f32 {
     let texels = vec2f(region.extent);
     let difference_x = receiver_difference(view, neighbour_x, receiver, texels);
     let difference_y = receiver_difference(view, neighbour_y, receiver, texels);
     let gradient = receiver_bias_plane(difference_x, difference_y);
-    var bias = receiver_bias_depth(views[view].receiver_bias, length(gradient));
+    let settings = views[view].receiver_bias;
+    var bias = receiver_bias_depth(settings, length(gradient));
     if LEVELS > 1u {
         let footprint = minification_footprint(difference_x.xy, difference_y.xy, ANISOTROPY);
         let variance = minification_depth_variance(footprint, gradient);
-        bias = receiver_bias_depth_minified(views[view].receiver_bias, length(gradient), variance);
+        bias = receiver_bias_depth_minified(settings, length(gradient), variance);
     }
     // The map holds a surface that leaves the light's range at the far end. The bias counts from there, since some of the
     // kernel may still see the surface within the range.
-    let fragment_depth = min(receiver.place.z, 1.0) - bias;
-    let texel = moments_lookup(views[view].layer, region, receiver.place.xy, difference_x.xy, difference_y.xy);
-    let intensity = hamburger_shadow_intensity_of_texel(texel, fragment_depth, STORAGE);
+    let depth = min(receiver.place.z, 1.0);
+    let intensity = technique_shadow_intensity(TechniqueReceiver(
+        views[view].layer,
+        region,
+        receiver.place.xy,
+        difference_x.xy,
+        difference_y.xy,
+        gradient,
+        depth - bias,
+        depth - settings.constant,
+        (settings.maximum - settings.constant) / max(settings.slope_scale, 1e-30),
+        views[view].conversion,
+        views[view].light,
+        vec2f(pixel),
+    ));
     return leak_reduction_apply(intensity, views[view].leak_reduction);
 }
 
@@ -731,12 +1325,12 @@ fn shade(covered: Covered) -> @location(0) vec4f {
     var open_channels = vec4<bool>(true);
     for (var view = 0u; view < VIEWS; view++) {
         let channel = vec4<bool>(vec4u(views[view].channel) == vec4u(0u, 1u, 2u, 3u));
-        let region = map_region_within(views[view].region, textureDimensions(moments_map));
+        let region = map_region_within(views[view].region, technique_map_size());
         let receiver = receiver_at(view, pixel, stored_depth);
         let uv = receiver.place.xy;
         let inside = receiver.light_w > 0.0 && all(uv >= vec2f(0.0)) && all(uv <= vec2f(1.0));
         if inside && all(region.extent > vec2u(0u)) && any(channel & open_channels) {
-            let intensity = view_shadow_intensity(view, receiver, neighbour_x, neighbour_y, region);
+            let intensity = view_shadow_intensity(view, pixel, receiver, neighbour_x, neighbour_y, region);
             intensities = select(intensities, vec4f(intensity), channel);
             open_channels = open_channels & !channel;
         }

@@ -1,0 +1,356 @@
+//! Every technique x storage x profile: what is legal compiles, and what is not is refused with the names of what is.
+
+use moment_shadows::{Finite, MapEncoding, Profile, Storage, Technique, TechniqueError};
+use moment_shadows_graph::{Capabilities, GraphErrorKind};
+use moment_shadows_lab::techniques;
+
+use crate::example::{TEXT, compiled, edited, native};
+
+const STORAGES: [Storage; 4] = [
+    Storage::Unorm8,
+    Storage::Unorm16,
+    Storage::Float16,
+    Storage::Float32,
+];
+
+/// The example made for a technique, in JSON, and a storage.
+fn example(technique: &str, storage: &str) -> String {
+    edited(
+        "\"storage\": \"unorm16\"",
+        &format!("\"technique\": {technique}, \"storage\": \"{storage}\""),
+    )
+}
+
+/// What each technique can be stored as, and under which profile at least.
+fn expected(name: &str, storage: Storage) -> Option<Profile> {
+    use Profile::{Native, NativeAdapter, WebgpuCore};
+    use Storage::{Float16, Float32, Unorm8, Unorm16};
+    match (name, storage) {
+        ("hamburger4" | "hausdorff4" | "lvsm", Unorm16) => Some(Native),
+        ("hamburger4" | "hausdorff4" | "lvsm", Float16 | Float32) => Some(WebgpuCore),
+        ("vsm" | "esm", Unorm16) => Some(Native),
+        // Half-precision textures of one or two channels can be written where the adapter says so.
+        ("vsm" | "esm" | "evsm2", Float16) => Some(NativeAdapter),
+        ("vsm" | "esm" | "evsm2" | "evsm4", Float32) => Some(WebgpuCore),
+        ("evsm4", Float16) => Some(WebgpuCore),
+        ("convolution", Unorm8 | Float16) => Some(WebgpuCore),
+        ("convolution", Unorm16) => Some(Native),
+        _ => None,
+    }
+}
+
+/// Settings that suit every storage.
+const TECHNIQUES: [(&str, &str); 9] = [
+    ("hamburger4", "\"hamburger4\""),
+    ("hausdorff4", "\"hausdorff4\""),
+    ("vsm", "\"vsm\""),
+    ("esm", r#"{ "esm": { "exponent": 2 } }"#),
+    (
+        "esm",
+        r#"{ "esm": { "exponent": 2, "filtering": "logarithmic" } }"#,
+    ),
+    ("evsm2", r#"{ "evsm2": { "exponent": 5 } }"#),
+    ("evsm4", r#"{ "evsm4": { "positive": 5, "negative": 5 } }"#),
+    ("lvsm", r#"{ "lvsm": { "layers": 5, "overlap": 0.01 } }"#),
+    ("convolution", r#"{ "convolution": { "terms": 7 } }"#),
+];
+
+#[test]
+fn the_whole_matrix_is_accepted_or_refused_as_the_table_says() {
+    let mut legal = 0;
+    for (name, json) in TECHNIQUES {
+        for storage in STORAGES {
+            for profile in Profile::ALL {
+                let capabilities = Capabilities::of_profile(profile);
+                let result = compiled(&example(json, storage.name()), &capabilities);
+                let least = expected(name, storage);
+                let case = format!("{name}, {storage}, {profile}");
+                let reached = |least| {
+                    let place = |wanted| Profile::ALL.iter().position(|p| *p == wanted);
+                    place(profile) >= place(least)
+                };
+                match (least, result) {
+                    (Some(least), Ok(_)) => {
+                        assert!(reached(least), "{case} is accepted");
+                        legal += 1;
+                    }
+                    (Some(least), Err(error)) => {
+                        assert!(!reached(least), "{case}: {error}");
+                        assert_eq!(error.kind, GraphErrorKind::Capability, "{case}: {error}");
+                        // The storage that is named instead works.
+                        let text = error.to_string();
+                        let other = STORAGES
+                            .into_iter()
+                            .find(|other| text.contains(&format!("'{other}'")))
+                            .unwrap();
+                        compiled(&example(json, other.name()), &capabilities).unwrap();
+                    }
+                    (None, Ok(_)) => panic!("{case} is accepted"),
+                    (None, Err(error)) => {
+                        assert_eq!(error.kind, GraphErrorKind::Property, "{case}: {error}");
+                        assert_eq!(error.node.as_deref(), Some("resolve"));
+                        // All legal ones are named, and no other.
+                        let text = error.to_string();
+                        let (_, named) = text.split_once("it can as").unwrap();
+                        for other in STORAGES {
+                            let is_named = named.contains(other.name());
+                            assert_eq!(is_named, expected(name, other).is_some(), "{text}");
+                        }
+                    }
+                }
+            }
+        }
+    }
+    assert_eq!(legal, 60);
+}
+
+#[test]
+fn the_best_storage_is_legal_and_writable() {
+    for encoding in techniques::filterable() {
+        let technique = encoding.technique();
+        for profile in Profile::ALL {
+            let best = technique.best_storage(profile).unwrap();
+            let limits = MapEncoding::new(technique.clone(), best);
+            // Exponents may be too large for another storage.
+            if let Ok(best) = limits {
+                best.check(profile).unwrap();
+            }
+        }
+    }
+    for technique in techniques::reading_depth() {
+        assert_eq!(technique.best_storage(Profile::Native), None);
+        assert!(matches!(
+            MapEncoding::new(technique, Storage::Float32),
+            Err(TechniqueError::ReadsDepth { .. })
+        ));
+    }
+}
+
+#[test]
+fn settings_out_of_range_are_refused_with_their_range() {
+    for (technique, storage, expected) in [
+        (
+            r#"{ "esm": { "exponent": 88 } }"#,
+            "float32",
+            "from 1 to 87",
+        ),
+        (
+            r#"{ "esm": { "exponent": 9.8 } }"#,
+            "float16",
+            "from 1 to 9.7",
+        ),
+        (
+            r#"{ "esm": { "exponent": 3.1 } }"#,
+            "unorm16",
+            "from 1 to 3",
+        ),
+        (r#"{ "esm": { "exponent": 0 } }"#, "float32", "from 1 to 87"),
+        (
+            r#"{ "evsm2": { "exponent": 44.4 } }"#,
+            "float32",
+            "from 1 to 43.6",
+        ),
+        (
+            r#"{ "evsm4": { "positive": 5, "negative": 5.6 } }"#,
+            "float16",
+            "the exponent 5.6",
+        ),
+        (
+            r#"{ "lvsm": { "layers": 0 } }"#,
+            "unorm16",
+            "0 layers; it can have 1 to 8",
+        ),
+        (
+            r#"{ "lvsm": { "layers": 9 } }"#,
+            "unorm16",
+            "9 layers; it can have 1 to 8",
+        ),
+        (
+            r#"{ "lvsm": { "layers": 2, "overlap": -0.1 } }"#,
+            "unorm16",
+            "from 0 to 0.5",
+        ),
+        (
+            r#"{ "lvsm": { "layers": 3, "splits": { "given": [0.5, 0.2] } } }"#,
+            "unorm16",
+            "2 ascending moment depths",
+        ),
+        (
+            r#"{ "lvsm": { "layers": 3, "splits": { "given": [0.5] } } }"#,
+            "unorm16",
+            "2 ascending moment depths",
+        ),
+        (
+            r#"{ "convolution": { "terms": 0 } }"#,
+            "unorm8",
+            "0 terms; it can have 1 to 16",
+        ),
+        (
+            r#"{ "convolution": { "terms": 17 } }"#,
+            "unorm8",
+            "17 terms; it can have 1 to 16",
+        ),
+        ("\"binary\"", "float32", "connect the map to 'depth'"),
+    ] {
+        let error = compiled(&example(technique, storage), &native()).unwrap_err();
+        assert_eq!(error.kind, GraphErrorKind::Property, "{technique}: {error}");
+        assert!(error.to_string().contains(expected), "{technique}: {error}");
+    }
+}
+
+/// Shading with the plain depth map.
+fn reading_depth(technique: &str) -> String {
+    TEXT.replace("\"samples\": 4", "\"samples\": 1")
+        .replace(
+            "\"type\": \"shade_hard\"",
+            &format!("\"type\": \"shade_hard\", \"properties\": {{ \"technique\": {technique} }}"),
+        )
+        .replace(
+            "{ \"from\": \"blur.blurred\", \"to\": \"shade.moments\" }",
+            "{ \"from\": \"light_depth\", \"to\": \"shade.depth\" }",
+        )
+}
+
+#[test]
+fn tests_on_the_plain_depth_map_need_no_other_node() {
+    for technique in techniques::reading_depth() {
+        let json = serde_json::to_string(&technique).unwrap();
+        let plan = compiled(&reading_depth(&json), &native()).unwrap();
+        // What nobody reads is not recorded.
+        assert_eq!(plan.passes.len(), 1, "{technique}");
+        assert_eq!(plan.memory.len(), 1, "{technique}");
+    }
+    for (technique, expected) in [
+        (r#"{ "pcf": { "box": { "radius": 65 } } }"#, "from 0 to 64"),
+        (
+            r#"{ "pcf": { "gaussian": { "radius": 4, "sigma": 0 } } }"#,
+            "positive",
+        ),
+        (
+            r#"{ "pcf": { "weights": [1, 2] } }"#,
+            "2 weights are no filter",
+        ),
+        (
+            r#"{ "pcf": { "weights": [1, -1, 1] } }"#,
+            "3 weights are no filter",
+        ),
+        (
+            r#"{ "pcss": { "search_taps": 0, "filter_taps": 1 } }"#,
+            "0 search taps",
+        ),
+        (
+            r#"{ "pcss": { "search_taps": 1, "filter_taps": 5000 } }"#,
+            "5000 filter taps",
+        ),
+    ] {
+        let error = compiled(&reading_depth(technique), &native()).unwrap_err();
+        assert_eq!(error.kind, GraphErrorKind::Property, "{technique}: {error}");
+        assert!(error.to_string().contains(expected), "{technique}: {error}");
+    }
+    // Several samples cannot be compared.
+    let text = reading_depth("\"binary\"").replace("\"samples\": 1", "\"samples\": 4");
+    let error = compiled(&text, &native()).unwrap_err();
+    assert_eq!(error.kind, GraphErrorKind::Format);
+}
+
+#[test]
+fn a_map_is_shaded_by_the_technique_it_was_made_for() {
+    let with = |technique: &str| {
+        TEXT.replace(
+            "\"type\": \"shade_hard\"",
+            &format!("\"type\": \"shade_hard\", \"properties\": {{ \"technique\": {technique} }}"),
+        )
+    };
+    // Four moments serve both.
+    compiled(&with("\"hausdorff4\""), &native()).unwrap();
+    let error = compiled(&with("\"vsm\""), &native()).unwrap_err();
+    assert_eq!(error.kind, GraphErrorKind::Format);
+    let text = error.to_string();
+    assert!(text.contains("made for 'hamburger4'") && text.contains("'vsm' cannot read it"));
+    // The exponent is part of the map.
+    let esm = example(r#"{ "esm": { "exponent": 80 } }"#, "float32").replace(
+        "\"type\": \"shade_hard\"",
+        "\"type\": \"shade_hard\", \"properties\": { \"technique\": { \"esm\": { \"exponent\": 81 } } }",
+    );
+    let error = compiled(&esm, &native()).unwrap_err();
+    assert_eq!(error.kind, GraphErrorKind::Format, "{error}");
+}
+
+#[test]
+fn planes_are_texture_layers() {
+    let lvsm = example(r#"{ "lvsm": { "layers": 7 } }"#, "unorm16");
+    let plan = compiled(&lvsm, &native()).unwrap();
+    let map = plan
+        .resources
+        .iter()
+        .find(|resource| resource.name == "blur.blurred")
+        .unwrap();
+    let map = map.desc.texture().unwrap();
+    assert_eq!((map.planes, map.layers, map.array_layers()), (4, 1, 4));
+    assert_eq!(map.bytes(), 4 * 8 * 1024 * 1024);
+    // The blur's planes take turns with one intermediate map.
+    let half = plan
+        .resources
+        .iter()
+        .find(|resource| resource.name == "blur.half_blurred")
+        .unwrap();
+    assert_eq!(half.desc.texture().unwrap().array_layers(), 1);
+    let labels: Vec<&str> = plan.passes.iter().map(|pass| pass.label.as_str()).collect();
+    assert_eq!(labels[..2], ["resolve plane 0", "resolve plane 1"]);
+    assert_eq!(
+        labels[4..6],
+        ["plane 0: blur along x", "plane 0: blur along y"]
+    );
+    assert_eq!(labels.len(), 4 + 8 + 1);
+    // As many layers as the device has, planes included.
+    let many = lvsm.replace("\"samples\": 4", "\"layers\": 65");
+    let error = compiled(&many, &native()).unwrap_err();
+    assert!(
+        error
+            .to_string()
+            .contains("260 layers; the device allows 256"),
+        "{error}"
+    );
+}
+
+#[test]
+fn placed_layers_come_from_an_input() {
+    let lvsm = example(
+        r#"{ "lvsm": { "layers": 4, "splits": "lloyd" } }"#,
+        "unorm16",
+    );
+    let error = compiled(&lvsm, &native()).unwrap_err();
+    assert_eq!(error.kind, GraphErrorKind::MissingInput, "{error}");
+    assert_eq!(error.slot.as_deref(), Some("splits"));
+}
+
+#[test]
+fn logarithms_have_no_mip_levels() {
+    let text = example(
+        r#"{ "esm": { "exponent": 80, "filtering": "logarithmic" } }"#,
+        "unorm16",
+    )
+    .replace("\"sigma\": 2.4 }", "\"sigma\": 2.4 }, \"mip_levels\": 4")
+    .replace(
+        "{ \"from\": \"blur.blurred\", \"to\": \"shade.moments\" }",
+        "{ \"from\": \"blur.blurred\", \"to\": \"downsample.moments\" },
+    { \"from\": \"downsample.moments\", \"to\": \"shade.moments\" }",
+    )
+    .replace(
+        "{ \"name\": \"shade\"",
+        "{ \"name\": \"downsample\", \"type\": \"downsample_moments\" },
+    { \"name\": \"shade\"",
+    );
+    let error = compiled(&text, &native()).unwrap_err();
+    assert_eq!(error.kind, GraphErrorKind::Property, "{error}");
+    assert!(error.to_string().contains("no mip levels"), "{error}");
+}
+
+#[test]
+fn numbers_that_are_none_are_no_settings() {
+    for value in [f32::NAN, f32::INFINITY] {
+        assert!(Finite::new(value).is_err());
+    }
+    assert_eq!(Finite::new(-0.0).unwrap(), Finite::ZERO);
+    assert_eq!(Technique::default().name(), "hamburger4");
+}
