@@ -252,12 +252,14 @@ fn plane_depth(query: &Query, texel: [u32; 2]) -> f64 {
     // The distance from the light is the receiver's over a linear function.
     let reach = depth - light;
     let divisor = 1.0 - rise / reach;
+    let bias = f64::from(query.bias);
     let plane = if divisor <= 0.0 {
         1.0
     } else if light < -1e20 {
-        depth + rise
+        depth - bias + rise
     } else {
-        light + reach / divisor
+        // The bias shrinks all distances alike.
+        light + (reach - bias) / divisor
     };
     plane.min(1.0)
 }

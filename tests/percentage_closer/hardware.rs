@@ -149,3 +149,35 @@ fn on_a_slope_casters_that_stand_clear_of_it_are_found() {
         );
     }
 }
+
+#[test]
+fn nothing_is_nearer_than_the_near_end() {
+    let gpu = device::open();
+    let shader = Shader::new(&gpu, IMPORTS, BODY);
+    // A caster in front of the range of moment depth.
+    let map = device::map(
+        &gpu,
+        wgpu::TextureFormat::Depth32Float,
+        SIZE,
+        &[vec![0.1; (SIZE[0] * SIZE[1]) as usize]],
+    );
+    let ask = |depth, taps| Query {
+        taps,
+        ..Query::new([0.5, 0.5], depth, SIZE)
+    };
+    let queries = [
+        ask(-1.0, 0),
+        ask(-1.0, 1),
+        ask(-2.0, 1),
+        ask(-0.99, 0),
+        ask(-0.99, 1),
+    ];
+    let found = shader.run(
+        &map,
+        wgpu::CompareFunction::Greater,
+        Convention::Linear.conversion(),
+        &[0; 16],
+        &queries,
+    );
+    assert_eq!(found, [0.0, 0.0, 0.0, 1.0, 1.0]);
+}

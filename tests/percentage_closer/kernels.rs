@@ -48,6 +48,8 @@ fn query(random: &mut ChaCha8Rng, convention: Convention) -> Query {
         gradient: [(); 2].map(|()| random.random_range(-0.05..0.05)),
         light_depth: if perspective { -1.25 } else { -1e30 },
         interpolated: random.random_range(0..2),
+        // Not past the light.
+        bias: random.random_range(-0.1..0.1),
         ..Query::new(uv, random.random_range(-1.1..1.2), SIZE)
     }
 }
@@ -175,5 +177,101 @@ fn the_largest_kernels_are_cut_off_at_64() {
             (found - expected).abs() < 1e-5_f32,
             "{found}, not {expected}"
         );
+    }
+}
+
+#[test]
+fn gradients_are_shortened_to_the_steepest() {
+    let gpu = device::open();
+    let shader = Shader::new(&gpu, IMPORTS, BODY);
+    let mut random = ChaCha8Rng::seed_from_u64(5);
+    let convention = Convention::Orthographic { reversed: false };
+    let stored = random_depths(&mut random, SIZE, convention);
+    let map = device::map(
+        &gpu,
+        wgpu::TextureFormat::Depth32Float,
+        SIZE,
+        &[stored.clone()],
+    );
+    let layer = Layer::new(SIZE, convention, &stored);
+    let mut differ = 0;
+    for (gradient, steepest, shortened) in [
+        ([0.3, -0.4], 0.05, [0.03, -0.04]),
+        ([1e15, 0.0], 0.02, [0.02, 0.0]),
+        ([0.03, 0.04], 0.06, [0.03, 0.04]),
+        ([0.3, 0.4], 0.0, [0.0, 0.0]),
+    ] {
+        let queries: Vec<Query> = (0..50)
+            .map(|_| Query {
+                gradient,
+                steepest,
+                radius: 3.0,
+                taps: 1,
+                ..Query::new(
+                    [(); 2].map(|()| random.random_range(0.0..1.0)),
+                    random.random_range(-0.5..0.5),
+                    SIZE,
+                )
+            })
+            .collect();
+        let answers = shader.run(
+            &map,
+            wgpu::CompareFunction::Greater,
+            convention.conversion(),
+            &[0; 544],
+            &queries,
+        );
+        for (query, answer) in queries.iter().zip(answers) {
+            let shortened = Query {
+                gradient: shortened,
+                ..*query
+            };
+            let [low, high] = intensity(&layer, &shortened, &[1.0; 7], false);
+            let answer = f64::from(answer);
+            // Sums of 49 equal weights.
+            assert!(
+                answer > low - 1e-6 && answer < high + 1e-6,
+                "{answer}, not {low} to {high} for {query:?}"
+            );
+            differ += usize::from(intensity(&layer, query, &[1.0; 7], false)[0] != low);
+        }
+    }
+    assert!(differ > 100, "only {differ} depend on the limit");
+}
+
+#[test]
+fn weights_that_are_not_positive_count_for_nothing() {
+    let gpu = device::open();
+    let shader = Shader::new(&gpu, IMPORTS, BODY);
+    let map = device::map(
+        &gpu,
+        wgpu::TextureFormat::Depth32Float,
+        [4, 4],
+        &[vec![0.0; 16]],
+    );
+    let conversion = Convention::Orthographic { reversed: false }.conversion();
+    let query = Query {
+        taps: 3,
+        ..Query::new([0.5, 0.5], 0.5, [4, 4])
+    };
+    for (weights, expected) in [
+        ([0.0; 3], 0.0),
+        ([-1.0, -2.0, -3.0], 0.0),
+        ([-5.0, 1.0, f32::MAX], 1.0),
+    ] {
+        let mut kernel = PercentageCloserKernel {
+            radius: 1,
+            padding: [0; 3],
+            weights: [[0.0; 4]; 33],
+        };
+        kernel.weights.as_flattened_mut()[..3].copy_from_slice(&weights);
+        let found = shader.run(
+            &map,
+            wgpu::CompareFunction::Greater,
+            conversion,
+            bytemuck::bytes_of(&kernel),
+            &[query],
+        );
+        assert_eq!(found, [expected], "{weights:?}");
     }
 }

@@ -90,7 +90,8 @@ fn settings() -> [Setting; 3] {
 /// What the map holds for something at a distance along the axis.
 fn stored_depth(light: &LightView, distance: f64) -> f32 {
     let clip = light.clip_from_view * DVec3::new(0.0, 0.0, -distance).extend(1.0);
-    (clip.z / clip.w) as f32
+    // A depth buffer ends at its planes.
+    (clip.z / clip.w).clamp(0.0, 1.0) as f32
 }
 
 /// Moment depth, not clamped, of a plane at a texel of the region.
@@ -145,8 +146,7 @@ fn a_plane_is_lit_by_itself_and_shadowed_by_what_is_in_front_of_it() {
                     vec![stored_depth(&light, light.range[0]); (SIZE[0] * SIZE[1]) as usize];
                 for y in 0..REGION.extent[1] {
                     for x in 0..REGION.extent[0] {
-                        let z = depth(DVec2::new(f64::from(x) + 0.5, f64::from(y) + 0.5))
-                            .clamp(-1.0, 1.0);
+                        let z = depth(DVec2::new(f64::from(x) + 0.5, f64::from(y) + 0.5)).max(-1.0);
                         let distance =
                             light.range[0] + 0.5 * (z + 1.0) * (light.range[1] - light.range[0]);
                         let texel = (y + REGION.origin[1]) * SIZE[0] + x + REGION.origin[0];

@@ -242,6 +242,9 @@ fn any_counts_of_taps_agree_on_what_is_lit_and_what_is_dark() {
     let (counted, lit) = found.split_at(found.len() - 2);
     for (place, query) in counted.chunks_exact(3).zip(queries.chunks_exact(3)) {
         assert_eq!([place[0], place[2]], [1.0, 0.0], "{:?}", query[0]);
+        // A single tap finds nothing but blockers, or none.
+        let one = query[0].taps <= 1;
+        assert!(!one || place[1] == 0.0 || place[1] == 1.0, "{}", place[1]);
         let enough = query[0].taps >= 16 && query[0].radius >= 16.0;
         assert!(
             !enough || (place[1] - 0.5).abs() < 0.13,
