@@ -191,7 +191,7 @@ fn gradients_are_shortened_to_the_steepest() {
         &gpu,
         wgpu::TextureFormat::Depth32Float,
         SIZE,
-        &[stored.clone()],
+        std::slice::from_ref(&stored),
     );
     let layer = Layer::new(SIZE, convention, &stored);
     let mut differ = 0;

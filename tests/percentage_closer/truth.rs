@@ -55,7 +55,7 @@ fn answer(query: Query, plane: ReceiverPlane) -> f32 {
         &gpu,
         wgpu::TextureFormat::Depth32Float,
         SIZE,
-        &[values.clone()],
+        std::slice::from_ref(&values),
     );
     let samples = DepthSamples {
         width: SIZE[0],
