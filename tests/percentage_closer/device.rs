@@ -51,7 +51,7 @@ impl Query {
 const DECLARATIONS: &str = "
 import moment_shadows::depth::{DepthConversion};
 import moment_shadows::map_region::{MapRegion};
-import moment_shadows::receiver_plane::{ReceiverPlane, receiver_plane_through};
+import moment_shadows::receiver_plane::{ReceiverPlane, receiver_plane_biased, receiver_plane_through};
 
 struct Query {
     uv: vec2f,
@@ -80,7 +80,7 @@ struct Query {
 fn main(@builtin(global_invocation_id) id: vec3u) {
     if id.x < arrayLength(&queries) {
         let query = queries[id.x];
-        let plane = receiver_plane_through(query.uv, query.depth, query.bias, query.gradient, query.steepest, query.light_depth);
+        let plane = receiver_plane_biased(receiver_plane_through(query.uv, query.depth, query.gradient, query.steepest, query.light_depth), query.bias);
         answers[id.x] = answer(query, plane);
     }
 }
