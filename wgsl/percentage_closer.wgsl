@@ -115,26 +115,27 @@ fn percentage_closer_filter(map: texture_depth_2d_array, layer: u32, region: Map
     return clamp(sum / total, 0.0, 1.0);
 }
 
-// The weight of an offset along one axis in a kernel of that radius.
-fn percentage_closer_kernel_weight(kernel: PercentageCloserKernel, offset: i32, reach: i32) -> f32 {
+// The weight of an offset along one axis in a kernel of that radius. A copy of all weights per tap would cost more than the tap.
+fn percentage_closer_kernel_weight(weights: ptr<function, array<vec4f, 33>>, offset: i32, reach: i32) -> f32 {
     if abs(offset) > reach {
         return 0.0;
     }
     let index = u32(offset + reach);
-    return clamp(kernel.weights[index / 4u][index % 4u], 0.0, 1e9);
+    return clamp((*weights)[index / 4u][index % 4u], 0.0, 1e9);
 }
 
 // The same with any separable kernel. Without a positive weight nothing is shadowed.
 fn percentage_closer_kernel(map: texture_depth_2d_array, layer: u32, region: MapRegion, plane: ReceiverPlane, conversion: DepthConversion, kernel: PercentageCloserKernel, interpolated: bool) -> f32 {
     let reach = i32(min(kernel.radius, u32(PERCENTAGE_CLOSER_LARGEST_RADIUS)));
+    var weights = kernel.weights;
     let place = percentage_closer_place(region, plane, interpolated);
     let end = reach + select(0, 1, interpolated);
     var sum = 0.0;
     var total = 0.0;
     for (var y = -reach; y <= end; y++) {
-        let row = mix(percentage_closer_kernel_weight(kernel, y, reach), percentage_closer_kernel_weight(kernel, y - 1, reach), place.fraction.y);
+        let row = mix(percentage_closer_kernel_weight(&weights, y, reach), percentage_closer_kernel_weight(&weights, y - 1, reach), place.fraction.y);
         for (var x = -reach; x <= end; x++) {
-            let column = mix(percentage_closer_kernel_weight(kernel, x, reach), percentage_closer_kernel_weight(kernel, x - 1, reach), place.fraction.x);
+            let column = mix(percentage_closer_kernel_weight(&weights, x, reach), percentage_closer_kernel_weight(&weights, x - 1, reach), place.fraction.x);
             sum = fma(row * column, percentage_closer_tap(map, layer, region, plane, conversion, place.base + vec2i(x, y)), sum);
             total = fma(row, column, total);
         }

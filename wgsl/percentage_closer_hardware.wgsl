@@ -1,5 +1,5 @@
 import super::depth::{DepthConversion, depth_from_moment_depth};
-import super::map_region::{MapRegion, map_region_place};
+import super::map_region::{MapRegion};
 import super::receiver_plane::{ReceiverPlane, receiver_plane_depth};
 
 // Percentage closer filtering by comparison samplers: each tap tests 2 x 2 texels and blends the results, as hardware does
@@ -10,6 +10,10 @@ import super::receiver_plane::{ReceiverPlane, receiver_plane_depth};
 
 // The largest radius of a kernel in texels.
 const PERCENTAGE_CLOSER_HARDWARE_LARGEST_RADIUS: i32 = 64;
+
+// How far, in texels, taps keep from the border of a region beyond the half texel that a filter reaches: coordinates are
+// rounded, and by less than that in maps of up to 16384 texels. Where a region is a single texel wide, there is no room for it.
+const PERCENTAGE_CLOSER_HARDWARE_INSET: f32 = 0.001953125;
 
 // One tap at `place`, in texels from the region's origin, at least half a texel inside of the region: the share in [0, 1] of
 // the four texels around it, weighted bilinearly, that are nearer to the light than the receiver's plane.
@@ -34,11 +38,12 @@ fn percentage_closer_hardware_box(map: texture_depth_2d_array, comparison: sampl
     }
     let reach = clamp(radius, 0, PERCENTAGE_CLOSER_HARDWARE_LARGEST_RADIUS);
     let extent = vec2f(region.extent);
-    let centre = map_region_place(MapRegion(vec2u(0u), region.extent), plane.uv);
+    let low = min(vec2f(0.5 + PERCENTAGE_CLOSER_HARDWARE_INSET), 0.5 * extent);
+    let centre = clamp(plane.uv * extent, low, extent - low);
     var sum = 0.0;
     for (var y = -reach; y <= reach; y++) {
         for (var x = -reach; x <= reach; x++) {
-            let place = clamp(centre + vec2f(vec2i(x, y)), vec2f(0.5), extent - 0.5);
+            let place = clamp(centre + vec2f(vec2i(x, y)), low, extent - low);
             sum += percentage_closer_hardware_tap(map, comparison, layer, region, plane, conversion, place);
         }
     }
