@@ -222,6 +222,7 @@ fn structs_of_the_nodes_are_laid_out_alike() {
 fn nodes_declare_the_structs_that_their_shaders_bind() {
     let nodes = [
         described(&ResolveMoments {
+            technique: moment_shadows::Technique::Hamburger4,
             storage: Storage::Float16,
             mip_levels: Default::default(),
         }),

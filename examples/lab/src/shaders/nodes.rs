@@ -169,13 +169,19 @@ fn of_technique(encoding: &MapEncoding, capabilities: &Capabilities) -> Vec<Vari
         storage,
         mip_levels: MipLevels::default(),
     };
-    variants.push(with_map("resolve_moments", Box::new(resolve), 1));
+    // Four moments are made and filtered alike for all that read them.
+    if *technique != Technique::Hausdorff4 {
+        variants.push(with_map("resolve_moments", Box::new(resolve), 1));
+    }
     let blur = BlurMoments {
         kernel: KernelProperty::gaussian(1, 0.6),
         per_frame: false,
         mip_levels: MipLevels::default(),
     };
-    variants.push(with_map("blur_moments", Box::new(blur), 1));
+    // Only logarithms are filtered otherwise.
+    if techniques::label(technique).contains("logarithmic") {
+        variants.push(with_map("blur_moments", Box::new(blur), 1));
+    }
     if let Technique::Convolution { terms, .. } = technique {
         let series = Technique::Convolution {
             terms: *terms,
