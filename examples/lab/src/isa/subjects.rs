@@ -2,7 +2,9 @@
 
 use std::collections::BTreeMap;
 
-use moment_shadows::{LinkError, Profile, Source, Storage, Technique, TextureFormat, link};
+use moment_shadows::{
+    LinkError, MapEncoding, PcfTaps, Profile, Source, Storage, Technique, TextureFormat, link,
+};
 use moment_shadows_graph::nodes::{
     BlurMoments, BlurParameters, DebugMoments, DownsampleMoments, KernelProperty, MipLevels,
     ResolveMoments, ShadeHard, Show,
@@ -11,6 +13,7 @@ use moment_shadows_graph::{Capabilities, Node, ResourceDesc, TextureDesc};
 
 use super::described::describe;
 use super::error::IsaError;
+use crate::techniques;
 
 /// A shader that is compiled.
 #[derive(Clone, Debug)]
@@ -94,6 +97,14 @@ pub(super) fn nodes() -> Result<Vec<Entry>, IsaError> {
     entries.push(shade(Storage::Float32, 1, 1, true));
     entries.push(blur(Storage::Unorm16, 4, MANY)?);
     entries.push(shade(Storage::Unorm16, 1, MANY, false));
+    let mut encodings = techniques::filterable();
+    encodings.retain(|encoding| *encoding.technique() != Technique::Hamburger4);
+    // The storage that a native device would choose; others change how a texel is decoded.
+    encodings.retain(|encoding| {
+        encoding.technique().best_storage(Profile::Native) == Some(encoding.storage())
+    });
+    entries.extend(encodings.iter().map(of_technique));
+    entries.extend(techniques::reading_depth().iter().map(reading_depth));
     Ok(entries)
 }
 
@@ -240,6 +251,55 @@ fn shade(storage: Storage, mips: u32, views: u32, float32_filterable: bool) -> E
             ..native()
         },
         trips,
+    }
+}
+
+/// Shading with another technique's map.
+fn of_technique(encoding: &MapEncoding) -> Entry {
+    Entry {
+        settings: format!(
+            "{}, {}",
+            techniques::label(encoding.technique()),
+            encoding.storage()
+        ),
+        node: Box::new(ShadeHard::default()),
+        inputs: inputs([
+            ("moments", TextureDesc::of_map(encoding.clone(), SIZE)),
+            ("camera_depth", texture(TextureFormat::Depth32Float)),
+        ]),
+        capabilities: Capabilities {
+            float32_filterable: true,
+            ..native()
+        },
+        trips: trips(encoding.technique()),
+    }
+}
+
+/// Shading with the plain depth map.
+fn reading_depth(technique: &Technique) -> Entry {
+    let node = ShadeHard {
+        technique: Some(technique.clone()),
+        ..ShadeHard::default()
+    };
+    Entry {
+        settings: techniques::label(technique),
+        node: Box::new(node),
+        inputs: inputs([
+            ("depth", texture(TextureFormat::Depth32Float)),
+            ("camera_depth", texture(TextureFormat::Depth32Float)),
+        ]),
+        capabilities: native(),
+        trips: trips(technique),
+    }
+}
+
+/// How often the loops of a technique's evaluation run that the driver does not unroll.
+fn trips(technique: &Technique) -> Vec<u32> {
+    match technique {
+        // Rows and columns, one more of each where results are blended.
+        Technique::Pcf(PcfTaps::Gaussian { radius, .. }) => vec![2 * radius + 2; 2],
+        Technique::Pcss(taps) => vec![taps.search_taps, taps.filter_taps],
+        _ => Vec::new(),
     }
 }
 
