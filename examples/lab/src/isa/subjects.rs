@@ -296,8 +296,14 @@ fn reading_depth(technique: &Technique) -> Entry {
 /// How often the loops of a technique's evaluation run that the driver does not unroll.
 fn trips(technique: &Technique) -> Vec<u32> {
     match technique {
-        // Rows and columns, one more of each where results are blended.
+        // The split in front of the fragment is searched for, at most through all of them.
+        Technique::Lvsm { layers, .. } => vec![layers - 1],
+        // Rows, one more where results are blended; the few columns of small kernels are unrolled.
+        Technique::Pcf(PcfTaps::Box { radius }) => vec![2 * radius + 2],
         Technique::Pcf(PcfTaps::Gaussian { radius, .. }) => vec![2 * radius + 2; 2],
+        Technique::Pcf(PcfTaps::Weights(weights)) => vec![weights.len() as u32 + 1],
+        Technique::Pcf(PcfTaps::Hardware { radius, .. }) => vec![2 * radius + 1],
+        Technique::Pcf(PcfTaps::Poisson { .. }) => vec![16],
         Technique::Pcss(taps) => vec![taps.search_taps, taps.filter_taps],
         _ => Vec::new(),
     }
