@@ -1,0 +1,14 @@
+//! Functions whose expectations describe a depth distribution, and how the published ones are stored.
+//!
+//! Powers of depth are one choice of several: Peters and Klein compared thousands ("Moment Shadow Mapping", i3D 2015,
+//! section 2.3). Bounds for any of them come from linear programming ([`crate::oracle::MomentProblem`]).
+
+mod function;
+mod plot;
+mod published;
+mod subsets;
+
+pub use function::{Basis, Function};
+pub use plot::{PlotError, save as save_plot};
+pub use published::{PublishedBias, Quantisation, published_biases, published_quantisations};
+pub use subsets::{CANDIDATES, Subset, SubsetError, Subsets};
