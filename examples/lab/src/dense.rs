@@ -124,11 +124,9 @@ pub fn smallest_eigenvalue<const N: usize>(mut a: [[f64; N]; N]) -> f64 {
                     row[p] = cosine * x - sine * y;
                     row[q] = sine * x + cosine * y;
                 }
-                for column in 0..N {
-                    let (x, y) = (a[p][column], a[q][column]);
-                    a[p][column] = cosine * x - sine * y;
-                    a[q][column] = sine * x + cosine * y;
-                }
+                let (first, second) = (a[p], a[q]);
+                a[p] = core::array::from_fn(|k| cosine * first[k] - sine * second[k]);
+                a[q] = core::array::from_fn(|k| sine * first[k] + cosine * second[k]);
             }
         }
         if !rotated {

@@ -188,8 +188,11 @@ enum Command {
         /// The folder for the plot, as SVG and PNG; it is made if need be.
         #[arg(long)]
         out: PathBuf,
+        /// The share of the depth range at either end that is free of surfaces: sine and cosine cannot tell the ends apart.
+        #[arg(long, default_value_t = 0.0)]
+        margin: f64,
         /// Random depth distributions, each with eight receivers.
-        #[arg(long, default_value_t = 100, value_parser = sample_count)]
+        #[arg(long, default_value_t = 300, value_parser = sample_count)]
         samples: usize,
         /// Prints JSON.
         #[arg(long)]
@@ -511,8 +514,13 @@ fn run(command: Command) -> Result<ExitCode, Box<dyn std::error::Error>> {
             &bias::run(technique.into(), storage.map(Storage::from), samples, seed)?,
             json,
         )?,
-        Command::Bases { out, samples, json } => {
-            let (subsets, files) = bases::run(&out, samples)?;
+        Command::Bases {
+            out,
+            margin,
+            samples,
+            json,
+        } => {
+            let (subsets, files) = bases::run(&out, samples, margin)?;
             print(&subsets, json)?;
             if !json {
                 println!("\n{}\n{}", files[0].display(), files[1].display());

@@ -13,7 +13,7 @@ use crate::batch::{Batch, BatchError};
 use crate::gpu::{Gpu, GpuError};
 use crate::oracle::{OracleError, hamburger, rational, sensitivity, tolerance_unit};
 
-pub use agreement::{AGREEMENT, Agreement};
+pub use agreement::{AGREEMENT, Agreement, agreement};
 pub use file::VectorFileError;
 pub use report::{ALLOWED_SHARE, ClassReport, HARD_TOLERANCE, TOLERANCE, VectorReport};
 
@@ -78,11 +78,11 @@ pub fn run(file: impl AsRef<Path>) -> Result<VectorReport, VectorsError> {
     let gpu = Gpu::open(Profile::WebgpuCore)?;
     let mut report = VectorReport {
         adapter: gpu.adapter.get_info().name,
+        oracle: agreement(&vectors),
         ..VectorReport::default()
     };
     let mut cases = Vec::new();
     for vector in &vectors {
-        agreement::compare(vector, &mut report.oracle);
         collect(vector, &mut cases, &mut report);
     }
     if cases.is_empty() {

@@ -86,9 +86,10 @@ fn draw_chart<B: DrawingBackend>(area: &DrawingArea<B, Shift>, subsets: &Subsets
     )?;
     let names: Vec<String> = CANDIDATES.iter().map(ToString::to_string).collect();
     let setting = format!(
-        "{} distributions of four surfaces, {} receivers; functions: {}",
+        "{} distributions of four surfaces, {} receivers, margin {}; functions: {}",
         subsets.samples,
         subsets.receivers,
+        subsets.margin,
         names.join(", ")
     );
     let below = below.titled(&setting, (FONT, 14))?;

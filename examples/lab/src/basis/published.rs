@@ -17,7 +17,7 @@ pub struct Quantisation {
     pub matrix: Vec<Vec<f64>>,
     /// Added after the product.
     pub offset: Vec<f64>,
-    /// The inverse of the matrix as it was published or computed from it with many digits.
+    /// The inverse of the matrix, row by row.
     pub inverse: Vec<Vec<f64>>,
     /// By how much channels may leave [0, 1] for depths in the interval, given the published digits.
     pub overshoot: f64,
@@ -73,22 +73,6 @@ impl Quantisation {
         image
     }
 
-    /// The largest entry of inverse * matrix - 1.
-    #[must_use]
-    pub fn inverse_error(&self) -> f64 {
-        let size = self.count();
-        let mut error = 0.0_f64;
-        for row in 0..size {
-            for column in 0..size {
-                let entry: f64 = (0..size)
-                    .map(|k| self.inverse[row][k] * self.matrix[k][column])
-                    .sum();
-                error = error.max((entry - f64::from(row == column)).abs());
-            }
-        }
-        error
-    }
-
     /// log2 of the absolute determinant relative to raw moments of depths in [0, 1]: the bits gained over those. The change
     /// from [0, 1] to an interval of length s contributes s^(1 + 2 + .. + m).
     #[must_use]
@@ -112,6 +96,43 @@ fn product(matrix: &[Vec<f64>], vector: &[f64]) -> Vec<f64> {
         .collect()
 }
 
+/// A quantisation without what follows from its matrix.
+struct Published {
+    name: &'static str,
+    source: &'static str,
+    interval: [f64; 2],
+    matrix: Vec<Vec<f64>>,
+    offset: Vec<f64>,
+    overshoot: f64,
+}
+
+impl From<Published> for Quantisation {
+    fn from(published: Published) -> Self {
+        let size = published.offset.len();
+        let mut inverse = vec![vec![0.0; size]; size];
+        let entries = published.matrix.iter().flatten().copied().collect();
+        // Each of them has an inverse.
+        if let Some(factors) = Factors::new(size, entries) {
+            for channel in 0..size {
+                let mut unit = vec![0.0; size];
+                unit[channel] = 1.0;
+                for (row, value) in inverse.iter_mut().zip(factors.solve(&unit)) {
+                    row[channel] = value;
+                }
+            }
+        }
+        Self {
+            name: published.name,
+            source: published.source,
+            interval: published.interval,
+            matrix: published.matrix,
+            offset: published.offset,
+            inverse,
+            overshoot: published.overshoot,
+        }
+    }
+}
+
 fn rows<const N: usize>(rows: [[f64; N]; N]) -> Vec<Vec<f64>> {
     rows.map(Vec::from).into()
 }
@@ -120,8 +141,8 @@ fn rows<const N: usize>(rows: [[f64; N]; N]) -> Vec<Vec<f64>> {
 #[must_use]
 pub fn published_quantisations() -> Vec<Quantisation> {
     let root = 3.0_f64.sqrt();
-    vec![
-        Quantisation {
+    let published = [
+        Published {
             name: "4 moments on [-1, 1]",
             source: "Peters, GDC 2016; Peters et al., JCGT 6(1) 2017",
             interval: [-1.0, 1.0],
@@ -132,15 +153,9 @@ pub fn published_quantisations() -> Vec<Quantisation> {
                 [0.0, 0.5, 0.0, 0.5],
             ]),
             offset: vec![0.5, 0.0, 0.5, 0.0],
-            inverse: rows([
-                [-1.0 / 3.0, 0.0, root, 0.0],
-                [0.0, 0.125, 0.0, 1.0],
-                [-0.75, 0.0, 0.75 * root, 0.0],
-                [0.0, -0.125, 0.0, 1.0],
-            ]),
             overshoot: 1e-15,
         },
-        Quantisation {
+        Published {
             name: "4 moments on [0, 1], theta_4",
             source: "Peters & Klein, i3D 2015",
             interval: [0.0, 1.0],
@@ -151,44 +166,17 @@ pub fn published_quantisations() -> Vec<Quantisation> {
                 [9.7924062118, -33.7652110555, 47.9456096605, -23.9728048165],
             ]),
             offset: vec![0.035955884801, 0.0, 0.0, 0.0],
-            inverse: rows([
-                [
-                    0.22277441458975105,
-                    0.077197286078127291,
-                    0.79269866365602851,
-                    0.031941755461409701,
-                ],
-                [
-                    0.15496792611583606,
-                    0.13946294265353615,
-                    0.79634158378587567,
-                    -0.17228231730199038,
-                ],
-                [
-                    0.14519889456443683,
-                    0.21202021568252677,
-                    0.72586944638507082,
-                    -0.2758014811491576,
-                ],
-                [
-                    0.16312744299137798,
-                    0.25914322664410965,
-                    0.65390924967369523,
-                    -0.33761317340581743,
-                ],
-            ]),
             overshoot: 6.6e-8,
         },
-        Quantisation {
+        Published {
             name: "2 moments on [0, 1], theta_2",
             source: "Peters & Klein, i3D 2015",
             interval: [0.0, 1.0],
             matrix: rows([[1.0, 0.0], [4.0, -4.0]]),
             offset: vec![0.0, 0.0],
-            inverse: rows([[1.0, 0.0], [1.0, -0.25]]),
             overshoot: 0.0,
         },
-        Quantisation {
+        Published {
             name: "6 moments on [-1, 1]",
             source: "Peters, GDC 2016",
             interval: [-1.0, 1.0],
@@ -201,59 +189,9 @@ pub fn published_quantisations() -> Vec<Quantisation> {
                 [0.0, -0.57759806484, 0.0, 4.61936647543, 0.0, -3.07953906655],
             ]),
             offset: vec![0.5, 0.5, 0.5, 0.0, 0.0, 0.018888946],
-            inverse: rows([
-                [
-                    -0.02877789191977914,
-                    0.47635550421232619,
-                    1.5524280897137293,
-                    0.0,
-                    0.0,
-                    0.0,
-                ],
-                [
-                    0.0,
-                    0.0,
-                    0.0,
-                    1.2530436076429571e-5,
-                    0.16668494186053159,
-                    0.86602540579434605,
-                ],
-                [
-                    0.09995235706024454,
-                    0.84532580930693434,
-                    1.0547257075981561,
-                    0.0,
-                    0.0,
-                    0.0,
-                ],
-                [
-                    0.0,
-                    0.0,
-                    0.0,
-                    -0.24998746956392357,
-                    0.16668494186053159,
-                    0.86602540579434605,
-                ],
-                [
-                    0.25893353755023666,
-                    0.90779616656731599,
-                    0.83327335646215471,
-                    0.0,
-                    0.0,
-                    0.0,
-                ],
-                [
-                    0.0,
-                    0.0,
-                    0.0,
-                    -0.37498825271617835,
-                    0.21876713299424836,
-                    0.81189881793219942,
-                ],
-            ]),
             overshoot: 5e-12,
         },
-        Quantisation {
+        Published {
             name: "6 moments on [0, 1]",
             source: "Peters et al., supplement of \"Beyond Hard Shadows\", i3D 2016, Table 1",
             interval: [0.0, 1.0],
@@ -315,59 +253,10 @@ pub fn published_quantisations() -> Vec<Quantisation> {
                 0.0000059274,
                 0.9774602669,
             ],
-            inverse: rows([
-                [
-                    -0.79237325966846032,
-                    0.23413985733334841,
-                    0.036420229235185459,
-                    -0.026311192653028002,
-                    0.0051060590045215815,
-                    -0.0064527692312344136,
-                ],
-                [
-                    -0.79275899603833144,
-                    0.23388797405004625,
-                    -0.0057927763058036575,
-                    -0.026887307924913016,
-                    0.0038746589588103988,
-                    0.21003901213692863,
-                ],
-                [
-                    -0.73394257210538108,
-                    0.27997206660120065,
-                    -0.023218014282926559,
-                    -0.014368192159273879,
-                    0.0085756362293717897,
-                    0.32315166678414162,
-                ],
-                [
-                    -0.67488936630569722,
-                    0.32714829575892102,
-                    -0.030124608752137282,
-                    -0.0025883287000990252,
-                    -0.0019812866546588332,
-                    0.38204444262192322,
-                ],
-                [
-                    -0.62368668548144972,
-                    0.3652961959802862,
-                    -0.032463881970808181,
-                    0.010426190161885508,
-                    -0.021325151280361744,
-                    0.41293922974898731,
-                ],
-                [
-                    -0.5804097373083305,
-                    0.39401512856245769,
-                    -0.033672912438249799,
-                    0.024972808928384004,
-                    -0.043690863815864525,
-                    0.42855740033326065,
-                ],
-            ]),
             overshoot: 1e-7,
         },
-    ]
+    ];
+    published.map(Quantisation::from).into()
 }
 
 /// A moment bias `b + alpha (target - b)` as it was published.

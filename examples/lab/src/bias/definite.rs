@@ -89,11 +89,11 @@ fn inner([b1, b2, b3, b4]: [f64; 4], [low, high]: [f64; 2]) -> [[f64; 2]; 2] {
 /// The inverse of a lower triangle.
 fn invert<const N: usize>(l: [[f64; N]; N]) -> [[f64; N]; N] {
     let mut inverse = [[0.0; N]; N];
-    for column in 0..N {
-        for row in column..N {
-            let known: f64 = (column..row).map(|k| l[row][k] * inverse[k][column]).sum();
-            inverse[row][column] = (f64::from(row == column) - known) / l[row][row];
-        }
+    for (row, given) in l.iter().enumerate() {
+        inverse[row] = core::array::from_fn(|column| {
+            let known: f64 = (0..row).map(|k| given[k] * inverse[k][column]).sum();
+            (f64::from(row == column) - known) / given[row]
+        });
     }
     inverse
 }

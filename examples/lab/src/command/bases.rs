@@ -28,15 +28,15 @@ pub enum BasesError {
     },
 }
 
-/// Compares all choices on `samples` distributions and saves the histogram as SVG and PNG.
-pub fn run(out: &Path, samples: usize) -> Result<(Subsets, [PathBuf; 2]), BasesError> {
+/// Compares all choices on `samples` distributions that leave `margin` at the ends free of surfaces, and saves the histogram as SVG and PNG.
+pub fn run(out: &Path, samples: usize, margin: f64) -> Result<(Subsets, [PathBuf; 2]), BasesError> {
     // Before the work, so that a wrong path is told at once.
     std::fs::create_dir_all(out).map_err(|source| BasesError::Folder {
         folder: out.to_owned(),
         source,
     })?;
     let bar = progress::bar(Subsets::COUNT, "linear programs");
-    let subsets = Subsets::evaluate(samples, SEED, || bar.inc(1));
+    let subsets = Subsets::evaluate(samples, margin, SEED, || bar.inc(1));
     bar.finish_and_clear();
     let subsets = subsets?;
     let files = save_plot(&subsets, out)?;

@@ -50,7 +50,7 @@ pub(super) fn minimise(columns: &[f64], costs: &[f64], right: &[f64]) -> Result<
                     sum
                 }
             });
-    if violation > INFEASIBLE {
+    if violation.is_nan() || violation > INFEASIBLE {
         return Err(Failure::Infeasible(violation));
     }
     let cost = |column: usize| costs.get(column).copied().unwrap_or(0.0);

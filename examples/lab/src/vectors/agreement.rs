@@ -39,8 +39,18 @@ impl Agreement {
     }
 }
 
+/// Compares all bounds of vectors, by kind and number of moments. No device is needed.
+#[must_use]
+pub fn agreement(vectors: &[Vector]) -> BTreeMap<String, Agreement> {
+    let mut by_kind = BTreeMap::new();
+    for vector in vectors {
+        compare(vector, &mut by_kind);
+    }
+    by_kind
+}
+
 /// Compares all bounds of a vector, those of its exact moments and of its biased ones.
-pub(super) fn compare(vector: &Vector, by_kind: &mut BTreeMap<String, Agreement>) {
+fn compare(vector: &Vector, by_kind: &mut BTreeMap<String, Agreement>) {
     let mut compare = |moments: &[RBig], depth: f64, kinds: [Option<Bounds>; 2]| {
         let exact = || -> Result<_, OracleError> {
             let [low, high] = vector.interval;

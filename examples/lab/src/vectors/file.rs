@@ -181,7 +181,11 @@ fn checked(vector: Vector) -> Result<Vector, String> {
             return Err(format!("{name} has {length} entries; m is {m}"));
         }
     }
-    if let Some(text) = vector.moments.iter().find(|text| RBig::from_str(text).is_err()) {
+    if let Some(text) = vector
+        .moments
+        .iter()
+        .find(|text| RBig::from_str(text).is_err())
+    {
         return Err(format!("moment '{text}' is not a rational such as -3/4"));
     }
     if let Some(depth) = core::iter::once(vector.depth)

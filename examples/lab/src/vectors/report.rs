@@ -117,7 +117,11 @@ impl fmt::Display for VectorReport {
         let title = "the oracle's difference";
         writeln!(f, "\n{title:<26} {:>9} {:>9}", "evaluated", "largest")?;
         for (name, agreement) in &self.oracle {
-            writeln!(f, "{name:<26} {:>9} {:>9.1e}", agreement.evaluated, agreement.largest)?;
+            writeln!(
+                f,
+                "{name:<26} {:>9} {:>9.1e}",
+                agreement.evaluated, agreement.largest
+            )?;
         }
         if !self.not_evaluated.is_empty() {
             writeln!(f, "\nnot evaluated by the shader")?;

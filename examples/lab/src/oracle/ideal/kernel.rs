@@ -5,9 +5,8 @@ use super::Surfaces;
 /// Halvings of an interval, enough for any f64 to settle.
 const HALVINGS: usize = 120;
 
-/// Below this share of what it would be for spread-out surfaces, the norm of a polynomial is rounding: the surfaces are its
-/// roots.
-const SINGULAR: f64 = 1e-28;
+/// A polynomial at the surfaces this close to zero, relative to the terms that it is made of, is rounding: they are its roots.
+const SINGULAR: f64 = 16.0 * f64::EPSILON;
 
 /// A point this far away weighs nothing, and its powers can be computed.
 const INFINITELY_FAR: f64 = 1e30;
@@ -67,9 +66,10 @@ impl Recurrence {
                 t * recurrence.polynomial(index, t).powi(2)
             }) / norm;
             recurrence.shifts.push(shift);
-            let next =
-                surfaces.mean(|z| recurrence.polynomial(index + 1, z - fragment_depth).powi(2));
-            if next <= SINGULAR * norm {
+            let value = |z: f64| recurrence.polynomial(index + 1, z - fragment_depth);
+            let magnitude = |z: f64| recurrence.magnitude(index + 1, z - fragment_depth);
+            let next = surfaces.mean(|z| value(z).powi(2));
+            if next <= surfaces.mean(|z| (SINGULAR * magnitude(z)).powi(2)) {
                 return None;
             }
             recurrence.norms.push(next);
@@ -95,6 +95,21 @@ impl Recurrence {
                 self.norms[index] / self.norms[index - 1]
             };
             (before, value) = (value, (t - self.shifts[index]) * value - ratio * before);
+        }
+        value
+    }
+
+    /// The sum of the magnitudes of all that `polynomial` adds and subtracts.
+    fn magnitude(&self, degree: usize, t: f64) -> f64 {
+        let (mut before, mut value) = (0.0, 1.0);
+        for index in 0..degree {
+            let ratio = if index == 0 {
+                0.0
+            } else {
+                self.norms[index] / self.norms[index - 1]
+            };
+            let factor = t.abs() + self.shifts[index].abs();
+            (before, value) = (value, factor * value + ratio * before);
         }
         value
     }

@@ -2,8 +2,8 @@
 //!
 //! The step is a square wave of period 2 in depths u of [0, 1]: visibility at u = d is
 //! 1/2 + 2 sum_k sin(c_k (u - d)) / c_k with c_k = pi (2k - 1). Term k is damped by e^(-a (k/M)^2) against ringing. A finite
-//! series is 1/2 on the fragment itself and rings beyond, so it bounds nothing. Here it is shifted to where it first
-//! vanishes, depths are squeezed to keep clear of the next step of the wave, and its ringing is subtracted.
+//! series is 1/2 on the fragment itself and rings beyond, so it bounds nothing. Here it is shifted to where it has almost
+//! vanished, depths are squeezed to keep clear of the next step of the wave, and its ringing is subtracted.
 
 use core::f64::consts::PI;
 
@@ -11,6 +11,9 @@ use super::Surfaces;
 
 /// Intervals per term on which extrema are looked for; the series has one extremum per half period of its last term.
 const INTERVALS_PER_TERM: u32 = 64;
+
+/// What is left of the series where it counts as vanished: a longer wait for less would shift it farther.
+const ALMOST: f64 = 0.01;
 
 /// A damped series that stays below the step.
 #[derive(Clone, Debug, PartialEq)]
@@ -43,12 +46,14 @@ impl FourierSeries {
             .map(|index| 0.5 * f64::from(index) / f64::from(count))
             .map(|x| (x, series.shadow(x)))
             .collect();
-        // Where it first vanishes, or is least if it does not.
+        // Where it first almost vanishes, or is almost least if it does not.
         let least = values
             .iter()
             .map(|value| value.1)
             .fold(f64::INFINITY, f64::min);
-        let vanishes = values.iter().position(|value| value.1 <= least.max(0.0));
+        let vanishes = values
+            .iter()
+            .position(|value| value.1 <= least.max(0.0) + ALMOST);
         if let Some(first) = vanishes {
             series.shift = values[first].0;
             let ringing = values[first..]

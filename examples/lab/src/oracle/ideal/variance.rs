@@ -54,11 +54,16 @@ fn with_ends(surfaces: &Surfaces<'_>, fragment_depth: f64) -> Option<f64> {
         return None;
     }
     let at_other = mass * (mean / other) / inner(position);
-    let at_fragment = mass * (variance / mean / other) / inner(fragment_depth);
-    // What is left for the ends, by mass and mean.
-    let rest = 1.0 - at_other - at_fragment;
-    let first = surfaces.mean(|z| z) - at_other * position - at_fragment * fragment_depth;
-    let (near, far) = (0.5 * (rest - first), 0.5 * (rest + first));
+    // The weight of a point is the mean of the cubic that is 1 there and 0 at the other three points.
+    let end = |side: f64| {
+        let cubic = |z: f64| {
+            let t = z - fragment_depth;
+            (1.0 + side * z) * t * (t - other)
+        };
+        let scale = 2.0 * (1.0 - side * fragment_depth) * (1.0 - side * position);
+        surfaces.mean(cubic) / scale
+    };
+    let (near, far) = (end(-1.0), end(1.0));
     if near < 0.0 || far < 0.0 {
         return None;
     }
