@@ -19,11 +19,14 @@ fn truth(atoms: &[(f64, f64)], depth: f64) -> f64 {
         .sum()
 }
 
+/// The exact bound of surfaces at a fragment depth.
+type ExactBound = fn(&[(f64, f64)], f64) -> f64;
+
 /// Moments in f64 are not exact, so what a rounding of 1e-16 makes of a bound is allowed: much for surfaces 1e-5 apart, and
 /// next to nothing for others.
 #[test]
 fn power_moments_are_exact() {
-    let exact: [(Ideal, fn(&[(f64, f64)], f64) -> f64); 4] = [
+    let exact: [(Ideal, ExactBound); 4] = [
         (Ideal::Vsm, |atoms, depth| {
             exact_hamburger(atoms, 2, depth).lower
         }),

@@ -8,7 +8,7 @@
 //! serves, as it does the lower bound.
 //!
 //! Moments are rounded to f64, which acts like a moment bias of 1e-16: bounds are good to 1e-9 where surfaces are spread over
-//! more than a thousandth of the interval.
+//! a good part of the interval. Each comes with a certificate, which says how good it is.
 
 use super::simplex::{Failure, minimise};
 use crate::basis::Basis;
