@@ -8,6 +8,7 @@ use plotters::chart::ChartBuilder;
 use plotters::coord::Shift;
 use plotters::drawing::{DrawingArea, IntoDrawingArea};
 use plotters::element::{PathElement, Rectangle, Text};
+use plotters::style::text_anchor::{HPos, Pos, VPos};
 use plotters::style::{Color, FontStyle, IntoFont, RGBColor, ShapeStyle, WHITE, register_font};
 
 use super::subsets::{CANDIDATES, Subsets};
@@ -101,6 +102,7 @@ fn draw_chart<B: DrawingBackend>(area: &DrawingArea<B, Shift>, subsets: &Subsets
     chart
         .configure_mesh()
         .disable_x_mesh()
+        .max_light_lines(1)
         .x_desc("mean error of shadow intensity (percent)")
         .y_desc("sets of functions")
         .x_label_formatter(&|x| format!("{x:.1}"))
@@ -130,8 +132,17 @@ fn draw_chart<B: DrawingBackend>(area: &DrawingArea<B, Shift>, subsets: &Subsets
         let line = ShapeStyle::from(&colour).stroke_width(2);
         chart.draw_series([PathElement::new(vec![(x, 0.0), (x, height)], line)])?;
         let text = format!("{} ({remark}): {x:.2} %, rank {rank}", subset.name);
-        let style = (FONT, 15).into_font().color(&colour);
-        chart.draw_series([Text::new(text, (x + 0.2 * width, height), style)])?;
+        // Towards the middle of the plot.
+        let (side, away) = if x > 0.5 * (range.start + range.end) {
+            (HPos::Right, -0.2 * width)
+        } else {
+            (HPos::Left, 0.2 * width)
+        };
+        let style = (FONT, 15)
+            .into_font()
+            .color(&colour)
+            .pos(Pos::new(side, VPos::Top));
+        chart.draw_series([Text::new(text, (x + away, height), style)])?;
     }
     area.present()
 }
