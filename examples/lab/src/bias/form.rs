@@ -4,11 +4,14 @@ use half::f16;
 use moment_shadows::Storage;
 
 use super::definite::Condition;
+use super::search::BiasTechnique;
 use crate::basis::published_quantisations;
 
 /// Rounding to the nearest value that a channel can hold.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Rounding {
+    /// Fixed point in [0, 1] with 2^8 - 1 steps.
+    Unorm8,
     /// Fixed point in [0, 1] with 2^16 - 1 steps.
     Unorm16,
     /// Half precision.
@@ -22,6 +25,7 @@ impl Rounding {
     #[must_use]
     pub fn store(self, value: f32) -> f32 {
         match self {
+            Rounding::Unorm8 => (value.clamp(0.0, 1.0) * 255.0).round() / 255.0,
             Rounding::Unorm16 => (value.clamp(0.0, 1.0) * 65535.0).round() / 65535.0,
             Rounding::Float16 => f16::from_f32(value).to_f32(),
             Rounding::Float32 => value,
@@ -32,6 +36,7 @@ impl Rounding {
     #[must_use]
     pub fn error(self) -> f64 {
         match self {
+            Rounding::Unorm8 => 0.5 / 255.0,
             Rounding::Unorm16 => 0.5 / 65535.0,
             Rounding::Float16 => 2.0_f64.powi(-13),
             Rounding::Float32 => 2.0_f64.powi(-25),
@@ -42,6 +47,7 @@ impl Rounding {
 impl From<Storage> for Rounding {
     fn from(storage: Storage) -> Self {
         match storage {
+            Storage::Unorm8 => Rounding::Unorm8,
             Storage::Unorm16 => Rounding::Unorm16,
             Storage::Float16 => Rounding::Float16,
             _ => Rounding::Float32,
@@ -118,32 +124,27 @@ const SIGNED: [f64; 2] = [-1.0, 1.0];
 const UNIT: [f64; 2] = [0.0, 1.0];
 
 impl Form {
-    /// How the library stores four moments of depths in [-1, 1], with the target that is best for the condition.
+    /// How the library stores four moments of depths in [-1, 1], with its target for the technique.
     ///
     /// On the real line (0, beta, 0, beta) is optimal with beta = 0.628 for the optimised basis and 0.375 for raw moments
     /// (Peters et al., JCGT 6(1) 2017). These lie on the boundary of the moment space of [-1, 1], so that they cannot help
     /// there; the minimax optimum inside has a smaller fourth moment.
     #[must_use]
-    pub fn of_library(storage: Storage, condition: Condition) -> Self {
+    pub fn of_library(storage: Storage, technique: BiasTechnique) -> Self {
         let rounding = Rounding::from(storage);
         let basis = match rounding {
-            Rounding::Unorm16 => Affine::published(SIGNED, 0.0),
+            Rounding::Unorm8 | Rounding::Unorm16 => Affine::published(SIGNED, 0.0),
             Rounding::Float16 => Affine::published(SIGNED, -0.5),
             Rounding::Float32 => None,
         };
-        let [second, fourth] = match (condition, basis.is_some()) {
-            (Condition::Line, true) => [0.628, 0.628],
-            (Condition::Line, false) => [0.375, 0.375],
-            (Condition::Interval, true) => [0.6036, 0.4875],
-            (Condition::Interval, false) => [0.4403, 0.3124],
-        };
+        let bias = technique.library_bias(storage);
         Self {
             name: storage.name().to_owned(),
             interval: SIGNED,
             basis,
             rounding,
-            target: [0.0, second, 0.0, fourth],
-            condition,
+            target: [0.0, f64::from(bias.second), 0.0, f64::from(bias.fourth)],
+            condition: technique.condition(),
         }
     }
 

@@ -2,7 +2,7 @@
 
 use core::fmt;
 
-use moment_shadows::Storage;
+use moment_shadows::{MomentBias, Storage};
 use rand::SeedableRng;
 use rand_chacha::ChaCha8Rng;
 use rayon::prelude::*;
@@ -52,11 +52,12 @@ impl BiasTechnique {
         }
     }
 
-    /// The alpha that the library applies, as far as it knows the technique.
-    fn of_library(self, storage: Storage) -> Option<f64> {
+    /// What the library applies.
+    #[must_use]
+    pub fn library_bias(self, storage: Storage) -> MomentBias {
         match self {
-            BiasTechnique::Hamburger4 => Some(f64::from(storage.moment_bias().alpha)),
-            BiasTechnique::Hausdorff4 => None,
+            BiasTechnique::Hamburger4 => storage.moment_bias(),
+            BiasTechnique::Hausdorff4 => storage.hausdorff_moment_bias(),
         }
     }
 }
@@ -115,13 +116,12 @@ pub fn search(
     seed: u64,
     step: impl Fn() + Sync,
 ) -> Result<BiasTable, BiasError> {
-    let condition = technique.condition();
     let storages = storage.map_or(Storage::ALL.to_vec(), |storage| vec![storage]);
     let mut rows = Vec::new();
     for storage in storages {
-        let form = Form::of_library(storage, condition);
+        let form = Form::of_library(storage, technique);
         let mut row = measure(&form, samples, seed, &step)?;
-        row.library = technique.of_library(storage);
+        row.library = Some(f64::from(technique.library_bias(storage).alpha));
         rows.push(row);
     }
     if storage.is_none() && technique == BiasTechnique::Hamburger4 {

@@ -167,8 +167,8 @@ impl Subject {
         let mut depths: Vec<f64> = sample.depths.iter().map(|depth| depth / scale).collect();
         let mut weights = sample.weights.clone();
         if let Some(bias) = self.bias {
-            // A share alpha of occluders at the near end, the middle and the far end.
-            let (alpha, beta) = (f64::from(bias.alpha), f64::from(bias.beta));
+            // A share alpha of occluders at the near end, the middle and the far end: their second moment is their fourth.
+            let (alpha, beta) = (f64::from(bias.alpha), f64::from(bias.second));
             for weight in &mut weights {
                 *weight *= 1.0 - alpha;
             }
