@@ -6,9 +6,11 @@
 mod function;
 mod plot;
 mod published;
+mod published_bias;
 mod subsets;
 
 pub use function::{Basis, Function};
 pub use plot::{PlotError, save as save_plot};
-pub use published::{PublishedBias, Quantisation, published_biases, published_quantisations};
+pub use published::{Quantisation, published_quantisations};
+pub use published_bias::{PublishedBias, published_biases};
 pub use subsets::{CANDIDATES, Subset, SubsetError, Subsets};
