@@ -2,9 +2,12 @@
 //!
 //! Not published. It renders real geometry with the library's nodes, and judges what they give.
 
+pub mod basis;
 pub mod batch;
+pub mod bias;
 pub mod command;
 pub mod cost;
+pub mod dense;
 pub mod error;
 pub mod footprint;
 pub mod frame;

@@ -5,11 +5,12 @@ use std::process::ExitCode;
 
 use clap::{Parser, Subcommand, ValueEnum};
 use moment_shadows::{Profile, Storage};
+use moment_shadows_lab::bias::BiasTechnique;
 use moment_shadows_lab::command::cost_growth::GrowthOptions;
 use moment_shadows_lab::command::render::{LightChoice, RenderOptions};
 use moment_shadows_lab::command::{
-    cost, cost_growth, error, error_table, graph, isa, measure, minification, render, shaders,
-    validate,
+    bases, bias, cost, cost_growth, error, error_table, graph, isa, measure, minification,
+    orderings, render, shaders, validate,
 };
 use moment_shadows_lab::cost::bandwidth::Memory;
 use moment_shadows_lab::gpu::Gpu;
@@ -164,6 +165,51 @@ enum Command {
     /// Times the nodes of a graph at several sizes of the map and of the output and at several radii, and plots how their
     /// cost grows. Takes minutes.
     CostGrowth(CostGrowthArguments),
+    /// Finds the smallest safe moment bias of each storage by search over filtered patches of depth.
+    Bias {
+        /// The solver that the moments are for.
+        #[arg(long, value_enum, default_value = "hamburger4")]
+        technique: BiasTechniqueArgument,
+        /// One storage of the library; all of them and the published forms if none is given.
+        #[arg(long, value_enum)]
+        storage: Option<StorageArgument>,
+        /// Patches per row of the table.
+        #[arg(long, default_value_t = 1_000_000, value_parser = sample_count)]
+        samples: usize,
+        /// Of the random numbers.
+        #[arg(long, default_value_t = 2015)]
+        seed: u64,
+        /// Prints JSON.
+        #[arg(long)]
+        json: bool,
+    },
+    /// Compares all choices of four among twelve functions of depth by linear programming, and plots a histogram.
+    Bases {
+        /// The folder for the plot, as SVG and PNG; it is made if need be.
+        #[arg(long)]
+        out: PathBuf,
+        /// The share of the depth range at either end that is free of surfaces: sine and cosine cannot tell the ends apart.
+        #[arg(long, default_value_t = 0.0)]
+        margin: f64,
+        /// Random depth distributions, each with eight receivers.
+        #[arg(long, default_value_t = 300, value_parser = sample_count)]
+        samples: usize,
+        /// Prints JSON.
+        #[arg(long)]
+        json: bool,
+    },
+    /// Prints how the bounds of techniques compare on the same surfaces while the light's depth range grows around them.
+    Orderings {
+        /// Random depth distributions.
+        #[arg(long, default_value_t = 20_000, value_parser = sample_count)]
+        samples: usize,
+        /// Of the random numbers.
+        #[arg(long, default_value_t = 2015)]
+        seed: u64,
+        /// Prints JSON.
+        #[arg(long)]
+        json: bool,
+    },
     /// Compiles every shader for chips that need not be there, and counts what the code does (Linux, Mesa's RADV).
     Isa(IsaArguments),
     /// The process that compiles for one chip, which its environment names.
@@ -287,10 +333,35 @@ enum LightArgument {
 }
 
 #[derive(Clone, Copy, ValueEnum)]
+enum BiasTechniqueArgument {
+    Hamburger4,
+    Hausdorff4,
+}
+
+impl From<BiasTechniqueArgument> for BiasTechnique {
+    fn from(argument: BiasTechniqueArgument) -> Self {
+        match argument {
+            BiasTechniqueArgument::Hamburger4 => BiasTechnique::Hamburger4,
+            BiasTechniqueArgument::Hausdorff4 => BiasTechnique::Hausdorff4,
+        }
+    }
+}
+
+#[derive(Clone, Copy, ValueEnum)]
 enum StorageArgument {
     Unorm16,
     Float16,
     Float32,
+}
+
+impl From<StorageArgument> for Storage {
+    fn from(argument: StorageArgument) -> Self {
+        match argument {
+            StorageArgument::Unorm16 => Storage::Unorm16,
+            StorageArgument::Float16 => Storage::Float16,
+            StorageArgument::Float32 => Storage::Float32,
+        }
+    }
 }
 
 impl From<ProfileArgument> for Profile {
@@ -316,11 +387,7 @@ impl FrameArguments {
             size: [self.width, (self.width * 9 / 16).max(1)],
             map: self.map,
             samples: self.samples,
-            storage: self.storage.map(|storage| match storage {
-                StorageArgument::Unorm16 => Storage::Unorm16,
-                StorageArgument::Float16 => Storage::Float16,
-                StorageArgument::Float32 => Storage::Float32,
-            }),
+            storage: self.storage.map(Storage::from),
         }
     }
 }
@@ -333,6 +400,14 @@ impl From<CostGrowthArguments> for GrowthOptions {
             radii: arguments.radius,
             rounds: arguments.rounds,
         }
+    }
+}
+
+/// How many samples to draw.
+fn sample_count(text: &str) -> Result<usize, String> {
+    match text.parse() {
+        Ok(count) if (1..=1_000_000_000).contains(&count) => Ok(count),
+        _ => Err("a number of samples is an integer from 1 to 1000000000".to_owned()),
     }
 }
 
@@ -429,6 +504,33 @@ fn run(command: Command) -> Result<ExitCode, Box<dyn std::error::Error>> {
         Command::Shaders { out } => {
             println!("{} shaders in {}", shaders::run(&out)?, out.display());
         }
+        Command::Bias {
+            technique,
+            storage,
+            samples,
+            seed,
+            json,
+        } => print(
+            &bias::run(technique.into(), storage.map(Storage::from), samples, seed)?,
+            json,
+        )?,
+        Command::Bases {
+            out,
+            margin,
+            samples,
+            json,
+        } => {
+            let (subsets, files) = bases::run(&out, samples, margin)?;
+            print(&subsets, json)?;
+            if !json {
+                println!("\n{}\n{}", files[0].display(), files[1].display());
+            }
+        }
+        Command::Orderings {
+            samples,
+            seed,
+            json,
+        } => print(&orderings::run(samples, seed), json)?,
         Command::Isa(arguments) => return run_isa(&arguments),
         Command::IsaChip { chip, shader } => {
             print!("{}", child::compile(chip, shader.as_deref())?);

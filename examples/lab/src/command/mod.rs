@@ -1,5 +1,7 @@
 //! The subcommands of `moment-shadows`.
 
+pub mod bases;
+pub mod bias;
 pub mod cost;
 pub mod cost_growth;
 pub mod error;
@@ -8,6 +10,7 @@ pub mod graph;
 pub mod isa;
 pub mod measure;
 pub mod minification;
+pub mod orderings;
 pub mod render;
 pub mod shaders;
 pub mod validate;
