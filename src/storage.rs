@@ -159,12 +159,12 @@ impl Storage {
                 fourth: 0.4875,
             },
             Storage::Float16 => MomentBias {
-                alpha: 1.3e-3,
+                alpha: 1.5e-3,
                 second: 0.6036,
                 fourth: 0.4875,
             },
             Storage::Float32 => MomentBias {
-                alpha: 2.8e-6,
+                alpha: 2e-6,
                 second: 0.4403,
                 fourth: 0.3124,
             },
