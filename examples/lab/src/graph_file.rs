@@ -1,4 +1,6 @@
-//! A graph file with what the lab reads from it besides the graph: its kernel and its storage.
+//! A graph file with what the lab reads from it besides the graph: its kernel, its technique and its storage.
+
+mod technique;
 
 use std::path::Path;
 

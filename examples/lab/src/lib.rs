@@ -25,6 +25,7 @@ pub mod progress;
 pub mod scene;
 pub mod shaders;
 pub mod surface_error;
+pub mod technique_argument;
 pub mod techniques;
 pub mod truth;
 pub mod vectors;

@@ -10,12 +10,13 @@ use moment_shadows_lab::command::cost_growth::GrowthOptions;
 use moment_shadows_lab::command::render::{LightChoice, RenderOptions};
 use moment_shadows_lab::command::{
     bases, bias, cost, cost_growth, error, error_table, graph, isa, measure, minification,
-    orderings, render, shaders, validate,
+    orderings, render, shaders, technique_pictures, validate,
 };
 use moment_shadows_lab::cost::bandwidth::Memory;
 use moment_shadows_lab::gpu::Gpu;
 use moment_shadows_lab::isa::child;
 use moment_shadows_lab::isa::chip::Chip;
+use moment_shadows_lab::technique_argument::TechniqueArgument;
 use moment_shadows_lab::vectors;
 
 /// Filterable shadows: validate shaders, check graphs, render, and measure.
@@ -43,6 +44,10 @@ enum Command {
         /// The picture to write.
         #[arg(long)]
         out: PathBuf,
+        /// A technique in place of the graph's own: a name, or settings as in a graph file. Tests on the plain depth map
+        /// (binary, pcf_..., pcss) get a map of one sample per texel.
+        #[arg(long, value_name = "NAME|JSON")]
+        technique: Option<TechniqueArgument>,
         /// Also writes the brute-force picture and the difference, and prints the error.
         #[arg(long)]
         truth: bool,
@@ -79,6 +84,9 @@ enum Command {
     Measure {
         #[command(flatten)]
         frame: FrameArguments,
+        /// A technique in place of the graph's own: a name, or settings as in a graph file.
+        #[arg(long, value_name = "NAME|JSON")]
+        technique: Option<TechniqueArgument>,
         /// glTF or GLB files, or procedural scenes.
         #[arg(long, num_args = 1.., default_values = ["fence-and-foliage", "hall"])]
         scene: Vec<String>,
@@ -103,6 +111,19 @@ enum Command {
         /// Prints JSON.
         #[arg(long)]
         json: bool,
+    },
+    /// Writes a picture of every technique: a view and the technique's typical failure, each with its difference from the
+    /// truth beside it.
+    TechniquePictures {
+        /// The folder to make.
+        #[arg(long)]
+        out: PathBuf,
+        /// A glTF or GLB file, or a procedural scene: fence-and-foliage, hall.
+        #[arg(long, default_value = "hall")]
+        scene: String,
+        /// Only the technique of this name.
+        #[arg(long)]
+        only: Option<String>,
     },
     /// Writes every linked shader of the library, as WGSL and SPIR-V with an index, for other compilers.
     Shaders {
@@ -352,6 +373,7 @@ enum StorageArgument {
     Unorm16,
     Float16,
     Float32,
+    Unorm8,
 }
 
 impl From<StorageArgument> for Storage {
@@ -360,6 +382,7 @@ impl From<StorageArgument> for Storage {
             StorageArgument::Unorm16 => Storage::Unorm16,
             StorageArgument::Float16 => Storage::Float16,
             StorageArgument::Float32 => Storage::Float32,
+            StorageArgument::Unorm8 => Storage::Unorm8,
         }
     }
 }
@@ -388,6 +411,7 @@ impl FrameArguments {
             map: self.map,
             samples: self.samples,
             storage: self.storage.map(Storage::from),
+            technique: None,
         }
     }
 }
@@ -443,11 +467,14 @@ fn run(command: Command) -> Result<ExitCode, Box<dyn std::error::Error>> {
             scene,
             graph,
             out,
+            technique,
             truth,
         } => {
-            if let Some((judgement, truth)) =
-                render::run(&frame.options(scene), &graph, &out, truth)?
-            {
+            let options = RenderOptions {
+                technique,
+                ..frame.options(scene)
+            };
+            if let Some((judgement, truth)) = render::run(&options, &graph, &out, truth)? {
                 println!("{}", judgement.error);
                 println!("exact bound on the same depths\n{}", truth.bound_error);
                 println!("{}", judgement.excess);
@@ -485,10 +512,15 @@ fn run(command: Command) -> Result<ExitCode, Box<dyn std::error::Error>> {
         }
         Command::Measure {
             frame,
+            technique,
             scene,
             graph,
         } => {
-            let rows = measure::run(&scene, &graph, &frame.options(String::new()))?;
+            let options = RenderOptions {
+                technique,
+                ..frame.options(String::new())
+            };
+            let rows = measure::run(&scene, &graph, &options)?;
             print!("{}", measure::table(&rows));
         }
         Command::Minification {
@@ -501,6 +533,10 @@ fn run(command: Command) -> Result<ExitCode, Box<dyn std::error::Error>> {
             &minification::run(&frame.options(scene), &graph, distance)?,
             json,
         )?,
+        Command::TechniquePictures { out, scene, only } => {
+            let made = technique_pictures::run(&out, &scene, only.as_deref())?;
+            print!("{}", technique_pictures::table(&made));
+        }
         Command::Shaders { out } => {
             println!("{} shaders in {}", shaders::run(&out)?, out.display());
         }

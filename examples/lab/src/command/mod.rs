@@ -13,4 +13,5 @@ pub mod minification;
 pub mod orderings;
 pub mod render;
 pub mod shaders;
+pub mod technique_pictures;
 pub mod validate;

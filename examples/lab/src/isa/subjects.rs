@@ -7,7 +7,7 @@ use moment_shadows::{
 };
 use moment_shadows_graph::nodes::{
     BlurMoments, BlurParameters, DebugMoments, DownsampleMoments, KernelProperty, MipLevels,
-    ResolveMoments, ShadeHard, Show,
+    PlaceLayers, ResolveMoments, ShadeHard, Show,
 };
 use moment_shadows_graph::{Capabilities, Node, ResourceDesc, TextureDesc};
 
@@ -58,6 +58,8 @@ pub(super) struct Entry {
     pub(super) capabilities: Capabilities,
     /// Of each of its passes.
     pub(super) trips: Vec<u32>,
+    /// Of passes whose loops are others, by their labels.
+    pub(super) pass_trips: BTreeMap<&'static str, Vec<u32>>,
 }
 
 /// Every shader of the table: the references first.
@@ -92,6 +94,7 @@ pub(super) fn nodes() -> Result<Vec<Entry>, IsaError> {
         entries.push(shade(storage, 1, 1, false));
         entries.push(shade(storage, MIPS, 1, false));
     }
+    entries.push(place(1));
     entries.push(debug(Storage::Unorm16));
     // Other storages can be filtered everywhere.
     entries.push(shade(Storage::Float32, 1, 1, true));
@@ -147,6 +150,7 @@ fn resolve(storage: Storage, samples: u32) -> Entry {
         inputs: inputs([("depth", depth)]),
         capabilities: native(),
         trips: Vec::new(),
+        pass_trips: BTreeMap::new(),
     }
 }
 
@@ -183,6 +187,7 @@ fn blur(storage: Storage, radius: u32, regions: u32) -> Result<Entry, IsaError> 
         inputs: inputs([("moments", moments)]),
         capabilities: native(),
         trips,
+        pass_trips: BTreeMap::new(),
     })
 }
 
@@ -201,6 +206,23 @@ fn downsample(storage: Storage) -> Entry {
         inputs: inputs([("moments", moments)]),
         capabilities: native(),
         trips: Vec::new(),
+        pass_trips: BTreeMap::new(),
+    }
+}
+
+fn place(samples: u32) -> Entry {
+    let depth = TextureDesc {
+        samples,
+        ..texture(TextureFormat::Depth32Float)
+    };
+    let node = PlaceLayers::default();
+    Entry {
+        settings: format!("{} layers, {samples} samples", node.layers),
+        node: Box::new(node),
+        inputs: inputs([("depth", depth)]),
+        capabilities: native(),
+        trips: Vec::new(),
+        pass_trips: BTreeMap::new(),
     }
 }
 
@@ -214,6 +236,7 @@ fn debug(storage: Storage) -> Entry {
         inputs: inputs([("moments", texture(storage.format()))]),
         capabilities: native(),
         trips: Vec::new(),
+        pass_trips: BTreeMap::new(),
     }
 }
 
@@ -251,6 +274,7 @@ fn shade(storage: Storage, mips: u32, views: u32, float32_filterable: bool) -> E
             ..native()
         },
         trips,
+        pass_trips: BTreeMap::new(),
     }
 }
 

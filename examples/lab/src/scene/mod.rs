@@ -2,6 +2,7 @@
 
 mod accessor;
 mod error;
+mod failures;
 mod fence_and_foliage;
 mod gltf_file;
 mod ground;
@@ -19,6 +20,7 @@ use std::path::Path;
 use glam::DVec3;
 
 pub use error::SceneError;
+pub use failures::{contacts, stacked_boards};
 pub use fence_and_foliage::fence_and_foliage;
 pub use gltf_file::load_gltf;
 pub use ground::place_on_ground;
