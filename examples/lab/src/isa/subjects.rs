@@ -296,6 +296,7 @@ fn of_technique(encoding: &MapEncoding) -> Entry {
             ..native()
         },
         trips: trips(encoding.technique()),
+        pass_trips: BTreeMap::new(),
     }
 }
 
@@ -314,6 +315,7 @@ fn reading_depth(technique: &Technique) -> Entry {
         ]),
         capabilities: native(),
         trips: trips(technique),
+        pass_trips: BTreeMap::new(),
     }
 }
 
