@@ -20,5 +20,5 @@ pub use kernel_property::KernelProperty;
 pub use mip_levels::{AllLevels, MipLevels};
 pub use resolve_moments::ResolveMoments;
 pub use shade_hard::{
-    CameraView, LightDepth, LightView, ShadeHard, ShadeHardParameters, ViewError,
+    CameraView, LightDepth, LightView, ShadeHard, ShadeHardParameters, TechniqueShader, ViewError,
 };
