@@ -3,9 +3,11 @@
 //! Not published. It renders real geometry with the library's nodes, and judges what they give.
 
 pub mod batch;
+pub mod candidate;
 pub mod command;
 pub mod cost;
 pub mod error;
+pub mod error_plot;
 pub mod footprint;
 pub mod frame;
 pub mod gpu;
@@ -18,6 +20,7 @@ pub mod light;
 pub mod metric;
 pub mod oracle;
 pub mod picture;
+pub mod plot;
 pub mod progress;
 pub mod scene;
 pub mod shaders;

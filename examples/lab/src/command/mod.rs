@@ -1,11 +1,13 @@
 //! The subcommands of `moment-shadows`.
 
+pub mod contacts;
 pub mod cost;
 pub mod cost_growth;
 pub mod error;
 pub mod error_table;
 pub mod graph;
 pub mod isa;
+pub mod layers_figure;
 pub mod measure;
 pub mod minification;
 pub mod render;
