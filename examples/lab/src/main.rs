@@ -5,7 +5,7 @@ use std::process::ExitCode;
 
 use clap::{Parser, Subcommand, ValueEnum};
 use moment_shadows::{Profile, Storage};
-use moment_shadows_lab::candidate::{Candidate, TechniqueChoice};
+use moment_shadows_lab::candidate::{Candidate, TechniqueChoice, candidates};
 use moment_shadows_lab::command::cost_growth::GrowthOptions;
 use moment_shadows_lab::command::error_table::TableOptions;
 use moment_shadows_lab::command::render::{LightChoice, RenderOptions};
@@ -14,6 +14,7 @@ use moment_shadows_lab::command::{
     minification, render, shaders, validate,
 };
 use moment_shadows_lab::cost::bandwidth::Memory;
+use moment_shadows_lab::error::LabError;
 use moment_shadows_lab::gpu::Gpu;
 use moment_shadows_lab::isa::child;
 use moment_shadows_lab::isa::chip::Chip;
@@ -265,23 +266,13 @@ struct TableArguments {
 
 impl TableArguments {
     /// What is measured: all techniques, those that are named, or the graph's own in all of its storages.
-    fn candidates(&self, storage: Option<Storage>) -> Vec<Candidate> {
-        let mut candidates = if self.all {
-            Candidate::all()
-        } else if self.technique.is_empty() {
-            Storage::ALL.map(Candidate::Storage).to_vec()
-        } else {
-            of_choices(&self.technique)
-        };
-        candidates.retain(|candidate| storage.is_none() || candidate.storage() == storage);
-        candidates
+    fn candidates(&self, storage: Option<Storage>) -> Result<Vec<Candidate>, LabError> {
+        if !self.all && self.technique.is_empty() {
+            let own = storage.map_or(Storage::ALL.to_vec(), |storage| vec![storage]);
+            return Ok(own.into_iter().map(Candidate::Storage).collect());
+        }
+        candidates(&self.technique, storage)
     }
-}
-
-/// All storages of some techniques.
-fn of_choices(choices: &[TechniqueChoice]) -> Vec<Candidate> {
-    let candidates = choices.iter().flat_map(|choice| &choice.candidates);
-    candidates.cloned().collect()
 }
 
 #[derive(clap::Args)]
@@ -541,7 +532,14 @@ fn run(command: Command) -> Result<ExitCode, Box<dyn std::error::Error>> {
             out,
             json,
         } => {
-            let mut figure = layers_figure::run(&frame.options(scene), &graph, radius, stride)?;
+            let options = frame.options(scene);
+            if options.storage.is_some() {
+                return Err(
+                    "the storages of the figure are those of equal memory; leave out --storage"
+                        .into(),
+                );
+            }
+            let mut figure = layers_figure::run(&options, &graph, radius, stride)?;
             if let Some(out) = out {
                 figure.plot(&out)?;
             }
@@ -601,7 +599,7 @@ fn run(command: Command) -> Result<ExitCode, Box<dyn std::error::Error>> {
 fn run_error_table(arguments: TableArguments) -> Result<(), Box<dyn std::error::Error>> {
     let render = arguments.frame.options(String::new());
     let options = TableOptions {
-        candidates: arguments.candidates(render.storage),
+        candidates: arguments.candidates(render.storage)?,
         scenes: arguments.scene,
         radii: arguments.radius,
         stride: arguments.stride,
