@@ -1,8 +1,10 @@
 //! The figures: on scenes whose error is known, against exact bounds, and repeated.
 
 use moment_shadows::{MomentBias, Storage};
+use moment_shadows_lab::candidate::Candidate;
+use moment_shadows_lab::command::error;
 use moment_shadows_lab::command::error::ErrorReport;
-use moment_shadows_lab::command::{error, error_table};
+use moment_shadows_lab::command::error_table::{self, TableOptions};
 use moment_shadows_lab::error::LabError;
 use moment_shadows_lab::graph_file::GraphFile;
 use moment_shadows_lab::judgement::Unfiltered;
@@ -135,7 +137,7 @@ fn report() -> ErrorReport {
     let path = std::path::Path::new(env!("CARGO_MANIFEST_DIR")).join("examples/hard_shadows.json");
     let mut options = options(128, 4);
     options.scene = "hall".to_owned();
-    error::run(&options, &path, Some(3)).unwrap()
+    error::run(&options, &path, Some(3), None).unwrap()
 }
 
 #[test]
@@ -164,8 +166,14 @@ fn figures_repeat_to_the_last_digit() {
 #[test]
 fn the_table_has_a_row_for_each_scene_radius_and_storage() {
     let path = std::path::Path::new(env!("CARGO_MANIFEST_DIR")).join("examples/hard_shadows.json");
-    let scenes = ["hall", "fence-and-foliage"].map(str::to_owned);
-    let table = error_table::run(&scenes, &[1, 2], &path, &options(64, 1)).unwrap();
+    let options = TableOptions {
+        scenes: ["hall", "fence-and-foliage"].map(str::to_owned).to_vec(),
+        radii: vec![1, 2],
+        candidates: Storage::ALL.map(Candidate::Storage).to_vec(),
+        stride: 1,
+        render: options(64, 1),
+    };
+    let table = error_table::run(&path, &options).unwrap();
     let keys: Vec<_> = table
         .rows
         .iter()
@@ -174,7 +182,7 @@ fn the_table_has_a_row_for_each_scene_radius_and_storage() {
     let mut expected = Vec::new();
     for scene in ["hall", "fence-and-foliage"] {
         for radius in [1, 2] {
-            expected.extend(Storage::ALL.map(|storage| (scene, radius, storage)));
+            expected.extend(Storage::ALL.map(|storage| (scene, radius, Some(storage))));
         }
     }
     assert_eq!(keys, expected);

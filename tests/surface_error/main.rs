@@ -2,8 +2,11 @@
 //! something is made better or worse.
 #![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic)]
 
+mod choices;
+mod contacts;
 mod device;
 mod figures;
 mod peeling;
 mod sensitivity;
 mod setup;
+mod table;

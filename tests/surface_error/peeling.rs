@@ -186,7 +186,7 @@ fn coincident_surfaces_count_once_and_holes_not_at_all() {
     assert!(
         surfaces
             .iter()
-            .all(|surface| surface.distance_per_texel < 1e-12)
+            .all(|surface| surface.distance_per_texel() < 1e-12)
     );
 }
 
@@ -200,7 +200,7 @@ fn slopes_are_those_of_the_planes() {
     let surfaces = Peeler::new(&scene, &light, [16, 64]).unwrap().rows(0..64);
     assert_eq!(surfaces.len(), 16 * 64);
     for surface in surfaces {
-        assert!((surface.distance_per_texel - 0.5 * 2.0 / 16.0).abs() < 1e-12);
+        assert!((surface.distance_per_texel() - 0.5 * 2.0 / 16.0).abs() < 1e-12);
     }
 }
 

@@ -8,6 +8,7 @@ use crate::host::HostError;
 use crate::light::LightError;
 use crate::metric::MetricError;
 use crate::picture::PictureError;
+use crate::plot::PlotError;
 use crate::scene::SceneError;
 use crate::truth::peel::PeelError;
 use crate::truth::surface::TruthError;
@@ -52,6 +53,20 @@ pub enum LabError {
         /// Why.
         reason: String,
     },
+    /// A storage that a technique does not have.
+    #[error("the technique cannot be stored as {asked} with these settings; it can as {legal}")]
+    NoStorage {
+        /// What was asked for.
+        asked: &'static str,
+        /// What it can have.
+        legal: String,
+    },
+    /// A technique's settings.
+    #[error(transparent)]
+    Technique(#[from] moment_shadows::TechniqueError),
+    /// A plot.
+    #[error(transparent)]
+    Plot(#[from] PlotError),
     /// The library's parameters.
     #[error(transparent)]
     Parameters(#[from] ParameterError),

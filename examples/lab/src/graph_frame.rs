@@ -2,11 +2,11 @@
 
 use moment_shadows::{
     DepthRange, LeakReduction, MapRegion, PercentageCloserSoftLight, ReceiverBias, SoftRadii,
-    Storage, Technique, TextureFormat,
+    Technique, TextureFormat,
 };
 use moment_shadows_graph::nodes::{CameraView, LightDepth, LightView, ShadeHardParameters};
 use moment_shadows_graph::record::{
-    Bindings, ImportedResource, PipelineOptions, Pipelines, Recording, Resources, texture_format,
+    Bindings, ImportedResource, PipelineOptions, Pipelines, Recording, Resources,
 };
 use moment_shadows_graph::{
     Capabilities, Imports, Plan, ResourceDesc, Stage, TextureDesc, compile,
@@ -139,13 +139,6 @@ pub fn read_intensity(gpu: &Gpu, texture: &wgpu::Texture) -> Result<Vec<f32>, La
             .collect(),
         _ => bytemuck::pod_collect_to_vec(&bytes),
     })
-}
-
-/// The storage of a map of moments; `None` for a texture that can be no such map.
-pub fn storage_of(map: &wgpu::Texture) -> Option<Storage> {
-    Storage::ALL
-        .into_iter()
-        .find(|storage| texture_format(storage.format()) == Some(map.format()))
 }
 
 /// What the host gives, as the compiler wants it described.

@@ -6,13 +6,16 @@ use std::process::ExitCode;
 use clap::{Parser, Subcommand, ValueEnum};
 use moment_shadows::{Profile, Storage};
 use moment_shadows_lab::bias::BiasTechnique;
+use moment_shadows_lab::candidate::{Candidate, TechniqueChoice, candidates};
 use moment_shadows_lab::command::cost_growth::GrowthOptions;
+use moment_shadows_lab::command::error_table::TableOptions;
 use moment_shadows_lab::command::render::{LightChoice, RenderOptions};
 use moment_shadows_lab::command::{
-    bases, bias, cost, cost_growth, error, error_table, graph, isa, measure, minification,
-    orderings, render, shaders, technique_pictures, validate,
+    bases, bias, contacts, cost, cost_growth, error, error_table, graph, isa, layers_figure,
+    measure, minification, orderings, render, shaders, technique_pictures, validate,
 };
 use moment_shadows_lab::cost::bandwidth::Memory;
+use moment_shadows_lab::error::LabError;
 use moment_shadows_lab::gpu::Gpu;
 use moment_shadows_lab::isa::child;
 use moment_shadows_lab::isa::chip::Chip;
@@ -144,23 +147,53 @@ enum Command {
         /// A Gaussian of this radius, in texels, in place of the graph's own kernel.
         #[arg(long, value_parser = clap::value_parser!(u32).range(1..=64))]
         radius: Option<u32>,
+        /// A technique in place of the graph's own: a name with usual settings (vsm, evsm4, pcf, ...), or an object as in
+        /// graph files ({"esm":{"exponent":80}}).
+        #[arg(long, value_parser = TechniqueChoice::parse)]
+        technique: Option<TechniqueChoice>,
         /// Prints JSON.
         #[arg(long)]
         json: bool,
     },
-    /// Prints the error over all surfaces of several scenes, for several radii and every storage.
-    ErrorTable {
+    /// Prints the error over all surfaces of several scenes, for several radii, techniques and storages.
+    ErrorTable(TableArguments),
+    /// Prints the errors of layered variance and of convolution shadow maps of as many bits, with 2 to 8 layers and 4 to 16
+    /// terms, and plots them.
+    LayersFigure {
         #[command(flatten)]
         frame: FrameArguments,
-        /// glTF or GLB files, or procedural scenes.
-        #[arg(long, num_args = 1.., default_values = ["fence-and-foliage", "hall"])]
-        scene: Vec<String>,
+        /// A glTF or GLB file, or a procedural scene: fence-and-foliage, hall, chairs.
+        #[arg(long, default_value = "hall")]
+        scene: String,
         /// The graph file.
         #[arg(long)]
         graph: PathBuf,
-        /// Radii of the Gaussian, in texels, in place of the graph's own kernel.
+        /// Of the Gaussian, in texels.
+        #[arg(long, default_value_t = 4, value_parser = clap::value_parser!(u32).range(1..=64))]
+        radius: u32,
+        /// Of the map's texels one of so many along either axis counts.
+        #[arg(long, default_value_t = 1, value_parser = clap::value_parser!(u32).range(1..=64))]
+        stride: u32,
+        /// The folder for the plot, as SVG and PNG; it is made if need be.
+        #[arg(long)]
+        out: Option<PathBuf>,
+        /// Prints JSON.
+        #[arg(long)]
+        json: bool,
+    },
+    /// Prints how much light leaks where the thin legs of chairs meet the ground.
+    Contacts {
+        #[command(flatten)]
+        frame: FrameArguments,
+        /// The graph file.
+        #[arg(long)]
+        graph: PathBuf,
+        /// Radii of the Gaussian, in texels.
         #[arg(long, num_args = 1.., default_values = ["1", "4", "12"], value_parser = clap::value_parser!(u32).range(1..=64))]
         radius: Vec<u32>,
+        /// Techniques in place of all: names with usual settings, or objects as in graph files.
+        #[arg(long, num_args = 1.., value_parser = TechniqueChoice::parse)]
+        technique: Vec<TechniqueChoice>,
         /// Prints JSON.
         #[arg(long)]
         json: bool,
@@ -267,6 +300,49 @@ struct CostGrowthArguments {
 }
 
 #[derive(clap::Args)]
+struct TableArguments {
+    #[command(flatten)]
+    frame: FrameArguments,
+    /// glTF or GLB files, or procedural scenes.
+    #[arg(long, num_args = 1.., default_values = ["fence-and-foliage", "hall"])]
+    scene: Vec<String>,
+    /// The graph file.
+    #[arg(long)]
+    graph: PathBuf,
+    /// Radii of the Gaussian, in texels, in place of the graph's own kernel.
+    #[arg(long, num_args = 1.., default_values = ["1", "4", "12"], value_parser = clap::value_parser!(u32).range(1..=64))]
+    radius: Vec<u32>,
+    /// Techniques in place of the graph's own, each in all of its storages: names with usual settings (vsm, evsm4, pcf,
+    /// ...), or objects as in graph files.
+    #[arg(long, num_args = 1.., value_parser = TechniqueChoice::parse, conflicts_with = "all")]
+    technique: Vec<TechniqueChoice>,
+    /// All techniques in all of their storages, and as references the binary test and percentage-closer filtering with the
+    /// same kernel.
+    #[arg(long)]
+    all: bool,
+    /// Of the map's texels one of so many along either axis counts: 2 takes a quarter of the time.
+    #[arg(long, default_value_t = 1, value_parser = clap::value_parser!(u32).range(1..=64))]
+    stride: u32,
+    /// A folder for a plot of error against bits per texel, as SVG and PNG; it is made if need be.
+    #[arg(long)]
+    out: Option<PathBuf>,
+    /// Prints JSON.
+    #[arg(long)]
+    json: bool,
+}
+
+impl TableArguments {
+    /// What is measured: all techniques, those that are named, or the graph's own in all of its storages.
+    fn candidates(&self, storage: Option<Storage>) -> Result<Vec<Candidate>, LabError> {
+        if !self.all && self.technique.is_empty() {
+            let own = storage.map_or(Storage::ALL.to_vec(), |storage| vec![storage]);
+            return Ok(own.into_iter().map(Candidate::Storage).collect());
+        }
+        candidates(&self.technique, storage)
+    }
+}
+
+#[derive(clap::Args)]
 struct IsaArguments {
     /// The chip.
     #[arg(long, value_enum, default_value = "all")]
@@ -370,10 +446,10 @@ impl From<BiasTechniqueArgument> for BiasTechnique {
 
 #[derive(Clone, Copy, ValueEnum)]
 enum StorageArgument {
+    Unorm8,
     Unorm16,
     Float16,
     Float32,
-    Unorm8,
 }
 
 impl From<StorageArgument> for Storage {
@@ -576,17 +652,48 @@ fn run(command: Command) -> Result<ExitCode, Box<dyn std::error::Error>> {
             scene,
             graph,
             radius,
+            technique,
             json,
-        } => print(&error::run(&frame.options(scene), &graph, radius)?, json)?,
-        Command::ErrorTable {
+        } => print(
+            &error::run(&frame.options(scene), &graph, radius, technique.as_ref())?,
+            json,
+        )?,
+        Command::ErrorTable(arguments) => run_error_table(arguments)?,
+        Command::LayersFigure {
             frame,
             scene,
             graph,
             radius,
+            stride,
+            out,
             json,
         } => {
+            let options = frame.options(scene);
+            if options.storage.is_some() {
+                return Err(
+                    "the storages of the figure are those of equal memory; leave out --storage"
+                        .into(),
+                );
+            }
+            let mut figure = layers_figure::run(&options, &graph, radius, stride)?;
+            if let Some(out) = out {
+                figure.plot(&out)?;
+            }
+            print(&figure, json)?;
+        }
+        Command::Contacts {
+            frame,
+            graph,
+            radius,
+            technique,
+            json,
+        } => {
+            let candidates = candidates(&technique, None)?;
             let options = frame.options(String::new());
-            print(&error_table::run(&scene, &radius, &graph, &options)?, json)?;
+            print(
+                &contacts::run(&options, &graph, &radius, &candidates)?,
+                json,
+            )?;
         }
         Command::CostGrowth(arguments) => {
             let json = arguments.json;
@@ -619,6 +726,23 @@ fn run(command: Command) -> Result<ExitCode, Box<dyn std::error::Error>> {
         },
     }
     Ok(ExitCode::SUCCESS)
+}
+
+fn run_error_table(arguments: TableArguments) -> Result<(), Box<dyn std::error::Error>> {
+    let render = arguments.frame.options(String::new());
+    let options = TableOptions {
+        candidates: arguments.candidates(render.storage)?,
+        scenes: arguments.scene,
+        radii: arguments.radius,
+        stride: arguments.stride,
+        render,
+    };
+    let mut table = error_table::run(&arguments.graph, &options)?;
+    if let Some(out) = &arguments.out {
+        table.plot(out)?;
+    }
+    print(&table, arguments.json)?;
+    Ok(())
 }
 
 fn run_isa(arguments: &IsaArguments) -> Result<ExitCode, Box<dyn std::error::Error>> {

@@ -97,8 +97,8 @@ pub fn compare(
         }
     }
     Ok(Comparison {
-        facing: figures(&errors),
-        penumbra: figures(&penumbra_errors),
+        facing: figures(errors),
+        penumbra: figures(penumbra_errors),
         picture_mean_absolute: total / truth.len().max(1) as f64,
         nan_pixels,
     })
@@ -123,24 +123,27 @@ pub(crate) fn signed_error(estimate: f32, truth: f32) -> f64 {
 }
 
 /// Figures of signed errors, estimate less truth. Sums run over them in order.
-pub(crate) fn figures(errors: &[f64]) -> ErrorFigures {
+pub(crate) fn figures(mut errors: Vec<f64>) -> ErrorFigures {
     if errors.is_empty() {
         return ErrorFigures::default();
     }
-    let count = errors.len() as f64;
+    let samples = errors.len();
+    let count = samples as f64;
     let leaking = errors.iter().map(|error| (-error).max(0.0)).sum::<f64>() / count;
     let overdarkening = errors.iter().map(|error| error.max(0.0)).sum::<f64>() / count;
-    let mut sorted: Vec<f64> = errors.iter().map(|error| error.abs()).collect();
-    sorted.sort_unstable_by(f64::total_cmp);
+    for error in &mut errors {
+        *error = error.abs();
+    }
     // The nearest rank: the least value that is not exceeded by 95 % of the samples.
     let rank = (errors.len() * 95).div_ceil(100).max(1) - 1;
+    let (_, &mut percentile_95, above) = errors.select_nth_unstable_by(rank, f64::total_cmp);
     ErrorFigures {
-        samples: errors.len(),
+        samples,
         mean_absolute: leaking + overdarkening,
         leaking,
         overdarkening,
-        percentile_95: sorted.get(rank).copied().unwrap_or_default(),
-        maximum: sorted.last().copied().unwrap_or_default(),
+        percentile_95,
+        maximum: above.iter().copied().fold(percentile_95, f64::max),
     }
 }
 

@@ -4,7 +4,7 @@
 //! A picture shows a few of the surfaces in a scene, from one side. This error knows no camera: it asks the technique for
 //! the shadow intensity of every surface along every ray of the light and compares it with the truth. Exactly:
 //!
-//! - **Samples.** One ray through the centre of each texel of the light's map, and on it every surface
+//! - **Samples.** One ray through the centre of each texel of the light's map (or of one in a few), and on it every surface
 //!   ([`truth::peel`](crate::truth::peel)), front and back sides alike, the ground too. Each counts as much as any other:
 //!   they stand for the same area of the map. So the mean is over pairs of a texel and a surface on its ray. The mean error
 //!   per texel is this mean times surfaces per ray. Rays that meet nothing but the ground are left out, unless said
@@ -28,49 +28,58 @@
 //! differ by far more than between techniques.
 
 mod evaluate;
+mod judged_map;
+mod map_point;
 
-use moment_shadows::{LeakReduction, ReceiverBias, Storage};
+use std::sync::Arc;
+
+use glam::DVec2;
+use moment_shadows::{LeakReduction, MomentBias, ReceiverBias};
 use serde::Serialize;
 
-pub use evaluate::{Evaluation, MapEvaluator, MapPoint};
+pub use evaluate::{Evaluation, MapEvaluator};
+pub use judged_map::{JudgedMap, MapRun};
+pub use map_point::MapPoint;
 
 use crate::error::LabError;
 use crate::frame::Frame;
 use crate::gpu::Gpu;
 use crate::graph_file::GraphFile;
 use crate::graph_frame::shade_parameters;
-use crate::judgement::Unfiltered;
 use crate::metric::{ErrorFigures, figures, signed_error};
 use crate::scene::Scene;
+use crate::truth::kernel::TapPattern;
 use crate::truth::pcf::{Receiver, pcf_at};
 use crate::truth::peel::{LightSurface, PeelError, Peeler};
+use crate::truth::surface::MomentDepths;
 
 /// Rays that are peeled at once: bounds the memory that surfaces take in full.
 const RAYS_AT_ONCE: u32 = 1 << 16;
 
-/// Edge-on surfaces have no gradient; above this their bias is limited anyway, and f32 can square it.
-const LARGEST_GRADIENT: f64 = 1e15;
-
-/// The surfaces along the rays of a light, and the truth of each under a kernel. Takes 28 bytes per surface.
-pub struct SurfaceTruth {
-    map: [u32; 2],
+/// The surfaces along the rays of a light. Takes 28 bytes per surface.
+struct LitSurfaces {
     rays: u64,
     caster_rays: u64,
     layers: u32,
-    surfaces: Vec<Surface>,
+    points: Vec<MapPoint>,
+    kinds: Vec<SurfaceKind>,
 }
 
-/// What is kept of a surface.
-struct Surface {
-    texel: [u32; 2],
-    moment_depth: f32,
-    gradient: f32,
-    /// Shadow intensity in front of its plane, and of its own depth.
-    in_front_of_plane: f32,
-    in_front_of_depth: f32,
+/// What of a surface decides which figures it counts for.
+#[derive(Clone, Copy)]
+struct SurfaceKind {
     faces_light: bool,
     /// Whether its ray meets a caster.
     counts: bool,
+}
+
+/// The surfaces along the rays of a light, and the truth of each under a kernel.
+pub struct SurfaceTruth {
+    lit: Arc<LitSurfaces>,
+    /// Shadow intensity in front of the plane of each surface.
+    in_front_of_plane: Vec<f32>,
+    /// The same in front of its own depth.
+    in_front_of_depth: Vec<f32>,
 }
 
 /// The error of a technique over all surfaces.
@@ -95,75 +104,98 @@ pub struct SurfaceErrors {
     pub nan: usize,
 }
 
+impl LitSurfaces {
+    /// Adds what was peeled, row by row.
+    fn add(&mut self, frame: &Frame, found: &[LightSurface]) {
+        let light = &frame.desc.light;
+        let size = DVec2::from_array(frame.desc.map.map(f64::from));
+        let [near, far] = light.range;
+        let per_distance = 2.0 / (far - near);
+        for ray in found.chunk_by(|a, b| a.texel == b.texel) {
+            let counts = ray.iter().any(|surface| !surface.ground);
+            self.rays += 1;
+            self.caster_rays += u64::from(counts);
+            self.layers = self.layers.max(ray.len() as u32);
+            for surface in ray {
+                let place = DVec2::from_array(surface.texel.map(f64::from)) + 0.5;
+                self.points.push(MapPoint::new(
+                    place / size,
+                    light.moment_depth_of_distance(surface.distance),
+                    surface.distance_gradient * per_distance,
+                ));
+                self.kinds.push(SurfaceKind {
+                    faces_light: surface.faces_light,
+                    counts,
+                });
+            }
+        }
+    }
+}
+
 impl SurfaceTruth {
-    /// Peels the scene of `frame` and computes the truths from its unfiltered map. Takes seconds; `step` is called
+    /// Peels the scene of `frame` once and computes the truths under each of the `kernels` from its unfiltered map. Of the
+    /// map's texels every `stride`-th along either axis has a ray. Takes seconds; `step` is called
     /// [`steps`](Self::steps) times.
     pub fn of(
         scene: &Scene,
         frame: &Frame,
-        unfiltered: &Unfiltered,
+        depths: &MomentDepths,
+        kernels: &[TapPattern],
+        stride: u32,
         step: impl Fn(),
-    ) -> Result<Self, LabError> {
+    ) -> Result<Vec<Self>, LabError> {
         let (light, map) = (&frame.desc.light, frame.desc.map);
         let peeler = Peeler::new(scene, light, map)?;
-        let [near, far] = light.range;
-        let per_distance = 2.0 / (far - near);
         let axis = light
             .view_from_world
             .inverse()
             .transform_vector3(glam::DVec3::Z);
-        let mut truth = Self {
-            map,
+        let mut lit = LitSurfaces {
             rays: 0,
             caster_rays: 0,
             layers: 0,
-            surfaces: Vec::new(),
+            points: Vec::new(),
+            kinds: Vec::new(),
         };
+        let mut truths = vec![(Vec::new(), Vec::new()); kernels.len()];
+        let stride = stride.max(1);
         for rows in (0..map[1]).step_by(rows_at_once(map)) {
-            let found = peeler.rows(rows..rows.saturating_add(rows_at_once(map) as u32));
-            let shadow = |normal: &dyn Fn(&LightSurface) -> glam::DVec3| {
-                let receivers: Vec<Receiver> = found
+            let mut found = peeler.rows(rows..rows.saturating_add(rows_at_once(map) as u32));
+            found.retain(|surface| surface.texel.iter().all(|at| at % stride == 0));
+            lit.add(frame, &found);
+            let receivers = |normal: &dyn Fn(&LightSurface) -> glam::DVec3| -> Vec<Receiver> {
+                found
                     .iter()
                     .map(|surface| Receiver {
                         position: surface.position,
                         normal: normal(surface),
                     })
-                    .collect();
-                pcf_at(light, &unfiltered.depths, &unfiltered.taps, &receivers)
+                    .collect()
             };
-            let planes = shadow(&|surface| surface.normal);
-            let depths = shadow(&|_| axis);
-            let mut index = 0;
-            for ray in found.chunk_by(|a, b| a.texel == b.texel) {
-                let counts = ray.iter().any(|surface| !surface.ground);
-                truth.rays += 1;
-                truth.caster_rays += u64::from(counts);
-                truth.layers = truth.layers.max(ray.len() as u32);
-                for surface in ray {
-                    let gradient =
-                        (surface.distance_per_texel * per_distance).min(LARGEST_GRADIENT);
-                    truth.surfaces.push(Surface {
-                        texel: surface.texel,
-                        moment_depth: light.moment_depth_of_distance(surface.distance) as f32,
-                        gradient: gradient as f32,
-                        in_front_of_plane: planes[index],
-                        in_front_of_depth: depths[index],
-                        faces_light: surface.faces_light,
-                        counts,
-                    });
-                    index += 1;
-                }
+            let planes = receivers(&|surface| surface.normal);
+            let across = receivers(&|_| axis);
+            for (taps, (in_front_of_plane, in_front_of_depth)) in kernels.iter().zip(&mut truths) {
+                in_front_of_plane.extend(pcf_at(light, depths, taps, &planes));
+                in_front_of_depth.extend(pcf_at(light, depths, taps, &across));
             }
             step();
         }
-        if truth.caster_rays == 0 {
+        if lit.caster_rays == 0 {
             return Err(PeelError::NoCaster {
                 scene: scene.name.clone(),
                 map,
             }
             .into());
         }
-        Ok(truth)
+        let lit = Arc::new(lit);
+        let truths = truths.into_iter();
+        Ok(truths
+            .map(|(in_front_of_plane, in_front_of_depth)| Self {
+                lit: Arc::clone(&lit),
+                in_front_of_plane,
+                in_front_of_depth,
+            })
+            .collect())
     }
 
     /// How many steps [`of`](Self::of) takes for a map of `map` texels.
@@ -171,61 +203,47 @@ impl SurfaceTruth {
         u64::from(map[1]).div_ceil(rows_at_once(map) as u64)
     }
 
-    /// The error of a filtered map in `storage`, evaluated as `shading` says; the distribution's bound is taken with the
-    /// same moment bias. All sums run over the surfaces in order, in f64: the same map gives the same figures.
+    /// The error of a map, evaluated as `shading` says, and of four moments with another moment bias if one is given; the
+    /// distribution's bound is taken with the same moment bias. All sums run over the surfaces in order, in f64: the same
+    /// map gives the same figures.
     pub fn judge(
         &self,
         gpu: &Gpu,
-        map: &wgpu::Texture,
-        storage: Storage,
+        map: &JudgedMap<'_>,
         shading: Evaluation,
+        moment_bias: Option<MomentBias>,
     ) -> Result<SurfaceErrors, LabError> {
-        let [width, height] = self.map.map(f64::from);
-        let points: Vec<MapPoint> = self
-            .surfaces
-            .iter()
-            .map(|surface| {
-                let [x, y] = surface.texel.map(|at| f64::from(at) + 0.5);
-                MapPoint {
-                    uv: [(x / width) as f32, (y / height) as f32],
-                    moment_depth: surface.moment_depth,
-                    gradient: surface.gradient,
-                }
-            })
-            .collect();
-        let evaluator = MapEvaluator::new(gpu, map, storage)?;
-        let shaded = evaluator.run(shading, &points)?;
+        let lit = &self.lit;
+        let evaluator = MapEvaluator::new(gpu, map, moment_bias)?;
+        let shaded = evaluator.run(shading, &lit.points)?;
         let bound = evaluator.run(
             Evaluation {
                 receiver_bias: ReceiverBias::NONE,
                 leak_reduction: LeakReduction::NONE,
                 ..shading
             },
-            &points,
+            &lit.points,
         )?;
-        let errors = |estimates: &[f32], truth: fn(&Surface) -> f32, of: fn(&Surface) -> bool| {
-            let pairs = self.surfaces.iter().zip(estimates);
+        let errors = |estimates: &[f32], truths: &[f32], of: fn(&SurfaceKind) -> bool| {
+            let pairs = lit.kinds.iter().zip(estimates.iter().zip(truths));
             let errors: Vec<f64> = pairs
-                .filter(|(surface, _)| of(surface))
-                .map(|(surface, &estimate)| signed_error(estimate, truth(surface)))
+                .filter(|(kind, _)| of(kind))
+                .map(|(_, (&estimate, &truth))| signed_error(estimate, truth))
                 .collect();
-            figures(&errors)
+            figures(errors)
         };
-        let plane = |surface: &Surface| surface.in_front_of_plane;
-        let depth = |surface: &Surface| surface.in_front_of_depth;
-        let counted = self.surfaces.iter().zip(&shaded).zip(&bound);
+        let (plane, depth) = (&self.in_front_of_plane, &self.in_front_of_depth);
+        let estimates = shaded.iter().zip(&bound);
         Ok(SurfaceErrors {
-            rays: self.rays,
-            caster_rays: self.caster_rays,
-            peels: self.layers,
-            shading: errors(&shaded, plane, |surface| surface.counts),
-            shading_facing: errors(&shaded, plane, |surface| {
-                surface.counts && surface.faces_light
-            }),
+            rays: lit.rays,
+            caster_rays: lit.caster_rays,
+            peels: lit.layers,
+            shading: errors(&shaded, plane, |kind| kind.counts),
+            shading_facing: errors(&shaded, plane, |kind| kind.counts && kind.faces_light),
             shading_all_rays: errors(&shaded, plane, |_| true),
-            distribution: errors(&bound, depth, |surface| surface.counts),
-            nan: counted
-                .filter(|((_, shaded), bound)| shaded.is_nan() || bound.is_nan())
+            distribution: errors(&bound, depth, |kind| kind.counts),
+            nan: estimates
+                .filter(|(shaded, bound)| shaded.is_nan() || bound.is_nan())
                 .count(),
         })
     }
@@ -238,7 +256,8 @@ impl Evaluation {
         Ok(Self {
             receiver_bias: parameters.receiver_bias,
             leak_reduction: parameters.leak_reduction,
-            moment_bias: None,
+            conversion: parameters.conversion,
+            light: parameters.light,
         })
     }
 }

@@ -119,6 +119,19 @@ pub fn label(technique: &Technique) -> String {
     format!("{technique}{taps}")
 }
 
+/// A technique with its settings, as tables name it: `evsm4 40/5`.
+#[must_use]
+pub fn described(technique: &Technique) -> String {
+    let settings = match technique {
+        Technique::Esm { exponent, .. } | Technique::Evsm2 { exponent } => format!(" {exponent}"),
+        Technique::Evsm4 { positive, negative } => format!(" {positive}/{negative}"),
+        Technique::Lvsm { layers, .. } => format!(" {layers}"),
+        Technique::Convolution { terms, .. } => format!(" {terms}"),
+        _ => String::new(),
+    };
+    format!("{}{settings}", label(technique))
+}
+
 /// A literal of this file.
 fn finite(value: f32) -> Finite {
     Finite::new(value).unwrap_or_default()

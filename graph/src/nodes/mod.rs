@@ -22,5 +22,5 @@ pub use mip_levels::{AllLevels, MipLevels};
 pub use place_layers::PlaceLayers;
 pub use resolve_moments::ResolveMoments;
 pub use shade_hard::{
-    CameraView, LightDepth, LightView, ShadeHard, ShadeHardParameters, ViewError,
+    CameraView, LightDepth, LightView, ShadeHard, ShadeHardParameters, TechniqueShader, ViewError,
 };

@@ -9,11 +9,16 @@ pub(super) fn moments_input<'a>(
     upstream: &Connected<'a>,
 ) -> Result<(&'a TextureDesc, MapEncoding), GraphError> {
     let moments = upstream.texture("moments")?;
+    Ok((moments, encoding_of(moments)?))
+}
+
+/// The encoding of a filterable map: four moments, unless the map says otherwise.
+pub(super) fn encoding_of(moments: &TextureDesc) -> Result<MapEncoding, GraphError> {
     let encoding = moments
         .encoding
         .clone()
         .or_else(|| MapEncoding::of_four_moments(moments.format));
-    let encoding = encoding.ok_or_else(|| {
+    encoding.ok_or_else(|| {
         GraphError::new(
             GraphErrorKind::Format,
             format!(
@@ -22,8 +27,7 @@ pub(super) fn moments_input<'a>(
             ),
         )
         .at_slot("moments")
-    })?;
-    Ok((moments, encoding))
+    })
 }
 
 /// The formats that a filterable map can have.

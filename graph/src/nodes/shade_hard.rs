@@ -2,22 +2,24 @@
 
 use bytemuck::{Pod, Zeroable};
 use moment_shadows::{
-    DepthConversion, LeakReduction, MapRegion, PcfTaps, PercentageCloserSoftLight, ReceiverBias,
-    Technique, TextureFormat,
+    DepthConversion, LeakReduction, MapEncoding, MapRegion, PcfTaps, PercentageCloserSoftLight,
+    ReceiverBias, Technique, TextureFormat,
 };
 use serde::{Deserialize, Serialize};
 
 use super::moments_input::{map_formats, moments_input};
 use super::specialization::{FULLSCREEN, Specialization};
-use super::techniques;
+use super::techniques::{self, VirtualModule};
 use crate::{
-    Access, Binding, BindingResource, Connected, CountRule, Direction, ExtentRule, FormatRule,
-    GraphError, GraphErrorKind, Lifetime, Node, NodeDesc, ParameterBlock, Pass, Slot, SlotResource,
-    Stage, Work,
+    Access, Binding, BindingResource, Capabilities, Connected, CountRule, Direction, ExtentRule,
+    FormatRule, GraphError, GraphErrorKind, Lifetime, Node, NodeDesc, ParameterBlock, Pass, Slot,
+    SlotResource, Stage, TextureDesc, Work,
 };
 
+mod own_shader;
 mod parameters;
 
+pub use own_shader::TechniqueShader;
 pub use parameters::{CameraView, LightDepth, LightView, ViewError};
 
 const SHADER: &str = include_str!("shade_hard.wgsl");
@@ -114,23 +116,10 @@ impl Node for ShadeHard {
     fn describe(&self, upstream: &Connected<'_>) -> Result<NodeDesc, GraphError> {
         let format = self.check()?;
         let capabilities = upstream.capabilities();
-        let (technique, map) = self.technique_and_map(upstream)?;
-        let mut specialization = Specialization::new(capabilities)
-            .constant("LEVELS", &format!("{}u", map.levels))
-            .constant("VIEWS", &format!("{}u", self.views))
-            .constant("LIGHTS", &format!("{}u", self.lights))
-            .constant("ANISOTROPY", &format!("{}.0", self.anisotropy))
-            .constant("PLANES", &format!("{}u", technique.planes()));
-        if let Some(storage) = map.storage {
-            specialization = specialization.constant("STORAGE", &format!("{storage}u"));
-        }
-        let mut modules = techniques::evaluation(&technique);
-        modules.extend([("moments_lookup", map.lookup), FULLSCREEN]);
-        let wgsl = techniques::specialize(specialization, &technique).link(
-            "shade_hard.wgsl",
-            SHADER,
-            &modules,
-        )?;
+        let (technique, map) = self.technique_and_map(capabilities, || moments_input(upstream))?;
+        let (specialization, mut modules) = self.evaluation(&technique, &map, capabilities);
+        modules.push(FULLSCREEN);
+        let wgsl = specialization.link("shade_hard.wgsl", SHADER, &modules)?;
         let mut bindings = vec![
             Binding {
                 binding: 0,
@@ -140,15 +129,8 @@ impl Node for ShadeHard {
                 binding: 1,
                 resource: BindingResource::Layer("camera_depth".to_owned()),
             },
-            Binding {
-                binding: 2,
-                resource: BindingResource::Layers(map.slot.to_owned()),
-            },
         ];
-        bindings.extend(map.sampler.map(|resource| Binding {
-            binding: 3,
-            resource,
-        }));
+        bindings.extend(map.bindings());
         let splits = techniques::places_layers(&technique).then(|| techniques::splits_input(false));
         bindings.extend(splits.iter().map(|(_, binding)| binding.clone()));
         let texture = |name: &str, direction, access, format, extent, layers, mips| Slot {
@@ -237,16 +219,56 @@ struct Map {
     sampler: Option<BindingResource>,
 }
 
+impl Map {
+    /// The map and its sampler, if there is one.
+    fn bindings(&self) -> Vec<Binding> {
+        let map = Binding {
+            binding: 2,
+            resource: BindingResource::Layers(self.slot.to_owned()),
+        };
+        let sampler = self.sampler.clone().map(|resource| Binding {
+            binding: 3,
+            resource,
+        });
+        core::iter::once(map).chain(sampler).collect()
+    }
+}
+
 impl ShadeHard {
-    /// The technique, and the map that it reads.
-    fn technique_and_map(&self, upstream: &Connected<'_>) -> Result<(Technique, Map), GraphError> {
+    /// What a shader imports that evaluates a technique: the generated module and the technique's adapters.
+    fn evaluation(
+        &self,
+        technique: &Technique,
+        map: &Map,
+        capabilities: &Capabilities,
+    ) -> (Specialization, Vec<VirtualModule>) {
+        let mut specialization = Specialization::new(capabilities)
+            .constant("LEVELS", &format!("{}u", map.levels))
+            .constant("VIEWS", &format!("{}u", self.views))
+            .constant("LIGHTS", &format!("{}u", self.lights))
+            .constant("ANISOTROPY", &format!("{}.0", self.anisotropy))
+            .constant("PLANES", &format!("{}u", technique.planes()));
+        if let Some(storage) = map.storage {
+            specialization = specialization.constant("STORAGE", &format!("{storage}u"));
+        }
+        let mut modules = techniques::evaluation(technique);
+        modules.push(("moments_lookup", map.lookup));
+        (techniques::specialize(specialization, technique), modules)
+    }
+
+    /// The technique, and the map that it reads: `moments`, or the plain depth map.
+    fn technique_and_map<'a>(
+        &self,
+        capabilities: &Capabilities,
+        moments: impl FnOnce() -> Result<(&'a TextureDesc, MapEncoding), GraphError>,
+    ) -> Result<(Technique, Map), GraphError> {
         if let Some(technique) = &self.technique {
             technique.check().map_err(techniques::property)?;
             if technique.reads_depth() {
                 return Ok((technique.clone(), depth_map(technique)));
             }
         }
-        let (moments, encoding) = moments_input(upstream)?;
+        let (moments, encoding) = moments()?;
         let made_for = encoding.technique();
         let technique = self.technique.as_ref().unwrap_or(made_for);
         if !technique.shares_map_with(made_for) {
@@ -259,7 +281,6 @@ impl ShadeHard {
             )
             .at_slot("moments"));
         }
-        let capabilities = upstream.capabilities();
         let logarithmic = techniques::is_logarithmic(technique);
         let minified = moments.mips > 1;
         let sampled = !logarithmic

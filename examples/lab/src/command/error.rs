@@ -2,26 +2,29 @@
 
 use core::fmt;
 use std::path::Path;
+use std::sync::Arc;
 
-use moment_shadows::{MomentBias, Storage};
+use moment_shadows::{MomentBias, Storage, Technique};
 use serde::Serialize;
 
 use super::render::{LightChoice, RenderOptions, profile_for};
+use crate::candidate::TechniqueChoice;
 use crate::error::LabError;
 use crate::frame::Frame;
 use crate::gpu::Gpu;
 use crate::graph_file::GraphFile;
-use crate::graph_frame::{GraphFrame, storage_of};
 use crate::judgement::{PictureTruth, Unfiltered};
 use crate::metric::{Comparison, ErrorFigures, compare};
 use crate::progress;
 use crate::scene::{self, Scene};
-use crate::surface_error::{Evaluation, SurfaceErrors, SurfaceTruth};
+use crate::surface_error::{MapRun, SurfaceErrors, SurfaceTruth};
+use crate::techniques::described;
+use crate::truth::kernel::TapPattern;
 
 /// A drawn scene with the truths for one kernel: of all its surfaces, and of a picture.
 pub struct ErrorSubject {
     /// The scene as drawn.
-    pub frame: Frame,
+    pub frame: Arc<Frame>,
     /// All surfaces.
     pub surfaces: SurfaceTruth,
     /// What the camera sees.
@@ -31,8 +34,12 @@ pub struct ErrorSubject {
 /// What a graph gives of a subject.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct GraphErrors {
-    /// The storage of the filtered map.
-    pub storage: Storage,
+    /// What the map was shaded with.
+    pub technique: Technique,
+    /// The storage of the filtered map; none where the plain depth map is read.
+    pub storage: Option<Storage>,
+    /// Of the map, all planes.
+    pub bits_per_texel: u32,
     /// Over all surfaces.
     pub surfaces: SurfaceErrors,
     /// Over the pixels of the picture.
@@ -89,51 +96,110 @@ impl ErrorSubject {
         file: &GraphFile,
         step: impl Fn(),
     ) -> Result<Self, LabError> {
-        let margin = file.kernel()?.map_or(0, |kernel| kernel.radius());
-        let frame = options.frame(gpu, scene, margin)?;
-        let unfiltered = Unfiltered::of(gpu, &frame, file)?;
-        let picture = unfiltered.picture(gpu, &frame)?;
-        step();
-        Ok(Self {
-            surfaces: SurfaceTruth::of(scene, &frame, &unfiltered, step)?,
-            frame,
-            picture,
+        let files = core::slice::from_ref(file);
+        let mut subjects = Self::of_kernels(gpu, scene, options, files, 1, step)?;
+        subjects.pop().ok_or_else(|| LabError::Unsuitable {
+            file: file.name.clone(),
+            reason: "there is nothing to measure".to_owned(),
         })
     }
 
-    /// How many steps [`new`](Self::new) takes.
+    /// Draws and peels a scene once, with room for the widest of the kernels around it, and computes its truths for the
+    /// kernel of each graph. Of the map's texels every `stride`-th along either axis counts.
+    pub fn of_kernels(
+        gpu: &Gpu,
+        scene: &Scene,
+        options: &RenderOptions,
+        files: &[GraphFile],
+        stride: u32,
+        step: impl Fn(),
+    ) -> Result<Vec<Self>, LabError> {
+        let margin = widest(files)?;
+        let frame = Arc::new(options.frame(gpu, scene, margin)?);
+        let Some(first) = files.first() else {
+            return Ok(Vec::new());
+        };
+        let mut unfiltered = Unfiltered::of(gpu, &frame, first)?;
+        let mut kernels = Vec::new();
+        let mut pictures = Vec::new();
+        for file in files {
+            let kernel = file.kernel()?;
+            let taps = kernel.map_or_else(TapPattern::unblurred, |k| TapPattern::of_kernel(&k));
+            kernels.push(taps.clone());
+            unfiltered.taps = taps;
+            pictures.push(unfiltered.picture(gpu, &frame)?);
+        }
+        step();
+        let depths = &unfiltered.depths;
+        let truths = SurfaceTruth::of(scene, &frame, depths, &kernels, stride, step)?;
+        let subjects = truths.into_iter().zip(pictures);
+        Ok(subjects
+            .map(|(surfaces, picture)| Self {
+                frame: Arc::clone(&frame),
+                surfaces,
+                picture,
+            })
+            .collect())
+    }
+
+    /// The same frame with one sample per texel of the light's depth, as techniques want it that read it plainly.
+    pub fn plain_frame(
+        gpu: &Gpu,
+        scene: &Scene,
+        options: &RenderOptions,
+        files: &[GraphFile],
+    ) -> Result<Frame, LabError> {
+        let options = RenderOptions {
+            samples: 1,
+            ..options.clone()
+        };
+        options.frame(gpu, scene, widest(files)?)
+    }
+
+    /// How many steps [`new`](Self::new) and [`of_kernels`](Self::of_kernels) take.
     pub fn steps(options: &RenderOptions) -> u64 {
         1 + SurfaceTruth::steps([options.map; 2])
     }
 
-    /// Runs a graph with the subject's kernel and judges what it gives. The map is evaluated with `moment_bias`, or with
-    /// that of its storage; the picture always with the latter.
+    /// Runs a graph with the subject's kernel and judges what it gives. Four moments are evaluated with `moment_bias`, or
+    /// with that of their storage; the picture always with the latter.
     pub fn judge(
         &self,
         gpu: &Gpu,
         file: &GraphFile,
         moment_bias: Option<MomentBias>,
     ) -> Result<GraphErrors, LabError> {
-        let (file, map) = file.in_single_precision()?.with_filtered_map()?;
-        let graph = GraphFrame::new(gpu, &self.frame, &file)?;
-        graph.run(gpu)?;
-        let unsuitable = || LabError::Unsuitable {
-            file: file.name.clone(),
-            reason: "the input of its shade_hard node is no map of moments".to_owned(),
-        };
-        let map = graph.bindings.output(&map).ok_or_else(unsuitable)?;
-        let storage = storage_of(map).ok_or_else(unsuitable)?;
-        let shading = Evaluation {
-            moment_bias,
-            ..Evaluation::shading(&self.frame, &file)?
-        };
-        let shadow = graph.read_shadow(gpu, &file)?;
+        self.judge_on(gpu, &self.frame, file, moment_bias)
+    }
+
+    /// The same for a graph that runs on another frame of the same light: a [`plain_frame`](Self::plain_frame).
+    pub fn judge_on(
+        &self,
+        gpu: &Gpu,
+        frame: &Frame,
+        file: &GraphFile,
+        moment_bias: Option<MomentBias>,
+    ) -> Result<GraphErrors, LabError> {
+        let run = MapRun::new(gpu, frame, file)?;
+        let map = run.map(frame)?;
+        let shadow = run.graph.read_shadow(gpu, &run.file)?;
         Ok(GraphErrors {
-            storage,
-            surfaces: self.surfaces.judge(gpu, map, storage, shading)?,
+            technique: map.technique(),
+            storage: map.storage(),
+            bits_per_texel: map.bits_per_texel(),
+            surfaces: self.surfaces.judge(gpu, &map, run.shading, moment_bias)?,
             picture: compare(&shadow, &self.picture.shadow, &self.picture.facing)?,
         })
     }
+}
+
+/// The largest radius of their kernels.
+fn widest(files: &[GraphFile]) -> Result<u32, LabError> {
+    let mut margin = 0;
+    for file in files {
+        margin = margin.max(file.kernel()?.map_or(0, |kernel| kernel.radius()));
+    }
+    Ok(margin)
 }
 
 impl Setting {
@@ -154,24 +220,44 @@ impl Setting {
     }
 }
 
-/// Measures the graph on one scene; `radius` replaces the kernel by a Gaussian.
+/// Measures the graph on one scene; `radius` replaces the kernel by a Gaussian, and `technique` the technique and the
+/// storage of the map.
 pub fn run(
     options: &RenderOptions,
     graph: &Path,
     radius: Option<u32>,
+    technique: Option<&TechniqueChoice>,
 ) -> Result<ErrorReport, LabError> {
-    let mut file = GraphFile::read(graph, options.storage)?;
+    let candidate = technique.map(|choice| choice.in_storage(options.storage));
+    let candidate = candidate.transpose()?;
+    let storage = options.storage.filter(|_| candidate.is_none());
+    let mut file = GraphFile::read(graph, storage)?;
     if let Some(radius) = radius {
         file = file.with_radius(radius)?;
+    }
+    let mut profile = profile_for(storage, options.samples);
+    let mut samples = options.samples;
+    if let Some(candidate) = &candidate {
+        file = candidate.graph(&file)?;
+        profile = candidate.profile_with(profile);
+        if candidate.reads_depth() {
+            samples = 1;
+        }
     }
     let scene = scene::load(&options.scene)?;
     for warning in &scene.warnings {
         eprintln!("warning: {}: {warning}", options.scene);
     }
-    let gpu = Gpu::open(profile_for(options.storage, options.samples))?;
+    let gpu = Gpu::open(profile)?;
     let bar = progress::bar(ErrorSubject::steps(options) + 1, "measuring surfaces");
     let subject = ErrorSubject::new(&gpu, &scene, options, &file, || bar.inc(1))?;
-    let errors = subject.judge(&gpu, &file, None)?;
+    let errors = if samples == options.samples {
+        subject.judge(&gpu, &file, None)?
+    } else {
+        let files = core::slice::from_ref(&file);
+        let plain = ErrorSubject::plain_frame(&gpu, &scene, options, files)?;
+        subject.judge_on(&gpu, &plain, &file, None)?
+    };
     bar.finish_and_clear();
     Ok(ErrorReport {
         scene: scene.name,
@@ -182,6 +268,11 @@ pub fn run(
         }),
         errors,
     })
+}
+
+/// A storage as tables name it.
+pub(crate) fn storage_name(storage: Option<Storage>) -> &'static str {
+    storage.map_or("depth", Storage::name)
 }
 
 impl fmt::Display for Setting {
@@ -198,11 +289,19 @@ impl fmt::Display for Setting {
 impl fmt::Display for ErrorReport {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let GraphErrors {
+            technique,
             storage,
+            bits_per_texel,
             surfaces,
             picture,
         } = &self.errors;
-        write!(f, "{}, {storage}, ", self.scene)?;
+        write!(
+            f,
+            "{}, {} as {} ({bits_per_texel} bits per texel), ",
+            self.scene,
+            described(technique),
+            storage_name(*storage)
+        )?;
         match self.kernel {
             Some(kernel) => writeln!(
                 f,

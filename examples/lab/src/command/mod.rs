@@ -2,12 +2,14 @@
 
 pub mod bases;
 pub mod bias;
+pub mod contacts;
 pub mod cost;
 pub mod cost_growth;
 pub mod error;
 pub mod error_table;
 pub mod graph;
 pub mod isa;
+pub mod layers_figure;
 pub mod measure;
 pub mod minification;
 pub mod orderings;

@@ -73,7 +73,9 @@ impl RenderOptions {
         let storage = storage.or(self.storage);
         match &self.technique {
             None => GraphFile::read(path, storage),
-            Some(technique) => GraphFile::read(path, None)?.with_technique(technique, storage),
+            Some(technique) => {
+                GraphFile::read(path, None)?.with_technique_argument(technique, storage)
+            }
         }
     }
 

@@ -265,7 +265,7 @@ impl Stage {
                 reason: format!("{error}"),
             })?;
         let file = graph
-            .with_technique(&argument, storage)?
+            .with_technique_argument(&argument, storage)?
             .in_single_precision()?;
         let soft = matches!(file.technique(), Some(moment_shadows::Technique::Pcss(_)));
         if soft && self.soft.is_none() {
@@ -301,7 +301,7 @@ impl Stage {
     /// spread evenly over its disk, each with a map of its own.
     fn area_light(&self, gpu: &Gpu, graph: &GraphFile) -> Result<Vec<f32>, LabError> {
         let binary = graph
-            .with_technique(&TechniqueArgument::Usual("binary".to_owned()), None)?
+            .with_technique_argument(&TechniqueArgument::Usual("binary".to_owned()), None)?
             .in_single_precision()?;
         let view = View::numbered(&self.scene, self.options.view);
         let axis = view.light_direction.normalize();

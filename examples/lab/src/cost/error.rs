@@ -7,6 +7,7 @@ use moment_shadows_graph::record::RecordError;
 use crate::error::LabError;
 use crate::gpu::GpuError;
 use crate::picture::PictureError;
+use crate::plot::PlotError;
 
 /// Why a cost was not reported.
 #[derive(Debug, thiserror::Error)]
@@ -24,14 +25,9 @@ pub enum CostError {
     /// A file that cannot be written.
     #[error(transparent)]
     Picture(#[from] PictureError),
-    /// A plot that cannot be drawn.
-    #[error("the plot '{title}' cannot be drawn: {reason}")]
-    Plot {
-        /// Its title.
-        title: String,
-        /// Why.
-        reason: String,
-    },
+    /// A plot.
+    #[error(transparent)]
+    Plot(#[from] PlotError),
     /// A graph that the harness makes itself.
     #[error(transparent)]
     Graph(#[from] GraphError),

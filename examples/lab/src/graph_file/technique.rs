@@ -11,9 +11,8 @@ use crate::technique_argument::TechniqueArgument;
 const PLACE: &str = "lab_place_layers";
 
 impl GraphFile {
-    /// The same graph with a technique in place of its own, and with the storage that [`TechniqueArgument::resolve`] chooses.
-    /// One that reads the plain depth map is connected to it; what made the filterable map has no reader then and is culled.
-    pub fn with_technique(
+    /// The same graph with what a command line asks for, with the storage that [`TechniqueArgument::resolve`] chooses.
+    pub fn with_technique_argument(
         &self,
         technique: &TechniqueArgument,
         storage: Option<Storage>,
@@ -22,6 +21,17 @@ impl GraphFile {
         let (technique, storage) = technique
             .resolve(storage, own)
             .map_err(|error| self.unsuitable(error.to_string()))?;
+        self.with_technique(&technique, storage)
+    }
+
+    /// The same graph with a technique in place of its own. A filterable one makes its map in `storage`, or in that of the
+    /// graph. One that reads the plain depth map is connected to it; what made the filterable map has no reader then and is
+    /// culled.
+    pub fn with_technique(
+        &self,
+        technique: &Technique,
+        storage: Option<Storage>,
+    ) -> Result<Self, LabError> {
         let resolve = self.name_of("resolve_moments")?;
         let shade = self.name_of("shade_hard")?;
         let logarithmic = matches!(
@@ -53,9 +63,11 @@ impl GraphFile {
                     if let Some(properties) = node["properties"].as_object_mut() {
                         properties.remove("technique");
                     }
-                } else if let (true, Some(storage)) = (node["name"] == resolve.as_str(), storage) {
+                } else if node["name"] == resolve.as_str() && !technique.reads_depth() {
                     node["properties"]["technique"] = json!(technique);
-                    node["properties"]["storage"] = json!(storage);
+                    if let Some(storage) = storage {
+                        node["properties"]["storage"] = json!(storage);
+                    }
                 }
             }
         }
@@ -152,7 +164,7 @@ impl GraphFile {
         Ok(self.kernel()?.as_ref().map_or(0, Kernel::radius))
     }
 
-    fn node_of(&self, node_type: &str) -> Option<Value> {
+    pub(super) fn node_of(&self, node_type: &str) -> Option<Value> {
         nodes(&self.text)
             .into_iter()
             .find(|node| node["type"] == node_type)
@@ -167,7 +179,7 @@ impl GraphFile {
         Ok(node["name"].as_str().unwrap_or_default().to_owned())
     }
 
-    fn unsuitable(&self, reason: String) -> LabError {
+    pub(super) fn unsuitable(&self, reason: String) -> LabError {
         LabError::Unsuitable {
             file: self.name.clone(),
             reason,

@@ -1,6 +1,7 @@
 //! Scenes: triangles in world space with the little of materials that shadows need.
 
 mod accessor;
+mod chairs;
 mod error;
 mod failures;
 mod fence_and_foliage;
@@ -19,6 +20,7 @@ use std::path::Path;
 
 use glam::DVec3;
 
+pub use chairs::{CHAIRS, Foot, chairs, feet};
 pub use error::SceneError;
 pub use failures::{contacts, stacked_boards};
 pub use fence_and_foliage::fence_and_foliage;
@@ -29,7 +31,7 @@ pub use material::{Image, Material};
 pub use mesh::{Bounds, Mesh};
 pub(crate) use mips::{Mip, mips};
 
-/// Names under which [`load`] knows the procedural scenes.
+/// Names under which [`load`] knows the procedural scenes that techniques are compared on; there is also [`CHAIRS`].
 pub const PROCEDURAL: [&str; 2] = ["fence-and-foliage", "hall"];
 
 /// Where to stand in a scene that is not to be looked at from all around.
@@ -83,15 +85,19 @@ impl Scene {
     }
 }
 
-/// The scene that a command line names: a file, or one of [`PROCEDURAL`]. It stands on its ground plane.
+/// The scene that a command line names: a file, one of [`PROCEDURAL`], or [`CHAIRS`]. It stands on its ground plane.
 pub fn load(name: &str) -> Result<Scene, SceneError> {
     match name {
         "fence-and-foliage" => Ok(place_on_ground(fence_and_foliage())),
         "hall" => Ok(place_on_ground(hall_with_open_roof())),
+        CHAIRS => Ok(place_on_ground(chairs())),
         _ if Path::new(name).exists() => load_gltf(Path::new(name)).map(place_on_ground),
         _ => Err(SceneError::Unknown {
             name: name.to_owned(),
-            advice: format!("the procedural scenes are {}", PROCEDURAL.join(" and ")),
+            advice: format!(
+                "the procedural scenes are {} and {CHAIRS}",
+                PROCEDURAL.join(", ")
+            ),
         }),
     }
 }

@@ -1,21 +1,29 @@
 //! The technique at points of its map, on the device.
 
 use bytemuck::{Pod, Zeroable};
-use moment_shadows::{LeakReduction, MomentBias, ReceiverBias, Source, Storage, link};
-use moment_shadows_graph::Capabilities;
+use moment_shadows::{
+    DepthConversion, LeakReduction, MomentBias, PercentageCloserSoftLight, ReceiverBias,
+};
+use moment_shadows_graph::nodes::{ShadeHard, TechniqueShader};
+use moment_shadows_graph::{BindingResource, Capabilities};
 use wgpu::util::DeviceExt;
 
+use super::judged_map::JudgedMap;
+use super::map_point::MapPoint;
 use crate::error::LabError;
 use crate::gpu::Gpu;
 
 const SHADER: &str = include_str!("evaluate.wgsl");
-const SAMPLED_LOOKUP: &str = include_str!("point_lookup_sampled.wgsl");
-const LOADED_LOOKUP: &str = include_str!("point_lookup_loaded.wgsl");
+const AS_THE_LIBRARY: &str = include_str!("point_intensity.wgsl");
+const BIASED: &str = include_str!("point_intensity_biased.wgsl");
 const LABEL: &str = "lab/surface shadows";
 
-/// Points of one dispatch: 16 MiB of them, 16,384 workgroups.
+/// Points of one dispatch: 24 MiB of them, 16,384 workgroups.
 const POINTS: usize = 1 << 20;
 const WORKGROUP: u32 = 64;
+
+/// The group of the map, beside the evaluator's own.
+const MAP_GROUP: u32 = 1;
 
 /// How a fragment is evaluated.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -24,8 +32,10 @@ pub struct Evaluation {
     pub receiver_bias: ReceiverBias,
     /// What is done about light leaking after the bound.
     pub leak_reduction: LeakReduction,
-    /// A bias of the filtered moments in place of that of their storage; its `alpha` is above 0.
-    pub moment_bias: Option<MomentBias>,
+    /// How the light's map stores depth: for techniques that read the plain depth map.
+    pub conversion: DepthConversion,
+    /// The light's size: for percentage-closer soft shadows.
+    pub light: PercentageCloserSoftLight,
 }
 
 /// `Parameters` of the shader.
@@ -36,60 +46,61 @@ struct Uniform {
     leak_reduction: LeakReduction,
     moment_bias: MomentBias,
     padding: f32,
+    conversion: DepthConversion,
+    light: PercentageCloserSoftLight,
 }
 
-/// A point of a surface, `Point` of the shader.
-#[derive(Clone, Copy, Debug, PartialEq, Pod, Zeroable)]
-#[repr(C)]
-pub struct MapPoint {
-    /// The place in the map, from 0 to 1.
-    pub uv: [f32; 2],
-    /// Moment depth, not clamped.
-    pub moment_depth: f32,
-    /// Length of the gradient of moment depth per texel of the map, finite.
-    pub gradient: f32,
-}
-
-/// Evaluates a filtered map of moments at any points, with the same lookup as `shade_hard` on this device.
+/// Evaluates a map at any points, by the functions that `shade_hard` calls on this device.
 pub struct MapEvaluator<'a> {
     gpu: &'a Gpu,
-    map: wgpu::TextureView,
-    sampler: Option<wgpu::Sampler>,
-    layout: wgpu::BindGroupLayout,
+    moment_bias: MomentBias,
+    own: wgpu::BindGroupLayout,
+    map: wgpu::BindGroup,
     pipeline: wgpu::ComputePipeline,
 }
 
 impl<'a> MapEvaluator<'a> {
-    /// For layer 0 of a map that holds moments in `storage`.
-    pub fn new(gpu: &'a Gpu, map: &wgpu::Texture, storage: Storage) -> Result<Self, LabError> {
+    /// For layer 0 of a map. With a bias of the filtered moments (`alpha` above 0) four moments are evaluated with that
+    /// instead of their storage's.
+    pub fn new(
+        gpu: &'a Gpu,
+        map: &JudgedMap<'_>,
+        moment_bias: Option<MomentBias>,
+    ) -> Result<Self, LabError> {
         let device = &gpu.device;
-        let capabilities = Capabilities::of_device(&gpu.adapter, device);
-        let filterable = capabilities.support(storage.format()).filterable;
-        let lookup = if filterable {
-            SAMPLED_LOOKUP
-        } else {
-            LOADED_LOOKUP
+        let capabilities = Capabilities {
+            bind_group: MAP_GROUP,
+            ..Capabilities::of_device(&gpu.adapter, device)
         };
-        let specialization = format!("const STORAGE: u32 = {}u;\n", storage.wgsl_index());
-        let source = |name, text| Source { name, text };
-        let shader = link(
-            source("evaluate.wgsl", SHADER),
-            &[
-                source("point_lookup", lookup),
-                source("specialization", &specialization),
-            ],
-        )?;
+        let node = ShadeHard {
+            technique: map.technique.clone(),
+            ..ShadeHard::default()
+        };
+        let intensity = moment_bias.map_or(AS_THE_LIBRARY, |_| BIASED);
+        let shader = node
+            .link_shader(
+                &map.desc,
+                &capabilities,
+                "evaluate.wgsl",
+                SHADER,
+                &[("point_intensity", intensity)],
+            )
+            .map_err(|error| LabError::Graph {
+                file: map.name.clone(),
+                error,
+            })?;
         let module = device.create_shader_module(wgpu::ShaderModuleDescriptor {
             label: Some(LABEL),
-            source: wgpu::ShaderSource::Wgsl(shader.wgsl().into()),
+            source: wgpu::ShaderSource::Wgsl(shader.wgsl.as_str().into()),
         });
-        let layout = layout(device, filterable);
+        let own = own_layout(device);
+        let map_layout = map_layout(device, &shader, map.texture);
         let pipeline = device.create_compute_pipeline(&wgpu::ComputePipelineDescriptor {
             label: Some(LABEL),
             layout: Some(
                 &device.create_pipeline_layout(&wgpu::PipelineLayoutDescriptor {
                     label: Some(LABEL),
-                    bind_group_layouts: &[Some(&layout)],
+                    bind_group_layouts: &[Some(&own), Some(&map_layout)],
                     immediate_size: 0,
                 }),
             ),
@@ -98,23 +109,17 @@ impl<'a> MapEvaluator<'a> {
             compilation_options: wgpu::PipelineCompilationOptions::default(),
             cache: None,
         });
-        let sampler = filterable.then(|| {
-            device.create_sampler(&wgpu::SamplerDescriptor {
-                label: Some(LABEL),
-                mag_filter: wgpu::FilterMode::Linear,
-                min_filter: wgpu::FilterMode::Linear,
-                ..Default::default()
-            })
-        });
+        let map = map_bindings(device, &shader, &map_layout, map.texture);
         gpu.check()?;
         Ok(Self {
             gpu,
-            map: map.create_view(&wgpu::TextureViewDescriptor {
-                dimension: Some(wgpu::TextureViewDimension::D2Array),
-                ..Default::default()
+            moment_bias: moment_bias.unwrap_or(MomentBias {
+                alpha: 0.0,
+                second: 0.0,
+                fourth: 0.0,
             }),
-            sampler,
-            layout,
+            own,
+            map,
             pipeline,
         })
     }
@@ -138,16 +143,13 @@ impl<'a> MapEvaluator<'a> {
                 usage,
             })
         };
-        let storage_s_own = MomentBias {
-            alpha: 0.0,
-            second: 0.0,
-            fourth: 0.0,
-        };
         let uniform = Uniform {
             receiver_bias: evaluation.receiver_bias,
             leak_reduction: evaluation.leak_reduction,
-            moment_bias: evaluation.moment_bias.unwrap_or(storage_s_own),
+            moment_bias: self.moment_bias,
             padding: 0.0,
+            conversion: evaluation.conversion,
+            light: evaluation.light,
         };
         let parameters = filled(bytemuck::bytes_of(&uniform), wgpu::BufferUsages::UNIFORM);
         let input = filled(bytemuck::cast_slice(points), wgpu::BufferUsages::STORAGE);
@@ -157,17 +159,14 @@ impl<'a> MapEvaluator<'a> {
             usage: wgpu::BufferUsages::STORAGE | wgpu::BufferUsages::COPY_SRC,
             mapped_at_creation: false,
         });
-        let mut entries = vec![
+        let entries = [
             entry(0, parameters.as_entire_binding()),
             entry(1, input.as_entire_binding()),
             entry(2, output.as_entire_binding()),
-            entry(3, wgpu::BindingResource::TextureView(&self.map)),
         ];
-        let sampler = self.sampler.as_ref().map(wgpu::BindingResource::Sampler);
-        entries.extend(sampler.map(|sampler| entry(4, sampler)));
         let bindings = device.create_bind_group(&wgpu::BindGroupDescriptor {
             label: Some(LABEL),
-            layout: &self.layout,
+            layout: &self.own,
             entries: &entries,
         });
         let mut encoder =
@@ -179,6 +178,7 @@ impl<'a> MapEvaluator<'a> {
             });
             pass.set_pipeline(&self.pipeline);
             pass.set_bind_group(0, &bindings, &[]);
+            pass.set_bind_group(MAP_GROUP, &self.map, &[]);
             pass.dispatch_workgroups((points.len() as u32).div_ceil(WORKGROUP), 1, 1);
         }
         self.gpu.queue.submit([encoder.finish()]);
@@ -190,29 +190,11 @@ fn entry(binding: u32, resource: wgpu::BindingResource<'_>) -> wgpu::BindGroupEn
     wgpu::BindGroupEntry { binding, resource }
 }
 
-/// The bindings of the shader, with a sampler where the map is filterable.
-fn layout(device: &wgpu::Device, filterable: bool) -> wgpu::BindGroupLayout {
-    let buffer = |ty| wgpu::BindingType::Buffer {
-        ty,
-        has_dynamic_offset: false,
-        min_binding_size: None,
-    };
-    let storage = |read_only| buffer(wgpu::BufferBindingType::Storage { read_only });
-    let mut types = vec![
-        buffer(wgpu::BufferBindingType::Uniform),
-        storage(true),
-        storage(false),
-        wgpu::BindingType::Texture {
-            sample_type: wgpu::TextureSampleType::Float { filterable },
-            view_dimension: wgpu::TextureViewDimension::D2Array,
-            multisampled: false,
-        },
-    ];
-    types.extend(filterable.then_some(wgpu::BindingType::Sampler(
-        wgpu::SamplerBindingType::Filtering,
-    )));
-    let entries: Vec<_> = (0..)
-        .zip(types)
+fn group_layout(
+    device: &wgpu::Device,
+    bindings: impl Iterator<Item = (u32, wgpu::BindingType)>,
+) -> wgpu::BindGroupLayout {
+    let entries: Vec<_> = bindings
         .map(|(binding, ty)| wgpu::BindGroupLayoutEntry {
             binding,
             visibility: wgpu::ShaderStages::COMPUTE,
@@ -222,6 +204,102 @@ fn layout(device: &wgpu::Device, filterable: bool) -> wgpu::BindGroupLayout {
         .collect();
     device.create_bind_group_layout(&wgpu::BindGroupLayoutDescriptor {
         label: Some(LABEL),
+        entries: &entries,
+    })
+}
+
+/// Parameters, points and intensities.
+fn own_layout(device: &wgpu::Device) -> wgpu::BindGroupLayout {
+    let buffer = |ty| wgpu::BindingType::Buffer {
+        ty,
+        has_dynamic_offset: false,
+        min_binding_size: None,
+    };
+    let storage = |read_only| buffer(wgpu::BufferBindingType::Storage { read_only });
+    let types = [
+        buffer(wgpu::BufferBindingType::Uniform),
+        storage(true),
+        storage(false),
+    ];
+    group_layout(device, (0..).zip(types))
+}
+
+/// The map, and a sampler where the shader wants one.
+fn map_layout(
+    device: &wgpu::Device,
+    shader: &TechniqueShader,
+    map: &wgpu::Texture,
+) -> wgpu::BindGroupLayout {
+    let sampled = shader.bindings.len() > 1;
+    let sample_type = if map.format().is_depth_stencil_format() {
+        wgpu::TextureSampleType::Depth
+    } else {
+        wgpu::TextureSampleType::Float {
+            filterable: sampled,
+        }
+    };
+    let bindings = shader.bindings.iter().map(|binding| {
+        let ty = match &binding.resource {
+            BindingResource::ComparisonSampler { .. } => {
+                wgpu::BindingType::Sampler(wgpu::SamplerBindingType::Comparison)
+            }
+            BindingResource::Sampler { .. } => {
+                wgpu::BindingType::Sampler(wgpu::SamplerBindingType::Filtering)
+            }
+            _ => wgpu::BindingType::Texture {
+                sample_type,
+                view_dimension: wgpu::TextureViewDimension::D2Array,
+                multisampled: false,
+            },
+        };
+        (binding.binding, ty)
+    });
+    group_layout(device, bindings)
+}
+
+fn map_bindings(
+    device: &wgpu::Device,
+    shader: &TechniqueShader,
+    layout: &wgpu::BindGroupLayout,
+    map: &wgpu::Texture,
+) -> wgpu::BindGroup {
+    let view = map.create_view(&wgpu::TextureViewDescriptor {
+        dimension: Some(wgpu::TextureViewDimension::D2Array),
+        ..Default::default()
+    });
+    let compare = shader
+        .bindings
+        .iter()
+        .find_map(|binding| match binding.resource {
+            BindingResource::ComparisonSampler { reversed: true } => {
+                Some(wgpu::CompareFunction::Less)
+            }
+            BindingResource::ComparisonSampler { .. } => Some(wgpu::CompareFunction::Greater),
+            _ => None,
+        });
+    let sampler = device.create_sampler(&wgpu::SamplerDescriptor {
+        label: Some(LABEL),
+        mag_filter: wgpu::FilterMode::Linear,
+        min_filter: wgpu::FilterMode::Linear,
+        compare,
+        ..Default::default()
+    });
+    let entries: Vec<_> = shader
+        .bindings
+        .iter()
+        .map(|binding| {
+            let resource = match binding.resource {
+                BindingResource::ComparisonSampler { .. } | BindingResource::Sampler { .. } => {
+                    wgpu::BindingResource::Sampler(&sampler)
+                }
+                _ => wgpu::BindingResource::TextureView(&view),
+            };
+            entry(binding.binding, resource)
+        })
+        .collect();
+    device.create_bind_group(&wgpu::BindGroupDescriptor {
+        label: Some(LABEL),
+        layout,
         entries: &entries,
     })
 }

@@ -1,26 +1,31 @@
-import moment_shadows::hamburger::{hamburger_shadow_intensity, hamburger_shadow_intensity_of_texel};
+import moment_shadows::depth::{DepthConversion};
 import moment_shadows::leak_reduction::{LeakReduction, leak_reduction_apply};
-import moment_shadows::moments::{MomentBias, moments_from_texel};
-import moment_shadows::point_lookup::{point_lookup};
+import moment_shadows::map_region::{MapRegion};
+import moment_shadows::moments::{MomentBias};
+import moment_shadows::percentage_closer_soft::{PercentageCloserSoftLight};
+import moment_shadows::point_intensity::{point_intensity};
 import moment_shadows::receiver_bias::{ReceiverBias, receiver_bias_depth};
-import moment_shadows::specialization::{STORAGE};
+import moment_shadows::technique_map::{technique_map_size};
+import moment_shadows::technique_receiver::{TechniqueReceiver};
 
 // Shadow intensity of given points of surfaces, step by step as in the node `shade_hard`.
 
 struct Parameters {
     receiver_bias: ReceiverBias,
     leak_reduction: LeakReduction,
-    // In place of that of the storage, if its alpha is not 0.
+    // In place of that of the storage, where the shader is linked for it.
     moment_bias: MomentBias,
+    conversion: DepthConversion,
+    light: PercentageCloserSoftLight,
 }
 
 struct Point {
     // The place in the map, from 0 to 1.
     uv: vec2f,
+    // The gradient of moment depth per texel of the map.
+    gradient: vec2f,
     // Not clamped.
     moment_depth: f32,
-    // Length of the gradient of moment depth per texel of the map.
-    gradient: f32,
 }
 
 @group(0) @binding(0) var<uniform> parameters: Parameters;
@@ -33,12 +38,22 @@ fn evaluate(@builtin(global_invocation_id) id: vec3u) {
         return;
     }
     let point = points[id.x];
-    let fragment_depth = min(point.moment_depth, 1.0) - receiver_bias_depth(parameters.receiver_bias, point.gradient);
-    let texel = point_lookup(point.uv);
-    var intensity = hamburger_shadow_intensity_of_texel(texel, fragment_depth, STORAGE);
-    if parameters.moment_bias.alpha > 0.0 {
-        let moments = moments_from_texel(texel, STORAGE);
-        intensity = hamburger_shadow_intensity(moments, fragment_depth, parameters.moment_bias);
-    }
+    let settings = parameters.receiver_bias;
+    let depth = min(point.moment_depth, 1.0);
+    // Layer 0 as a whole, and without a pixel's footprint: mip level 0.
+    let intensity = point_intensity(TechniqueReceiver(
+        0u,
+        MapRegion(vec2u(0u), technique_map_size()),
+        point.uv,
+        vec2f(0.0),
+        vec2f(0.0),
+        point.gradient,
+        depth - receiver_bias_depth(settings, length(point.gradient)),
+        depth - settings.constant,
+        (settings.maximum - settings.constant) / max(settings.slope_scale, 1e-30),
+        parameters.conversion,
+        parameters.light,
+        vec2f(vec2u(id.x & 1023u, id.x >> 10u)),
+    ), parameters.moment_bias);
     intensities[id.x] = leak_reduction_apply(intensity, parameters.leak_reduction);
 }

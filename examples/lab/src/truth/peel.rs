@@ -35,13 +35,21 @@ pub struct LightSurface {
     pub normal: DVec3,
     /// Distance along the light's axis.
     pub distance: f64,
-    /// Length of the gradient of distance along the axis per texel of the map; infinite edge-on.
-    pub distance_per_texel: f64,
+    /// Gradient of distance along the axis per texel of the map; infinite edge-on.
+    pub distance_gradient: DVec2,
     /// Whether it shows the light its front (the triangle's vertices run counter-clockwise as seen from there), or is of
     /// a material that has two.
     pub faces_light: bool,
     /// Whether it belongs to the ground, which lights are not fitted to.
     pub ground: bool,
+}
+
+impl LightSurface {
+    /// Length of the gradient of distance along the axis per texel of the map; infinite edge-on.
+    #[must_use]
+    pub fn distance_per_texel(&self) -> f64 {
+        self.distance_gradient.length()
+    }
 }
 
 /// A scene made ready to be peeled.
@@ -167,7 +175,7 @@ impl<'a> Peeler<'a> {
     ) -> LightSurface {
         let mesh = &self.scene.meshes[triangle.mesh as usize];
         let [a, b, c] = triangle.corners.map(|corner| position(mesh, corner));
-        let slope = triangle.seen.distance_gradient(centre(texel)).length();
+        let gradient = triangle.seen.distance_gradient(centre(texel));
         let position = a * hit.weights.x + b * hit.weights.y + c * hit.weights.z;
         let normal = (b - a).cross(c - a).normalize_or_zero();
         let material = self.scene.materials.get(mesh.material);
@@ -178,10 +186,10 @@ impl<'a> Peeler<'a> {
             position,
             normal,
             distance: hit.distance,
-            distance_per_texel: if slope.is_finite() {
-                slope
+            distance_gradient: if gradient.length().is_finite() {
+                gradient
             } else {
-                f64::INFINITY
+                DVec2::new(f64::INFINITY, 0.0)
             },
             faces_light: front || material.is_some_and(|material| material.double_sided),
             ground: mesh.ground,

@@ -1,0 +1,119 @@
+//! The map that a graph shades with, once the graph has run.
+
+use moment_shadows::{Storage, Technique};
+use moment_shadows_graph::{ResourceDesc, TextureDesc};
+
+use super::Evaluation;
+use crate::error::LabError;
+use crate::frame::Frame;
+use crate::gpu::Gpu;
+use crate::graph_file::GraphFile;
+use crate::graph_frame::{GraphFrame, imports};
+
+/// A graph that has run, and gives out its map.
+pub struct MapRun {
+    /// The graph as run: its shadow intensity is in single precision.
+    pub file: GraphFile,
+    /// What it gave.
+    pub graph: GraphFrame,
+    /// How `shade_hard` evaluates.
+    pub shading: Evaluation,
+    /// The output of the filtered map; none where the plain depth map is read.
+    output: Option<String>,
+    technique: Option<Technique>,
+}
+
+/// A map, and how it is evaluated.
+pub struct JudgedMap<'a> {
+    /// The graph file, for errors.
+    pub name: String,
+    /// The texture.
+    pub texture: &'a wgpu::Texture,
+    /// What it holds.
+    pub desc: TextureDesc,
+    /// The technique that `shade_hard` names; otherwise it is that of the map.
+    pub technique: Option<Technique>,
+}
+
+impl MapRun {
+    /// Runs a graph on a frame. Techniques that read the plain depth map need a frame with one sample per texel of it.
+    pub fn new(gpu: &Gpu, frame: &Frame, file: &GraphFile) -> Result<Self, LabError> {
+        let file = file.in_single_precision()?;
+        let technique = file.shading_technique();
+        let reads_depth = technique.as_ref().is_some_and(Technique::reads_depth);
+        let (file, output) = if reads_depth {
+            (file, None)
+        } else {
+            let (file, output) = file.with_filtered_map()?;
+            (file, Some(output))
+        };
+        let graph = GraphFrame::new(gpu, frame, &file)?;
+        graph.run(gpu)?;
+        Ok(Self {
+            shading: Evaluation::shading(frame, &file)?,
+            file,
+            graph,
+            output,
+            technique,
+        })
+    }
+
+    /// The map that was shaded with on this frame.
+    pub fn map<'a>(&'a self, frame: &'a Frame) -> Result<JudgedMap<'a>, LabError> {
+        let found = match &self.output {
+            Some(output) => self.filtered(output),
+            None => match imports(&frame.desc).remove("light_depth") {
+                Some(ResourceDesc::Texture(desc)) => Some((&frame.light_map.texture, desc)),
+                _ => None,
+            },
+        };
+        let (texture, desc) = found.ok_or_else(|| LabError::Unsuitable {
+            file: self.file.name.clone(),
+            reason: "the input of its shade_hard node is no map".to_owned(),
+        })?;
+        Ok(JudgedMap {
+            name: self.file.name.clone(),
+            texture,
+            desc,
+            technique: self.technique.clone(),
+        })
+    }
+
+    fn filtered(&self, output: &str) -> Option<(&wgpu::Texture, TextureDesc)> {
+        let planned = self.graph.plan.outputs.iter();
+        let resource = planned.clone().find(|planned| planned.name == output)?;
+        let ResourceDesc::Texture(desc) = &self.graph.plan.resources.get(resource.resource)?.desc
+        else {
+            return None;
+        };
+        Some((self.graph.bindings.output(output)?, desc.clone()))
+    }
+}
+
+impl JudgedMap<'_> {
+    /// The technique that it is evaluated with.
+    #[must_use]
+    pub fn technique(&self) -> Technique {
+        let made_for = self.desc.encoding.as_ref();
+        let technique = self.technique.as_ref();
+        technique
+            .or(made_for.map(moment_shadows::MapEncoding::technique))
+            .cloned()
+            .unwrap_or_default()
+    }
+
+    /// The storage of a filterable map.
+    #[must_use]
+    pub fn storage(&self) -> Option<Storage> {
+        match &self.desc.encoding {
+            Some(encoding) => Some(encoding.storage()),
+            None => Storage::of_format(self.desc.format),
+        }
+    }
+
+    /// Bits of a texel, all planes.
+    #[must_use]
+    pub fn bits_per_texel(&self) -> u32 {
+        8 * self.desc.format.bytes_per_texel() * self.desc.planes
+    }
+}

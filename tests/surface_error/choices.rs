@@ -1,0 +1,120 @@
+//! Techniques that a command line names, and graphs with them in place of their own.
+
+use moment_shadows::{Storage, Technique};
+use moment_shadows_lab::candidate::{Candidate, TechniqueChoice, candidates};
+use moment_shadows_lab::error::LabError;
+use moment_shadows_lab::graph_file::GraphFile;
+use moment_shadows_lab::techniques;
+
+use crate::setup::graph;
+
+fn storages(text: &str) -> Vec<Option<Storage>> {
+    let choice = TechniqueChoice::parse(text).unwrap();
+    choice.candidates.iter().map(Candidate::storage).collect()
+}
+
+#[test]
+fn names_and_objects_are_techniques_in_every_storage_they_can_have() {
+    use Storage::{Float16, Float32, Unorm8, Unorm16};
+    let some = |all: &[Storage]| all.iter().copied().map(Some).collect::<Vec<_>>();
+    assert_eq!(storages("vsm"), some(&[Unorm16, Float32, Float16]));
+    assert_eq!(storages("convolution"), some(&[Unorm8, Unorm16, Float16]));
+    assert_eq!(storages("evsm4"), some(&[Float32, Float16]));
+    // An exponent that single precision alone can store.
+    assert_eq!(storages(r#"{"esm":{"exponent":80}}"#), some(&[Float32]));
+    for reading in ["binary", "pcf", "pcf_box", "pcss"] {
+        assert_eq!(storages(reading), [None], "{reading}");
+    }
+    // The best storage, unless it is named.
+    let choice = TechniqueChoice::parse("hamburger4").unwrap();
+    assert_eq!(choice.in_storage(None).unwrap().storage(), Some(Unorm16));
+    let float16 = choice.in_storage(Some(Float16)).unwrap();
+    assert_eq!(float16.storage(), Some(Float16));
+}
+
+#[test]
+fn what_is_no_technique_is_refused_with_a_next_step() {
+    let refused = |text: &str| TechniqueChoice::parse(text).unwrap_err();
+    assert!(refused("vms").contains("`vsm`"), "{}", refused("vms"));
+    assert!(refused("{").contains("it is no technique"));
+    let exponent = refused(r#"{"evsm2":{"exponent":200}}"#);
+    assert!(exponent.contains("from 1 to 43.6"), "{exponent}");
+    let layers = refused(r#"{"lvsm":{"layers":9}}"#);
+    assert!(layers.contains("1 to 8"), "{layers}");
+    let choice = TechniqueChoice::parse("evsm2").unwrap();
+    let storage = choice.in_storage(Some(Storage::Unorm16)).unwrap_err();
+    assert!(
+        matches!(&storage, LabError::NoStorage { asked: "unorm16", legal } if legal == "float32 or float16"),
+        "{storage}"
+    );
+}
+
+#[test]
+fn all_are_the_filterable_ones_and_two_references() {
+    let all = Candidate::all();
+    assert_eq!(all.len(), techniques::filterable().len() + 2);
+    assert_eq!(all.iter().filter(|it| it.reads_depth()).count(), 2);
+    assert_eq!(candidates(&[], None).unwrap(), all);
+    // A storage keeps the references, and asks for itself of every choice.
+    let unorm8 = candidates(&[], Some(Storage::Unorm8)).unwrap();
+    assert_eq!(unorm8.len(), 3);
+    let chosen = ["vsm", "convolution"].map(|name| TechniqueChoice::parse(name).unwrap());
+    assert_eq!(candidates(&chosen, None).unwrap().len(), 6);
+    assert_eq!(
+        candidates(&chosen, Some(Storage::Float16)).unwrap().len(),
+        2
+    );
+    let refused = candidates(&chosen, Some(Storage::Unorm8)).unwrap_err();
+    assert!(matches!(refused, LabError::NoStorage { .. }), "{refused}");
+}
+
+#[test]
+fn graphs_take_other_techniques() {
+    let own = graph(Storage::Unorm16, 3);
+    let vsm = own
+        .with_technique(&Technique::Vsm, Some(Storage::Float16))
+        .unwrap();
+    assert_eq!(vsm.node_entry("resolve", "properties")["technique"], "vsm");
+    assert_eq!(
+        vsm.node_entry("resolve", "properties")["storage"],
+        "float16"
+    );
+    assert_eq!(vsm.shading_technique(), None);
+    // Plain depth: the map is not made, and the kernel is still known.
+    let binary = vsm.with_technique(&Technique::Binary, None).unwrap();
+    assert_eq!(binary.shading_technique(), Some(Technique::Binary));
+    assert!(binary.text.contains(r#"shade.depth"#));
+    assert!(!binary.text.contains(r#"shade.moments"#));
+    assert_eq!(binary.kernel().unwrap().unwrap().radius(), 3);
+    // An illegal pair is refused where it is said.
+    let refused = own
+        .with_technique(&Technique::Vsm, Some(Storage::Unorm8))
+        .and_then(|file| {
+            let gpu = crate::setup::open();
+            let scene = moment_shadows_lab::scene::load("hall").unwrap();
+            let frame = crate::setup::options(32, 4).frame(&gpu, &scene, 3).unwrap();
+            moment_shadows_lab::graph_frame::GraphFrame::new(&gpu, &frame, &file).map(|_| ())
+        })
+        .unwrap_err();
+    assert!(
+        refused
+            .to_string()
+            .contains("'vsm' cannot be stored as unorm8"),
+        "{refused}"
+    );
+    let bare = r#"{
+  "version": 1,
+  "imports": [{ "name": "map" }],
+  "nodes": [],
+  "edges": [],
+  "outputs": []
+}"#;
+    let parsed = GraphFile::parse("bare.json", bare.to_owned(), None);
+    let refused = parsed.and_then(|file| file.with_technique(&Technique::Vsm, None));
+    assert!(
+        refused
+            .unwrap_err()
+            .to_string()
+            .contains("no resolve_moments node")
+    );
+}
