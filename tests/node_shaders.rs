@@ -140,10 +140,9 @@ fn a_storage_beyond_the_core_is_refused_there() {
             .iter()
             .any(|node| variant.name.starts_with(node));
         let optional = ["unorm16", "<r16float", "<rg16float"];
-        let stores = optional
-            .iter()
-            .any(|format| variant.wgsl.contains(format) && variant.wgsl.contains("texture_storage"))
-            && !reads;
+        let stores = optional.iter().any(|format| {
+            variant.wgsl.contains(format) && variant.wgsl.contains("texture_storage")
+        }) && !reads;
         assert_eq!(refused, stores, "{}", variant.name);
     }
 }

@@ -21,6 +21,7 @@ pub mod picture;
 pub mod progress;
 pub mod scene;
 pub mod shaders;
+pub mod stability;
 pub mod surface_error;
 pub mod techniques;
 pub mod truth;

@@ -10,4 +10,5 @@ pub mod measure;
 pub mod minification;
 pub mod render;
 pub mod shaders;
+pub mod stability;
 pub mod validate;
