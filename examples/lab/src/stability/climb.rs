@@ -120,6 +120,10 @@ fn change_pattern(input: &mut Input, random: &mut ChaCha8Rng) {
         2 => input.row_run = random.random_range(1..=129),
         3 => input.column_run = random.random_range(1..=129),
         4 => input.coverage = random.random_range(0..4),
-        _ => input.kernel = random.random_range(0..kernels::COUNT),
+        // Limits are different for wide kernels.
+        _ if input.kernel < kernels::NARROW => {
+            input.kernel = random.random_range(0..kernels::NARROW);
+        }
+        _ => input.kernel = random.random_range(kernels::NARROW..kernels::COUNT),
     }
 }

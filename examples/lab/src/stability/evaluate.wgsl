@@ -64,12 +64,12 @@ fn mixture_texel(depths: array<f32, 8>, weights: array<vec4f, 2>) -> vec4f {
     var w = weights;
     var sum = vec4f(0.0);
     for (var index = 0u; index < 8u; index++) {
-        sum += w[index / 4u][index % 4u] * encoding_channels(z[index]);
+        sum = fma(vec4f(w[index / 4u][index % 4u]), encoding_channels(z[index]), sum);
     }
     return stored(encoding_texel(sum));
 }
 
-// A resolve of four samples and a blur in two passes.
+// A resolve of four samples and a blur in two passes, which sums its taps in order as the node does.
 fn patch_texel(depths: array<f32, 8>, input: BatchInput) -> vec4f {
     var z = depths;
     // What filters average of the resolved texels.
@@ -85,17 +85,17 @@ fn patch_texel(depths: array<f32, 8>, input: BatchInput) -> vec4f {
     var rows = input.rows;
     var sums: array<vec4f, 2>;
     for (var tap = 0u; tap < taps; tap++) {
-        let weight = batch_table[first + tap];
+        let weight = vec4f(batch_table[first + tap]);
         let place = tap / input.row_run;
-        sums[0] += weight * values[pattern(rows[0], place) % input.count];
-        sums[1] += weight * values[pattern(rows[1], place) % input.count];
+        sums[0] = fma(weight, values[pattern(rows[0], place) % input.count], sums[0]);
+        sums[1] = fma(weight, values[pattern(rows[1], place) % input.count], sums[1]);
     }
     let one = filtering_value(stored(filtering_texel(sums[0])));
     let other = filtering_value(stored(filtering_texel(sums[1])));
     var sum = vec4f(0.0);
     for (var tap = 0u; tap < taps; tap++) {
         let is_other = (pattern(input.column, tap / input.column_run) & 1u) == 1u;
-        sum += batch_table[first + tap] * select(one, other, is_other);
+        sum = fma(vec4f(batch_table[first + tap]), select(one, other, is_other), sum);
     }
     return stored(filtering_texel(sum));
 }

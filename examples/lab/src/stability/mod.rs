@@ -104,7 +104,7 @@ pub fn run(
     step: impl Fn(),
 ) -> Result<Report, StabilityError> {
     let evaluators: Vec<Evaluator<'_>> = pairs
-        .iter()
+        .par_iter()
         .map(|pair| Evaluator::new(gpu, pair))
         .collect::<Result<_, _>>()?;
     let mut tallies = vec![Tally::default(); pairs.len()];

@@ -77,7 +77,7 @@ fn draw_rows<B: DrawingBackend>(area: &DrawingArea<B, Shift>, report: &Report) -
     let effort = report.effort;
     let title = "shadow intensity above the truth";
     let setting = format!(
-        "{}, {} inputs per technique and storage, {} hill-climbs, seed {}; the bar ends at what is allowed",
+        "{}, {} inputs per technique and storage, {} hill-climbs, seed {}; bars end at what is allowed for filters up to 25 texels wide",
         report.adapter,
         effort.samples,
         super::CLIMBS,
@@ -113,18 +113,17 @@ fn draw_rows<B: DrawingBackend>(area: &DrawingArea<B, Shift>, report: &Report) -
 }
 
 fn draw_row<B: DrawingBackend>(area: &DrawingArea<B, Shift>, row: &Row, y: i32) -> Drawn<B> {
-    let allowed = [(LEFT, y + 5), (place(row.documented), y + ROW - 5)];
+    let allowed = [(LEFT, y + 5), (place(row.excess.allowed), y + ROW - 5)];
     let shade = if row.passed() {
         RGBColor(232, 232, 232)
     } else {
         RGBColor(255, 200, 200)
     };
     area.draw(&Rectangle::new(allowed, shade.filled()))?;
-    let values = row
-        .quantiles
-        .iter()
-        .map(|quantile| quantile.excess)
-        .chain([row.drawn, row.climbed]);
+    let values = row.quantiles.iter().map(|quantile| quantile.excess).chain([
+        row.excess.drawn.max(row.wide.drawn),
+        row.excess.climbed.max(row.wide.climbed),
+    ]);
     for (value, (_, colour)) in values.zip(COLOURS) {
         let x = place(value);
         let mark = [(x - 2, y + 3), (x + 2, y + ROW - 3)];

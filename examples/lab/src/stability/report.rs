@@ -7,7 +7,7 @@ use serde::Serialize;
 
 use super::Effort;
 use super::judge::{Case, Quantile, Tally};
-use super::limits::largest_excess;
+use super::limits::allowed_excess;
 use super::strata::Stratum;
 use crate::techniques::label;
 
@@ -38,22 +38,31 @@ pub struct Row {
     pub not_finite: u64,
     /// Finite results outside [0, 1].
     pub outside: u64,
-    /// The largest excess over the truth of the inputs that were drawn; negative where all leak.
-    pub drawn: f64,
-    /// The largest that a hill-climb reached.
-    pub climbed: f64,
-    /// The excess that is documented for the pair.
-    pub documented: f64,
+    /// The largest excess over the truth of all inputs but those that are filtered widely; negative where all leak.
+    pub excess: Excess,
+    /// Of inputs that are filtered widely.
+    pub wide: Excess,
     /// Of the inputs that were drawn, for [`SHARES`].
     pub quantiles: Vec<Quantile>,
     /// The mean over all truths of what is missing to them.
     pub mean_leak: f64,
-    /// The worst input: its excess is the larger of both.
+    /// The input with the largest excess.
     pub worst: Option<Worst>,
     /// The first input whose result is no shadow intensity, as Rust, and the result.
     pub fault: Option<(String, String)>,
     /// What was drawn from each stratum.
     pub strata: Vec<StratumRow>,
+}
+
+/// The largest excess over the truth.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+pub struct Excess {
+    /// Of the inputs that were drawn.
+    pub drawn: f64,
+    /// Of those that hill-climbs tried.
+    pub climbed: f64,
+    /// What is allowed.
+    pub allowed: f64,
 }
 
 /// The input with the largest excess.
@@ -81,17 +90,33 @@ pub struct StratumRow {
     /// Finite results outside [0, 1].
     pub outside: u64,
     /// The largest excess; none where there are no truths.
-    pub largest: Option<f64>,
+    pub excess: Option<f64>,
 }
 
 impl Row {
     /// Of the counts of drawn inputs and of hill-climbs.
     #[must_use]
     pub fn new(pair: &MapEncoding, drawn: &Tally, climbed: &Tally) -> Self {
-        let (a, b) = (drawn.worst(), climbed.worst());
-        let largest = |worst: Option<(Stratum, Case)>| worst.map_or(0.0, |worst| worst.1.excess());
-        let [of_drawn, of_climbed] = [largest(a), largest(b)];
-        let worst = if of_climbed > of_drawn { b } else { a };
+        let worst = [drawn.worst(), climbed.worst()]
+            .into_iter()
+            .flatten()
+            .max_by(|a, b| a.1.excess().total_cmp(&b.1.excess()));
+        let excess = |wide: bool| {
+            let largest = |tally: &Tally| {
+                Stratum::ALL
+                    .into_iter()
+                    .zip(&tally.strata)
+                    .filter(|(stratum, _)| (*stratum == Stratum::FilteredWide) == wide)
+                    .filter_map(|(_, tally)| tally.worst.first())
+                    .map(Case::excess)
+                    .fold(-1.0, f64::max)
+            };
+            Excess {
+                drawn: largest(drawn),
+                climbed: largest(climbed),
+                allowed: allowed_excess(pair, wide),
+            }
+        };
         let fault = drawn.first_fault.or(climbed.first_fault);
         Self {
             technique: label(pair.technique()),
@@ -99,9 +124,8 @@ impl Row {
             samples: drawn.samples() + climbed.samples(),
             not_finite: drawn.not_finite() + climbed.not_finite(),
             outside: drawn.outside() + climbed.outside(),
-            drawn: of_drawn,
-            climbed: of_climbed,
-            documented: largest_excess(pair),
+            excess: excess(false),
+            wide: excess(true),
             quantiles: SHARES.iter().map(|&share| drawn.quantile(share)).collect(),
             mean_leak: drawn.mean_leak(),
             worst: worst.map(|(stratum, case)| Worst {
@@ -119,22 +143,24 @@ impl Row {
                     samples: tally.samples,
                     not_finite: tally.not_finite,
                     outside: tally.outside,
-                    largest: tally.worst.first().map(Case::excess),
+                    excess: tally.worst.first().map(Case::excess),
                 })
                 .collect(),
         }
     }
 
-    /// The largest excess of all inputs.
-    #[must_use]
-    pub fn largest(&self) -> f64 {
-        self.drawn.max(self.climbed)
-    }
-
-    /// Whether there is nothing that should not be: NaN, results outside [0, 1], more excess than is documented.
+    /// Whether there is nothing that should not be: NaN, results outside [0, 1], more excess than is allowed.
     #[must_use]
     pub fn passed(&self) -> bool {
-        self.not_finite == 0 && self.outside == 0 && self.largest() <= self.documented
+        self.not_finite == 0 && self.outside == 0 && self.excess.passed() && self.wide.passed()
+    }
+}
+
+impl Excess {
+    /// Whether no input has more than is allowed.
+    #[must_use]
+    pub fn passed(self) -> bool {
+        self.drawn.max(self.climbed) <= self.allowed
     }
 }
 
@@ -159,15 +185,18 @@ impl fmt::Display for Report {
         )?;
         writeln!(
             f,
-            "{:<16} {:<8} {:>8} {:>8}  {:>9} {:>9} {:>9} {:>9}  {:>9}  {:>9}",
+            "{:<16} {:<8} {:>7} {:>8} {:>9} {:>8} {:>8} {:>8} {:>9} {:>8} {:>8} {:>9}  {}",
             "technique",
             "storage",
             "NaN/inf",
             "not 0..1",
-            "excess",
+            "99.9 %",
+            "largest",
             "climbed",
             "allowed",
-            "99.9 %",
+            "wide",
+            "climbed",
+            "allowed",
             "mean leak",
             "worst in"
         )?;
@@ -178,21 +207,28 @@ impl fmt::Display for Report {
                 .find(|quantile| quantile.share == 0.999);
             writeln!(
                 f,
-                "{:<16} {:<8} {:>8} {:>8}  {:>9.2e} {:>9.2e} {:>9.2e} {:>9.2e}  {:>9.5}  {}{}",
+                "{:<16} {:<8} {:>7} {:>8} {:>9.1e} {:>8.1e} {:>8.1e} {:>8.1e} {:>9.1e} {:>8.1e} {:>8.1e} {:>9.5}  {}{}",
                 row.technique,
                 row.storage.name(),
                 row.not_finite,
                 row.outside,
-                row.drawn,
-                row.climbed,
-                row.documented,
                 high.map_or(0.0, |quantile| quantile.excess),
+                row.excess.drawn,
+                row.excess.climbed,
+                row.excess.allowed,
+                row.wide.drawn,
+                row.wide.climbed,
+                row.wide.allowed,
                 row.mean_leak,
                 row.worst.as_ref().map_or("", |worst| worst.stratum.name()),
                 if row.passed() { "" } else { "  FAULT" }
             )?;
         }
-        writeln!(f, "\nworst inputs")?;
+        writeln!(
+            f,
+            "\nshadow intensity above the truth: of 99.9 % of results, largest, by hill-climbs; allowed; the same for filters \
+             over 25 texels wide\n\nworst inputs"
+        )?;
         for row in &self.rows {
             let name = format!("{} {}", row.technique, row.storage);
             if let Some(worst) = &row.worst {
@@ -209,6 +245,73 @@ impl fmt::Display for Report {
         match self.faults() {
             0 => writeln!(f, "\nno faults"),
             faults => writeln!(f, "\n{faults} of {} rows have faults", self.rows.len()),
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    #![allow(clippy::unwrap_used)]
+
+    use super::super::input::Input;
+    use super::super::kernels::kernels;
+    use super::super::truth::truth;
+    use super::*;
+    use crate::techniques::filterable;
+    use rand::SeedableRng;
+    use rand_chacha::ChaCha8Rng;
+
+    /// A row of a technique that gives `evaluate` of the truth.
+    fn row(evaluate: impl Fn(f64) -> f64) -> Row {
+        let pair = filterable()
+            .into_iter()
+            .find(|pair| label(pair.technique()) == "hamburger4")
+            .unwrap();
+        let kernels = kernels().unwrap();
+        let mut random = ChaCha8Rng::seed_from_u64(5);
+        let mut tally = Tally::default();
+        for stratum in Stratum::ALL {
+            for _ in 0..200 {
+                let input: Input = stratum.sample(&mut random);
+                let truth = truth(&input, &kernels);
+                let found = evaluate(truth.unwrap_or(0.5)) as f32;
+                tally.add(stratum, &input, truth, found);
+            }
+        }
+        Row::new(&pair, &tally, &Tally::default())
+    }
+
+    #[test]
+    fn planted_faults_are_reported_and_a_lower_bound_is_none() {
+        // Leaks are no faults.
+        assert!(row(|truth| 0.9 * truth).passed());
+        let planted: [(&str, fn(f64) -> f64); 4] = [
+            ("darker than the truth by 1e-3", |truth| {
+                (truth + 1e-3).min(1.0)
+            }),
+            ("NaN in full shadow", |truth| {
+                if truth >= 1.0 { f64::NAN } else { 0.0 }
+            }),
+            (
+                "just above 1",
+                |truth| if truth >= 1.0 { 1.000_000_2 } else { 0.0 },
+            ),
+            ("below 0", |truth| 0.5 * truth - 1e-30),
+        ];
+        for (name, evaluate) in planted {
+            let row = row(evaluate);
+            assert!(!row.passed(), "{name}");
+            let report = Report {
+                adapter: "none".to_owned(),
+                effort: Effort::QUICK,
+                rows: vec![row],
+            };
+            assert_eq!(report.faults(), 1, "{name}");
+            let text = report.to_string();
+            assert!(
+                text.contains("FAULT") && text.contains("Input { depths: ["),
+                "{name}"
+            );
         }
     }
 }

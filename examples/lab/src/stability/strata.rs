@@ -1,5 +1,7 @@
 //! The strata that inputs are drawn from.
 
+use core::ops::Range;
+
 use moment_shadows::{DepthConversion, DepthRange, Storage};
 use rand::RngExt;
 use rand_chacha::ChaCha8Rng;
@@ -25,8 +27,10 @@ pub enum Stratum {
     AtSurface,
     /// A fragment at a Gauss node of the biased moments, or a few units in the last place beside it.
     AtGaussNode,
-    /// A resolve and a two-pass blur, 3 to 129 texels wide.
+    /// A resolve and a two-pass blur, 3 to 25 texels wide.
     Filtered,
+    /// The same, 33 to 129 texels wide.
+    FilteredWide,
     /// Texels of random bits, of moments that rounding made impossible, of negative variance.
     InvalidTexel,
     /// Subnormal, infinite and no numbers as depths and fragments.
@@ -35,7 +39,7 @@ pub enum Stratum {
 
 impl Stratum {
     /// All of them, each of which gets an equal share of the inputs.
-    pub const ALL: [Stratum; 10] = [
+    pub const ALL: [Stratum; 11] = [
         Stratum::Diracs,
         Stratum::NearCoincident,
         Stratum::Ends,
@@ -44,6 +48,7 @@ impl Stratum {
         Stratum::AtSurface,
         Stratum::AtGaussNode,
         Stratum::Filtered,
+        Stratum::FilteredWide,
         Stratum::InvalidTexel,
         Stratum::NotFinite,
     ];
@@ -60,6 +65,7 @@ impl Stratum {
             Stratum::AtSurface => "at a surface",
             Stratum::AtGaussNode => "at a Gauss node",
             Stratum::Filtered => "filtered",
+            Stratum::FilteredWide => "filtered widely",
             Stratum::InvalidTexel => "invalid texel",
             Stratum::NotFinite => "not finite",
         }
@@ -75,7 +81,8 @@ impl Stratum {
             Stratum::DepthRange => depth_range(random),
             Stratum::AtSurface => at_surface(random),
             Stratum::AtGaussNode => at_gauss_node(random),
-            Stratum::Filtered => filtered(random),
+            Stratum::Filtered => filtered(random, 0..kernels::NARROW),
+            Stratum::FilteredWide => filtered(random, kernels::NARROW..kernels::COUNT),
             Stratum::InvalidTexel => invalid_texel(random),
             Stratum::NotFinite => not_finite(random),
         }
@@ -246,7 +253,7 @@ fn at_gauss_node(random: &mut ChaCha8Rng) -> Input {
     input
 }
 
-fn filtered(random: &mut ChaCha8Rng) -> Input {
+fn filtered(random: &mut ChaCha8Rng, range: Range<u32>) -> Input {
     let depths = match random.random_range(0..4) {
         0 => anywhere(random),
         1 => around(random),
@@ -256,7 +263,7 @@ fn filtered(random: &mut ChaCha8Rng) -> Input {
     let mut input = mixture(random, &depths);
     input.kind = Input::PATCH;
     input.weights = [0.0; 8];
-    input.kernel = random.random_range(0..kernels::COUNT);
+    input.kernel = random.random_range(range);
     input.coverage = random.random_range(0..4_u32) * u32::from(random.random_range(0..2_u32) == 0);
     input.rows = [random.random(), random.random()];
     input.column = random.random();
