@@ -5,8 +5,8 @@ use moment_shadows::{Kernel, KernelError};
 /// Texels on either side of the centre.
 const RADII: [u32; 8] = [1, 2, 4, 8, 12, 16, 32, 64];
 
-/// Kernels up to 25 texels wide, which come first.
-pub const NARROW: u32 = 10;
+/// Kernels up to 9 texels wide, which come first. The reserves of float32 are made for those.
+pub const NARROW: u32 = 6;
 
 /// How many kernels there are.
 pub const COUNT: u32 = 2 * RADII.len() as u32;

@@ -11,9 +11,10 @@
 //! | `convolution` | errors of sines and cosines, [`convolution`] | |
 //! | `hamburger4`, `hausdorff4` | the moment bias | the moment bias; nothing for wide filters |
 //!
-//! The reserves of float32 are for narrow filters: a sum of n products in f32 is off by up to n / 3 units of 2^-24, which for
-//! 129 texels of equal weight is ten times the reserve. Beyond 25 texels float32 is no bound where surfaces are closer than
-//! that resolves, and four moments promise only a number from 0 to 1.
+//! The reserves of float32 are for filters up to 9 texels wide: a sum of n products in f32 is off by up to n / 3 units of
+//! 2^-24, all on one side where equal weights meet equal depths, which for 129 texels is ten times the reserve. Of wider
+//! filters four moments in float32 promise no more than a number from 0 to 1; a Gaussian of 25 texels is still within twice
+//! the bias, a box is not. In the other storages rounding is so much coarser that sums do not matter.
 
 use moment_shadows::{EsmFiltering, MapEncoding, Storage, Technique};
 
@@ -24,9 +25,9 @@ const HALF_ULP: f64 = 1.0 / (1 << 25) as f64;
 const STAGES: f64 = 3.0;
 
 /// The most texels along a filter, narrow and wide.
-const WIDTHS: [f64; 2] = [25.0, 129.0];
+const WIDTHS: [f64; 2] = [9.0, 129.0];
 
-/// The excess over the truth that is allowed to a pair, for filters up to 25 texels wide or wider ones.
+/// The excess over the truth that is allowed to a pair, for filters up to 9 texels wide or wider ones.
 #[must_use]
 pub fn allowed_excess(encoding: &MapEncoding, wide: bool) -> f64 {
     let storage = encoding.storage();

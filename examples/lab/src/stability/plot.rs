@@ -77,7 +77,7 @@ fn draw_rows<B: DrawingBackend>(area: &DrawingArea<B, Shift>, report: &Report) -
     let effort = report.effort;
     let title = "shadow intensity above the truth";
     let setting = format!(
-        "{}, {} inputs per technique and storage, {} hill-climbs, seed {}; bars end at what is allowed for filters up to 25 texels wide",
+        "{}, {} inputs per technique and storage, {} hill-climbs, seed {}; bars end at what is allowed for filters up to 9 texels wide",
         report.adapter,
         effort.samples,
         super::CLIMBS,

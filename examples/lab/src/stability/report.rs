@@ -227,7 +227,7 @@ impl fmt::Display for Report {
         writeln!(
             f,
             "\nshadow intensity above the truth: of 99.9 % of results, largest, by hill-climbs; allowed; the same for filters \
-             over 25 texels wide\n\nworst inputs"
+             over 9 texels wide\n\nworst inputs"
         )?;
         for row in &self.rows {
             let name = format!("{} {}", row.technique, row.storage);

@@ -27,9 +27,9 @@ pub enum Stratum {
     AtSurface,
     /// A fragment at a Gauss node of the biased moments, or a few units in the last place beside it.
     AtGaussNode,
-    /// A resolve and a two-pass blur, 3 to 25 texels wide.
+    /// A resolve and a two-pass blur, 3 to 9 texels wide.
     Filtered,
-    /// The same, 33 to 129 texels wide.
+    /// The same, 17 to 129 texels wide.
     FilteredWide,
     /// Texels of random bits, of moments that rounding made impossible, of negative variance.
     InvalidTexel,
