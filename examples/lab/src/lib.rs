@@ -27,6 +27,7 @@ pub mod plot;
 pub mod progress;
 pub mod scene;
 pub mod shaders;
+pub mod stability;
 pub mod surface_error;
 pub mod technique_argument;
 pub mod techniques;

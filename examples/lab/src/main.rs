@@ -4,7 +4,7 @@ use std::path::PathBuf;
 use std::process::ExitCode;
 
 use clap::{Parser, Subcommand, ValueEnum};
-use moment_shadows::{Profile, Storage};
+use moment_shadows::{Profile, Storage, nearest};
 use moment_shadows_lab::bias::BiasTechnique;
 use moment_shadows_lab::candidate::{Candidate, TechniqueChoice, candidates};
 use moment_shadows_lab::command::cost_growth::GrowthOptions;
@@ -12,13 +12,14 @@ use moment_shadows_lab::command::error_table::TableOptions;
 use moment_shadows_lab::command::render::{LightChoice, RenderOptions};
 use moment_shadows_lab::command::{
     bases, bias, contacts, cost, cost_growth, error, error_table, graph, isa, layers_figure,
-    measure, minification, orderings, render, shaders, technique_pictures, validate,
+    measure, minification, orderings, render, shaders, stability, technique_pictures, validate,
 };
 use moment_shadows_lab::cost::bandwidth::Memory;
 use moment_shadows_lab::error::LabError;
 use moment_shadows_lab::gpu::Gpu;
 use moment_shadows_lab::isa::child;
 use moment_shadows_lab::isa::chip::Chip;
+use moment_shadows_lab::stability::Effort;
 use moment_shadows_lab::technique_argument::TechniqueArgument;
 use moment_shadows_lab::vectors;
 
@@ -264,6 +265,10 @@ enum Command {
         #[arg(long)]
         json: bool,
     },
+    /// Tries every technique with every storage on random, extreme and invalid inputs, and on hill-climbs towards the worst,
+    /// and prints how far results are above the truth. Takes about a quarter of an hour. Exits with 3 if a result is NaN,
+    /// infinite, outside of 0 to 1 or farther above the truth than is documented.
+    Stability(StabilityArguments),
     /// Compiles every shader for chips that need not be there, and counts what the code does (Linux, Mesa's RADV).
     Isa(IsaArguments),
     /// The process that compiles for one chip, which its environment names.
@@ -273,6 +278,28 @@ enum Command {
         chip: Chip,
         shader: Option<String>,
     },
+}
+
+#[derive(clap::Args)]
+struct StabilityArguments {
+    /// Tries a hundredth of the inputs, and shorter climbs.
+    #[arg(long)]
+    quick: bool,
+    /// A folder for the report as text, JSON and a picture; it is made if need be.
+    #[arg(long)]
+    out: Option<PathBuf>,
+    /// Only this technique.
+    #[arg(long, value_parser = technique)]
+    technique: Option<String>,
+    /// Only this storage.
+    #[arg(long, value_parser = ["unorm8", "unorm16", "float16", "float32"])]
+    storage: Option<String>,
+    /// Inputs per technique and storage in place of 10000000, or of 100000 if quick.
+    #[arg(long, value_parser = clap::value_parser!(u64).range(10..=1_000_000_000))]
+    samples: Option<u64>,
+    /// The same seed gives the same inputs.
+    #[arg(long, default_value_t = Effort::FULL.seed)]
+    seed: u64,
 }
 
 #[derive(clap::Args)]
@@ -519,6 +546,16 @@ fn distance(text: &str) -> Result<f64, String> {
     }
 }
 
+/// The label of a technique with a filterable map.
+fn technique(text: &str) -> Result<String, String> {
+    let labels = stability::techniques();
+    if labels.iter().any(|label| label == text) {
+        return Ok(text.to_owned());
+    }
+    let meant = nearest(text, labels.iter().map(String::as_str));
+    Err(format!("the nearest techniques are {meant}"))
+}
+
 fn main() -> ExitCode {
     match run(Cli::parse().command) {
         Ok(code) => code,
@@ -643,6 +680,7 @@ fn run(command: Command) -> Result<ExitCode, Box<dyn std::error::Error>> {
             seed,
             json,
         } => print(&orderings::run(samples, seed), json)?,
+        Command::Stability(arguments) => return run_stability(&arguments),
         Command::Isa(arguments) => return run_isa(&arguments),
         Command::IsaChip { chip, shader } => {
             print!("{}", child::compile(chip, shader.as_deref())?);
@@ -743,6 +781,27 @@ fn run_error_table(arguments: TableArguments) -> Result<(), Box<dyn std::error::
     }
     print(&table, arguments.json)?;
     Ok(())
+}
+
+fn run_stability(arguments: &StabilityArguments) -> Result<ExitCode, Box<dyn std::error::Error>> {
+    let usual = if arguments.quick {
+        Effort::QUICK
+    } else {
+        Effort::FULL
+    };
+    let effort = Effort {
+        samples: arguments.samples.unwrap_or(usual.samples),
+        seed: arguments.seed,
+        ..usual
+    };
+    let pairs = stability::pairs(arguments.technique.as_deref(), arguments.storage.as_deref())?;
+    let report = stability::run(&pairs, effort, arguments.out.as_deref())?;
+    print!("{report}");
+    Ok(if report.faults() == 0 {
+        ExitCode::SUCCESS
+    } else {
+        ExitCode::from(stability::FAULT_CODE)
+    })
 }
 
 fn run_isa(arguments: &IsaArguments) -> Result<ExitCode, Box<dyn std::error::Error>> {

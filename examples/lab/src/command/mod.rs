@@ -15,5 +15,6 @@ pub mod minification;
 pub mod orderings;
 pub mod render;
 pub mod shaders;
+pub mod stability;
 pub mod technique_pictures;
 pub mod validate;
