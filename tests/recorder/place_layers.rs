@@ -105,13 +105,17 @@ fn before_any_edge_is_seen_layers_have_equal_depth() {
         map.run(&gpu, 3, Layers::All);
         let found = splits(&gpu, &map.bound, 0);
         assert_eq!(found[..expected.len()], expected, "{layers} layers");
+        // Nothing lies behind the far end, so an edge against it is none.
+        map.draw(&gpu, 0, edge(0.7, [-0.2, 1.0]));
+        map.run(&gpu, 3, Layers::All);
+        assert_eq!(splits(&gpu, &map.bound, 0), found, "{layers} layers");
     }
 }
 
 #[test]
 fn an_axis_aligned_edge_takes_a_split_to_the_farther_plane() {
     let gpu = gpu();
-    let planes = [[-0.5, 0.25], [-0.875, -0.75], [0.0, 1.0]];
+    let planes = [[-0.5, 0.25], [-0.875, -0.75], [0.0, 0.99]];
     for layers in [2, 3, 4, 8] {
         let map = Map::new(&gpu, layers, 3, 1);
         for (layer, &planes) in (0..).zip(&planes) {

@@ -81,21 +81,25 @@ fn usual() -> Vec<(Technique, Storage)> {
 }
 
 impl TechniqueArgument {
-    /// The technique and its map's storage: `wished`, else the graph's own where the technique can use it, else the one that
-    /// it uses best. Without a storage where it reads the plain depth map.
+    /// The technique and its map's storage: `wished`, else the graph's own where the technique has the same settings with
+    /// it, else the one that it uses best. Without a storage where it reads the plain depth map.
     pub fn resolve(
         &self,
         wished: Option<Storage>,
         of_graph: Option<Storage>,
     ) -> Result<(Technique, Option<Storage>), TechniqueError> {
-        let any = self.with_settings_for(None);
-        if any.reads_depth() {
-            return Ok((any, None));
+        let best = self.with_settings_for(None);
+        if best.reads_depth() {
+            return Ok((best, None));
         }
-        let legal = any.storages();
+        let as_good = |storage: &Storage| {
+            self.with_settings_for(Some(*storage)) == best
+                && MapEncoding::new(best.clone(), *storage).is_ok()
+        };
         let storage = wished
-            .or(of_graph.filter(|storage| legal.contains(storage)))
-            .or(legal.first().copied())
+            .or(of_graph.filter(as_good))
+            .or(best.storages().iter().copied().find(as_good))
+            .or(best.storages().first().copied())
             .unwrap_or(Storage::Float32);
         let technique = self.with_settings_for(Some(storage));
         MapEncoding::new(technique.clone(), storage)?;
@@ -114,7 +118,7 @@ impl TechniqueArgument {
         }
     }
 
-    /// The settings for a storage, or for any.
+    /// The settings for a storage, or for the one that the technique uses best.
     fn with_settings_for(&self, storage: Option<Storage>) -> Technique {
         let name = match self {
             TechniqueArgument::Given(technique) => return technique.clone(),
@@ -123,11 +127,12 @@ impl TechniqueArgument {
         let named = |technique: &Technique| techniques::label(technique) == *name;
         let mut filterable: Vec<(Technique, Storage)> = usual();
         filterable.retain(|(technique, _)| named(technique));
-        let fitting = filterable
-            .iter()
-            .find(|(_, of)| storage == Some(*of))
-            .or(filterable.first());
-        match fitting {
+        let of_storage = |storage: Storage| filterable.iter().find(|(_, of)| *of == storage);
+        // All settings of a name are those of one technique, whose storages do not depend on them.
+        let best = filterable
+            .first()
+            .and_then(|(technique, _)| technique.storages().iter().find_map(|&of| of_storage(of)));
+        match storage.and_then(of_storage).or(best) {
             Some((technique, _)) => technique.clone(),
             // A name was parsed, so it is one of these.
             None => techniques::reading_depth()
@@ -205,6 +210,14 @@ mod tests {
             evsm.resolve(Some(Storage::Unorm16), None),
             Err(TechniqueError::Storage { .. })
         ));
+        // Half precision has the least exponent; the usual one is worth another storage.
+        for (name, of_graph, expected) in [
+            ("esm", Storage::Float16, Storage::Float32),
+            ("vsm", Storage::Float16, Storage::Float16),
+        ] {
+            let resolved = TechniqueArgument::Usual(name.to_owned()).resolve(None, Some(of_graph));
+            assert_eq!(resolved.map(|(_, storage)| storage), Ok(Some(expected)));
+        }
     }
 
     #[test]

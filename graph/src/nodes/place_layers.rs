@@ -23,7 +23,8 @@ const STATE: [u32; 2] = [5, 1];
 ///
 /// Each time a layer is dirty, Lloyd relaxation moves two of its splits towards the surfaces behind which light would bleed
 /// (Lauritzen & McCool, "Layered Variance Shadow Maps", GI 2008, section 5). It starts from layers of equal depth and goes on
-/// from where it was: `splits` and its state are persistent, and all zeros at first. Parameters: a [`DepthConversion`] per
+/// from where it was: `splits` and its state are persistent, and all zeros at first. Edges against the far end, where no caster
+/// is, do not count. Parameters: a [`DepthConversion`] per
 /// layer and region, the same as those of `resolve_moments`.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]

@@ -87,7 +87,10 @@ fn footprint_sums(texel: vec2u, size: vec2u, placed: PlacedState) -> vec4f {
             depth_at(texel + vec2u(0u, 1u), conversion),
             depth_at(texel + vec2u(1u, 1u), conversion),
         );
-        sums += lloyd_contribution(placed.state.layers, placed.first, depths);
+        // Where the farther surface is the far end, nothing lies behind it that light could bleed onto.
+        if all(depths < vec4f(1.0)) {
+            sums += lloyd_contribution(placed.state.layers, placed.first, depths);
+        }
     }
     return sums;
 }

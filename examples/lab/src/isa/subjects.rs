@@ -216,13 +216,18 @@ fn place(samples: u32) -> Entry {
         ..texture(TextureFormat::Depth32Float)
     };
     let node = PlaceLayers::default();
+    // Splits of layers of equal depth, where there is no state yet; parts of a tile, or tiles per invocation; halvings of a
+    // workgroup's sums.
+    let sum = vec![3, 4, 8];
+    // And for either of two splits the others that it may pass, in front and behind.
+    let step = [&sum[..], &[2, 2, 2, 2]].concat();
     Entry {
         settings: format!("{} layers, {samples} samples", node.layers),
         node: Box::new(node),
         inputs: inputs([("depth", depth)]),
         capabilities: native(),
         trips: Vec::new(),
-        pass_trips: BTreeMap::new(),
+        pass_trips: BTreeMap::from([("sum tiles", sum), ("step splits", step)]),
     }
 }
 

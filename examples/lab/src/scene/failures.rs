@@ -31,8 +31,8 @@ pub fn stacked_boards() -> Scene {
         "stacked-boards",
         [floor, table, boards, upper],
         Stand {
-            eye: DVec3::new(3.6, 2.6, 8.2),
-            target: DVec3::new(0.15, 1.35, 0.0),
+            eye: DVec3::new(2.2, 2.1, 5.6),
+            target: DVec3::new(0.35, 0.85, 0.2),
             light_direction: DVec3::new(0.3, -1.0, 0.22),
         },
     )
@@ -67,8 +67,8 @@ pub fn contacts() -> Scene {
         "contacts",
         [floor, solids, rods, board],
         Stand {
-            eye: DVec3::new(0.7, 1.9, 3.8),
-            target: DVec3::new(0.1, 0.35, 0.0),
+            eye: DVec3::new(0.55, 1.45, 2.75),
+            target: DVec3::new(0.25, 0.4, 0.0),
             light_direction: DVec3::new(0.7, -1.0, 0.45),
         },
     )
