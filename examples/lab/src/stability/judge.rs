@@ -15,7 +15,7 @@ const SMALLEST_EXCESS: f64 = 1e-12;
 const BINS: usize = 12 * BINS_PER_DECADE as usize;
 
 /// Inputs that a stratum keeps to climb from.
-const KEPT: usize = 13;
+const KEPT: usize = 10;
 
 /// An input whose truth is known, and what a technique made of it.
 #[derive(Clone, Copy, Debug, PartialEq)]
