@@ -15,7 +15,7 @@ const SMALLEST_EXCESS: f64 = 1e-12;
 const BINS: usize = 12 * BINS_PER_DECADE as usize;
 
 /// Inputs that a stratum keeps to climb from.
-const KEPT: usize = 13;
+const KEPT: usize = 10;
 
 /// An input whose truth is known, and what a technique made of it.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -106,9 +106,12 @@ impl Tally {
             found,
         };
         let excess = case.excess();
-        // A NaN is counted above.
-        self.leak += (-excess).max(0.0);
         self.histogram[bin(excess)] += 1;
+        if excess.is_nan() {
+            // Counted above; there is nothing to compare or to climb from.
+            return;
+        }
+        self.leak += (-excess).max(0.0);
         let least = tally.worst.last().map_or(f64::MIN, Case::excess);
         if tally.worst.len() < KEPT || excess > least {
             let place = tally.worst.partition_point(|kept| kept.excess() >= excess);
@@ -169,8 +172,7 @@ impl Tally {
 }
 
 fn bin(excess: f64) -> usize {
-    // A NaN is not greater.
-    if !(excess > SMALLEST_EXCESS) {
+    if excess.is_nan() || excess <= SMALLEST_EXCESS {
         return 0;
     }
     let place = (excess / SMALLEST_EXCESS).log10() * BINS_PER_DECADE;

@@ -185,7 +185,7 @@ impl fmt::Display for Report {
         )?;
         writeln!(
             f,
-            "{:<16} {:<8} {:>7} {:>8} {:>9} {:>8} {:>8} {:>8} {:>9} {:>8} {:>8} {:>9}  {}",
+            "{:<16} {:<8} {:>7} {:>8} {:>9} {:>8} {:>8} {:>8} {:>9} {:>8} {:>8} {:>9}  worst in",
             "technique",
             "storage",
             "NaN/inf",
@@ -197,8 +197,7 @@ impl fmt::Display for Report {
             "wide",
             "climbed",
             "allowed",
-            "mean leak",
-            "worst in"
+            "mean leak"
         )?;
         for row in &self.rows {
             let high = row
@@ -261,8 +260,10 @@ mod tests {
     use rand::SeedableRng;
     use rand_chacha::ChaCha8Rng;
 
+    type Evaluate = fn(f64) -> f64;
+
     /// A row of a technique that gives `evaluate` of the truth.
-    fn row(evaluate: impl Fn(f64) -> f64) -> Row {
+    fn row(evaluate: Evaluate) -> Row {
         let pair = filterable()
             .into_iter()
             .find(|pair| label(pair.technique()) == "hamburger4")
@@ -285,7 +286,7 @@ mod tests {
     fn planted_faults_are_reported_and_a_lower_bound_is_none() {
         // Leaks are no faults.
         assert!(row(|truth| 0.9 * truth).passed());
-        let planted: [(&str, fn(f64) -> f64); 4] = [
+        let planted: [(&str, Evaluate); 4] = [
             ("darker than the truth by 1e-3", |truth| {
                 (truth + 1e-3).min(1.0)
             }),
