@@ -9,9 +9,9 @@
 use std::mem::offset_of;
 
 use moment_shadows::{
-    DepthConversion, Kernel, LARGEST_RADIUS, LeakReduction, MapRegion, MomentBias,
-    PercentageCloserKernel, PercentageCloserSoftLight, Profile, ReceiverBias, STANDARD_DEVIATIONS,
-    Source, Storage, TextureFormat, link,
+    DepthConversion, EsmFiltering, Finite, Kernel, LARGEST_RADIUS, LayerSplits, LeakReduction,
+    MapRegion, MomentBias, PcfTaps, Pcss, PercentageCloserKernel, PercentageCloserSoftLight,
+    Profile, ReceiverBias, STANDARD_DEVIATIONS, Source, Storage, Technique, TextureFormat, link,
 };
 use moment_shadows_graph::nodes::{
     BlurMoments, BlurParameters, KernelProperty, ResolveMoments, ShadeHard, ShadeHardParameters,
@@ -197,6 +197,8 @@ fn structs_of_the_nodes_are_laid_out_alike() {
             layer: u32,
             channel: u32,
             padding: f32,
+            conversion: DepthConversion,
+            light: PercentageCloserSoftLight,
         }),
     );
     let blur = per_frame_blur();
@@ -222,7 +224,7 @@ fn structs_of_the_nodes_are_laid_out_alike() {
 fn nodes_declare_the_structs_that_their_shaders_bind() {
     let nodes = [
         described(&ResolveMoments {
-            technique: moment_shadows::Technique::Hamburger4,
+            technique: Technique::Hamburger4,
             storage: Storage::Float16,
             mip_levels: Default::default(),
         }),
@@ -314,6 +316,102 @@ fn storages_have_the_numbers_and_biases_of_the_module() {
             [expected.alpha, expected.second, expected.fourth].map(f64::from),
             "{bias}"
         );
+    }
+}
+
+#[test]
+fn techniques_have_the_limits_of_their_modules() {
+    let esm = |filtering| Technique::Esm {
+        exponent: Finite::ZERO,
+        filtering,
+    };
+    let (linear, logarithmic) = (esm(EsmFiltering::Linear), esm(EsmFiltering::Logarithmic));
+    let evsm = Technique::Evsm2 {
+        exponent: Finite::ZERO,
+    };
+    for (name, technique, storage) in [
+        ("EXPONENTIAL_LARGEST_EXPONENT", &linear, Storage::Float32),
+        (
+            "EXPONENTIAL_LARGEST_EXPONENT",
+            &logarithmic,
+            Storage::Float32,
+        ),
+        (
+            "EXPONENTIAL_LARGEST_EXPONENT",
+            &logarithmic,
+            Storage::Unorm16,
+        ),
+        (
+            "EXPONENTIAL_LARGEST_EXPONENT_FLOAT16",
+            &linear,
+            Storage::Float16,
+        ),
+        (
+            "EXPONENTIAL_LARGEST_EXPONENT_UNORM16",
+            &linear,
+            Storage::Unorm16,
+        ),
+        (
+            "EXPONENTIAL_LARGEST_EXPONENT_FLOAT16_LOGARITHMIC",
+            &logarithmic,
+            Storage::Float16,
+        ),
+        (
+            "EXPONENTIAL_VARIANCE_LARGEST_EXPONENT_FLOAT16",
+            &evsm,
+            Storage::Float16,
+        ),
+        (
+            "EXPONENTIAL_VARIANCE_LARGEST_EXPONENT_FLOAT32",
+            &evsm,
+            Storage::Float32,
+        ),
+    ] {
+        let of = if name.contains("VARIANCE") {
+            "exponential_variance"
+        } else {
+            "exponential"
+        };
+        let found = constant(&module(of, name), name);
+        let largest = technique.largest_exponent(storage).unwrap();
+        assert_eq!(found, [f64::from(largest)], "{name}");
+    }
+    // One more than the most is refused.
+    for (of, name, technique) in [
+        (
+            "layered_variance",
+            "LAYERED_VARIANCE_LARGEST_COUNT",
+            (|layers| Technique::Lvsm {
+                layers,
+                overlap: Finite::ZERO,
+                splits: LayerSplits::Uniform,
+            }) as fn(u32) -> Technique,
+        ),
+        ("convolution", "CONVOLUTION_LARGEST_TERMS", |terms| {
+            Technique::Convolution {
+                terms,
+                lower_bound: true,
+            }
+        }),
+        (
+            "percentage_closer",
+            "PERCENTAGE_CLOSER_LARGEST_RADIUS",
+            |radius| Technique::Pcf(PcfTaps::Box { radius }),
+        ),
+        (
+            "percentage_closer_soft",
+            "PERCENTAGE_CLOSER_SOFT_MOST_TAPS",
+            |taps| {
+                Technique::Pcss(Pcss {
+                    search_taps: taps,
+                    filter_taps: 1,
+                })
+            },
+        ),
+    ] {
+        let most = constant(&module(of, name), name)[0] as u32;
+        technique(most).check().unwrap();
+        assert!(technique(most + 1).check().is_err(), "{name}");
     }
 }
 

@@ -62,7 +62,10 @@ impl Capabilities {
     #[must_use]
     pub fn support(&self, format: TextureFormat) -> FormatSupport {
         let support = format.support(self.profile);
-        let float32 = matches!(format, TextureFormat::R32Float | TextureFormat::Rgba32Float);
+        let float32 = matches!(
+            format,
+            TextureFormat::R32Float | TextureFormat::Rg32Float | TextureFormat::Rgba32Float
+        );
         FormatSupport {
             filterable: support.filterable || (float32 && self.float32_filterable),
             ..support

@@ -6,7 +6,9 @@ use std::sync::Arc;
 use serde::de::DeserializeOwned;
 
 use crate::Node;
-use crate::nodes::{BlurMoments, DebugMoments, DownsampleMoments, ResolveMoments, ShadeHard};
+use crate::nodes::{
+    BlurMoments, DebugMoments, DownsampleMoments, PlaceLayers, ResolveMoments, ShadeHard,
+};
 
 /// Makes a node of its properties, which are JSON text.
 type Factory = Arc<dyn Fn(&str) -> Result<Box<dyn Node>, serde_json::Error> + Send + Sync>;
@@ -25,6 +27,7 @@ impl NodeRegistry {
             factories: BTreeMap::new(),
         };
         registry.register::<ResolveMoments>("resolve_moments");
+        registry.register::<PlaceLayers>("place_layers");
         registry.register::<BlurMoments>("blur_moments");
         registry.register::<DownsampleMoments>("downsample_moments");
         registry.register::<DebugMoments>("debug_moments");

@@ -1,6 +1,12 @@
 //! Every technique x storage x profile: what is legal compiles, and what is not is refused with the names of what is.
 
-use moment_shadows::{Finite, MapEncoding, Profile, Storage, Technique, TechniqueError};
+use moment_shadows::{
+    DepthRange, Finite, LeakReduction, MapEncoding, MapRegion, Profile, ReceiverBias, Storage,
+    Technique, TechniqueError,
+};
+use moment_shadows_graph::nodes::{
+    CameraView, LightDepth, LightView, ShadeHardParameters, ViewError,
+};
 use moment_shadows_graph::{Capabilities, GraphErrorKind};
 use moment_shadows_lab::techniques;
 
@@ -353,4 +359,62 @@ fn numbers_that_are_none_are_no_settings() {
     }
     assert_eq!(Finite::new(-0.0).unwrap(), Finite::ZERO);
     assert_eq!(Technique::default().name(), "hamburger4");
+}
+
+#[test]
+fn degenerate_views_are_refused() {
+    let identity = glam::Mat4::IDENTITY.to_cols_array_2d();
+    let flat = glam::Mat4::from_scale(glam::Vec3::new(1.0, 1.0, 0.0)).to_cols_array_2d();
+    let not_finite = glam::Mat4::from_scale(glam::Vec3::splat(f32::NAN)).to_cols_array_2d();
+    let parameters = |camera: [[f32; 4]; 4], light: [[f32; 4]; 4], depth: LightDepth| {
+        ShadeHardParameters::new(
+            &CameraView {
+                clip_from_world: camera,
+                far_depth: 1.0,
+            },
+            &LightView {
+                clip_from_world: light,
+                depth,
+                layer: 0,
+                region: MapRegion::WHOLE,
+                channel: 0,
+            },
+            ReceiverBias::NONE,
+            LeakReduction::NONE,
+        )
+    };
+    let sun = LightDepth::Orthographic { reversed: false };
+    parameters(identity, identity, sun).unwrap();
+    for singular in [flat, not_finite] {
+        assert_eq!(
+            parameters(singular, identity, sun),
+            Err(ViewError::SingularCamera)
+        );
+        assert_eq!(
+            parameters(identity, singular, sun),
+            Err(ViewError::SingularLight)
+        );
+    }
+    // A near plane at or behind the light, and ranges that are none.
+    for (near, range) in [
+        (0.0, [1.0, 10.0]),
+        (-1.0, [1.0, 10.0]),
+        (f64::NAN, [1.0, 10.0]),
+        (0.5, [10.0, 1.0]),
+        (0.5, [1.0, f64::INFINITY]),
+    ] {
+        for reversed in [false, true] {
+            let spot = LightDepth::Perspective {
+                near,
+                far: 20.0,
+                reversed,
+                range: DepthRange {
+                    near: range[0],
+                    far: range[1],
+                },
+            };
+            let result = parameters(identity, identity, spot);
+            assert!(matches!(result, Err(ViewError::Depth(_))), "{spot:?}");
+        }
+    }
 }

@@ -18,6 +18,7 @@ mod host_targets;
 mod layers;
 mod life_cycle;
 mod lost;
+mod place_layers;
 mod recording;
 mod regions;
 mod resolve;

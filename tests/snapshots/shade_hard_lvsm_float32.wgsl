@@ -357,9 +357,9 @@ struct ReceiverPlane {
     uv: vec2f,
     // The gradient of moment depth per texel there.
     gradient: vec2f,
-    // Its moment depth, less a bias for what depths are rounded by.
+    // Its moment depth.
     depth: f32,
-    // 1 / the difference of moment depth between receiver and light; 0 for parallel rays.
+    // 1 / the difference of moment depth between receiver and light; next to 0 for parallel rays.
     inverse_reach: f32,
 }
 
@@ -367,9 +367,9 @@ struct ReceiverPlane {
 const RECEIVER_PLANE_LARGEST: f32 = 1e15;
 
 // The plane of a receiver. `uv` outside of [0, 1] counts as the nearer edge, a `depth` that is NaN as the far end.
-// `gradient` is that of moment depth per texel (`receiver_bias_plane`); if it is longer than `steepest`, which keeps its
-// direction, the surface is edge-on to the light, or its neighbours belong to another surface. `light_depth` is the moment depth
-// of the light itself (`depth_of_light`), below -1: DEPTH_INFINITELY_FAR for parallel rays.
+// `gradient` is that of moment depth per texel (`receiver_bias_plane`); where it is longer than `steepest` the surface is
+// edge-on to the light, or the neighbours belong to another one: it is shortened to that. `light_depth` is the moment
+// depth of the light itself (`depth_of_light`), below -1: DEPTH_INFINITELY_FAR for parallel rays.
 fn receiver_plane_through(uv: vec2f, depth: f32, gradient: vec2f, steepest: f32, light_depth: f32) -> ReceiverPlane {
     let z = select(clamp(depth, -1e6, 1e6), 1.0, depth_is_nan(depth));
     let full = clamp(gradient, vec2f(-RECEIVER_PLANE_LARGEST), vec2f(RECEIVER_PLANE_LARGEST));
@@ -377,6 +377,15 @@ fn receiver_plane_through(uv: vec2f, depth: f32, gradient: vec2f, steepest: f32,
     let steepness = length(full);
     let limited = select(full, full * (limit / max(steepness, 1e-30)), steepness > limit);
     return ReceiverPlane(clamp(uv, vec2f(0.0), vec2f(1.0)), limited, z, 1.0 / max(z - light_depth, 1e-6));
+}
+
+// A plane moved by `bias` in moment depth towards the light, as a whole: its distances from a light with rays from a point
+// all shrink by the same factor. One through the biased depth with the unbiased gradient would be too steep, and cross the
+// receiver's own where that recedes. `bias` is less than the distance from the light.
+fn receiver_plane_biased(plane: ReceiverPlane, bias: f32) -> ReceiverPlane {
+    let towards = clamp(bias, -4.0, 4.0);
+    let shrunk = clamp(1.0 - towards * plane.inverse_reach, 1e-6, 1e7);
+    return ReceiverPlane(plane.uv, plane.gradient * shrunk, plane.depth - towards, plane.inverse_reach / shrunk);
 }
 
 // The moment depth in [-1, 1] of the plane at `offset` texels from the receiver. It ends at the far end, which texels without a
@@ -502,26 +511,27 @@ fn percentage_closer_filter(map: texture_depth_2d_array, layer: u32, region: Map
     return clamp(sum / total, 0.0, 1.0);
 }
 
-// The weight of an offset along one axis in a kernel of that radius.
-fn percentage_closer_kernel_weight(kernel: PercentageCloserKernel, offset: i32, reach: i32) -> f32 {
+// The weight of an offset along one axis in a kernel of that radius. A copy of all weights per tap would cost more than the tap.
+fn percentage_closer_kernel_weight(weights: ptr<function, array<vec4f, 33>>, offset: i32, reach: i32) -> f32 {
     if abs(offset) > reach {
         return 0.0;
     }
     let index = u32(offset + reach);
-    return clamp(kernel.weights[index / 4u][index % 4u], 0.0, 1e9);
+    return clamp((*weights)[index / 4u][index % 4u], 0.0, 1e9);
 }
 
 // The same with any separable kernel. Without a positive weight nothing is shadowed.
 fn percentage_closer_kernel(map: texture_depth_2d_array, layer: u32, region: MapRegion, plane: ReceiverPlane, conversion: DepthConversion, kernel: PercentageCloserKernel, interpolated: bool) -> f32 {
     let reach = i32(min(kernel.radius, u32(PERCENTAGE_CLOSER_LARGEST_RADIUS)));
+    var weights = kernel.weights;
     let place = percentage_closer_place(region, plane, interpolated);
     let end = reach + select(0, 1, interpolated);
     var sum = 0.0;
     var total = 0.0;
     for (var y = -reach; y <= end; y++) {
-        let row = mix(percentage_closer_kernel_weight(kernel, y, reach), percentage_closer_kernel_weight(kernel, y - 1, reach), place.fraction.y);
+        let row = mix(percentage_closer_kernel_weight(&weights, y, reach), percentage_closer_kernel_weight(&weights, y - 1, reach), place.fraction.y);
         for (var x = -reach; x <= end; x++) {
-            let column = mix(percentage_closer_kernel_weight(kernel, x, reach), percentage_closer_kernel_weight(kernel, x - 1, reach), place.fraction.x);
+            let column = mix(percentage_closer_kernel_weight(&weights, x, reach), percentage_closer_kernel_weight(&weights, x - 1, reach), place.fraction.x);
             sum = fma(row * column, percentage_closer_tap(map, layer, region, plane, conversion, place.base + vec2i(x, y)), sum);
             total = fma(row, column, total);
         }

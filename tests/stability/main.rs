@@ -1,5 +1,8 @@
-//! No input makes a NaN or an intensity outside [0, 1].
+//! No input makes a NaN or an intensity outside [0, 1], nor one darker than the truth by more than is documented.
 #![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic)]
+
+mod report;
+mod worst_cases;
 
 use bytemuck::{Pod, Zeroable};
 use moment_shadows::Profile;

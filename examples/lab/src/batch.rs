@@ -58,6 +58,11 @@ fn batch_main(@builtin(global_invocation_id) id: vec3u) {
 }
 ";
 
+/// What is appended for a shader that reads a table.
+const TABLE: &str = "
+@group(0) @binding(2) var<storage, read> batch_table: array<f32>;
+";
+
 /// A WGSL function that is compiled once and run over slices of inputs.
 ///
 /// `I` and `O` must have the size and layout of the shader's `BatchInput` and `BatchOutput` in a storage buffer.
@@ -65,6 +70,7 @@ pub struct Batch<'gpu, I, O> {
     gpu: &'gpu Gpu,
     label: String,
     pipeline: wgpu::ComputePipeline,
+    table: Option<wgpu::Buffer>,
     items: PhantomData<fn(I) -> O>,
 }
 
@@ -72,6 +78,27 @@ impl<'gpu, I: Pod, O: Pod> Batch<'gpu, I, O> {
     /// Links and compiles `wgsl`, a shader that may import library modules, declares the types `BatchInput` and `BatchOutput`
     /// and a function `batch(input: BatchInput) -> BatchOutput`, but no bindings.
     pub fn new(gpu: &'gpu Gpu, label: &str, wgsl: &str) -> Result<Self, BatchError> {
+        Self::build(gpu, label, wgsl, None)
+    }
+
+    /// The same for a shader that reads `table`, at least one number, as the `batch_table: array<f32>` that all its
+    /// invocations share.
+    pub fn with_table(
+        gpu: &'gpu Gpu,
+        label: &str,
+        wgsl: &str,
+        table: &[f32],
+    ) -> Result<Self, BatchError> {
+        Self::build(gpu, label, wgsl, Some(table))
+    }
+
+    fn build(
+        gpu: &'gpu Gpu,
+        label: &str,
+        wgsl: &str,
+        table: Option<&[f32]>,
+    ) -> Result<Self, BatchError> {
+        let declared = if table.is_some() { TABLE } else { "" };
         let linked = link(
             Source {
                 name: label,
@@ -84,7 +111,9 @@ impl<'gpu, I: Pod, O: Pod> Batch<'gpu, I, O> {
             .device
             .create_shader_module(wgpu::ShaderModuleDescriptor {
                 label: Some(label),
-                source: wgpu::ShaderSource::Wgsl(format!("{}{ENTRY_POINT}", linked.wgsl()).into()),
+                source: wgpu::ShaderSource::Wgsl(
+                    format!("{}{declared}{ENTRY_POINT}", linked.wgsl()).into(),
+                ),
             });
         let pipeline = gpu
             .device
@@ -106,6 +135,17 @@ impl<'gpu, I: Pod, O: Pod> Batch<'gpu, I, O> {
             gpu,
             label: label.to_owned(),
             pipeline,
+            table: table.map(|table| {
+                let buffer = gpu.device.create_buffer(&wgpu::BufferDescriptor {
+                    label: Some(label),
+                    size: size_of_val(table) as u64,
+                    usage: wgpu::BufferUsages::STORAGE | wgpu::BufferUsages::COPY_DST,
+                    mapped_at_creation: false,
+                });
+                let bytes = bytemuck::cast_slice(table);
+                gpu.queue.write_buffer(&buffer, 0, bytes);
+                buffer
+            }),
             items: PhantomData,
         })
     }
@@ -158,19 +198,19 @@ impl<'gpu, I: Pod, O: Pod> Batch<'gpu, I, O> {
             usage: wgpu::BufferUsages::STORAGE | wgpu::BufferUsages::COPY_SRC,
             mapped_at_creation: false,
         });
+        let entries: Vec<wgpu::BindGroupEntry<'_>> =
+            [Some(&input), Some(&output), self.table.as_ref()]
+                .into_iter()
+                .zip(0..)
+                .filter_map(|(buffer, binding)| {
+                    let resource = buffer?.as_entire_binding();
+                    Some(wgpu::BindGroupEntry { binding, resource })
+                })
+                .collect();
         let bindings = device.create_bind_group(&wgpu::BindGroupDescriptor {
             label,
             layout: &self.pipeline.get_bind_group_layout(0),
-            entries: &[
-                wgpu::BindGroupEntry {
-                    binding: 0,
-                    resource: input.as_entire_binding(),
-                },
-                wgpu::BindGroupEntry {
-                    binding: 1,
-                    resource: output.as_entire_binding(),
-                },
-            ],
+            entries: &entries,
         });
         let mut encoder = device.create_command_encoder(&wgpu::CommandEncoderDescriptor { label });
         {

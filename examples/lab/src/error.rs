@@ -76,6 +76,9 @@ pub enum LabError {
     /// A light's depth convention.
     #[error(transparent)]
     Depth(#[from] moment_shadows::DepthError),
+    /// A light's size.
+    #[error(transparent)]
+    SoftLight(#[from] moment_shadows::SoftLightError),
     /// The library's recorder.
     #[error(transparent)]
     Record(#[from] RecordError),

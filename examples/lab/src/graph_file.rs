@@ -1,4 +1,6 @@
-//! A graph file with what the lab reads from it besides the graph: its kernel and its storage.
+//! A graph file with what the lab reads from it besides the graph: its kernel, its technique and its storage.
+
+mod technique;
 
 use std::path::Path;
 
@@ -117,80 +119,16 @@ impl GraphFile {
         Ok(file)
     }
 
-    /// The same graph with another technique. A filterable one makes its map in `storage`, or in that of the graph; one
-    /// that reads the plain depth map takes what the graph makes its map of.
-    pub fn with_technique(
-        &self,
-        technique: &Technique,
-        storage: Option<Storage>,
-    ) -> Result<Self, LabError> {
-        let mut file: Value = serde_json::from_str(&self.text).unwrap_or_default();
-        let name = |node_type| Ok::<_, LabError>(self.node_of_type(node_type)?["name"].clone());
-        let (resolve, shade) = (name("resolve_moments")?, name("shade_hard")?);
-        let reads_depth = technique.reads_depth();
-        let technique = serde_json::json!(technique);
-        for node in file["nodes"].as_array_mut().into_iter().flatten() {
-            if node["name"] == resolve && !reads_depth {
-                node["properties"]["technique"] = technique.clone();
-                if let Some(storage) = storage {
-                    node["properties"]["storage"] = storage.name().into();
-                }
-            }
-            if node["name"] == shade && reads_depth {
-                node["properties"]["technique"] = technique.clone();
-            } else if node["name"] == shade
-                && let Some(properties) = node["properties"].as_object_mut()
-            {
-                properties.remove("technique");
-            }
-        }
-        if reads_depth {
-            let slot =
-                |node: &Value, slot: &str| format!("{}.{slot}", node.as_str().unwrap_or_default());
-            let (from, moments) = (slot(&resolve, "depth"), slot(&shade, "moments"));
-            let edges = file["edges"].as_array_mut();
-            let edges = edges.ok_or_else(|| self.unsuitable("it has no edges"))?;
-            let depth = edges
-                .iter()
-                .find(|edge| edge["to"] == from.as_str())
-                .map(|edge| edge["from"].clone())
-                .ok_or_else(|| {
-                    self.unsuitable("no edge leads to the depth of its resolve_moments node")
-                })?;
-            edges.retain(|edge| edge["to"] != moments.as_str());
-            edges.push(serde_json::json!({ "from": depth, "to": slot(&shade, "depth") }));
-        }
-        Self::parse(&self.name, file.to_string(), None)
-    }
-
     /// The technique that the `shade_hard` node names; none where it follows its map.
     #[must_use]
     pub fn shading_technique(&self) -> Option<Technique> {
-        let shade = self.node_of_type("shade_hard").ok()?;
+        let shade = self.node_of("shade_hard")?;
         serde_json::from_value(shade["properties"]["technique"].clone()).ok()
-    }
-
-    fn node_of_type(&self, node_type: &str) -> Result<Value, LabError> {
-        nodes(&self.text)
-            .into_iter()
-            .find(|node| node["type"] == node_type)
-            .ok_or_else(|| {
-                self.unsuitable(&format!(
-                    "it has no {node_type} node whose technique could be another"
-                ))
-            })
-    }
-
-    fn unsuitable(&self, reason: &str) -> LabError {
-        LabError::Unsuitable {
-            file: self.name.clone(),
-            reason: reason.to_owned(),
-        }
     }
 
     /// The same graph, which also gives out the filtered map that its `shade_hard` node looks up, and the output's name.
     pub fn with_filtered_map(&self) -> Result<(Self, String), LabError> {
-        let unsuitable = |reason: &str| self.unsuitable(reason);
+        let unsuitable = |reason: &str| self.unsuitable(reason.to_owned());
         let shade = nodes(&self.text)
             .into_iter()
             .find(|node| node["type"] == "shade_hard")

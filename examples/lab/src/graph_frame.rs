@@ -1,6 +1,9 @@
 //! A graph on a frame: compiled for what the host has drawn, recorded, and read back.
 
-use moment_shadows::{DepthRange, LeakReduction, MapRegion, ReceiverBias, TextureFormat};
+use moment_shadows::{
+    DepthRange, LeakReduction, MapRegion, PercentageCloserSoftLight, ReceiverBias, SoftRadii,
+    Technique, TextureFormat,
+};
 use moment_shadows_graph::nodes::{CameraView, LightDepth, LightView, ShadeHardParameters};
 use moment_shadows_graph::record::{
     Bindings, ImportedResource, PipelineOptions, Pipelines, Recording, Resources,
@@ -19,12 +22,23 @@ use crate::light::{LightKind, StoredDepth};
 /// The output that the lab shades with.
 const SHADOW_INTENSITY: &str = "shadow_intensity";
 
+/// The angle under which soft shadows see the light, in radians: six times the sun's, so that penumbrae are some texels wide.
+pub const SOFT_LIGHT_ANGLE: f64 = 0.055;
+
+/// The radii in texels that soft shadows keep to.
+const SOFT_RADII: SoftRadii = SoftRadii {
+    smallest: 1.0,
+    largest: 48.0,
+};
+
 /// A graph that is bound to a frame.
 pub struct GraphFrame {
     /// The compiled graph.
     pub plan: Plan,
     /// The bound plan.
     pub bindings: Bindings,
+    /// Recordings until what is kept from frame to frame has settled.
+    frames: u32,
 }
 
 impl GraphFrame {
@@ -69,11 +83,22 @@ impl GraphFrame {
             ],
             Some(&parameters),
         ))?;
-        Ok(Self { plan, bindings })
+        Ok(Self {
+            plan,
+            bindings,
+            frames: file.frames(),
+        })
     }
 
-    /// Records all stages and submits them.
+    /// Records all stages and submits them, until what is kept from frame to frame has settled.
     pub fn run(&self, gpu: &Gpu) -> Result<(), LabError> {
+        for _ in 0..self.frames {
+            self.run_once(gpu)?;
+        }
+        Ok(())
+    }
+
+    fn run_once(&self, gpu: &Gpu) -> Result<(), LabError> {
         let mut encoder = gpu
             .device
             .create_command_encoder(&wgpu::CommandEncoderDescriptor {
@@ -168,7 +193,7 @@ pub fn shade_parameters(
     desc: &FrameDesc,
     file: &GraphFile,
 ) -> Result<ShadeHardParameters, LabError> {
-    Ok(ShadeHardParameters::new(
+    let mut parameters = ShadeHardParameters::new(
         &CameraView {
             clip_from_world: desc.camera.clip_from_world_columns()?,
             far_depth: 0.0,
@@ -176,7 +201,28 @@ pub fn shade_parameters(
         &light_view(desc),
         receiver_bias(desc, file)?,
         LeakReduction::DEFAULT,
-    )?)
+    )?;
+    if let Some(Technique::Pcss(_)) = file.technique() {
+        parameters.light = soft_light(desc)?;
+    }
+    Ok(parameters)
+}
+
+/// The light with the size that soft shadows take it to have: seen under [`SOFT_LIGHT_ANGLE`], from the middle of the range
+/// for a spot light.
+fn soft_light(desc: &FrameDesc) -> Result<PercentageCloserSoftLight, LabError> {
+    let texel = desc.light.texel_size(desc.map);
+    let [near, far] = desc.light.range;
+    let range = DepthRange { near, far };
+    Ok(match desc.light.kind() {
+        LightKind::Directional => {
+            PercentageCloserSoftLight::directional(SOFT_LIGHT_ANGLE, texel, range, SOFT_RADII)?
+        }
+        LightKind::Spot => {
+            let diameter = SOFT_LIGHT_ANGLE * 0.5 * (near + far);
+            PercentageCloserSoftLight::spot(diameter, texel, range, SOFT_RADII)?
+        }
+    })
 }
 
 /// The receiver bias that follows from the graph's kernel and the light: the same rule for all scenes.

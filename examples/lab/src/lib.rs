@@ -2,10 +2,13 @@
 //!
 //! Not published. It renders real geometry with the library's nodes, and judges what they give.
 
+pub mod basis;
 pub mod batch;
+pub mod bias;
 pub mod candidate;
 pub mod command;
 pub mod cost;
+pub mod dense;
 pub mod error;
 pub mod error_plot;
 pub mod footprint;
@@ -24,7 +27,9 @@ pub mod plot;
 pub mod progress;
 pub mod scene;
 pub mod shaders;
+pub mod stability;
 pub mod surface_error;
+pub mod technique_argument;
 pub mod techniques;
 pub mod truth;
 pub mod vectors;

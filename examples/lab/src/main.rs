@@ -4,20 +4,23 @@ use std::path::PathBuf;
 use std::process::ExitCode;
 
 use clap::{Parser, Subcommand, ValueEnum};
-use moment_shadows::{Profile, Storage};
+use moment_shadows::{Profile, Storage, nearest};
+use moment_shadows_lab::bias::BiasTechnique;
 use moment_shadows_lab::candidate::{Candidate, TechniqueChoice, candidates};
 use moment_shadows_lab::command::cost_growth::GrowthOptions;
 use moment_shadows_lab::command::error_table::TableOptions;
 use moment_shadows_lab::command::render::{LightChoice, RenderOptions};
 use moment_shadows_lab::command::{
-    contacts, cost, cost_growth, error, error_table, graph, isa, layers_figure, measure,
-    minification, render, shaders, validate,
+    bases, bias, contacts, cost, cost_growth, error, error_table, graph, isa, layers_figure,
+    measure, minification, orderings, render, shaders, stability, technique_pictures, validate,
 };
 use moment_shadows_lab::cost::bandwidth::Memory;
 use moment_shadows_lab::error::LabError;
 use moment_shadows_lab::gpu::Gpu;
 use moment_shadows_lab::isa::child;
 use moment_shadows_lab::isa::chip::Chip;
+use moment_shadows_lab::stability::Effort;
+use moment_shadows_lab::technique_argument::TechniqueArgument;
 use moment_shadows_lab::vectors;
 
 /// Filterable shadows: validate shaders, check graphs, render, and measure.
@@ -45,6 +48,10 @@ enum Command {
         /// The picture to write.
         #[arg(long)]
         out: PathBuf,
+        /// A technique in place of the graph's own: a name, or settings as in a graph file. Tests on the plain depth map
+        /// (binary, pcf_..., pcss) get a map of one sample per texel.
+        #[arg(long, value_name = "NAME|JSON")]
+        technique: Option<TechniqueArgument>,
         /// Also writes the brute-force picture and the difference, and prints the error.
         #[arg(long)]
         truth: bool,
@@ -81,6 +88,9 @@ enum Command {
     Measure {
         #[command(flatten)]
         frame: FrameArguments,
+        /// A technique in place of the graph's own: a name, or settings as in a graph file.
+        #[arg(long, value_name = "NAME|JSON")]
+        technique: Option<TechniqueArgument>,
         /// glTF or GLB files, or procedural scenes.
         #[arg(long, num_args = 1.., default_values = ["fence-and-foliage", "hall"])]
         scene: Vec<String>,
@@ -105,6 +115,19 @@ enum Command {
         /// Prints JSON.
         #[arg(long)]
         json: bool,
+    },
+    /// Writes a picture of every technique: a view and the technique's typical failure, each with its difference from the
+    /// truth beside it.
+    TechniquePictures {
+        /// The folder to make.
+        #[arg(long)]
+        out: PathBuf,
+        /// A glTF or GLB file, or a procedural scene: fence-and-foliage, hall.
+        #[arg(long, default_value = "hall")]
+        scene: String,
+        /// Only the technique of this name.
+        #[arg(long)]
+        only: Option<String>,
     },
     /// Writes every linked shader of the library, as WGSL and SPIR-V with an index, for other compilers.
     Shaders {
@@ -197,6 +220,55 @@ enum Command {
     /// Times the nodes of a graph at several sizes of the map and of the output and at several radii, and plots how their
     /// cost grows. Takes minutes.
     CostGrowth(CostGrowthArguments),
+    /// Finds the smallest safe moment bias of each storage by search over filtered patches of depth.
+    Bias {
+        /// The solver that the moments are for.
+        #[arg(long, value_enum, default_value = "hamburger4")]
+        technique: BiasTechniqueArgument,
+        /// One storage of the library; all of them and the published forms if none is given.
+        #[arg(long, value_enum)]
+        storage: Option<StorageArgument>,
+        /// Patches per row of the table.
+        #[arg(long, default_value_t = 1_000_000, value_parser = sample_count)]
+        samples: usize,
+        /// Of the random numbers.
+        #[arg(long, default_value_t = 2015)]
+        seed: u64,
+        /// Prints JSON.
+        #[arg(long)]
+        json: bool,
+    },
+    /// Compares all choices of four among twelve functions of depth by linear programming, and plots a histogram.
+    Bases {
+        /// The folder for the plot, as SVG and PNG; it is made if need be.
+        #[arg(long)]
+        out: PathBuf,
+        /// The share of the depth range at either end that is free of surfaces: sine and cosine cannot tell the ends apart.
+        #[arg(long, default_value_t = 0.0)]
+        margin: f64,
+        /// Random depth distributions, each with eight receivers.
+        #[arg(long, default_value_t = 300, value_parser = sample_count)]
+        samples: usize,
+        /// Prints JSON.
+        #[arg(long)]
+        json: bool,
+    },
+    /// Prints how the bounds of techniques compare on the same surfaces while the light's depth range grows around them.
+    Orderings {
+        /// Random depth distributions.
+        #[arg(long, default_value_t = 20_000, value_parser = sample_count)]
+        samples: usize,
+        /// Of the random numbers.
+        #[arg(long, default_value_t = 2015)]
+        seed: u64,
+        /// Prints JSON.
+        #[arg(long)]
+        json: bool,
+    },
+    /// Tries every technique with every storage on random, extreme and invalid inputs, and on hill-climbs towards the worst,
+    /// and prints how far results are above the truth. Takes about a quarter of an hour. Exits with 3 if a result is NaN,
+    /// infinite, outside of 0 to 1 or farther above the truth than is documented.
+    Stability(StabilityArguments),
     /// Compiles every shader for chips that need not be there, and counts what the code does (Linux, Mesa's RADV).
     Isa(IsaArguments),
     /// The process that compiles for one chip, which its environment names.
@@ -206,6 +278,28 @@ enum Command {
         chip: Chip,
         shader: Option<String>,
     },
+}
+
+#[derive(clap::Args)]
+struct StabilityArguments {
+    /// Tries a hundredth of the inputs, and shorter climbs.
+    #[arg(long)]
+    quick: bool,
+    /// A folder for the report as text, JSON and a picture; it is made if need be.
+    #[arg(long)]
+    out: Option<PathBuf>,
+    /// Only this technique.
+    #[arg(long, value_parser = technique)]
+    technique: Option<String>,
+    /// Only this storage.
+    #[arg(long, value_parser = ["unorm8", "unorm16", "float16", "float32"])]
+    storage: Option<String>,
+    /// Inputs per technique and storage in place of 10000000, or of 100000 if quick.
+    #[arg(long, value_parser = clap::value_parser!(u64).range(10..=1_000_000_000))]
+    samples: Option<u64>,
+    /// The same seed gives the same inputs.
+    #[arg(long, default_value_t = Effort::FULL.seed)]
+    seed: u64,
 }
 
 #[derive(clap::Args)]
@@ -363,11 +457,37 @@ enum LightArgument {
 }
 
 #[derive(Clone, Copy, ValueEnum)]
+enum BiasTechniqueArgument {
+    Hamburger4,
+    Hausdorff4,
+}
+
+impl From<BiasTechniqueArgument> for BiasTechnique {
+    fn from(argument: BiasTechniqueArgument) -> Self {
+        match argument {
+            BiasTechniqueArgument::Hamburger4 => BiasTechnique::Hamburger4,
+            BiasTechniqueArgument::Hausdorff4 => BiasTechnique::Hausdorff4,
+        }
+    }
+}
+
+#[derive(Clone, Copy, ValueEnum)]
 enum StorageArgument {
     Unorm8,
     Unorm16,
     Float16,
     Float32,
+}
+
+impl From<StorageArgument> for Storage {
+    fn from(argument: StorageArgument) -> Self {
+        match argument {
+            StorageArgument::Unorm16 => Storage::Unorm16,
+            StorageArgument::Float16 => Storage::Float16,
+            StorageArgument::Float32 => Storage::Float32,
+            StorageArgument::Unorm8 => Storage::Unorm8,
+        }
+    }
 }
 
 impl From<ProfileArgument> for Profile {
@@ -393,12 +513,8 @@ impl FrameArguments {
             size: [self.width, (self.width * 9 / 16).max(1)],
             map: self.map,
             samples: self.samples,
-            storage: self.storage.map(|storage| match storage {
-                StorageArgument::Unorm8 => Storage::Unorm8,
-                StorageArgument::Unorm16 => Storage::Unorm16,
-                StorageArgument::Float16 => Storage::Float16,
-                StorageArgument::Float32 => Storage::Float32,
-            }),
+            storage: self.storage.map(Storage::from),
+            technique: None,
         }
     }
 }
@@ -414,12 +530,30 @@ impl From<CostGrowthArguments> for GrowthOptions {
     }
 }
 
+/// How many samples to draw.
+fn sample_count(text: &str) -> Result<usize, String> {
+    match text.parse() {
+        Ok(count) if (1..=1_000_000_000).contains(&count) => Ok(count),
+        _ => Err("a number of samples is an integer from 1 to 1000000000".to_owned()),
+    }
+}
+
 /// A multiple of a distance.
 fn distance(text: &str) -> Result<f64, String> {
     match text.parse() {
         Ok(distance) if (1.0..=1000.0).contains(&distance) => Ok(distance),
         _ => Err("a distance is a number from 1 to 1000".to_owned()),
     }
+}
+
+/// The label of a technique with a filterable map.
+fn technique(text: &str) -> Result<String, String> {
+    let labels = stability::techniques();
+    if labels.iter().any(|label| label == text) {
+        return Ok(text.to_owned());
+    }
+    let meant = nearest(text, labels.iter().map(String::as_str));
+    Err(format!("the nearest techniques are {meant}"))
 }
 
 fn main() -> ExitCode {
@@ -446,11 +580,14 @@ fn run(command: Command) -> Result<ExitCode, Box<dyn std::error::Error>> {
             scene,
             graph,
             out,
+            technique,
             truth,
         } => {
-            if let Some((judgement, truth)) =
-                render::run(&frame.options(scene), &graph, &out, truth)?
-            {
+            let options = RenderOptions {
+                technique,
+                ..frame.options(scene)
+            };
+            if let Some((judgement, truth)) = render::run(&options, &graph, &out, truth)? {
                 println!("{}", judgement.error);
                 println!("exact bound on the same depths\n{}", truth.bound_error);
                 println!("{}", judgement.excess);
@@ -488,10 +625,15 @@ fn run(command: Command) -> Result<ExitCode, Box<dyn std::error::Error>> {
         }
         Command::Measure {
             frame,
+            technique,
             scene,
             graph,
         } => {
-            let rows = measure::run(&scene, &graph, &frame.options(String::new()))?;
+            let options = RenderOptions {
+                technique,
+                ..frame.options(String::new())
+            };
+            let rows = measure::run(&scene, &graph, &options)?;
             print!("{}", measure::table(&rows));
         }
         Command::Minification {
@@ -504,9 +646,41 @@ fn run(command: Command) -> Result<ExitCode, Box<dyn std::error::Error>> {
             &minification::run(&frame.options(scene), &graph, distance)?,
             json,
         )?,
+        Command::TechniquePictures { out, scene, only } => {
+            let made = technique_pictures::run(&out, &scene, only.as_deref())?;
+            print!("{}", technique_pictures::table(&made));
+        }
         Command::Shaders { out } => {
             println!("{} shaders in {}", shaders::run(&out)?, out.display());
         }
+        Command::Bias {
+            technique,
+            storage,
+            samples,
+            seed,
+            json,
+        } => print(
+            &bias::run(technique.into(), storage.map(Storage::from), samples, seed)?,
+            json,
+        )?,
+        Command::Bases {
+            out,
+            margin,
+            samples,
+            json,
+        } => {
+            let (subsets, files) = bases::run(&out, samples, margin)?;
+            print(&subsets, json)?;
+            if !json {
+                println!("\n{}\n{}", files[0].display(), files[1].display());
+            }
+        }
+        Command::Orderings {
+            samples,
+            seed,
+            json,
+        } => print(&orderings::run(samples, seed), json)?,
+        Command::Stability(arguments) => return run_stability(&arguments),
         Command::Isa(arguments) => return run_isa(&arguments),
         Command::IsaChip { chip, shader } => {
             print!("{}", child::compile(chip, shader.as_deref())?);
@@ -552,11 +726,7 @@ fn run(command: Command) -> Result<ExitCode, Box<dyn std::error::Error>> {
             technique,
             json,
         } => {
-            let candidates = if technique.is_empty() {
-                Candidate::all()
-            } else {
-                of_choices(&technique)
-            };
+            let candidates = candidates(&technique, None)?;
             let options = frame.options(String::new());
             print(
                 &contacts::run(&options, &graph, &radius, &candidates)?,
@@ -611,6 +781,27 @@ fn run_error_table(arguments: TableArguments) -> Result<(), Box<dyn std::error::
     }
     print(&table, arguments.json)?;
     Ok(())
+}
+
+fn run_stability(arguments: &StabilityArguments) -> Result<ExitCode, Box<dyn std::error::Error>> {
+    let usual = if arguments.quick {
+        Effort::QUICK
+    } else {
+        Effort::FULL
+    };
+    let effort = Effort {
+        samples: arguments.samples.unwrap_or(usual.samples),
+        seed: arguments.seed,
+        ..usual
+    };
+    let pairs = stability::pairs(arguments.technique.as_deref(), arguments.storage.as_deref())?;
+    let report = stability::run(&pairs, effort, arguments.out.as_deref())?;
+    print!("{report}");
+    Ok(if report.faults() == 0 {
+        ExitCode::SUCCESS
+    } else {
+        ExitCode::from(stability::FAULT_CODE)
+    })
 }
 
 fn run_isa(arguments: &IsaArguments) -> Result<ExitCode, Box<dyn std::error::Error>> {

@@ -103,6 +103,60 @@ pub fn save_grey(path: &Path, width: u32, height: u32, grey: &[u8]) -> Result<()
     encode(path, width, height, grey, 1, image::ExtendedColorType::L8)
 }
 
+/// Pixels between panels.
+const GAP: u32 = 4;
+
+/// Saves pictures of one size (four bytes per pixel, alpha is dropped) side by side in rows of `columns`, as one PNG that is
+/// small rather than quickly made.
+pub fn save_panels(
+    path: &Path,
+    panels: &[Vec<u8>],
+    [width, height]: [u32; 2],
+    columns: u32,
+) -> Result<(), PictureError> {
+    let columns = columns.max(1);
+    let rows = (panels.len() as u32).div_ceil(columns);
+    let side = |panel: u32, count: u32| count * panel + count.saturating_sub(1) * GAP;
+    let [full_width, full_height] = [side(width, columns), side(height, rows)];
+    let mut rgb = vec![255; (full_width * full_height * 3) as usize];
+    for (number, panel) in (0..).zip(panels) {
+        if panel.len() as u64 != u64::from(width) * u64::from(height) * 4 {
+            return Err(PictureError::Size {
+                path: path.to_owned(),
+                width,
+                height,
+                values: panel.len(),
+            });
+        }
+        let left = (number % columns) * (width + GAP);
+        let top = (number / columns) * (height + GAP);
+        for (y, row) in (top..).zip(panel.chunks_exact(4 * width as usize)) {
+            let first = 3 * (y * full_width + left) as usize;
+            let target = rgb[first..].chunks_exact_mut(3);
+            for (target, pixel) in target.zip(row.chunks_exact(4)) {
+                target.copy_from_slice(&pixel[..3]);
+            }
+        }
+    }
+    let mut png = Vec::new();
+    let encoder = image::codecs::png::PngEncoder::new_with_quality(
+        &mut png,
+        image::codecs::png::CompressionType::Best,
+        image::codecs::png::FilterType::Adaptive,
+    );
+    let colour = image::ExtendedColorType::Rgb8;
+    image::ImageEncoder::write_image(encoder, &rgb, full_width, full_height, colour)
+        .map_err(|error| refused(path, &error))?;
+    save_atomically(path, |file| file.write_all(&png))
+}
+
+fn refused(path: &Path, error: &image::ImageError) -> PictureError {
+    PictureError::Encoding {
+        path: path.to_owned(),
+        reason: error.to_string(),
+    }
+}
+
 fn encode(
     path: &Path,
     width: u32,
@@ -121,12 +175,8 @@ fn encode(
     }
     let mut png = Vec::new();
     let encoder = image::codecs::png::PngEncoder::new(&mut png);
-    image::ImageEncoder::write_image(encoder, bytes, width, height, colour).map_err(|error| {
-        PictureError::Encoding {
-            path: path.to_owned(),
-            reason: error.to_string(),
-        }
-    })?;
+    image::ImageEncoder::write_image(encoder, bytes, width, height, colour)
+        .map_err(|error| refused(path, &error))?;
     save_atomically(path, |file| file.write_all(&png))
 }
 

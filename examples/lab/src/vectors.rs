@@ -1,5 +1,6 @@
 //! Running the shader on files of exact moment-problem vectors.
 
+mod agreement;
 pub mod file;
 mod report;
 
@@ -12,6 +13,7 @@ use crate::batch::{Batch, BatchError};
 use crate::gpu::{Gpu, GpuError};
 use crate::oracle::{OracleError, hamburger, rational, sensitivity, tolerance_unit};
 
+pub use agreement::{AGREEMENT, Agreement, agreement};
 pub use file::VectorFileError;
 pub use report::{ALLOWED_SHARE, ClassReport, HARD_TOLERANCE, TOLERANCE, VectorReport};
 
@@ -69,11 +71,14 @@ struct Case<'a> {
 /// A biased record is fed bit for bit and compared with the file's bounds. An unbiased one is no input for the solver, which
 /// takes moments after the moment bias: its f32 moments go through `moments_apply_bias` with the bias of each storage on the
 /// device, and the result is compared with the oracle's bounds for exactly the biased moments that the device made.
+///
+/// The oracle itself is compared with all bounds of the file, those that no shader evaluates too.
 pub fn run(file: impl AsRef<Path>) -> Result<VectorReport, VectorsError> {
     let vectors = file::read(file.as_ref())?;
     let gpu = Gpu::open(Profile::WebgpuCore)?;
     let mut report = VectorReport {
         adapter: gpu.adapter.get_info().name,
+        oracle: agreement(&vectors),
         ..VectorReport::default()
     };
     let mut cases = Vec::new();

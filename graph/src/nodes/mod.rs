@@ -6,6 +6,7 @@ mod downsample_moments;
 mod kernel_property;
 mod mip_levels;
 mod moments_input;
+mod place_layers;
 mod region_tiles;
 mod resolve_moments;
 mod shade_hard;
@@ -18,6 +19,7 @@ pub use debug_moments::{DebugMoments, Show};
 pub use downsample_moments::DownsampleMoments;
 pub use kernel_property::KernelProperty;
 pub use mip_levels::{AllLevels, MipLevels};
+pub use place_layers::PlaceLayers;
 pub use resolve_moments::ResolveMoments;
 pub use shade_hard::{
     CameraView, LightDepth, LightView, ShadeHard, ShadeHardParameters, TechniqueShader, ViewError,

@@ -1,14 +1,13 @@
-//! `moment-shadows measure`: errors of every storage on several scenes, beside the exact bound.
+//! `moment-shadows measure`: errors of a technique with every storage on several scenes, beside the exact bound.
 
 use std::fmt::Write;
 use std::path::Path;
 
 use moment_shadows::Storage;
 
-use super::render::{RenderOptions, profile_for};
+use super::render::RenderOptions;
 use crate::error::LabError;
 use crate::gpu::Gpu;
-use crate::graph_file::GraphFile;
 use crate::graph_frame::GraphFrame;
 use crate::judgement::{Judgement, Truth};
 use crate::progress;
@@ -18,26 +17,30 @@ use crate::scene;
 pub struct Row {
     /// The scene's name.
     pub scene: String,
-    /// The storage.
-    pub storage: Storage,
+    /// The storage; none where the technique reads the plain depth map.
+    pub storage: Option<Storage>,
     /// The figures.
     pub judgement: Judgement,
     /// The exact bound's own mean error over facing pixels.
     pub bound_error: f64,
 }
 
-/// Renders every scene with every storage, in single precision, and compares each with the truth.
+/// Renders every scene with every storage of the technique, in single precision, and compares each with the truth.
 pub fn run(scenes: &[String], graph: &Path, options: &RenderOptions) -> Result<Vec<Row>, LabError> {
-    let bar = progress::bar((scenes.len() * Storage::ALL.len()) as u64, "measuring");
+    let storages = match &options.technique {
+        None => Storage::ALL.map(Some).to_vec(),
+        Some(technique) => technique.storages(),
+    };
+    let bar = progress::bar((scenes.len() * storages.len()) as u64, "measuring");
     let mut rows = Vec::new();
     for name in scenes {
         let scene = scene::load(name)?;
         let mut truth = None;
-        for storage in Storage::ALL {
-            let file = GraphFile::read(graph, Some(storage))?.in_single_precision()?;
-            let gpu = Gpu::open(profile_for(Some(storage), options.samples))?;
-            let margin = file.kernel()?.map_or(0, |kernel| kernel.radius());
-            let frame = options.frame(&gpu, &scene, margin)?;
+        for &storage in &storages {
+            let file = options.graph(graph, storage)?.in_single_precision()?;
+            let options = options.for_graph(&file);
+            let gpu = Gpu::open(file.profile(options.samples))?;
+            let frame = options.frame(&gpu, &scene, file.radius()?)?;
             let graph_frame = GraphFrame::new(&gpu, &frame, &file)?;
             graph_frame.run(&gpu)?;
             let shadow = graph_frame.read_shadow(&gpu, &file)?;
@@ -83,7 +86,7 @@ pub fn table(rows: &[Row]) -> String {
             text,
             "{:<20} {:<8} {:>9.5} {:>9.5} {:>9.5} {:>9.5} {:>9.5} {:>9} {:>9} {:>5}",
             row.scene,
-            row.storage.name(),
+            row.storage.map_or("-", Storage::name),
             error.facing.mean_absolute,
             error.penumbra.mean_absolute,
             error.facing.leaking,

@@ -1,5 +1,7 @@
 //! The subcommands of `moment-shadows`.
 
+pub mod bases;
+pub mod bias;
 pub mod contacts;
 pub mod cost;
 pub mod cost_growth;
@@ -10,6 +12,9 @@ pub mod isa;
 pub mod layers_figure;
 pub mod measure;
 pub mod minification;
+pub mod orderings;
 pub mod render;
 pub mod shaders;
+pub mod stability;
+pub mod technique_pictures;
 pub mod validate;

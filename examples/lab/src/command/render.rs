@@ -13,6 +13,7 @@ use crate::judgement::{Judgement, Truth};
 use crate::picture::{grey, save_grey, save_rgba, signed_difference};
 use crate::progress;
 use crate::scene::{self, Scene};
+use crate::technique_argument::TechniqueArgument;
 use crate::view::View;
 
 /// The light of a rendering.
@@ -43,6 +44,8 @@ pub struct RenderOptions {
     pub samples: u32,
     /// A storage in place of the graph's own.
     pub storage: Option<Storage>,
+    /// A technique in place of the graph's own.
+    pub technique: Option<TechniqueArgument>,
 }
 
 impl Default for RenderOptions {
@@ -56,6 +59,7 @@ impl Default for RenderOptions {
             map: 1024,
             samples: 4,
             storage: None,
+            technique: None,
         }
     }
 }
@@ -64,6 +68,26 @@ impl Default for RenderOptions {
 const SPOT_NEAR: f64 = 0.05;
 
 impl RenderOptions {
+    /// The graph file, with these options' technique and storage, or with `storage` in place of that.
+    pub fn graph(&self, path: &Path, storage: Option<Storage>) -> Result<GraphFile, LabError> {
+        let storage = storage.or(self.storage);
+        match &self.technique {
+            None => GraphFile::read(path, storage),
+            Some(technique) => {
+                GraphFile::read(path, None)?.with_technique_argument(technique, storage)
+            }
+        }
+    }
+
+    /// The same for a graph: with as many samples per texel as it can read.
+    #[must_use]
+    pub fn for_graph(&self, file: &GraphFile) -> Self {
+        Self {
+            samples: file.samples(self.samples),
+            ..self.clone()
+        }
+    }
+
     /// Draws the scene as the options say, for a graph whose kernel has a radius of `margin` texels.
     pub fn frame(&self, gpu: &Gpu, scene: &Scene, margin: u32) -> Result<Frame, LabError> {
         let view = View::numbered(scene, self.view);
@@ -107,7 +131,8 @@ pub fn run(
     out: &Path,
     truth: bool,
 ) -> Result<Option<(Judgement, Truth)>, LabError> {
-    let file = GraphFile::read(graph, options.storage)?;
+    let file = options.graph(graph, None)?;
+    let options = &options.for_graph(&file);
     let bar = progress::bar(if truth { 5 } else { 4 }, "loading");
     let scene = scene::load(&options.scene)?;
     for warning in &scene.warnings {
@@ -115,9 +140,8 @@ pub fn run(
     }
     bar.inc(1);
     bar.set_message("drawing");
-    let gpu = Gpu::open(profile_for(options.storage, options.samples))?;
-    let margin = file.kernel()?.map_or(0, |kernel| kernel.radius());
-    let frame = options.frame(&gpu, &scene, margin)?;
+    let gpu = Gpu::open(file.profile(options.samples))?;
+    let frame = options.frame(&gpu, &scene, file.radius()?)?;
     bar.inc(1);
     bar.set_message("shadows");
     let graph_frame = GraphFrame::new(&gpu, &frame, &file)?;

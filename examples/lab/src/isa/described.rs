@@ -59,7 +59,11 @@ pub(super) fn describe(entry: &Entry) -> Result<Vec<Subject>, IsaError> {
                 constants: pass.constants.clone(),
                 work,
                 texel_bytes: formats.widest(pass),
-                trips: entry.trips.clone(),
+                trips: entry
+                    .pass_trips
+                    .get(pass.label.as_str())
+                    .unwrap_or(&entry.trips)
+                    .clone(),
             }))
         })
         .collect()

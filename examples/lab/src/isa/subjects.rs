@@ -2,15 +2,18 @@
 
 use std::collections::BTreeMap;
 
-use moment_shadows::{LinkError, Profile, Source, Storage, Technique, TextureFormat, link};
+use moment_shadows::{
+    LinkError, MapEncoding, PcfTaps, Profile, Source, Storage, Technique, TextureFormat, link,
+};
 use moment_shadows_graph::nodes::{
     BlurMoments, BlurParameters, DebugMoments, DownsampleMoments, KernelProperty, MipLevels,
-    ResolveMoments, ShadeHard, Show,
+    PlaceLayers, ResolveMoments, ShadeHard, Show,
 };
 use moment_shadows_graph::{Capabilities, Node, ResourceDesc, TextureDesc};
 
 use super::described::describe;
 use super::error::IsaError;
+use crate::techniques;
 
 /// A shader that is compiled.
 #[derive(Clone, Debug)]
@@ -55,6 +58,8 @@ pub(super) struct Entry {
     pub(super) capabilities: Capabilities,
     /// Of each of its passes.
     pub(super) trips: Vec<u32>,
+    /// Of passes whose loops are others, by their labels.
+    pub(super) pass_trips: BTreeMap<&'static str, Vec<u32>>,
 }
 
 /// Every shader of the table: the references first.
@@ -89,11 +94,20 @@ pub(super) fn nodes() -> Result<Vec<Entry>, IsaError> {
         entries.push(shade(storage, 1, 1, false));
         entries.push(shade(storage, MIPS, 1, false));
     }
+    entries.push(place(1));
     entries.push(debug(Storage::Unorm16));
     // Other storages can be filtered everywhere.
     entries.push(shade(Storage::Float32, 1, 1, true));
     entries.push(blur(Storage::Unorm16, 4, MANY)?);
     entries.push(shade(Storage::Unorm16, 1, MANY, false));
+    let mut encodings = techniques::filterable();
+    encodings.retain(|encoding| *encoding.technique() != Technique::Hamburger4);
+    // The storage that a native device would choose; others change how a texel is decoded.
+    encodings.retain(|encoding| {
+        encoding.technique().best_storage(Profile::Native) == Some(encoding.storage())
+    });
+    entries.extend(encodings.iter().map(of_technique));
+    entries.extend(techniques::reading_depth().iter().map(reading_depth));
     Ok(entries)
 }
 
@@ -136,6 +150,7 @@ fn resolve(storage: Storage, samples: u32) -> Entry {
         inputs: inputs([("depth", depth)]),
         capabilities: native(),
         trips: Vec::new(),
+        pass_trips: BTreeMap::new(),
     }
 }
 
@@ -172,6 +187,7 @@ fn blur(storage: Storage, radius: u32, regions: u32) -> Result<Entry, IsaError> 
         inputs: inputs([("moments", moments)]),
         capabilities: native(),
         trips,
+        pass_trips: BTreeMap::new(),
     })
 }
 
@@ -190,6 +206,28 @@ fn downsample(storage: Storage) -> Entry {
         inputs: inputs([("moments", moments)]),
         capabilities: native(),
         trips: Vec::new(),
+        pass_trips: BTreeMap::new(),
+    }
+}
+
+fn place(samples: u32) -> Entry {
+    let depth = TextureDesc {
+        samples,
+        ..texture(TextureFormat::Depth32Float)
+    };
+    let node = PlaceLayers::default();
+    // Splits of layers of equal depth, where there is no state yet; parts of a tile, or tiles per invocation; halvings of a
+    // workgroup's sums.
+    let sum = vec![3, 4, 8];
+    // And for either of two splits the others that it may pass, in front and behind.
+    let step = [&sum[..], &[2, 2, 2, 2]].concat();
+    Entry {
+        settings: format!("{} layers, {samples} samples", node.layers),
+        node: Box::new(node),
+        inputs: inputs([("depth", depth)]),
+        capabilities: native(),
+        trips: Vec::new(),
+        pass_trips: BTreeMap::from([("sum tiles", sum), ("step splits", step)]),
     }
 }
 
@@ -203,6 +241,7 @@ fn debug(storage: Storage) -> Entry {
         inputs: inputs([("moments", texture(storage.format()))]),
         capabilities: native(),
         trips: Vec::new(),
+        pass_trips: BTreeMap::new(),
     }
 }
 
@@ -240,6 +279,64 @@ fn shade(storage: Storage, mips: u32, views: u32, float32_filterable: bool) -> E
             ..native()
         },
         trips,
+        pass_trips: BTreeMap::new(),
+    }
+}
+
+/// Shading with another technique's map.
+fn of_technique(encoding: &MapEncoding) -> Entry {
+    Entry {
+        settings: format!(
+            "{}, {}",
+            techniques::label(encoding.technique()),
+            encoding.storage()
+        ),
+        node: Box::new(ShadeHard::default()),
+        inputs: inputs([
+            ("moments", TextureDesc::of_map(encoding.clone(), SIZE)),
+            ("camera_depth", texture(TextureFormat::Depth32Float)),
+        ]),
+        capabilities: Capabilities {
+            float32_filterable: true,
+            ..native()
+        },
+        trips: trips(encoding.technique()),
+        pass_trips: BTreeMap::new(),
+    }
+}
+
+/// Shading with the plain depth map.
+fn reading_depth(technique: &Technique) -> Entry {
+    let node = ShadeHard {
+        technique: Some(technique.clone()),
+        ..ShadeHard::default()
+    };
+    Entry {
+        settings: techniques::label(technique),
+        node: Box::new(node),
+        inputs: inputs([
+            ("depth", texture(TextureFormat::Depth32Float)),
+            ("camera_depth", texture(TextureFormat::Depth32Float)),
+        ]),
+        capabilities: native(),
+        trips: trips(technique),
+        pass_trips: BTreeMap::new(),
+    }
+}
+
+/// How often the loops of a technique's evaluation run that the driver does not unroll.
+fn trips(technique: &Technique) -> Vec<u32> {
+    match technique {
+        // The split in front of the fragment is searched for, at most through all of them.
+        Technique::Lvsm { layers, .. } => vec![layers - 1],
+        // Rows, one more where results are blended; the few columns of small kernels are unrolled.
+        Technique::Pcf(PcfTaps::Box { radius }) => vec![2 * radius + 2],
+        Technique::Pcf(PcfTaps::Gaussian { radius, .. }) => vec![2 * radius + 2; 2],
+        Technique::Pcf(PcfTaps::Weights(weights)) => vec![weights.len() as u32 + 1],
+        Technique::Pcf(PcfTaps::Hardware { radius, .. }) => vec![2 * radius + 1],
+        Technique::Pcf(PcfTaps::Poisson { .. }) => vec![16],
+        Technique::Pcss(taps) => vec![taps.search_taps, taps.filter_taps],
+        _ => Vec::new(),
     }
 }
 

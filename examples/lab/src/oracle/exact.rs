@@ -1,4 +1,5 @@
-//! The sharp bounds of shadow intensity for exactly given moments (Peters & Klein, i3D 2015, Algorithm 2).
+//! The sharp bounds of shadow intensity for exactly given moments, over distributions on the whole real line (Peters &
+//! Klein, i3D 2015, Algorithm 2).
 
 use core::cmp::Ordering;
 
@@ -25,6 +26,15 @@ pub enum OracleError {
     /// Not a number, or infinite.
     #[error("{0} is not a finite number")]
     NotFinite(f64),
+    /// An interval without length.
+    #[error("the interval [{0}, {1}] is empty; its first end must lie below its second")]
+    EmptyInterval(f64, f64),
+    /// No distribution on the interval has these moments.
+    #[error(
+        "no distribution on the interval has these moments: a Hankel matrix of theirs is not positive semi-definite; \
+         apply a larger moment bias, towards moments inside of the interval's moment space"
+    )]
+    NotOnInterval,
 }
 
 /// The exact value of a finite number.
@@ -41,6 +51,8 @@ pub struct SupportPoint {
     pub weight: Real,
     /// Whether it lies before, at or behind the fragment.
     pub side: Ordering,
+    /// Whether it is an end of the interval that bounds the distributions; never on the whole real line.
+    pub at_end: bool,
 }
 
 /// The distribution for which shadow intensity takes its extreme values, and these values.
@@ -59,81 +71,126 @@ pub struct Extremal {
 
 /// The sharp bounds for moments b_1..b_m (m even) at a fragment of moment depth `depth`.
 pub fn hamburger(moments: &[RBig], depth: &RBig) -> Result<Extremal, OracleError> {
+    let moments = with_mass(moments)?;
+    let size = moments.len() / 2 + 1;
+    let rank = hankel_rank(&moments, size)?;
+    if rank < size {
+        let (support, at_fragment) = unique_support(&moments, rank, depth);
+        let support = Support {
+            roots: support,
+            ends: Vec::new(),
+            at_fragment,
+        };
+        return Ok(support.extremal(&moments, depth, true));
+    }
+    let support = Support {
+        roots: kernel_roots(&moments, size, depth),
+        ends: Vec::new(),
+        at_fragment: true,
+    };
+    Ok(support.extremal(&moments, depth, false))
+}
+
+/// b_0..b_m with b_0 = 1, if m is even.
+pub(super) fn with_mass(moments: &[RBig]) -> Result<Vec<RBig>, OracleError> {
     let count = moments.len();
     if count == 0 || !count.is_multiple_of(2) {
         return Err(OracleError::MomentCount(count));
     }
-    let moments: Vec<RBig> = core::iter::once(RBig::ONE)
+    Ok(core::iter::once(RBig::ONE)
         .chain(moments.iter().cloned())
-        .collect();
-    let size = count / 2 + 1;
-    let rank = hankel_rank(&moments, size)?;
-    let unique = rank < size;
-    let (support, at_fragment) = if unique {
-        // The distribution's points are the roots of the monic polynomial of degree `rank` orthogonal to all lower ones.
-        let right: Vec<RBig> = moments[rank..2 * rank].iter().map(|b| -b).collect();
-        let mut polynomial = solve(hankel(&moments, rank), right);
-        polynomial.push(RBig::ONE);
-        if evaluate(&polynomial, depth).is_zero() {
-            (roots(&deflate(&polynomial, depth)), true)
-        } else {
-            (roots(&polynomial), false)
-        }
+        .collect())
+}
+
+/// The points of the only distribution of `rank` points with the given moments: the roots of the monic polynomial of degree
+/// `rank` orthogonal to all lower ones. Says apart whether the fragment is one of them.
+pub(super) fn unique_support(moments: &[RBig], rank: usize, depth: &RBig) -> (Vec<Real>, bool) {
+    let right: Vec<RBig> = moments[rank..2 * rank].iter().map(|b| -b).collect();
+    let mut polynomial = solve(hankel(moments, rank), right);
+    polynomial.push(RBig::ONE);
+    if evaluate(&polynomial, depth).is_zero() {
+        (roots(&deflate(&polynomial, depth)), true)
     } else {
-        // The roots of z -> v(depth)^T B^-1 v(z), with v(z) = (1, z, z^2, ..).
-        let mut power = RBig::ONE;
-        let right: Vec<RBig> = (0..size)
-            .map(|_| {
-                let value = power.clone();
-                power = &power * depth;
-                value
+        (roots(&polynomial), false)
+    }
+}
+
+/// The roots of z -> v(depth)^T B^-1 v(z), with v(z) = (1, z, z^2, ..) and the positive definite Hankel matrix B of `size`
+/// rows. One at infinity is left out.
+pub(super) fn kernel_roots(moments: &[RBig], size: usize, depth: &RBig) -> Vec<Real> {
+    let mut power = RBig::ONE;
+    let right: Vec<RBig> = (0..size)
+        .map(|_| {
+            let value = power.clone();
+            power = &power * depth;
+            value
+        })
+        .collect();
+    let mut kernel = solve(hankel(moments, size), right);
+    // A leading coefficient of zero is a root at infinity, of weight zero.
+    while kernel.last().is_some_and(RBig::is_zero) {
+        kernel.pop();
+    }
+    roots(&kernel)
+}
+
+/// Where an extremal distribution has its points.
+pub(super) struct Support {
+    /// Points that are neither the fragment nor ends.
+    pub(super) roots: Vec<Real>,
+    /// Ends of the interval, without the fragment if it is one.
+    pub(super) ends: Vec<RBig>,
+    /// Whether the fragment depth is a point.
+    pub(super) at_fragment: bool,
+}
+
+impl Support {
+    /// The distribution on these points with b_0, b_1, .. of `moments`. A fragment on an end counts as the fragment.
+    pub(super) fn extremal(self, moments: &[RBig], depth: &RBig, unique: bool) -> Extremal {
+        let ends: Vec<Real> = self.ends.iter().map(real).collect();
+        let depth = real(depth);
+        let beside = |position: Real, at_end: bool| {
+            let side = position.partial_cmp(&depth).unwrap_or(Ordering::Equal);
+            (position, side, at_end)
+        };
+        let mut positions: Vec<Position> = self
+            .roots
+            .into_iter()
+            .map(|root| beside(root, false))
+            .chain(ends.into_iter().map(|end| beside(end, true)))
+            .collect();
+        if self.at_fragment {
+            positions.push((depth, Ordering::Equal, false));
+        }
+        positions.sort_by(|one, other| one.0.partial_cmp(&other.0).unwrap_or(Ordering::Equal));
+        let moments: Vec<Real> = moments.iter().map(real).collect();
+        let points: Vec<SupportPoint> = (0..positions.len())
+            .map(|index| SupportPoint {
+                position: positions[index].0.clone(),
+                weight: weight(&moments, &positions, index),
+                side: positions[index].1,
+                at_end: positions[index].2,
             })
             .collect();
-        let mut kernel = solve(hankel(&moments, size), right);
-        // A leading coefficient of zero is a root at infinity, of weight zero.
-        while kernel.last().is_some_and(RBig::is_zero) {
-            kernel.pop();
+        let share = |counts: fn(Ordering) -> bool| {
+            points
+                .iter()
+                .filter(|point| counts(point.side))
+                .fold(real(&RBig::ZERO), |sum, point| sum + &point.weight)
+                .to_f64()
+                .value()
+        };
+        Extremal {
+            lower: share(Ordering::is_lt),
+            upper: share(Ordering::is_le),
+            unique,
+            points,
         }
-        (roots(&kernel), true)
-    };
-    let depth = real(depth);
-    let mut positions: Vec<(Real, Ordering)> = support
-        .into_iter()
-        .map(|root| {
-            let side = root.partial_cmp(&depth).unwrap_or(Ordering::Equal);
-            (root, side)
-        })
-        .collect();
-    if at_fragment {
-        let index = positions
-            .iter()
-            .take_while(|point| point.1 == Ordering::Less)
-            .count();
-        positions.insert(index, (depth, Ordering::Equal));
     }
-    let moments: Vec<Real> = moments.iter().map(real).collect();
-    let points: Vec<SupportPoint> = (0..positions.len())
-        .map(|index| SupportPoint {
-            position: positions[index].0.clone(),
-            weight: weight(&moments, &positions, index),
-            side: positions[index].1,
-        })
-        .collect();
-    let share = |counts: fn(Ordering) -> bool| {
-        points
-            .iter()
-            .filter(|point| counts(point.side))
-            .fold(real(&RBig::ZERO), |sum, point| sum + &point.weight)
-            .to_f64()
-            .value()
-    };
-    Ok(Extremal {
-        lower: share(Ordering::is_lt),
-        upper: share(Ordering::is_le),
-        unique,
-        points,
-    })
 }
+
+/// A position, its side of the fragment, and whether it is an end.
+type Position = (Real, Ordering, bool);
 
 /// The leading block of the Hankel matrix B_jk = b_(j+k).
 fn hankel(moments: &[RBig], size: usize) -> Vec<Vec<RBig>> {
@@ -143,7 +200,7 @@ fn hankel(moments: &[RBig], size: usize) -> Vec<Vec<RBig>> {
 }
 
 /// The rank of the Hankel matrix of moments that some distribution has.
-fn hankel_rank(moments: &[RBig], size: usize) -> Result<usize, OracleError> {
+pub(super) fn hankel_rank(moments: &[RBig], size: usize) -> Result<usize, OracleError> {
     let mut matrix = hankel(moments, size);
     for step in 0..size {
         let pivot = matrix[step][step].clone();
@@ -195,10 +252,10 @@ fn solve(mut matrix: Vec<Vec<RBig>>, right: Vec<RBig>) -> Vec<RBig> {
 
 /// The weight of one point: a row of the inverse Vandermonde matrix times the moments, that is the expectation of the
 /// Lagrange polynomial that is 1 at this point and 0 at the others.
-fn weight(moments: &[Real], positions: &[(Real, Ordering)], index: usize) -> Real {
+fn weight(moments: &[Real], positions: &[Position], index: usize) -> Real {
     let at = &positions[index].0;
     let mut basis = vec![real(&RBig::ONE)];
-    for (other, (position, _)) in positions.iter().enumerate() {
+    for (other, (position, ..)) in positions.iter().enumerate() {
         if other == index {
             continue;
         }

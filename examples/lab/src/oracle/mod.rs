@@ -3,16 +3,26 @@
 //! The library evaluates the moment problem through orthogonal polynomials and Christoffel numbers in f32. Here the Hankel
 //! system is solved exactly, roots are taken with hundreds of bits and weights come from the Vandermonde system, so that the
 //! two have nothing in common but the theorem.
+//!
+//! - [`hamburger`] and [`hausdorff`]: exact bounds for any even number of power moments, on the real line and on an interval.
+//! - [`MomentProblem`]: bounds for any functions of depth, by linear programming.
+//! - [`ideal`]: the bounds of every technique for known surfaces in f64, fast enough for millions of them.
 
 mod exact;
+mod hausdorff;
+pub mod ideal;
+mod linear;
 mod mixture;
 mod polynomial;
 mod rounding;
 mod sensitivity;
+mod simplex;
 #[cfg(test)]
 mod tests;
 
 pub use exact::{Extremal, OracleError, SupportPoint, hamburger, rational};
+pub use hausdorff::hausdorff;
+pub use linear::{LinearBound, LinearError, MomentProblem};
 pub use mixture::{Atom, Mixture};
 pub use polynomial::Real;
 pub use rounding::{Fma, bounds_in_f32};

@@ -54,7 +54,7 @@ pub fn tolerance_unit(sensitivity: f64) -> f64 {
 }
 
 /// The polynomial of lowest degree that is 1 at the support points that count and 0 at the others, with a horizontal
-/// tangent at all but the fragment. Coefficients, constant first.
+/// tangent at all but the fragment and the ends of an interval. Coefficients, constant first.
 fn dual_polynomial(extremal: &Extremal, counts: fn(Ordering) -> bool) -> Vec<Real> {
     let zero = real(&RBig::ZERO);
     let mut nodes = Vec::new();
@@ -65,7 +65,9 @@ fn dual_polynomial(extremal: &Extremal, counts: fn(Ordering) -> bool) -> Vec<Rea
         } else {
             zero.clone()
         };
-        let times = if point.side == Ordering::Equal { 1 } else { 2 };
+        // At an end the polynomial need not stay below the step on both sides.
+        let once = point.side == Ordering::Equal || point.at_end;
+        let times = if once { 1 } else { 2 };
         for _ in 0..times {
             nodes.push(point.position.clone());
             differences.push(value.clone());

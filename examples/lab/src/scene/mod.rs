@@ -3,6 +3,7 @@
 mod accessor;
 mod chairs;
 mod error;
+mod failures;
 mod fence_and_foliage;
 mod gltf_file;
 mod ground;
@@ -21,6 +22,7 @@ use glam::DVec3;
 
 pub use chairs::{CHAIRS, Foot, chairs, feet};
 pub use error::SceneError;
+pub use failures::{contacts, stacked_boards};
 pub use fence_and_foliage::fence_and_foliage;
 pub use gltf_file::load_gltf;
 pub use ground::place_on_ground;

@@ -4,8 +4,8 @@ use std::collections::BTreeMap;
 
 use moment_shadows::{LayerSplits, MapEncoding, Profile, Storage, Technique, TextureFormat};
 use moment_shadows_graph::nodes::{
-    BlurMoments, DebugMoments, DownsampleMoments, KernelProperty, MipLevels, ResolveMoments,
-    ShadeHard, Show,
+    BlurMoments, DebugMoments, DownsampleMoments, KernelProperty, MipLevels, PlaceLayers,
+    ResolveMoments, ShadeHard, Show,
 };
 use moment_shadows_graph::{Capabilities, Connected, Node, ResourceDesc, TextureDesc};
 
@@ -195,6 +195,22 @@ fn of_technique(encoding: &MapEncoding, capabilities: &Capabilities) -> Vec<Vari
     variants
 }
 
+/// Placing layers, for one depth map with one region and one with several.
+fn placing(capabilities: &Capabilities) -> Vec<Variant> {
+    [(1, 1), (4, 1), (4, 16)]
+        .into_iter()
+        .map(|(samples, regions)| Variant {
+            samples,
+            regions,
+            ..Variant::new(
+                format!("place_layers_{samples}{}", suffix(regions)),
+                PlaceLayers::default(),
+                capabilities,
+            )
+        })
+        .collect()
+}
+
 /// Techniques without a filterable map.
 fn reading_depth(capabilities: &Capabilities) -> Vec<Variant> {
     let variant = |technique: Technique| {
@@ -234,7 +250,9 @@ pub fn nodes() -> Result<Vec<NodeShader>, ShadersError> {
         }
     }
     let core = Profile::WebgpuCore;
-    for variant in reading_depth(&Capabilities::of_profile(core)) {
+    let capabilities = Capabilities::of_profile(core);
+    let of_depth = reading_depth(&capabilities);
+    for variant in of_depth.into_iter().chain(placing(&capabilities)) {
         describe(&variant, Storage::Float16, core, &mut all)?;
     }
     let mut encodings = techniques::filterable();

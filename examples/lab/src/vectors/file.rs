@@ -1,7 +1,9 @@
 //! The format of moment-problem vectors: exact truths for explicit mixtures, as JSON.
 
 use std::path::{Path, PathBuf};
+use std::str::FromStr;
 
+use dashu::rational::RBig;
 use serde::Deserialize;
 
 /// Why a file of vectors cannot be read.
@@ -64,6 +66,9 @@ pub struct Vector {
     pub class: String,
     /// The number of moments.
     pub m: usize,
+    /// The least and the greatest depth, for the Hausdorff bounds.
+    #[serde(default = "signed_depth")]
+    pub interval: [f64; 2],
     /// b_1..b_m as rationals "p/q".
     pub moments: Vec<String>,
     /// The nearest f32 of each.
@@ -76,6 +81,11 @@ pub struct Vector {
     pub hausdorff: Option<Bounds>,
     /// Solver inputs after a moment bias, by storage.
     pub biased: Vec<Biased>,
+}
+
+/// The interval of moment depth.
+fn signed_depth() -> [f64; 2] {
+    [-1.0, 1.0]
 }
 
 /// A solver's input in f32 and the exact bounds for exactly this input.
@@ -170,6 +180,13 @@ fn checked(vector: Vector) -> Result<Vector, String> {
         if length != m {
             return Err(format!("{name} has {length} entries; m is {m}"));
         }
+    }
+    if let Some(text) = vector
+        .moments
+        .iter()
+        .find(|text| RBig::from_str(text).is_err())
+    {
+        return Err(format!("moment '{text}' is not a rational such as -3/4"));
     }
     if let Some(depth) = core::iter::once(vector.depth)
         .chain(vector.biased.iter().map(|record| record.depth))

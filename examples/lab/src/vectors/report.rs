@@ -3,6 +3,8 @@
 use std::collections::BTreeMap;
 use std::fmt;
 
+use super::agreement::Agreement;
+
 /// The largest error that counts as within tolerance, in units of 2^-24 (1 + sensitivity).
 pub const TOLERANCE: f64 = 8.0;
 
@@ -54,7 +56,9 @@ pub struct VectorReport {
     pub biased: BTreeMap<String, ClassReport>,
     /// Records without a moment bias, by class, evaluated once for the bias of each of our storages.
     pub unbiased: BTreeMap<String, ClassReport>,
-    /// How many pairs of bounds were not evaluated, by reason.
+    /// How the lab's oracle compares with the file, by kind of bounds.
+    pub oracle: BTreeMap<String, Agreement>,
+    /// How many pairs of bounds the shader did not evaluate, by reason.
     pub not_evaluated: BTreeMap<String, usize>,
 }
 
@@ -70,13 +74,14 @@ impl VectorReport {
     }
 
     /// Whether something was evaluated, all of it within [`HARD_TOLERANCE`] and in range, and no more than
-    /// [`ALLOWED_SHARE`] of it beyond [`TOLERANCE`].
+    /// [`ALLOWED_SHARE`] of it beyond [`TOLERANCE`], and the oracle agrees with the file.
     #[must_use]
     pub fn passed(&self) -> bool {
         let total = self.total();
         total.evaluated > 0
             && total.far_beyond == 0
             && total.beyond as f64 <= ALLOWED_SHARE * total.evaluated as f64
+            && self.oracle.values().all(Agreement::passed)
     }
 }
 
@@ -109,8 +114,17 @@ impl fmt::Display for VectorReport {
         }
         writeln!(f)?;
         row(f, "all", &self.total())?;
+        let title = "the oracle's difference";
+        writeln!(f, "\n{title:<26} {:>9} {:>9}", "evaluated", "largest")?;
+        for (name, agreement) in &self.oracle {
+            writeln!(
+                f,
+                "{name:<26} {:>9} {:>9.1e}",
+                agreement.evaluated, agreement.largest
+            )?;
+        }
         if !self.not_evaluated.is_empty() {
-            writeln!(f, "\nnot evaluated")?;
+            writeln!(f, "\nnot evaluated by the shader")?;
             for (reason, count) in &self.not_evaluated {
                 writeln!(f, "{count:>6}  {reason}")?;
             }

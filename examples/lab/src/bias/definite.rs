@@ -1,0 +1,112 @@
+//! From which moment bias on moments are possible.
+
+use serde::Serialize;
+
+use crate::dense::{cholesky, smallest_eigenvalue};
+
+/// What makes moments possible.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
+#[serde(rename_all = "lowercase")]
+pub enum Condition {
+    /// A distribution on the real line has them: their Hankel matrix is positive definite.
+    Line,
+    /// A distribution on the depth interval has them: that of the moments of (z - low)(high - z) dS is, too.
+    Interval,
+}
+
+/// Alphas tried for a target that is itself on the boundary: 16 per decade from 1e-9 to almost 1.
+const TRIED: i32 = 16 * 9;
+
+/// How to find the smallest alpha towards one target.
+pub(super) struct Repair {
+    interval: [f64; 2],
+    condition: Condition,
+    target: [f64; 4],
+    /// Inverse Cholesky factors of the target's matrices; none if it is on the boundary.
+    outer: Option<[[f64; 3]; 3]>,
+    inner: Option<[[f64; 2]; 2]>,
+}
+
+impl Repair {
+    pub(super) fn new(interval: [f64; 2], condition: Condition, target: [f64; 4]) -> Self {
+        Self {
+            interval,
+            condition,
+            target,
+            outer: cholesky(outer(target)).map(invert),
+            inner: cholesky(inner(target, interval)).map(invert),
+        }
+    }
+
+    /// The alpha from which on `moments` are possible; infinite if none is.
+    ///
+    /// With the target's matrix as L L^T, that of the biased moments is positive semi-definite from
+    /// alpha / (1 - alpha) = -(least eigenvalue of L^-1 H L^-T) on.
+    pub(super) fn smallest_alpha(&self, moments: [f64; 4]) -> f64 {
+        let Some(l) = &self.outer else {
+            return self.by_trial(moments);
+        };
+        let least = smallest_eigenvalue(congruent(l, &outer(moments)));
+        let least = match (self.condition, &self.inner) {
+            (Condition::Line, _) => least,
+            (Condition::Interval, None) => return self.by_trial(moments),
+            (Condition::Interval, Some(l)) => least.min(smallest_eigenvalue(congruent(
+                l,
+                &inner(moments, self.interval),
+            ))),
+        };
+        if least >= 0.0 {
+            0.0
+        } else {
+            least / (least - 1.0)
+        }
+    }
+
+    fn by_trial(&self, moments: [f64; 4]) -> f64 {
+        (0..TRIED)
+            .map(|index| 1e-9 * 10.0_f64.powf(f64::from(index) / 16.0))
+            .find(|alpha| {
+                let biased: [f64; 4] =
+                    core::array::from_fn(|j| moments[j] + alpha * (self.target[j] - moments[j]));
+                cholesky(outer(biased)).is_some()
+                    && (self.condition == Condition::Line
+                        || cholesky(inner(biased, self.interval)).is_some())
+            })
+            .unwrap_or(f64::INFINITY)
+    }
+}
+
+fn outer([b1, b2, b3, b4]: [f64; 4]) -> [[f64; 3]; 3] {
+    [[1.0, b1, b2], [b1, b2, b3], [b2, b3, b4]]
+}
+
+fn inner([b1, b2, b3, b4]: [f64; 4], [low, high]: [f64; 2]) -> [[f64; 2]; 2] {
+    let moment = |one: f64, two: f64, three: f64| (low + high) * two - low * high * one - three;
+    let [t0, t1, t2] = [moment(1.0, b1, b2), moment(b1, b2, b3), moment(b2, b3, b4)];
+    [[t0, t1], [t1, t2]]
+}
+
+/// The inverse of a lower triangle.
+fn invert<const N: usize>(l: [[f64; N]; N]) -> [[f64; N]; N] {
+    let mut inverse = [[0.0; N]; N];
+    for (row, given) in l.iter().enumerate() {
+        inverse[row] = core::array::from_fn(|column| {
+            let known: f64 = (0..row).map(|k| given[k] * inverse[k][column]).sum();
+            (f64::from(row == column) - known) / given[row]
+        });
+    }
+    inverse
+}
+
+/// L M L^T.
+fn congruent<const N: usize>(l: &[[f64; N]; N], matrix: &[[f64; N]; N]) -> [[f64; N]; N] {
+    let mut half = [[0.0; N]; N];
+    for row in 0..N {
+        for column in 0..N {
+            half[row][column] = (0..N).map(|k| l[row][k] * matrix[k][column]).sum();
+        }
+    }
+    core::array::from_fn(|row| {
+        core::array::from_fn(|column| (0..N).map(|k| half[row][k] * l[column][k]).sum())
+    })
+}

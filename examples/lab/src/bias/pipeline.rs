@@ -1,0 +1,96 @@
+//! What a graph does to a patch: resolve and a Gaussian in two passes, every stage rounded to the storage.
+
+use super::form::Form;
+use super::patch::{Patch, SIDE};
+
+/// The standard deviation of the Gaussian in texels (Peters & Klein, i3D 2015).
+const DEVIATION: f64 = 2.4;
+
+/// The Gaussian's weights along an axis, whose f32 sum is 1: the residue is in the centre.
+pub(super) fn weights() -> [f32; SIDE] {
+    let middle = SIDE / 2;
+    let raw: [f64; SIDE] = core::array::from_fn(|tap| {
+        let x = tap as f64 - middle as f64;
+        (-0.5 * (x / DEVIATION).powi(2)).exp()
+    });
+    let total: f64 = raw.iter().sum();
+    let mut weights = raw.map(|weight| (weight / total) as f32);
+    let sum: f32 = weights.iter().sum();
+    weights[middle] += 1.0 - sum;
+    weights
+}
+
+/// The filtered moments after every texel, every row and the column have been rounded.
+pub(super) fn three_roundings(form: &Form, patch: &Patch, weights: &[f32; SIDE]) -> [f64; 4] {
+    let store = |texel: [f32; 4]| texel.map(|channel| form.rounding.store(channel));
+    let mut column = [[0.0; 4]; SIDE];
+    for (row, filtered) in column.iter_mut().enumerate() {
+        let texels: [[f32; 4]; SIDE] =
+            core::array::from_fn(|tap| store(form.texel(patch[SIDE * row + tap])));
+        *filtered = store(blend(&texels, weights));
+    }
+    form.moments(store(blend(&column, weights)))
+}
+
+/// The exact filtered moments, rounded once.
+pub(super) fn one_rounding(form: &Form, patch: &Patch, weights: &[f32; SIDE]) -> [f64; 4] {
+    let mut sum = [0.0; 4];
+    let mut total = 0.0;
+    for (texel, &depth) in patch.iter().enumerate() {
+        let weight = f64::from(weights[texel % SIDE]) * f64::from(weights[texel / SIDE]);
+        total += weight;
+        let mut power = weight;
+        for moment in &mut sum {
+            power *= form.depth(depth);
+            *moment += power;
+        }
+    }
+    let moments = sum.map(|moment| moment / total);
+    let channels = form
+        .basis
+        .as_ref()
+        .map_or(moments, |basis| basis.encode(moments));
+    form.moments(channels.map(|channel| form.rounding.store(channel as f32)))
+}
+
+/// A weighted sum in f32.
+fn blend(texels: &[[f32; 4]; SIDE], weights: &[f32; SIDE]) -> [f32; 4] {
+    let mut sum = [0.0; 4];
+    for (texel, weight) in texels.iter().zip(weights) {
+        for (sum, channel) in sum.iter_mut().zip(texel) {
+            *sum += weight * channel;
+        }
+    }
+    sum
+}
+
+impl Form {
+    /// The form's depth of a moment depth in [-1, 1].
+    fn depth(&self, depth: f32) -> f64 {
+        let [low, high] = self.interval;
+        low + 0.5 * (high - low) * (f64::from(depth) + 1.0)
+    }
+
+    /// The channels of one depth, before they are stored. Raw moments are powers in f32.
+    fn texel(&self, depth: f32) -> [f32; 4] {
+        let z = self.depth(depth);
+        match &self.basis {
+            Some(basis) => basis
+                .encode([z, z * z, z * z * z, z * z * z * z])
+                .map(|value| value as f32),
+            None => {
+                let z = z as f32;
+                let square = z * z;
+                [z, square, z * square, square * square]
+            }
+        }
+    }
+
+    /// The moments of stored channels.
+    fn moments(&self, channels: [f32; 4]) -> [f64; 4] {
+        let channels = channels.map(f64::from);
+        self.basis
+            .as_ref()
+            .map_or(channels, |basis| basis.decode(channels))
+    }
+}

@@ -1,0 +1,260 @@
+//! The search itself and its table.
+
+use core::fmt;
+
+use moment_shadows::{MomentBias, Storage};
+use rand::SeedableRng;
+use rand_chacha::ChaCha8Rng;
+use rayon::prelude::*;
+use serde::Serialize;
+
+use super::definite::{Condition, Repair};
+use super::form::Form;
+use super::{patch, pipeline, scaling};
+
+/// Patches per stream of random numbers, so that figures do not depend on the number of threads.
+const PER_STREAM: usize = 4096;
+
+/// The share of samples that a recommended bias repairs.
+const COVERED: f64 = 0.99999;
+
+/// Recommended biases are one of these times a power of ten.
+const STEPS: [f64; 9] = [1.0, 1.5, 2.0, 3.0, 4.0, 5.0, 6.0, 8.0, 10.0];
+
+/// Why nothing was searched.
+#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
+#[non_exhaustive]
+pub enum BiasError {
+    /// No sample, no quantile.
+    #[error(
+        "0 samples were asked for; ask for at least 1, and for at least 100000 to see the 99.999th percentile"
+    )]
+    NoSamples,
+}
+
+/// Which solver the bias is for.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
+#[serde(rename_all = "lowercase")]
+pub enum BiasTechnique {
+    /// Four moments on the real line.
+    Hamburger4,
+    /// Four moments on [-1, 1].
+    Hausdorff4,
+}
+
+impl BiasTechnique {
+    /// What moments have to fulfil.
+    #[must_use]
+    pub fn condition(self) -> Condition {
+        match self {
+            BiasTechnique::Hamburger4 => Condition::Line,
+            BiasTechnique::Hausdorff4 => Condition::Interval,
+        }
+    }
+
+    /// What the library applies.
+    #[must_use]
+    pub fn library_bias(self, storage: Storage) -> MomentBias {
+        match self {
+            BiasTechnique::Hamburger4 => storage.moment_bias(),
+            BiasTechnique::Hausdorff4 => storage.hausdorff_moment_bias(),
+        }
+    }
+}
+
+/// The smallest alphas that repair shares of the samples.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+pub struct Quantiles {
+    /// 99.999 % of all samples.
+    pub most: f64,
+    /// All samples; infinite if no alpha repairs one of them.
+    pub all: f64,
+    /// The share of samples that no alpha repairs.
+    pub beyond_repair: f64,
+}
+
+/// One way to store moments.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct BiasRow {
+    /// Its name.
+    pub form: String,
+    /// b*.
+    pub target: [f64; 4],
+    /// Exact moments, rounded once.
+    pub one_rounding: Quantiles,
+    /// Resolve and both passes of a blur, each rounded.
+    pub three_roundings: Quantiles,
+    /// K: alpha per error of a channel, to first order, for the worst moments and the worst errors.
+    pub error_factor: f64,
+    /// K times the error of one rounding.
+    pub bound: f64,
+    /// `three_roundings.most`, rounded up.
+    pub recommended: f64,
+    /// What the library applies.
+    pub library: Option<f64>,
+}
+
+/// All rows of a search.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct BiasTable {
+    /// What the bias is for.
+    pub technique: BiasTechnique,
+    /// Patches per row.
+    pub samples: usize,
+    /// Of the random numbers.
+    pub seed: u64,
+    /// The storages of the library, and published forms.
+    pub rows: Vec<BiasRow>,
+}
+
+/// Searches the smallest safe bias of one storage, or of all and of the published forms. `step` is called after every few
+/// thousand samples.
+pub fn search(
+    technique: BiasTechnique,
+    storage: Option<Storage>,
+    samples: usize,
+    seed: u64,
+    step: impl Fn() + Sync,
+) -> Result<BiasTable, BiasError> {
+    let storages = storage.map_or(Storage::ALL.to_vec(), |storage| vec![storage]);
+    let mut rows = Vec::new();
+    for storage in storages {
+        let form = Form::of_library(storage, technique);
+        let mut row = measure(&form, samples, seed, &step)?;
+        row.library = Some(f64::from(technique.library_bias(storage).alpha));
+        rows.push(row);
+    }
+    if storage.is_none() && technique == BiasTechnique::Hamburger4 {
+        for form in Form::published() {
+            rows.push(measure(&form, samples, seed, &step)?);
+        }
+    }
+    Ok(BiasTable {
+        technique,
+        samples,
+        seed,
+        rows,
+    })
+}
+
+/// Searches the smallest safe bias of one form.
+pub fn measure(
+    form: &Form,
+    samples: usize,
+    seed: u64,
+    step: impl Fn() + Sync,
+) -> Result<BiasRow, BiasError> {
+    if samples == 0 {
+        return Err(BiasError::NoSamples);
+    }
+    let weights = pipeline::weights();
+    let repair = Repair::new(form.interval, form.condition, form.target);
+    let alphas: Vec<[f64; 2]> = (0..samples.div_ceil(PER_STREAM))
+        .into_par_iter()
+        .flat_map_iter(|stream| {
+            let mut random = ChaCha8Rng::seed_from_u64(seed);
+            random.set_stream(stream as u64);
+            let count = PER_STREAM.min(samples - stream * PER_STREAM);
+            let alphas: Vec<[f64; 2]> = (0..count)
+                .map(|_| {
+                    let patch = patch::patch(&mut random);
+                    [pipeline::one_rounding, pipeline::three_roundings]
+                        .map(|filter| repair.smallest_alpha(filter(form, &patch, &weights)))
+                })
+                .collect();
+            step();
+            alphas
+        })
+        .collect();
+    let [one_rounding, three_roundings] =
+        [0, 1].map(|stage| quantiles(alphas.iter().map(|alpha| alpha[stage]).collect()));
+    let error_factor = scaling::error_factor(form);
+    Ok(BiasRow {
+        form: form.name.clone(),
+        target: form.target,
+        one_rounding,
+        three_roundings,
+        error_factor,
+        bound: error_factor * form.rounding.error(),
+        recommended: round_up(three_roundings.most),
+        library: None,
+    })
+}
+
+fn quantiles(mut alphas: Vec<f64>) -> Quantiles {
+    alphas.sort_by(f64::total_cmp);
+    let count = alphas.len();
+    let place = ((COVERED * count as f64).ceil() as usize).clamp(1, count) - 1;
+    let lost = alphas.iter().filter(|alpha| alpha.is_infinite()).count();
+    Quantiles {
+        most: alphas[place],
+        all: alphas[count - 1],
+        beyond_repair: lost as f64 / count as f64,
+    }
+}
+
+fn round_up(alpha: f64) -> f64 {
+    if alpha <= 0.0 || alpha.is_infinite() {
+        return alpha;
+    }
+    let power = 10.0_f64.powf(alpha.log10().floor());
+    // Digits that rounding adds do not count.
+    let step = STEPS
+        .into_iter()
+        .find(|step| alpha <= step * power * (1.0 + 1e-9));
+    step.unwrap_or(10.0) * power
+}
+
+impl fmt::Display for BiasTable {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let technique = match self.technique {
+            BiasTechnique::Hamburger4 => "Hamburger 4 (Hankel matrix positive definite)",
+            BiasTechnique::Hausdorff4 => "Hausdorff 4 (both Hankel matrices positive definite)",
+        };
+        writeln!(
+            f,
+            "Smallest moment bias alpha for {technique}: {} patches of 9 x 9 texels, seed {}\n\
+             one: exact filtered moments rounded once; three: resolve and a two-pass Gaussian of deviation 2.4, each rounded\n",
+            self.samples, self.seed
+        )?;
+        writeln!(
+            f,
+            "| form | b* | one 99.999 % | one 100 % | three 99.999 % | three 100 % | K | K error | recommended | library |"
+        )?;
+        writeln!(f, "|---|---|---|---|---|---|---|---|---|---|")?;
+        for row in &self.rows {
+            let target: Vec<String> = row
+                .target
+                .iter()
+                .map(|moment| format!("{moment:.4}"))
+                .collect();
+            write!(f, "| {} | {} |", row.form, target.join(" "))?;
+            for quantiles in [row.one_rounding, row.three_roundings] {
+                for alpha in [quantiles.most, quantiles.all] {
+                    if alpha.is_finite() {
+                        write!(f, " {alpha:.3e} |")?;
+                    } else {
+                        let share = 100.0 * quantiles.beyond_repair;
+                        write!(f, " none for {share:.1} % |")?;
+                    }
+                }
+            }
+            write!(
+                f,
+                " {:.3} | {:.3e} | {:.1e} |",
+                row.error_factor, row.bound, row.recommended
+            )?;
+            match row.library {
+                Some(alpha) => writeln!(f, " {alpha:.1e} |")?,
+                None => writeln!(f, " - |")?,
+            }
+        }
+        Ok(())
+    }
+}
+
+/// How often [`measure`] calls its `step`.
+#[must_use]
+pub fn steps(samples: usize) -> usize {
+    samples.div_ceil(PER_STREAM)
+}

@@ -1,0 +1,24 @@
+//! `moment-shadows bias`: the smallest safe moment bias of a storage, by search.
+
+use moment_shadows::Storage;
+
+use crate::bias::{BiasError, BiasTable, BiasTechnique, Form, search, steps};
+use crate::progress;
+
+/// Searches one storage, or all and the published forms.
+pub fn run(
+    technique: BiasTechnique,
+    storage: Option<Storage>,
+    samples: usize,
+    seed: u64,
+) -> Result<BiasTable, BiasError> {
+    let rows = match (storage, technique) {
+        (Some(_), _) => 1,
+        (None, BiasTechnique::Hamburger4) => Storage::ALL.len() + Form::published().len(),
+        (None, BiasTechnique::Hausdorff4) => Storage::ALL.len(),
+    };
+    let bar = progress::bar((rows * steps(samples)) as u64, "filtering patches");
+    let table = search(technique, storage, samples, seed, || bar.inc(1));
+    bar.finish_and_clear();
+    table
+}

@@ -1,0 +1,188 @@
+//! The same graph with another technique.
+
+use moment_shadows::{Kernel, MapEncoding, Profile, Storage, Technique};
+use serde_json::{Value, json};
+
+use super::{GraphFile, nodes};
+use crate::error::LabError;
+use crate::technique_argument::TechniqueArgument;
+
+/// The node that places layers, where a technique needs one.
+const PLACE: &str = "lab_place_layers";
+
+impl GraphFile {
+    /// The same graph with what a command line asks for, with the storage that [`TechniqueArgument::resolve`] chooses.
+    pub fn with_technique_argument(
+        &self,
+        technique: &TechniqueArgument,
+        storage: Option<Storage>,
+    ) -> Result<Self, LabError> {
+        let own = self.encoding().map(|encoding| encoding.storage());
+        let (technique, storage) = technique
+            .resolve(storage, own)
+            .map_err(|error| self.unsuitable(error.to_string()))?;
+        self.with_technique(&technique, storage)
+    }
+
+    /// The same graph with a technique in place of its own. A filterable one makes its map in `storage`, or in that of the
+    /// graph. One that reads the plain depth map is connected to it; what made the filterable map has no reader then and is
+    /// culled.
+    pub fn with_technique(
+        &self,
+        technique: &Technique,
+        storage: Option<Storage>,
+    ) -> Result<Self, LabError> {
+        let resolve = self.name_of("resolve_moments")?;
+        let shade = self.name_of("shade_hard")?;
+        let logarithmic = matches!(
+            technique,
+            Technique::Esm {
+                filtering: moment_shadows::EsmFiltering::Logarithmic,
+                ..
+            }
+        );
+        // Logarithms have no mip levels.
+        let file = if logarithmic {
+            self.without_mip_levels()?
+        } else {
+            Self::parse(&self.name, self.text.clone(), None)?
+        };
+        let mut text: Value = serde_json::from_str(&file.text).unwrap_or_default();
+        let edges = text["edges"].as_array().cloned().unwrap_or_default();
+        let depth = edges
+            .iter()
+            .find(|edge| edge["to"] == format!("{resolve}.depth").as_str())
+            .map(|edge| edge["from"].clone())
+            .ok_or_else(|| self.unsuitable(format!("no edge leads to the depth of '{resolve}'")))?;
+        if let Some(nodes) = text["nodes"].as_array_mut() {
+            for node in nodes.iter_mut() {
+                if node["name"] == shade.as_str() && technique.reads_depth() {
+                    node["properties"]["technique"] = json!(technique);
+                } else if node["name"] == shade.as_str() {
+                    // It follows the map.
+                    if let Some(properties) = node["properties"].as_object_mut() {
+                        properties.remove("technique");
+                    }
+                } else if node["name"] == resolve.as_str() && !technique.reads_depth() {
+                    node["properties"]["technique"] = json!(technique);
+                    if let Some(storage) = storage {
+                        node["properties"]["storage"] = json!(storage);
+                    }
+                }
+            }
+        }
+        let mut added = Vec::new();
+        if technique.reads_depth() {
+            added.push(json!({ "from": depth, "to": format!("{shade}.depth") }));
+            if let Some(edges) = text["edges"].as_array_mut() {
+                edges.retain(|edge| edge["to"] != format!("{shade}.moments").as_str());
+            }
+        }
+        if let Technique::Lvsm {
+            layers,
+            splits: moment_shadows::LayerSplits::Lloyd,
+            ..
+        } = technique
+        {
+            let node = json!({ "name": PLACE, "type": "place_layers", "properties": { "layers": layers } });
+            if let Some(nodes) = text["nodes"].as_array_mut() {
+                nodes.push(node);
+            }
+            added.push(json!({ "from": depth, "to": format!("{PLACE}.depth") }));
+            for reader in [&resolve, &shade] {
+                let to = format!("{reader}.splits");
+                added.push(json!({ "from": format!("{PLACE}.splits"), "to": to }));
+            }
+        }
+        if let Some(edges) = text["edges"].as_array_mut() {
+            edges.extend(added);
+        }
+        Self::parse(&self.name, text.to_string(), None)
+    }
+
+    /// How the graph's map is encoded; none where no node makes one.
+    #[must_use]
+    pub fn encoding(&self) -> Option<MapEncoding> {
+        let node = self.node_of("resolve_moments")?;
+        let mut properties = node["properties"].clone();
+        if let Some(properties) = properties.as_object_mut() {
+            properties.retain(|key, _| key == "technique" || key == "storage");
+        }
+        serde_json::from_value(properties).ok()
+    }
+
+    /// The technique that the graph shades with.
+    #[must_use]
+    pub fn technique(&self) -> Option<Technique> {
+        let shade = self.node_of("shade_hard")?;
+        let own = serde_json::from_value(shade["properties"]["technique"].clone()).ok();
+        own.or_else(|| self.encoding().map(|encoding| encoding.technique().clone()))
+    }
+
+    /// Whether the graph shades with the plain depth map, which has one sample per texel then.
+    #[must_use]
+    pub fn reads_depth(&self) -> bool {
+        self.technique()
+            .is_some_and(|technique| technique.reads_depth())
+    }
+
+    /// Samples per texel of the light's map, if `wished` are asked for.
+    #[must_use]
+    pub fn samples(&self, wished: u32) -> u32 {
+        if self.reads_depth() { 1 } else { wished }
+    }
+
+    /// The smallest profile under which a device can make the graph's map, and has so many samples per texel.
+    #[must_use]
+    pub fn profile(&self, samples: u32) -> Profile {
+        if matches!(samples, 2 | 8) {
+            return Profile::NativeAdapter;
+        }
+        let encoding = self.encoding();
+        let offers = |profile: &Profile| match &encoding {
+            Some(encoding) => encoding.check(*profile).is_ok(),
+            None => true,
+        };
+        Profile::ALL
+            .into_iter()
+            .find(offers)
+            .unwrap_or(Profile::NativeAdapter)
+    }
+
+    /// How often the graph has to be recorded until what it keeps from frame to frame has settled.
+    #[must_use]
+    pub fn frames(&self) -> u32 {
+        match self.node_of("place_layers") {
+            // Two splits of at most seven move per frame.
+            Some(_) => 64,
+            None => 1,
+        }
+    }
+
+    /// The kernel's radius; 0 without one.
+    pub fn radius(&self) -> Result<u32, LabError> {
+        Ok(self.kernel()?.as_ref().map_or(0, Kernel::radius))
+    }
+
+    pub(super) fn node_of(&self, node_type: &str) -> Option<Value> {
+        nodes(&self.text)
+            .into_iter()
+            .find(|node| node["type"] == node_type)
+    }
+
+    fn name_of(&self, node_type: &str) -> Result<String, LabError> {
+        let node = self.node_of(node_type).ok_or_else(|| {
+            self.unsuitable(format!(
+                "it has no {node_type} node whose technique could be another; add one"
+            ))
+        })?;
+        Ok(node["name"].as_str().unwrap_or_default().to_owned())
+    }
+
+    pub(super) fn unsuitable(&self, reason: String) -> LabError {
+        LabError::Unsuitable {
+            file: self.name.clone(),
+            reason,
+        }
+    }
+}

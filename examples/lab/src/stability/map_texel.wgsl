@@ -1,0 +1,9 @@
+import moment_shadows::specialization::{PLANES};
+import moment_shadows::technique_receiver::{TechniqueReceiver};
+
+// The filtered texels of all planes of a map, in place of a texture.
+var<private> filtered_texels: array<vec4f, PLANES>;
+
+fn map_texel(receiver: TechniqueReceiver, plane: u32) -> vec4f {
+    return filtered_texels[plane];
+}

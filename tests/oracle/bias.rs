@@ -1,0 +1,145 @@
+//! The search for moment biases.
+
+use moment_shadows::Storage;
+use moment_shadows_lab::bias::{
+    BiasError, BiasTechnique, Form, Rounding, error_factor, measure, search,
+};
+
+const SAMPLES: usize = 30_000;
+
+/// The factors that were found independently, by maximisation in other coordinates; they are stated to three digits.
+#[test]
+fn error_factors_are_the_known_ones() {
+    let published = Form::published();
+    let named = |name: &str| {
+        published
+            .iter()
+            .find(|form| form.name == name)
+            .unwrap()
+            .clone()
+    };
+    let library = Form::of_library;
+    for (form, factor) in [
+        (library(Storage::Unorm16, BiasTechnique::Hamburger4), 4.88),
+        (library(Storage::Unorm8, BiasTechnique::Hamburger4), 4.88),
+        (library(Storage::Float16, BiasTechnique::Hamburger4), 4.88),
+        (library(Storage::Float32, BiasTechnique::Hamburger4), 9.91),
+        (library(Storage::Unorm16, BiasTechnique::Hausdorff4), 6.14),
+        (library(Storage::Float32, BiasTechnique::Hausdorff4), 18.4),
+        (named("theta_4, 0.8/0.2"), 14.8),
+        (named("raw [0,1], 0.8/0.2"), 755.0),
+    ] {
+        let found = error_factor(&form);
+        assert!(
+            (found / factor - 1.0).abs() < 2e-3,
+            "{}: {found}, not {factor}",
+            form.name
+        );
+    }
+    // The target is on the boundary itself.
+    assert_eq!(error_factor(&named("theta_4, 1/2")), f64::INFINITY);
+}
+
+#[test]
+fn the_search_confirms_the_library_and_stays_within_the_bound() {
+    let table = search(BiasTechnique::Hamburger4, None, SAMPLES, 8, || ()).unwrap();
+    println!("{table}");
+    assert_eq!(table.rows.len(), 3 + Form::published().len());
+    let interval = search(BiasTechnique::Hausdorff4, None, SAMPLES, 8, || ()).unwrap();
+    println!("{interval}");
+    assert_eq!(interval.rows.len(), 3);
+    for row in table.rows[..3].iter().chain(&interval.rows) {
+        let library = row.library.unwrap();
+        let needed = row.three_roundings.all;
+        // Enough, and not twice as much as needed; rare patches need up to 10 % more than these samples do.
+        assert!(
+            library > 0.9 * needed && library < 2.0 * needed,
+            "{}: {needed:e}",
+            row.form
+        );
+        // One rounding needs less than the first-order bound, which is tight.
+        let once = row.one_rounding.all;
+        assert!(
+            once < row.bound && once > 0.6 * row.bound,
+            "{}: {once:e}",
+            row.form
+        );
+        assert!(row.recommended >= row.three_roundings.most);
+        assert!(row.recommended <= 1.6 * row.three_roundings.most);
+        assert_eq!(row.three_roundings.beyond_repair, 0.0);
+    }
+    // No bias towards (1/2, 1/2, 1/2, 1/2) repairs depths that were clamped to the ends of [0, 1].
+    for row in table.rows.iter().filter(|row| row.form.ends_with("1/2")) {
+        assert_eq!(row.three_roundings.all, f64::INFINITY);
+        let share = row.three_roundings.beyond_repair;
+        assert!((0.01..0.2).contains(&share), "{}: {share}", row.form);
+    }
+    // Half precision is finest around zero, and depth in [0, 1] wastes bits.
+    let needed = |name: &str| {
+        let row = table.rows.iter().find(|row| row.form == name).unwrap();
+        row.three_roundings.all
+    };
+    assert!(needed("f16, not centred") > 1.3 * needed("float16"));
+    assert!(needed("theta_4, 0.8/0.2") > 1.8 * needed("unorm16"));
+    assert!(needed("raw [0,1], 0.8/0.2") > 40.0 * needed("float32"));
+}
+
+#[test]
+fn an_interval_asks_for_a_little_more() {
+    for storage in Storage::ALL {
+        let [line, interval] =
+            [BiasTechnique::Hamburger4, BiasTechnique::Hausdorff4].map(|technique| {
+                measure(&Form::of_library(storage, technique), SAMPLES, 9, || ()).unwrap()
+            });
+        assert!(interval.one_rounding.all <= interval.bound);
+        let ratio = interval.three_roundings.all / line.three_roundings.all;
+        assert!((1.0..2.5).contains(&ratio), "{storage}: {ratio}");
+        // The target of the real line is on the interval's boundary, and repairs nothing there.
+        let mut wrong = Form::of_library(storage, BiasTechnique::Hausdorff4);
+        wrong.target = line.target;
+        let wrong = measure(&wrong, 3000, 9, || ()).unwrap();
+        assert_eq!(wrong.three_roundings.all, f64::INFINITY);
+        assert_eq!(wrong.error_factor, f64::INFINITY);
+    }
+}
+
+#[test]
+fn the_search_is_the_same_on_any_number_of_threads() {
+    let run = |count| {
+        let threads = rayon::ThreadPoolBuilder::new()
+            .num_threads(count)
+            .build()
+            .unwrap();
+        let search = || {
+            search(
+                BiasTechnique::Hausdorff4,
+                Some(Storage::Float16),
+                9000,
+                10,
+                || (),
+            )
+        };
+        threads.install(search).unwrap()
+    };
+    assert_eq!(run(1), run(3));
+    assert_eq!(run(1).rows.len(), 1);
+    assert_eq!(
+        search(BiasTechnique::Hausdorff4, None, 0, 10, || ()).unwrap_err(),
+        BiasError::NoSamples
+    );
+}
+
+#[test]
+fn stored_values_are_the_nearest() {
+    // 1/3 is exact in 16-bit fixed point (21845 / 65535); halves of steps round away from zero.
+    assert_eq!(Rounding::Unorm16.store(1.0 / 3.0), 21845.0 / 65535.0);
+    assert_eq!(Rounding::Unorm16.store(-0.1), 0.0);
+    assert_eq!(Rounding::Unorm16.store(1.1), 1.0);
+    // Ties to even in half precision: 11 bits of mantissa.
+    assert_eq!(Rounding::Float16.store(0.25 + 2.0_f32.powi(-13)), 0.25);
+    assert_eq!(
+        Rounding::Float16.store(0.25 + 3.0 * 2.0_f32.powi(-13)),
+        0.25 + 2.0_f32.powi(-11)
+    );
+    assert_eq!(Rounding::Float32.store(0.1), 0.1);
+}

@@ -1,0 +1,36 @@
+//! The oracle is judged: linear programs against exact bounds, both against published vectors, and what rests on them.
+#![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic)]
+
+mod bases;
+mod bias;
+mod hausdorff;
+mod ideal;
+mod linear;
+mod orderings;
+
+// Random distributions of every regime; the shader's tests use the rest of it.
+#[allow(dead_code)]
+#[path = "../numerics/mixtures.rs"]
+mod mixtures;
+
+use moment_shadows_lab::oracle::{Extremal, Mixture, hamburger, hausdorff, rational};
+
+/// Surfaces as (depth, weight), the weights summing to 1 up to rounding.
+fn normalised(atoms: &[(f64, f64)]) -> Vec<(f64, f64)> {
+    let total: f64 = atoms.iter().map(|atom| atom.1).sum();
+    atoms
+        .iter()
+        .map(|&(depth, weight)| (depth, weight / total))
+        .collect()
+}
+
+fn exact_hamburger(atoms: &[(f64, f64)], count: usize, depth: f64) -> Extremal {
+    let moments = Mixture::new(atoms).unwrap().moments(count);
+    hamburger(&moments, &rational(depth).unwrap()).unwrap()
+}
+
+fn exact_hausdorff(atoms: &[(f64, f64)], count: usize, interval: [f64; 2], depth: f64) -> Extremal {
+    let moments = Mixture::new(atoms).unwrap().moments(count);
+    let [low, high] = interval.map(|end| rational(end).unwrap());
+    hausdorff(&moments, [&low, &high], &rational(depth).unwrap()).unwrap()
+}
