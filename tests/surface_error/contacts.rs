@@ -74,7 +74,7 @@ fn four_moments_leak_at_contacts_as_little_as_their_bound_allows() {
     let gpu = open();
     let contacts = contacts(&gpu);
     let judge = |name: &str, storage: Storage| {
-        let choice = TechniqueChoice::parse(name).unwrap();
+        let choice: TechniqueChoice = name.parse().unwrap();
         let candidate = choice.in_storage(Some(storage)).unwrap();
         let file = candidate.graph(&graph(storage, RADIUS)).unwrap();
         let found = contacts.judge(&gpu, &contacts.frame, &file).unwrap();

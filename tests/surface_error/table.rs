@@ -108,7 +108,7 @@ fn techniques_rank_as_published() {
 
 #[test]
 fn a_ray_in_four_gives_about_the_same_figures() {
-    let choices = ["vsm", "hamburger4"].map(|name| TechniqueChoice::parse(name).unwrap());
+    let choices = ["vsm", "hamburger4"].map(|name| name.parse::<TechniqueChoice>().unwrap());
     let candidates: Vec<Candidate> = choices
         .iter()
         .map(|choice| choice.in_storage(Some(Storage::Float32)).unwrap())
@@ -144,7 +144,7 @@ fn kernels_of_one_table_share_their_light() {
 fn orderings_say_where_they_do_not_hold() {
     let candidates = ["vsm", "evsm2", "hamburger4"]
         .iter()
-        .flat_map(|name| TechniqueChoice::parse(name).unwrap().candidates);
+        .flat_map(|name| name.parse::<TechniqueChoice>().unwrap().candidates());
     let mut rows = table(&[2], candidates.collect(), 2, 64).rows;
     assert_eq!(orderings(&rows).len(), 1);
     let vsm = |row: &&mut ErrorRow| {
@@ -170,7 +170,7 @@ fn tables_are_plotted() {
     let folder = tempfile::tempdir().unwrap();
     let candidates = ["vsm", "hamburger4"]
         .iter()
-        .flat_map(|name| TechniqueChoice::parse(name).unwrap().candidates);
+        .flat_map(|name| name.parse::<TechniqueChoice>().unwrap().candidates());
     let mut table = table(&[1, 2], candidates.collect(), 4, 64);
     let out = folder.path().join("new");
     table.plot(&out).unwrap();

@@ -119,13 +119,6 @@ impl GraphFile {
         Ok(file)
     }
 
-    /// The technique that the `shade_hard` node names; none where it follows its map.
-    #[must_use]
-    pub fn shading_technique(&self) -> Option<Technique> {
-        let shade = self.node_of("shade_hard")?;
-        serde_json::from_value(shade["properties"]["technique"].clone()).ok()
-    }
-
     /// The same graph, which also gives out the filtered map that its `shade_hard` node looks up, and the output's name.
     pub fn with_filtered_map(&self) -> Result<(Self, String), LabError> {
         let unsuitable = |reason: &str| self.unsuitable(reason.to_owned());
