@@ -4,7 +4,7 @@ mod technique;
 
 use std::path::Path;
 
-use moment_shadows::{Kernel, Storage, Technique};
+use moment_shadows::{Kernel, Storage};
 use moment_shadows_graph::nodes::KernelProperty;
 use moment_shadows_graph::{Graph, NodeRegistry};
 use serde_json::Value;
