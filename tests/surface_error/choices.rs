@@ -1,16 +1,15 @@
 //! Techniques that a command line names, and graphs with them in place of their own.
 
-use moment_shadows::{Storage, Technique};
+use moment_shadows::{Storage, Technique, TechniqueError};
 use moment_shadows_lab::candidate::{Candidate, TechniqueChoice, candidates};
-use moment_shadows_lab::error::LabError;
 use moment_shadows_lab::graph_file::GraphFile;
 use moment_shadows_lab::techniques;
 
 use crate::setup::graph;
 
 fn storages(text: &str) -> Vec<Option<Storage>> {
-    let choice = TechniqueChoice::parse(text).unwrap();
-    choice.candidates.iter().map(Candidate::storage).collect()
+    let choice: TechniqueChoice = text.parse().unwrap();
+    choice.candidates().iter().map(Candidate::storage).collect()
 }
 
 #[test]
@@ -26,7 +25,7 @@ fn names_and_objects_are_techniques_in_every_storage_they_can_have() {
         assert_eq!(storages(reading), [None], "{reading}");
     }
     // The best storage, unless it is named.
-    let choice = TechniqueChoice::parse("hamburger4").unwrap();
+    let choice = "hamburger4".parse::<TechniqueChoice>().unwrap();
     assert_eq!(choice.in_storage(None).unwrap().storage(), Some(Unorm16));
     let float16 = choice.in_storage(Some(Float16)).unwrap();
     assert_eq!(float16.storage(), Some(Float16));
@@ -34,17 +33,17 @@ fn names_and_objects_are_techniques_in_every_storage_they_can_have() {
 
 #[test]
 fn what_is_no_technique_is_refused_with_a_next_step() {
-    let refused = |text: &str| TechniqueChoice::parse(text).unwrap_err();
+    let refused = |text: &str| text.parse::<TechniqueChoice>().unwrap_err().to_string();
     assert!(refused("vms").contains("`vsm`"), "{}", refused("vms"));
-    assert!(refused("{").contains("it is no technique"));
+    assert!(refused("{").contains("this is no technique"));
     let exponent = refused(r#"{"evsm2":{"exponent":200}}"#);
     assert!(exponent.contains("from 1 to 43.6"), "{exponent}");
     let layers = refused(r#"{"lvsm":{"layers":9}}"#);
     assert!(layers.contains("1 to 8"), "{layers}");
-    let choice = TechniqueChoice::parse("evsm2").unwrap();
+    let choice = "evsm2".parse::<TechniqueChoice>().unwrap();
     let storage = choice.in_storage(Some(Storage::Unorm16)).unwrap_err();
     assert!(
-        matches!(&storage, LabError::NoStorage { asked: "unorm16", legal } if legal == "float32 or float16"),
+        matches!(storage, TechniqueError::Storage { legal, .. } if legal == [Storage::Float32, Storage::Float16]),
         "{storage}"
     );
 }
@@ -58,14 +57,17 @@ fn all_are_the_filterable_ones_and_two_references() {
     // A storage keeps the references, and asks for itself of every choice.
     let unorm8 = candidates(&[], Some(Storage::Unorm8)).unwrap();
     assert_eq!(unorm8.len(), 3);
-    let chosen = ["vsm", "convolution"].map(|name| TechniqueChoice::parse(name).unwrap());
+    let chosen = ["vsm", "convolution"].map(|name| name.parse::<TechniqueChoice>().unwrap());
     assert_eq!(candidates(&chosen, None).unwrap().len(), 6);
     assert_eq!(
         candidates(&chosen, Some(Storage::Float16)).unwrap().len(),
         2
     );
     let refused = candidates(&chosen, Some(Storage::Unorm8)).unwrap_err();
-    assert!(matches!(refused, LabError::NoStorage { .. }), "{refused}");
+    assert!(
+        matches!(refused, TechniqueError::Storage { .. }),
+        "{refused}"
+    );
 }
 
 #[test]
@@ -79,10 +81,10 @@ fn graphs_take_other_techniques() {
         vsm.node_entry("resolve", "properties")["storage"],
         "float16"
     );
-    assert_eq!(vsm.shading_technique(), None);
+    assert_eq!(vsm.technique(), Some(Technique::Vsm));
     // Plain depth: the map is not made, and the kernel is still known.
     let binary = vsm.with_technique(&Technique::Binary, None).unwrap();
-    assert_eq!(binary.shading_technique(), Some(Technique::Binary));
+    assert_eq!(binary.technique(), Some(Technique::Binary));
     assert!(binary.text.contains(r#"shade.depth"#));
     assert!(!binary.text.contains(r#"shade.moments"#));
     assert_eq!(binary.kernel().unwrap().unwrap().radius(), 3);

@@ -74,7 +74,7 @@ fn four_moments_leak_at_contacts_as_little_as_their_bound_allows() {
     let gpu = open();
     let contacts = contacts(&gpu);
     let judge = |name: &str, storage: Storage| {
-        let choice = TechniqueChoice::parse(name).unwrap();
+        let choice: TechniqueChoice = name.parse().unwrap();
         let candidate = choice.in_storage(Some(storage)).unwrap();
         let file = candidate.graph(&graph(storage, RADIUS)).unwrap();
         let found = contacts.judge(&gpu, &contacts.frame, &file).unwrap();
@@ -112,10 +112,15 @@ fn four_moments_leak_at_contacts_as_little_as_their_bound_allows() {
         let hamburger = judge("hamburger4", storage);
         println!("at least {least}");
         // No technique that knows these moments leaks less, and this one hardly more: what rounding in storage adds goes
-        // either way, and is at most half a percent of the error elsewhere.
-        assert!((hamburger.leaking / least - 1.0).abs() < 0.02, "{storage}");
+        // either way, and is at most half a percent of the error elsewhere, too.
         assert!(
-            hamburger.leaking < 0.75 * judge("vsm", storage).leaking,
+            (hamburger.leaking / least - 1.0).abs() < 5e-3,
+            "{storage}: {} of {least}",
+            hamburger.leaking
+        );
+        // Two of the same moments leave more open.
+        assert!(
+            hamburger.leaking < judge("vsm", storage).leaking,
             "{storage}"
         );
         leaks.push(hamburger.leaking);

@@ -1,11 +1,12 @@
 //! What a graph is measured with in place of its own technique and storage.
 
-use moment_shadows::{
-    Finite, MapEncoding, PcfTaps, Profile, Storage, Technique, TechniqueError, nearest,
-};
+use core::str::FromStr;
+
+use moment_shadows::{Finite, MapEncoding, PcfTaps, Profile, Storage, Technique, TechniqueError};
 
 use crate::error::LabError;
 use crate::graph_file::GraphFile;
+use crate::technique_argument::{TechniqueArgument, TechniqueArgumentError};
 use crate::techniques;
 
 /// A technique with its storage.
@@ -21,11 +22,13 @@ pub enum Candidate {
     PercentageCloser,
 }
 
-/// A technique as a command line names it, in every storage that it can have.
+/// What a command line asks to be measured.
 #[derive(Clone, Debug, PartialEq)]
-pub struct TechniqueChoice {
-    /// One per storage, the one with the least error per bit first; a single one for a technique that reads depth.
-    pub candidates: Vec<Candidate>,
+pub enum TechniqueChoice {
+    /// Percentage-closer filtering with the graph's own kernel: `pcf`.
+    PercentageCloser,
+    /// Any other technique.
+    Technique(TechniqueArgument),
 }
 
 impl Candidate {
@@ -99,50 +102,57 @@ impl Candidate {
 }
 
 impl TechniqueChoice {
-    /// The technique of a name, with usual settings for each storage, or of an object as in graph files.
-    pub fn parse(text: &str) -> Result<Self, String> {
-        let candidates = if text.trim_start().starts_with('{') {
-            let technique: Technique = serde_json::from_str(text)
-                .map_err(|error| format!("it is no technique: {error}"))?;
-            given(&technique).map_err(|error| error.to_string())?
-        } else {
-            named(text)
-        };
-        if candidates.is_empty() {
-            let all = names();
-            let near = nearest(text, all.iter().map(String::as_str));
-            return Err(format!(
-                "there is no technique '{text}'; the nearest are {near}"
-            ));
+    /// In every storage that it can have, the one with the least error per bit first; a single one for a technique that
+    /// reads depth.
+    #[must_use]
+    pub fn candidates(&self) -> Vec<Candidate> {
+        match self {
+            Self::PercentageCloser => vec![Candidate::PercentageCloser],
+            Self::Technique(argument) => {
+                let storages = argument.storages().into_iter();
+                storages
+                    .filter_map(|storage| self.in_storage(storage).ok())
+                    .collect()
+            }
         }
-        Ok(Self { candidates })
     }
 
-    /// The one in a storage; in its best one if none is given.
-    pub fn in_storage(&self, storage: Option<Storage>) -> Result<Candidate, LabError> {
-        let wanted = |candidate: &&Candidate| {
-            storage.is_none() || candidate.reads_depth() || candidate.storage() == storage
+    /// The one in a storage; in its best one if none is given. Techniques that read depth have none.
+    pub fn in_storage(&self, storage: Option<Storage>) -> Result<Candidate, TechniqueError> {
+        let Self::Technique(argument) = self else {
+            return Ok(Candidate::PercentageCloser);
         };
-        let found = self.candidates.iter().find(wanted).cloned();
-        found.ok_or_else(|| LabError::NoStorage {
-            asked: storage.map_or("none", Storage::name),
-            legal: self
-                .candidates
-                .iter()
-                .filter_map(Candidate::storage)
-                .map(Storage::name)
-                .collect::<Vec<_>>()
-                .join(" or "),
+        let (technique, storage) = argument.resolve(storage, None)?;
+        Ok(match storage {
+            Some(storage) => Candidate::Filterable(MapEncoding::new(technique, storage)?),
+            None => Candidate::ReadingDepth(technique),
         })
     }
 }
+
+impl FromStr for TechniqueChoice {
+    type Err = TechniqueArgumentError;
+
+    fn from_str(text: &str) -> Result<Self, TechniqueArgumentError> {
+        if text.trim() == PCF {
+            return Ok(Self::PercentageCloser);
+        }
+        let choice = Self::Technique(text.parse()?);
+        // Exponents belong to a storage: they are legal in one at least.
+        choice.in_storage(None)?;
+        Ok(choice)
+    }
+}
+
+/// What percentage-closer filtering with the graph's kernel is called.
+const PCF: &str = "pcf";
 
 /// All techniques where no choice is made; otherwise the chosen ones. In every storage, or in the one that is given, which
 /// references that read depth do not have.
 pub fn candidates(
     choices: &[TechniqueChoice],
     storage: Option<Storage>,
-) -> Result<Vec<Candidate>, LabError> {
+) -> Result<Vec<Candidate>, TechniqueError> {
     if choices.is_empty() {
         let mut all = Candidate::all();
         all.retain(|it| storage.is_none() || it.reads_depth() || it.storage() == storage);
@@ -152,63 +162,8 @@ pub fn candidates(
     for choice in choices {
         match storage {
             Some(_) => chosen.push(choice.in_storage(storage)?),
-            None => chosen.extend(choice.candidates.iter().cloned()),
+            None => chosen.extend(choice.candidates()),
         }
     }
     Ok(chosen)
-}
-
-/// In every storage in which its settings are legal, if there is one.
-fn given(technique: &Technique) -> Result<Vec<Candidate>, TechniqueError> {
-    technique.check()?;
-    if technique.reads_depth() {
-        return Ok(vec![Candidate::ReadingDepth(technique.clone())]);
-    }
-    let mut candidates = Vec::new();
-    let mut refused = None;
-    for &storage in technique.storages() {
-        match MapEncoding::new(technique.clone(), storage) {
-            Ok(encoding) => candidates.push(Candidate::Filterable(encoding)),
-            Err(error) => refused = refused.or(Some(error)),
-        }
-    }
-    match refused {
-        Some(error) if candidates.is_empty() => Err(error),
-        _ => Ok(candidates),
-    }
-}
-
-/// What percentage-closer filtering with the graph's kernel is called.
-const PCF: &str = "pcf";
-
-fn named(name: &str) -> Vec<Candidate> {
-    if name == PCF {
-        return vec![Candidate::PercentageCloser];
-    }
-    let mut filterable = techniques::filterable();
-    filterable.retain(|encoding| techniques::label(encoding.technique()) == name);
-    let place = |encoding: &MapEncoding| {
-        let storages = encoding.technique().storages();
-        storages
-            .iter()
-            .position(|&storage| storage == encoding.storage())
-    };
-    filterable.sort_by_key(place);
-    let reading = techniques::reading_depth().into_iter();
-    let reading = reading.filter(|technique| techniques::label(technique) == name);
-    let filterable = filterable.into_iter().map(Candidate::Filterable);
-    filterable
-        .chain(reading.map(Candidate::ReadingDepth))
-        .collect()
-}
-
-/// All names of techniques.
-fn names() -> Vec<String> {
-    let filterable = techniques::filterable();
-    let filterable = filterable
-        .iter()
-        .map(|encoding| techniques::label(encoding.technique()));
-    let reading = techniques::reading_depth();
-    let reading = reading.iter().map(techniques::label);
-    filterable.chain(reading).chain([PCF.to_owned()]).collect()
 }

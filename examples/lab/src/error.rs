@@ -53,14 +53,6 @@ pub enum LabError {
         /// Why.
         reason: String,
     },
-    /// A storage that a technique does not have.
-    #[error("the technique cannot be stored as {asked} with these settings; it can as {legal}")]
-    NoStorage {
-        /// What was asked for.
-        asked: &'static str,
-        /// What it can have.
-        legal: String,
-    },
     /// A technique's settings.
     #[error(transparent)]
     Technique(#[from] moment_shadows::TechniqueError),

@@ -4,7 +4,7 @@ mod technique;
 
 use std::path::Path;
 
-use moment_shadows::{Kernel, Storage, Technique};
+use moment_shadows::{Kernel, Storage};
 use moment_shadows_graph::nodes::KernelProperty;
 use moment_shadows_graph::{Graph, NodeRegistry};
 use serde_json::Value;
@@ -117,13 +117,6 @@ impl GraphFile {
         let file = Self::parse(&self.name, text, None)?;
         file.kernel()?;
         Ok(file)
-    }
-
-    /// The technique that the `shade_hard` node names; none where it follows its map.
-    #[must_use]
-    pub fn shading_technique(&self) -> Option<Technique> {
-        let shade = self.node_of("shade_hard")?;
-        serde_json::from_value(shade["properties"]["technique"].clone()).ok()
     }
 
     /// The same graph, which also gives out the filtered map that its `shade_hard` node looks up, and the output's name.

@@ -4,7 +4,7 @@ use std::path::PathBuf;
 use std::process::ExitCode;
 
 use clap::{Parser, Subcommand, ValueEnum};
-use moment_shadows::{Profile, Storage, nearest};
+use moment_shadows::{Profile, Storage, TechniqueError, nearest};
 use moment_shadows_lab::bias::BiasTechnique;
 use moment_shadows_lab::candidate::{Candidate, TechniqueChoice, candidates};
 use moment_shadows_lab::command::cost_growth::GrowthOptions;
@@ -15,7 +15,7 @@ use moment_shadows_lab::command::{
     measure, minification, orderings, render, shaders, stability, technique_pictures, validate,
 };
 use moment_shadows_lab::cost::bandwidth::Memory;
-use moment_shadows_lab::error::LabError;
+
 use moment_shadows_lab::gpu::Gpu;
 use moment_shadows_lab::isa::child;
 use moment_shadows_lab::isa::chip::Chip;
@@ -150,7 +150,7 @@ enum Command {
         radius: Option<u32>,
         /// A technique in place of the graph's own: a name with usual settings (vsm, evsm4, pcf, ...), or an object as in
         /// graph files ({"esm":{"exponent":80}}).
-        #[arg(long, value_parser = TechniqueChoice::parse)]
+        #[arg(long)]
         technique: Option<TechniqueChoice>,
         /// Prints JSON.
         #[arg(long)]
@@ -193,7 +193,7 @@ enum Command {
         #[arg(long, num_args = 1.., default_values = ["1", "4", "12"], value_parser = clap::value_parser!(u32).range(1..=64))]
         radius: Vec<u32>,
         /// Techniques in place of all: names with usual settings, or objects as in graph files.
-        #[arg(long, num_args = 1.., value_parser = TechniqueChoice::parse)]
+        #[arg(long, num_args = 1..)]
         technique: Vec<TechniqueChoice>,
         /// Prints JSON.
         #[arg(long)]
@@ -341,7 +341,7 @@ struct TableArguments {
     radius: Vec<u32>,
     /// Techniques in place of the graph's own, each in all of its storages: names with usual settings (vsm, evsm4, pcf,
     /// ...), or objects as in graph files.
-    #[arg(long, num_args = 1.., value_parser = TechniqueChoice::parse, conflicts_with = "all")]
+    #[arg(long, num_args = 1.., conflicts_with = "all")]
     technique: Vec<TechniqueChoice>,
     /// All techniques in all of their storages, and as references the binary test and percentage-closer filtering with the
     /// same kernel.
@@ -360,7 +360,7 @@ struct TableArguments {
 
 impl TableArguments {
     /// What is measured: all techniques, those that are named, or the graph's own in all of its storages.
-    fn candidates(&self, storage: Option<Storage>) -> Result<Vec<Candidate>, LabError> {
+    fn candidates(&self, storage: Option<Storage>) -> Result<Vec<Candidate>, TechniqueError> {
         if !self.all && self.technique.is_empty() {
             let own = storage.map_or(Storage::ALL.to_vec(), |storage| vec![storage]);
             return Ok(own.into_iter().map(Candidate::Storage).collect());

@@ -31,7 +31,7 @@ pub struct JudgedMap<'a> {
     pub texture: &'a wgpu::Texture,
     /// What it holds.
     pub desc: TextureDesc,
-    /// The technique that `shade_hard` names; otherwise it is that of the map.
+    /// The technique that `shade_hard` evaluates; otherwise it is that of the map.
     pub technique: Option<Technique>,
 }
 
@@ -39,7 +39,7 @@ impl MapRun {
     /// Runs a graph on a frame. Techniques that read the plain depth map need a frame with one sample per texel of it.
     pub fn new(gpu: &Gpu, frame: &Frame, file: &GraphFile) -> Result<Self, LabError> {
         let file = file.in_single_precision()?;
-        let technique = file.shading_technique();
+        let technique = file.technique();
         let reads_depth = technique.as_ref().is_some_and(Technique::reads_depth);
         let (file, output) = if reads_depth {
             (file, None)
