@@ -165,7 +165,7 @@ impl Storage {
                 fourth: 0.4875,
             },
             Storage::Float32 => MomentBias {
-                alpha: 2e-6,
+                alpha: 2.8e-6,
                 second: 0.4403,
                 fourth: 0.3124,
             },

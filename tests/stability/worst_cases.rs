@@ -186,7 +186,7 @@ fn evsm4_float16_with_surfaces_as_close_as_rounding() {
     assert!(excess("evsm4", "float16", input) <= 0.29);
 }
 
-/// 1.11e-3: one surface and a fragment on it. The bias has put a share of 1.3e-3 in front.
+/// 1.11e-3: one surface and a fragment on it. The bias has put a share of 1.5e-3 in front.
 #[test]
 fn hausdorff4_float16_at_its_only_surface() {
     let input = Input {
@@ -195,7 +195,7 @@ fn hausdorff4_float16_at_its_only_surface() {
         fragment_depth: 0.9868865,
         ..Input::default()
     };
-    assert!(excess("hausdorff4", "float16", input) <= 1.3e-3);
+    assert!(excess("hausdorff4", "float16", input) <= 1.5e-3);
 }
 
 /// 6.8e-5: a slight share in front of the far end, and the bias.

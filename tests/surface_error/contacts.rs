@@ -1,6 +1,6 @@
 //! Light leaking where thin legs meet the ground.
 
-use moment_shadows::{Storage, Technique};
+use moment_shadows::{Profile, Storage, Technique};
 use moment_shadows_lab::candidate::{Candidate, TechniqueChoice};
 use moment_shadows_lab::command::contacts::{BAND, Contacts};
 use moment_shadows_lab::gpu::Gpu;
@@ -71,7 +71,8 @@ fn points_of_planes_are_what_is_peeled_of_them() {
 
 #[test]
 fn four_moments_leak_at_contacts_as_little_as_their_bound_allows() {
-    let gpu = open();
+    // Two moments in half precision are a format that not every native device writes.
+    let gpu = Gpu::open(Profile::NativeAdapter).unwrap();
     let contacts = contacts(&gpu);
     let judge = |name: &str, storage: Storage| {
         let choice: TechniqueChoice = name.parse().unwrap();

@@ -31,7 +31,7 @@ fn error(row: &ErrorRow) -> f64 {
     row.errors.surfaces.shading.mean_absolute
 }
 
-fn find<'a>(table: &'a ErrorTable, of: fn(&Technique) -> bool, storage: Storage) -> &'a ErrorRow {
+fn find(table: &ErrorTable, of: fn(&Technique) -> bool, storage: Storage) -> &ErrorRow {
     let wanted = |row: &&ErrorRow| of(&row.errors.technique) && row.errors.storage == Some(storage);
     table.rows.iter().find(wanted).unwrap()
 }

@@ -6,9 +6,9 @@
 //!
 //! | technique | unorm8, unorm16, float16 | float32 |
 //! |---|---|---|
-//! | `esm` | a relative error of the mean, [`exponential`] | the same |
-//! | `vsm`, `lvsm`, `evsm2`, `evsm4` | a variance that is too small by a factor, [`chebyshev`] | the same |
-//! | `convolution` | errors of sines and cosines, [`convolution`] | |
+//! | `esm` | a relative error of the mean, `exponential` | the same |
+//! | `vsm`, `lvsm`, `evsm2`, `evsm4` | a variance that is too small by a factor, `chebyshev` | the same |
+//! | `convolution` | errors of sines and cosines, `convolution` | |
 //! | `hamburger4`, `hausdorff4` | the moment bias | the moment bias; nothing for wide filters |
 //!
 //! The reserves of float32 are for filters up to 9 texels wide: a sum of n products in f32 is off by up to n / 3 units of
