@@ -172,5 +172,4 @@ check() {
   step "What the code costs: instructions for two AMD chips" run_isa
   step "A second rasteriser: the tests of numerics on SwiftShader" numerics_on_swiftshader
   step "Fuzzing" run_fuzzing
-  step "A host that is not ours: egui" bash check/egui_host.sh
 }
