@@ -5,7 +5,10 @@ use serde::{Deserialize, Serialize};
 /// The largest radius of a kernel, in texels.
 pub const LARGEST_RADIUS: u32 = 64;
 
-/// Weights of 2 radius + 1 texels along one direction: not negative, summing to 1.
+/// Weights are multiples of this, 2^-18, for the sums of the WGSL module `split_sum`.
+const WEIGHT_UNIT: f64 = 1.0 / (1 << 18) as f64;
+
+/// Weights of 2 radius + 1 texels along one direction: not negative, multiples of 2^-18 that sum to exactly 1.
 ///
 /// Moments stay valid under no other filters.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -122,19 +125,24 @@ impl Kernel {
         variance.max(0.0).sqrt() as f32
     }
 
-    /// Scales to a sum of 1 and rounds. The residue of rounding goes into the largest weight: a sum that is off by one
-    /// unit acts like an error of that size in every moment.
+    /// Scales to a sum of 1 and rounds to multiples of [`WEIGHT_UNIT`] that sum to exactly 1: a sum that is off by one unit
+    /// acts like an error of that size in every moment. What is rounded are the sums so far, so that no weight gets all of
+    /// the residue.
     fn normalised(weights: &[f64]) -> Self {
         let total: f64 = weights.iter().sum();
-        let mut rounded: Vec<f32> = weights
+        let mut sum = 0.0;
+        let mut units_so_far = 0.0;
+        let weights = weights
             .iter()
-            .map(|weight| (weight / total) as f32)
+            .map(|weight| {
+                sum += weight;
+                let units = (sum / total / WEIGHT_UNIT).round();
+                let weight = (units - units_so_far) * WEIGHT_UNIT;
+                units_so_far = units;
+                // A whole number of units, at most 2^18: exact in f32.
+                weight as f32
+            })
             .collect();
-        let sum: f64 = rounded.iter().map(|&weight| f64::from(weight)).sum();
-        let largest = rounded.iter_mut().max_by(|a, b| a.total_cmp(b));
-        if let Some(weight) = largest {
-            *weight = (f64::from(*weight) + (1.0 - sum)) as f32;
-        }
-        Self { weights: rounded }
+        Self { weights }
     }
 }

@@ -41,6 +41,7 @@ pub fn modules() -> &'static [Module] {
         "percentage_closer_soft",
         "receiver_bias",
         "receiver_plane",
+        "split_sum",
         "storage",
         "variance",
     ];

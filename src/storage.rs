@@ -116,8 +116,8 @@ impl Storage {
     }
 
     /// The smallest moment bias that covers a resolve and a two-pass blur, every stage rounded to the storage. With 8 bits it
-    /// leaks so far that no technique stores four moments like that. That of float32 covers blurs up to 9 texels wide: the
-    /// sums of wider ones are off by more in f32, above all with equal weights.
+    /// leaks so far that no technique stores four moments like that. That of float32 relies on sums as exact as those of the
+    /// WGSL module `split_sum`, which blurs of any width have then.
     #[must_use]
     pub fn moment_bias(self) -> MomentBias {
         match self {

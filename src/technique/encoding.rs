@@ -93,6 +93,17 @@ impl MapEncoding {
         self.format
     }
 
+    /// Whether blurs sum its texels with the WGSL module `split_sum`: moments within [-1, 1] whose
+    /// storage is as fine as sums of f32 are.
+    #[must_use]
+    pub fn has_split_sums(&self) -> bool {
+        let moments = matches!(
+            self.technique,
+            Technique::Vsm | Technique::Hamburger4 | Technique::Hausdorff4
+        );
+        moments && self.storage == Storage::Float32
+    }
+
     /// Texture layers that a layer of the map consists of.
     #[must_use]
     pub fn planes(&self) -> u32 {

@@ -394,6 +394,9 @@ fn blur_taps(map: texture_2d<f32>, first: vec2i, low: vec2i, last: vec2i, sums: 
     o15 = fma(vec4f(w3.w), t15, o15);
     return BlurSums(o0, o1, o2, o3, o4, o5, o6, o7, o8, o9, o10, o11, o12, o13, o14, o15);
 }
+fn blur_outputs(sums: BlurSums) -> array<vec4f, 16> {
+    return array<vec4f, 16>(sums.o0, sums.o1, sums.o2, sums.o3, sums.o4, sums.o5, sums.o6, sums.o7, sums.o8, sums.o9, sums.o10, sums.o11, sums.o12, sums.o13, sums.o14, sums.o15);
+}
 
 // moment_shadows/map_region.wgsl
 // Regions: rectangles of a layer that share an atlas and know nothing of each other.
@@ -520,20 +523,21 @@ fn blur(@builtin(local_invocation_id) local: vec3u, @builtin(workgroup_id) workg
         w2 = w6;
         w3 = w7;
     }
-    blur_store(first, last, sums.o0);
-    blur_store(first + AXIS, last, sums.o1);
-    blur_store(first + 2 * AXIS, last, sums.o2);
-    blur_store(first + 3 * AXIS, last, sums.o3);
-    blur_store(first + 4 * AXIS, last, sums.o4);
-    blur_store(first + 5 * AXIS, last, sums.o5);
-    blur_store(first + 6 * AXIS, last, sums.o6);
-    blur_store(first + 7 * AXIS, last, sums.o7);
-    blur_store(first + 8 * AXIS, last, sums.o8);
-    blur_store(first + 9 * AXIS, last, sums.o9);
-    blur_store(first + 10 * AXIS, last, sums.o10);
-    blur_store(first + 11 * AXIS, last, sums.o11);
-    blur_store(first + 12 * AXIS, last, sums.o12);
-    blur_store(first + 13 * AXIS, last, sums.o13);
-    blur_store(first + 14 * AXIS, last, sums.o14);
-    blur_store(first + 15 * AXIS, last, sums.o15);
+    let block = blur_outputs(sums);
+    blur_store(first, last, block[0]);
+    blur_store(first + AXIS, last, block[1]);
+    blur_store(first + 2 * AXIS, last, block[2]);
+    blur_store(first + 3 * AXIS, last, block[3]);
+    blur_store(first + 4 * AXIS, last, block[4]);
+    blur_store(first + 5 * AXIS, last, block[5]);
+    blur_store(first + 6 * AXIS, last, block[6]);
+    blur_store(first + 7 * AXIS, last, block[7]);
+    blur_store(first + 8 * AXIS, last, block[8]);
+    blur_store(first + 9 * AXIS, last, block[9]);
+    blur_store(first + 10 * AXIS, last, block[10]);
+    blur_store(first + 11 * AXIS, last, block[11]);
+    blur_store(first + 12 * AXIS, last, block[12]);
+    blur_store(first + 13 * AXIS, last, block[13]);
+    blur_store(first + 14 * AXIS, last, block[14]);
+    blur_store(first + 15 * AXIS, last, block[15]);
 }

@@ -140,10 +140,9 @@ struct MomentBias {
     fourth: f32,
 }
 
-// The bias belongs to a storage's rounding error, not to a scene. Each value covers a resolve and a two-pass blur of
-// up to 9 texels, every stage rounded to the storage, for 99.999 % of filter regions (found by search: `moment-shadows bias`).
-// Wider blurs round more often, which only float32 is too fine for: from about 25 equal weights on it may lose the bound. The
-// target is optimal for the basis and for distributions on the real line (JCGT 6(1) 2017, section 3).
+// The bias belongs to a storage's rounding error, not to a scene. Each value covers a resolve and a two-pass blur, every
+// stage rounded to the storage, for 99.999 % of filter regions (found by search: `moment-shadows bias`). Sums of many texels
+// in f32 are off by more than the bias of float32 covers, unless they are made as in `split_sum`. The target is optimal for the basis and for distributions on the real line (JCGT 6(1) 2017, section 3).
 const MOMENTS_BIAS_UNORM16: MomentBias = MomentBias(6e-5, 0.628, 0.628);
 const MOMENTS_BIAS_FLOAT16: MomentBias = MomentBias(1e-3, 0.628, 0.628);
 const MOMENTS_BIAS_FLOAT32: MomentBias = MomentBias(1.5e-6, 0.375, 0.375);

@@ -61,7 +61,7 @@ fn an_axis_aligned_edge_takes_the_split_to_the_farther_plane() {
 }
 
 #[test]
-fn edges_of_any_direction_take_it_close_to_the_farther_plane() {
+fn edges_of_any_direction_take_it_to_the_farther_plane() {
     let mut random = ChaCha8Rng::seed_from_u64(413);
     let inputs: Vec<Input> = (0..500)
         .map(|_| {
@@ -71,27 +71,18 @@ fn edges_of_any_direction_take_it_close_to_the_farther_plane() {
             edge(Layers::new(&[0.1], 0.0), angle, [near, far])
         })
         .collect();
-    let errors: Vec<f32> = inputs
+    let largest = inputs
         .iter()
         .zip(run(&inputs))
         .map(|(input, output)| {
-            (output.splits[0] - input.planes[1]) / (input.planes[1] - input.planes[0])
+            let gap = input.planes[1] - input.planes[0];
+            ((output.splits[0] - input.planes[1]) / gap).abs()
         })
-        .collect();
-    let mean = errors.iter().map(|error| error.abs()).sum::<f32>() / errors.len() as f32;
-    let largest = errors
-        .iter()
-        .fold(0.0_f32, |largest, error| largest.max(error.abs()));
-    let within = errors.iter().filter(|error| error.abs() <= 0.05).count();
-    println!(
-        "off by {mean:.3} of the gap on average, {largest:.3} at most; {within} of {} within 5 %",
-        errors.len()
-    );
-    assert!(mean <= 0.05);
-    // Footprints of which one texel or three are covered see it at 0.68 and 1.18 of the gap, 0.933 on average; on a diagonal
-    // there are no others.
-    assert!(largest <= 1.0 - 0.933 + 1e-3);
-    assert!(within * 4 >= errors.len() * 3);
+        .fold(0.0_f32, f32::max);
+    println!("off by {largest:.1e} of the gap at most");
+    // Footprints see two depths, whose first three moments tell both. Depths up to 1 have an error of 2^-24, the gap is 0.05
+    // at least, and the third moment's error is some times theirs.
+    assert!(largest <= 2e-5);
 }
 
 #[test]

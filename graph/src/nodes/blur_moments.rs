@@ -6,7 +6,7 @@ use serde::{Deserialize, Serialize};
 
 use super::moments_input::{map_formats, moments_input};
 use super::specialization::Specialization;
-use super::unrolled;
+use super::unrolled::{self, Sums};
 use super::{KernelProperty, MipLevels, region_tiles, techniques};
 use crate::{
     Access, Binding, BindingResource, Connected, CountRule, Direction, ExtentRule, FormatRule,
@@ -193,6 +193,11 @@ impl Along {
         let specialization = techniques::specialize_map(specialization, encoding);
         let specialization = region_tiles::specialize(specialization, moments);
         let filtering = techniques::filtering(encoding.technique());
+        let sums = if encoding.has_split_sums() {
+            Sums::Split
+        } else {
+            Sums::Plain
+        };
         let mut bindings = vec![
             Binding {
                 binding: 0,
@@ -206,7 +211,7 @@ impl Along {
             region_tiles::binding(self.to, 2 * kernel.radius() + 1),
         ];
         let (wgsl, outputs) = if unrolled {
-            let text = unrolled::literal_weights(kernel.weights());
+            let text = unrolled::literal_weights(kernel.weights(), sums);
             (
                 specialization.link(
                     "blur_moments_unrolled.wgsl",
@@ -225,7 +230,7 @@ impl Along {
                 binding: 2,
                 resource: BindingResource::Parameters,
             });
-            let text = unrolled::uniform_weights();
+            let text = unrolled::uniform_weights(sums);
             (
                 specialization.link(
                     "blur_moments_uniform.wgsl",

@@ -1,5 +1,5 @@
 import moment_shadows::blur_target::{blur_store, blurred_map, moments_map};
-import moment_shadows::blur_unrolled::{BlurSums, OUTPUTS, blur_taps};
+import moment_shadows::blur_unrolled::{BlurSums, OUTPUTS, blur_outputs, blur_taps};
 import moment_shadows::region_tile::{region_tile};
 import moment_shadows::specialization::{AXIS, GROUP, WORKGROUP_X, WORKGROUP_Y};
 
@@ -49,20 +49,21 @@ fn blur(@builtin(local_invocation_id) local: vec3u, @builtin(workgroup_id) workg
         w2 = w6;
         w3 = w7;
     }
-    blur_store(first, last, sums.o0);
-    blur_store(first + AXIS, last, sums.o1);
-    blur_store(first + 2 * AXIS, last, sums.o2);
-    blur_store(first + 3 * AXIS, last, sums.o3);
-    blur_store(first + 4 * AXIS, last, sums.o4);
-    blur_store(first + 5 * AXIS, last, sums.o5);
-    blur_store(first + 6 * AXIS, last, sums.o6);
-    blur_store(first + 7 * AXIS, last, sums.o7);
-    blur_store(first + 8 * AXIS, last, sums.o8);
-    blur_store(first + 9 * AXIS, last, sums.o9);
-    blur_store(first + 10 * AXIS, last, sums.o10);
-    blur_store(first + 11 * AXIS, last, sums.o11);
-    blur_store(first + 12 * AXIS, last, sums.o12);
-    blur_store(first + 13 * AXIS, last, sums.o13);
-    blur_store(first + 14 * AXIS, last, sums.o14);
-    blur_store(first + 15 * AXIS, last, sums.o15);
+    let block = blur_outputs(sums);
+    blur_store(first, last, block[0]);
+    blur_store(first + AXIS, last, block[1]);
+    blur_store(first + 2 * AXIS, last, block[2]);
+    blur_store(first + 3 * AXIS, last, block[3]);
+    blur_store(first + 4 * AXIS, last, block[4]);
+    blur_store(first + 5 * AXIS, last, block[5]);
+    blur_store(first + 6 * AXIS, last, block[6]);
+    blur_store(first + 7 * AXIS, last, block[7]);
+    blur_store(first + 8 * AXIS, last, block[8]);
+    blur_store(first + 9 * AXIS, last, block[9]);
+    blur_store(first + 10 * AXIS, last, block[10]);
+    blur_store(first + 11 * AXIS, last, block[11]);
+    blur_store(first + 12 * AXIS, last, block[12]);
+    blur_store(first + 13 * AXIS, last, block[13]);
+    blur_store(first + 14 * AXIS, last, block[14]);
+    blur_store(first + 15 * AXIS, last, block[15]);
 }

@@ -2,7 +2,8 @@ import moment_shadows::depth::{DepthConversion, depth_to_moment_depth};
 import moment_shadows::map_encoding::{PLANE, encoding_channels, encoding_texel};
 import moment_shadows::map_filtering::{filtering_texel, filtering_value};
 import moment_shadows::map_texel::{filtered_texels};
-import moment_shadows::specialization::{PLANES, STORAGE};
+import moment_shadows::specialization::{PLANES, SPLIT_SUMS, STORAGE};
+import moment_shadows::split_sum::{split_sum_coarse};
 import moment_shadows::storage::{STORAGE_FLOAT16, STORAGE_FLOAT32, STORAGE_UNORM16};
 import moment_shadows::technique::{technique_shadow_intensity};
 import moment_shadows::technique_receiver::{TechniqueReceiver};
@@ -69,6 +70,26 @@ fn mixture_texel(depths: array<f32, 8>, weights: array<vec4f, 2>) -> vec4f {
     return stored(encoding_texel(sum));
 }
 
+// What the node sums up: texels, or their coarse parts and the rest apart.
+struct PatchSum {
+    texels: vec4f,
+    rest: vec4f,
+}
+
+fn added(sum: PatchSum, weight: f32, value: vec4f) -> PatchSum {
+    var texel = value;
+    var rest = vec4f(0.0);
+    if SPLIT_SUMS {
+        texel = split_sum_coarse(value);
+        rest = value - texel;
+    }
+    return PatchSum(fma(vec4f(weight), texel, sum.texels), fma(vec4f(weight), rest, sum.rest));
+}
+
+fn filtered(sum: PatchSum) -> vec4f {
+    return stored(filtering_texel(sum.texels + sum.rest));
+}
+
 // A resolve of four samples and a blur in two passes, which sums its taps in order as the node does.
 fn patch_texel(depths: array<f32, 8>, input: BatchInput) -> vec4f {
     var z = depths;
@@ -83,21 +104,21 @@ fn patch_texel(depths: array<f32, 8>, input: BatchInput) -> vec4f {
     let first = u32(batch_table[2u * input.kernel]);
     let taps = u32(batch_table[2u * input.kernel + 1u]);
     var rows = input.rows;
-    var sums: array<vec4f, 2>;
+    var sums: array<PatchSum, 2>;
     for (var tap = 0u; tap < taps; tap++) {
-        let weight = vec4f(batch_table[first + tap]);
+        let weight = batch_table[first + tap];
         let place = tap / input.row_run;
-        sums[0] = fma(weight, values[pattern(rows[0], place) % input.count], sums[0]);
-        sums[1] = fma(weight, values[pattern(rows[1], place) % input.count], sums[1]);
+        sums[0] = added(sums[0], weight, values[pattern(rows[0], place) % input.count]);
+        sums[1] = added(sums[1], weight, values[pattern(rows[1], place) % input.count]);
     }
-    let one = filtering_value(stored(filtering_texel(sums[0])));
-    let other = filtering_value(stored(filtering_texel(sums[1])));
-    var sum = vec4f(0.0);
+    let one = filtering_value(filtered(sums[0]));
+    let other = filtering_value(filtered(sums[1]));
+    var sum: PatchSum;
     for (var tap = 0u; tap < taps; tap++) {
         let is_other = (pattern(input.column, tap / input.column_run) & 1u) == 1u;
-        sum = fma(vec4f(batch_table[first + tap]), select(one, other, is_other), sum);
+        sum = added(sum, batch_table[first + tap], select(one, other, is_other));
     }
-    return stored(filtering_texel(sum));
+    return filtered(sum);
 }
 
 fn moment_depth(depth: f32, input: BatchInput) -> f32 {

@@ -9,12 +9,12 @@
 //! | `esm` | a relative error of the mean, `exponential` | the same |
 //! | `vsm`, `lvsm`, `evsm2`, `evsm4` | a variance that is too small by a factor, `chebyshev` | the same |
 //! | `convolution` | errors of sines and cosines, `convolution` | |
-//! | `hamburger4`, `hausdorff4` | the moment bias | the moment bias; nothing for wide filters |
+//! | `hamburger4`, `hausdorff4` | the moment bias | the moment bias |
 //!
-//! The reserves of float32 are for filters up to 9 texels wide: a sum of n products in f32 is off by up to n / 3 units of
-//! 2^-24, all on one side where equal weights meet equal depths, which for 129 texels is ten times the reserve. Of wider
-//! filters four moments in float32 promise no more than a number from 0 to 1; a Gaussian of 25 texels is still within twice
-//! the bias, a box is not. In the other storages rounding is so much coarser that sums do not matter.
+//! A sum of n products in f32 is off by up to n / 3 units of 2^-24, all on one side where equal weights meet equal depths,
+//! which for 129 texels is ten times the reserve of float32. So moments in float32 are summed in two parts, and
+//! the sums are as good as those of few texels. Warps have no fixed range, and are not: `evsm2` and
+//! `evsm4` in float32 lose more under wider filters. In the other storages rounding is so much coarser that sums do not matter.
 
 use moment_shadows::{EsmFiltering, MapEncoding, Storage, Technique};
 
@@ -31,7 +31,7 @@ const WIDTHS: [f64; 2] = [9.0, 129.0];
 #[must_use]
 pub fn allowed_excess(encoding: &MapEncoding, wide: bool) -> f64 {
     let storage = encoding.storage();
-    let sums = sums(wide);
+    let sums = sums(wide && !encoding.has_split_sums());
     match encoding.technique() {
         Technique::Esm {
             exponent,
@@ -58,7 +58,6 @@ pub fn allowed_excess(encoding: &MapEncoding, wide: bool) -> f64 {
             chebyshev(floor, error, error)
         }
         Technique::Convolution { terms, .. } => convolution(storage, *terms, sums),
-        Technique::Hamburger4 | Technique::Hausdorff4 if storage == Storage::Float32 && wide => 1.0,
         // Moments with rounding errors that the bias covers are those of a mixture of the surfaces with the share 1 - alpha
         // and of others with alpha, which may all be in front.
         Technique::Hausdorff4 => f64::from(storage.hausdorff_moment_bias().alpha),

@@ -171,8 +171,9 @@ fn specialization(encoding: &MapEncoding) -> String {
         _ => String::new(),
     };
     format!(
-        "const STORAGE = {}u;\nconst PLANES = {}u;\n{own}",
+        "const STORAGE = {}u;\nconst PLANES = {}u;\nconst SPLIT_SUMS = {};\n{own}",
         encoding.storage().wgsl_index(),
-        encoding.planes()
+        encoding.planes(),
+        encoding.has_split_sums()
     )
 }
