@@ -203,6 +203,35 @@ fn a_constant_map_stays_constant() {
 }
 
 /// The reference has to be right on its own: a box over three texels, by hand.
+/// Equal weights and equal values: plain sums of f32 are off on the same side in every step, by 2e-6 at a radius of 64.
+#[test]
+fn wide_sums_in_float32_are_off_by_their_last_rounding_only() {
+    let gpu = open();
+    for (radius, per_frame) in [(4, false), (12, false), (12, true), (64, false)] {
+        let kernel = KernelProperty {
+            weights: Some(vec![1.0; 2 * radius + 1]),
+            ..KernelProperty::default()
+        };
+        let channels: Channels = (0..texels(SIZE))
+            .map(|texel| match texel % 2 {
+                0 => [-0.9, 0.81, -0.729, 0.6561],
+                _ => [-0.9001, 0.81018, -0.72924, 0.6564],
+            })
+            .map(|channels: [f64; 4]| channels.map(|channel| f64::from(channel as f32)))
+            .collect();
+        let found = blurred(&gpu, Storage::Float32, SIZE, &channels, &kernel, per_frame);
+        let size = SIZE.map(|side| side as usize);
+        let truth = reference::blur(&channels, size, &kernel.kernel().unwrap());
+        let error = largest_difference(&found, &truth);
+        println!("radius {radius}: {error:.2e}");
+        // Each pass rounds the sum of both parts, by 2^-25, and the sum of the rest by no more than that.
+        assert!(
+            error <= 4.0 * 2.0_f64.powi(-25),
+            "radius {radius}: {error:e}"
+        );
+    }
+}
+
 #[test]
 fn the_reference_is_a_separable_filter() {
     let kernel = Kernel::from_weights(&[1.0, 2.0, 1.0]).unwrap();
