@@ -25,6 +25,7 @@
 //! The import lines are WESL, so the same text works in hosts that read WESL. `validate()` (feature `validate`, on by
 //! default) checks a shader under a [`Profile`] and writes it for every backend; its errors point at the lines before linking.
 
+mod area_light;
 mod depth;
 mod file;
 mod format;
@@ -39,7 +40,6 @@ mod map_region;
 mod module;
 mod nearest;
 mod percentage_closer;
-mod percentage_closer_soft;
 mod profile;
 mod receiver_bias;
 mod storage;
@@ -48,6 +48,7 @@ mod token;
 #[cfg(feature = "validate")]
 mod validate;
 
+pub use area_light::{AreaLight, AreaLightError, SoftRadii};
 pub use depth::{DepthConversion, DepthError, DepthRange};
 pub use format::{FormatSupport, TextureFormat};
 pub use import::imports_super;
@@ -61,7 +62,6 @@ pub use map_region::MapRegion;
 pub use module::{Module, modules};
 pub use nearest::nearest;
 pub use percentage_closer::PercentageCloserKernel;
-pub use percentage_closer_soft::{PercentageCloserSoftLight, SoftLightError, SoftRadii};
 pub use profile::Profile;
 pub use receiver_bias::{ReceiverBias, STANDARD_DEVIATIONS};
 pub use storage::{MomentBias, Storage, UnsupportedStorage};

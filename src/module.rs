@@ -19,6 +19,7 @@ macro_rules! modules {
 #[must_use]
 pub fn modules() -> &'static [Module] {
     const MODULES: &[Module] = modules![
+        "area_light",
         "convolution",
         "depth",
         "disk_samples",
@@ -35,12 +36,14 @@ pub fn modules() -> &'static [Module] {
         "map_lookup",
         "map_region",
         "minification",
+        "moment_soft_shadows",
         "moments",
         "percentage_closer",
         "percentage_closer_hardware",
         "percentage_closer_soft",
         "receiver_bias",
         "receiver_plane",
+        "soft_blockers",
         "split_sum",
         "storage",
         "variance",

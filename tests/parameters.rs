@@ -9,9 +9,9 @@
 use std::mem::offset_of;
 
 use moment_shadows::{
-    DepthConversion, EsmFiltering, Finite, Kernel, LARGEST_RADIUS, LayerSplits, LeakReduction,
-    MapRegion, MomentBias, PcfTaps, Pcss, PercentageCloserKernel, PercentageCloserSoftLight,
-    Profile, ReceiverBias, STANDARD_DEVIATIONS, Source, Storage, Technique, TextureFormat, link,
+    AreaLight, DepthConversion, EsmFiltering, Finite, Kernel, LARGEST_RADIUS, LayerSplits,
+    LeakReduction, MapRegion, MomentBias, PcfTaps, Pcss, PercentageCloserKernel, Profile,
+    ReceiverBias, STANDARD_DEVIATIONS, Source, Storage, Technique, TextureFormat, link,
 };
 use moment_shadows_graph::nodes::{
     BlurMoments, BlurParameters, KernelProperty, ResolveMoments, ShadeHard, ShadeHardParameters,
@@ -139,17 +139,17 @@ fn structs_of_the_modules_are_laid_out_alike() {
         }),
     );
     assert_same_layout(
-        &module("percentage_closer_soft", "PercentageCloserSoftLight"),
-        "PercentageCloserSoftLight",
-        size_of::<PercentageCloserSoftLight>(),
-        &fields!(PercentageCloserSoftLight {
+        &module("area_light", "AreaLight"),
+        "AreaLight",
+        size_of::<AreaLight>(),
+        &fields!(AreaLight {
             size: [f32; 2],
             near: f32,
             far: f32,
             perspective: u32,
             smallest_radius: f32,
             largest_radius: f32,
-            padding: f32
+            rectangular: u32
         }),
     );
 }
@@ -198,7 +198,7 @@ fn structs_of_the_nodes_are_laid_out_alike() {
             channel: u32,
             padding: f32,
             conversion: DepthConversion,
-            light: PercentageCloserSoftLight,
+            light: AreaLight,
         }),
     );
     let blur = per_frame_blur();

@@ -72,6 +72,15 @@ fn receiver_bias_depth_minified(bias: ReceiverBias, gradient: f32, variance: f32
     return max(bias.constant + min(deviation, max(limit, 0.0)), 0.0);
 }
 
+// The part of the bias that grows with the slope, under a kernel with the standard deviation `deviation` in texels along x
+// and y, on a plane with the gradient of moment depth per texel; that counts up to the length `steepest`.
+fn receiver_bias_depth_of_kernel(gradient: vec2f, deviation: vec2f, steepest: f32) -> f32 {
+    let full = clamp(gradient, vec2f(-RECEIVER_BIAS_EDGE_ON), vec2f(RECEIVER_BIAS_EDGE_ON));
+    let steepness = length(full);
+    let limited = full * min(max(steepest, 0.0) / max(steepness, 1e-30), 1.0);
+    return RECEIVER_BIAS_STANDARD_DEVIATIONS * length(limited * deviation);
+}
+
 // The position, in scene units, at which to look the map up when the receiver moves along its normal: the offset
 // grows with the sine of the angle between normal and light (`cosine` > 0 faces the light).
 fn receiver_bias_offset_position(bias: ReceiverBias, position: vec3f, normal: vec3f, cosine: f32) -> vec3f {

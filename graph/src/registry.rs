@@ -7,7 +7,7 @@ use serde::de::DeserializeOwned;
 
 use crate::Node;
 use crate::nodes::{
-    BlurMoments, DebugMoments, DownsampleMoments, PlaceLayers, ResolveMoments, ShadeHard,
+    BlurMoments, DebugMoments, DownsampleMoments, PlaceLayers, ResolveMoments, ShadeHard, ShadeSoft,
 };
 
 /// Makes a node of its properties, which are JSON text.
@@ -32,6 +32,7 @@ impl NodeRegistry {
         registry.register::<DownsampleMoments>("downsample_moments");
         registry.register::<DebugMoments>("debug_moments");
         registry.register::<ShadeHard>("shade_hard");
+        registry.register::<ShadeSoft>("shade_soft");
         registry
     }
 

@@ -1,9 +1,7 @@
 //! What no host should ask: an answer in [0, 1] all the same.
 
 use bytemuck::Zeroable as _;
-use moment_shadows::{
-    DepthConversion, DepthRange, MapRegion, PercentageCloserSoftLight, SoftRadii,
-};
+use moment_shadows::{AreaLight, DepthConversion, DepthRange, MapRegion, SoftRadii};
 use rand::{RngExt as _, SeedableRng as _};
 use rand_chacha::ChaCha8Rng;
 
@@ -12,12 +10,12 @@ use crate::slopes::{BODY, IMPORTS, TESTS};
 
 const SIZE: [u32; 2] = [9, 7];
 
-fn soft() -> PercentageCloserSoftLight {
+fn soft() -> AreaLight {
     let range = DepthRange {
         near: 1.0,
         far: 3.0,
     };
-    PercentageCloserSoftLight::spot(
+    AreaLight::spot(
         0.5,
         [0.1, 0.2],
         range,
@@ -129,8 +127,8 @@ fn no_finite_input_leaves_the_unit_interval() {
             query.region = MapRegion::new([3, 2], [(index % 3) as u32, (index % 4) as u32]);
         }
     }
-    let mut lights = vec![soft(), PercentageCloserSoftLight::zeroed()];
-    lights.push(PercentageCloserSoftLight {
+    let mut lights = vec![soft(), AreaLight::zeroed()];
+    lights.push(AreaLight {
         size: [3e38, 1e-40],
         near: -3e38,
         far: 3e38,
@@ -138,7 +136,7 @@ fn no_finite_input_leaves_the_unit_interval() {
         smallest_radius: 5.0,
         ..soft()
     });
-    lights.push(PercentageCloserSoftLight {
+    lights.push(AreaLight {
         near: 0.0,
         far: 0.0,
         smallest_radius: -3.0,

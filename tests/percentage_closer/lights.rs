@@ -1,8 +1,6 @@
 //! Lights that no soft shadows can be made of.
 
-use moment_shadows::{
-    DepthError, DepthRange, PercentageCloserSoftLight, SoftLightError, SoftRadii,
-};
+use moment_shadows::{AreaLight, AreaLightError, DepthError, DepthRange, SoftRadii};
 
 const RANGE: DepthRange = DepthRange {
     near: 1.0,
@@ -14,10 +12,10 @@ const RADII: SoftRadii = SoftRadii {
 };
 
 #[track_caller]
-fn culprit(light: Result<PercentageCloserSoftLight, SoftLightError>) -> &'static str {
+fn culprit(light: Result<AreaLight, AreaLightError>) -> &'static str {
     match light {
-        Err(SoftLightError::Value { name, value, range }) => {
-            let message = SoftLightError::Value { name, value, range }.to_string();
+        Err(AreaLightError::Value { name, value, range }) => {
+            let message = AreaLightError::Value { name, value, range }.to_string();
             assert!(
                 message.contains(name) && message.contains(range),
                 "{message}"
@@ -30,16 +28,26 @@ fn culprit(light: Result<PercentageCloserSoftLight, SoftLightError>) -> &'static
 
 #[test]
 fn each_number_out_of_range_is_named() {
-    let directional = PercentageCloserSoftLight::directional;
-    let spot = PercentageCloserSoftLight::spot;
-    for wrong in [0.0, -0.1, f64::NAN, f64::INFINITY, 3.2] {
+    let directional = AreaLight::directional;
+    let spot = AreaLight::spot;
+    for wrong in [-0.1, f64::NAN, f64::INFINITY, 3.2] {
         assert_eq!(
             culprit(directional(wrong, [0.1; 2], RANGE, RADII)),
             "the angular diameter"
         );
     }
-    for wrong in [0.0, -0.1, f64::NAN, f64::INFINITY] {
+    for wrong in [-0.1, f64::NAN, f64::INFINITY] {
         assert_eq!(culprit(spot(wrong, [0.1; 2], RANGE, RADII)), "the diameter");
+        assert_eq!(
+            culprit(AreaLight::rectangle([wrong, 1.0], [0.1; 2], RANGE, RADII)),
+            "the width"
+        );
+        assert_eq!(
+            culprit(AreaLight::rectangle([1.0, wrong], [0.1; 2], RANGE, RADII)),
+            "the height"
+        );
+    }
+    for wrong in [0.0, -0.1, f64::NAN, f64::INFINITY] {
         assert_eq!(
             culprit(spot(1.0, [wrong, 0.1], RANGE, RADII)),
             "a texel's width"
@@ -105,7 +113,7 @@ fn each_number_out_of_range_is_named() {
     ] {
         assert_eq!(
             light,
-            Err(SoftLightError::Range(DepthError::EmptyRange {
+            Err(AreaLightError::Range(DepthError::EmptyRange {
                 near: 9.0,
                 far: 9.0
             }))
@@ -116,16 +124,11 @@ fn each_number_out_of_range_is_named() {
 #[test]
 fn sizes_are_in_texels() {
     // Half a right angle: 2 tan(pi / 8) wide per unit of distance.
-    let sun = PercentageCloserSoftLight::directional(
-        std::f64::consts::FRAC_PI_4,
-        [0.5, 0.25],
-        RANGE,
-        RADII,
-    )
-    .unwrap();
+    let sun =
+        AreaLight::directional(std::f64::consts::FRAC_PI_4, [0.5, 0.25], RANGE, RADII).unwrap();
     let width = 2.0 * (2.0_f32.sqrt() - 1.0);
     assert!((sun.size[0] - 2.0 * width).abs() < 1e-6 && (sun.size[1] - 4.0 * width).abs() < 1e-6);
-    let spot = PercentageCloserSoftLight::spot(0.5, [0.5, 0.25], RANGE, RADII).unwrap();
+    let spot = AreaLight::spot(0.5, [0.5, 0.25], RANGE, RADII).unwrap();
     assert_eq!((spot.size, spot.perspective), ([1.0, 2.0], 1));
     assert_eq!(
         (

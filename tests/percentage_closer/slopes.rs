@@ -1,9 +1,7 @@
 //! Planes do not shadow themselves, whatever the filter; what stands in front of them does.
 
 use glam::{DVec2, DVec3};
-use moment_shadows::{
-    DepthConversion, DepthRange, MapRegion, PercentageCloserSoftLight, SoftRadii,
-};
+use moment_shadows::{AreaLight, DepthConversion, DepthRange, MapRegion, SoftRadii};
 use moment_shadows_lab::light::LightView;
 
 use crate::device::{self, Query, Shader};
@@ -11,12 +9,13 @@ use crate::device::{self, Query, Shader};
 pub(crate) const IMPORTS: &str = "
 import moment_shadows::percentage_closer::{percentage_closer_binary, percentage_closer_box, percentage_closer_gaussian, percentage_closer_poisson};
 import moment_shadows::percentage_closer_hardware::{percentage_closer_hardware_box};
-import moment_shadows::percentage_closer_soft::{PercentageCloserSoftLight, percentage_closer_soft_intensity};
+import moment_shadows::area_light::{AreaLight};
+import moment_shadows::percentage_closer_soft::{percentage_closer_soft_intensity};
 ";
 
 /// The test's number is in `taps`.
 pub(crate) const BODY: &str = "
-alias Extra = PercentageCloserSoftLight;
+alias Extra = AreaLight;
 fn answer(query: Query, plane: ReceiverPlane) -> f32 {
     let region = query.region;
     let interpolated = query.interpolated != 0u;
@@ -110,7 +109,7 @@ fn plane_depth(light: &LightView, texel: DVec2, point: DVec3, normal: DVec3) -> 
 fn a_plane_is_lit_by_itself_and_shadowed_by_what_is_in_front_of_it() {
     let gpu = device::open();
     let shader = Shader::new(&gpu, IMPORTS, BODY);
-    let soft = PercentageCloserSoftLight::directional(
+    let soft = AreaLight::directional(
         0.2,
         [0.3, 0.3],
         DepthRange {

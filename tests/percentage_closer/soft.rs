@@ -1,6 +1,6 @@
 //! Percentage closer soft shadows.
 
-use moment_shadows::{DepthRange, PercentageCloserSoftLight, SoftRadii};
+use moment_shadows::{AreaLight, DepthRange, SoftRadii};
 use moment_shadows_lab::gpu::Gpu;
 
 use crate::brute_force::Convention;
@@ -8,12 +8,13 @@ use crate::device::{self, Query, Shader};
 use crate::poisson::segment;
 
 const IMPORTS: &str = "
-import moment_shadows::percentage_closer_soft::{PercentageCloserSoftLight, percentage_closer_soft_intensity};
+import moment_shadows::area_light::{AreaLight};
+import moment_shadows::percentage_closer_soft::{percentage_closer_soft_intensity};
 ";
 
 /// The taps of search and filter are in `taps` and `radius`.
 const BODY: &str = "
-alias Extra = PercentageCloserSoftLight;
+alias Extra = AreaLight;
 fn answer(query: Query, plane: ReceiverPlane) -> f32 {
     return percentage_closer_soft_intensity(map, query.layer, query.region, plane, conversion, extra, query.taps, u32(query.radius), query.angle);
 }
@@ -43,7 +44,7 @@ fn width(
     map: &wgpu::Texture,
     convention: Convention,
     axis: usize,
-    light: PercentageCloserSoftLight,
+    light: AreaLight,
     depth: f32,
 ) -> f64 {
     let steps = 4 * 100;
@@ -118,7 +119,7 @@ fn a_sun_throws_penumbrae_as_wide_as_its_angle_says() {
         far: 25.0,
     };
     let angle = 0.15_f64;
-    let light = PercentageCloserSoftLight::directional(angle, [0.05, 0.1], range, RADII).unwrap();
+    let light = AreaLight::directional(angle, [0.05, 0.1], range, RADII).unwrap();
     for axis in [0, 1] {
         for caster in [-0.6, 0.0, 0.5] {
             let map = edge(&gpu, convention, axis, caster);
@@ -146,7 +147,7 @@ fn a_spot_light_throws_penumbrae_as_wide_as_its_disk_says() {
     };
     let range = convention.range();
     let texel = [1.0 / 256.0, 1.0 / 128.0];
-    let light = PercentageCloserSoftLight::spot(0.6, texel, range, RADII).unwrap();
+    let light = AreaLight::spot(0.6, texel, range, RADII).unwrap();
     for axis in [0, 1] {
         for caster in [-0.5, 0.2] {
             let map = edge(&gpu, convention, axis, caster);
@@ -179,7 +180,7 @@ fn the_largest_radius_bounds_the_penumbra() {
         smallest: 0.5,
         largest: 8.0,
     };
-    let light = PercentageCloserSoftLight::directional(0.5, [0.05, 0.05], range, radii).unwrap();
+    let light = AreaLight::directional(0.5, [0.05, 0.05], range, radii).unwrap();
     let map = edge(&gpu, convention, 0, -0.5);
     assert_close(
         width(&shader, &map, convention, 0, light, 0.9),
@@ -190,7 +191,7 @@ fn the_largest_radius_bounds_the_penumbra() {
         smallest: 6.0,
         largest: 40.0,
     };
-    let light = PercentageCloserSoftLight::directional(1e-4, [0.05, 0.05], range, radii).unwrap();
+    let light = AreaLight::directional(1e-4, [0.05, 0.05], range, radii).unwrap();
     assert_close(
         width(&shader, &map, convention, 0, light, 0.9),
         12.0,
@@ -207,7 +208,7 @@ fn any_counts_of_taps_agree_on_what_is_lit_and_what_is_dark() {
         near: 0.0,
         far: 20.0,
     };
-    let light = PercentageCloserSoftLight::directional(0.1, [0.05, 0.05], range, RADII).unwrap();
+    let light = AreaLight::directional(0.1, [0.05, 0.05], range, RADII).unwrap();
     let map = edge(&gpu, convention, 0, 0.0);
     let counts = [0_u32, 1, 2, 3, 5, 16, 333, 4096, u32::MAX];
     let mut queries = Vec::new();

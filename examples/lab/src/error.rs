@@ -70,7 +70,7 @@ pub enum LabError {
     Depth(#[from] moment_shadows::DepthError),
     /// A light's size.
     #[error(transparent)]
-    SoftLight(#[from] moment_shadows::SoftLightError),
+    AreaLight(#[from] moment_shadows::AreaLightError),
     /// The library's recorder.
     #[error(transparent)]
     Record(#[from] RecordError),

@@ -1,8 +1,8 @@
 //! A graph on a frame: compiled for what the host has drawn, recorded, and read back.
 
 use moment_shadows::{
-    DepthRange, LeakReduction, MapRegion, PercentageCloserSoftLight, ReceiverBias, SoftRadii,
-    Technique, TextureFormat,
+    AreaLight, DepthRange, LeakReduction, MapRegion, ReceiverBias, SoftRadii, Technique,
+    TextureFormat,
 };
 use moment_shadows_graph::nodes::{CameraView, LightDepth, LightView, ShadeHardParameters};
 use moment_shadows_graph::record::{
@@ -210,17 +210,17 @@ pub fn shade_parameters(
 
 /// The light with the size that soft shadows take it to have: seen under [`SOFT_LIGHT_ANGLE`], from the middle of the range
 /// for a spot light.
-fn soft_light(desc: &FrameDesc) -> Result<PercentageCloserSoftLight, LabError> {
+fn soft_light(desc: &FrameDesc) -> Result<AreaLight, LabError> {
     let texel = desc.light.texel_size(desc.map);
     let [near, far] = desc.light.range;
     let range = DepthRange { near, far };
     Ok(match desc.light.kind() {
         LightKind::Directional => {
-            PercentageCloserSoftLight::directional(SOFT_LIGHT_ANGLE, texel, range, SOFT_RADII)?
+            AreaLight::directional(SOFT_LIGHT_ANGLE, texel, range, SOFT_RADII)?
         }
         LightKind::Spot => {
             let diameter = SOFT_LIGHT_ANGLE * 0.5 * (near + far);
-            PercentageCloserSoftLight::spot(diameter, texel, range, SOFT_RADII)?
+            AreaLight::spot(diameter, texel, range, SOFT_RADII)?
         }
     })
 }

@@ -10,6 +10,8 @@ mod place_layers;
 mod region_tiles;
 mod resolve_moments;
 mod shade_hard;
+mod shade_soft;
+mod shading;
 mod specialization;
 mod techniques;
 mod unrolled;
@@ -24,3 +26,4 @@ pub use resolve_moments::ResolveMoments;
 pub use shade_hard::{
     CameraView, LightDepth, LightView, ShadeHard, ShadeHardParameters, TechniqueShader, ViewError,
 };
+pub use shade_soft::{Interpolation, ShadeSoft};

@@ -2,18 +2,18 @@
 
 use bytemuck::{Pod, Zeroable};
 use moment_shadows::{
-    DepthConversion, LeakReduction, MapEncoding, MapRegion, PcfTaps, PercentageCloserSoftLight,
-    ReceiverBias, Technique, TextureFormat,
+    AreaLight, DepthConversion, LeakReduction, MapEncoding, MapRegion, PcfTaps, ReceiverBias,
+    Technique, TextureFormat,
 };
 use serde::{Deserialize, Serialize};
 
 use super::moments_input::{map_formats, moments_input};
+use super::shading;
 use super::specialization::{FULLSCREEN, Specialization};
 use super::techniques::{self, VirtualModule};
 use crate::{
-    Access, Binding, BindingResource, Capabilities, Connected, CountRule, Direction, ExtentRule,
-    FormatRule, GraphError, GraphErrorKind, Lifetime, Node, NodeDesc, ParameterBlock, Pass, Slot,
-    SlotResource, Stage, TextureDesc, Work,
+    Binding, BindingResource, Capabilities, Connected, GraphError, GraphErrorKind, Node, NodeDesc,
+    TextureDesc,
 };
 
 mod own_shader;
@@ -22,7 +22,6 @@ mod parameters;
 pub use own_shader::TechniqueShader;
 pub use parameters::{CameraView, LightDepth, LightView, ViewError};
 
-const SHADER: &str = include_str!("shade_hard.wgsl");
 const SAMPLED_LOOKUP: &str = include_str!("moments_lookup_sampled.wgsl");
 const MINIFIED_LOOKUP: &str = include_str!("moments_lookup_minified.wgsl");
 const LOADED_LOOKUP: &str = include_str!("moments_lookup_loaded.wgsl");
@@ -109,7 +108,7 @@ pub struct ShadeHardParameters {
     /// How the light's map stores depth: for techniques that read the plain depth map.
     pub conversion: DepthConversion,
     /// The light's size: for percentage-closer soft shadows.
-    pub light: PercentageCloserSoftLight,
+    pub light: AreaLight,
 }
 
 impl Node for ShadeHard {
@@ -119,7 +118,7 @@ impl Node for ShadeHard {
         let (technique, map) = self.technique_and_map(capabilities, || moments_input(upstream))?;
         let (specialization, mut modules) = self.evaluation(&technique, &map, capabilities);
         modules.push(FULLSCREEN);
-        let wgsl = specialization.link("shade_hard.wgsl", SHADER, &modules)?;
+        let wgsl = specialization.link("shade_hard.wgsl", shading::SHADER, &modules)?;
         let mut bindings = vec![
             Binding {
                 binding: 0,
@@ -133,78 +132,18 @@ impl Node for ShadeHard {
         bindings.extend(map.bindings());
         let splits = techniques::places_layers(&technique).then(|| techniques::splits_input(false));
         bindings.extend(splits.iter().map(|(_, binding)| binding.clone()));
-        let texture = |name: &str, direction, access, format, extent, layers, mips| Slot {
-            name: name.to_owned(),
-            direction,
-            lifetime: Lifetime::Frame,
-            optional: false,
-            resource: SlotResource::Texture {
-                access,
-                format,
-                extent,
-                layers,
-                mips,
-                samples: CountRule::Exact(1),
+        Ok(shading::describe(
+            "shade_hard",
+            shading::ShadedMap {
+                slot: map.slot,
+                formats: map.formats,
             },
-        };
-        Ok(NodeDesc {
-            name: "shade_hard".to_owned(),
-            stage: Stage::AfterMainPass,
-            slots: [
-                texture(
-                    map.slot,
-                    Direction::In,
-                    Access::READ,
-                    FormatRule::OneOf(map.formats),
-                    ExtentRule::Any,
-                    CountRule::Any,
-                    CountRule::Any,
-                ),
-                texture(
-                    "camera_depth",
-                    Direction::In,
-                    Access::READ,
-                    FormatRule::OneOf(vec![
-                        TextureFormat::Depth32Float,
-                        TextureFormat::Depth16Unorm,
-                    ]),
-                    ExtentRule::Any,
-                    CountRule::Exact(1),
-                    CountRule::Exact(1),
-                ),
-                texture(
-                    "shadow_intensity",
-                    Direction::Out,
-                    Access::RENDER_TARGET,
-                    FormatRule::Exact(format),
-                    ExtentRule::SameAs("camera_depth".to_owned()),
-                    CountRule::Exact(1),
-                    CountRule::Exact(1),
-                ),
-            ]
-            .into_iter()
-            .chain(splits.map(|(slot, _)| slot))
-            .collect(),
-            passes: vec![Pass {
-                label: "shade".to_owned(),
-                wgsl,
-                entry_point: "shade".to_owned(),
-                bindings,
-                constants: [].into(),
-                plane: 0,
-                work: Work::Fullscreen {
-                    target: "shadow_intensity".to_owned(),
-                    each_layer: false,
-                },
-            }],
-            parameters: Some(ParameterBlock {
-                name: "ShadeHardParameters".to_owned(),
-                size: size_of::<ShadeHardParameters>() as u32,
-                elements: self.views,
-                each_layer_of: None,
-                initial: Vec::new(),
-            }),
-        })
+            format,
+            self.views,
+            wgsl,
+            bindings,
+            splits.map(|(slot, _)| slot).into_iter().collect(),
+        ))
     }
 }
 
@@ -315,59 +254,13 @@ impl ShadeHard {
                     .to_owned(),
             );
         }
-        if !(1..=4).contains(&self.lights) {
-            return property(format!(
-                "'lights' is {}; a node shades 1 to 4 lights, one per channel of its output, and more nodes shade more",
-                self.lights
-            ));
-        }
-        if self.views < self.lights {
-            return property(format!(
-                "'views' is {}, but there are {} lights; each has at least one view",
-                self.views, self.lights
-            ));
-        }
         if !(1..=16).contains(&self.anisotropy) {
             return property(format!(
                 "'anisotropy' is {}; it is from 1 (trilinear lookups) to 16",
                 self.anisotropy
             ));
         }
-        let one = [
-            TextureFormat::R8Unorm,
-            TextureFormat::R16Float,
-            TextureFormat::R32Float,
-        ];
-        let four = [
-            TextureFormat::Rgba8Unorm,
-            TextureFormat::Rgba16Float,
-            TextureFormat::Rgba32Float,
-        ];
-        let format = self.format.unwrap_or(if self.lights == 1 {
-            TextureFormat::R8Unorm
-        } else {
-            TextureFormat::Rgba8Unorm
-        });
-        if four.contains(&format) || (self.lights == 1 && one.contains(&format)) {
-            return Ok(format);
-        }
-        let names = |formats: &[TextureFormat]| {
-            let names: Vec<&str> = formats.iter().map(|format| format.name()).collect();
-            names.join(", ")
-        };
-        property(if self.lights == 1 {
-            format!(
-                "shadow intensity is one number per light; 'format' is {} or {}, not {format}",
-                names(&one),
-                names(&four)
-            )
-        } else {
-            format!(
-                "{} lights need a channel each; 'format' is {}, not {format}",
-                self.lights,
-                names(&four)
-            )
-        })
+        shading::target_format(self.format, self.lights, self.views)
     }
 }
 

@@ -3,7 +3,7 @@ import moment_shadows::depth::{DepthConversion};
 import moment_shadows::leak_reduction::{LeakReduction, leak_reduction_apply};
 import moment_shadows::map_region::{MapRegion, map_region_within};
 import moment_shadows::minification::{minification_depth_variance, minification_footprint};
-import moment_shadows::percentage_closer_soft::{PercentageCloserSoftLight};
+import moment_shadows::area_light::{AreaLight};
 import moment_shadows::receiver_bias::{ReceiverBias, receiver_bias_depth, receiver_bias_depth_minified, receiver_bias_plane};
 import moment_shadows::specialization::{ANISOTROPY, GROUP, LEVELS, LIGHTS, VIEWS};
 import moment_shadows::technique::{technique_shadow_intensity};
@@ -33,7 +33,7 @@ struct ShadeHardParameters {
     padding: f32,
     // How the light's map stores depth, and how large the light is: for tests on the plain depth map.
     conversion: DepthConversion,
-    light: PercentageCloserSoftLight,
+    light: AreaLight,
 }
 
 @group(GROUP) @binding(0) var<uniform> views: array<ShadeHardParameters, VIEWS>;

@@ -1,9 +1,7 @@
 //! The technique at points of its map, on the device.
 
 use bytemuck::{Pod, Zeroable};
-use moment_shadows::{
-    DepthConversion, LeakReduction, MomentBias, PercentageCloserSoftLight, ReceiverBias,
-};
+use moment_shadows::{AreaLight, DepthConversion, LeakReduction, MomentBias, ReceiverBias};
 use moment_shadows_graph::nodes::{ShadeHard, TechniqueShader};
 use moment_shadows_graph::{BindingResource, Capabilities};
 use wgpu::util::DeviceExt;
@@ -35,7 +33,7 @@ pub struct Evaluation {
     /// How the light's map stores depth: for techniques that read the plain depth map.
     pub conversion: DepthConversion,
     /// The light's size: for percentage-closer soft shadows.
-    pub light: PercentageCloserSoftLight,
+    pub light: AreaLight,
 }
 
 /// `Parameters` of the shader.
@@ -47,7 +45,7 @@ struct Uniform {
     moment_bias: MomentBias,
     padding: f32,
     conversion: DepthConversion,
-    light: PercentageCloserSoftLight,
+    light: AreaLight,
 }
 
 /// Evaluates a map at any points, by the functions that `shade_hard` calls on this device.

@@ -2,7 +2,7 @@ import moment_shadows::depth::{DepthConversion};
 import moment_shadows::leak_reduction::{LeakReduction, leak_reduction_apply};
 import moment_shadows::map_region::{MapRegion};
 import moment_shadows::moments::{MomentBias};
-import moment_shadows::percentage_closer_soft::{PercentageCloserSoftLight};
+import moment_shadows::area_light::{AreaLight};
 import moment_shadows::point_intensity::{point_intensity};
 import moment_shadows::receiver_bias::{ReceiverBias, receiver_bias_depth};
 import moment_shadows::technique_map::{technique_map_size};
@@ -16,7 +16,7 @@ struct Parameters {
     // In place of that of the storage, where the shader is linked for it.
     moment_bias: MomentBias,
     conversion: DepthConversion,
-    light: PercentageCloserSoftLight,
+    light: AreaLight,
 }
 
 struct Point {

@@ -1,8 +1,7 @@
 //! The parameters of `shade_hard`, from a camera and a light.
 
 use moment_shadows::{
-    DepthConversion, DepthError, DepthRange, LeakReduction, MapRegion, PercentageCloserSoftLight,
-    ReceiverBias,
+    AreaLight, DepthConversion, DepthError, DepthRange, LeakReduction, MapRegion, ReceiverBias,
 };
 use serde::{Deserialize, Serialize};
 
@@ -175,7 +174,7 @@ impl ShadeHardParameters {
             channel: light.channel,
             padding: 0.0,
             conversion,
-            light: PercentageCloserSoftLight::NONE,
+            light: AreaLight::NONE,
         })
     }
 }

@@ -1,6 +1,6 @@
 import moment_shadows::depth::{DepthConversion};
 import moment_shadows::map_region::{MapRegion};
-import moment_shadows::percentage_closer_soft::{PercentageCloserSoftLight};
+import moment_shadows::area_light::{AreaLight};
 
 // What a technique is told about a surface that a view of a light contains.
 
@@ -21,7 +21,7 @@ struct TechniqueReceiver {
     steepest: f32,
     // How the light's map stores depth, and the light's size: for tests on the plain depth map.
     conversion: DepthConversion,
-    light: PercentageCloserSoftLight,
+    light: AreaLight,
     // The pixel's coordinates.
     pixel: vec2f,
 }

@@ -1,4 +1,4 @@
-//! The host side of the WGSL module `percentage_closer_soft`.
+//! The host side of the WGSL module `area_light`.
 
 use bytemuck::{Pod, Zeroable};
 
@@ -7,12 +7,12 @@ use crate::{DepthError, DepthRange};
 /// The largest radius in texels.
 const LARGEST_SOFT_RADIUS: f64 = 4096.0;
 
-/// A light of some size over its depth map: the uniform struct of the WGSL module `percentage_closer_soft`.
+/// A light of some size over its map: the uniform struct of the WGSL module `area_light`.
 #[derive(Clone, Copy, Debug, PartialEq, Pod, Zeroable)]
 #[repr(C)]
-pub struct PercentageCloserSoftLight {
-    /// Diameter of the filter in texels (x and y): for parallel rays per scene unit between blocker and receiver, for rays
-    /// from a point per 1 / scene unit between their inverse distances.
+pub struct AreaLight {
+    /// Width and height of the light on the map in texels: for parallel rays per scene unit between blocker and receiver,
+    /// for rays from a point per 1 / scene unit between their inverse distances.
     pub size: [f32; 2],
     /// Distance from the light of moment depth -1, in scene units.
     pub near: f32,
@@ -20,27 +20,28 @@ pub struct PercentageCloserSoftLight {
     pub far: f32,
     /// 0 for parallel rays, 1 for rays from a point.
     pub perspective: u32,
-    /// Smallest radius of search and filter in texels.
+    /// Smallest half width of search and filter in texels.
     pub smallest_radius: f32,
-    /// Largest radius of search and filter in texels.
+    /// Largest half width of search and filter in texels.
     pub largest_radius: f32,
-    /// Unused; keeps the WGSL layout.
-    pub padding: f32,
+    /// 0 for a light that is a disk, 1 for a rectangle along the map's axes.
+    pub rectangular: u32,
 }
 
-/// The radii in texels that search and filter keep to.
+/// The half widths in texels that search and filter keep to.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct SoftRadii {
     /// At least 0; 0.5 and more softens the edges of texels near contacts.
     pub smallest: f64,
-    /// At least `smallest`, above 0, at most 4096. With n taps their distance is 1.8 times the radius over sqrt(n).
+    /// At least `smallest`, above 0, at most 4096. With n taps on a disk their distance is 1.8 times the radius over sqrt(n); of
+    /// a summed-area table it is half of the largest kernel's side.
     pub largest: f64,
 }
 
 /// A light that no soft shadows can be made of.
 #[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
 #[non_exhaustive]
-pub enum SoftLightError {
+pub enum AreaLightError {
     /// A number is out of range.
     #[error("a light's soft shadows: {name} is {value}, but must be {range}")]
     Value {
@@ -56,78 +57,86 @@ pub enum SoftLightError {
     Range(#[from] DepthError),
 }
 
-impl PercentageCloserSoftLight {
+impl AreaLight {
     /// A light without size: shadows without penumbrae.
-    pub const NONE: PercentageCloserSoftLight = PercentageCloserSoftLight {
+    pub const NONE: AreaLight = AreaLight {
         size: [0.0; 2],
         near: 0.0,
         far: 1.0,
         perspective: 0,
         smallest_radius: 0.0,
         largest_radius: 0.0,
-        padding: 0.0,
+        rectangular: 0,
     };
 
-    /// A light with parallel rays that is seen under `angular_diameter` radians, above 0 and below pi; the sun's is
-    /// 0.0093. `texel` is a texel's width and height in scene units, `range` that of the map's moment depth.
+    /// A light with parallel rays that is seen as a disk under `angular_diameter` radians, at least 0 and below pi; the
+    /// sun's is 0.0093. `texel` is a texel's width and height in scene units, `range` that of the map's moment depth. A
+    /// light without size has shadows as hard as `radii` allow.
     ///
     /// # Errors
-    /// [`SoftLightError`], which names the number that is out of range.
+    /// [`AreaLightError`], which names the number that is out of range.
     pub fn directional(
         angular_diameter: f64,
         texel: [f64; 2],
         range: DepthRange,
         radii: SoftRadii,
-    ) -> Result<Self, SoftLightError> {
+    ) -> Result<Self, AreaLightError> {
         check(
             "the angular diameter",
             angular_diameter,
-            angular_diameter > 0.0 && angular_diameter < std::f64::consts::PI,
-            "above 0 and below pi radians",
+            (0.0..std::f64::consts::PI).contains(&angular_diameter),
+            "at least 0 and below pi radians",
         )?;
-        Self::new(
-            2.0 * (0.5 * angular_diameter).tan(),
-            texel,
-            range,
-            radii,
-            false,
-        )
+        let size = 2.0 * (0.5 * angular_diameter).tan();
+        Self::new([size; 2], texel, range, radii)
     }
 
-    /// A light with rays from a point: a disk of the given diameter in scene units, facing along the light's axis. `texel`
-    /// is a texel's width and height at distance 1 along it: 2 tan(full angle / 2) over the texels. `range` is that of the
-    /// map's moment depth; it begins in front of the light.
+    /// A light with rays from a point: a disk of the given diameter in scene units, at least 0, facing along the light's
+    /// axis. `texel` is a texel's width and height at distance 1 along it: 2 tan(full angle / 2) over the texels. `range` is
+    /// that of the map's moment depth; it begins in front of the light.
     ///
     /// # Errors
-    /// [`SoftLightError`], which names the number that is out of range.
+    /// [`AreaLightError`], which names the number that is out of range.
     pub fn spot(
         diameter: f64,
         texel: [f64; 2],
         range: DepthRange,
         radii: SoftRadii,
-    ) -> Result<Self, SoftLightError> {
-        check(
-            "the diameter",
-            diameter,
-            diameter > 0.0 && diameter.is_finite(),
-            "above 0 and finite",
-        )?;
-        check(
-            "the distance of the range's near end",
-            range.near,
-            range.near > 0.0,
-            "above 0, in front of the light",
-        )?;
-        Self::new(diameter, texel, range, radii, true)
+    ) -> Result<Self, AreaLightError> {
+        check_length("the diameter", diameter)?;
+        check_near(range)?;
+        Ok(Self {
+            perspective: 1,
+            ..Self::new([diameter; 2], texel, range, radii)?
+        })
     }
 
-    fn new(
-        size: f64,
+    /// The same with a rectangle of the given width and height in scene units, each at least 0, along the map's x and y.
+    ///
+    /// # Errors
+    /// [`AreaLightError`], which names the number that is out of range.
+    pub fn rectangle(
+        size: [f64; 2],
         texel: [f64; 2],
         range: DepthRange,
         radii: SoftRadii,
-        perspective: bool,
-    ) -> Result<Self, SoftLightError> {
+    ) -> Result<Self, AreaLightError> {
+        check_length("the width", size[0])?;
+        check_length("the height", size[1])?;
+        check_near(range)?;
+        Ok(Self {
+            perspective: 1,
+            rectangular: 1,
+            ..Self::new(size, texel, range, radii)?
+        })
+    }
+
+    fn new(
+        size: [f64; 2],
+        texel: [f64; 2],
+        range: DepthRange,
+        radii: SoftRadii,
+    ) -> Result<Self, AreaLightError> {
         range.check()?;
         for (name, length) in [
             ("a texel's width", texel[0]),
@@ -149,14 +158,14 @@ impl PercentageCloserSoftLight {
             largest > 0.0 && largest <= LARGEST_SOFT_RADIUS,
             "above 0 and at most 4096 texels",
         )?;
-        let texels = texel.map(|length| size / length);
+        let texels = [size[0] / texel[0], size[1] / texel[1]];
         // Sizes that single precision cannot hold come from units that do not fit together.
         for value in texels {
             let single = value as f32;
             check(
                 "the light's size in texels",
                 value,
-                single.is_normal(),
+                single.is_normal() || value == 0.0,
                 "within single precision; choose another unit of length",
             )?;
         }
@@ -176,10 +185,10 @@ impl PercentageCloserSoftLight {
             size: texels.map(|value| value as f32),
             near: range.near as f32,
             far: range.far as f32,
-            perspective: u32::from(perspective),
+            perspective: 0,
             smallest_radius: smallest as f32,
             largest_radius: largest as f32,
-            padding: 0.0,
+            rectangular: 0,
         })
     }
 }
@@ -189,10 +198,24 @@ fn check(
     value: f64,
     valid: bool,
     range: &'static str,
-) -> Result<(), SoftLightError> {
+) -> Result<(), AreaLightError> {
     if valid {
         Ok(())
     } else {
-        Err(SoftLightError::Value { name, value, range })
+        Err(AreaLightError::Value { name, value, range })
     }
+}
+
+fn check_length(name: &'static str, length: f64) -> Result<(), AreaLightError> {
+    let valid = length >= 0.0 && length.is_finite();
+    check(name, length, valid, "at least 0 and finite")
+}
+
+fn check_near(range: DepthRange) -> Result<(), AreaLightError> {
+    check(
+        "the distance of the range's near end",
+        range.near,
+        range.near > 0.0,
+        "above 0, in front of the light",
+    )
 }

@@ -1,0 +1,98 @@
+import super::area_light::{AreaLight, area_light_box};
+import super::hamburger::{hamburger_lower_bound};
+import super::map_region::{MapRegion};
+import super::moments::{MomentBias, moments_apply_bias, moments_dequantize};
+import super::receiver_bias::{receiver_bias_depth_of_kernel};
+import super::soft_blockers::{soft_blockers_of_four_moments, soft_blockers_of_two_moments};
+import super::storage::{STORAGE_UNORM16};
+import super::summed_area_table::{SummedAreaRectangle, summed_area_table_mean_interpolated, summed_area_table_mean_plain, summed_area_table_rectangle};
+import super::variance::{variance_from_texel, variance_lower_bound};
+
+// Moment soft shadows: penumbrae of area lights from a summed-area table, in constant time.
+//
+// As in percentage-closer soft shadows a search finds the blockers of a receiver, their mean depth tells how wide the light
+// appears through them, and a filter of that width gives the shadow. Search and filter are one query of the table each, and
+// the moments there give mean blocker depth and shadow intensity (Peters et al., JCGT 6(1) 2017, section 5; with two
+// moments: Yang et al., "Variance Soft Shadow Mapping", Pacific Graphics 2010). The number of loads is fixed.
+//
+// One mean depth stands for all blockers: an occluder far from the receiver softens the shadow of one that is near it.
+
+// Half of the box that a lookup between texels averages.
+const MOMENT_SOFT_SHADOWS_SMALLEST_EXTENT: f32 = 0.5;
+
+// The table of a map.
+struct SoftShadowTable {
+    // Its layer, and the region of the light.
+    layer: u32,
+    region: MapRegion,
+    // Width and height of its largest kernel in texels.
+    largest_kernel: vec2f,
+    // What the sums are in units of.
+    unit: f32,
+    // Whether queries weight texels by the part that they cover, rather than counting whole ones.
+    search_interpolated: bool,
+    filter_interpolated: bool,
+}
+
+// A receiver.
+struct SoftShadowReceiver {
+    // Its place in texels of the layer.
+    place: vec2f,
+    // Half of what a pixel covers of the map, in texels: no filter is smaller.
+    footprint: vec2f,
+    // Its moment depth, less what depths are rounded by and no bias beyond that.
+    depth: f32,
+    // The gradient of moment depth per texel on its plane, and the steepest one that is no edge.
+    gradient: vec2f,
+    steepest: f32,
+}
+
+fn moment_soft_shadows_mean(sums: texture_2d_array<u32>, table: SoftShadowTable, rectangle: SummedAreaRectangle, interpolated: bool) -> vec4f {
+    if interpolated {
+        return summed_area_table_mean_interpolated(sums, table.layer, table.region, rectangle, table.unit);
+    }
+    return summed_area_table_mean_plain(sums, table.layer, table.region, rectangle, table.unit);
+}
+
+// The rectangle that is searched for blockers: a blocker at the light's near end appears widest.
+fn moment_soft_shadows_search(table: SoftShadowTable, receiver: SoftShadowReceiver, light: AreaLight) -> SummedAreaRectangle {
+    let half_extent = max(area_light_box(light, -1.0, receiver.depth), receiver.footprint);
+    return summed_area_table_rectangle(table.region, receiver.place, half_extent, table.largest_kernel);
+}
+
+// The rectangle that is filtered for a mean blocker depth.
+fn moment_soft_shadows_filter(table: SoftShadowTable, receiver: SoftShadowReceiver, light: AreaLight, blocker_depth: f32) -> SummedAreaRectangle {
+    let half_extent = max(area_light_box(light, blocker_depth, receiver.depth), receiver.footprint);
+    return summed_area_table_rectangle(table.region, receiver.place, half_extent, table.largest_kernel);
+}
+
+// The depth that a filter compares with: in front of the receiver by what its own plane varies within the rectangle, so
+// that the bias is as wide as the filter is and nothing about it has to be tuned.
+fn moment_soft_shadows_fragment_depth(receiver: SoftShadowReceiver, rectangle: SummedAreaRectangle) -> f32 {
+    let half_extent = 0.5 * (rectangle.high - rectangle.low) + MOMENT_SOFT_SHADOWS_SMALLEST_EXTENT;
+    // The standard deviation of a box is its half width over sqrt(3).
+    let bias = receiver_bias_depth_of_kernel(receiver.gradient, half_extent * 0.57735027, receiver.steepest);
+    return clamp(receiver.depth, -1.0, 1.0) - bias;
+}
+
+// Shadow intensity in [0, 1] (1 = shadowed) of a receiver, from a table of four moments. `bias` is the table's
+// (`summed_area_table_moment_bias`). 8 loads, or 16 for a query that interpolates in place of 4.
+fn moment_soft_shadows_intensity(sums: texture_2d_array<u32>, table: SoftShadowTable, bias: MomentBias, receiver: SoftShadowReceiver, light: AreaLight) -> f32 {
+    let search = moment_soft_shadows_search(table, receiver, light);
+    let searched = moments_dequantize(moment_soft_shadows_mean(sums, table, search, table.search_interpolated));
+    let blockers = soft_blockers_of_four_moments(moments_apply_bias(searched, bias), receiver.depth, bias.alpha);
+    let rectangle = moment_soft_shadows_filter(table, receiver, light, blockers.depth);
+    let filtered = moments_dequantize(moment_soft_shadows_mean(sums, table, rectangle, table.filter_interpolated));
+    let depth = moment_soft_shadows_fragment_depth(receiver, rectangle);
+    return hamburger_lower_bound(moments_apply_bias(filtered, bias), depth, bias.alpha);
+}
+
+// The same from a table of two moments; `smallest_variance` is the table's (`summed_area_table_smallest_variance`).
+fn moment_soft_shadows_variance_intensity(sums: texture_2d_array<u32>, table: SoftShadowTable, smallest_variance: f32, receiver: SoftShadowReceiver, light: AreaLight) -> f32 {
+    let search = moment_soft_shadows_search(table, receiver, light);
+    let searched = variance_from_texel(moment_soft_shadows_mean(sums, table, search, table.search_interpolated), STORAGE_UNORM16).xy;
+    let blockers = soft_blockers_of_two_moments(searched, receiver.depth, smallest_variance);
+    let rectangle = moment_soft_shadows_filter(table, receiver, light, blockers.depth);
+    let filtered = variance_from_texel(moment_soft_shadows_mean(sums, table, rectangle, table.filter_interpolated), STORAGE_UNORM16).xy;
+    return variance_lower_bound(filtered, moment_soft_shadows_fragment_depth(receiver, rectangle), smallest_variance);
+}
