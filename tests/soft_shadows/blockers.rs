@@ -6,7 +6,7 @@ use bytemuck::{Pod, Zeroable};
 use moment_shadows::Profile;
 use moment_shadows_lab::batch::Batch;
 use moment_shadows_lab::gpu::Gpu;
-use moment_shadows_lab::oracle::exact::{hamburger, rational};
+use moment_shadows_lab::oracle::{hamburger, rational};
 use rand::{RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
 

@@ -13,6 +13,7 @@ mod shade_hard;
 mod shade_soft;
 mod shading;
 mod specialization;
+mod summed_area_table;
 mod techniques;
 mod unrolled;
 
@@ -27,3 +28,4 @@ pub use shade_hard::{
     CameraView, LightDepth, LightView, ShadeHard, ShadeHardParameters, TechniqueShader, ViewError,
 };
 pub use shade_soft::{Interpolation, ShadeSoft};
+pub use summed_area_table::{LargestKernel, SummedAreaTable};

@@ -132,7 +132,7 @@ impl ShadeSoft {
 /// The table, and what it holds.
 fn table_input(upstream: &Connected<'_>) -> Result<(MapEncoding, SummedAreaTable), GraphError> {
     let encoding = upstream.texture("table")?.encoding.as_ref();
-    let table = encoding.and_then(|encoding| Some((encoding.clone(), encoding.table()?)));
+    let table = encoding.and_then(|encoding| Some((encoding.clone(), *encoding.table()?)));
     table.ok_or_else(|| {
         GraphError::new(
             GraphErrorKind::Format,
