@@ -33,6 +33,10 @@ pub enum TextureFormat {
     Rgba16Float,
     /// Four single-precision channels.
     Rgba32Float,
+    /// Two channels of 32-bit integers.
+    Rg32Uint,
+    /// Four channels of 32-bit integers.
+    Rgba32Uint,
     /// Depth of 16 bits in [0, 1].
     Depth16Unorm,
     /// Single-precision depth.
@@ -61,7 +65,7 @@ const NOTHING: FormatSupport = FormatSupport {
 
 impl TextureFormat {
     /// Every format.
-    pub const ALL: [TextureFormat; 13] = [
+    pub const ALL: [TextureFormat; 15] = [
         TextureFormat::R8Unorm,
         TextureFormat::Rgba8Unorm,
         TextureFormat::R16Unorm,
@@ -73,6 +77,8 @@ impl TextureFormat {
         TextureFormat::Rgba16Unorm,
         TextureFormat::Rgba16Float,
         TextureFormat::Rgba32Float,
+        TextureFormat::Rg32Uint,
+        TextureFormat::Rgba32Uint,
         TextureFormat::Depth16Unorm,
         TextureFormat::Depth32Float,
     ];
@@ -92,6 +98,8 @@ impl TextureFormat {
             TextureFormat::Rgba16Unorm => "rgba16unorm",
             TextureFormat::Rgba16Float => "rgba16float",
             TextureFormat::Rgba32Float => "rgba32float",
+            TextureFormat::Rg32Uint => "rg32uint",
+            TextureFormat::Rgba32Uint => "rgba32uint",
             TextureFormat::Depth16Unorm => "depth16unorm",
             TextureFormat::Depth32Float => "depth32float",
         }
@@ -108,8 +116,11 @@ impl TextureFormat {
             | TextureFormat::Rg16Float
             | TextureFormat::R32Float
             | TextureFormat::Depth32Float => 4,
-            TextureFormat::Rg32Float | TextureFormat::Rgba16Unorm | TextureFormat::Rgba16Float => 8,
-            TextureFormat::Rgba32Float => 16,
+            TextureFormat::Rg32Float
+            | TextureFormat::Rg32Uint
+            | TextureFormat::Rgba16Unorm
+            | TextureFormat::Rgba16Float => 8,
+            TextureFormat::Rgba32Float | TextureFormat::Rgba32Uint => 16,
         }
     }
 
@@ -120,6 +131,12 @@ impl TextureFormat {
             self,
             TextureFormat::Depth16Unorm | TextureFormat::Depth32Float
         )
+    }
+
+    /// Whether texels are integers, which no sampler filters.
+    #[must_use]
+    pub fn is_integer(self) -> bool {
+        matches!(self, TextureFormat::Rg32Uint | TextureFormat::Rgba32Uint)
     }
 
     /// What every device of the profile can do with the format, without optional features beyond the profile's own.
@@ -151,6 +168,11 @@ impl TextureFormat {
                     blendable: false,
                 }
             }
+            TextureFormat::Rg32Uint | TextureFormat::Rgba32Uint => FormatSupport {
+                storage_write: true,
+                renderable: true,
+                ..NOTHING
+            },
             TextureFormat::R16Unorm | TextureFormat::Rg16Unorm | TextureFormat::Rgba16Unorm => {
                 match profile {
                     Profile::WebgpuCore => NOTHING,

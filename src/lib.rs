@@ -43,6 +43,7 @@ mod percentage_closer_soft;
 mod profile;
 mod receiver_bias;
 mod storage;
+mod summed_area_table;
 mod technique;
 mod token;
 #[cfg(feature = "validate")]
@@ -65,6 +66,7 @@ pub use percentage_closer_soft::{PercentageCloserSoftLight, SoftLightError, Soft
 pub use profile::Profile;
 pub use receiver_bias::{ReceiverBias, STANDARD_DEVIATIONS};
 pub use storage::{MomentBias, Storage, UnsupportedStorage};
+pub use summed_area_table::{SummedAreaTable, SummedAreaTableError};
 pub use technique::{
     EsmFiltering, Finite, LayerSplits, MapEncoding, NotFinite, PcfTaps, Pcss, Technique,
     TechniqueError,

@@ -4,7 +4,7 @@ use core::fmt;
 
 use serde::{Deserialize, Serialize};
 
-use crate::{Profile, TextureFormat};
+use crate::{Profile, SummedAreaTable, TextureFormat};
 
 /// How four moments are stored in a texel.
 ///
@@ -27,6 +27,8 @@ pub enum Storage {
     Float32,
     /// 8-bit normalised channels: for bounded functions of depth, not for moments.
     Unorm8,
+    /// Sums of 32-bit integers: a summed-area table, see [`SummedAreaTable`](crate::SummedAreaTable).
+    Fixed32,
 }
 
 /// A moment bias: `b + alpha ((0, second, 0, fourth) - b)` (Peters & Klein, i3D 2015, section 3.3).
@@ -72,6 +74,7 @@ impl Storage {
             Storage::Float16 => "float16",
             Storage::Float32 => "float32",
             Storage::Unorm8 => "unorm8",
+            Storage::Fixed32 => "fixed32",
         }
     }
 
@@ -83,6 +86,7 @@ impl Storage {
             Storage::Float16 => TextureFormat::Rgba16Float,
             Storage::Float32 => TextureFormat::Rgba32Float,
             Storage::Unorm8 => TextureFormat::Rgba8Unorm,
+            Storage::Fixed32 => TextureFormat::Rgba32Uint,
         }
     }
 
@@ -96,6 +100,8 @@ impl Storage {
             (Storage::Float16, 2) => Some(TextureFormat::Rg16Float),
             (Storage::Float32, 1) => Some(TextureFormat::R32Float),
             (Storage::Float32, 2) => Some(TextureFormat::Rg32Float),
+            (Storage::Fixed32, 1) => None,
+            (Storage::Fixed32, 2) => Some(TextureFormat::Rg32Uint),
             (_, 4) => Some(self.format()),
             _ => None,
         }
@@ -117,7 +123,8 @@ impl Storage {
 
     /// The smallest moment bias that covers a resolve and a two-pass blur, every stage rounded to the storage. With 8 bits it
     /// leaks so far that no technique stores four moments like that. That of float32 covers blurs up to 9 texels wide: the
-    /// sums of wider ones are off by more in f32, above all with equal weights.
+    /// sums of wider ones are off by more in f32, above all with equal weights. That of a summed-area table depends on its
+    /// largest kernel ([`SummedAreaTable::moment_bias`]); here it is that of the largest possible.
     #[must_use]
     pub fn moment_bias(self) -> MomentBias {
         match self {
@@ -141,6 +148,7 @@ impl Storage {
                 second: 0.375,
                 fourth: 0.375,
             },
+            Storage::Fixed32 => SummedAreaTable::COARSEST.moment_bias(),
         }
     }
 
@@ -169,6 +177,7 @@ impl Storage {
                 second: 0.4403,
                 fourth: 0.3124,
             },
+            Storage::Fixed32 => SummedAreaTable::COARSEST.hausdorff_moment_bias(),
         }
     }
 
@@ -180,6 +189,7 @@ impl Storage {
             Storage::Float16 => 1,
             Storage::Float32 => 2,
             Storage::Unorm8 => 3,
+            Storage::Fixed32 => 4,
         }
     }
 

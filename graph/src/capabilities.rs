@@ -14,6 +14,9 @@ pub struct Capabilities {
     /// long for an anisotropic lookup, and may filter twice as much as the pixel covers.
     #[serde(default = "yes")]
     pub anisotropic_sampling: bool,
+    /// Whether the processor runs the shaders: large tiles in few invocations then serve better than many invocations.
+    #[serde(default)]
+    pub software_adapter: bool,
     /// Samples per texel that depth textures can have.
     pub depth_samples: Vec<u32>,
     /// The largest width or height of a texture.
@@ -48,6 +51,7 @@ impl Capabilities {
             profile,
             float32_filterable: false,
             anisotropic_sampling: true,
+            software_adapter: false,
             depth_samples: vec![1, 4],
             max_texture_size: 8192,
             max_texture_layers: 256,
@@ -97,11 +101,13 @@ impl Capabilities {
                     || (adapter_specific && flags.sample_count_supported(count))
             })
             .collect();
+        let software_adapter = adapter.get_info().device_type == wgpu::DeviceType::Cpu;
         let limits = device.limits();
         Self {
             profile,
             float32_filterable: features.contains(wgpu::Features::FLOAT32_FILTERABLE),
-            anisotropic_sampling: adapter.get_info().device_type != wgpu::DeviceType::Cpu,
+            anisotropic_sampling: !software_adapter,
+            software_adapter,
             depth_samples,
             max_texture_size: limits.max_texture_dimension_2d,
             max_texture_layers: limits.max_texture_array_layers,

@@ -153,6 +153,8 @@ pub enum SampleType {
     Filterable,
     /// Floating point, loaded only.
     Unfilterable,
+    /// Unsigned integers, loaded only.
+    Integer,
 }
 
 /// What a pass records.

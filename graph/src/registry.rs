@@ -8,6 +8,7 @@ use serde::de::DeserializeOwned;
 use crate::Node;
 use crate::nodes::{
     BlurMoments, DebugMoments, DownsampleMoments, PlaceLayers, ResolveMoments, ShadeHard,
+    SummedAreaTable,
 };
 
 /// Makes a node of its properties, which are JSON text.
@@ -30,6 +31,7 @@ impl NodeRegistry {
         registry.register::<PlaceLayers>("place_layers");
         registry.register::<BlurMoments>("blur_moments");
         registry.register::<DownsampleMoments>("downsample_moments");
+        registry.register::<SummedAreaTable>("summed_area_table");
         registry.register::<DebugMoments>("debug_moments");
         registry.register::<ShadeHard>("shade_hard");
         registry

@@ -5,7 +5,7 @@ use core::fmt;
 use serde::{Deserialize, Serialize};
 
 use super::{EsmFiltering, Finite, LayerSplits, PcfTaps, Technique, TechniqueError};
-use crate::{Profile, Storage, TextureFormat, UnsupportedStorage};
+use crate::{Profile, Storage, SummedAreaTable, TextureFormat, UnsupportedStorage};
 
 /// The encoding of a filterable map: a technique with a storage that it can use.
 #[derive(Clone, Debug, PartialEq, Eq, Hash, Serialize, Deserialize)]
@@ -14,6 +14,7 @@ pub struct MapEncoding {
     technique: Technique,
     storage: Storage,
     format: TextureFormat,
+    table: Option<SummedAreaTable>,
 }
 
 /// As it is written in files.
@@ -23,6 +24,8 @@ struct Pair {
     #[serde(default)]
     technique: Technique,
     storage: Storage,
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    table: Option<SummedAreaTable>,
 }
 
 /// The most layers of a layered variance shadow map (`LAYERED_VARIANCE_LARGEST_COUNT` in WGSL).
@@ -62,6 +65,27 @@ impl MapEncoding {
             technique,
             storage,
             format,
+            table: None,
+        })
+    }
+
+    /// The summed-area table of a map with this technique: of four moments or two.
+    pub fn of_table(technique: Technique, table: SummedAreaTable) -> Result<Self, TechniqueError> {
+        let moments = matches!(
+            technique,
+            Technique::Hamburger4 | Technique::Hausdorff4 | Technique::Vsm
+        );
+        let format = Storage::Fixed32
+            .format_of(technique.channels())
+            .filter(|_| moments)
+            .ok_or(TechniqueError::NoTable {
+                technique: technique.name(),
+            })?;
+        Ok(Self {
+            technique,
+            storage: Storage::Fixed32,
+            format,
+            table: Some(table),
         })
     }
 
@@ -72,6 +96,7 @@ impl MapEncoding {
             technique: Technique::Hamburger4,
             storage,
             format,
+            table: None,
         })
     }
 
@@ -85,6 +110,12 @@ impl MapEncoding {
     #[must_use]
     pub fn storage(&self) -> Storage {
         self.storage
+    }
+
+    /// What the integers mean, if this is a summed-area table.
+    #[must_use]
+    pub fn table(&self) -> Option<&SummedAreaTable> {
+        self.table.as_ref()
     }
 
     /// The format of the texture.
@@ -276,7 +307,11 @@ impl TryFrom<Pair> for MapEncoding {
     type Error = TechniqueError;
 
     fn try_from(pair: Pair) -> Result<Self, TechniqueError> {
-        Self::new(pair.technique, pair.storage)
+        match (pair.storage, pair.table) {
+            (Storage::Fixed32, Some(table)) => Self::of_table(pair.technique, table),
+            (_, None) => Self::new(pair.technique, pair.storage),
+            (storage, Some(_)) => Err(TechniqueError::NotATable { storage }),
+        }
     }
 }
 
@@ -285,12 +320,16 @@ impl From<MapEncoding> for Pair {
         Pair {
             technique: encoding.technique,
             storage: encoding.storage,
+            table: encoding.table,
         }
     }
 }
 
 impl fmt::Display for MapEncoding {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        write!(f, "{} as {}", self.technique, self.storage)
+        match &self.table {
+            Some(table) => write!(f, "{} as {table}", self.technique),
+            None => write!(f, "{} as {}", self.technique, self.storage),
+        }
     }
 }

@@ -17,6 +17,22 @@ pub enum TechniqueError {
         /// Those that it can use.
         legal: &'static [Storage],
     },
+    /// A technique whose map has no summed-area table.
+    #[error(
+        "no summed-area table is made of a map for '{technique}'; one is of maps for hamburger4, hausdorff4 or vsm"
+    )]
+    NoTable {
+        /// The technique's name.
+        technique: &'static str,
+    },
+    /// A table that is said to be stored like another map.
+    #[error(
+        "a summed-area table is stored as fixed32, not as {storage}; leave out 'table' for a map that is none"
+    )]
+    NotATable {
+        /// The storage.
+        storage: Storage,
+    },
     /// A technique without a filterable map.
     #[error(
         "'{technique}' reads the plain depth map, which needs no storage; connect the map to 'depth' of the node that shades"

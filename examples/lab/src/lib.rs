@@ -28,6 +28,7 @@ pub mod progress;
 pub mod scene;
 pub mod shaders;
 pub mod stability;
+pub mod summed_area;
 pub mod surface_error;
 pub mod technique_argument;
 pub mod techniques;

@@ -165,6 +165,8 @@ impl Planner<'_> {
                 },
                 sample: if texture.format.is_depth() {
                     SampleType::Depth
+                } else if texture.format.is_integer() {
+                    SampleType::Integer
                 } else if filterable && filtered && !multisampled {
                     SampleType::Filterable
                 } else {

@@ -290,6 +290,10 @@ fn difference(
                     kind: ScalarKind::Float,
                     multi: *multisampled,
                 },
+                SampleType::Integer => ImageClass::Sampled {
+                    kind: ScalarKind::Uint,
+                    multi: *multisampled,
+                },
             };
             let matches = match actual {
                 TypeInner::Image {
@@ -301,6 +305,7 @@ fn difference(
             };
             let kind = match sample {
                 SampleType::Depth => "depth",
+                SampleType::Integer => "u32",
                 _ => "float",
             };
             let shape = match (one_layer, multisampled) {

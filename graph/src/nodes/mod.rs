@@ -11,6 +11,7 @@ mod region_tiles;
 mod resolve_moments;
 mod shade_hard;
 mod specialization;
+mod summed_area_table;
 mod techniques;
 mod unrolled;
 
@@ -24,3 +25,4 @@ pub use resolve_moments::ResolveMoments;
 pub use shade_hard::{
     CameraView, LightDepth, LightView, ShadeHard, ShadeHardParameters, TechniqueShader, ViewError,
 };
+pub use summed_area_table::{LargestKernel, SummedAreaTable};

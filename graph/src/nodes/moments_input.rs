@@ -12,8 +12,18 @@ pub(super) fn moments_input<'a>(
     Ok((moments, encoding_of(moments)?))
 }
 
-/// The encoding of a filterable map: four moments, unless the map says otherwise.
+/// The encoding of a filterable map that is no table: four moments, unless the map says otherwise.
 pub(super) fn encoding_of(moments: &TextureDesc) -> Result<MapEncoding, GraphError> {
+    if moments.format.is_integer() {
+        return Err(GraphError::new(
+            GraphErrorKind::Format,
+            format!(
+                "{} holds a summed-area table, which only nodes for soft shadows read; connect the map that it is made of",
+                moments.format
+            ),
+        )
+        .at_slot("moments"));
+    }
     let encoding = moments
         .encoding
         .clone()

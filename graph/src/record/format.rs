@@ -19,6 +19,8 @@ pub fn texture_format(format: TextureFormat) -> Option<wgpu::TextureFormat> {
         TextureFormat::Rgba16Unorm => wgpu::TextureFormat::Rgba16Unorm,
         TextureFormat::Rgba16Float => wgpu::TextureFormat::Rgba16Float,
         TextureFormat::Rgba32Float => wgpu::TextureFormat::Rgba32Float,
+        TextureFormat::Rg32Uint => wgpu::TextureFormat::Rg32Uint,
+        TextureFormat::Rgba32Uint => wgpu::TextureFormat::Rgba32Uint,
         TextureFormat::Depth16Unorm => wgpu::TextureFormat::Depth16Unorm,
         TextureFormat::Depth32Float => wgpu::TextureFormat::Depth32Float,
         // A format that this version of the recorder does not know.

@@ -111,6 +111,7 @@ fn binding_type(entry: &EntryKey) -> wgpu::BindingType {
                 SampleType::Depth => wgpu::TextureSampleType::Depth,
                 SampleType::Filterable => wgpu::TextureSampleType::Float { filterable: true },
                 SampleType::Unfilterable => wgpu::TextureSampleType::Float { filterable: false },
+                SampleType::Integer => wgpu::TextureSampleType::Uint,
             },
             view_dimension: if array {
                 wgpu::TextureViewDimension::D2Array

@@ -1,0 +1,109 @@
+//! What a table has to be: integers of texels by exact arithmetic, and their sums one after the other.
+
+use half::f16;
+use moment_shadows::{MapEncoding, MapRegion, Storage, SummedAreaTable, Technique};
+
+/// The integers of all texels of a map, each channel of a texel after the other. `bytes` are as the texture holds them.
+///
+/// Products are of 64 bits here, where the shader has several of 32. The channels of float32 moments are computed in f32
+/// with fused products, as the basis is written.
+#[must_use]
+pub fn integers(source: &MapEncoding, table: &SummedAreaTable, bytes: &[u8]) -> Vec<u32> {
+    let channels = source.technique().channels() as usize;
+    match source.storage() {
+        Storage::Float16 => bytes
+            .chunks_exact(2 * channels)
+            .flat_map(|texel| {
+                let texel: Vec<f32> = texel
+                    .chunks_exact(2)
+                    .map(|pair| f16::from_le_bytes([pair[0], pair[1]]).to_f32())
+                    .collect();
+                let far = far(source.technique());
+                let finite = texel.iter().all(|channel| channel.is_finite());
+                (0..channels).map(move |channel| {
+                    let value = if finite {
+                        texel[channel] + 0.5
+                    } else {
+                        far[channel]
+                    };
+                    fixed_point(value, table.unit())
+                })
+            })
+            .collect(),
+        Storage::Float32 => bytes
+            .chunks_exact(4 * channels)
+            .flat_map(|texel| {
+                let texel: Vec<f32> = texel
+                    .chunks_exact(4)
+                    .map(|four| f32::from_le_bytes([four[0], four[1], four[2], four[3]]))
+                    .collect();
+                let encoded = if texel.iter().all(|channel| channel.is_finite()) {
+                    encoded(source.technique(), &texel)
+                } else {
+                    far(source.technique())
+                };
+                (0..channels).map(move |channel| fixed_point(encoded[channel], table.unit()))
+            })
+            .collect(),
+        _ => bytes
+            .chunks_exact(2)
+            .map(|pair| u32::from(u16::from_le_bytes([pair[0], pair[1]])))
+            .collect(),
+    }
+}
+
+/// A channel in units, to the nearest.
+#[must_use]
+pub fn fixed_point(channel: f32, unit: u32) -> u32 {
+    // To 31 bits, as far as any float of at least 2^-8 goes.
+    let fraction = (f64::from(channel.clamp(0.0, 1.0)) * 2.0_f64.powi(31)).round_ties_even() as u64;
+    ((fraction * u64::from(unit) + (1 << 30)) >> 31) as u32
+}
+
+/// The optimised basis of float32 moments, as `moments_quantize` and `variance_to_texel` have it.
+fn encoded(technique: &Technique, texel: &[f32]) -> [f32; 4] {
+    if *technique == Technique::Vsm {
+        let [x, y] = [texel[0], texel[1]].map(|moment| moment.clamp(-1.0, 1.0));
+        return [0.5_f32.mul_add(x, 0.5), 1.0 - y, 0.0, 0.0];
+    }
+    let root = 1.732_050_8_f32;
+    let [x, z] = [texel[0], texel[2]].map(|moment| moment.clamp(-1.0, 1.0));
+    let [y, w] = [texel[1], texel[3]].map(|moment| moment.clamp(0.0, 1.0));
+    [
+        1.5_f32.mul_add(x, (-2.0_f32).mul_add(z, 0.5)),
+        4.0 * (y - w),
+        (0.5 * root).mul_add(x, (-2.0 / 9.0 * root).mul_add(z, 0.5)),
+        0.5 * (y + w),
+    ]
+}
+
+/// The channels of a texel without a caster.
+fn far(technique: &Technique) -> [f32; 4] {
+    encoded(technique, &[1.0; 4])
+}
+
+/// The table of one layer: in each texel of a region the wrapping sum of its texels up to it; elsewhere 0.
+#[must_use]
+pub fn table(integers: &[u32], channels: usize, width: usize, regions: &[MapRegion]) -> Vec<u32> {
+    let mut table = vec![0_u32; integers.len()];
+    for region in regions {
+        let [left, top] = region.origin.map(|side| side as usize);
+        let [columns, rows] = region.extent.map(|side| side as usize);
+        for row in top..top + rows {
+            let mut sums = vec![0_u32; channels];
+            for column in left..left + columns {
+                for (channel, sum) in sums.iter_mut().enumerate() {
+                    let index = (row * width + column) * channels + channel;
+                    *sum = sum.wrapping_add(integers[index]);
+                    let above = if row > top {
+                        table[index - width * channels]
+                    } else {
+                        0
+                    };
+                    table[index] = above.wrapping_add(*sum);
+                }
+            }
+        }
+    }
+    table
+}

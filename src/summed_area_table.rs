@@ -1,0 +1,210 @@
+//! Summed-area tables: what their integers mean, and how exact they are.
+
+use core::fmt;
+
+use serde::{Deserialize, Serialize};
+
+use crate::{MomentBias, Storage};
+
+/// What the integers of a summed-area table mean: the host side of the WGSL module `summed_area_table_encoding`.
+///
+/// A table holds channels in [0, 1] as the storage unorm16 has them, times a [`unit`](Self::unit), summed up modulo 2^32. The sum
+/// over a rectangle is right as long as it covers at most [`largest_area`](Self::largest_area) texels.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, Serialize, Deserialize)]
+#[serde(try_from = "Written", into = "Written")]
+pub struct SummedAreaTable {
+    source: Storage,
+    largest_kernel: [u32; 2],
+}
+
+/// As it is written in files.
+#[derive(Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+struct Written {
+    source: Storage,
+    largest_kernel: [u32; 2],
+}
+
+/// A summed-area table that cannot be.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
+#[non_exhaustive]
+pub enum SummedAreaTableError {
+    /// A kernel without texels.
+    #[error(
+        "a largest kernel of {width}x{height} texels covers nothing; along each side there is at least 1"
+    )]
+    Empty {
+        /// Texels in x.
+        width: u32,
+        /// Texels in y.
+        height: u32,
+    },
+    /// A kernel whose sum would not be known.
+    #[error(
+        "a largest kernel of {width}x{height} texels covers more than the {} whose sum 32 bits hold; next to a width of {} the \
+         height is at most {}, and a square has at most {} texels along each side",
+        SummedAreaTable::LARGEST_AREA, .width.min(&SummedAreaTable::LARGEST_AREA),
+        SummedAreaTable::LARGEST_AREA / .width.min(&SummedAreaTable::LARGEST_AREA), SummedAreaTable::LARGEST_AREA.isqrt()
+    )]
+    Large {
+        /// Texels in x.
+        width: u32,
+        /// Texels in y.
+        height: u32,
+    },
+    /// A map that no table is made of.
+    #[error(
+        "no summed-area table is made of a map stored as {source_storage}; one is of unorm16, float16 or float32"
+    )]
+    Source {
+        /// The map's storage.
+        source_storage: Storage,
+    },
+}
+
+/// `SUMMED_AREA_TABLE_BIAS_PER_ERROR` in WGSL.
+const BIAS_PER_ERROR: f32 = 4.88;
+
+/// `SUMMED_AREA_TABLE_BIAS_OF_F32` in WGSL.
+const BIAS_OF_F32: f32 = 8e-7;
+
+/// The same for distributions on the depth interval.
+const HAUSDORFF_BIAS_PER_ERROR: f32 = 6.14;
+
+/// The solver on the interval amplifies rounding of f32 more.
+const HAUSDORFF_BIAS_OF_F32: f32 = 1.6e-6;
+
+/// `SUMMED_AREA_TABLE_VARIANCE_PER_ERROR` in WGSL.
+const VARIANCE_PER_ERROR: f32 = 5.0;
+
+/// `SUMMED_AREA_TABLE_VARIANCE_OF_F32` in WGSL.
+const VARIANCE_OF_F32: f32 = 6e-7;
+
+impl SummedAreaTable {
+    /// The most texels that a kernel can cover (`SUMMED_AREA_TABLE_LARGEST_AREA` in WGSL): 65537 channels of 65535 units are
+    /// just below 2^32. Tables of float maps keep to it, too, so that none is less exact than 16 bits.
+    pub const LARGEST_AREA: u32 = 65537;
+
+    /// The one with the greatest error.
+    pub(crate) const COARSEST: Self = Self {
+        source: Storage::Unorm16,
+        largest_kernel: [Self::LARGEST_AREA, 1],
+    };
+
+    /// The table of a map with this storage, for kernels up to this width and height in texels.
+    pub fn new(source: Storage, largest_kernel: [u32; 2]) -> Result<Self, SummedAreaTableError> {
+        let [width, height] = largest_kernel;
+        if !Storage::ALL.contains(&source) {
+            return Err(SummedAreaTableError::Source {
+                source_storage: source,
+            });
+        }
+        if width == 0 || height == 0 {
+            return Err(SummedAreaTableError::Empty { width, height });
+        }
+        if u64::from(width) * u64::from(height) > u64::from(Self::LARGEST_AREA) {
+            return Err(SummedAreaTableError::Large { width, height });
+        }
+        Ok(Self {
+            source,
+            largest_kernel,
+        })
+    }
+
+    /// How the map was stored that the table is made of.
+    #[must_use]
+    pub fn source(&self) -> Storage {
+        self.source
+    }
+
+    /// The largest kernel in texels, in x and y.
+    #[must_use]
+    pub fn largest_kernel(&self) -> [u32; 2] {
+        self.largest_kernel
+    }
+
+    /// Its area in texels.
+    #[must_use]
+    pub fn largest_area(&self) -> u32 {
+        // At most `LARGEST_AREA`.
+        self.largest_kernel[0] * self.largest_kernel[1]
+    }
+
+    /// The integer that a channel of 1 is: divide a sum by this and by the rectangle's area. That of unorm16 maps is 65535, their
+    /// own; of others floor((2^32 - 1) / largest area).
+    #[must_use]
+    pub fn unit(&self) -> u32 {
+        match self.source {
+            Storage::Unorm16 => 65535,
+            _ => u32::MAX / self.largest_area(),
+        }
+    }
+
+    /// The largest error of a mean's channels, but for f32: half a unit, and what the source's storage had rounded.
+    #[must_use]
+    pub fn error(&self) -> f32 {
+        let source = match self.source {
+            Storage::Float16 => 1.0 / 8192.0,
+            _ => 0.0,
+        };
+        0.5 / self.unit() as f32 + source
+    }
+
+    /// The smallest safe moment bias for four moments on the real line: of a float32 map 1e-6 for kernels of 9x9 texels, 1.2e-6
+    /// for 27x27 and 3.2e-6 for 65x65; of a unorm16 map 3.8e-5, since the resolve rounded once; of a float16 map 6e-4.
+    ///
+    /// With the error e of a channel, alpha >= 4.88 e suffices to first order (JCGT 6(1) 2017 derives it by another norm); f32 arithmetic
+    /// adds 8e-7. The map is meant to come from a resolve: each blur in between rounds again.
+    #[must_use]
+    pub fn moment_bias(&self) -> MomentBias {
+        MomentBias {
+            alpha: BIAS_PER_ERROR.mul_add(self.error(), BIAS_OF_F32),
+            second: 0.628,
+            fourth: 0.628,
+        }
+    }
+
+    /// The same for distributions on the depth interval (Hausdorff).
+    #[must_use]
+    pub fn hausdorff_moment_bias(&self) -> MomentBias {
+        MomentBias {
+            alpha: HAUSDORFF_BIAS_PER_ERROR.mul_add(self.error(), HAUSDORFF_BIAS_OF_F32),
+            second: 0.6036,
+            fourth: 0.4875,
+        }
+    }
+
+    /// The smallest variance for two moments: what rounding can take away from it.
+    #[must_use]
+    pub fn smallest_variance(&self) -> f32 {
+        VARIANCE_PER_ERROR.mul_add(self.error(), VARIANCE_OF_F32)
+    }
+}
+
+impl TryFrom<Written> for SummedAreaTable {
+    type Error = SummedAreaTableError;
+
+    fn try_from(written: Written) -> Result<Self, SummedAreaTableError> {
+        Self::new(written.source, written.largest_kernel)
+    }
+}
+
+impl From<SummedAreaTable> for Written {
+    fn from(table: SummedAreaTable) -> Written {
+        Written {
+            source: table.source,
+            largest_kernel: table.largest_kernel,
+        }
+    }
+}
+
+impl fmt::Display for SummedAreaTable {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let [width, height] = self.largest_kernel;
+        write!(
+            f,
+            "a summed-area table of {} for kernels up to {width}x{height}",
+            self.source
+        )
+    }
+}
