@@ -10,6 +10,7 @@ use crate::metric::MetricError;
 use crate::picture::PictureError;
 use crate::plot::PlotError;
 use crate::scene::SceneError;
+use crate::truth::area_light::AreaLightError;
 use crate::truth::peel::PeelError;
 use crate::truth::surface::TruthError;
 
@@ -77,6 +78,9 @@ pub enum LabError {
     /// A truth.
     #[error(transparent)]
     Truth(#[from] TruthError),
+    /// An area light.
+    #[error(transparent)]
+    AreaLight(#[from] AreaLightError),
     /// A scene that cannot be peeled.
     #[error(transparent)]
     Peel(#[from] PeelError),

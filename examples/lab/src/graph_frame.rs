@@ -17,19 +17,21 @@ use crate::error::LabError;
 use crate::frame::{Frame, FrameDesc};
 use crate::gpu::Gpu;
 use crate::graph_file::GraphFile;
-use crate::light::{LightKind, StoredDepth};
+use crate::light::{LightKind, LightShape, StoredDepth};
 
 /// The output that the lab shades with.
 const SHADOW_INTENSITY: &str = "shadow_intensity";
 
-/// The angle under which soft shadows see the light, in radians: six times the sun's, so that penumbrae are some texels wide.
-pub const SOFT_LIGHT_ANGLE: f64 = 0.055;
-
-/// The radii in texels that soft shadows keep to.
+/// The radii in texels that percentage closer soft shadows keep to: a texel at contacts, and whatever the light's size asks
+/// for elsewhere.
 const SOFT_RADII: SoftRadii = SoftRadii {
     smallest: 1.0,
-    largest: 48.0,
+    largest: 4096.0,
 };
+
+/// The width of the ellipse with the area of a rectangle, as a part of the rectangle's: 2 / sqrt(pi). Percentage closer
+/// soft shadows filter with disks.
+const ROUND: f64 = std::f64::consts::FRAC_2_SQRT_PI;
 
 /// A graph that is bound to a frame.
 pub struct GraphFrame {
@@ -208,19 +210,29 @@ pub fn shade_parameters(
     Ok(parameters)
 }
 
-/// The light with the size that soft shadows take it to have: seen under [`SOFT_LIGHT_ANGLE`], from the middle of the range
-/// for a spot light.
+/// The light with its size, as percentage closer soft shadows take it.
 fn soft_light(desc: &FrameDesc) -> Result<PercentageCloserSoftLight, LabError> {
     let texel = desc.light.texel_size(desc.map);
     let [near, far] = desc.light.range;
     let range = DepthRange { near, far };
-    Ok(match desc.light.kind() {
-        LightKind::Directional => {
-            PercentageCloserSoftLight::directional(SOFT_LIGHT_ANGLE, texel, range, SOFT_RADII)?
+    desc.shape.check(desc.light.kind())?;
+    if desc.shape.is_point() {
+        return Ok(PercentageCloserSoftLight::NONE);
+    }
+    Ok(match desc.shape {
+        LightShape::Directional { angular_diameter } => {
+            PercentageCloserSoftLight::directional(angular_diameter, texel, range, SOFT_RADII)?
         }
-        LightKind::Spot => {
-            let diameter = SOFT_LIGHT_ANGLE * 0.5 * (near + far);
+        LightShape::Disk { diameter } => {
             PercentageCloserSoftLight::spot(diameter, texel, range, SOFT_RADII)?
+        }
+        LightShape::Rectangle { size } => {
+            let unit = PercentageCloserSoftLight::spot(1.0, texel, range, SOFT_RADII)?;
+            let [width, height] = size.map(|side| (ROUND * side) as f32);
+            PercentageCloserSoftLight {
+                size: [width * unit.size[0], height * unit.size[1]],
+                ..unit
+            }
         }
     })
 }
