@@ -57,7 +57,10 @@ impl GraphFile {
 
     /// The same graph whose shadow intensity is written in single precision, so that it can be measured.
     pub fn in_single_precision(&self) -> Result<Self, LabError> {
-        let text = with_property(&self.text, "shade_hard", "format", "r32float".into());
+        let mut text = self.text.clone();
+        for node_type in ["shade_hard", "shade_soft"] {
+            text = with_property(&text, node_type, "format", "r32float".into());
+        }
         Self::parse(&self.name, text, None)
     }
 

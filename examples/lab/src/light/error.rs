@@ -73,7 +73,9 @@ pub enum LightError {
         range: &'static str,
     },
     /// A directional light has directions, and a spot light has places.
-    #[error("{light} cannot have the shape '{shape}'; a directional light has an angular diameter, a spot light is a disk or a rectangle")]
+    #[error(
+        "{light} cannot have the shape '{shape}'; a directional light has an angular diameter, a spot light is a disk or a rectangle"
+    )]
     Shape {
         /// The shape's name.
         shape: &'static str,

@@ -41,6 +41,8 @@ const OFFSET: f64 = 1e-5;
 /// A scene under an area light.
 pub struct AreaLight<'a> {
     light: &'a LightView,
+    /// Of a light that has one.
+    position: Option<DVec3>,
     right: DVec3,
     up: DVec3,
     /// The vector against the light's axis, unit.
@@ -119,6 +121,8 @@ impl<'a> AreaLight<'a> {
         let corners: Vec<[DVec3; 3]> = casters.iter().map(|caster| caster.corners).collect();
         Ok(Self {
             light,
+            position: (light.kind() == LightKind::Spot)
+                .then(|| world_from_view.transform_point3(DVec3::ZERO)),
             right,
             up,
             axis,
@@ -158,21 +162,17 @@ impl<'a> AreaLight<'a> {
     fn intensity_with(&self, position: DVec3, normal: DVec3, scratch: &mut Scratch) -> f64 {
         let size = self.radius + position.abs().max_element();
         let origin = position + OFFSET * size * normal;
-        let finite = self.light.kind() == LightKind::Spot;
-        let base = if finite {
-            if self.light.distance(origin) <= 0.0 {
-                return 0.0;
-            }
-            self.light.view_from_world.inverse().w_axis.truncate() - origin
-        } else {
-            self.axis
+        let base = match self.position {
+            Some(_) if self.light.distance(origin) <= 0.0 => return 0.0,
+            Some(position) => position - origin,
+            None => self.axis,
         };
         let target = Target {
             base,
             right: self.right,
             up: self.up,
             half: self.half,
-            finite,
+            finite: self.position.is_some(),
         };
         let Scratch { stack, hidden } = scratch;
         let faced = self.begin(Affine::new(normal, &target), hidden);
@@ -268,10 +268,12 @@ impl Holes {
         let middle = corners.iter().sum::<DVec3>() / 3.0;
         let place = projection.light.uv(middle);
         // What the map does not show has its finest holes.
-        let gradients = place.zip(Triangle::new(projection, corners)).map(|(uv, seen)| {
-            let place = uv * DVec2::from_array(projection.map.map(f64::from));
-            [u, v].map(|values| seen.gradient(place, values))
-        });
+        let gradients = place
+            .zip(Triangle::new(projection, corners))
+            .map(|(uv, seen)| {
+                let place = uv * DVec2::from_array(projection.map.map(f64::from));
+                [u, v].map(|values| seen.gradient(place, values))
+            });
         let [du, dv] = gradients.unwrap_or_default();
         Self {
             material: mesh.material,

@@ -43,7 +43,10 @@ mod tests {
             let spread = all.iter().map(|place| place * place).sum::<DVec2>() / 256.0;
             // Sums over 256 evenly spread places have an error of some 1/256.
             assert!(mean.length() < 0.01, "{shape:?}: {mean}");
-            assert!((spread - variance).abs().max_element() < 0.01, "{shape:?}: {spread}");
+            assert!(
+                (spread - variance).abs().max_element() < 0.01,
+                "{shape:?}: {spread}"
+            );
             assert!(all.iter().all(|place| place.abs().max_element() < 1.0));
             // Every half-plane through a fifth of the circle's directions has its share.
             for direction in 0..5 {
