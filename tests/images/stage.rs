@@ -14,7 +14,7 @@ use moment_shadows_lab::graph_frame::{imports, parameter_bytes};
 use moment_shadows_lab::host::{
     LightMap, LightMapDesc, Model, Renderer, Surface, SurfacePixels, read_gbuffer,
 };
-use moment_shadows_lab::light::LightView;
+use moment_shadows_lab::light::{LightShape, LightView};
 use moment_shadows_lab::scene::{Material, Mesh, Scene};
 use moment_shadows_lab::view::{Camera, View};
 use pollster::block_on;
@@ -199,6 +199,7 @@ pub(crate) fn frame_desc(desc: &StageDesc, light: LightView, camera: Camera) -> 
         map: [desc.map; 2],
         samples: desc.samples,
         format: desc.format,
+        shape: LightShape::usual(&light),
         light,
         camera,
     }

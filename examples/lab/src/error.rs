@@ -10,6 +10,7 @@ use crate::metric::MetricError;
 use crate::picture::PictureError;
 use crate::plot::PlotError;
 use crate::scene::SceneError;
+use crate::truth::area_light::AreaLightError;
 use crate::truth::peel::PeelError;
 use crate::truth::surface::TruthError;
 
@@ -70,13 +71,16 @@ pub enum LabError {
     Depth(#[from] moment_shadows::DepthError),
     /// A light's size.
     #[error(transparent)]
-    AreaLight(#[from] moment_shadows::AreaLightError),
+    SoftLight(#[from] moment_shadows::AreaLightError),
     /// The library's recorder.
     #[error(transparent)]
     Record(#[from] RecordError),
     /// A truth.
     #[error(transparent)]
     Truth(#[from] TruthError),
+    /// An area light.
+    #[error(transparent)]
+    AreaLight(#[from] AreaLightError),
     /// A scene that cannot be peeled.
     #[error(transparent)]
     Peel(#[from] PeelError),

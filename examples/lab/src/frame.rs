@@ -3,7 +3,7 @@
 use crate::error::LabError;
 use crate::gpu::Gpu;
 use crate::host::{LightMap, LightMapDesc, Lighting, Model, Renderer, Surface};
-use crate::light::LightView;
+use crate::light::{LightShape, LightView};
 use crate::scene::Scene;
 use crate::view::Camera;
 
@@ -20,6 +20,8 @@ pub struct FrameDesc {
     pub format: wgpu::TextureFormat,
     /// The light.
     pub light: LightView,
+    /// How large the light is, for techniques that make soft shadows.
+    pub shape: LightShape,
     /// The camera.
     pub camera: Camera,
 }

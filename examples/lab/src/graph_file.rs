@@ -57,8 +57,19 @@ impl GraphFile {
 
     /// The same graph whose shadow intensity is written in single precision, so that it can be measured.
     pub fn in_single_precision(&self) -> Result<Self, LabError> {
-        let text = with_property(&self.text, "shade_hard", "format", "r32float".into());
+        let mut text = self.text.clone();
+        for node_type in ["shade_hard", "shade_soft"] {
+            text = with_property(&text, node_type, "format", "r32float".into());
+        }
         Self::parse(&self.name, text, None)
+    }
+
+    /// Whether a node of this type is in the graph.
+    #[must_use]
+    pub fn has_node(&self, node_type: &str) -> bool {
+        nodes(&self.text)
+            .iter()
+            .any(|node| node["type"] == node_type)
     }
 
     /// The same graph without mip levels: what read a downsampled map reads the map itself.

@@ -17,18 +17,16 @@ use crate::error::LabError;
 use crate::frame::{Frame, FrameDesc};
 use crate::gpu::Gpu;
 use crate::graph_file::GraphFile;
-use crate::light::{LightKind, StoredDepth};
+use crate::light::{LightKind, LightShape, StoredDepth};
 
 /// The output that the lab shades with.
 const SHADOW_INTENSITY: &str = "shadow_intensity";
 
-/// The angle under which soft shadows see the light, in radians: six times the sun's, so that penumbrae are some texels wide.
-pub const SOFT_LIGHT_ANGLE: f64 = 0.055;
-
-/// The radii in texels that soft shadows keep to.
+/// The half widths in texels that soft shadows keep to: a texel at contacts, and whatever the light's size asks
+/// for elsewhere.
 const SOFT_RADII: SoftRadii = SoftRadii {
     smallest: 1.0,
-    largest: 48.0,
+    largest: 4096.0,
 };
 
 /// A graph that is bound to a frame.
@@ -202,26 +200,25 @@ pub fn shade_parameters(
         receiver_bias(desc, file)?,
         LeakReduction::DEFAULT,
     )?;
-    if let Some(Technique::Pcss(_)) = file.technique() {
+    let is_soft = matches!(file.technique(), Some(Technique::Pcss(_)));
+    if is_soft || file.has_node("shade_soft") {
         parameters.light = soft_light(desc)?;
     }
     Ok(parameters)
 }
 
-/// The light with the size that soft shadows take it to have: seen under [`SOFT_LIGHT_ANGLE`], from the middle of the range
-/// for a spot light.
+/// The light with its size.
 fn soft_light(desc: &FrameDesc) -> Result<AreaLight, LabError> {
     let texel = desc.light.texel_size(desc.map);
     let [near, far] = desc.light.range;
     let range = DepthRange { near, far };
-    Ok(match desc.light.kind() {
-        LightKind::Directional => {
-            AreaLight::directional(SOFT_LIGHT_ANGLE, texel, range, SOFT_RADII)?
+    desc.shape.check(desc.light.kind())?;
+    Ok(match desc.shape {
+        LightShape::Directional { angular_diameter } => {
+            AreaLight::directional(angular_diameter, texel, range, SOFT_RADII)?
         }
-        LightKind::Spot => {
-            let diameter = SOFT_LIGHT_ANGLE * 0.5 * (near + far);
-            AreaLight::spot(diameter, texel, range, SOFT_RADII)?
-        }
+        LightShape::Disk { diameter } => AreaLight::spot(diameter, texel, range, SOFT_RADII)?,
+        LightShape::Rectangle { size } => AreaLight::rectangle(size, texel, range, SOFT_RADII)?,
     })
 }
 

@@ -134,7 +134,7 @@ impl Truth {
 }
 
 /// Which pixels show a surface that faces the light.
-fn facing(light: &LightView, pixels: &SurfacePixels) -> Vec<bool> {
+pub(crate) fn facing(light: &LightView, pixels: &SurfacePixels) -> Vec<bool> {
     let vector = |value: [f32; 3]| DVec3::from(value.map(f64::from));
     (0..pixels.covered.len())
         .into_par_iter()

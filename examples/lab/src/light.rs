@@ -1,11 +1,13 @@
 //! A light as the host sees it: matrices and depth conventions in f64, so that they can serve as truth.
 
 mod error;
+mod shape;
 mod stored_depth;
 
 use glam::{DMat4, DVec2, DVec3, DVec4};
 
 pub use error::LightError;
+pub use shape::{LightShape, USUAL_LIGHT_ANGLE};
 pub use stored_depth::StoredDepth;
 
 /// The two kinds of light that the host renders.
@@ -156,6 +158,23 @@ impl LightView {
             depth,
             range,
         })
+    }
+
+    /// The same light whose moment depth ends at `distance` along its axis, if that is beyond its end: soft shadows need
+    /// to know how far behind their casters receivers lie, which hard ones do not.
+    #[must_use]
+    pub fn reaching(mut self, distance: f64) -> Self {
+        let [first, last] = self.range;
+        if !(distance > last && distance.is_finite()) {
+            return self;
+        }
+        self.range = [first, distance];
+        if let StoredDepth::Orthographic { far, .. } = &mut self.depth {
+            *far = distance;
+            let scale = DVec2::new(self.clip_from_view.x_axis.x, self.clip_from_view.y_axis.y);
+            self.clip_from_view = self.depth.clip_from_view(scale);
+        }
+        self
     }
 
     /// The kind of this light.

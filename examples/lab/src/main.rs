@@ -10,17 +10,21 @@ use moment_shadows_lab::candidate::{Candidate, TechniqueChoice, candidates};
 use moment_shadows_lab::command::cost_growth::GrowthOptions;
 use moment_shadows_lab::command::error_table::TableOptions;
 use moment_shadows_lab::command::render::{LightChoice, RenderOptions};
+use moment_shadows_lab::command::soft_error::SoftErrorOptions;
 use moment_shadows_lab::command::{
     bases, bias, contacts, cost, cost_growth, error, error_table, graph, isa, layers_figure,
-    measure, minification, orderings, render, shaders, stability, technique_pictures, validate,
+    measure, minification, orderings, render, shaders, soft_error, stability, technique_pictures,
+    validate,
 };
 use moment_shadows_lab::cost::bandwidth::Memory;
 
 use moment_shadows_lab::gpu::Gpu;
 use moment_shadows_lab::isa::child;
 use moment_shadows_lab::isa::chip::Chip;
+use moment_shadows_lab::soft::{LightSize, NamedGraph, SoftLightChoice, StageDesc};
 use moment_shadows_lab::stability::Effort;
 use moment_shadows_lab::technique_argument::TechniqueArgument;
+use moment_shadows_lab::truth::area_light::{MOST_PLACES, USUAL_PLACES};
 use moment_shadows_lab::vectors;
 
 /// Filterable shadows: validate shaders, check graphs, render, and measure.
@@ -199,6 +203,9 @@ enum Command {
         #[arg(long)]
         json: bool,
     },
+    /// Prints how far soft shadows are from those of an area light that is sampled at many places: hard moment shadows,
+    /// percentage closer soft shadows, and graphs of your own.
+    SoftError(SoftErrorArguments),
     /// Times the passes of a graph, or blurs of several radii, as ratios to copies, and counts their bytes.
     Cost {
         #[command(flatten)]
@@ -278,6 +285,67 @@ enum Command {
         chip: Chip,
         shader: Option<String>,
     },
+}
+
+#[derive(clap::Args)]
+struct SoftErrorArguments {
+    /// glTF or GLB files, or procedural scenes: fence-and-foliage, hall, chairs, edge, hole.
+    #[arg(required = true)]
+    scene: Vec<String>,
+    /// The light.
+    #[arg(long, value_enum, default_value = "directional")]
+    light: SoftLightArgument,
+    /// The light's size: degrees for a directional one, a diameter in scene units for a spot, WIDTHxHEIGHT for a rectangle. 0
+    /// gives hard shadows.
+    #[arg(long)]
+    size: Option<LightSize>,
+    /// One of the numbered viewpoints and light directions.
+    #[arg(long, default_value_t = 0)]
+    view: u32,
+    /// Texels per side of the light's map.
+    #[arg(long, default_value_t = 1024, value_parser = clap::value_parser!(u32).range(16..=8192))]
+    map: u32,
+    /// Width of the picture.
+    #[arg(long, default_value_t = 640, value_parser = clap::value_parser!(u32).range(16..=8192))]
+    width: u32,
+    /// Height of the picture.
+    #[arg(long, default_value_t = 360, value_parser = clap::value_parser!(u32).range(16..=8192))]
+    height: u32,
+    /// Places on the light that the truth is the mean of.
+    #[arg(long, default_value_t = USUAL_PLACES, value_parser = clap::value_parser!(u32).range(1..=i64::from(MOST_PLACES)))]
+    samples: u32,
+    /// Another technique: a graph file, with a name before it if you like (NAME=FILE). Several may be given.
+    #[arg(long)]
+    graph: Vec<NamedGraph>,
+    /// Only the techniques of these names.
+    #[arg(long)]
+    only: Vec<String>,
+    /// Also times the techniques, in so many rounds, at least 9.
+    #[arg(long, value_name = "ROUNDS", num_args = 0..=1, require_equals = true, default_missing_value = "9", value_parser = clap::value_parser!(u32).range(9..=1000))]
+    cost: Option<u32>,
+    /// A folder for pictures of the truth and of each technique with its difference; it is made if need be.
+    #[arg(long)]
+    out: Option<PathBuf>,
+    /// A file for the figures as JSON.
+    #[arg(long)]
+    json: Option<PathBuf>,
+}
+
+#[derive(Clone, Copy, ValueEnum)]
+enum SoftLightArgument {
+    Directional,
+    Spot,
+    Rectangle,
+}
+
+impl From<SoftLightArgument> for SoftLightChoice {
+    fn from(argument: SoftLightArgument) -> Self {
+        match argument {
+            SoftLightArgument::Directional => SoftLightChoice::Directional,
+            SoftLightArgument::Spot => SoftLightChoice::Spot,
+            SoftLightArgument::Rectangle => SoftLightChoice::Rectangle,
+        }
+    }
 }
 
 #[derive(clap::Args)]
@@ -733,6 +801,7 @@ fn run(command: Command) -> Result<ExitCode, Box<dyn std::error::Error>> {
                 json,
             )?;
         }
+        Command::SoftError(arguments) => run_soft_error(arguments)?,
         Command::CostGrowth(arguments) => {
             let json = arguments.json;
             let (graph, out) = (arguments.graph.clone(), arguments.out.clone());
@@ -780,6 +849,31 @@ fn run_error_table(arguments: TableArguments) -> Result<(), Box<dyn std::error::
         table.plot(out)?;
     }
     print(&table, arguments.json)?;
+    Ok(())
+}
+
+fn run_soft_error(arguments: SoftErrorArguments) -> Result<(), Box<dyn std::error::Error>> {
+    let options = SoftErrorOptions {
+        stage: StageDesc {
+            light: arguments.light.into(),
+            size: arguments.size,
+            view: arguments.view,
+            map: arguments.map,
+            picture: [arguments.width, arguments.height],
+            places: arguments.samples,
+        },
+        graphs: arguments.graph,
+        only: arguments.only,
+        rounds: arguments.cost,
+        out: arguments.out,
+    };
+    let reports = soft_error::run(&arguments.scene, &options)?;
+    for report in &reports {
+        println!("{report}");
+    }
+    if let Some(path) = &arguments.json {
+        soft_error::save_json(path, &reports)?;
+    }
     Ok(())
 }
 

@@ -15,6 +15,7 @@ pub mod minification;
 pub mod orderings;
 pub mod render;
 pub mod shaders;
+pub mod soft_error;
 pub mod stability;
 pub mod technique_pictures;
 pub mod validate;

@@ -10,6 +10,7 @@ use crate::gpu::Gpu;
 use crate::graph_file::GraphFile;
 use crate::graph_frame::GraphFrame;
 use crate::judgement::{Judgement, Truth};
+use crate::light::LightShape;
 use crate::picture::{grey, save_grey, save_rgba, signed_difference};
 use crate::progress;
 use crate::scene::{self, Scene};
@@ -107,6 +108,7 @@ impl RenderOptions {
                 map,
                 samples: self.samples,
                 format: wgpu::TextureFormat::Depth32Float,
+                shape: LightShape::usual(&light),
                 light,
                 camera,
             },

@@ -3,22 +3,22 @@
 use std::fmt::Write;
 use std::path::Path;
 
-use glam::DVec3;
 use moment_shadows::{Profile, Storage, nearest};
 
 use super::render::RenderOptions;
 use crate::error::LabError;
-use crate::frame::{Frame, FrameDesc};
+use crate::frame::Frame;
 use crate::gpu::Gpu;
 use crate::graph_file::GraphFile;
-use crate::graph_frame::{GraphFrame, SOFT_LIGHT_ANGLE};
+use crate::graph_frame::GraphFrame;
+use crate::host::read_gbuffer;
 use crate::judgement::{PictureTruth, Unfiltered};
 use crate::metric::compare;
 use crate::picture::{PictureError, save_panels, signed_difference};
 use crate::progress;
 use crate::scene::{self, Scene, contacts, place_on_ground, stacked_boards};
 use crate::technique_argument::TechniqueArgument;
-use crate::view::View;
+use crate::truth::area_light::{AreaLight, USUAL_PLACES};
 
 /// The chain of resolve, blur (radius 4) and shading that techniques are put into.
 const GRAPH: &str = include_str!("../../../hard_shadows.json");
@@ -31,9 +31,6 @@ const MAP: u32 = 1024;
 
 /// A difference of shadow intensity that is shown in full colour.
 const FULL_DIFFERENCE: f32 = 0.5;
-
-/// Directions within the disk of an area light.
-const LIGHTS: u32 = 128;
 
 /// A technique, and what shows where it fails.
 struct Subject {
@@ -122,7 +119,6 @@ fn subjects() -> Vec<Subject> {
 
 /// A scene that is drawn for maps with several samples per texel and with one.
 struct Stage {
-    options: RenderOptions,
     scene: Scene,
     frames: [Frame; 2],
     truth: PictureTruth,
@@ -244,7 +240,6 @@ impl Stage {
         let frames = [frame(4)?, frame(1)?];
         let truth = Unfiltered::of(gpu, &frames[0], graph)?.picture(gpu, &frames[0])?;
         Ok(Self {
-            options,
             scene,
             frames,
             truth,
@@ -269,7 +264,7 @@ impl Stage {
             .in_single_precision()?;
         let soft = matches!(file.technique(), Some(moment_shadows::Technique::Pcss(_)));
         if soft && self.soft.is_none() {
-            self.soft = Some(self.area_light(gpu, graph)?);
+            self.soft = Some(self.area_light(gpu)?);
         }
         let frame = &self.frames[usize::from(file.reads_depth())];
         let graph_frame = GraphFrame::new(gpu, frame, &file)?;
@@ -297,43 +292,11 @@ impl Stage {
         })
     }
 
-    /// Shadow intensity under a light that is seen under [`SOFT_LIGHT_ANGLE`]: the mean of binary tests for directions
-    /// spread evenly over its disk, each with a map of its own.
-    fn area_light(&self, gpu: &Gpu, graph: &GraphFile) -> Result<Vec<f32>, LabError> {
-        let binary = graph
-            .with_technique_argument(&TechniqueArgument::Usual("binary".to_owned()), None)?
-            .in_single_precision()?;
-        let view = View::numbered(&self.scene, self.options.view);
-        let axis = view.light_direction.normalize();
-        let (side, other) = axis.any_orthonormal_pair();
-        let radius = (0.5 * SOFT_LIGHT_ANGLE).tan();
-        let margin = f64::from(graph.radius()?) + 2.0;
-        let mut sums = vec![0.0_f64; self.truth.shadow.len()];
-        for light in 0..LIGHTS {
-            // A sunflower: turned by the golden angle from one to the next.
-            let angle = f64::from(light) * std::f64::consts::PI * (3.0 - 5.0_f64.sqrt());
-            let reach = radius * ((f64::from(light) + 0.5) / f64::from(LIGHTS)).sqrt();
-            let offset: DVec3 = reach * (angle.cos() * side + angle.sin() * other);
-            let turned = View {
-                light_direction: axis + offset,
-                ..view
-            };
-            let first = &self.frames[1].desc;
-            let desc = FrameDesc {
-                light: turned.sun(&self.scene, first.map, margin, false)?,
-                ..*first
-            };
-            let frame = Frame::draw(gpu, &self.scene, desc)?;
-            let graph_frame = GraphFrame::new(gpu, &frame, &binary)?;
-            graph_frame.run(gpu)?;
-            let shadow = graph_frame.read_shadow(gpu, &binary)?;
-            for (sum, shadow) in sums.iter_mut().zip(shadow) {
-                *sum += f64::from(shadow);
-            }
-        }
-        Ok(sums
-            .into_iter()
-            .map(|sum| (sum / f64::from(LIGHTS)) as f32)
-            .collect())
+    /// Shadow intensity under a light of the usual size.
+    fn area_light(&self, gpu: &Gpu) -> Result<Vec<f32>, LabError> {
+        let frame = &self.frames[1];
+        let desc = &frame.desc;
+        let light = AreaLight::new(&self.scene, &desc.light, desc.shape, desc.map, USUAL_PLACES)?;
+        Ok(light.picture(&read_gbuffer(gpu, &frame.surface)?)?)
     }
 }

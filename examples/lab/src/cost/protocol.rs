@@ -118,6 +118,12 @@ impl Rounds {
         }
     }
 
+    /// The time of some subjects together, in seconds by the clock.
+    #[must_use]
+    pub fn seconds(&self, subjects: &[usize]) -> Distribution {
+        Distribution::of(self.summed(subjects, |reading| reading.seconds))
+    }
+
     /// Some subjects' time as a ratio to that of others, both in the same round.
     #[must_use]
     pub fn ratio(&self, subjects: &[usize], to: &[usize]) -> Distribution {

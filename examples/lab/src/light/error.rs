@@ -62,4 +62,24 @@ pub enum LightError {
         /// Its end, a distance along the axis.
         far: f64,
     },
+    /// An area light has no such size.
+    #[error("the light's {what} is {value}, but must be {range}; 0 gives hard shadows")]
+    Size {
+        /// `angular diameter`, `diameter`, `width` or `height`.
+        what: &'static str,
+        /// What was given, in radians or scene units.
+        value: f64,
+        /// What it may be.
+        range: &'static str,
+    },
+    /// A directional light has directions, and a spot light has places.
+    #[error(
+        "{light} cannot have the shape '{shape}'; a directional light has an angular diameter, a spot light is a disk or a rectangle"
+    )]
+    Shape {
+        /// The shape's name.
+        shape: &'static str,
+        /// What it was given to.
+        light: &'static str,
+    },
 }

@@ -19,7 +19,13 @@ pub fn place_on_ground(mut scene: Scene) -> Scene {
         stand.eye -= glam::DVec3::from_array(offset);
         stand.target -= glam::DVec3::from_array(offset);
     }
-    let half = (GROUND_RADII * bounds.radius()).max(f64::from(f32::MIN_POSITIVE)) as f32;
+    add_ground(&mut scene, bounds.radius());
+    scene
+}
+
+/// Adds a ground plane at y = 0 to a scene of this radius.
+pub(super) fn add_ground(scene: &mut Scene, radius: f64) {
+    let half = (GROUND_RADII * radius).max(f64::from(f32::MIN_POSITIVE)) as f32;
     scene.meshes.push(Mesh {
         positions: vec![
             [-half, 0.0, -half],
@@ -37,5 +43,4 @@ pub fn place_on_ground(mut scene: Scene) -> Scene {
         .materials
         .push(Material::plain("ground", [0.4, 0.385, 0.36]));
     scene.ground = Some(0.0);
-    scene
 }

@@ -2,6 +2,7 @@
 
 mod accessor;
 mod chairs;
+mod edge_and_hole;
 mod error;
 mod failures;
 mod fence_and_foliage;
@@ -21,6 +22,7 @@ use std::path::Path;
 use glam::DVec3;
 
 pub use chairs::{CHAIRS, Foot, chairs, feet};
+pub use edge_and_hole::{EDGE, EDGE_HEIGHTS, HOLE, edge_strip, small_hole, straight_edges};
 pub use error::SceneError;
 pub use failures::{contacts, stacked_boards};
 pub use fence_and_foliage::fence_and_foliage;
@@ -31,7 +33,8 @@ pub use material::{Image, Material};
 pub use mesh::{Bounds, Mesh};
 pub(crate) use mips::{Mip, mips};
 
-/// Names under which [`load`] knows the procedural scenes that techniques are compared on; there is also [`CHAIRS`].
+/// Names under which [`load`] knows the procedural scenes that techniques are compared on; there are also [`CHAIRS`],
+/// [`EDGE`] and [`HOLE`].
 pub const PROCEDURAL: [&str; 2] = ["fence-and-foliage", "hall"];
 
 /// Where to stand in a scene that is not to be looked at from all around.
@@ -85,17 +88,20 @@ impl Scene {
     }
 }
 
-/// The scene that a command line names: a file, one of [`PROCEDURAL`], or [`CHAIRS`]. It stands on its ground plane.
+/// The scene that a command line names: a file, one of [`PROCEDURAL`], [`CHAIRS`], [`EDGE`] or [`HOLE`]. It stands on its
+/// ground plane, or hovers above it.
 pub fn load(name: &str) -> Result<Scene, SceneError> {
     match name {
         "fence-and-foliage" => Ok(place_on_ground(fence_and_foliage())),
         "hall" => Ok(place_on_ground(hall_with_open_roof())),
         CHAIRS => Ok(place_on_ground(chairs())),
+        EDGE => Ok(straight_edges()),
+        HOLE => Ok(small_hole()),
         _ if Path::new(name).exists() => load_gltf(Path::new(name)).map(place_on_ground),
         _ => Err(SceneError::Unknown {
             name: name.to_owned(),
             advice: format!(
-                "the procedural scenes are {} and {CHAIRS}",
+                "the procedural scenes are {}, {CHAIRS}, {EDGE} and {HOLE}",
                 PROCEDURAL.join(", ")
             ),
         }),

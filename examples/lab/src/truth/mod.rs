@@ -1,5 +1,6 @@
 //! Ground truths: what a filtered shadow should have been, from the unfiltered map, in f64 on the processor.
 
+pub mod area_light;
 pub mod exact_bound;
 pub mod fragment;
 pub mod kernel;

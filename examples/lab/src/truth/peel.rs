@@ -5,7 +5,7 @@
 //! single-precision depth could not tell apart, closer than 2^-24 of the light's range, count once.
 
 mod error;
-mod triangle;
+pub(super) mod triangle;
 
 use std::ops::Range;
 
@@ -216,12 +216,12 @@ fn centre(texel: [u32; 2]) -> DVec2 {
     DVec2::from_array(texel.map(f64::from)) + 0.5
 }
 
-fn position(mesh: &Mesh, corner: u32) -> DVec3 {
+pub(super) fn position(mesh: &Mesh, corner: u32) -> DVec3 {
     DVec3::from_array(mesh.positions[corner as usize].map(f64::from))
 }
 
 /// Refuses a mesh whose triangles have not all their vertices, or one at no finite place.
-fn check(scene: &Scene, index: usize, mesh: &Mesh) -> Result<(), PeelError> {
+pub(super) fn check(scene: &Scene, index: usize, mesh: &Mesh) -> Result<(), PeelError> {
     let refuse = |reason: String| {
         Err(PeelError::Mesh {
             scene: scene.name.clone(),

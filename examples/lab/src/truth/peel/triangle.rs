@@ -5,9 +5,9 @@ use glam::{DVec2, DVec3, DVec4};
 use crate::light::{LightView, StoredDepth};
 
 /// A light with the texels of its map.
-pub(super) struct Projection<'a> {
-    pub(super) light: &'a LightView,
-    pub(super) map: [u32; 2],
+pub(in crate::truth) struct Projection<'a> {
+    pub(in crate::truth) light: &'a LightView,
+    pub(in crate::truth) map: [u32; 2],
 }
 
 impl Projection<'_> {
@@ -24,7 +24,7 @@ impl Projection<'_> {
     }
 
     /// The distance along the axis at which rays begin.
-    pub(super) fn near(&self) -> f64 {
+    pub(in crate::truth) fn near(&self) -> f64 {
         match self.light.depth {
             StoredDepth::Orthographic { near, .. } | StoredDepth::Perspective { near, .. } => near,
         }
@@ -32,28 +32,28 @@ impl Projection<'_> {
 }
 
 /// A triangle by its edges, in homogeneous coordinates of the map: no clipping is needed where it passes the light.
-pub(super) struct Triangle {
+pub(in crate::truth) struct Triangle {
     /// Times a place (x, y, 1) these are the weights of the corners, up to a common factor.
     edges: [DVec3; 3],
     /// Distances of the corners along the light's axis.
     distances: DVec3,
     /// Columns and rows of the texels whose centres it may cover, the ends excluded.
-    pub(super) columns: [u32; 2],
-    pub(super) rows: [u32; 2],
+    pub(in crate::truth) columns: [u32; 2],
+    pub(in crate::truth) rows: [u32; 2],
 }
 
 /// Where a ray meets a triangle.
 #[derive(Clone, Copy)]
-pub(super) struct Hit {
+pub(in crate::truth) struct Hit {
     /// The weights of the corners in world space; not negative, their sum is 1.
-    pub(super) weights: DVec3,
+    pub(in crate::truth) weights: DVec3,
     /// Distance along the light's axis.
-    pub(super) distance: f64,
+    pub(in crate::truth) distance: f64,
 }
 
 impl Triangle {
     /// The triangle with these corners in world space; `None` if it covers no texel of the map.
-    pub(super) fn new(projection: &Projection<'_>, corners: [DVec3; 3]) -> Option<Self> {
+    pub(in crate::truth) fn new(projection: &Projection<'_>, corners: [DVec3; 3]) -> Option<Self> {
         let places = corners.map(|corner| projection.place(corner));
         let [a, b, c] = places;
         let distances = DVec3::from_array(corners.map(|corner| projection.light.distance(corner)));
@@ -68,7 +68,7 @@ impl Triangle {
 
     /// Where the ray through `place`, in texels, meets the triangle. A ray through an edge between two triangles meets
     /// one of them: their edge functions differ in nothing but their sign, so that exactly one owns the edge.
-    pub(super) fn hit(&self, place: DVec2) -> Option<Hit> {
+    pub(in crate::truth) fn hit(&self, place: DVec2) -> Option<Hit> {
         let place = place.extend(1.0);
         let weights = self.edges.map(|edge| edge.dot(place));
         let sum = weights[0] + weights[1] + weights[2];
@@ -89,7 +89,7 @@ impl Triangle {
     }
 
     /// How the attribute with these values at the corners changes per texel at `place`.
-    pub(super) fn gradient(&self, place: DVec2, values: DVec3) -> DVec2 {
+    pub(in crate::truth) fn gradient(&self, place: DVec2, values: DVec3) -> DVec2 {
         let [a, b, c] = self.edges;
         let value = a * values.x + b * values.y + c * values.z;
         let weight = a + b + c;
@@ -99,7 +99,7 @@ impl Triangle {
     }
 
     /// How the distance along the axis changes per texel at `place`.
-    pub(super) fn distance_gradient(&self, place: DVec2) -> DVec2 {
+    pub(in crate::truth) fn distance_gradient(&self, place: DVec2) -> DVec2 {
         self.gradient(place, self.distances)
     }
 }

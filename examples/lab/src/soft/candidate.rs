@@ -1,0 +1,111 @@
+//! Techniques that are compared: graphs with names.
+
+use std::path::Path;
+use std::str::FromStr;
+
+use moment_shadows::{Pcss, Technique};
+
+use crate::error::LabError;
+use crate::graph_file::GraphFile;
+
+/// The chain of resolve, blur (9x9, Gaussian) and shading.
+const HARD: &str = include_str!("../../../hard_shadows.json");
+
+/// Taps of search and filter of percentage closer soft shadows.
+const TAPS: [(&str, u32, u32); 3] = [
+    ("pcss 9x9", 81, 81),
+    ("pcss 15x15", 225, 225),
+    ("pcss 32+64", 32, 64),
+];
+
+/// A technique: a graph from the imports `light_depth` and `camera_depth` to the output `shadow_intensity`. Every parameter
+/// block of the library's nodes is filled for the light and its size.
+#[derive(Debug)]
+pub struct SoftCandidate {
+    /// What tables and files call it.
+    pub name: String,
+    /// The graph.
+    pub file: GraphFile,
+}
+
+/// Hard moment shadows, percentage closer soft shadows with 9x9, 15x15 and 32 + 64 taps, and the graphs that are given.
+pub fn candidates(given: &[NamedGraph]) -> Result<Vec<SoftCandidate>, LabError> {
+    let hard = GraphFile::parse("hard_shadows.json", HARD.to_owned(), None)?;
+    let mut all = Vec::new();
+    for (name, search_taps, filter_taps) in TAPS {
+        let technique = Technique::Pcss(Pcss {
+            search_taps,
+            filter_taps,
+        });
+        all.push(SoftCandidate {
+            name: name.to_owned(),
+            file: hard.with_technique(&technique, None)?,
+        });
+    }
+    all.insert(
+        0,
+        SoftCandidate {
+            name: "hard".to_owned(),
+            file: hard,
+        },
+    );
+    for NamedGraph { name, path } in given {
+        all.push(SoftCandidate {
+            name: name.clone(),
+            file: GraphFile::read(Path::new(path), None)?,
+        });
+    }
+    for candidate in &mut all {
+        candidate.file = candidate.file.in_single_precision()?;
+    }
+    Ok(all)
+}
+
+impl SoftCandidate {
+    /// The name as a part of a file's name.
+    #[must_use]
+    pub fn file_stem(&self) -> String {
+        let plain = |letter: char| {
+            if letter.is_alphanumeric() {
+                letter
+            } else {
+                '-'
+            }
+        };
+        self.name.chars().map(plain).collect()
+    }
+}
+
+/// A graph file that a command line adds to the candidates: `NAME=FILE`, or a file that is its own name.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct NamedGraph {
+    /// What to call it.
+    pub name: String,
+    /// The file.
+    pub path: String,
+}
+
+impl FromStr for NamedGraph {
+    type Err = String;
+
+    fn from_str(text: &str) -> Result<Self, String> {
+        let stem = || {
+            Path::new(text)
+                .file_stem()
+                .map(|stem| stem.to_string_lossy().into_owned())
+        };
+        let (name, path) = match text.split_once('=') {
+            Some((name, path)) => (name.to_owned(), path),
+            None => (stem().unwrap_or_default(), text),
+        };
+        if name.is_empty() || path.is_empty() {
+            return Err(format!(
+                "'{text}' is no NAME=FILE; give a graph file with a name"
+            ));
+        }
+        Ok(Self {
+            name,
+            path: path.to_owned(),
+        })
+    }
+}
