@@ -213,6 +213,10 @@ fn soft_light(desc: &FrameDesc) -> Result<AreaLight, LabError> {
     let [near, far] = desc.light.range;
     let range = DepthRange { near, far };
     desc.shape.check(desc.light.kind())?;
+    if desc.shape.is_point() {
+        // Not even a texel wide.
+        return Ok(AreaLight::NONE);
+    }
     Ok(match desc.shape {
         LightShape::Directional { angular_diameter } => {
             AreaLight::directional(angular_diameter, texel, range, SOFT_RADII)?

@@ -33,7 +33,11 @@ impl GraphFile {
         storage: Option<Storage>,
     ) -> Result<Self, LabError> {
         let resolve = self.name_of("resolve_moments")?;
-        let shade = self.name_of("shade_hard")?;
+        // Only hard shadows can do without a filterable map.
+        let shade = match self.name_of("shade_soft") {
+            Ok(shade) if !technique.reads_depth() => shade,
+            _ => self.name_of("shade_hard")?,
+        };
         let logarithmic = matches!(
             technique,
             Technique::Esm {

@@ -11,6 +11,9 @@ use crate::graph_file::GraphFile;
 /// The chain of resolve, blur (9x9, Gaussian) and shading.
 const HARD: &str = include_str!("../../../hard_shadows.json");
 
+/// The chain of resolve, summed-area table and shading.
+const SOFT: &str = include_str!("../../../soft_shadows.json");
+
 /// Taps of search and filter of percentage closer soft shadows.
 const TAPS: [(&str, u32, u32); 3] = [
     ("pcss 9x9", 81, 81),
@@ -28,7 +31,8 @@ pub struct SoftCandidate {
     pub file: GraphFile,
 }
 
-/// Hard moment shadows, percentage closer soft shadows with 9x9, 15x15 and 32 + 64 taps, and the graphs that are given.
+/// Hard moment shadows, percentage closer soft shadows with 9x9, 15x15 and 32 + 64 taps, moment soft shadows with four and two
+/// moments, and the graphs that are given.
 pub fn candidates(given: &[NamedGraph]) -> Result<Vec<SoftCandidate>, LabError> {
     let hard = GraphFile::parse("hard_shadows.json", HARD.to_owned(), None)?;
     let mut all = Vec::new();
@@ -49,6 +53,16 @@ pub fn candidates(given: &[NamedGraph]) -> Result<Vec<SoftCandidate>, LabError> 
             file: hard,
         },
     );
+    let soft = GraphFile::parse("soft_shadows.json", SOFT.to_owned(), None)?;
+    for (name, technique) in [
+        ("moment soft", Technique::Hamburger4),
+        ("variance soft", Technique::Vsm),
+    ] {
+        all.push(SoftCandidate {
+            name: name.to_owned(),
+            file: soft.with_technique(&technique, None)?,
+        });
+    }
     for NamedGraph { name, path } in given {
         all.push(SoftCandidate {
             name: name.clone(),
