@@ -42,8 +42,8 @@ pub fn modules() -> &'static [Module] {
         "receiver_bias",
         "receiver_plane",
         "storage",
+        "summed_area_encoding",
         "summed_area_table",
-        "summed_area_table_encoding",
         "variance",
     ];
     MODULES
