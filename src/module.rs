@@ -46,8 +46,8 @@ pub fn modules() -> &'static [Module] {
         "soft_blockers",
         "split_sum",
         "storage",
+        "summed_area_encoding",
         "summed_area_table",
-        "summed_area_table_encoding",
         "variance",
     ];
     MODULES

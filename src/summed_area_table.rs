@@ -6,7 +6,7 @@ use serde::{Deserialize, Serialize};
 
 use crate::{MomentBias, Storage};
 
-/// What the integers of a summed-area table mean: the host side of the WGSL module `summed_area_table_encoding`.
+/// What the integers of a summed-area table mean: the host side of the WGSL module `summed_area_encoding`.
 ///
 /// A table holds channels in [0, 1] as the storage unorm16 has them, times a [`unit`](Self::unit), summed up modulo 2^32. The sum
 /// over a rectangle is right as long as it covers at most [`largest_area`](Self::largest_area) texels.
@@ -62,10 +62,10 @@ pub enum SummedAreaTableError {
     },
 }
 
-/// `SUMMED_AREA_TABLE_BIAS_PER_ERROR` in WGSL.
+/// `SUMMED_AREA_ENCODING_BIAS_PER_ERROR` in WGSL.
 const BIAS_PER_ERROR: f32 = 4.88;
 
-/// `SUMMED_AREA_TABLE_BIAS_OF_F32` in WGSL.
+/// `SUMMED_AREA_ENCODING_BIAS_OF_F32` in WGSL.
 const BIAS_OF_F32: f32 = 8e-7;
 
 /// The same for distributions on the depth interval.
@@ -74,14 +74,14 @@ const HAUSDORFF_BIAS_PER_ERROR: f32 = 6.14;
 /// The solver on the interval amplifies rounding of f32 more.
 const HAUSDORFF_BIAS_OF_F32: f32 = 1.6e-6;
 
-/// `SUMMED_AREA_TABLE_VARIANCE_PER_ERROR` in WGSL.
+/// `SUMMED_AREA_ENCODING_VARIANCE_PER_ERROR` in WGSL.
 const VARIANCE_PER_ERROR: f32 = 5.0;
 
-/// `SUMMED_AREA_TABLE_VARIANCE_OF_F32` in WGSL.
+/// `SUMMED_AREA_ENCODING_VARIANCE_OF_F32` in WGSL.
 const VARIANCE_OF_F32: f32 = 6e-7;
 
 impl SummedAreaTable {
-    /// The most texels that a kernel can cover (`SUMMED_AREA_TABLE_LARGEST_AREA` in WGSL): 65537 channels of 65535 units are
+    /// The most texels that a kernel can cover (`SUMMED_AREA_ENCODING_LARGEST_AREA` in WGSL): 65537 channels of 65535 units are
     /// just below 2^32. Tables of float maps keep to it, too, so that none is less exact than 16 bits.
     pub const LARGEST_AREA: u32 = 65537;
 

@@ -1,6 +1,6 @@
 //! A map of any contents and its summed-area table.
 
-use moment_shadows::{MapRegion, TextureFormat};
+use moment_shadows::{LinkError, MapRegion, TextureFormat};
 use moment_shadows_graph::nodes::LargestKernel;
 use moment_shadows_graph::record::{
     Bindings, ImportedResource, Layers, PipelineOptions, Pipelines, RecordError, Recording,
@@ -31,6 +31,12 @@ pub enum TableError {
     /// The device.
     #[error(transparent)]
     Gpu(#[from] GpuError),
+    /// A shader that imports what is not there.
+    #[error(transparent)]
+    Link(#[from] LinkError),
+    /// A plan without a table.
+    #[error("the plan has no output 'table'; make one of a graph that does")]
+    NoTable,
     /// A format that the recorder does not know.
     #[error("{format} is no format of a texture of this device; use another storage")]
     Format {
@@ -159,9 +165,7 @@ impl SummedMap {
 
     /// The integers of a layer, all channels of a texel after the other.
     pub fn read(&self, gpu: &Gpu, layer: u32) -> Result<Vec<u32>, TableError> {
-        let Some(table) = self.table() else {
-            return Ok(Vec::new());
-        };
+        let table = self.table().ok_or(TableError::NoTable)?;
         let bytes = gpu.read_texture(table, layer, "summed-area table")?;
         Ok(bytemuck::pod_collect_to_vec(&bytes))
     }

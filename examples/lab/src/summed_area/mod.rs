@@ -1,6 +1,8 @@
 //! Summed-area tables on their own: made of any map, and what they have to be.
 
 mod map;
+mod means;
 pub mod reference;
 
 pub use map::{SummedMap, TableError};
+pub use means::{Mean, Means, Query};

@@ -107,3 +107,19 @@ pub fn table(integers: &[u32], channels: usize, width: usize, regions: &[MapRegi
     }
     table
 }
+
+/// The integers that a layer's table with one region is the sum of.
+#[must_use]
+pub fn differences(table: &[u32], channels: usize, width: usize) -> Vec<u32> {
+    let row = width * channels;
+    let at = |index: usize, back: usize, inside: bool| if inside { table[index - back] } else { 0 };
+    (0..table.len())
+        .map(|index| {
+            let (left, above) = (index % row >= channels, index >= row);
+            table[index]
+                .wrapping_sub(at(index, channels, left))
+                .wrapping_sub(at(index, row, above))
+                .wrapping_add(at(index, row + channels, left && above))
+        })
+        .collect()
+}

@@ -1,7 +1,7 @@
 import moment_shadows::moments::{moments_clamp, moments_to_texel};
 import moment_shadows::specialization::{STORAGE, UNIT};
 import moment_shadows::storage::{STORAGE_FLOAT16, STORAGE_UNORM16, storage_finite_texel};
-import moment_shadows::summed_area_table_encoding::{summed_area_table_from_channels};
+import moment_shadows::summed_area_encoding::{summed_area_encoding_of_channels};
 
 // Float maps of four moments. A texel with a channel that is not finite counts as the far end: no caster.
 
@@ -13,5 +13,5 @@ fn source_integers(texel: vec4f) -> vec4u {
     if STORAGE != STORAGE_FLOAT16 {
         channels = moments_to_texel(moments_clamp(texel), STORAGE_UNORM16);
     }
-    return summed_area_table_from_channels(select(far, channels, finite), UNIT);
+    return summed_area_encoding_of_channels(select(far, channels, finite), UNIT);
 }

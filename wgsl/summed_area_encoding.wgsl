@@ -8,31 +8,31 @@ import super::moments::{MomentBias};
 // as every region without a caster has, would then wrap around to 0 (Peters et al., JCGT 6(1) 2017, section 4).
 
 // The most texels of a kernel: n * 65535 < 2^32. Other maps keep to it, too, so that no table is less exact than 16 bits.
-const SUMMED_AREA_TABLE_LARGEST_AREA: u32 = 65537u;
+const SUMMED_AREA_ENCODING_LARGEST_AREA: u32 = 65537u;
 
 // What the unit of a unorm16 map's table is.
-const SUMMED_AREA_TABLE_UNIT_UNORM16: f32 = 65535.0;
+const SUMMED_AREA_ENCODING_UNIT_UNORM16: f32 = 65535.0;
 
 // The moment bias per error of a channel, for Hamburger's target and the optimised basis (found by maximisation over the
 // boundary of the moment space: `moment-shadows bias`).
-const SUMMED_AREA_TABLE_BIAS_PER_ERROR: f32 = 4.88;
+const SUMMED_AREA_ENCODING_BIAS_PER_ERROR: f32 = 4.88;
 
 // What f32 adds: of the query, of the basis and its inverse, of the solver's first steps. Found by search.
-const SUMMED_AREA_TABLE_BIAS_OF_F32: f32 = 8e-7;
+const SUMMED_AREA_ENCODING_BIAS_OF_F32: f32 = 8e-7;
 
 // The same for the smallest variance of two moments: 5 e for b2 - b1^2 with b1 = 2 r - 1 and b2 = 1 - g.
-const SUMMED_AREA_TABLE_VARIANCE_PER_ERROR: f32 = 5.0;
-const SUMMED_AREA_TABLE_VARIANCE_OF_F32: f32 = 6e-7;
+const SUMMED_AREA_ENCODING_VARIANCE_PER_ERROR: f32 = 5.0;
+const SUMMED_AREA_ENCODING_VARIANCE_OF_F32: f32 = 6e-7;
 
 // The 16-bit integers of a texel of unorm16.
-fn summed_area_table_from_unorm16(texel: vec4f) -> vec4u {
+fn summed_area_encoding_of_unorm16(texel: vec4f) -> vec4u {
     // At 2^23 the last bit of the mantissa is 1: adding that rounds, and leaves the integer in the low bits.
     return bitcast<vec4u>(fma(texel, vec4f(65535.0), vec4f(0x1p23))) & vec4u(0xffffu);
 }
 
 // Channels in [0, 1] in units: channel * unit to the nearest integer, up to 2^-31 of the channel and never above `unit`.
 // f32 would be 8 bits short of it.
-fn summed_area_table_from_channels(channels: vec4f, unit: u32) -> vec4u {
+fn summed_area_encoding_of_channels(channels: vec4f, unit: u32) -> vec4u {
     let fraction = vec4u(round(saturate(channels) * 0x1p31));
     // The upper half of a product of 64 bits, by products of 16.
     let high = fraction >> vec4u(16u);
@@ -49,16 +49,16 @@ fn summed_area_table_from_channels(channels: vec4f, unit: u32) -> vec4u {
 
 // The largest error of a mean's channels before f32: half a unit, and what the map's own storage had rounded before
 // (2^-13 for float16, otherwise 0: float32 is finer, and the unit of unorm16 is that of the map).
-fn summed_area_table_error(unit: f32, source_error: f32) -> f32 {
+fn summed_area_encoding_error(unit: f32, source_error: f32) -> f32 {
     return 0.5 / unit + source_error;
 }
 
 // The moment bias for four moments from a table, for distributions on the real line.
-fn summed_area_table_moment_bias(error: f32) -> MomentBias {
-    return MomentBias(fma(SUMMED_AREA_TABLE_BIAS_PER_ERROR, error, SUMMED_AREA_TABLE_BIAS_OF_F32), 0.628, 0.628);
+fn summed_area_encoding_moment_bias(error: f32) -> MomentBias {
+    return MomentBias(fma(SUMMED_AREA_ENCODING_BIAS_PER_ERROR, error, SUMMED_AREA_ENCODING_BIAS_OF_F32), 0.628, 0.628);
 }
 
 // The smallest variance of two moments from a table.
-fn summed_area_table_smallest_variance(error: f32) -> f32 {
-    return fma(SUMMED_AREA_TABLE_VARIANCE_PER_ERROR, error, SUMMED_AREA_TABLE_VARIANCE_OF_F32);
+fn summed_area_encoding_smallest_variance(error: f32) -> f32 {
+    return fma(SUMMED_AREA_ENCODING_VARIANCE_PER_ERROR, error, SUMMED_AREA_ENCODING_VARIANCE_OF_F32);
 }
