@@ -31,8 +31,8 @@ pub fn straight_edges() -> Scene {
         board(&mut shape, [-BOARD, 0.0], [low, high], height);
     }
     let stand = Stand {
-        eye: DVec3::new(5.6, 6.4, 0.0),
-        target: DVec3::new(0.55, 0.0, 0.0),
+        eye: DVec3::new(5.0, 6.4, 2.6),
+        target: DVec3::new(0.35, 0.0, 0.0),
         light_direction: DVec3::new(0.5, -1.0, 0.0),
     };
     above_ground(EDGE, shape.finish(), stand)
