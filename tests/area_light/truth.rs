@@ -52,10 +52,10 @@ fn a_small_hole_casts_the_picture_of_the_light() {
     let size = [1.6, 0.5];
     let (light, shape) = light(&scene, SoftLightChoice::Rectangle, size);
     let truth = AreaLight::new(&scene, &light, shape, [512; 2], 1024).unwrap();
-    // The wall is 1.5 above the ground; its hole is 0.07 wide.
-    let enlarged = 1.5 / (light.distance(DVec3::ZERO) - 1.5);
+    // The wall is 4 above the ground; its hole is 0.04 wide.
+    let enlarged = 4.0 / (light.distance(DVec3::ZERO) - 4.0);
     for (axis, size) in size.into_iter().enumerate() {
-        let half = 0.5 * (enlarged * size + 0.07 * (1.0 + enlarged));
+        let half = 0.5 * (enlarged * size + 0.04 * (1.0 + enlarged));
         let at = |along: f64| {
             let place = [DVec3::X, DVec3::Z][axis] * along;
             truth.intensity(place, DVec3::Y)

@@ -29,6 +29,11 @@ const SOFT_RADII: SoftRadii = SoftRadii {
     largest: 4096.0,
 };
 
+/// Moment depth by which receivers of percentage closer soft shadows are moved further towards the light. A search that
+/// takes the receiver itself for a blocker narrows its penumbra, and rasterisers round the camera's depth by some 2^-24 of
+/// the nearest depth of a triangle: on a ground plane that reaches to the camera, that is much for what lies far away.
+const SOFT_BIAS: f32 = 2e-4;
+
 /// The width of the ellipse with the area of a rectangle, as a part of the rectangle's: 2 / sqrt(pi). Percentage closer
 /// soft shadows filter with disks.
 const ROUND: f64 = std::f64::consts::FRAC_2_SQRT_PI;
@@ -206,6 +211,8 @@ pub fn shade_parameters(
     )?;
     if let Some(Technique::Pcss(_)) = file.technique() {
         parameters.light = soft_light(desc)?;
+        parameters.receiver_bias.constant += SOFT_BIAS;
+        parameters.receiver_bias.maximum += SOFT_BIAS;
     }
     Ok(parameters)
 }
