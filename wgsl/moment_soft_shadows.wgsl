@@ -5,7 +5,7 @@ import super::moments::{MomentBias, moments_apply_bias, moments_dequantize};
 import super::receiver_bias::{receiver_bias_depth_of_kernel};
 import super::soft_blockers::{soft_blockers_of_four_moments, soft_blockers_of_two_moments};
 import super::storage::{STORAGE_UNORM16};
-import super::summed_area_table::{SummedAreaRectangle, summed_area_table_mean_interpolated, summed_area_table_mean_plain, summed_area_table_rectangle};
+import super::summed_area_table::{SummedAreaTableRectangle, summed_area_table_mean_interpolated, summed_area_table_mean_plain, summed_area_table_rectangle};
 import super::variance::{variance_from_texel, variance_lower_bound};
 
 // Moment soft shadows: penumbrae of area lights from a summed-area table, in constant time.
@@ -48,7 +48,7 @@ struct MomentSoftShadowReceiver {
 }
 
 // One query: the means of the table's channels over a rectangle.
-fn moment_soft_shadows_mean(sums: texture_2d_array<u32>, table: MomentSoftShadowTable, rectangle: SummedAreaRectangle, interpolated: bool) -> vec4f {
+fn moment_soft_shadows_mean(sums: texture_2d_array<u32>, table: MomentSoftShadowTable, rectangle: SummedAreaTableRectangle, interpolated: bool) -> vec4f {
     if interpolated {
         return summed_area_table_mean_interpolated(sums, table.layer, table.region, rectangle, table.unit);
     }
@@ -56,20 +56,20 @@ fn moment_soft_shadows_mean(sums: texture_2d_array<u32>, table: MomentSoftShadow
 }
 
 // The rectangle that is searched for blockers: a blocker at the light's near end appears widest.
-fn moment_soft_shadows_search(table: MomentSoftShadowTable, receiver: MomentSoftShadowReceiver, light: AreaLight) -> SummedAreaRectangle {
+fn moment_soft_shadows_search(table: MomentSoftShadowTable, receiver: MomentSoftShadowReceiver, light: AreaLight) -> SummedAreaTableRectangle {
     let half_extent = max(area_light_box(light, -1.0, receiver.depth), receiver.footprint);
     return summed_area_table_rectangle(table.region, receiver.place, half_extent, table.largest_kernel);
 }
 
 // The rectangle that is filtered for a mean blocker depth.
-fn moment_soft_shadows_filter(table: MomentSoftShadowTable, receiver: MomentSoftShadowReceiver, light: AreaLight, blocker_depth: f32) -> SummedAreaRectangle {
+fn moment_soft_shadows_filter(table: MomentSoftShadowTable, receiver: MomentSoftShadowReceiver, light: AreaLight, blocker_depth: f32) -> SummedAreaTableRectangle {
     let half_extent = max(area_light_box(light, blocker_depth, receiver.depth), receiver.footprint);
     return summed_area_table_rectangle(table.region, receiver.place, half_extent, table.largest_kernel);
 }
 
 // The depth that a filter compares with: in front of the receiver by what its own plane varies within the rectangle, so
 // that the bias is as wide as the filter is and nothing about it has to be tuned.
-fn moment_soft_shadows_fragment_depth(receiver: MomentSoftShadowReceiver, rectangle: SummedAreaRectangle) -> f32 {
+fn moment_soft_shadows_fragment_depth(receiver: MomentSoftShadowReceiver, rectangle: SummedAreaTableRectangle) -> f32 {
     let half_extent = 0.5 * (rectangle.high - rectangle.low) + MOMENT_SOFT_SHADOWS_SMALLEST_EXTENT;
     // The standard deviation of a box is its half width over sqrt(3).
     let bias = receiver_bias_depth_of_kernel(receiver.gradient, half_extent * 0.57735027, receiver.steepest);
@@ -77,7 +77,7 @@ fn moment_soft_shadows_fragment_depth(receiver: MomentSoftShadowReceiver, rectan
 }
 
 // Shadow intensity in [0, 1] (1 = shadowed) of a receiver, from a table of four moments. `bias` is the table's
-// (`summed_area_table_moment_bias`). 8 loads, or 16 for a query that interpolates in place of 4.
+// (`summed_area_encoding_moment_bias`). 8 loads, or 16 for a query that interpolates in place of 4.
 fn moment_soft_shadows_intensity(sums: texture_2d_array<u32>, table: MomentSoftShadowTable, bias: MomentBias, receiver: MomentSoftShadowReceiver, light: AreaLight) -> f32 {
     let search = moment_soft_shadows_search(table, receiver, light);
     let searched = moments_dequantize(moment_soft_shadows_mean(sums, table, search, table.search_interpolated));
@@ -88,7 +88,7 @@ fn moment_soft_shadows_intensity(sums: texture_2d_array<u32>, table: MomentSoftS
     return hamburger_lower_bound(moments_apply_bias(filtered, bias), depth, bias.alpha);
 }
 
-// The same from a table of two moments; `smallest_variance` is the table's (`summed_area_table_smallest_variance`).
+// The same from a table of two moments; `smallest_variance` is the table's (`summed_area_encoding_smallest_variance`).
 fn moment_soft_shadows_variance_intensity(sums: texture_2d_array<u32>, table: MomentSoftShadowTable, smallest_variance: f32, receiver: MomentSoftShadowReceiver, light: AreaLight) -> f32 {
     let search = moment_soft_shadows_search(table, receiver, light);
     let searched = variance_from_texel(moment_soft_shadows_mean(sums, table, search, table.search_interpolated), STORAGE_UNORM16).xy;

@@ -29,6 +29,11 @@ const SOFT_RADII: SoftRadii = SoftRadii {
     largest: 4096.0,
 };
 
+/// Moment depth by which receivers of percentage closer soft shadows are moved further towards the light. A search that
+/// takes the receiver itself for a blocker narrows its penumbra, and rasterisers round the camera's depth by some 2^-24 of
+/// the nearest depth of a triangle: on a ground plane that reaches to the camera, that is much for what lies far away.
+const SOFT_BIAS: f32 = 2e-4;
+
 /// A graph that is bound to a frame.
 pub struct GraphFrame {
     /// The compiled graph.
@@ -203,6 +208,8 @@ pub fn shade_parameters(
     let is_soft = matches!(file.technique(), Some(Technique::Pcss(_)));
     if is_soft || file.has_node("shade_soft") {
         parameters.light = soft_light(desc)?;
+        parameters.receiver_bias.constant += SOFT_BIAS;
+        parameters.receiver_bias.maximum += SOFT_BIAS;
     }
     Ok(parameters)
 }

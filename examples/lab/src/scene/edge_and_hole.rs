@@ -31,8 +31,8 @@ pub fn straight_edges() -> Scene {
         board(&mut shape, [-BOARD, 0.0], [low, high], height);
     }
     let stand = Stand {
-        eye: DVec3::new(5.6, 6.4, 0.0),
-        target: DVec3::new(0.55, 0.0, 0.0),
+        eye: DVec3::new(5.0, 6.4, 2.6),
+        target: DVec3::new(0.35, 0.0, 0.0),
         light_direction: DVec3::new(0.5, -1.0, 0.0),
     };
     above_ground(EDGE, shape.finish(), stand)
@@ -47,7 +47,7 @@ pub fn edge_strip(number: usize) -> [f64; 2] {
 
 /// A wall across the light with a hole that is small beside the light: behind it lies the light's picture, upside down.
 pub fn small_hole() -> Scene {
-    let (half, hole, height) = (1.3, 0.035, 1.5);
+    let (half, hole, height) = (1.3, 0.02, 4.0);
     let mut shape = Shape::new(0);
     for side in [-1.0, 1.0] {
         let across = [side * hole, side * half];
@@ -55,8 +55,8 @@ pub fn small_hole() -> Scene {
         board(&mut shape, [-hole, hole], sorted(across), height);
     }
     let stand = Stand {
-        eye: DVec3::new(0.0, 0.95, 1.75),
-        target: DVec3::new(0.0, 0.06, 0.0),
+        eye: DVec3::new(0.0, 0.7, 0.8),
+        target: DVec3::new(0.0, 0.0, 0.0),
         light_direction: DVec3::NEG_Y,
     };
     above_ground(HOLE, shape.finish(), stand)

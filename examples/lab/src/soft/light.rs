@@ -30,7 +30,7 @@ pub struct LightSize(pub [f64; 2]);
 const ANGLE: f64 = 3.0;
 
 /// Width and height of a rectangle by default, in parts of its distance from the scene's middle; a disk has the first.
-const PARTS: [f64; 2] = [0.06, 0.03];
+const PARTS: [f64; 2] = [0.08, 0.03];
 
 /// The distance of a spot light's near plane, as a part of its distance to the scene.
 const SPOT_NEAR: f64 = 0.05;
@@ -75,7 +75,8 @@ impl SoftLightChoice {
                 Ok((light.reaching(reach), shape))
             }
             Self::Spot | Self::Rectangle => {
-                let light = view.spot(scene, SPOT_NEAR, None, false)?;
+                // Stored the other way round, depth loses its digits to the hyperbola: receivers shadow themselves.
+                let light = view.spot(scene, SPOT_NEAR, None, true)?;
                 let light = light.reaching(reach(scene, &light));
                 let distance = light.distance(scene.bounds().centre());
                 let usual = PARTS.map(|part| part * distance);

@@ -79,13 +79,12 @@ impl fmt::Display for SoftReport {
             SoftLightChoice::Spot => format!("disk of {width:.3}"),
             SoftLightChoice::Rectangle => format!("{width:.3} x {height:.3}"),
         };
-        let [columns, rows] = self.picture;
+        let ([columns, rows], map) = (self.picture, self.map);
         writeln!(
             f,
-            "{}: {} light, {light}; map {}x{1}, picture {columns}x{rows}; truth of {} places in {:.1} s",
+            "{}: {} light, {light}; map {map}x{map}, picture {columns}x{rows}; truth of {} places in {:.1} s",
             self.scene,
             self.light.name(),
-            self.map,
             self.places,
             self.truth_seconds
         )?;
