@@ -1,7 +1,9 @@
 //! What `shade_soft` cannot be connected to, and properties that are wrong.
 
 use moment_shadows::Profile;
-use moment_shadows_graph::{Capabilities, Graph, GraphError, GraphErrorKind, Imports, NodeRegistry, compile};
+use moment_shadows_graph::{
+    Capabilities, Graph, GraphError, GraphErrorKind, Imports, NodeRegistry, compile,
+};
 
 const TEXT: &str = include_str!("../../examples/soft_shadows.json");
 
@@ -29,7 +31,10 @@ fn a_map_that_is_no_table_is_named() {
     let error = error(&text);
     assert_eq!(error.kind, GraphErrorKind::Format);
     let message = error.to_string();
-    assert!(message.contains("shade") && message.contains("summed_area_table"), "{message}");
+    assert!(
+        message.contains("shade") && message.contains("summed_area_table"),
+        "{message}"
+    );
 }
 
 #[test]
@@ -55,10 +60,16 @@ fn techniques_without_moments_of_depth_have_no_soft_shadows() {
 #[test]
 fn kernels_beyond_the_range_of_sums_are_refused_with_the_largest() {
     for (kernel, named) in [("257", "256"), ("0", "at least 1"), ("[65538, 1]", "65537")] {
-        let text = TEXT.replace(r#""largest_kernel": 129"#, &format!(r#""largest_kernel": {kernel}"#));
+        let text = TEXT.replace(
+            r#""largest_kernel": 129"#,
+            &format!(r#""largest_kernel": {kernel}"#),
+        );
         assert_ne!(text, TEXT);
         let message = error(&text).to_string();
-        assert!(message.contains("sum") && message.contains(named), "{kernel}: {message}");
+        assert!(
+            message.contains("sum") && message.contains(named),
+            "{kernel}: {message}"
+        );
     }
 }
 

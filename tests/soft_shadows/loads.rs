@@ -47,7 +47,10 @@ fn they_are_as_many_as_documented() {
     // A query is one of two, as a constant of the node says.
     assert_eq!(loads(&module, "summed_area_table_mean_interpolated"), 16);
     assert_eq!(loads(&module, "summed_area_table_mean_plain"), 4);
-    for name in ["moment_soft_shadows_intensity", "moment_soft_shadows_variance_intensity"] {
+    for name in [
+        "moment_soft_shadows_intensity",
+        "moment_soft_shadows_variance_intensity",
+    ] {
         // Search and filter, each with both queries in its text.
         assert_eq!(loads(&module, name), 2 * (16 + 4), "{name}");
     }

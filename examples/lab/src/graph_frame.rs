@@ -205,9 +205,11 @@ pub fn shade_parameters(
         receiver_bias(desc, file)?,
         LeakReduction::DEFAULT,
     )?;
-    let is_soft = matches!(file.technique(), Some(Technique::Pcss(_)));
-    if is_soft || file.has_node("shade_soft") {
+    let is_percentage_closer = matches!(file.technique(), Some(Technique::Pcss(_)));
+    if is_percentage_closer || file.has_node("shade_soft") {
         parameters.light = soft_light(desc)?;
+    }
+    if is_percentage_closer {
         parameters.receiver_bias.constant += SOFT_BIAS;
         parameters.receiver_bias.maximum += SOFT_BIAS;
     }
