@@ -198,6 +198,7 @@ fn capabilities(random: &mut Random) -> Capabilities {
     let mut capabilities = Capabilities::of_profile(profile);
     capabilities.float32_filterable = random.once_in(2);
     capabilities.anisotropic_sampling = random.once_in(2);
+    capabilities.software_adapter = random.once_in(2);
     if random.once_in(3) {
         capabilities.depth_samples = vec![1, 2, 4, 8];
     }

@@ -103,19 +103,20 @@ fn large_maps_wrap_around_and_stay_exact() {
 #[test]
 fn every_storage_and_both_techniques_are_summed_to_the_bit() {
     let gpu = gpu();
-    for technique in [Technique::Hamburger4, Technique::Hausdorff4, Technique::Vsm] {
+    for technique in [Technique::Hamburger4, Technique::Vsm] {
         for storage in Storage::ALL {
             let desc = map(&encoding(technique.clone(), storage), [203, 157], 1);
-            // From units of 32 bits to ones of 16.
-            for kernel in [
-                LargestKernel::Square(1),
-                LargestKernel::Square(9),
-                LargestKernel::Sides([100, 3]),
-                LargestKernel::Sides([65537, 1]),
-            ] {
-                assert_exact(&gpu, &desc, &noise(&desc, 3), kernel);
-            }
+            assert_exact(&gpu, &desc, &noise(&desc, 3), KERNEL);
         }
+    }
+    let desc = map(&encoding(Technique::Vsm, Storage::Float16), [30, 40], 1);
+    // From units of 32 bits to ones of 16.
+    for kernel in [
+        LargestKernel::Square(1),
+        LargestKernel::Sides([100, 3]),
+        LargestKernel::Sides([65537, 1]),
+    ] {
+        assert_exact(&gpu, &desc, &noise(&desc, 3), kernel);
     }
 }
 

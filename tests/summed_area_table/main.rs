@@ -6,8 +6,10 @@
     reason = "a test that fails says where"
 )]
 
+mod bias;
 mod errors;
 mod exact;
+mod plans;
 mod queries;
 mod regions;
 mod setup;

@@ -206,13 +206,13 @@ enum Command {
     /// Prints how far soft shadows are from those of an area light that is sampled at many places: hard moment shadows,
     /// percentage closer soft shadows, and graphs of your own.
     SoftError(SoftErrorArguments),
-    /// Times the passes of a graph, or blurs of several radii, as ratios to copies, and counts their bytes.
+    /// Times the passes of a graph, blurs of several radii or summed-area tables, as ratios to copies, and counts their bytes.
     Cost {
         #[command(flatten)]
         subject: CostSubject,
         /// A memory to bound the time by, in 10^9 bytes per second, with a name if you like: 224:GTX 970. Several may be
         /// given; by default three cards.
-        #[arg(long, value_name = "GB/S[:NAME]", conflicts_with = "blur")]
+        #[arg(long, value_name = "GB/S[:NAME]", conflicts_with_all = ["blur", "summed_area_table"])]
         bandwidth: Vec<Memory>,
         /// Texels per side of the light's map.
         #[arg(long, default_value_t = 1024, value_parser = clap::value_parser!(u32).range(256..=8192))]
@@ -235,6 +235,9 @@ enum Command {
         /// One storage of the library; all of them and the published forms if none is given.
         #[arg(long, value_enum)]
         storage: Option<StorageArgument>,
+        /// Summed-area tables of every storage instead, for both solvers and for two moments.
+        #[arg(long, conflicts_with_all = ["technique", "storage"])]
+        tables: bool,
         /// Patches per row of the table.
         #[arg(long, default_value_t = 1_000_000, value_parser = sample_count)]
         samples: usize,
@@ -484,6 +487,10 @@ struct CostSubject {
     /// The blur in both directions. Fails where a radius costs more than it may on a software adapter.
     #[arg(long)]
     blur: bool,
+    /// Summed-area tables of maps from 256 texels per side up to the size, beside the usual way to make them. Fails where
+    /// they cost more than they may on a software adapter.
+    #[arg(long)]
+    summed_area_table: bool,
 }
 
 #[derive(clap::Args)]
@@ -724,6 +731,7 @@ fn run(command: Command) -> Result<ExitCode, Box<dyn std::error::Error>> {
         Command::Bias {
             technique,
             storage,
+            tables: false,
             samples,
             seed,
             json,
@@ -731,6 +739,13 @@ fn run(command: Command) -> Result<ExitCode, Box<dyn std::error::Error>> {
             &bias::run(technique.into(), storage.map(Storage::from), samples, seed)?,
             json,
         )?,
+        Command::Bias {
+            tables: true,
+            samples,
+            seed,
+            json,
+            ..
+        } => print(&bias::tables(samples, seed)?, json)?,
         Command::Bases {
             out,
             margin,
@@ -822,6 +837,13 @@ fn run(command: Command) -> Result<ExitCode, Box<dyn std::error::Error>> {
                     bandwidth
                 };
                 print(&cost::graph(&graph, size, rounds, memories)?, json)?;
+            }
+            None if subject.summed_area_table => {
+                let cost = cost::summed_area_table(size, rounds)?;
+                print(&cost, json)?;
+                if !cost.passed() {
+                    return Ok(ExitCode::FAILURE);
+                }
             }
             None => {
                 let cost = cost::blur(size, rounds)?;

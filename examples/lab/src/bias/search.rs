@@ -181,7 +181,8 @@ pub fn measure(
     })
 }
 
-fn quantiles(mut alphas: Vec<f64>) -> Quantiles {
+/// Both quantiles of some alphas.
+pub(super) fn quantiles(mut alphas: Vec<f64>) -> Quantiles {
     alphas.sort_by(f64::total_cmp);
     let count = alphas.len();
     let place = ((COVERED * count as f64).ceil() as usize).clamp(1, count) - 1;

@@ -1,8 +1,11 @@
 //! `moment-shadows bias`: the smallest safe moment bias of a storage, by search.
 
-use moment_shadows::Storage;
+use moment_shadows::{Storage, SummedAreaTableError};
 
-use crate::bias::{BiasError, BiasTable, BiasTechnique, Form, search, steps};
+use crate::bias::{
+    BiasError, BiasTable, BiasTechnique, Form, TableBiases, search, search_tables, steps,
+    table_steps,
+};
 use crate::progress;
 
 /// Searches one storage, or all and the published forms.
@@ -21,4 +24,12 @@ pub fn run(
     let table = search(technique, storage, samples, seed, || bar.inc(1));
     bar.finish_and_clear();
     table
+}
+
+/// Searches summed-area tables of every storage with several kernels.
+pub fn tables(samples: usize, seed: u64) -> Result<TableBiases, SummedAreaTableError> {
+    let bar = progress::bar(table_steps(samples) as u64, "summing patches");
+    let tables = search_tables(samples, seed, || bar.inc(1));
+    bar.finish_and_clear();
+    tables
 }

@@ -1,5 +1,6 @@
 //! What passes are compared with: copies of one texture to another of the same format.
 
+use moment_shadows::TextureFormat;
 use moment_shadows_graph::TextureDesc;
 use moment_shadows_graph::record::texture_format;
 
@@ -84,7 +85,7 @@ impl Copies {
         let to = texture("cost/copy to", target | wgpu::TextureUsages::COPY_DST);
         let module = device.create_shader_module(wgpu::ShaderModuleDescriptor {
             label: Some("cost/copy"),
-            source: wgpu::ShaderSource::Wgsl(shader(work, desc.format.name()).into()),
+            source: wgpu::ShaderSource::Wgsl(shader(work, desc.format).into()),
         });
         let pipeline = match work {
             CopyWork::Compute => CopyPipeline::Compute(device.create_compute_pipeline(
@@ -215,10 +216,11 @@ fn one_layer(texture: &wgpu::Texture, layer: u32) -> wgpu::TextureView {
     })
 }
 
-fn shader(work: CopyWork, format: &str) -> String {
+fn shader(work: CopyWork, format: TextureFormat) -> String {
+    let texel = if format.is_integer() { "u32" } else { "f32" };
     match work {
         CopyWork::Compute => format!(
-            "@group(0) @binding(0) var copied: texture_2d<f32>;
+            "@group(0) @binding(0) var copied: texture_2d<{texel}>;
 @group(0) @binding(1) var copy_target: texture_storage_2d<{format}, write>;
 @compute @workgroup_size({WORKGROUP}, 1)
 fn copy(@builtin(global_invocation_id) id: vec3u) {{

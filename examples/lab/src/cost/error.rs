@@ -1,6 +1,6 @@
 //! Why a cost was not reported.
 
-use moment_shadows::TextureFormat;
+use moment_shadows::{TechniqueError, TextureFormat};
 use moment_shadows_graph::GraphError;
 use moment_shadows_graph::record::RecordError;
 
@@ -8,6 +8,7 @@ use crate::error::LabError;
 use crate::gpu::GpuError;
 use crate::picture::PictureError;
 use crate::plot::PlotError;
+use crate::summed_area::TableError;
 
 /// Why a cost was not reported.
 #[derive(Debug, thiserror::Error)]
@@ -28,6 +29,12 @@ pub enum CostError {
     /// A plot.
     #[error(transparent)]
     Plot(#[from] PlotError),
+    /// A summed-area table.
+    #[error(transparent)]
+    Table(#[from] TableError),
+    /// An encoding that there is not.
+    #[error(transparent)]
+    Technique(#[from] TechniqueError),
     /// A graph that the harness makes itself.
     #[error(transparent)]
     Graph(#[from] GraphError),

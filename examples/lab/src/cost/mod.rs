@@ -20,6 +20,7 @@ pub mod reference;
 pub mod report;
 mod shading;
 pub mod statistics;
+pub mod summed_area;
 pub mod texels;
 
 pub use error::CostError;

@@ -9,7 +9,7 @@ use moment_shadows_graph::{
 };
 
 use super::error::IsaError;
-use super::subjects::{Entry, Subject, SubjectWork};
+use super::subjects::{Entry, SIZE, Subject, SubjectWork};
 
 /// The shaders of every pass that the node itself records.
 pub(super) fn describe(entry: &Entry) -> Result<Vec<Subject>, IsaError> {
@@ -37,7 +37,12 @@ pub(super) fn describe(entry: &Entry) -> Result<Vec<Subject>, IsaError> {
                     texels_per_workgroup,
                     ..
                 } => SubjectWork::Compute {
-                    texels_per_workgroup: texels_per_workgroup.iter().product(),
+                    // A workgroup for whole lines covers no more than there is.
+                    texels_per_workgroup: texels_per_workgroup
+                        .iter()
+                        .zip(SIZE)
+                        .map(|(&texels, side)| texels.min(side))
+                        .product(),
                 },
                 Work::Fullscreen { target, .. } => match formats.of(target) {
                     Some(format) => SubjectWork::Fragment {

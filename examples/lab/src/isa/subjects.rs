@@ -7,12 +7,13 @@ use moment_shadows::{
 };
 use moment_shadows_graph::nodes::{
     BlurMoments, BlurParameters, DebugMoments, DownsampleMoments, KernelProperty, MipLevels,
-    PlaceLayers, ResolveMoments, ShadeHard, Show,
+    PlaceLayers, ResolveMoments, ShadeHard, Show, SummedAreaTable,
 };
 use moment_shadows_graph::{Capabilities, Node, ResourceDesc, TextureDesc};
 
 use super::described::describe;
 use super::error::IsaError;
+use crate::summed_area::naive;
 use crate::techniques;
 
 /// A shader that is compiled.
@@ -74,6 +75,37 @@ pub fn subjects() -> Result<Vec<Subject>, IsaError> {
             include_str!("reference/hamburger.wgsl"),
         )?,
     ];
+    for (name, text) in [
+        (
+            "reference: summed-area table, nine rectangles",
+            include_str!("reference/summed_area_interpolated.wgsl"),
+        ),
+        (
+            "reference: summed-area table, whole texels",
+            include_str!("reference/summed_area_plain.wgsl"),
+        ),
+    ] {
+        subjects.push(Subject {
+            texel_bytes: 16,
+            ..reference(name, text)?
+        });
+    }
+    for (name, text, entry_point) in naive::SHADERS {
+        subjects.push(Subject {
+            entry_point: entry_point.to_owned(),
+            work: SubjectWork::Compute {
+                texels_per_workgroup: naive::LINES * SIZE[0],
+            },
+            texel_bytes: 16,
+            trips: vec![SIZE[0]],
+            name: format!("reference: summed-area table, {name}"),
+            wgsl: naive::linked(name, text).map_err(|error| IsaError::Shader {
+                shader: name.to_owned(),
+                reason: error.to_string(),
+            })?,
+            constants: BTreeMap::new(),
+        });
+    }
     for entry in nodes()? {
         subjects.extend(describe(&entry)?);
     }
@@ -94,6 +126,10 @@ pub(super) fn nodes() -> Result<Vec<Entry>, IsaError> {
         entries.push(shade(storage, 1, 1, false));
         entries.push(shade(storage, MIPS, 1, false));
     }
+    for storage in Storage::ALL {
+        entries.push(table(storage, false));
+    }
+    entries.push(table(Storage::Unorm16, true));
     entries.push(place(1));
     entries.push(debug(Storage::Unorm16));
     // Other storages can be filtered everywhere.
@@ -112,7 +148,7 @@ pub(super) fn nodes() -> Result<Vec<Entry>, IsaError> {
 }
 
 /// Texels per side of all maps. The code does not depend on it.
-const SIZE: [u32; 2] = [1024, 1024];
+pub(super) const SIZE: [u32; 2] = [1024, 1024];
 
 /// Mip levels of a map that has them.
 const MIPS: u32 = 6;
@@ -207,6 +243,24 @@ fn downsample(storage: Storage) -> Entry {
         capabilities: native(),
         trips: Vec::new(),
         pass_trips: BTreeMap::new(),
+    }
+}
+
+fn table(storage: Storage, software_adapter: bool) -> Entry {
+    let tile = if software_adapter { [16, 16] } else { [8, 16] };
+    // Tiles but the last, four or two at a time.
+    let steps = |axis: usize, unrolled: u32| vec![(SIZE[axis] / tile[axis] - 1).div_ceil(unrolled)];
+    Entry {
+        settings: format!("{storage}, tiles of {}x{}", tile[0], tile[1]),
+        node: Box::new(SummedAreaTable::default()),
+        inputs: inputs([("moments", texture(storage.format()))]),
+        capabilities: Capabilities {
+            software_adapter,
+            ..native()
+        },
+        // Rows of a tile.
+        trips: vec![tile[1]],
+        pass_trips: BTreeMap::from([("sum rows", steps(0, 4)), ("sum columns", steps(1, 2))]),
     }
 }
 

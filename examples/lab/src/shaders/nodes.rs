@@ -5,7 +5,7 @@ use std::collections::BTreeMap;
 use moment_shadows::{LayerSplits, MapEncoding, Profile, Storage, Technique, TextureFormat};
 use moment_shadows_graph::nodes::{
     BlurMoments, DebugMoments, DownsampleMoments, KernelProperty, MipLevels, PlaceLayers,
-    ResolveMoments, ShadeHard, Show,
+    ResolveMoments, ShadeHard, Show, SummedAreaTable,
 };
 use moment_shadows_graph::{Capabilities, Connected, Node, ResourceDesc, TextureDesc};
 
@@ -109,8 +109,35 @@ fn variants(storage: Storage, capabilities: &Capabilities) -> Vec<Variant> {
             capabilities,
         ));
     }
+    variants.extend(summing(storage, capabilities));
     variants.extend(shading(storage, capabilities));
     variants
+}
+
+/// Summed-area tables with both tiles, of four moments and of two.
+fn summing(storage: Storage, capabilities: &Capabilities) -> Vec<Variant> {
+    let software = Capabilities {
+        software_adapter: true,
+        ..capabilities.clone()
+    };
+    let variance = MapEncoding::new(Technique::Vsm, storage).ok();
+    [
+        ("", capabilities, None, 1),
+        ("_software", &software, None, 1),
+        ("", capabilities, None, 16),
+        ("_vsm", capabilities, variance, 1),
+    ]
+    .into_iter()
+    .map(|(kind, capabilities, encoding, regions)| Variant {
+        regions,
+        encoding,
+        ..Variant::new(
+            format!("summed_area_table{kind}_{storage}{}", suffix(regions)),
+            SummedAreaTable::default(),
+            capabilities,
+        )
+    })
+    .collect()
 }
 
 /// Shading with a lookup by the sampler and in the shader, with and without mip levels, for one light and for several.

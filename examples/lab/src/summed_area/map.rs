@@ -171,7 +171,8 @@ impl SummedMap {
     }
 }
 
-fn moments_texture(
+/// The map as a texture.
+pub(super) fn moments_texture(
     gpu: &Gpu,
     desc: &TextureDesc,
     bytes: &[u8],

@@ -2,7 +2,9 @@
 
 mod map;
 mod means;
+pub mod naive;
 pub mod reference;
 
 pub use map::{SummedMap, TableError};
 pub use means::{Mean, Means, Query};
+pub use naive::NaiveTable;

@@ -66,9 +66,15 @@ fn encoded(technique: &Technique, texel: &[f32]) -> [f32; 4] {
         let [x, y] = [texel[0], texel[1]].map(|moment| moment.clamp(-1.0, 1.0));
         return [0.5_f32.mul_add(x, 0.5), 1.0 - y, 0.0, 0.0];
     }
-    let root = 1.732_050_8_f32;
-    let [x, z] = [texel[0], texel[2]].map(|moment| moment.clamp(-1.0, 1.0));
-    let [y, w] = [texel[1], texel[3]].map(|moment| moment.clamp(0.0, 1.0));
+    let odd = |moment: f32| moment.clamp(-1.0, 1.0);
+    let even = |moment: f32| moment.clamp(0.0, 1.0);
+    optimised([odd(texel[0]), even(texel[1]), odd(texel[2]), even(texel[3])])
+}
+
+/// `moments_quantize` with fused products.
+#[must_use]
+pub fn optimised([x, y, z, w]: [f32; 4]) -> [f32; 4] {
+    let root = 3.0_f32.sqrt();
     [
         1.5_f32.mul_add(x, (-2.0_f32).mul_add(z, 0.5)),
         4.0 * (y - w),
