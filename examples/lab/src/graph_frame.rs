@@ -211,8 +211,11 @@ pub fn shade_parameters(
     )?;
     if let Some(Technique::Pcss(_)) = file.technique() {
         parameters.light = soft_light(desc)?;
-        parameters.receiver_bias.constant += SOFT_BIAS;
-        parameters.receiver_bias.maximum += SOFT_BIAS;
+        // Without a size there is nothing to search: the binary test.
+        if !desc.shape.is_point() {
+            parameters.receiver_bias.constant += SOFT_BIAS;
+            parameters.receiver_bias.maximum += SOFT_BIAS;
+        }
     }
     Ok(parameters)
 }
