@@ -209,7 +209,8 @@ pub fn shade_parameters(
     if is_percentage_closer || file.has_node("shade_soft") {
         parameters.light = soft_light(desc)?;
     }
-    if is_percentage_closer {
+    // Without a size there is nothing to search: the binary test.
+    if is_percentage_closer && !desc.shape.is_point() {
         parameters.receiver_bias.constant += SOFT_BIAS;
         parameters.receiver_bias.maximum += SOFT_BIAS;
     }

@@ -35,8 +35,8 @@ const PARTS: [f64; 2] = [0.08, 0.03];
 /// The distance of a spot light's near plane, as a part of its distance to the scene.
 const SPOT_NEAR: f64 = 0.05;
 
-/// Receivers farther behind the casters than so many times the casters' own depth do not stretch the light's range.
-const FARTHEST: f64 = 3.0;
+/// Receivers farther behind the casters than so many times the diameter of all casters do not stretch the light's range.
+const FARTHEST: f64 = 2.0;
 
 impl SoftLightChoice {
     /// `directional`, `spot` or `rectangle`.
@@ -110,7 +110,7 @@ fn one(size: Option<LightSize>, what: &'static str) -> Result<Option<f64>, Light
 
 /// How far along the light's axis the shadows of casters fall on the ground.
 fn reach(scene: &Scene, light: &LightView) -> f64 {
-    let [first, last] = light.range;
+    let last = light.range[1];
     let Some(ground) = scene.ground else {
         return last;
     };
@@ -124,7 +124,7 @@ fn reach(scene: &Scene, light: &LightView) -> f64 {
         let falls = towards.y > 0.0 && along.is_finite();
         falls.then(|| light.distance(caster - along * towards))
     };
-    let farthest = last + FARTHEST * (last - first);
+    let farthest = last + FARTHEST * 2.0 * scene.bounds().radius();
     let reached = scene.casters().filter_map(on_ground);
     reached.fold(last, f64::max).min(farthest)
 }
