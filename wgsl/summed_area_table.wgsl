@@ -36,6 +36,7 @@ struct SummedAreaTableStrips {
     right: vec4u,
 }
 
+// The strips of a row, with 0 before the first texel of the region.
 fn summed_area_table_strips(table: texture_2d_array<u32>, layer: u32, x: vec4i, y: i32, is_first: bool) -> SummedAreaTableStrips {
     let p0 = select(textureLoad(table, vec2i(x.x, y), layer, 0), vec4u(0u), is_first);
     let p1 = textureLoad(table, vec2i(x.y, y), layer, 0);
