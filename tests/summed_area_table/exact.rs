@@ -1,6 +1,6 @@
 //! Tables of whole layers.
 
-use moment_shadows::{MapEncoding, MapRegion, Storage, Technique};
+use moment_shadows::{MapEncoding, MapRegion, Storage, SummedAreaTable, Technique};
 use moment_shadows_graph::TextureDesc;
 use moment_shadows_graph::nodes::LargestKernel;
 use moment_shadows_graph::record::Layers;
@@ -154,8 +154,12 @@ fn a_map_of_ones_fills_the_range() {
     }
     // n channels of 1 never exceed 32 bits, whatever n is.
     for area in 1..=65537_u32 {
-        let unit = u32::MAX / area;
+        let table = SummedAreaTable::new(Storage::Float32, [area, 1]).unwrap();
+        let unit = table.unit();
         assert_eq!(reference::fixed_point(1.0, unit), unit);
+        assert_eq!(unit as f32 as u32, unit, "f32 holds it exactly");
+        // A unit is one part in 2^23 less than it could be, at most.
+        assert!(u64::from(u32::MAX / area - unit) << 23 <= u64::from(unit));
         assert!(unit.checked_mul(area).is_some());
     }
 }
