@@ -69,16 +69,12 @@ fn every_size_is_summed_to_the_bit() {
     let source = encoding(Technique::Hamburger4, Storage::Unorm16);
     for size in [
         [1, 1],
-        [1, 7],
         [8, 16],
         [9, 17],
-        [16, 16],
         [17, 33],
         [203, 157],
-        [256, 256],
         [1, 1000],
         [1000, 1],
-        [515, 130],
     ] {
         let desc = map(&source, size, 1);
         assert_exact(&gpu, &desc, &noise(&desc, 1), KERNEL);

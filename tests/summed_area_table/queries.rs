@@ -135,12 +135,16 @@ fn means_are_those_of_the_texels() {
                 let first = region.origin[axis] as f32;
                 let place: f32 =
                     random.random_range(-9.0..9.0 + region.extent[axis] as f32) + first;
-                if index % 5 == 0 { place.round() } else { place }
+                if index.is_multiple_of(5) {
+                    place.round()
+                } else {
+                    place
+                }
             };
             let centre = [place(0, &mut random), place(1, &mut random)];
             let half_extent = [0, 1].map(|_| {
                 let reach: f32 = 90.0 * random.random_range(0.0_f32..1.0).powi(2);
-                if index % 7 == 0 {
+                if index.is_multiple_of(7) {
                     (2.0 * reach).round() * 0.5
                 } else {
                     reach
