@@ -111,7 +111,8 @@ numerics_on_swiftshader() {
       exit 1
     fi
     cargo test --release --locked --workspace --test numerics --test stability --test vector_files \
-      --test quantisation --test light_leaking --test receiver_bias --test blur --test recorder
+      --test quantisation --test light_leaking --test receiver_bias --test blur --test recorder \
+      --test techniques --test percentage_closer --test summed_area_table --test soft_shadows
   )
 }
 
