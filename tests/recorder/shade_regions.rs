@@ -1,6 +1,9 @@
 //! `shade_hard` over regions, layers and mip levels: which views shade which pixels, and what their lookups read.
 
-use moment_shadows::{LeakReduction, MapRegion, Profile, ReceiverBias, TextureFormat};
+use moment_shadows::{
+    AreaLight, DepthRange, LeakReduction, MapRegion, Profile, ReceiverBias, SoftRadii,
+    TextureFormat,
+};
 use moment_shadows_graph::nodes::{CameraView, LightDepth, LightView, ShadeHardParameters};
 use moment_shadows_graph::record::{ImportedResource, Layers, RecordError, Recording};
 use moment_shadows_graph::{Capabilities, Stage, TextureDesc};
@@ -199,6 +202,88 @@ fn a_view_reads_its_region_alone_however_far_pixels_reach() {
                         "{storage}, {levels} levels, {picture:?}, pixel {pixel}: {intensity} for {expected}"
                     );
                 }
+            }
+        }
+    }
+}
+
+/// A summed-area table between resolve and soft shading.
+fn soft_graph(storage: &str, technique: &str) -> String {
+    graph(storage, 1, r#"{ "format": "rgba32float" }"#)
+        .replace(
+            r#"{ "name": "shade", "type": "shade_hard""#,
+            r#"{ "name": "sum", "type": "summed_area_table", "properties": { "largest_kernel": 129 } },
+    { "name": "shade", "type": "shade_soft""#,
+        )
+        .replace(
+            r#"{ "from": "resolve.moments", "to": "shade.moments" }"#,
+            r#"{ "from": "resolve.moments", "to": "sum.moments" }, { "from": "sum.table", "to": "shade.table" }"#,
+        )
+        .replace(r#""mip_levels": 1"#, &format!(r#""technique": "{technique}""#))
+}
+
+#[test]
+fn searches_and_filters_of_soft_shadows_end_at_their_region() {
+    let gpu = gpu();
+    let middle = MapRegion::new([37, 21], [51, 43]);
+    let others = [
+        MapRegion::new([0, 0], [37, 96]),
+        MapRegion::new([88, 0], [40, 96]),
+        MapRegion::new([37, 0], [51, 21]),
+        MapRegion::new([37, 64], [51, 32]),
+    ];
+    let regions: Vec<MapRegion> = [middle].into_iter().chain(others).collect();
+    let inside = |x: u32, y: u32| (37..88).contains(&x) && (21..64).contains(&y);
+    let radii = SoftRadii {
+        smallest: 1.0,
+        largest: 64.0,
+    };
+    let range = DepthRange {
+        near: 0.0,
+        far: 1.0,
+    };
+    // Penumbrae of up to 56 texels to either side: wider than the region.
+    let light = AreaLight::directional(1.0, [0.01; 2], range, radii).unwrap();
+    for caster_in_the_middle in [false, true] {
+        let map = depth_map::of(&gpu, MAP, |x, y| {
+            if inside(x, y) == caster_in_the_middle {
+                0.1
+            } else {
+                1.0
+            }
+        });
+        for (software_adapter, storage, technique) in [
+            (false, "unorm16", "hamburger4"),
+            (true, "unorm16", "hamburger4"),
+            (true, "float32", "hamburger4"),
+            (true, "float16", "hamburger4"),
+            (false, "unorm16", "vsm"),
+        ] {
+            let capabilities = Capabilities {
+                software_adapter,
+                ..capabilities(&gpu)
+            };
+            let picture = [51, 43];
+            let camera = depth_map::of(&gpu, picture, |_, _| 0.8);
+            let mut view = view(IDENTITY, 0, middle, 0);
+            view.light = light;
+            let shading = Shading::new(
+                &gpu,
+                &capabilities,
+                &soft_graph(storage, technique),
+                (&map, depth(5, 1)),
+                (&camera, picture),
+                &[view],
+                &regions,
+            );
+            for (pixel, [intensity, ..]) in shading.run(&gpu).into_iter().enumerate() {
+                let expected = if caster_in_the_middle { 1.0 } else { 0.0 };
+                // The moment bias, and the smallest variance of two moments, are a few times that much at this distance.
+                let tolerance = if storage == "float16" { 5e-3 } else { 5e-4 };
+                assert!(
+                    (intensity - expected).abs() <= tolerance,
+                    "{technique} {storage}, pixel {pixel}: {intensity} for {expected}"
+                );
             }
         }
     }
