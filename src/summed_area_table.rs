@@ -62,23 +62,42 @@ pub enum SummedAreaTableError {
     },
 }
 
-/// `SUMMED_AREA_ENCODING_BIAS_PER_ERROR` in WGSL.
-const BIAS_PER_ERROR: f32 = 4.88;
+/// What rounding costs, as the constants of the WGSL module say it: `per_error` times the error of a channel and what f32 adds, but
+/// no less than `smallest`.
+struct Cost {
+    per_error: f32,
+    of_f32: f32,
+    smallest: f32,
+}
 
-/// `SUMMED_AREA_ENCODING_BIAS_OF_F32` in WGSL.
-const BIAS_OF_F32: f32 = 8e-7;
+/// `SUMMED_AREA_ENCODING_BIAS_PER_ERROR` and so on in WGSL.
+const BIAS: Cost = Cost {
+    per_error: 4.88,
+    of_f32: 4e-7,
+    smallest: 1e-6,
+};
 
 /// The same for distributions on the depth interval.
-const HAUSDORFF_BIAS_PER_ERROR: f32 = 6.14;
+const HAUSDORFF_BIAS: Cost = Cost {
+    per_error: 6.14,
+    of_f32: 6e-7,
+    smallest: 1.6e-6,
+};
 
-/// The solver on the interval amplifies rounding of f32 more.
-const HAUSDORFF_BIAS_OF_F32: f32 = 1.6e-6;
+/// `SUMMED_AREA_ENCODING_VARIANCE_PER_ERROR` and so on in WGSL.
+const VARIANCE: Cost = Cost {
+    per_error: 5.0,
+    of_f32: 4e-7,
+    smallest: 1.2e-6,
+};
 
-/// `SUMMED_AREA_ENCODING_VARIANCE_PER_ERROR` in WGSL.
-const VARIANCE_PER_ERROR: f32 = 5.0;
-
-/// `SUMMED_AREA_ENCODING_VARIANCE_OF_F32` in WGSL.
-const VARIANCE_OF_F32: f32 = 6e-7;
+impl Cost {
+    fn of(&self, error: f32) -> f32 {
+        self.per_error
+            .mul_add(error, self.of_f32)
+            .max(self.smallest)
+    }
+}
 
 impl SummedAreaTable {
     /// The most texels that a kernel can cover (`SUMMED_AREA_ENCODING_LARGEST_AREA` in WGSL): 65537 channels of 65535 units are
@@ -131,12 +150,16 @@ impl SummedAreaTable {
     }
 
     /// The integer that a channel of 1 is: divide a sum by this and by the rectangle's area. That of unorm16 maps is 65535, their
-    /// own; of others floor((2^32 - 1) / largest area).
+    /// own; of others floor((2^32 - 1) / largest area), less the bits that f32 would round.
     #[must_use]
     pub fn unit(&self) -> u32 {
         match self.source {
             Storage::Unorm16 => 65535,
-            _ => u32::MAX / self.largest_area(),
+            _ => {
+                let most = u32::MAX / self.largest_area();
+                let rounded = 8_u32.saturating_sub(most.leading_zeros());
+                most >> rounded << rounded
+            }
         }
     }
 
@@ -150,15 +173,15 @@ impl SummedAreaTable {
         0.5 / self.unit() as f32 + source
     }
 
-    /// The smallest safe moment bias for four moments on the real line: of a float32 map 1e-6 for kernels of 9x9 texels, 1.2e-6
-    /// for 27x27 and 3.2e-6 for 65x65; of a unorm16 map 3.8e-5, since the resolve rounded once; of a float16 map 6e-4.
+    /// The smallest safe moment bias for four moments on the real line: of a float32 map 1e-6 for kernels up to 27x27 texels and
+    /// 2.8e-6 for 65x65; of a unorm16 map 3.8e-5, since the resolve rounded once; of a float16 map 6e-4.
     ///
-    /// With the error e of a channel, alpha >= 4.88 e suffices to first order (JCGT 6(1) 2017 derives it by another norm); f32 arithmetic
-    /// adds 8e-7. The map is meant to come from a resolve: each blur in between rounds again.
+    /// With the error e of a channel, alpha >= 4.88 e suffices to first order; arithmetic in f32 adds to it. The map is meant to
+    /// come from a resolve: each blur in between rounds again.
     #[must_use]
     pub fn moment_bias(&self) -> MomentBias {
         MomentBias {
-            alpha: BIAS_PER_ERROR.mul_add(self.error(), BIAS_OF_F32),
+            alpha: BIAS.of(self.error()),
             second: 0.628,
             fourth: 0.628,
         }
@@ -168,7 +191,7 @@ impl SummedAreaTable {
     #[must_use]
     pub fn hausdorff_moment_bias(&self) -> MomentBias {
         MomentBias {
-            alpha: HAUSDORFF_BIAS_PER_ERROR.mul_add(self.error(), HAUSDORFF_BIAS_OF_F32),
+            alpha: HAUSDORFF_BIAS.of(self.error()),
             second: 0.6036,
             fourth: 0.4875,
         }
@@ -177,7 +200,7 @@ impl SummedAreaTable {
     /// The smallest variance for two moments: what rounding can take away from it.
     #[must_use]
     pub fn smallest_variance(&self) -> f32 {
-        VARIANCE_PER_ERROR.mul_add(self.error(), VARIANCE_OF_F32)
+        VARIANCE.of(self.error())
     }
 }
 

@@ -11,7 +11,8 @@ use std::mem::offset_of;
 use moment_shadows::{
     AreaLight, DepthConversion, EsmFiltering, Finite, Kernel, LARGEST_RADIUS, LayerSplits,
     LeakReduction, MapRegion, MomentBias, PcfTaps, Pcss, PercentageCloserKernel, Profile,
-    ReceiverBias, STANDARD_DEVIATIONS, Source, Storage, Technique, TextureFormat, link,
+    ReceiverBias, STANDARD_DEVIATIONS, Source, Storage, SummedAreaTable, Technique, TextureFormat,
+    link,
 };
 use moment_shadows_graph::nodes::{
     BlurMoments, BlurParameters, KernelProperty, ResolveMoments, ShadeHard, ShadeHardParameters,
@@ -317,6 +318,38 @@ fn storages_have_the_numbers_and_biases_of_the_module() {
             "{bias}"
         );
     }
+}
+
+#[test]
+fn tables_are_biased_alike_on_both_sides() {
+    let number = |name: &str| {
+        let name = format!("SUMMED_AREA_ENCODING_{name}");
+        constant(&module("summed_area_encoding", &name), &name)[0] as f32
+    };
+    let index = "STORAGE_FIXED32";
+    let found = constant(&module("storage", index), index);
+    assert_eq!(found, [f64::from(Storage::Fixed32.wgsl_index())]);
+    assert_eq!(number("LARGEST_AREA"), SummedAreaTable::LARGEST_AREA as f32);
+    let biases = ["BIAS_PER_ERROR", "BIAS_OF_F32", "SMALLEST_BIAS"].map(number);
+    let variances = ["VARIANCE_PER_ERROR", "VARIANCE_OF_F32", "SMALLEST_VARIANCE"].map(number);
+    let cost = |[per_error, of_f32, smallest]: [f32; 3], error: f32| {
+        per_error.mul_add(error, of_f32).max(smallest)
+    };
+    for source in Storage::ALL {
+        for side in [1, 9, 27, 65, 256] {
+            let table = SummedAreaTable::new(source, [side; 2]).unwrap();
+            let bias = table.moment_bias();
+            assert_eq!(bias.alpha, cost(biases, table.error()), "{table}");
+            assert_eq!([bias.second, bias.fourth], [0.628; 2]);
+            assert_eq!(
+                table.smallest_variance(),
+                cost(variances, table.error()),
+                "{table}"
+            );
+        }
+    }
+    let unorm16 = SummedAreaTable::new(Storage::Unorm16, [9; 2]).unwrap();
+    assert_eq!(number("UNIT_UNORM16"), unorm16.unit() as f32);
 }
 
 #[test]

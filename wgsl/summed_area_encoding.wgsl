@@ -4,8 +4,9 @@ import super::moments::{MomentBias};
 //
 // Channels are those of the storage unorm16: in [0, 1], with the optimised basis. From a unorm16 map they are its own 16-bit
 // integers, with the unit 65535 and no rounding beyond the map's. Other maps are rounded to multiples of 1 / unit with
-// unit = floor((2^32 - 1) / n), n being the texels of the largest kernel: not 2^32 / n, since n channels of exactly 1,
-// as every region without a caster has, would then wrap around to 0 (Peters et al., JCGT 6(1) 2017, section 4).
+// unit = floor((2^32 - 1) / n) less the bits that f32 would round, n being the texels of the largest kernel: not 2^32 / n,
+// since n channels of exactly 1, as every region without a caster has, would then wrap around to 0 (Peters et al.,
+// JCGT 6(1) 2017, section 4).
 
 // The most texels of a kernel: n * 65535 < 2^32. Other maps keep to it, too, so that no table is less exact than 16 bits.
 const SUMMED_AREA_ENCODING_LARGEST_AREA: u32 = 65537u;
@@ -17,12 +18,15 @@ const SUMMED_AREA_ENCODING_UNIT_UNORM16: f32 = 65535.0;
 // boundary of the moment space: `moment-shadows bias`).
 const SUMMED_AREA_ENCODING_BIAS_PER_ERROR: f32 = 4.88;
 
-// What f32 adds: of the query, of the basis and its inverse, of the solver's first steps. Found by search.
-const SUMMED_AREA_ENCODING_BIAS_OF_F32: f32 = 8e-7;
+// What f32 adds to it, in the query, the basis and its inverse; and how much it takes at least, however small the error is
+// (found by search: `moment-shadows bias --tables`).
+const SUMMED_AREA_ENCODING_BIAS_OF_F32: f32 = 4e-7;
+const SUMMED_AREA_ENCODING_SMALLEST_BIAS: f32 = 1e-6;
 
 // The same for the smallest variance of two moments: 5 e for b2 - b1^2 with b1 = 2 r - 1 and b2 = 1 - g.
 const SUMMED_AREA_ENCODING_VARIANCE_PER_ERROR: f32 = 5.0;
-const SUMMED_AREA_ENCODING_VARIANCE_OF_F32: f32 = 6e-7;
+const SUMMED_AREA_ENCODING_VARIANCE_OF_F32: f32 = 4e-7;
+const SUMMED_AREA_ENCODING_SMALLEST_VARIANCE: f32 = 1.2e-6;
 
 // The 16-bit integers of a texel of unorm16.
 fn summed_area_encoding_of_unorm16(texel: vec4f) -> vec4u {
@@ -53,12 +57,14 @@ fn summed_area_encoding_error(unit: f32, source_error: f32) -> f32 {
     return 0.5 / unit + source_error;
 }
 
-// The moment bias for four moments from a table, for distributions on the real line.
+// The moment bias for four moments from a table whose channels are off by up to `error`, on the real line.
 fn summed_area_encoding_moment_bias(error: f32) -> MomentBias {
-    return MomentBias(fma(SUMMED_AREA_ENCODING_BIAS_PER_ERROR, error, SUMMED_AREA_ENCODING_BIAS_OF_F32), 0.628, 0.628);
+    let alpha = fma(SUMMED_AREA_ENCODING_BIAS_PER_ERROR, error, SUMMED_AREA_ENCODING_BIAS_OF_F32);
+    return MomentBias(max(alpha, SUMMED_AREA_ENCODING_SMALLEST_BIAS), 0.628, 0.628);
 }
 
-// The smallest variance of two moments from a table.
+// The smallest variance of two moments from such a table.
 fn summed_area_encoding_smallest_variance(error: f32) -> f32 {
-    return fma(SUMMED_AREA_ENCODING_VARIANCE_PER_ERROR, error, SUMMED_AREA_ENCODING_VARIANCE_OF_F32);
+    let variance = fma(SUMMED_AREA_ENCODING_VARIANCE_PER_ERROR, error, SUMMED_AREA_ENCODING_VARIANCE_OF_F32);
+    return max(variance, SUMMED_AREA_ENCODING_SMALLEST_VARIANCE);
 }

@@ -6,7 +6,7 @@ use moment_shadows_lab::gpu::Gpu;
 use moment_shadows_lab::host::{SurfacePixels, read_depth_samples, read_gbuffer};
 use moment_shadows_lab::light::{LightKind, LightShape, LightView};
 use moment_shadows_lab::penumbra::edge_intensity;
-use moment_shadows_lab::scene::{self, EDGE_HEIGHTS, HOLE, Scene, edge_strip};
+use moment_shadows_lab::scene::{self, EDGE_HEIGHTS, HOLE, Image, Scene, edge_strip};
 use moment_shadows_lab::soft::SoftLightChoice;
 use moment_shadows_lab::truth::area_light::AreaLight;
 use moment_shadows_lab::truth::kernel::TapPattern;
@@ -204,4 +204,34 @@ fn any_number_of_threads_gives_the_same_bits() {
     let one = on_threads(1);
     assert!(one.iter().any(|&value| value > 0.1 && value < 0.9));
     assert_eq!(one, on_threads(2));
+}
+
+#[test]
+fn holes_of_masked_materials_let_light_through() {
+    let mut scene = scene::load("edge").unwrap();
+    // The boards' far half is solid; the half at the edge is a hole.
+    scene.images.push(Image {
+        width: 2,
+        height: 1,
+        rgba: vec![255, 255, 255, 255, 255, 255, 255, 0],
+    });
+    scene.materials[0].texture = Some(0);
+    scene.materials[0].mask = Some(0.5);
+    for (choice, size) in LIGHTS {
+        let (light, shape) = light(&scene, choice, size);
+        let truth = AreaLight::new(&scene, &light, shape, [512; 2], 64).unwrap();
+        let below = |x: f64| {
+            let board = DVec3::new(x, EDGE_HEIGHTS[1], 0.0);
+            let (origin, direction) = light.ray(light.uv(board).unwrap());
+            let ground = origin - direction * (origin.y / direction.y);
+            truth.intensity(ground, DVec3::Y)
+        };
+        assert_eq!([-3.0, -1.0].map(below), [1.0, 0.0], "{choice:?}");
+        // The solid half ends at x = -2, as straight as the board at 0.
+        assert!(
+            (below(-2.0) - 0.5).abs() < 0.05,
+            "{choice:?}: {}",
+            below(-2.0)
+        );
+    }
 }

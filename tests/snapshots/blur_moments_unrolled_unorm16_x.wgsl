@@ -18,6 +18,8 @@ const STORAGE_UNORM16: u32 = 0u;
 const STORAGE_FLOAT16: u32 = 1u;
 const STORAGE_FLOAT32: u32 = 2u;
 const STORAGE_UNORM8: u32 = 3u;
+// Sums of channels as unorm16 has them; see `summed_area_encoding`.
+const STORAGE_FIXED32: u32 = 4u;
 
 // The largest finite float16.
 const STORAGE_LARGEST_FLOAT16: f32 = 65504.0;

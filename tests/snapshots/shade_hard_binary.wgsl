@@ -244,6 +244,171 @@ fn minification_depth_variance(footprint: MinificationFootprint, gradient: vec2f
     return (1.13 / 4.0) * across * across + along * along / 12.0;
 }
 
+// moment_shadows/area_light.wgsl
+// Area lights: how wide a light appears on its map when a receiver sees it through a blocker.
+//
+// The light's outline, projected from the receiver through the blocker onto the map, is what a filter has to average for a
+// penumbra (Fernando, "Percentage-Closer Soft Shadows", SIGGRAPH 2005 sketches). It is exact for one blocker parallel to the
+// map. Filters of another shape than the light take one of the same variance, which makes penumbrae equally wide.
+
+// Filled by the host-side `AreaLight`.
+struct AreaLight {
+    // Width and height of the light on the map in texels. Parallel rays: per scene unit between blocker and receiver. Rays
+    // from a point: per 1 / scene unit of difference between their inverse distances.
+    size: vec2f,
+    // Distances from the light along its axis, in scene units, of the moment depths -1 and 1.
+    near: f32,
+    far: f32,
+    // 0 for parallel rays, 1 for rays from a point.
+    perspective: u32,
+    // Smallest and largest half width in texels of filters. The smallest softens shadows near contacts; the largest bounds
+    // noise and cost.
+    smallest_radius: f32,
+    largest_radius: f32,
+    // 0 for a light that is a disk, 1 for a rectangle along the map's axes.
+    rectangular: u32,
+}
+
+// The largest half width in texels.
+const AREA_LIGHT_LARGEST_RADIUS: f32 = 4096.0;
+
+// A box of half width h has the variance h^2 / 3 along an axis, a disk of radius r r^2 / 4: half widths of a box, of which
+// the disk's radius is 1, and the reverse.
+const AREA_LIGHT_BOX_OF_DISK: f32 = 0.8660254;
+const AREA_LIGHT_DISK_OF_BOX: f32 = 1.1547005;
+
+// Half the light's width and height in texels as a receiver sees it through a blocker, projected onto the map. Both depths
+// are moment depths; 0 for a blocker that is not in front.
+fn area_light_half_extent(light: AreaLight, blocker_depth: f32, receiver_depth: f32) -> vec2f {
+    let ends = clamp(vec2f(blocker_depth, receiver_depth), vec2f(-1.0), vec2f(1.0));
+    let distances = clamp(mix(vec2f(light.near), vec2f(light.far), 0.5 * ends + 0.5), vec2f(-1e15), vec2f(1e15));
+    var apart = distances.y - distances.x;
+    if light.perspective != 0u {
+        // 1 / near - 1 / far as one quotient keeps its digits.
+        let positive = max(distances, vec2f(1e-9));
+        apart = apart / (positive.x * positive.y);
+    }
+    return 0.5 * clamp(light.size, vec2f(0.0), vec2f(1e15)) * clamp(apart, 0.0, 1e18);
+}
+
+// Half widths in texels between the light's smallest and largest one.
+fn area_light_limited(light: AreaLight, half_extent: vec2f) -> vec2f {
+    let smallest = vec2f(clamp(light.smallest_radius, 0.0, AREA_LIGHT_LARGEST_RADIUS));
+    let largest = vec2f(clamp(light.largest_radius, 0.0, AREA_LIGHT_LARGEST_RADIUS));
+    return min(max(half_extent, smallest), largest);
+}
+
+// The radii in texels of an elliptic filter that stands for the light.
+fn area_light_disk(light: AreaLight, blocker_depth: f32, receiver_depth: f32) -> vec2f {
+    let shape = select(1.0, AREA_LIGHT_DISK_OF_BOX, light.rectangular != 0u);
+    return area_light_limited(light, shape * area_light_half_extent(light, blocker_depth, receiver_depth));
+}
+
+// The half widths in texels of a box filter that stands for the light.
+fn area_light_box(light: AreaLight, blocker_depth: f32, receiver_depth: f32) -> vec2f {
+    let shape = select(AREA_LIGHT_BOX_OF_DISK, 1.0, light.rectangular != 0u);
+    return area_light_limited(light, shape * area_light_half_extent(light, blocker_depth, receiver_depth));
+}
+
+// moment_shadows/receiver_bias.wgsl
+// Receiver bias: how far the fragment depth moves towards the light so that a surface does not shadow itself.
+//
+// Not to be confused with the moment bias, which belongs to storage. A plane tilted against the light fills the filter
+// kernel with depths whose standard deviation is
+//   (the kernel's standard deviation in texels) x (change of depth per texel).
+// The lower bound of four moments is exactly 0 for fragments in front of the lower Gauss node, which for a symmetric
+// distribution lies one standard deviation in front of the mean. So a slope-scaled bias of somewhat more than one
+// standard deviation removes self-shadowing on planes, and nothing about it has to be tuned to a scene.
+
+// Standard deviations of depth under the filter by which a receiver moves: one, and what covers moment bias and rounding.
+const RECEIVER_BIAS_STANDARD_DEVIATIONS: f32 = 1.25;
+
+// A gradient steeper than any surface that a light sees; its square is still finite.
+const RECEIVER_BIAS_EDGE_ON: f32 = 1e15;
+
+// Filled by the host-side `ReceiverBias`.
+struct ReceiverBias {
+    // Moment depth that is always subtracted.
+    constant: f32,
+    // Multiplies the length of the gradient of moment depth per texel: the kernel's standard deviation in texels, times
+    // a safety factor slightly above 1.
+    slope_scale: f32,
+    // The largest bias in moment depth; reached where the surface is seen edge-on by the light.
+    maximum: f32,
+    // Scene units by which a receiver moves along its normal at grazing light; 0 where only depth is biased.
+    normal_offset: f32,
+}
+
+// The gradient of moment depth per texel on the receiver's plane, from the differences of two neighbouring points on it
+// in light space: xy in texels of the map, z in moment depth, each at most 1e9. Where the differences in xy are parallel
+// or zero (the plane is edge-on to the light, or a neighbour is missing) the result is huge, and `receiver_bias_depth`
+// limits it.
+fn receiver_bias_plane(difference_x: vec3f, difference_y: vec3f) -> vec2f {
+    let determinant = difference_x.x * difference_y.y - difference_x.y * difference_y.x;
+    if abs(determinant) < 1e-20 {
+        return vec2f(RECEIVER_BIAS_EDGE_ON, 0.0);
+    }
+    // Cramer's rule for the gradient g in dot(g, difference.xy) = difference.z.
+    let scaled = vec2f(
+        difference_x.z * difference_y.y - difference_y.z * difference_x.y,
+        difference_y.z * difference_x.x - difference_x.z * difference_y.x,
+    );
+    return clamp(scaled / determinant, vec2f(-RECEIVER_BIAS_EDGE_ON), vec2f(RECEIVER_BIAS_EDGE_ON));
+}
+
+// The length of that gradient.
+fn receiver_bias_gradient(difference_x: vec3f, difference_y: vec3f) -> f32 {
+    return length(receiver_bias_plane(difference_x, difference_y));
+}
+
+// The same from the cosine between surface normal and direction to the light: `depth_per_texel` is the moment depth
+// of one texel's width, along the light's axis.
+fn receiver_bias_gradient_from_cosine(cosine: f32, depth_per_texel: f32) -> f32 {
+    let c = clamp(cosine, 0.0, 1.0);
+    let sine = sqrt(max(1.0 - c * c, 0.0));
+    return depth_per_texel * sine / max(c, 1e-6);
+}
+
+// The receiver bias in moment depth, to be subtracted from the fragment depth.
+fn receiver_bias_depth(bias: ReceiverBias, gradient: f32) -> f32 {
+    return clamp(fma(bias.slope_scale, gradient, bias.constant), 0.0, bias.maximum);
+}
+
+// The receiver bias where a lookup averages more of the map than its filter kernel: `variance` is the variance that this
+// adds to the depths of a plane with that gradient (`minification_depth_variance`). Variances of filters add up.
+fn receiver_bias_depth_minified(bias: ReceiverBias, gradient: f32, variance: f32) -> f32 {
+    let kernel = bias.slope_scale * gradient;
+    let added = RECEIVER_BIAS_STANDARD_DEVIATIONS * sqrt(max(variance, 0.0));
+    let deviation = length(vec2f(kernel, added));
+    // The limit is one of slope, not of depth: a filter that is wider by a factor may move by that factor more.
+    let limit = (bias.maximum - bias.constant) * deviation / max(kernel, 1e-30);
+    return max(bias.constant + min(deviation, max(limit, 0.0)), 0.0);
+}
+
+// The part of the bias that grows with the slope, under a kernel with the standard deviation `deviation` in texels along x
+// and y, on a plane with the gradient of moment depth per texel; that counts up to the length `steepest`.
+fn receiver_bias_depth_of_kernel(gradient: vec2f, deviation: vec2f, steepest: f32) -> f32 {
+    let full = clamp(gradient, vec2f(-RECEIVER_BIAS_EDGE_ON), vec2f(RECEIVER_BIAS_EDGE_ON));
+    let steepness = length(full);
+    let limited = full * min(max(steepest, 0.0) / max(steepness, 1e-30), 1.0);
+    return RECEIVER_BIAS_STANDARD_DEVIATIONS * length(limited * deviation);
+}
+
+// The position, in scene units, at which to look the map up when the receiver moves along its normal: the offset
+// grows with the sine of the angle between normal and light (`cosine` > 0 faces the light).
+fn receiver_bias_offset_position(bias: ReceiverBias, position: vec3f, normal: vec3f, cosine: f32) -> vec3f {
+    let c = clamp(cosine, -1.0, 1.0);
+    return fma(vec3f(bias.normal_offset * sqrt(max(1.0 - c * c, 0.0))), normal, position);
+}
+
+// specialization
+const GROUP = 0;
+const LEVELS = 1u;
+const VIEWS = 1u;
+const LIGHTS = 1u;
+const ANISOTROPY = 8.0;
+const PLANES = 1u;
+
 // moment_shadows/disk_samples.wgsl
 // Samples that are spread over the unit disk, and the rotation by which each pixel turns them.
 //
@@ -556,200 +721,6 @@ fn percentage_closer_poisson(map: texture_depth_2d_array, layer: u32, region: Ma
     return sum / f32(DISK_SAMPLES_POISSON_COUNT);
 }
 
-// moment_shadows/percentage_closer_soft.wgsl
-
-// Percentage closer soft shadows: penumbrae that widen with the distance from the occluder (Fernando, "Percentage-Closer
-// Soft Shadows", SIGGRAPH 2005 sketches).
-//
-// A first set of taps searches for blockers, texels nearer to the light than the receiver's plane. Their mean depth tells
-// how wide the light appears from the receiver when it is projected through the blockers onto the map: that disk is
-// filtered with a second set. It is exact for a disk-shaped light and one blocker parallel to the map.
-//
-// The plane, regions and what lies beyond their edge are those of `percentage_closer`. Taps lie on disks of any number of
-// samples, which each pixel turns by another angle.
-
-// A light of some size. Filled by the host-side `PercentageCloserSoftLight`.
-struct PercentageCloserSoftLight {
-    // Parallel rays: diameter of the filter in texels (x and y) per scene unit between blocker and receiver. Rays from a
-    // point: the same in texels per 1 / scene unit of difference between the inverse distances.
-    size: vec2f,
-    // Distances from the light along its axis, in scene units, of the moment depths -1 and 1.
-    near: f32,
-    far: f32,
-    // 0 for parallel rays, 1 for rays from a point.
-    perspective: u32,
-    // Smallest and largest radius in texels of search and filter. The smallest softens shadows near contacts; the largest
-    // bounds the noise.
-    smallest_radius: f32,
-    largest_radius: f32,
-    padding: f32,
-}
-
-// What the search has found.
-struct PercentageCloserSoftBlockers {
-    // The share of taps that are blockers, in [0, 1].
-    share: f32,
-    // Their mean moment depth; -1 without blockers.
-    depth: f32,
-}
-
-// The largest number of taps.
-const PERCENTAGE_CLOSER_SOFT_MOST_TAPS: u32 = 4096u;
-
-// The largest radius in texels.
-const PERCENTAGE_CLOSER_SOFT_LARGEST_RADIUS: f32 = 4096.0;
-
-// The radius in texels (x and y) of the light as a receiver sees it through a blocker, projected onto the map. Both depths are
-// moment depths; in front of the blocker the radius is the smallest one.
-fn percentage_closer_soft_radius(light: PercentageCloserSoftLight, blocker_depth: f32, receiver_depth: f32) -> vec2f {
-    let ends = clamp(vec2f(blocker_depth, receiver_depth), vec2f(-1.0), vec2f(1.0));
-    let distances = clamp(mix(vec2f(light.near), vec2f(light.far), 0.5 * ends + 0.5), vec2f(-1e15), vec2f(1e15));
-    var apart = distances.y - distances.x;
-    if light.perspective != 0u {
-        // 1 / near - 1 / far as one quotient keeps its digits.
-        let positive = max(distances, vec2f(1e-9));
-        apart = apart / (positive.x * positive.y);
-    }
-    let radius = 0.5 * clamp(light.size, vec2f(0.0), vec2f(1e15)) * clamp(apart, 0.0, 1e18);
-    let smallest = vec2f(clamp(light.smallest_radius, 0.0, PERCENTAGE_CLOSER_SOFT_LARGEST_RADIUS));
-    let largest = vec2f(clamp(light.largest_radius, 0.0, PERCENTAGE_CLOSER_SOFT_LARGEST_RADIUS));
-    return min(max(radius, smallest), largest);
-}
-
-// Searches a disk of the given radius in texels for blockers.
-fn percentage_closer_soft_search(map: texture_depth_2d_array, layer: u32, region: MapRegion, plane: ReceiverPlane, conversion: DepthConversion, radius: vec2f, taps: u32, rotation: vec2f) -> PercentageCloserSoftBlockers {
-    let count = clamp(taps, 1u, PERCENTAGE_CLOSER_SOFT_MOST_TAPS);
-    var blockers = 0.0;
-    var sum = 0.0;
-    for (var tap = 0u; tap < count; tap++) {
-        let texel = percentage_closer_texel_at(region, plane, radius * disk_samples_vogel(tap, count, rotation));
-        let depth = percentage_closer_map_depth(map, layer, region, conversion, texel);
-        if depth < percentage_closer_plane_depth(region, plane, texel) {
-            blockers += 1.0;
-            sum += depth;
-        }
-    }
-    return PercentageCloserSoftBlockers(blockers / f32(count), select(-1.0, sum / max(blockers, 1.0), blockers > 0.0));
-}
-
-// The share in [0, 1] of a disk's taps, of the given radius in texels, that are in shadow.
-fn percentage_closer_soft_filter(map: texture_depth_2d_array, layer: u32, region: MapRegion, plane: ReceiverPlane, conversion: DepthConversion, radius: vec2f, taps: u32, rotation: vec2f) -> f32 {
-    let count = clamp(taps, 1u, PERCENTAGE_CLOSER_SOFT_MOST_TAPS);
-    var sum = 0.0;
-    for (var tap = 0u; tap < count; tap++) {
-        let texel = percentage_closer_texel_at(region, plane, radius * disk_samples_vogel(tap, count, rotation));
-        sum += percentage_closer_tap(map, layer, region, plane, conversion, texel);
-    }
-    return clamp(sum / f32(count), 0.0, 1.0);
-}
-
-// Shadow intensity in [0, 1]: 0 without blockers, 1 where the search found nothing else. `search_taps` and `filter_taps`
-// from 1 to 4096; both disks are turned by `angle` in radians (`disk_samples_angle`).
-fn percentage_closer_soft_intensity(map: texture_depth_2d_array, layer: u32, region: MapRegion, plane: ReceiverPlane, conversion: DepthConversion, light: PercentageCloserSoftLight, search_taps: u32, filter_taps: u32, angle: f32) -> f32 {
-    if any(region.extent == vec2u(0u)) {
-        return 0.0;
-    }
-    let rotation = disk_samples_rotation(angle);
-    // A blocker at the near end spreads farthest.
-    let search_radius = percentage_closer_soft_radius(light, -1.0, plane.depth);
-    let blockers = percentage_closer_soft_search(map, layer, region, plane, conversion, search_radius, search_taps, rotation);
-    if blockers.share <= 0.0 || blockers.share >= 1.0 {
-        return select(0.0, 1.0, blockers.share >= 1.0);
-    }
-    let radius = percentage_closer_soft_radius(light, blockers.depth, plane.depth);
-    return percentage_closer_soft_filter(map, layer, region, plane, conversion, radius, filter_taps, rotation);
-}
-
-// moment_shadows/receiver_bias.wgsl
-// Receiver bias: how far the fragment depth moves towards the light so that a surface does not shadow itself.
-//
-// Not to be confused with the moment bias, which belongs to storage. A plane tilted against the light fills the filter
-// kernel with depths whose standard deviation is
-//   (the kernel's standard deviation in texels) x (change of depth per texel).
-// The lower bound of four moments is exactly 0 for fragments in front of the lower Gauss node, which for a symmetric
-// distribution lies one standard deviation in front of the mean. So a slope-scaled bias of somewhat more than one
-// standard deviation removes self-shadowing on planes, and nothing about it has to be tuned to a scene.
-
-// Standard deviations of depth under the filter by which a receiver moves: one, and what covers moment bias and rounding.
-const RECEIVER_BIAS_STANDARD_DEVIATIONS: f32 = 1.25;
-
-// A gradient steeper than any surface that a light sees; its square is still finite.
-const RECEIVER_BIAS_EDGE_ON: f32 = 1e15;
-
-// Filled by the host-side `ReceiverBias`.
-struct ReceiverBias {
-    // Moment depth that is always subtracted.
-    constant: f32,
-    // Multiplies the length of the gradient of moment depth per texel: the kernel's standard deviation in texels, times
-    // a safety factor slightly above 1.
-    slope_scale: f32,
-    // The largest bias in moment depth; reached where the surface is seen edge-on by the light.
-    maximum: f32,
-    // Scene units by which a receiver moves along its normal at grazing light; 0 where only depth is biased.
-    normal_offset: f32,
-}
-
-// The gradient of moment depth per texel on the receiver's plane, from the differences of two neighbouring points on it
-// in light space: xy in texels of the map, z in moment depth, each at most 1e9. Where the differences in xy are parallel
-// or zero (the plane is edge-on to the light, or a neighbour is missing) the result is huge, and `receiver_bias_depth`
-// limits it.
-fn receiver_bias_plane(difference_x: vec3f, difference_y: vec3f) -> vec2f {
-    let determinant = difference_x.x * difference_y.y - difference_x.y * difference_y.x;
-    if abs(determinant) < 1e-20 {
-        return vec2f(RECEIVER_BIAS_EDGE_ON, 0.0);
-    }
-    // Cramer's rule for the gradient g in dot(g, difference.xy) = difference.z.
-    let scaled = vec2f(
-        difference_x.z * difference_y.y - difference_y.z * difference_x.y,
-        difference_y.z * difference_x.x - difference_x.z * difference_y.x,
-    );
-    return clamp(scaled / determinant, vec2f(-RECEIVER_BIAS_EDGE_ON), vec2f(RECEIVER_BIAS_EDGE_ON));
-}
-
-// The length of that gradient.
-fn receiver_bias_gradient(difference_x: vec3f, difference_y: vec3f) -> f32 {
-    return length(receiver_bias_plane(difference_x, difference_y));
-}
-
-// The same from the cosine between surface normal and direction to the light: `depth_per_texel` is the moment depth
-// of one texel's width, along the light's axis.
-fn receiver_bias_gradient_from_cosine(cosine: f32, depth_per_texel: f32) -> f32 {
-    let c = clamp(cosine, 0.0, 1.0);
-    let sine = sqrt(max(1.0 - c * c, 0.0));
-    return depth_per_texel * sine / max(c, 1e-6);
-}
-
-// The receiver bias in moment depth, to be subtracted from the fragment depth.
-fn receiver_bias_depth(bias: ReceiverBias, gradient: f32) -> f32 {
-    return clamp(fma(bias.slope_scale, gradient, bias.constant), 0.0, bias.maximum);
-}
-
-// The receiver bias where a lookup averages more of the map than its filter kernel: `variance` is the variance that this
-// adds to the depths of a plane with that gradient (`minification_depth_variance`). Variances of filters add up.
-fn receiver_bias_depth_minified(bias: ReceiverBias, gradient: f32, variance: f32) -> f32 {
-    let kernel = bias.slope_scale * gradient;
-    let added = RECEIVER_BIAS_STANDARD_DEVIATIONS * sqrt(max(variance, 0.0));
-    let deviation = length(vec2f(kernel, added));
-    // The limit is one of slope, not of depth: a filter that is wider by a factor may move by that factor more.
-    let limit = (bias.maximum - bias.constant) * deviation / max(kernel, 1e-30);
-    return max(bias.constant + min(deviation, max(limit, 0.0)), 0.0);
-}
-
-// The position, in scene units, at which to look the map up when the receiver moves along its normal: the offset
-// grows with the sine of the angle between normal and light (`cosine` > 0 faces the light).
-fn receiver_bias_offset_position(bias: ReceiverBias, position: vec3f, normal: vec3f, cosine: f32) -> vec3f {
-    let c = clamp(cosine, -1.0, 1.0);
-    return fma(vec3f(bias.normal_offset * sqrt(max(1.0 - c * c, 0.0))), normal, position);
-}
-
-// specialization
-const GROUP = 0;
-const LEVELS = 1u;
-const VIEWS = 1u;
-const LIGHTS = 1u;
-const ANISOTROPY = 8.0;
-const PLANES = 1u;
-
 // technique_map
 
 // A plain depth map.
@@ -782,7 +753,7 @@ struct TechniqueReceiver {
     steepest: f32,
     // How the light's map stores depth, and the light's size: for tests on the plain depth map.
     conversion: DepthConversion,
-    light: PercentageCloserSoftLight,
+    light: AreaLight,
     // The pixel's coordinates.
     pixel: vec2f,
 }
@@ -819,7 +790,7 @@ struct ShadeHardParameters {
     padding: f32,
     // How the light's map stores depth, and how large the light is: for tests on the plain depth map.
     conversion: DepthConversion,
-    light: PercentageCloserSoftLight,
+    light: AreaLight,
 }
 
 @group(GROUP) @binding(0) var<uniform> views: array<ShadeHardParameters, VIEWS>;

@@ -244,364 +244,42 @@ fn minification_depth_variance(footprint: MinificationFootprint, gradient: vec2f
     return (1.13 / 4.0) * across * across + along * along / 12.0;
 }
 
-// moment_shadows/disk_samples.wgsl
-// Samples that are spread over the unit disk, and the rotation by which each pixel turns them.
+// moment_shadows/area_light.wgsl
+// Area lights: how wide a light appears on its map when a receiver sees it through a blocker.
 //
-// With few samples a filter makes bands; turned by another angle in each pixel it makes noise, which the eye and temporal
-// filters forgive.
+// The light's outline, projected from the receiver through the blocker onto the map, is what a filter has to average for a
+// penumbra (Fernando, "Percentage-Closer Soft Shadows", SIGGRAPH 2005 sketches). It is exact for one blocker parallel to the
+// map. Filters of another shape than the light take one of the same variance, which makes penumbrae equally wide.
 
-// How many samples the Poisson disk has.
-const DISK_SAMPLES_POISSON_COUNT: u32 = 16u;
-
-// A Poisson disk: no two samples are closer than 0.455. Sample i lies at radius sqrt((i + 0.5) / 16), in the middle of one
-// of 16 rings of equal area, so that turned by every angle they cover the disk evenly. Their angles were found by best
-// candidates and random relaxation of the smallest distance.
-const DISK_SAMPLES_POISSON = array<vec2f, 16>(
-    vec2f(0.027483, -0.174627),
-    vec2f(0.059710, 0.300308),
-    vec2f(-0.383554, 0.095584),
-    vec2f(0.465980, 0.040162),
-    vec2f(-0.389073, -0.360378),
-    vec2f(0.415935, -0.413217),
-    vec2f(-0.321242, 0.550503),
-    vec2f(0.471743, 0.496194),
-    vec2f(0.000066, -0.728869),
-    vec2f(0.083704, 0.765992),
-    vec2f(-0.806214, -0.079181),
-    vec2f(-0.750352, 0.394616),
-    vec2f(0.858217, -0.211455),
-    vec2f(0.876628, 0.274358),
-    vec2f(-0.520274, -0.797223),
-    vec2f(0.435590, -0.882616),
-);
-
-// A full turn in radians.
-const DISK_SAMPLES_TURN: f32 = 6.2831853;
-
-// The angle between two neighbours of a sunflower's seeds: a full turn times (3 - sqrt(5)) / 2.
-const DISK_SAMPLES_GOLDEN_ANGLE: f32 = 2.3999632;
-
-// The angle in radians, from 0 to a full turn, by which a pixel turns its samples: interleaved gradient noise of its
-// coordinates (Jimenez, "Next Generation Post Processing in Call of Duty: Advanced Warfare", SIGGRAPH 2014). `pixel` from
-// 0 to 65536.
-fn disk_samples_angle(pixel: vec2f) -> f32 {
-    return DISK_SAMPLES_TURN * fract(52.9829189 * fract(dot(pixel, vec2f(0.06711056, 0.00583715))));
-}
-
-// Cosine and sine of an angle in radians, which `disk_samples_rotate` takes.
-fn disk_samples_rotation(angle: f32) -> vec2f {
-    // Devices need not know sines beyond a turn.
-    let turned = DISK_SAMPLES_TURN * fract(angle / DISK_SAMPLES_TURN);
-    return vec2f(cos(turned), sin(turned));
-}
-
-// A sample turned by a rotation.
-fn disk_samples_rotate(sample: vec2f, rotation: vec2f) -> vec2f {
-    return vec2f(dot(sample, vec2f(rotation.x, -rotation.y)), dot(sample, rotation.yx));
-}
-
-// Sample `index` of the Poisson disk, 0 to 15, turned.
-fn disk_samples_poisson(index: u32, rotation: vec2f) -> vec2f {
-    return disk_samples_rotate(DISK_SAMPLES_POISSON[min(index, DISK_SAMPLES_POISSON_COUNT - 1u)], rotation);
-}
-
-// Sample `index` of a disk of any number of samples, which cover it evenly (Vogel, "A better way to construct the
-// sunflower head", Mathematical Biosciences 44, 1979), turned. `count` at least 1.
-fn disk_samples_vogel(index: u32, count: u32, rotation: vec2f) -> vec2f {
-    let radius = sqrt((f32(index) + 0.5) / f32(max(count, 1u)));
-    return disk_samples_rotate(vec2f(radius, 0.0), disk_samples_rotate(disk_samples_rotation(f32(index) * DISK_SAMPLES_GOLDEN_ANGLE), rotation));
-}
-
-// moment_shadows/gaussian.wgsl
-// Gaussian filter weights, and the plain form of the separable filter.
-//
-// Filters of moments need weights that are not negative and sum to one; the Gaussian, cut off at a radius and
-// normalised, is the one that the moment shadow mapping papers use (9 x 9 texels with sigma 2.4; i3D 2015, section 4).
-// Render-graph nodes filter with blocks of texels held in registers; this form is for shaders of one's own, and is what
-// those are compared with.
-
-// Gaussian at `offset` texels from the centre, not normalised. `sigma` > 0 in texels; smaller values count as 1e-3.
-fn gaussian_weight(offset: f32, sigma: f32) -> f32 {
-    let ratio = offset / max(sigma, 1e-3);
-    return exp(-0.5 * ratio * ratio);
-}
-
-// One direction of the separable filter at `texel`: 2 radius + 1 texels of mip 0 along `direction` ((1, 0) or (0, 1)),
-// weighted and normalised. Beyond the border the last texel repeats. `radius` from 0 to 64.
-fn gaussian_filter(map: texture_2d<f32>, texel: vec2i, direction: vec2i, radius: i32, sigma: f32) -> vec4f {
-    let last = vec2i(textureDimensions(map)) - 1;
-    let reach = clamp(radius, 0, 64);
-    var sum = vec4f(0.0);
-    var total = 0.0;
-    for (var offset = -reach; offset <= reach; offset++) {
-        let weight = gaussian_weight(f32(offset), sigma);
-        sum = fma(vec4f(weight), textureLoad(map, clamp(texel + offset * direction, vec2i(0), last), 0), sum);
-        total += weight;
-    }
-    // The centre's weight is 1, so the total is at least 1.
-    return sum / total;
-}
-
-// moment_shadows/receiver_plane.wgsl
-
-// The plane of a receiver over a depth map: what each tap of a filter is compared with.
-//
-// A filter that compares every tap with the fragment's own depth counts half of a tilted receiver as its occluder. Comparing
-// with the depth of the receiver's plane at the tap instead leaves what stands in front of that plane. For parallel rays
-// moment depth on a plane is linear over the map. For rays from a point its distance from the light is the receiver's
-// over a linear function.
-
-// A receiver as a region of a depth map sees it.
-struct ReceiverPlane {
-    // Its place from 0 to 1 across the region.
-    uv: vec2f,
-    // The gradient of moment depth per texel there.
-    gradient: vec2f,
-    // Its moment depth.
-    depth: f32,
-    // 1 / the difference of moment depth between receiver and light; next to 0 for parallel rays.
-    inverse_reach: f32,
-}
-
-// Above every gradient and depth that matters; products of it with distances in texels are finite.
-const RECEIVER_PLANE_LARGEST: f32 = 1e15;
-
-// The plane of a receiver. `uv` outside of [0, 1] counts as the nearer edge, a `depth` that is NaN as the far end.
-// `gradient` is that of moment depth per texel (`receiver_bias_plane`); where it is longer than `steepest` the surface is
-// edge-on to the light, or the neighbours belong to another one: it is shortened to that. `light_depth` is the moment
-// depth of the light itself (`depth_of_light`), below -1: DEPTH_INFINITELY_FAR for parallel rays.
-fn receiver_plane_through(uv: vec2f, depth: f32, gradient: vec2f, steepest: f32, light_depth: f32) -> ReceiverPlane {
-    let z = select(clamp(depth, -1e6, 1e6), 1.0, depth_is_nan(depth));
-    let full = clamp(gradient, vec2f(-RECEIVER_PLANE_LARGEST), vec2f(RECEIVER_PLANE_LARGEST));
-    let limit = clamp(steepest, 0.0, RECEIVER_PLANE_LARGEST);
-    let steepness = length(full);
-    let limited = select(full, full * (limit / max(steepness, 1e-30)), steepness > limit);
-    return ReceiverPlane(clamp(uv, vec2f(0.0), vec2f(1.0)), limited, z, 1.0 / max(z - light_depth, 1e-6));
-}
-
-// A plane moved by `bias` in moment depth towards the light, as a whole: its distances from a light with rays from a point
-// all shrink by the same factor. One through the biased depth with the unbiased gradient would be too steep, and cross the
-// receiver's own where that recedes. `bias` is less than the distance from the light.
-fn receiver_plane_biased(plane: ReceiverPlane, bias: f32) -> ReceiverPlane {
-    let towards = clamp(bias, -4.0, 4.0);
-    let shrunk = clamp(1.0 - towards * plane.inverse_reach, 1e-6, 1e7);
-    return ReceiverPlane(plane.uv, plane.gradient * shrunk, plane.depth - towards, plane.inverse_reach / shrunk);
-}
-
-// The moment depth in [-1, 1] of the plane at `offset` texels from the receiver. It ends at the far end, which texels without a
-// caster hold: they never shadow.
-fn receiver_plane_depth(plane: ReceiverPlane, offset: vec2f) -> f32 {
-    let rise = dot(plane.gradient, offset);
-    let divisor = 1.0 - rise * plane.inverse_reach;
-    let z = plane.depth + rise / max(divisor, 1e-18);
-    // A ray that the plane has turned away from never meets it.
-    return select(clamp(z, -1.0, 1.0), 1.0, divisor <= 0.0);
-}
-
-// moment_shadows/percentage_closer.wgsl
-
-// Percentage closer filtering: tests against the plain depth map, whose results are filtered (Reeves, Salesin and Cook,
-// "Rendering Antialiased Shadows with Depth Maps", SIGGRAPH 1987).
-//
-// Each tap compares one texel with the depth of the receiver's plane at that very texel and is 1 where the map is
-// nearer to the light, 0 where it is not or equal. A receiver without gradient is compared with its own depth. Beyond the
-// edge of its region (within the map, see `map_region_within`) the last texel repeats; a region without texels does not
-// shadow. All intensities are in [0, 1]. The cost grows with the square of the kernel; filterable maps are there to avoid that.
-
-// The largest radius of a kernel in texels.
-const PERCENTAGE_CLOSER_LARGEST_RADIUS: i32 = 64;
-
-// The largest radius of a disk in texels.
-const PERCENTAGE_CLOSER_LARGEST_DISK: f32 = 4096.0;
-
-// Any separable kernel. Filled by the host-side `PercentageCloserKernel`.
-struct PercentageCloserKernel {
-    // Texels on either side of the centre, at most 64.
-    radius: u32,
-    // 2 radius + 1 weights, not negative, the same along both axes; they need not sum to 1. A kernel of an even number of
-    // texels has a 0 at one end.
-    weights: array<vec4f, 33>,
-}
-
-// Where the taps of a kernel are centred.
-struct PercentageCloserPlace {
-    // A texel, counted from the region's origin.
-    base: vec2i,
-    // The share of the kernel around the next texel in x and y, in [0, 1).
-    fraction: vec2f,
-}
-
-// The texel of the region that stands for `texel` (counted from its origin): itself or the nearest one.
-fn percentage_closer_texel(region: MapRegion, texel: vec2i) -> vec2i {
-    return clamp(texel, vec2i(0), max(vec2i(region.extent), vec2i(1)) - 1);
-}
-
-// The moment depth of that texel.
-fn percentage_closer_map_depth(map: texture_depth_2d_array, layer: u32, region: MapRegion, conversion: DepthConversion, texel: vec2i) -> f32 {
-    return depth_to_moment_depth(textureLoad(map, vec2i(region.origin) + percentage_closer_texel(region, texel), layer, 0), conversion);
-}
-
-// The moment depth of the receiver's plane at the centre of that texel.
-fn percentage_closer_plane_depth(region: MapRegion, plane: ReceiverPlane, texel: vec2i) -> f32 {
-    let centre = vec2f(percentage_closer_texel(region, texel)) + 0.5;
-    return receiver_plane_depth(plane, centre - plane.uv * vec2f(region.extent));
-}
-
-// One tap: 1 if the map is nearer to the light than the receiver's plane, else 0.
-fn percentage_closer_tap(map: texture_depth_2d_array, layer: u32, region: MapRegion, plane: ReceiverPlane, conversion: DepthConversion, texel: vec2i) -> f32 {
-    let nearer = percentage_closer_map_depth(map, layer, region, conversion, texel) < percentage_closer_plane_depth(region, plane, texel);
-    return select(0.0, 1.0, nearer && all(region.extent > vec2u(0u)));
-}
-
-// The binary test at the nearest texel: 0 or 1.
-fn percentage_closer_binary(map: texture_depth_2d_array, layer: u32, region: MapRegion, plane: ReceiverPlane, conversion: DepthConversion) -> f32 {
-    return percentage_closer_tap(map, layer, region, plane, conversion, vec2i(plane.uv * vec2f(region.extent)));
-}
-
-// Where a kernel is centred: at the nearest texel, or, interpolated as in a bilinear lookup, between the four next ones.
-fn percentage_closer_place(region: MapRegion, plane: ReceiverPlane, interpolated: bool) -> PercentageCloserPlace {
-    let extent = max(vec2f(region.extent), vec2f(1.0));
-    let place = clamp(plane.uv * extent, vec2f(0.5), extent - 0.5);
-    let low = floor(place - 0.5);
-    if interpolated {
-        return PercentageCloserPlace(vec2i(low), place - 0.5 - low);
-    }
-    return PercentageCloserPlace(vec2i(place), vec2f(0.0));
-}
-
-// The weight of an offset along one axis: the Gaussian, or 1 for a sigma of 0, up to the radius `reach`.
-fn percentage_closer_weight(offset: i32, reach: i32, sigma: f32) -> f32 {
-    if abs(offset) > reach {
-        return 0.0;
-    }
-    if sigma == 0.0 {
-        return 1.0;
-    }
-    return gaussian_weight(f32(offset), sigma);
-}
-
-// Shadow intensity with equal weights: n x n texels with n = 2 radius + 1. `radius` from 0 to 64. Interpolated, results are
-// blended as a bilinear lookup in a filtered map does, with n + 1 taps along each axis.
-fn percentage_closer_box(map: texture_depth_2d_array, layer: u32, region: MapRegion, plane: ReceiverPlane, conversion: DepthConversion, radius: i32, interpolated: bool) -> f32 {
-    return percentage_closer_filter(map, layer, region, plane, conversion, radius, 0.0, interpolated);
-}
-
-// The same with the weights of a Gaussian of standard deviation `sigma` > 0 texels, cut off at `radius`; a smaller sigma
-// counts as 1e-3.
-fn percentage_closer_gaussian(map: texture_depth_2d_array, layer: u32, region: MapRegion, plane: ReceiverPlane, conversion: DepthConversion, radius: i32, sigma: f32, interpolated: bool) -> f32 {
-    return percentage_closer_filter(map, layer, region, plane, conversion, radius, max(sigma, 1e-3), interpolated);
-}
-
-// Both of them: a sigma of 0 stands for equal weights.
-fn percentage_closer_filter(map: texture_depth_2d_array, layer: u32, region: MapRegion, plane: ReceiverPlane, conversion: DepthConversion, radius: i32, sigma: f32, interpolated: bool) -> f32 {
-    let reach = clamp(radius, 0, PERCENTAGE_CLOSER_LARGEST_RADIUS);
-    let place = percentage_closer_place(region, plane, interpolated);
-    let end = reach + select(0, 1, interpolated);
-    var sum = 0.0;
-    var total = 0.0;
-    for (var y = -reach; y <= end; y++) {
-        let row = mix(percentage_closer_weight(y, reach, sigma), percentage_closer_weight(y - 1, reach, sigma), place.fraction.y);
-        for (var x = -reach; x <= end; x++) {
-            let column = mix(percentage_closer_weight(x, reach, sigma), percentage_closer_weight(x - 1, reach, sigma), place.fraction.x);
-            sum = fma(row * column, percentage_closer_tap(map, layer, region, plane, conversion, place.base + vec2i(x, y)), sum);
-            total = fma(row, column, total);
-        }
-    }
-    // The centre's weight is 1, so the total is not much below 1.
-    return clamp(sum / total, 0.0, 1.0);
-}
-
-// The weight of an offset along one axis in a kernel of that radius. A copy of all weights per tap would cost more than the tap.
-fn percentage_closer_kernel_weight(weights: ptr<function, array<vec4f, 33>>, offset: i32, reach: i32) -> f32 {
-    if abs(offset) > reach {
-        return 0.0;
-    }
-    let index = u32(offset + reach);
-    return clamp((*weights)[index / 4u][index % 4u], 0.0, 1e9);
-}
-
-// The same with any separable kernel. Without a positive weight nothing is shadowed.
-fn percentage_closer_kernel(map: texture_depth_2d_array, layer: u32, region: MapRegion, plane: ReceiverPlane, conversion: DepthConversion, kernel: PercentageCloserKernel, interpolated: bool) -> f32 {
-    let reach = i32(min(kernel.radius, u32(PERCENTAGE_CLOSER_LARGEST_RADIUS)));
-    var weights = kernel.weights;
-    let place = percentage_closer_place(region, plane, interpolated);
-    let end = reach + select(0, 1, interpolated);
-    var sum = 0.0;
-    var total = 0.0;
-    for (var y = -reach; y <= end; y++) {
-        let row = mix(percentage_closer_kernel_weight(&weights, y, reach), percentage_closer_kernel_weight(&weights, y - 1, reach), place.fraction.y);
-        for (var x = -reach; x <= end; x++) {
-            let column = mix(percentage_closer_kernel_weight(&weights, x, reach), percentage_closer_kernel_weight(&weights, x - 1, reach), place.fraction.x);
-            sum = fma(row * column, percentage_closer_tap(map, layer, region, plane, conversion, place.base + vec2i(x, y)), sum);
-            total = fma(row, column, total);
-        }
-    }
-    return clamp(sum / max(total, 1e-30), 0.0, 1.0);
-}
-
-// The texel, counted from the region's origin, that lies `offset` texels from the receiver, which may be outside.
-fn percentage_closer_texel_at(region: MapRegion, plane: ReceiverPlane, offset: vec2f) -> vec2i {
-    return vec2i(floor(plane.uv * vec2f(region.extent) + offset));
-}
-
-// Shadow intensity with a Poisson disk of 16 taps: `radius` in texels, 0 to 4096, turned by `angle` in radians, another
-// one in each pixel (`disk_samples_angle`).
-fn percentage_closer_poisson(map: texture_depth_2d_array, layer: u32, region: MapRegion, plane: ReceiverPlane, conversion: DepthConversion, radius: f32, angle: f32) -> f32 {
-    let rotation = disk_samples_rotation(angle) * clamp(radius, 0.0, PERCENTAGE_CLOSER_LARGEST_DISK);
-    var sum = 0.0;
-    for (var tap = 0u; tap < DISK_SAMPLES_POISSON_COUNT; tap++) {
-        let texel = percentage_closer_texel_at(region, plane, disk_samples_poisson(tap, rotation));
-        sum += percentage_closer_tap(map, layer, region, plane, conversion, texel);
-    }
-    return sum / f32(DISK_SAMPLES_POISSON_COUNT);
-}
-
-// moment_shadows/percentage_closer_soft.wgsl
-
-// Percentage closer soft shadows: penumbrae that widen with the distance from the occluder (Fernando, "Percentage-Closer
-// Soft Shadows", SIGGRAPH 2005 sketches).
-//
-// A first set of taps searches for blockers, texels nearer to the light than the receiver's plane. Their mean depth tells
-// how wide the light appears from the receiver when it is projected through the blockers onto the map: that disk is
-// filtered with a second set. It is exact for a disk-shaped light and one blocker parallel to the map.
-//
-// The plane, regions and what lies beyond their edge are those of `percentage_closer`. Taps lie on disks of any number of
-// samples, which each pixel turns by another angle.
-
-// A light of some size. Filled by the host-side `PercentageCloserSoftLight`.
-struct PercentageCloserSoftLight {
-    // Parallel rays: diameter of the filter in texels (x and y) per scene unit between blocker and receiver. Rays from a
-    // point: the same in texels per 1 / scene unit of difference between the inverse distances.
+// Filled by the host-side `AreaLight`.
+struct AreaLight {
+    // Width and height of the light on the map in texels. Parallel rays: per scene unit between blocker and receiver. Rays
+    // from a point: per 1 / scene unit of difference between their inverse distances.
     size: vec2f,
     // Distances from the light along its axis, in scene units, of the moment depths -1 and 1.
     near: f32,
     far: f32,
     // 0 for parallel rays, 1 for rays from a point.
     perspective: u32,
-    // Smallest and largest radius in texels of search and filter. The smallest softens shadows near contacts; the largest
-    // bounds the noise.
+    // Smallest and largest half width in texels of filters. The smallest softens shadows near contacts; the largest bounds
+    // noise and cost.
     smallest_radius: f32,
     largest_radius: f32,
-    padding: f32,
+    // 0 for a light that is a disk, 1 for a rectangle along the map's axes.
+    rectangular: u32,
 }
 
-// What the search has found.
-struct PercentageCloserSoftBlockers {
-    // The share of taps that are blockers, in [0, 1].
-    share: f32,
-    // Their mean moment depth; -1 without blockers.
-    depth: f32,
-}
+// The largest half width in texels.
+const AREA_LIGHT_LARGEST_RADIUS: f32 = 4096.0;
 
-// The largest number of taps.
-const PERCENTAGE_CLOSER_SOFT_MOST_TAPS: u32 = 4096u;
+// A box of half width h has the variance h^2 / 3 along an axis, a disk of radius r r^2 / 4: half widths of a box, of which
+// the disk's radius is 1, and the reverse.
+const AREA_LIGHT_BOX_OF_DISK: f32 = 0.8660254;
+const AREA_LIGHT_DISK_OF_BOX: f32 = 1.1547005;
 
-// The largest radius in texels.
-const PERCENTAGE_CLOSER_SOFT_LARGEST_RADIUS: f32 = 4096.0;
-
-// The radius in texels (x and y) of the light as a receiver sees it through a blocker, projected onto the map. Both depths are
-// moment depths; in front of the blocker the radius is the smallest one.
-fn percentage_closer_soft_radius(light: PercentageCloserSoftLight, blocker_depth: f32, receiver_depth: f32) -> vec2f {
+// Half the light's width and height in texels as a receiver sees it through a blocker, projected onto the map. Both depths
+// are moment depths; 0 for a blocker that is not in front.
+fn area_light_half_extent(light: AreaLight, blocker_depth: f32, receiver_depth: f32) -> vec2f {
     let ends = clamp(vec2f(blocker_depth, receiver_depth), vec2f(-1.0), vec2f(1.0));
     let distances = clamp(mix(vec2f(light.near), vec2f(light.far), 0.5 * ends + 0.5), vec2f(-1e15), vec2f(1e15));
     var apart = distances.y - distances.x;
@@ -610,54 +288,26 @@ fn percentage_closer_soft_radius(light: PercentageCloserSoftLight, blocker_depth
         let positive = max(distances, vec2f(1e-9));
         apart = apart / (positive.x * positive.y);
     }
-    let radius = 0.5 * clamp(light.size, vec2f(0.0), vec2f(1e15)) * clamp(apart, 0.0, 1e18);
-    let smallest = vec2f(clamp(light.smallest_radius, 0.0, PERCENTAGE_CLOSER_SOFT_LARGEST_RADIUS));
-    let largest = vec2f(clamp(light.largest_radius, 0.0, PERCENTAGE_CLOSER_SOFT_LARGEST_RADIUS));
-    return min(max(radius, smallest), largest);
+    return 0.5 * clamp(light.size, vec2f(0.0), vec2f(1e15)) * clamp(apart, 0.0, 1e18);
 }
 
-// Searches a disk of the given radius in texels for blockers.
-fn percentage_closer_soft_search(map: texture_depth_2d_array, layer: u32, region: MapRegion, plane: ReceiverPlane, conversion: DepthConversion, radius: vec2f, taps: u32, rotation: vec2f) -> PercentageCloserSoftBlockers {
-    let count = clamp(taps, 1u, PERCENTAGE_CLOSER_SOFT_MOST_TAPS);
-    var blockers = 0.0;
-    var sum = 0.0;
-    for (var tap = 0u; tap < count; tap++) {
-        let texel = percentage_closer_texel_at(region, plane, radius * disk_samples_vogel(tap, count, rotation));
-        let depth = percentage_closer_map_depth(map, layer, region, conversion, texel);
-        if depth < percentage_closer_plane_depth(region, plane, texel) {
-            blockers += 1.0;
-            sum += depth;
-        }
-    }
-    return PercentageCloserSoftBlockers(blockers / f32(count), select(-1.0, sum / max(blockers, 1.0), blockers > 0.0));
+// Half widths in texels between the light's smallest and largest one.
+fn area_light_limited(light: AreaLight, half_extent: vec2f) -> vec2f {
+    let smallest = vec2f(clamp(light.smallest_radius, 0.0, AREA_LIGHT_LARGEST_RADIUS));
+    let largest = vec2f(clamp(light.largest_radius, 0.0, AREA_LIGHT_LARGEST_RADIUS));
+    return min(max(half_extent, smallest), largest);
 }
 
-// The share in [0, 1] of a disk's taps, of the given radius in texels, that are in shadow.
-fn percentage_closer_soft_filter(map: texture_depth_2d_array, layer: u32, region: MapRegion, plane: ReceiverPlane, conversion: DepthConversion, radius: vec2f, taps: u32, rotation: vec2f) -> f32 {
-    let count = clamp(taps, 1u, PERCENTAGE_CLOSER_SOFT_MOST_TAPS);
-    var sum = 0.0;
-    for (var tap = 0u; tap < count; tap++) {
-        let texel = percentage_closer_texel_at(region, plane, radius * disk_samples_vogel(tap, count, rotation));
-        sum += percentage_closer_tap(map, layer, region, plane, conversion, texel);
-    }
-    return clamp(sum / f32(count), 0.0, 1.0);
+// The radii in texels of an elliptic filter that stands for the light.
+fn area_light_disk(light: AreaLight, blocker_depth: f32, receiver_depth: f32) -> vec2f {
+    let shape = select(1.0, AREA_LIGHT_DISK_OF_BOX, light.rectangular != 0u);
+    return area_light_limited(light, shape * area_light_half_extent(light, blocker_depth, receiver_depth));
 }
 
-// Shadow intensity in [0, 1]: 0 without blockers, 1 where the search found nothing else. `search_taps` and `filter_taps`
-// from 1 to 4096; both disks are turned by `angle` in radians (`disk_samples_angle`).
-fn percentage_closer_soft_intensity(map: texture_depth_2d_array, layer: u32, region: MapRegion, plane: ReceiverPlane, conversion: DepthConversion, light: PercentageCloserSoftLight, search_taps: u32, filter_taps: u32, angle: f32) -> f32 {
-    if any(region.extent == vec2u(0u)) {
-        return 0.0;
-    }
-    let rotation = disk_samples_rotation(angle);
-    // A blocker at the near end spreads farthest.
-    let search_radius = percentage_closer_soft_radius(light, -1.0, plane.depth);
-    let blockers = percentage_closer_soft_search(map, layer, region, plane, conversion, search_radius, search_taps, rotation);
-    if blockers.share <= 0.0 || blockers.share >= 1.0 {
-        return select(0.0, 1.0, blockers.share >= 1.0);
-    }
-    let radius = percentage_closer_soft_radius(light, blockers.depth, plane.depth);
-    return percentage_closer_soft_filter(map, layer, region, plane, conversion, radius, filter_taps, rotation);
+// The half widths in texels of a box filter that stands for the light.
+fn area_light_box(light: AreaLight, blocker_depth: f32, receiver_depth: f32) -> vec2f {
+    let shape = select(AREA_LIGHT_BOX_OF_DISK, 1.0, light.rectangular != 0u);
+    return area_light_limited(light, shape * area_light_half_extent(light, blocker_depth, receiver_depth));
 }
 
 // moment_shadows/receiver_bias.wgsl
@@ -735,6 +385,15 @@ fn receiver_bias_depth_minified(bias: ReceiverBias, gradient: f32, variance: f32
     return max(bias.constant + min(deviation, max(limit, 0.0)), 0.0);
 }
 
+// The part of the bias that grows with the slope, under a kernel with the standard deviation `deviation` in texels along x
+// and y, on a plane with the gradient of moment depth per texel; that counts up to the length `steepest`.
+fn receiver_bias_depth_of_kernel(gradient: vec2f, deviation: vec2f, steepest: f32) -> f32 {
+    let full = clamp(gradient, vec2f(-RECEIVER_BIAS_EDGE_ON), vec2f(RECEIVER_BIAS_EDGE_ON));
+    let steepness = length(full);
+    let limited = full * min(max(steepest, 0.0) / max(steepness, 1e-30), 1.0);
+    return RECEIVER_BIAS_STANDARD_DEVIATIONS * length(limited * deviation);
+}
+
 // The position, in scene units, at which to look the map up when the receiver moves along its normal: the offset
 // grows with the sine of the angle between normal and light (`cosine` > 0 faces the light).
 fn receiver_bias_offset_position(bias: ReceiverBias, position: vec3f, normal: vec3f, cosine: f32) -> vec3f {
@@ -764,6 +423,8 @@ const STORAGE_UNORM16: u32 = 0u;
 const STORAGE_FLOAT16: u32 = 1u;
 const STORAGE_FLOAT32: u32 = 2u;
 const STORAGE_UNORM8: u32 = 3u;
+// Sums of channels as unorm16 has them; see `summed_area_encoding`.
+const STORAGE_FIXED32: u32 = 4u;
 
 // The largest finite float16.
 const STORAGE_LARGEST_FLOAT16: f32 = 65504.0;
@@ -1056,7 +717,7 @@ struct TechniqueReceiver {
     steepest: f32,
     // How the light's map stores depth, and the light's size: for tests on the plain depth map.
     conversion: DepthConversion,
-    light: PercentageCloserSoftLight,
+    light: AreaLight,
     // The pixel's coordinates.
     pixel: vec2f,
 }
@@ -1106,7 +767,7 @@ struct ShadeHardParameters {
     padding: f32,
     // How the light's map stores depth, and how large the light is: for tests on the plain depth map.
     conversion: DepthConversion,
-    light: PercentageCloserSoftLight,
+    light: AreaLight,
 }
 
 @group(GROUP) @binding(0) var<uniform> views: array<ShadeHardParameters, VIEWS>;

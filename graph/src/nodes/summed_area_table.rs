@@ -52,7 +52,7 @@ impl LargestKernel {
 }
 
 impl Default for LargestKernel {
-    /// 65x65 texels: the moment bias of a float32 map's table is then 3.2e-6.
+    /// 65x65 texels: the moment bias of a float32 map's table is then 2.8e-6.
     fn default() -> Self {
         LargestKernel::Square(65)
     }

@@ -6,8 +6,8 @@ use moment_shadows::{
     LinkError, MapEncoding, PcfTaps, Profile, Source, Storage, Technique, TextureFormat, link,
 };
 use moment_shadows_graph::nodes::{
-    BlurMoments, BlurParameters, DebugMoments, DownsampleMoments, KernelProperty, MipLevels,
-    PlaceLayers, ResolveMoments, ShadeHard, Show, SummedAreaTable,
+    BlurMoments, BlurParameters, DebugMoments, DownsampleMoments, Interpolation, KernelProperty,
+    MipLevels, PlaceLayers, ResolveMoments, ShadeHard, ShadeSoft, Show, SummedAreaTable,
 };
 use moment_shadows_graph::{Capabilities, Node, ResourceDesc, TextureDesc};
 
@@ -130,6 +130,14 @@ pub(super) fn nodes() -> Result<Vec<Entry>, IsaError> {
         entries.push(table(storage, false));
     }
     entries.push(table(Storage::Unorm16, true));
+    for interpolation in [
+        Interpolation::Both,
+        Interpolation::Filter,
+        Interpolation::Neither,
+    ] {
+        entries.push(shade_soft(Technique::Hamburger4, interpolation)?);
+    }
+    entries.push(shade_soft(Technique::Vsm, Interpolation::Filter)?);
     entries.push(place(1));
     entries.push(debug(Storage::Unorm16));
     // Other storages can be filtered everywhere.
@@ -335,6 +343,40 @@ fn shade(storage: Storage, mips: u32, views: u32, float32_filterable: bool) -> E
         trips,
         pass_trips: BTreeMap::new(),
     }
+}
+
+/// Soft shadows from the table of a float32 map.
+fn shade_soft(technique: Technique, interpolation: Interpolation) -> Result<Entry, IsaError> {
+    let settings = format!(
+        "{technique}, {} interpolated",
+        match interpolation {
+            Interpolation::Both => "search and filter",
+            Interpolation::Filter => "filter",
+            Interpolation::Neither => "nothing",
+        }
+    );
+    let refused = |reason: String| IsaError::Shader {
+        shader: settings.clone(),
+        reason,
+    };
+    let table = moment_shadows::SummedAreaTable::new(Storage::Float32, [65, 65])
+        .map_err(|error| refused(error.to_string()))?;
+    let encoding =
+        MapEncoding::of_table(technique, table).map_err(|error| refused(error.to_string()))?;
+    Ok(Entry {
+        settings,
+        node: Box::new(ShadeSoft {
+            interpolation,
+            ..ShadeSoft::default()
+        }),
+        inputs: inputs([
+            ("table", TextureDesc::of_map(encoding, SIZE)),
+            ("camera_depth", texture(TextureFormat::Depth32Float)),
+        ]),
+        capabilities: native(),
+        trips: Vec::new(),
+        pass_trips: BTreeMap::new(),
+    })
 }
 
 /// Shading with another technique's map.

@@ -4,8 +4,8 @@ use std::collections::BTreeMap;
 
 use moment_shadows::{LayerSplits, MapEncoding, Profile, Storage, Technique, TextureFormat};
 use moment_shadows_graph::nodes::{
-    BlurMoments, DebugMoments, DownsampleMoments, KernelProperty, MipLevels, PlaceLayers,
-    ResolveMoments, ShadeHard, Show, SummedAreaTable,
+    BlurMoments, DebugMoments, DownsampleMoments, Interpolation, KernelProperty, MipLevels,
+    PlaceLayers, ResolveMoments, ShadeHard, ShadeSoft, Show, SummedAreaTable,
 };
 use moment_shadows_graph::{Capabilities, Connected, Node, ResourceDesc, TextureDesc};
 
@@ -111,6 +111,7 @@ fn variants(storage: Storage, capabilities: &Capabilities) -> Vec<Variant> {
     }
     variants.extend(summing(storage, capabilities));
     variants.extend(shading(storage, capabilities));
+    variants.extend(soft_shading(storage, capabilities));
     variants
 }
 
@@ -169,6 +170,37 @@ fn shading(storage: Storage, capabilities: &Capabilities) -> Vec<Variant> {
         }
     }
     variants
+}
+
+/// Soft shadows from a table of a map: all ways to look it up, two moments, several lights.
+fn soft_shading(storage: Storage, capabilities: &Capabilities) -> Vec<Variant> {
+    let table = |technique| {
+        let table = moment_shadows::SummedAreaTable::new(storage, [65, 65]).ok()?;
+        MapEncoding::of_table(technique, table).ok()
+    };
+    let four = table(Technique::Hamburger4);
+    let shade = |interpolation| ShadeSoft {
+        interpolation,
+        ..ShadeSoft::default()
+    };
+    let lights = ShadeSoft {
+        lights: 2,
+        views: 6,
+        ..ShadeSoft::default()
+    };
+    [
+        ("", shade(Interpolation::Filter), four.clone()),
+        ("_both", shade(Interpolation::Both), four.clone()),
+        ("_neither", shade(Interpolation::Neither), four.clone()),
+        ("_vsm", ShadeSoft::default(), table(Technique::Vsm)),
+        ("_views", lights, four),
+    ]
+    .into_iter()
+    .map(|(kind, node, encoding)| Variant {
+        encoding,
+        ..Variant::new(format!("shade_soft{kind}_{storage}"), node, capabilities)
+    })
+    .collect()
 }
 
 /// What another technique's map changes: how it is made, filtered and shaded with. Each with one lookup; four moments have all.
@@ -357,6 +389,7 @@ fn inputs(variant: &Variant, storage: Storage) -> BTreeMap<String, ResourceDesc>
     let camera = TextureDesc::new(TextureFormat::Depth32Float, [256, 256]);
     [
         ("depth", depth),
+        ("table", moments.clone()),
         ("moments", moments),
         ("splits", splits),
         ("camera_depth", camera),
