@@ -42,6 +42,7 @@ mod nearest;
 mod percentage_closer;
 mod profile;
 mod receiver_bias;
+mod six_moments;
 mod storage;
 mod summed_area_table;
 mod technique;
@@ -65,6 +66,7 @@ pub use nearest::nearest;
 pub use percentage_closer::PercentageCloserKernel;
 pub use profile::Profile;
 pub use receiver_bias::{ReceiverBias, STANDARD_DEVIATIONS};
+pub use six_moments::SixMomentsBias;
 pub use storage::{MomentBias, Storage, UnsupportedStorage};
 pub use summed_area_table::{SummedAreaTable, SummedAreaTableError};
 pub use technique::{

@@ -10,6 +10,7 @@
 //! | `vsm`, `lvsm`, `evsm2`, `evsm4` | a variance that is too small by a factor, `chebyshev` | the same |
 //! | `convolution` | errors of sines and cosines, `convolution` | |
 //! | `hamburger4`, `hausdorff4` | the moment bias | the moment bias |
+//! | `hamburger6` | the moment bias | the moment bias, and roundings of the evaluation |
 //!
 //! A sum of n products in f32 is off by up to n / 3 units of 2^-24, all on one side where equal weights meet equal depths,
 //! which for 129 texels is ten times the reserve of float32. So moments in float32 are summed in two parts, and
@@ -61,7 +62,20 @@ pub fn allowed_excess(encoding: &MapEncoding, wide: bool) -> f64 {
         // Moments with rounding errors that the bias covers are those of a mixture of the surfaces with the share 1 - alpha
         // and of others with alpha, which may all be in front.
         Technique::Hausdorff4 => f64::from(storage.hausdorff_moment_bias().alpha),
+        Technique::Hamburger6 => {
+            let bias = storage.six_moments_bias();
+            six_moments(storage, bias.map_or(1.0, |bias| f64::from(bias.alpha)))
+        }
         _ => f64::from(storage.moment_bias().alpha),
+    }
+}
+
+/// Of six moments: the bias, and for the finest storage what the evaluation itself rounds. The bias leaves a surface a deviation of
+/// sqrt(alpha), over which the bound rises from 0 to 1; some units in the last place of depth shift it by these over that.
+fn six_moments(storage: Storage, alpha: f64) -> f64 {
+    match storage {
+        Storage::Float32 => alpha + 16.0 * HALF_ULP / alpha.sqrt(),
+        _ => alpha,
     }
 }
 
