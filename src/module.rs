@@ -19,6 +19,7 @@ macro_rules! modules {
 #[must_use]
 pub fn modules() -> &'static [Module] {
     const MODULES: &[Module] = modules![
+        "angle",
         "area_light",
         "convolution",
         "depth",
@@ -43,11 +44,13 @@ pub fn modules() -> &'static [Module] {
         "percentage_closer_soft",
         "receiver_bias",
         "receiver_plane",
+        "rectified_frame",
         "soft_blockers",
         "split_sum",
         "storage",
         "summed_area_encoding",
         "summed_area_table",
+        "two_diracs",
         "variance",
     ];
     MODULES
