@@ -1,0 +1,146 @@
+import super::storage::{STORAGE_FLOAT16, STORAGE_FLOAT32, storage_is_float, storage_round_to_float16};
+
+// Six moments of depth: encoding, storage, bias.
+//
+// A map holds b = (E[z], ..., E[z^6]) of the moment depths z in [-1, 1] that a texel covers, in two texels: the odd moments
+// in one, the even ones in the other, since the optimised basis mixes neither with the other (Peters, GDC 2016; Peters et
+// al., JCGT 6(1) 2017). Like that of four moments it spreads the moments over the range of every channel, and commutes
+// with filtering.
+
+// The moments of one distribution.
+struct SixMoments {
+    // E[z], E[z^3], E[z^5].
+    odd: vec3f,
+    // E[z^2], E[z^4], E[z^6].
+    even: vec3f,
+}
+
+// A moment bias: b is moved by alpha towards moments whose odd ones are 0.
+struct SixMomentsBias {
+    // The target's E[z^2], E[z^4], E[z^6].
+    even: vec3f,
+    alpha: f32,
+}
+
+// The bias belongs to a storage's rounding error, not to a scene. Each value covers a resolve and a two-pass blur, every
+// stage rounded to the storage, for 99.999 % of filter regions. The target is the one published for moment-based
+// transparency, optimal for the basis (Muenstermann et al., i3D 2018, supplement).
+const SIX_MOMENTS_BIAS_TARGET: vec3f = vec3f(0.5566, 0.489, 0.47869382);
+const SIX_MOMENTS_BIAS_UNORM16: SixMomentsBias = SixMomentsBias(SIX_MOMENTS_BIAS_TARGET, 1e-4);
+const SIX_MOMENTS_BIAS_FLOAT16: SixMomentsBias = SixMomentsBias(SIX_MOMENTS_BIAS_TARGET, 1.5e-3);
+const SIX_MOMENTS_BIAS_FLOAT32: SixMomentsBias = SixMomentsBias(SIX_MOMENTS_BIAS_TARGET, 4e-6);
+
+// The optimised basis, by columns: odd and even channels are these products plus the offsets.
+const SIX_MOMENTS_ODD_BASIS: mat3x3f = mat3x3f(
+    2.5, -1.8749986445, 1.26583039016,
+    -10.0, 4.20757543111, -1.47644882902,
+    8.0, -1.83257678661, 0.71061660238,
+);
+const SIX_MOMENTS_EVEN_BASIS: mat3x3f = mat3x3f(
+    4.0, 9.0, -0.57759806484,
+    -4.0, -24.0, 4.61936647543,
+    0.0, 16.0, -3.07953906655,
+);
+const SIX_MOMENTS_ODD_OFFSET: vec3f = vec3f(0.5);
+const SIX_MOMENTS_EVEN_OFFSET: vec3f = vec3f(0.0, 0.0, 0.018888946);
+
+// Their inverses, by columns.
+const SIX_MOMENTS_ODD_INVERSE: mat3x3f = mat3x3f(
+    -0.02877789191977914, 0.09995235706024454, 0.25893353755023666,
+    0.4763555042123262, 0.8453258093069343, 0.907796166567316,
+    1.5524280897137293, 1.0547257075981561, 0.8332733564621547,
+);
+const SIX_MOMENTS_EVEN_INVERSE: mat3x3f = mat3x3f(
+    1.2530436076429571e-5, -0.24998746956392357, -0.37498825271617835,
+    0.16668494186053159, 0.16668494186053159, 0.21876713299424836,
+    0.866025405794346, 0.866025405794346, 0.8118988179321994,
+);
+
+// matrix * vector + offset, every step fused where the hardware does.
+fn six_moments_affine(matrix: mat3x3f, vector: vec3f, offset: vec3f) -> vec3f {
+    let last = fma(matrix[2], vector.zzz, offset);
+    return fma(matrix[0], vector.xxx, fma(matrix[1], vector.yyy, last));
+}
+
+// The moments of a single depth z in [-1, 1]: its powers.
+fn six_moments_from_depth(z: f32) -> SixMoments {
+    let square = z * z;
+    let powers = vec3f(1.0, square, square * square);
+    return SixMoments(z * powers, square * powers);
+}
+
+// The optimised basis: maps the moments of depths in [-1, 1] into [0, 1]^6, here as odd and even channels.
+fn six_moments_quantize(b: SixMoments) -> array<vec3f, 2> {
+    return array<vec3f, 2>(
+        six_moments_affine(SIX_MOMENTS_ODD_BASIS, b.odd, SIX_MOMENTS_ODD_OFFSET),
+        six_moments_affine(SIX_MOMENTS_EVEN_BASIS, b.even, SIX_MOMENTS_EVEN_OFFSET),
+    );
+}
+
+// Inverse of `six_moments_quantize`, for channels that `less` was subtracted from. Channels in [0, 1] give |b| < 1.05,
+// whatever they hold.
+fn six_moments_dequantize(odd: vec3f, even: vec3f, less: f32) -> SixMoments {
+    // The offsets are constants; adding them to the channels would round these.
+    return SixMoments(
+        six_moments_affine(SIX_MOMENTS_ODD_INVERSE, odd - (SIX_MOMENTS_ODD_OFFSET - less), vec3f(0.0)),
+        six_moments_affine(SIX_MOMENTS_EVEN_INVERSE, even - (SIX_MOMENTS_EVEN_OFFSET - less), vec3f(0.0)),
+    );
+}
+
+// Moments that certainly lie in their ranges: odd ones in [-1, 1], even ones in [0, 1]. Float storage can hold anything,
+// and finite values beyond 1e15 would overflow further on.
+fn six_moments_clamp(b: SixMoments) -> SixMoments {
+    return SixMoments(clamp(b.odd, vec3f(-1.0), vec3f(1.0)), saturate(b.even));
+}
+
+// What is subtracted from channels before they are stored: floats are finest around zero.
+fn six_moments_middle(storage: u32) -> f32 {
+    return select(0.0, 0.5, storage_is_float(storage));
+}
+
+// What to write to the two texels of the storage: odd channels in the first, even ones in the second, 1 in their fourth
+// channels.
+fn six_moments_to_texels(b: SixMoments, storage: u32) -> array<vec4f, 2> {
+    let channels = six_moments_quantize(b);
+    let middle = six_moments_middle(storage);
+    let odd = vec4f(saturate(channels[0]) - middle, 1.0);
+    let even = vec4f(saturate(channels[1]) - middle, 1.0);
+    if storage == STORAGE_FLOAT16 {
+        return array<vec4f, 2>(storage_round_to_float16(odd), storage_round_to_float16(even));
+    }
+    return array<vec4f, 2>(odd, even);
+}
+
+// The moments in the two (filtered) texels of the storage. Float storage can hold anything; `six_moments_clamp` comes
+// before any arithmetic that relies on ranges.
+fn six_moments_from_texels(texels: array<vec4f, 2>, storage: u32) -> SixMoments {
+    return six_moments_dequantize(texels[0].xyz, texels[1].xyz, six_moments_middle(storage));
+}
+
+// The moment bias of a storage.
+fn six_moments_bias_of(storage: u32) -> SixMomentsBias {
+    if storage == STORAGE_FLOAT32 {
+        return SIX_MOMENTS_BIAS_FLOAT32;
+    }
+    if storage == STORAGE_FLOAT16 {
+        return SIX_MOMENTS_BIAS_FLOAT16;
+    }
+    return SIX_MOMENTS_BIAS_UNORM16;
+}
+
+// Applies the moment bias (i3D 2015, section 3.3). Written as a step towards the target: 1 - alpha would keep only a
+// few bits of alpha.
+fn six_moments_apply_bias(b: SixMoments, bias: SixMomentsBias) -> SixMoments {
+    let alpha = vec3f(bias.alpha);
+    return SixMoments(fma(-alpha, b.odd, b.odd), fma(alpha, bias.even - b.even, b.even));
+}
+
+// The biased moments in the two (filtered) texels of the storage, within [-1.05, 1.05]: for unorm storage if the channels
+// are in [0, 1], as no texture can help, and for float storage whatever finite numbers it holds.
+fn six_moments_biased_from_texels(texels: array<vec4f, 2>, storage: u32, bias: SixMomentsBias) -> SixMoments {
+    let b = six_moments_from_texels(texels, storage);
+    if storage_is_float(storage) {
+        return six_moments_apply_bias(six_moments_clamp(b), bias);
+    }
+    return six_moments_apply_bias(b, bias);
+}
