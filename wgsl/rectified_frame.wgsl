@@ -94,7 +94,13 @@ fn rectified_frame_surface(frame: RectifiedFrame, device: vec2f, stored_depth: f
     return direction / max(scene_w, frame.farthest_w);
 }
 
-// Where in a map of `size` texels a row of this azimuth lies, from 0 to 1: the first and last rows are the ends of the frame.
+// Where in a map of so many rows a row lies, from 0 to 1: the first and last rows are the ends of the frame.
 fn rectified_frame_row(row: f32, rows: f32) -> f32 {
     return fma(row, rows - 1.0, 0.5) / rows;
+}
+
+// Where in a map of so many columns the prefix sums up to one lie, from 0 to 1: a texel holds the sum up to its
+// far edge.
+fn rectified_frame_prefix(column: f32, columns: f32) -> f32 {
+    return column - 0.5 / columns;
 }

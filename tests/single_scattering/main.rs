@@ -1,0 +1,8 @@
+//! Prefiltered single scattering: its coordinates, its resampling, its sums and what a picture gets of them.
+#![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic)]
+
+mod angle;
+mod cameras;
+mod frame;
+mod frame_errors;
+mod two_diracs;

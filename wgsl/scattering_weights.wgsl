@@ -1,0 +1,67 @@
+import super::angle::{ANGLE_HALF_PI, angle_atan2, angle_sin_cos};
+import super::rectified_frame::{RectifiedFrame};
+
+// Weights of the columns of a rectified map: the transmittance between the camera and a column.
+//
+// A view ray of inclination theta reaches radius r after the distance r / sin(theta), so a column's transmittance is
+// exp(-extinction r / sin(theta)) and depends on the view ray, while a row of prefix sums serves all view rays of its
+// azimuth. The papers leave open which one it is made for. Weights that are exponentials of r are off in their rate alone, by
+// the ratio of sines; for a row whose view rays have sines from s to t, the rate for sin(theta) = sqrt(s t) has the smallest
+// largest error: that of the share of light in front of any one occluder depends on nothing but the ratio of rates, in a thick
+// medium, and grows with it. Only rays of that inclination are exact, and all of them where nothing is extinguished.
+
+// Where sines differ by more than this factor, those of short rays, which few columns belong to, do not count.
+const SCATTERING_WEIGHTS_LARGEST_RATIO: f32 = 64.0;
+
+// The part of the inclinations in [low, high] at which directions of an azimuth are on the inner side of a plane through the
+// camera with a normal, where the azimuth has the given cosine and sine.
+fn scattering_weights_clip(range: vec2f, normal: vec3f, around: vec2f) -> vec2f {
+    // sin(theta) a + cos(theta) b >= 0: a half turn about the angle of (b, a), one end of which is in [0, pi].
+    let middle = angle_atan2(dot(normal.xy, around), normal.z);
+    if middle < -ANGLE_HALF_PI {
+        return vec2f(max(range.x, middle + 3.0 * ANGLE_HALF_PI), range.y);
+    }
+    if middle <= ANGLE_HALF_PI {
+        return vec2f(range.x, min(range.y, middle + ANGLE_HALF_PI));
+    }
+    return vec2f(max(range.x, middle - ANGLE_HALF_PI), range.y);
+}
+
+// The smallest and largest inclination of the frustum's view rays of an azimuth.
+fn scattering_weights_inclinations(frame: RectifiedFrame, azimuth: f32) -> vec2f {
+    let turn = angle_sin_cos(azimuth);
+    let around = turn.yx;
+    var range = vec2f(frame.smallest_inclination, frame.largest_inclination);
+    for (var side = 0u; side < 4u; side++) {
+        // The side planes: x + 1, 1 - x, y + 1 and 1 - y are not negative in the picture.
+        let across = select(frame.along_y, frame.along_x, side < 2u);
+        let along = select(frame.along_x, frame.along_y, side < 2u);
+        let edge = frame.along_middle + select(across, -across, (side & 1u) == 0u);
+        let normal = cross(edge, along);
+        let inner = dot(normal, frame.along_middle) >= 0.0;
+        range = scattering_weights_clip(range, select(-normal, normal, inner), around);
+    }
+    // Rows at the very ends of the frame may miss the frustum by a rounding error.
+    return vec2f(min(range.x, range.y), max(range.x, range.y));
+}
+
+// The sine of the inclination that a row of this azimuth is weighted for.
+fn scattering_weights_reference_sine(frame: RectifiedFrame, azimuth: f32) -> f32 {
+    let range = scattering_weights_inclinations(frame, azimuth);
+    let ends = vec2f(angle_sin_cos(range.x).x, angle_sin_cos(range.y).x);
+    let across = range.x <= ANGLE_HALF_PI && range.y >= ANGLE_HALF_PI;
+    let largest = max(select(max(ends.x, ends.y), 1.0, across), 1e-6);
+    let smallest = max(min(ends.x, ends.y), largest / SCATTERING_WEIGHTS_LARGEST_RATIO);
+    return sqrt(smallest * largest);
+}
+
+// The optical thickness of a column of a row: its weight is exp(-thickness column).
+fn scattering_weights_thickness(frame: RectifiedFrame, azimuth: f32, extinction: f32, columns: f32) -> f32 {
+    let width = frame.largest_radius / columns;
+    return max(extinction, 0.0) * width / scattering_weights_reference_sine(frame, azimuth);
+}
+
+// The weight of a column.
+fn scattering_weights_of_column(thickness: f32, column: f32) -> f32 {
+    return exp(-min(thickness * column, 1e4));
+}
