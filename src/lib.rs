@@ -44,6 +44,8 @@ mod percentage_closer;
 mod profile;
 mod receiver_bias;
 mod rectified_frame;
+mod single_scattering;
+mod six_moments;
 mod storage;
 mod summed_area_table;
 mod technique;
@@ -68,6 +70,8 @@ pub use percentage_closer::PercentageCloserKernel;
 pub use profile::Profile;
 pub use receiver_bias::{ReceiverBias, STANDARD_DEVIATIONS};
 pub use rectified_frame::{RectifiedFrame, RectifiedFrameError, RectifiedView};
+pub use single_scattering::{SingleScattering, SingleScatteringError};
+pub use six_moments::SixMomentsBias;
 pub use storage::{MomentBias, Storage, UnsupportedStorage};
 pub use summed_area_table::{SummedAreaTable, SummedAreaTableError};
 pub use technique::{

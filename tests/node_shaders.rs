@@ -63,7 +63,14 @@ fn is_kept(name: &str) -> bool {
 }
 
 /// Techniques whose maps hold something else than four moments, or are read by other means.
-const OTHER_TECHNIQUES: [&str; 5] = ["esm", "vsm", "convolution", "hausdorff4", "pcf"];
+const OTHER_TECHNIQUES: [&str; 6] = [
+    "esm",
+    "vsm",
+    "convolution",
+    "hausdorff4",
+    "hamburger6",
+    "pcf",
+];
 
 fn snapshot(name: &str) -> PathBuf {
     [

@@ -1,5 +1,5 @@
 import super::hankel::{HankelFactor, hankel_factor, hankel_second_polynomial};
-import super::six_moments::{SixMoments, SixMomentsBias, six_moments_apply_bias, six_moments_bias_of, six_moments_biased_from_texels, six_moments_clamp};
+import super::six_moments::{SixMoments, SixMomentsBias, six_moments_apply_bias, six_moments_bias_of, six_moments_from_texels};
 
 // Hamburger six-moment shadow mapping: the sharpest bounds on shadow intensity that six moments allow.
 //
@@ -144,14 +144,13 @@ fn hamburger6_lower_bound(biased: SixMoments, fragment_depth: f32, alpha: f32) -
 }
 
 // Shadow intensity in [0, 1] (1 = shadowed) of a fragment at `fragment_depth` (moment depth) under the filtered moments
-// of its map: the lower bound, never darker than the truth but for the bias. Moments may be anything finite; fragment
-// depths beyond the light's range count as its ends.
+// of its map: the lower bound, never darker than the truth but for the bias. Moments lie within [-2, 2], as those from
+// `six_moments_from_texels` do, valid or not; fragment depths beyond the light's range count as its ends.
 fn hamburger6_shadow_intensity(moments: SixMoments, fragment_depth: f32, bias: SixMomentsBias) -> f32 {
-    return hamburger6_lower_bound(six_moments_apply_bias(six_moments_clamp(moments), bias), fragment_depth, bias.alpha);
+    return hamburger6_lower_bound(six_moments_apply_bias(moments, bias), fragment_depth, bias.alpha);
 }
 
 // The same for the two filtered texels of a storage, with the bias of the storage.
 fn hamburger6_shadow_intensity_of_texels(texels: array<vec4f, 2>, fragment_depth: f32, storage: u32) -> f32 {
-    let bias = six_moments_bias_of(storage);
-    return hamburger6_lower_bound(six_moments_biased_from_texels(texels, storage, bias), fragment_depth, bias.alpha);
+    return hamburger6_shadow_intensity(six_moments_from_texels(texels, storage), fragment_depth, six_moments_bias_of(storage));
 }

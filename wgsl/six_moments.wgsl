@@ -30,7 +30,8 @@ const SIX_MOMENTS_BIAS_UNORM16: SixMomentsBias = SixMomentsBias(SIX_MOMENTS_BIAS
 const SIX_MOMENTS_BIAS_FLOAT16: SixMomentsBias = SixMomentsBias(SIX_MOMENTS_BIAS_TARGET, 1.5e-3);
 const SIX_MOMENTS_BIAS_FLOAT32: SixMomentsBias = SixMomentsBias(SIX_MOMENTS_BIAS_TARGET, 4e-6);
 
-// The optimised basis, by columns: odd and even channels are these products plus the offsets.
+// The optimised basis, by columns: these products plus the offsets map the odd and the even moments of depths in [-1, 1]
+// into [0, 1]^3 each.
 const SIX_MOMENTS_ODD_BASIS: mat3x3f = mat3x3f(
     2.5, -1.8749986445, 1.26583039016,
     -10.0, 4.20757543111, -1.47644882902,
@@ -69,52 +70,50 @@ fn six_moments_from_depth(z: f32) -> SixMoments {
     return SixMoments(z * powers, square * powers);
 }
 
-// The optimised basis: maps the moments of depths in [-1, 1] into [0, 1]^6, here as odd and even channels.
-fn six_moments_quantize(b: SixMoments) -> array<vec3f, 2> {
-    return array<vec3f, 2>(
-        six_moments_affine(SIX_MOMENTS_ODD_BASIS, b.odd, SIX_MOMENTS_ODD_OFFSET),
-        six_moments_affine(SIX_MOMENTS_EVEN_BASIS, b.even, SIX_MOMENTS_EVEN_OFFSET),
-    );
-}
-
-// Inverse of `six_moments_quantize`, for channels that `less` was subtracted from. Channels in [0, 1] give |b| < 1.05,
-// whatever they hold.
-fn six_moments_dequantize(odd: vec3f, even: vec3f, less: f32) -> SixMoments {
-    // The offsets are constants; adding them to the channels would round these.
-    return SixMoments(
-        six_moments_affine(SIX_MOMENTS_ODD_INVERSE, odd - (SIX_MOMENTS_ODD_OFFSET - less), vec3f(0.0)),
-        six_moments_affine(SIX_MOMENTS_EVEN_INVERSE, even - (SIX_MOMENTS_EVEN_OFFSET - less), vec3f(0.0)),
-    );
-}
-
-// Moments that certainly lie in their ranges: odd ones in [-1, 1], even ones in [0, 1]. Float storage can hold anything,
-// and finite values beyond 1e15 would overflow further on.
-fn six_moments_clamp(b: SixMoments) -> SixMoments {
-    return SixMoments(clamp(b.odd, vec3f(-1.0), vec3f(1.0)), saturate(b.even));
-}
-
 // What is subtracted from channels before they are stored: floats are finest around zero.
 fn six_moments_middle(storage: u32) -> f32 {
     return select(0.0, 0.5, storage_is_float(storage));
 }
 
-// What to write to the two texels of the storage: odd channels in the first, even ones in the second, 1 in their fourth
-// channels.
-fn six_moments_to_texels(b: SixMoments, storage: u32) -> array<vec4f, 2> {
-    let channels = six_moments_quantize(b);
-    let middle = six_moments_middle(storage);
-    let odd = vec4f(saturate(channels[0]) - middle, 1.0);
-    let even = vec4f(saturate(channels[1]) - middle, 1.0);
+// A texel of three channels, with 1 in the fourth.
+fn six_moments_texel(channels: vec3f, storage: u32) -> vec4f {
+    let texel = vec4f(saturate(channels) - six_moments_middle(storage), 1.0);
     if storage == STORAGE_FLOAT16 {
-        return array<vec4f, 2>(storage_round_to_float16(odd), storage_round_to_float16(even));
+        return storage_round_to_float16(texel);
     }
-    return array<vec4f, 2>(odd, even);
+    return texel;
 }
 
-// The moments in the two (filtered) texels of the storage. Float storage can hold anything; `six_moments_clamp` comes
-// before any arithmetic that relies on ranges.
+// What to write to the first texel of the storage: the odd moments.
+fn six_moments_to_odd_texel(odd: vec3f, storage: u32) -> vec4f {
+    return six_moments_texel(six_moments_affine(SIX_MOMENTS_ODD_BASIS, odd, SIX_MOMENTS_ODD_OFFSET), storage);
+}
+
+// What to write to the second one: the even moments.
+fn six_moments_to_even_texel(even: vec3f, storage: u32) -> vec4f {
+    return six_moments_texel(six_moments_affine(SIX_MOMENTS_EVEN_BASIS, even, SIX_MOMENTS_EVEN_OFFSET), storage);
+}
+
+// Both texels.
+fn six_moments_to_texels(b: SixMoments, storage: u32) -> array<vec4f, 2> {
+    return array<vec4f, 2>(six_moments_to_odd_texel(b.odd, storage), six_moments_to_even_texel(b.even, storage));
+}
+
+// The moments in the two (filtered) texels of the storage, |b| < 1.05. Float storage can hold anything: channels beyond their
+// range count as its ends. Channels and not moments are clamped, since the bias covers errors of channels; moments at the ends
+// of their ranges, of which rounding has moved one inwards, would need one ten times as large if the others were clamped.
 fn six_moments_from_texels(texels: array<vec4f, 2>, storage: u32) -> SixMoments {
-    return six_moments_dequantize(texels[0].xyz, texels[1].xyz, six_moments_middle(storage));
+    let middle = six_moments_middle(storage);
+    var odd = texels[0].xyz;
+    var even = texels[1].xyz;
+    if storage_is_float(storage) {
+        odd = clamp(odd, vec3f(-0.5), vec3f(0.5));
+        even = clamp(even, vec3f(-0.5), vec3f(0.5));
+    }
+    return SixMoments(
+        six_moments_affine(SIX_MOMENTS_ODD_INVERSE, odd - (SIX_MOMENTS_ODD_OFFSET - middle), vec3f(0.0)),
+        six_moments_affine(SIX_MOMENTS_EVEN_INVERSE, even - (SIX_MOMENTS_EVEN_OFFSET - middle), vec3f(0.0)),
+    );
 }
 
 // The moment bias of a storage.
@@ -133,14 +132,4 @@ fn six_moments_bias_of(storage: u32) -> SixMomentsBias {
 fn six_moments_apply_bias(b: SixMoments, bias: SixMomentsBias) -> SixMoments {
     let alpha = vec3f(bias.alpha);
     return SixMoments(fma(-alpha, b.odd, b.odd), fma(alpha, bias.even - b.even, b.even));
-}
-
-// The biased moments in the two (filtered) texels of the storage, within [-1.05, 1.05]: for unorm storage if the channels
-// are in [0, 1], as no texture can help, and for float storage whatever finite numbers it holds.
-fn six_moments_biased_from_texels(texels: array<vec4f, 2>, storage: u32, bias: SixMomentsBias) -> SixMoments {
-    let b = six_moments_from_texels(texels, storage);
-    if storage_is_float(storage) {
-        return six_moments_apply_bias(six_moments_clamp(b), bias);
-    }
-    return six_moments_apply_bias(b, bias);
 }

@@ -130,7 +130,11 @@ impl MapEncoding {
     pub fn has_split_sums(&self) -> bool {
         let moments = matches!(
             self.technique,
-            Technique::Vsm | Technique::Lvsm { .. } | Technique::Hamburger4 | Technique::Hausdorff4
+            Technique::Vsm
+                | Technique::Lvsm { .. }
+                | Technique::Hamburger4
+                | Technique::Hausdorff4
+                | Technique::Hamburger6
         );
         moments && self.storage == Storage::Float32
     }

@@ -32,8 +32,10 @@ fn expected(name: &str, storage: Storage) -> Option<Profile> {
     use Profile::{Native, NativeAdapter, WebgpuCore};
     use Storage::{Float16, Float32, Unorm8, Unorm16};
     match (name, storage) {
-        ("hamburger4" | "hausdorff4" | "lvsm", Unorm16) => Some(Native),
-        ("hamburger4" | "hausdorff4" | "lvsm", Float16 | Float32) => Some(WebgpuCore),
+        ("hamburger4" | "hausdorff4" | "hamburger6" | "lvsm", Unorm16) => Some(Native),
+        ("hamburger4" | "hausdorff4" | "hamburger6" | "lvsm", Float16 | Float32) => {
+            Some(WebgpuCore)
+        }
         ("vsm" | "esm", Unorm16) => Some(Native),
         // Half-precision textures of one or two channels can be written where the adapter says so.
         ("vsm" | "esm" | "evsm2", Float16) => Some(NativeAdapter),
@@ -46,9 +48,10 @@ fn expected(name: &str, storage: Storage) -> Option<Profile> {
 }
 
 /// Settings that suit every storage.
-const TECHNIQUES: [(&str, &str); 9] = [
+const TECHNIQUES: [(&str, &str); 10] = [
     ("hamburger4", "\"hamburger4\""),
     ("hausdorff4", "\"hausdorff4\""),
+    ("hamburger6", "\"hamburger6\""),
     ("vsm", "\"vsm\""),
     ("esm", r#"{ "esm": { "exponent": 2 } }"#),
     (
@@ -107,7 +110,7 @@ fn the_whole_matrix_is_accepted_or_refused_as_the_table_says() {
             }
         }
     }
-    assert_eq!(legal, 60);
+    assert_eq!(legal, 68);
 }
 
 #[test]

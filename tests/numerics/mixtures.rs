@@ -119,13 +119,13 @@ pub(crate) fn sample(class: &str, random: &mut ChaCha8Rng) -> Sample {
     }
 }
 
-/// Moments b_1..b_4 in f64.
-pub(crate) fn moments(atoms: &[(f64, f64)]) -> [f64; 4] {
+/// Moments b_1..b_N in f64.
+pub(crate) fn moments<const N: usize>(atoms: &[(f64, f64)]) -> [f64; N] {
     let sum: f64 = atoms.iter().map(|atom| atom.1).sum();
-    [1, 2, 3, 4].map(|power| {
+    core::array::from_fn(|index| {
         atoms
             .iter()
-            .map(|(depth, weight)| weight / sum * depth.powi(power))
+            .map(|(depth, weight)| weight / sum * depth.powi(index as i32 + 1))
             .sum()
     })
 }

@@ -2,6 +2,7 @@
 #![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic)]
 
 mod patches;
+mod six;
 
 use bytemuck::{Pod, Zeroable};
 use half::f16;

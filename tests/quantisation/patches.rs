@@ -6,7 +6,7 @@ mod support;
 use moment_shadows::Storage;
 use support::Patch;
 
-pub(crate) use support::patch;
+pub(crate) use support::{filtered as filtered_channels, patch};
 
 /// Moments of a texel's channels in a storage, before the moment bias.
 pub(crate) fn filtered(depths: &Patch, storage: Storage) -> [f64; 4] {

@@ -30,6 +30,19 @@ fn a_quick_report_of_two_pairs_finds_no_fault() {
 }
 
 #[test]
+fn six_moments_have_no_fault_in_any_storage() {
+    let pairs = pairs(Some("hamburger6"), None).unwrap();
+    assert_eq!(pairs.len(), 3);
+    let report = report(&pairs, Effort::QUICK);
+    println!("{report}");
+    assert_eq!(report.faults(), 0);
+    // They leak less than four moments do.
+    for row in &report.rows {
+        assert!(row.mean_leak < 0.15);
+    }
+}
+
+#[test]
 fn the_same_seed_gives_the_same_report_and_another_one_another() {
     let pairs = pairs(Some("convolution"), Some("unorm8")).unwrap();
     let effort = |seed| Effort {

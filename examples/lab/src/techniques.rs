@@ -61,6 +61,7 @@ fn settings(storage: Storage) -> Vec<Technique> {
         },
         Technique::Hamburger4,
         Technique::Hausdorff4,
+        Technique::Hamburger6,
     ]
 }
 

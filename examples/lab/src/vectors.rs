@@ -36,20 +36,50 @@ pub enum VectorsError {
 #[repr(C)]
 #[derive(Clone, Copy, Pod, Zeroable)]
 struct Input {
-    moments: [f32; 4],
+    odd: [f32; 3],
     depth: f32,
+    even: [f32; 3],
     alpha: f32,
-    beta: f32,
-    padding: f32,
+    target: [f32; 3],
+    count: u32,
+    is_biased: u32,
+    padding: [u32; 3],
+}
+
+impl Input {
+    /// Of four or six moments.
+    fn new(moments: &[f32], depth: f64, alpha: f32) -> Self {
+        let of = |index: usize| moments.get(index).copied().unwrap_or_default();
+        Self {
+            odd: [0, 2, 4].map(of),
+            depth: depth as f32,
+            even: [1, 3, 5].map(of),
+            alpha,
+            target: [0.0; 3],
+            count: moments.len() as u32,
+            is_biased: 1,
+            padding: [0; 3],
+        }
+    }
+
+    /// Moments that are yet to be biased towards these even ones.
+    fn towards(self, target: [f32; 3]) -> Self {
+        Self {
+            target,
+            is_biased: 0,
+            ..self
+        }
+    }
 }
 
 /// `BatchOutput` of the shader.
 #[repr(C)]
 #[derive(Clone, Copy, Pod, Zeroable)]
 struct Output {
-    biased: [f32; 4],
-    bounds: [f32; 2],
-    padding: [f32; 2],
+    odd: [f32; 3],
+    lower: f32,
+    even: [f32; 3],
+    upper: f32,
 }
 
 /// What the shader's bounds for an input are compared with.
@@ -66,10 +96,11 @@ struct Case<'a> {
     truth: Truth,
 }
 
-/// Evaluates all four-moment Hamburger records of a file with `hamburger_bounds` on the best adapter.
+/// Evaluates all Hamburger records of four and six moments in a file with `hamburger_bounds` and `hamburger6_bounds` on the best
+/// adapter.
 ///
 /// A biased record is fed bit for bit and compared with the file's bounds. An unbiased one is no input for the solver, which
-/// takes moments after the moment bias: its f32 moments go through `moments_apply_bias` with the bias of each storage on the
+/// takes moments after the moment bias: its f32 moments go through `moments_apply_bias` or `six_moments_apply_bias` with the bias of each storage on the
 /// device, and the result is compared with the oracle's bounds for exactly the biased moments that the device made.
 ///
 /// The oracle itself is compared with all bounds of the file, those that no shader evaluates too.
@@ -109,79 +140,76 @@ fn collect<'a>(vector: &'a file::Vector, cases: &mut Vec<Case<'a>>, report: &mut
         }
     };
     let records = 1 + vector.biased.len();
-    let &[b1, b2, b3, b4] = vector.moments_f32.as_slice() else {
-        let reason = format!(
-            "bounds of {} moments: the technique is not implemented",
-            vector.m
-        );
+    let m = vector.m;
+    if m != 4 && m != 6 {
+        let reason = format!("bounds of {m} moments: the technique is not implemented");
         skip(reason, 2 * records);
         return;
-    };
+    }
     skip(
-        "Hausdorff bounds of 4 moments: the technique is not implemented".to_owned(),
+        format!("Hausdorff bounds of {m} moments: the technique is not implemented"),
         records,
     );
+    let rounded: Vec<f32> = vector.moments_f32.iter().map(|&b| b as f32).collect();
     for storage in Storage::ALL {
-        let bias = storage.moment_bias();
+        let four = storage.moment_bias();
+        let (alpha, target) = match storage.six_moments_bias().filter(|_| m == 6) {
+            Some(bias) => (bias.alpha, bias.even),
+            None => (four.alpha, [four.second, four.fourth, 0.0]),
+        };
         cases.push(Case {
             vector,
-            input: Input {
-                moments: [b1 as f32, b2 as f32, b3 as f32, b4 as f32],
-                depth: vector.depth as f32,
-                alpha: bias.alpha,
-                beta: bias.second,
-                padding: 0.0,
-            },
+            input: Input::new(&rounded, vector.depth, alpha).towards(target),
             truth: Truth::Oracle(storage),
         });
     }
     for record in &vector.biased {
-        let input: Option<[f32; 4]> = record.input().ok().and_then(|input| input.try_into().ok());
         let bounds = record.hamburger.and_then(file::Bounds::both);
-        let (Some(moments), Some(bounds)) = (input, bounds) else {
-            skip(
-                "Hamburger bounds of 4 moments: the file gives none, since the rounded input is no moment vector"
-                    .to_owned(),
-                1,
-            );
+        let (Ok(moments), Some(bounds)) = (record.input(), bounds) else {
+            let reason = "the file gives none, since the rounded input is no moment vector";
+            skip(format!("Hamburger bounds of {m} moments: {reason}"), 1);
             continue;
         };
-        let Some(units) = units(record, moments) else {
-            skip(
-                "Hamburger bounds of 4 moments: no tolerance is given or defined".to_owned(),
-                1,
-            );
+        let Some(units) = units(record, &moments) else {
+            let reason = "no tolerance is given or defined";
+            skip(format!("Hamburger bounds of {m} moments: {reason}"), 1);
             continue;
         };
         cases.push(Case {
             vector,
-            input: Input {
-                moments,
-                depth: record.depth as f32,
-                alpha: record.alpha as f32,
-                beta: -1.0,
-                padding: 0.0,
-            },
+            input: Input::new(&moments, record.depth, record.alpha as f32),
             truth: Truth::Given { bounds, units },
         });
     }
 }
 
 /// The units of a biased record's errors: from its tolerance, else its sensitivity, else the oracle's sensitivity.
-fn units(record: &file::Biased, moments: [f32; 4]) -> Option<[f64; 2]> {
+fn units(record: &file::Biased, moments: &[f32]) -> Option<[f64; 2]> {
     let pair = |values: Option<[Option<f64>; 2]>| values.and_then(|[a, b]| Some([a?, b?]));
     if let Some(tolerances) = pair(record.tol) {
         return Some(tolerances.map(|tolerance| tolerance / TOLERANCE));
     }
     let sensitivities = pair(record.sens).or_else(|| exact(moments, record.depth).ok()?.1)?;
-    Some(sensitivities.map(tolerance_unit))
+    let unit = |sensitivity| unit(moments.len(), record.alpha, sensitivity);
+    Some(sensitivities.map(unit))
+}
+
+/// The unit of errors: 2^-24 (1 + sensitivity) for four moments. For six it is four times as much, and 16 times where the bias
+/// leaves pivots that are so small that their roundings count.
+fn unit(count: usize, alpha: f64, sensitivity: f64) -> f64 {
+    let factor = match count {
+        4 => 1.0,
+        _ if alpha >= 5e-5 => 4.0,
+        _ => 16.0,
+    };
+    factor * tolerance_unit(sensitivity)
 }
 
 /// Exact bounds and their sensitivities.
-fn exact(moments: [f32; 4], depth: f64) -> Result<([f64; 2], Option<[f64; 2]>), OracleError> {
+fn exact(moments: &[f32], depth: f64) -> Result<([f64; 2], Option<[f64; 2]>), OracleError> {
     let moments = moments
-        .into_iter()
-        .map(|moment| rational(f64::from(moment)))
+        .iter()
+        .map(|&moment| rational(f64::from(moment)))
         .collect::<Result<Vec<_>, _>>()?;
     let depth = rational(depth)?;
     let extremal = hamburger(&moments, &depth)?;
@@ -191,20 +219,25 @@ fn exact(moments: [f32; 4], depth: f64) -> Result<([f64; 2], Option<[f64; 2]>), 
 
 /// Compares what the shader gave for a case with the truth.
 fn judge(case: &Case<'_>, output: &Output, report: &mut VectorReport) {
-    let [lower, upper] = output.bounds;
+    let found = [output.lower, output.upper];
+    let [lower, upper] = found;
+    let m = case.vector.m;
     let sound = 0.0 <= lower && lower <= upper && upper <= 1.0;
     let (bounds, units, classes) = match case.truth {
         Truth::Given { bounds, units } => (bounds, units, &mut report.biased),
         Truth::Oracle(storage) => {
-            match exact(output.biased, f64::from(case.input.depth)) {
+            let ([b1, b3, b5], [b2, b4, b6]) = (output.odd, output.even);
+            let biased = [b1, b2, b3, b4, b5, b6];
+            match exact(&biased[..m.min(6)], f64::from(case.input.depth)) {
                 Ok((bounds, Some(sensitivities))) => (
                     bounds,
-                    sensitivities.map(tolerance_unit),
+                    sensitivities
+                        .map(|sensitivity| unit(m, f64::from(case.input.alpha), sensitivity)),
                     &mut report.unbiased,
                 ),
                 _ if sound => {
                     let reason = format!(
-                        "Hamburger bounds of 4 moments: the bias of {} leaves the f32 moments singular or impossible",
+                        "Hamburger bounds of {m} moments: the bias of {} leaves the f32 moments singular or impossible",
                         storage.name()
                     );
                     *report.not_evaluated.entry(reason).or_default() += 1;
@@ -216,7 +249,7 @@ fn judge(case: &Case<'_>, output: &Output, report: &mut VectorReport) {
         }
     };
     let error = (0..2)
-        .map(|side| (f64::from(output.bounds[side]) - bounds[side]).abs() / units[side])
+        .map(|side| (f64::from(found[side]) - bounds[side]).abs() / units[side])
         // `f64::max` would drop NaN.
         .fold(0.0, |largest, error| {
             if error > largest || error.is_nan() {
@@ -225,8 +258,9 @@ fn judge(case: &Case<'_>, output: &Output, report: &mut VectorReport) {
                 largest
             }
         });
-    classes
-        .entry(case.vector.class.clone())
-        .or_default()
-        .add(error, sound);
+    let class = match m {
+        4 => case.vector.class.clone(),
+        _ => format!("{}, {m} moments", case.vector.class),
+    };
+    classes.entry(class).or_default().add(error, sound);
 }

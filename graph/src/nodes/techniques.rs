@@ -112,6 +112,7 @@ pub(super) fn encoding(technique: &Technique) -> VirtualModule {
         }
         Technique::Lvsm { .. } => include_str!("techniques/encode_layered_variance.wgsl"),
         Technique::Convolution { .. } => include_str!("techniques/encode_convolution.wgsl"),
+        Technique::Hamburger6 => include_str!("techniques/encode_six_moments.wgsl"),
         _ => include_str!("techniques/encode_four_moments.wgsl"),
     };
     ("map_encoding", text)
@@ -121,7 +122,7 @@ pub(super) fn encoding(technique: &Technique) -> VirtualModule {
 pub(super) fn encodes_planes(technique: &Technique) -> bool {
     matches!(
         technique,
-        Technique::Lvsm { .. } | Technique::Convolution { .. }
+        Technique::Lvsm { .. } | Technique::Convolution { .. } | Technique::Hamburger6
     )
 }
 
@@ -175,6 +176,7 @@ pub(super) fn evaluation(technique: &Technique) -> Vec<VirtualModule> {
         Technique::Lvsm { .. } => include_str!("techniques/evaluate_layered_variance.wgsl"),
         Technique::Convolution { .. } => include_str!("techniques/evaluate_convolution.wgsl"),
         Technique::Hausdorff4 => include_str!("techniques/evaluate_hausdorff4.wgsl"),
+        Technique::Hamburger6 => include_str!("techniques/evaluate_hamburger6.wgsl"),
         _ => include_str!("techniques/evaluate_hamburger4.wgsl"),
     };
     let map = match technique {

@@ -9,7 +9,7 @@
 //! | `esm` | a relative error of the mean, `exponential` | the same |
 //! | `vsm`, `lvsm`, `evsm2`, `evsm4` | a variance that is too small by a factor, `chebyshev` | the same |
 //! | `convolution` | errors of sines and cosines, `convolution` | |
-//! | `hamburger4`, `hausdorff4` | the moment bias | the moment bias |
+//! | `hamburger4`, `hausdorff4`, `hamburger6` | the moment bias | the moment bias |
 //!
 //! A sum of n products in f32 is off by up to n / 3 units of 2^-24, all on one side where equal weights meet equal depths,
 //! which for 129 texels is ten times the reserve of float32. So moments in float32 are summed in two parts, and
@@ -61,6 +61,9 @@ pub fn allowed_excess(encoding: &MapEncoding, wide: bool) -> f64 {
         // Moments with rounding errors that the bias covers are those of a mixture of the surfaces with the share 1 - alpha
         // and of others with alpha, which may all be in front.
         Technique::Hausdorff4 => f64::from(storage.hausdorff_moment_bias().alpha),
+        Technique::Hamburger6 => storage
+            .six_moments_bias()
+            .map_or(1.0, |bias| f64::from(bias.alpha)),
         _ => f64::from(storage.moment_bias().alpha),
     }
 }

@@ -114,6 +114,11 @@ fn adapters(technique: &Technique) -> [&'static str; 3] {
             adapter!("encode_four_moments.wgsl"),
             adapter!("evaluate_hausdorff4.wgsl"),
         ],
+        Technique::Hamburger6 => [
+            linear,
+            adapter!("encode_six_moments.wgsl"),
+            adapter!("evaluate_hamburger6.wgsl"),
+        ],
         _ => [
             linear,
             adapter!("encode_four_moments.wgsl"),
