@@ -9,10 +9,10 @@
 use std::mem::offset_of;
 
 use moment_shadows::{
-    DepthConversion, EsmFiltering, Finite, Kernel, LARGEST_RADIUS, LayerSplits, LeakReduction,
-    MapRegion, MomentBias, PcfTaps, Pcss, PercentageCloserKernel, AreaLight,
-    Profile, ReceiverBias, STANDARD_DEVIATIONS, Source, Storage, SummedAreaTable, Technique,
-    TextureFormat, link,
+    AreaLight, DepthConversion, EsmFiltering, Finite, Kernel, LARGEST_RADIUS, LayerSplits,
+    LeakReduction, MapRegion, MomentBias, PcfTaps, Pcss, PercentageCloserKernel, Profile,
+    ReceiverBias, STANDARD_DEVIATIONS, Source, Storage, SummedAreaTable, Technique, TextureFormat,
+    link,
 };
 use moment_shadows_graph::nodes::{
     BlurMoments, BlurParameters, KernelProperty, ResolveMoments, ShadeHard, ShadeHardParameters,
