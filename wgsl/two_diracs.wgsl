@@ -17,7 +17,7 @@ const TWO_DIRACS_SMALLEST_VARIANCE: f32 = 1e-7;
 
 // Of the moments b1, b2, b3 of depths in [-1, 1]. Moments that no distribution has, if they are finite, give finite depths,
 // which may lie outside of [-1, 1].
-fn two_diracs(moments: vec3f) -> TwoDiracs {
+fn two_diracs_of_moments(moments: vec3f) -> TwoDiracs {
     let b = clamp(moments, vec3f(-1.0, 0.0, -1.0), vec3f(1.0));
     let variance = max(fma(-b.x, b.x, b.y), TWO_DIRACS_SMALLEST_VARIANCE);
     let d = 0.5 * fma(-b.x, b.y, b.z) / variance - b.x;

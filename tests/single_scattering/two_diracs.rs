@@ -7,13 +7,13 @@ use rand::{RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
 
 const SHADER: &str = "
-import moment_shadows::two_diracs::{two_diracs};
+import moment_shadows::two_diracs::{two_diracs_of_moments};
 
 alias BatchInput = vec4f;
 alias BatchOutput = vec4f;
 
 fn batch(input: BatchInput) -> BatchOutput {
-    let found = two_diracs(input.xyz);
+    let found = two_diracs_of_moments(input.xyz);
     return vec4f(found.depths, found.weights);
 }
 ";

@@ -6,7 +6,7 @@ import moment_shadows::moments_lookup::{moments_lookup, moments_map};
 import moment_shadows::rectified_frame::{RectifiedFrame, rectified_frame_depth, rectified_frame_ray};
 import moment_shadows::specialization::{GROUP, MomentsStorage, SOURCE_STORAGE};
 import moment_shadows::storage::{storage_finite_texel};
-import moment_shadows::two_diracs::{two_diracs};
+import moment_shadows::two_diracs::{two_diracs_of_moments};
 
 // Resamples a filtered map of four moments in rectified coordinates: one texel, which is one light ray, per invocation.
 //
@@ -67,7 +67,7 @@ fn rectify(@builtin(global_invocation_id) id: vec3u) {
     let row = ray.x * parameters.frame.azimuth_extent / f32(size.y) * texels * around;
     let texel = moments_lookup(parameters.layer, region, uv, column, row);
     let moments = moments_from_texel(storage_finite_texel(texel, SOURCE_STORAGE), SOURCE_STORAGE);
-    let occluders = two_diracs(moments.xyz);
+    let occluders = two_diracs_of_moments(moments.xyz);
     let near = encoding_channels(rectified(occluders.depths.x, ray.x));
     let far = encoding_channels(rectified(occluders.depths.y, ray.x));
     textureStore(rectified_map, id.xy, encoding_texel(occluders.weights.x * near + occluders.weights.y * far));
