@@ -3,6 +3,7 @@
 
 mod angle;
 mod cameras;
+mod declarations;
 mod frame;
 mod frame_errors;
 mod medium;

@@ -9,7 +9,7 @@ use moment_shadows_graph::nodes::{
 use moment_shadows_lab::gpu::Gpu;
 
 use crate::cameras::{Lens, Pair, looking, pair};
-use crate::stage::{capabilities, gpu, run, sky, upload};
+use crate::stage::{capabilities, draw_over, gpu, run, sky, upload};
 
 const PICTURE: [u32; 2] = [48, 32];
 const MAP: u32 = 256;
@@ -304,6 +304,56 @@ fn no_density_is_no_fog_to_the_bit() {
                 pixel.map(f32::to_bits),
                 [0.0_f32, 0.0, 0.0, 1.0].map(f32::to_bits)
             );
+        }
+    }
+}
+
+#[test]
+fn a_hosts_open_pass_is_dimmed_and_lit() {
+    let gpu = gpu();
+    let sun = Sun::new(DVec3::new(0.5, -1.0, 0.3));
+    let moments = sun.moments();
+    let pair = camera(DVec3::new(1.0, 0.2, 0.1));
+    let kind = ["\"hamburger6\"", "float16"];
+    let behind = [0.5, 0.25, 0.125, 0.75];
+    for density in [0.0, 1.0] {
+        let medium = medium(density);
+        let apart = picture(&gpu, &pair, &sun, medium, &moments, kind);
+        let encoding = MapEncoding::new(Technique::Hamburger4, Storage::Float32).unwrap();
+        let map = upload(&gpu, &encoding, [MAP; 2], &moments);
+        let parameters =
+            ScatteringParameters::new(&camera_view(&pair), FAR, &sun.view(), medium).unwrap();
+        let blended = draw_over(
+            &gpu,
+            &graph(kind[0], kind[1]),
+            &[("map", &map), ("camera_depth", &sky(&gpu, PICTURE))],
+            &[
+                ("rectify", bytes_of(&parameters.rectify)),
+                ("integrate", bytes_of(&parameters.integrate)),
+                ("composite", bytes_of(&parameters.composite)),
+            ],
+            PICTURE,
+            wgpu::Color {
+                r: behind[0],
+                g: behind[1],
+                b: behind[2],
+                a: behind[3],
+            },
+        );
+        for (pixel, apart) in blended.chunks_exact(8).zip(&apart) {
+            let found = [0, 1, 2, 3].map(|channel: usize| {
+                half::f16::from_le_bytes([pixel[2 * channel], pixel[2 * channel + 1]]).to_f64()
+            });
+            for colour in 0..3 {
+                let expected = behind[colour] * f64::from(apart[3]) + f64::from(apart[colour]);
+                // A float16 near 1; to the bit where there is no medium.
+                let tolerance = if density == 0.0 { 0.0 } else { 1e-3 };
+                assert!(
+                    (found[colour] - expected).abs() <= tolerance,
+                    "{found:?} {apart:?}"
+                );
+            }
+            assert_eq!(found[3], behind[3]);
         }
     }
 }

@@ -2,7 +2,7 @@
 
 use moment_shadows::{MapEncoding, Profile};
 use moment_shadows_graph::record::{
-    Bindings, ImportedResource, PipelineOptions, Pipelines, Recording, Resources,
+    Bindings, HostTarget, ImportedResource, PipelineOptions, Pipelines, Recording, Resources,
 };
 use moment_shadows_graph::{
     Capabilities, Graph, Imports, NodeRegistry, ResourceDesc, Stage, TextureDesc, compile,
@@ -92,6 +92,13 @@ pub(crate) fn sky(gpu: &Gpu, size: [u32; 2]) -> (TextureDesc, wgpu::Texture) {
     (desc, texture)
 }
 
+/// A plan with all that recording it needs.
+pub(crate) struct Bound {
+    bindings: Bindings,
+    // What the bindings refer to.
+    _resources: Resources,
+}
+
 /// All layers of an output as bytes.
 pub(crate) fn run(
     gpu: &Gpu,
@@ -101,6 +108,82 @@ pub(crate) fn run(
     blocks: &[Block<'_>],
     output: &str,
 ) -> Vec<Vec<u8>> {
+    let bound = bind(gpu, capabilities, graph, imports, blocks, &[]);
+    let mut encoder = gpu.device.create_command_encoder(&Default::default());
+    for stage in Stage::ALL {
+        bound
+            .bindings
+            .record(stage, &mut encoder, Recording::default())
+            .unwrap();
+    }
+    gpu.queue.submit([encoder.finish()]);
+    gpu.check().unwrap();
+    let texture = bound.bindings.output(output).unwrap();
+    (0..texture.depth_or_array_layers())
+        .map(|layer| gpu.read_texture(texture, layer, output).unwrap())
+        .collect()
+}
+
+/// The same graph with the pass `composite/composite` drawn into a host's pass of rgba16float, which holds `behind`.
+pub(crate) fn draw_over(
+    gpu: &Gpu,
+    graph: &str,
+    imports: &[(&str, &(TextureDesc, wgpu::Texture))],
+    blocks: &[Block<'_>],
+    size: [u32; 2],
+    behind: wgpu::Color,
+) -> Vec<u8> {
+    const PASS: &str = "composite/composite";
+    let format = wgpu::TextureFormat::Rgba16Float;
+    let targets = [(PASS, HostTarget::scattered(format))];
+    let bound = bind(gpu, &capabilities(gpu), graph, imports, blocks, &targets);
+    let target = gpu.device.create_texture(&wgpu::TextureDescriptor {
+        label: Some("the host's"),
+        size: wgpu::Extent3d {
+            width: size[0],
+            height: size[1],
+            depth_or_array_layers: 1,
+        },
+        mip_level_count: 1,
+        sample_count: 1,
+        dimension: wgpu::TextureDimension::D2,
+        format,
+        usage: wgpu::TextureUsages::RENDER_ATTACHMENT | wgpu::TextureUsages::COPY_SRC,
+        view_formats: &[],
+    });
+    let mut encoder = gpu.device.create_command_encoder(&Default::default());
+    bound
+        .bindings
+        .record(Stage::AfterShadowMaps, &mut encoder, Recording::default())
+        .unwrap();
+    let mut pass = encoder.begin_render_pass(&wgpu::RenderPassDescriptor {
+        label: Some("the host's pass"),
+        color_attachments: &[Some(wgpu::RenderPassColorAttachment {
+            view: &target.create_view(&Default::default()),
+            depth_slice: None,
+            resolve_target: None,
+            ops: wgpu::Operations {
+                load: wgpu::LoadOp::Clear(behind),
+                store: wgpu::StoreOp::Store,
+            },
+        })],
+        ..Default::default()
+    });
+    bound.bindings.draw(PASS, &mut pass, 0).unwrap();
+    drop(pass);
+    gpu.queue.submit([encoder.finish()]);
+    gpu.check().unwrap();
+    gpu.read_texture(&target, 0, "the host's").unwrap()
+}
+
+fn bind(
+    gpu: &Gpu,
+    capabilities: &Capabilities,
+    graph: &str,
+    imports: &[(&str, &(TextureDesc, wgpu::Texture))],
+    blocks: &[Block<'_>],
+    host_targets: &[(&str, HostTarget)],
+) -> Bound {
     let graph = Graph::parse(graph, &NodeRegistry::new()).unwrap();
     let descs: Imports = imports
         .iter()
@@ -108,7 +191,11 @@ pub(crate) fn run(
         .collect();
     let plan = compile(&graph, capabilities, &descs).unwrap_or_else(|error| panic!("{error}"));
     let device = &gpu.device;
-    let pipelines = block_on(Pipelines::create(device, &plan, PipelineOptions::default())).unwrap();
+    let options = PipelineOptions {
+        host_targets,
+        ..PipelineOptions::default()
+    };
+    let pipelines = block_on(Pipelines::create(device, &plan, options)).unwrap();
     let resources = block_on(Resources::create(device, &plan)).unwrap();
     let mut bytes = plan.parameters.initial();
     for (node, block) in blocks {
@@ -139,16 +226,8 @@ pub(crate) fn run(
         Some(&parameters),
     ))
     .unwrap();
-    let mut encoder = device.create_command_encoder(&Default::default());
-    for stage in Stage::ALL {
-        bindings
-            .record(stage, &mut encoder, Recording::default())
-            .unwrap();
+    Bound {
+        bindings,
+        _resources: resources,
     }
-    gpu.queue.submit([encoder.finish()]);
-    gpu.check().unwrap();
-    let texture = bindings.output(output).unwrap();
-    (0..texture.depth_or_array_layers())
-        .map(|layer| gpu.read_texture(texture, layer, output).unwrap())
-        .collect()
 }

@@ -16,7 +16,7 @@ use crate::{
 /// Node `composite_scattering`: `integrated` (from [`super::IntegrateScattering`]) and `camera_depth` to `scattering`, of the
 /// camera's size: in-scattered radiance in red, green and blue, and in alpha the mean of the colours' transmittance between
 /// camera and surface. Sky is at the far distance of the parameters. A fullscreen pass: it can also be drawn into a render
-/// pass that the host has open, blended as source + source alpha x destination. Parameters:
+/// pass that the host has open, blended as source + source alpha x destination (`HostTarget::scattered`). Parameters:
 /// [`CompositeScatteringParameters`].
 ///
 /// One texel is looked up per pixel for four moments, two for six. Where the medium has no density the result is (0, 0, 0, 1) to
