@@ -4,7 +4,7 @@ use glam::DVec3;
 use moment_shadows::{Profile, RectifiedView};
 use moment_shadows_lab::batch::Batch;
 use moment_shadows_lab::gpu::Gpu;
-use rand::{RngExt, SeedableRng};
+use rand::SeedableRng;
 use rand_chacha::ChaCha8Rng;
 
 use crate::cameras::{Pair, random_pair};
