@@ -19,6 +19,7 @@ macro_rules! modules {
 #[must_use]
 pub fn modules() -> &'static [Module] {
     const MODULES: &[Module] = modules![
+        "angle",
         "area_light",
         "convolution",
         "depth",
@@ -42,14 +43,19 @@ pub fn modules() -> &'static [Module] {
         "percentage_closer",
         "percentage_closer_hardware",
         "percentage_closer_soft",
+        "phase_function",
         "receiver_bias",
         "receiver_plane",
+        "rectified_frame",
+        "scattering_weights",
+        "single_scattering",
         "six_moments",
         "soft_blockers",
         "split_sum",
         "storage",
         "summed_area_encoding",
         "summed_area_table",
+        "two_diracs",
         "variance",
     ];
     MODULES

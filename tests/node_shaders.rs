@@ -44,6 +44,10 @@ fn is_kept(name: &str) -> bool {
         let plain = !name.contains("software") && !name.contains("regions");
         return plain && (texels || name.starts_with("summed_area_table_unorm16"));
     }
+    if name.starts_with("rectify_moments") || name.contains("scattering") {
+        // Storages are constants.
+        return ends(&["float16"]);
+    }
     if name.starts_with("shade_soft") {
         // Storages and ways to look the table up are constants.
         return ["shade_soft_float32", "shade_soft_vsm_float32"].contains(&name);

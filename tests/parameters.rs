@@ -11,11 +11,13 @@ use std::mem::offset_of;
 use moment_shadows::{
     AreaLight, DepthConversion, EsmFiltering, Finite, Kernel, LARGEST_RADIUS, LayerSplits,
     LeakReduction, MapRegion, MomentBias, PcfTaps, Pcss, PercentageCloserKernel, Profile,
-    ReceiverBias, STANDARD_DEVIATIONS, Source, Storage, SummedAreaTable, Technique, TextureFormat,
-    link,
+    ReceiverBias, RectifiedFrame, STANDARD_DEVIATIONS, SingleScattering, Source, Storage,
+    SummedAreaTable, Technique, TextureFormat, link,
 };
 use moment_shadows_graph::nodes::{
-    BlurMoments, BlurParameters, KernelProperty, ResolveMoments, ShadeHard, ShadeHardParameters,
+    BlurMoments, BlurParameters, CompositeScattering, CompositeScatteringParameters,
+    IntegrateScattering, IntegrateScatteringParameters, KernelProperty, RectifyMoments,
+    RectifyMomentsParameters, ResolveMoments, ShadeHard, ShadeHardParameters,
 };
 use moment_shadows_graph::{
     BindingResource, Capabilities, Connected, Node, NodeDesc, ResourceDesc, TextureDesc,
@@ -155,12 +157,89 @@ fn structs_of_the_modules_are_laid_out_alike() {
     );
 }
 
+#[test]
+fn structs_of_single_scattering_are_laid_out_alike() {
+    assert_same_layout(
+        &module("rectified_frame", "RectifiedFrame"),
+        "RectifiedFrame",
+        size_of::<RectifiedFrame>(),
+        &fields!(RectifiedFrame {
+            along_x: [f32; 3],
+            largest_radius: f32,
+            along_y: [f32; 3],
+            first_azimuth: f32,
+            along_middle: [f32; 3],
+            azimuth_extent: f32,
+            scene_w: [f32; 4],
+            farthest_w: f32,
+            smallest_inclination: f32,
+            largest_inclination: f32,
+            padding: f32
+        }),
+    );
+    assert_same_layout(
+        &module("single_scattering", "SingleScattering"),
+        "SingleScattering",
+        size_of::<SingleScattering>(),
+        &fields!(SingleScattering {
+            extinction: [f32; 3],
+            anisotropy: f32,
+            scattering: [f32; 3],
+            mean_extinction: f32,
+            irradiance: [f32; 3],
+            padding: f32
+        }),
+    );
+    let of = |node: &dyn Node| parse(&described(node).passes[0].wgsl);
+    let rectify = RectifyMoments {
+        technique: Technique::Hamburger4,
+        storage: Storage::Float16,
+        extent: [64, 64],
+    };
+    // What the WGSL structs leave to the end of their last 16 bytes is padding here.
+    assert_same_layout(
+        &of(&rectify),
+        "RectifyMomentsParameters",
+        size_of::<RectifyMomentsParameters>(),
+        &fields!(RectifyMomentsParameters {
+            frame: RectifiedFrame,
+            map_at_camera: [f32; 2],
+            map_along_first: [f32; 2],
+            map_along_second: [f32; 2],
+            depth_at_camera: f32,
+            depth_per_length: f32,
+            region: MapRegion,
+            layer: u32
+        }),
+    );
+    assert_same_layout(
+        &of(&IntegrateScattering::default()),
+        "IntegrateScatteringParameters",
+        size_of::<IntegrateScatteringParameters>(),
+        &fields!(IntegrateScatteringParameters {
+            frame: RectifiedFrame,
+            extinction: f32
+        }),
+    );
+    assert_same_layout(
+        &of(&CompositeScattering::default()),
+        "CompositeScatteringParameters",
+        size_of::<CompositeScatteringParameters>(),
+        &fields!(CompositeScatteringParameters {
+            frame: RectifiedFrame,
+            medium: SingleScattering
+        }),
+    );
+}
+
 /// A library node, described for float16 maps of 256 texels.
 fn described(node: &dyn Node) -> NodeDesc {
     let texture = |format| ResourceDesc::Texture(TextureDesc::new(format, [256, 256]));
     let inputs = [
         ("depth".to_owned(), texture(TextureFormat::Depth32Float)),
         ("moments".to_owned(), texture(TextureFormat::Rgba16Float)),
+        ("rectified".to_owned(), texture(TextureFormat::Rgba16Float)),
+        ("integrated".to_owned(), texture(TextureFormat::Rgba16Float)),
         (
             "camera_depth".to_owned(),
             texture(TextureFormat::Depth32Float),

@@ -7,8 +7,8 @@ use serde::de::DeserializeOwned;
 
 use crate::Node;
 use crate::nodes::{
-    BlurMoments, DebugMoments, DownsampleMoments, PlaceLayers, ResolveMoments, ShadeHard,
-    ShadeSoft, SummedAreaTable,
+    BlurMoments, CompositeScattering, DebugMoments, DownsampleMoments, IntegrateScattering,
+    PlaceLayers, RectifyMoments, ResolveMoments, ShadeHard, ShadeSoft, SummedAreaTable,
 };
 
 /// Makes a node of its properties, which are JSON text.
@@ -35,6 +35,9 @@ impl NodeRegistry {
         registry.register::<DebugMoments>("debug_moments");
         registry.register::<ShadeHard>("shade_hard");
         registry.register::<ShadeSoft>("shade_soft");
+        registry.register::<RectifyMoments>("rectify_moments");
+        registry.register::<IntegrateScattering>("integrate_scattering");
+        registry.register::<CompositeScattering>("composite_scattering");
         registry
     }
 

@@ -1,14 +1,19 @@
 //! The library's nodes. Each is a pair: a declaration here, and thin WGSL entry points beside it.
 
 mod blur_moments;
+mod composite_scattering;
 mod debug_moments;
 mod downsample_moments;
+mod integrate_scattering;
 mod kernel_property;
 mod mip_levels;
 mod moments_input;
+mod moments_lookup;
 mod place_layers;
+mod rectify_moments;
 mod region_tiles;
 mod resolve_moments;
+mod scattering;
 mod shade_hard;
 mod shade_soft;
 mod shading;
@@ -18,12 +23,19 @@ mod techniques;
 mod unrolled;
 
 pub use blur_moments::{BlurMoments, BlurParameters};
+pub use composite_scattering::CompositeScattering;
 pub use debug_moments::{DebugMoments, Show};
 pub use downsample_moments::DownsampleMoments;
+pub use integrate_scattering::IntegrateScattering;
 pub use kernel_property::KernelProperty;
 pub use mip_levels::{AllLevels, MipLevels};
 pub use place_layers::PlaceLayers;
+pub use rectify_moments::RectifyMoments;
 pub use resolve_moments::ResolveMoments;
+pub use scattering::{
+    CompositeScatteringParameters, IntegrateScatteringParameters, RectifyMomentsParameters,
+    ScatteringParameters, ScatteringViewError,
+};
 pub use shade_hard::{
     CameraView, LightDepth, LightView, ShadeHard, ShadeHardParameters, TechniqueShader, ViewError,
 };

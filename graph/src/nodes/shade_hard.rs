@@ -8,6 +8,7 @@ use moment_shadows::{
 use serde::{Deserialize, Serialize};
 
 use super::moments_input::{map_formats, moments_input};
+use super::moments_lookup::moments_lookup;
 use super::shading;
 use super::specialization::{FULLSCREEN, Specialization};
 use super::techniques::{self, VirtualModule};
@@ -17,14 +18,10 @@ use crate::{
 };
 
 mod own_shader;
-mod parameters;
+pub(super) mod parameters;
 
 pub use own_shader::TechniqueShader;
 pub use parameters::{CameraView, LightDepth, LightView, ViewError};
-
-const SAMPLED_LOOKUP: &str = include_str!("moments_lookup_sampled.wgsl");
-const MINIFIED_LOOKUP: &str = include_str!("moments_lookup_minified.wgsl");
-const LOADED_LOOKUP: &str = include_str!("moments_lookup_loaded.wgsl");
 
 /// Node `shade_hard`: `moments` (a filtered map) and `camera_depth` to `shadow_intensity`, of the camera's size. A
 /// fullscreen pass: it can also be drawn into a render pass that the host has open. Techniques that read the plain depth map
@@ -221,25 +218,21 @@ impl ShadeHard {
             .at_slot("moments"));
         }
         let logarithmic = techniques::is_logarithmic(technique);
-        let minified = moments.mips > 1;
-        let sampled = !logarithmic
-            && capabilities.support(moments.format).filterable
-            && (capabilities.anisotropic_sampling || !minified);
+        let (lookup, sampler) = moments_lookup(
+            moments.format,
+            moments.mips,
+            self.anisotropy,
+            !logarithmic,
+            capabilities,
+        );
         let map = Map {
             slot: "moments",
             formats: map_formats(),
             storage: Some(encoding.storage().wgsl_index()),
             // Logarithms have no mip levels.
             levels: if logarithmic { 1 } else { moments.mips },
-            lookup: match (sampled, minified) {
-                (true, false) => SAMPLED_LOOKUP,
-                (true, true) => MINIFIED_LOOKUP,
-                (false, _) => LOADED_LOOKUP,
-            },
-            sampler: sampled.then_some(BindingResource::Sampler {
-                filtering: true,
-                anisotropy: if minified { self.anisotropy } else { 1 },
-            }),
+            lookup,
+            sampler,
         };
         Ok((technique.clone(), map))
     }
@@ -271,7 +264,7 @@ fn depth_map(technique: &Technique) -> Map {
         formats: vec![TextureFormat::Depth32Float, TextureFormat::Depth16Unorm],
         storage: None,
         levels: 1,
-        lookup: LOADED_LOOKUP,
+        lookup: include_str!("moments_lookup_loaded.wgsl"),
         sampler: match technique {
             Technique::Pcf(PcfTaps::Hardware { reversed, .. }) => {
                 Some(BindingResource::ComparisonSampler {

@@ -59,6 +59,24 @@ impl HostTarget {
             ..Self::new(format)
         }
     }
+
+    /// As [`new`](Self::new), for `composite_scattering`: what is there is multiplied by the transmittance, in-scattered
+    /// radiance is added to it, and its alpha stays.
+    #[must_use]
+    pub fn scattered(format: wgpu::TextureFormat) -> Self {
+        let component = |src_factor, dst_factor| wgpu::BlendComponent {
+            src_factor,
+            dst_factor,
+            operation: wgpu::BlendOperation::Add,
+        };
+        Self {
+            blend: Some(wgpu::BlendState {
+                color: component(wgpu::BlendFactor::One, wgpu::BlendFactor::SrcAlpha),
+                alpha: component(wgpu::BlendFactor::Zero, wgpu::BlendFactor::One),
+            }),
+            ..Self::new(format)
+        }
+    }
 }
 
 /// Every pipeline that one or more plans need. Made once; a change of sizes needs no new one.

@@ -6,8 +6,9 @@ use moment_shadows::{
     LinkError, MapEncoding, PcfTaps, Profile, Source, Storage, Technique, TextureFormat, link,
 };
 use moment_shadows_graph::nodes::{
-    BlurMoments, BlurParameters, DebugMoments, DownsampleMoments, Interpolation, KernelProperty,
-    MipLevels, PlaceLayers, ResolveMoments, ShadeHard, ShadeSoft, Show, SummedAreaTable,
+    BlurMoments, BlurParameters, CompositeScattering, DebugMoments, DownsampleMoments,
+    IntegrateScattering, Interpolation, KernelProperty, MipLevels, PlaceLayers, RectifyMoments,
+    ResolveMoments, ShadeHard, ShadeSoft, Show, SummedAreaTable,
 };
 use moment_shadows_graph::{Capabilities, Node, ResourceDesc, TextureDesc};
 
@@ -138,6 +139,9 @@ pub(super) fn nodes() -> Result<Vec<Entry>, IsaError> {
         entries.push(shade_soft(Technique::Hamburger4, interpolation)?);
     }
     entries.push(shade_soft(Technique::Vsm, Interpolation::Filter)?);
+    for technique in [Technique::Hamburger4, Technique::Hamburger6] {
+        entries.extend(scattering(technique)?);
+    }
     entries.push(place(1));
     entries.push(debug(Storage::Unorm16));
     // Other storages can be filtered everywhere.
@@ -378,6 +382,61 @@ fn shade_soft(technique: Technique, interpolation: Interpolation) -> Result<Entr
         trips: vec![1],
         pass_trips: BTreeMap::new(),
     })
+}
+
+/// Single scattering in the portable storage, from a map of four moments in it.
+fn scattering(technique: Technique) -> Result<Vec<Entry>, IsaError> {
+    let storage = Storage::Float16;
+    let label = techniques::label(&technique);
+    let encoding =
+        MapEncoding::new(technique.clone(), storage).map_err(|error| IsaError::Shader {
+            shader: label.clone(),
+            reason: error.to_string(),
+        })?;
+    let entry = |kind: &str, node: Box<dyn Node>, slot, map, software_adapter, trips| Entry {
+        settings: format!("{label}, {storage}{kind}"),
+        node,
+        inputs: inputs([
+            (slot, map),
+            ("camera_depth", texture(TextureFormat::Depth32Float)),
+        ]),
+        capabilities: Capabilities {
+            software_adapter,
+            ..native()
+        },
+        trips,
+        pass_trips: BTreeMap::new(),
+    };
+    let map = TextureDesc::of_map(encoding, SIZE);
+    let rectify = RectifyMoments {
+        technique,
+        storage,
+        extent: SIZE,
+    };
+    let source = texture(storage.format());
+    let integrate = || Box::new(IntegrateScattering::default());
+    // 512 columns at a time, with six steps of the scan; side planes of the frustum.
+    let parallel = vec![4, SIZE[0] / 512, 6];
+    Ok(vec![
+        entry("", Box::new(rectify), "moments", source, false, Vec::new()),
+        entry("", integrate(), "rectified", map.clone(), false, parallel),
+        entry(
+            ", row by row",
+            integrate(),
+            "rectified",
+            map.clone(),
+            true,
+            vec![4, SIZE[0]],
+        ),
+        entry(
+            "",
+            Box::new(CompositeScattering::default()),
+            "integrated",
+            map,
+            false,
+            Vec::new(),
+        ),
+    ])
 }
 
 /// Shading with another technique's map.

@@ -4,8 +4,9 @@ use std::collections::BTreeMap;
 
 use moment_shadows::{LayerSplits, MapEncoding, Profile, Storage, Technique, TextureFormat};
 use moment_shadows_graph::nodes::{
-    BlurMoments, DebugMoments, DownsampleMoments, Interpolation, KernelProperty, MipLevels,
-    PlaceLayers, ResolveMoments, ShadeHard, ShadeSoft, Show, SummedAreaTable,
+    BlurMoments, CompositeScattering, DebugMoments, DownsampleMoments, IntegrateScattering,
+    Interpolation, KernelProperty, MipLevels, PlaceLayers, RectifyMoments, ResolveMoments,
+    ShadeHard, ShadeSoft, Show, SummedAreaTable,
 };
 use moment_shadows_graph::{Capabilities, Connected, Node, ResourceDesc, TextureDesc};
 
@@ -112,6 +113,7 @@ fn variants(storage: Storage, capabilities: &Capabilities) -> Vec<Variant> {
     variants.extend(summing(storage, capabilities));
     variants.extend(shading(storage, capabilities));
     variants.extend(soft_shading(storage, capabilities));
+    variants.extend(scattering(storage, capabilities));
     variants
 }
 
@@ -201,6 +203,58 @@ fn soft_shading(storage: Storage, capabilities: &Capabilities) -> Vec<Variant> {
         ..Variant::new(format!("shade_soft{kind}_{storage}"), node, capabilities)
     })
     .collect()
+}
+
+/// Single scattering with four and six moments; sums in parallel and, on a software adapter, row by row.
+fn scattering(storage: Storage, capabilities: &Capabilities) -> Vec<Variant> {
+    let software = Capabilities {
+        software_adapter: true,
+        ..capabilities.clone()
+    };
+    let mut variants = Vec::new();
+    for technique in [Technique::Hamburger4, Technique::Hamburger6] {
+        let kind = format!("{}_{storage}", techniques::label(&technique));
+        let encoding = MapEncoding::new(technique.clone(), storage).ok();
+        let rectify = RectifyMoments {
+            technique,
+            storage,
+            extent: [256, 256],
+        };
+        let name = format!("rectify_moments_{kind}");
+        variants.push(Variant::new(name, rectify, capabilities));
+        let nodes: [(&str, Box<dyn Node>, &Capabilities); 3] = [
+            (
+                "integrate_scattering",
+                Box::new(IntegrateScattering::default()),
+                capabilities,
+            ),
+            (
+                "integrate_scattering_software",
+                Box::new(IntegrateScattering::default()),
+                &software,
+            ),
+            (
+                "composite_scattering",
+                Box::new(CompositeScattering::default()),
+                capabilities,
+            ),
+        ];
+        // Sums know nothing of moments: their text is the same for both.
+        let six = kind.starts_with("hamburger6");
+        let nodes = nodes
+            .into_iter()
+            .filter(|node| !(six && node.0.starts_with("integrate")));
+        variants.extend(nodes.map(|(name, node, capabilities)| Variant {
+            name: format!("{name}_{kind}"),
+            node,
+            samples: 1,
+            mips: 1,
+            regions: 1,
+            encoding: encoding.clone(),
+            capabilities: capabilities.clone(),
+        }));
+    }
+    variants
 }
 
 /// What another technique's map changes: how it is made, filtered and shaded with. Each with one lookup; four moments have all.
@@ -390,6 +444,8 @@ fn inputs(variant: &Variant, storage: Storage) -> BTreeMap<String, ResourceDesc>
     [
         ("depth", depth),
         ("table", moments.clone()),
+        ("rectified", moments.clone()),
+        ("integrated", moments.clone()),
         ("moments", moments),
         ("splits", splits),
         ("camera_depth", camera),

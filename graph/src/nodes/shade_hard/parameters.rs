@@ -8,7 +8,7 @@ use serde::{Deserialize, Serialize};
 use super::ShadeHardParameters;
 
 /// A matrix by columns, in f64: products of f32 matrices with large translations keep their precision.
-type Matrix = [[f64; 4]; 4];
+pub(in crate::nodes) type Matrix = [[f64; 4]; 4];
 
 /// A camera.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -87,7 +87,7 @@ impl LightDepth {
         self.row(&wide(clip_from_world)).map(|value| value as f32)
     }
 
-    fn row(&self, clip_from_world: &Matrix) -> [f64; 4] {
+    pub(in crate::nodes) fn row(&self, clip_from_world: &Matrix) -> [f64; 4] {
         let (axis, factor, summand) = match *self {
             LightDepth::Orthographic { reversed } => {
                 let sign = if reversed { -1.0 } else { 1.0 };
@@ -179,11 +179,11 @@ impl ShadeHardParameters {
     }
 }
 
-fn wide(matrix: &[[f32; 4]; 4]) -> Matrix {
+pub(in crate::nodes) fn wide(matrix: &[[f32; 4]; 4]) -> Matrix {
     matrix.map(|column| column.map(f64::from))
 }
 
-fn row(matrix: &Matrix, index: usize) -> [f64; 4] {
+pub(in crate::nodes) fn row(matrix: &Matrix, index: usize) -> [f64; 4] {
     [0, 1, 2, 3].map(|column| matrix[column][index])
 }
 

@@ -1,0 +1,44 @@
+import moment_shadows::fullscreen::{Covered};
+import moment_shadows::map_region::{MapRegion};
+import moment_shadows::moments_lookup::{moments_map};
+import moment_shadows::rectified_frame::{RectifiedFrame, rectified_frame_coordinates, rectified_frame_depth, rectified_frame_place, rectified_frame_prefix, rectified_frame_row, rectified_frame_surface};
+import moment_shadows::scattering_bounds::{scattering_bounds};
+import moment_shadows::single_scattering::{SingleScattering, single_scattering_radiance, single_scattering_shadow, single_scattering_transmittance};
+import moment_shadows::specialization::{GROUP};
+
+// In-scattered radiance of every pixel from the camera's depth and the integrated map, to be added to the picture behind the
+// medium, which is first multiplied by the transmittance.
+
+struct CompositeScatteringParameters {
+    frame: RectifiedFrame,
+    medium: SingleScattering,
+}
+
+@group(GROUP) @binding(0) var<uniform> parameters: CompositeScatteringParameters;
+@group(GROUP) @binding(1) var camera_depth: texture_depth_2d;
+
+@fragment
+fn composite(covered: Covered) -> @location(0) vec4f {
+    let picture = vec2i(textureDimensions(camera_depth));
+    let pixel = clamp(vec2i(covered.uv * vec2f(picture)), vec2i(0), picture - 1);
+    let uv = (vec2f(pixel) + 0.5) / vec2f(picture);
+    let device = vec2f(2.0, -2.0) * uv + vec2f(-1.0, 1.0);
+    let surface = rectified_frame_surface(parameters.frame, device, textureLoad(camera_depth, pixel, 0));
+    let coordinates = rectified_frame_coordinates(surface);
+    let distance = length(surface);
+    let cosine = clamp(surface.z / max(distance, 1e-30), -1.0, 1.0);
+
+    let size = textureDimensions(moments_map);
+    let texels = vec2f(size);
+    let place = rectified_frame_place(parameters.frame, coordinates);
+    let map_uv = vec2f(rectified_frame_prefix(place.x, texels.x), rectified_frame_row(place.y, texels.y));
+    let depth = rectified_frame_depth(parameters.frame, coordinates.z);
+    let bounds = scattering_bounds(map_uv, MapRegion(vec2u(0u), size), depth);
+    let shadow = single_scattering_shadow(bounds, cosine);
+
+    let radiance = single_scattering_radiance(parameters.medium, distance, cosine, shadow);
+    let transmittance = single_scattering_transmittance(parameters.medium, distance);
+    // A mean that is 1 to the bit where all of them are.
+    let others = (transmittance.y - transmittance.x) + (transmittance.z - transmittance.x);
+    return vec4f(radiance, fma(others, 1.0 / 3.0, transmittance.x));
+}

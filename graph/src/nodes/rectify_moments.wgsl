@@ -1,0 +1,74 @@
+import moment_shadows::angle::{angle_atan2, angle_sin_cos};
+import moment_shadows::map_encoding::{encoding_channels, encoding_texel};
+import moment_shadows::map_region::{MapRegion, map_region_within};
+import moment_shadows::moments::{moments_from_texel};
+import moment_shadows::moments_lookup::{moments_lookup, moments_map};
+import moment_shadows::rectified_frame::{RectifiedFrame, rectified_frame_depth, rectified_frame_ray};
+import moment_shadows::specialization::{GROUP, MomentsStorage, SOURCE_STORAGE};
+import moment_shadows::storage::{storage_finite_texel};
+import moment_shadows::two_diracs::{two_diracs_of_moments};
+
+// Resamples a filtered map of four moments in rectified coordinates: one texel, which is one light ray, per invocation.
+//
+// Depth along the light is not linear in the depth of the light's map, so moments cannot be converted; the two depths that stand
+// for a texel can (Peters et al., JCGT 6(1) 2017, section 7). Every texel is looked up in the light's map, so there are no
+// holes, whatever the directions of camera and light.
+
+struct RectifyMomentsParameters {
+    frame: RectifiedFrame,
+    // Where the light ray through the camera meets the light's map, from 0 to 1 across the region, and by how much that
+    // changes along the frame's first and second axis per scene unit.
+    map_at_camera: vec2f,
+    map_along_first: vec2f,
+    map_along_second: vec2f,
+    // The light's moment depth at the camera, and by how much it grows along the light per scene unit.
+    depth_at_camera: f32,
+    depth_per_length: f32,
+    // Where the light's view lies in its map.
+    region: MapRegion,
+    layer: u32,
+}
+
+@group(GROUP) @binding(0) var<uniform> parameters: RectifyMomentsParameters;
+@group(GROUP) @binding(1) var rectified_map: MomentsStorage;
+
+// From here on depths of the light's map are its far end, where there are no casters: those of filtered texels spread by
+// what a storage's rounding leaves of them.
+const FAR_END = 0.97;
+
+// The rectified depth of an occluder at a depth of the light's map, on the light ray of a radius.
+fn rectified(depth: f32, radius: f32) -> f32 {
+    let along = (max(depth, -1.0) - parameters.depth_at_camera) / parameters.depth_per_length;
+    let rectified = rectified_frame_depth(parameters.frame, angle_atan2(radius, along));
+    return select(rectified, 1.0, depth >= FAR_END);
+}
+
+@compute @workgroup_size(8, 8)
+fn rectify(@builtin(global_invocation_id) id: vec3u) {
+    let size = textureDimensions(rectified_map);
+    if any(id.xy >= size) {
+        return;
+    }
+    // Columns are intervals of the radius, rows azimuths from end to end.
+    let place = vec2f((f32(id.x) + 0.5) / f32(size.x), f32(id.y) / f32(max(size.y, 2u) - 1u));
+    let ray = rectified_frame_ray(parameters.frame, place);
+    let turn = angle_sin_cos(ray.y);
+    let outwards = turn.y * parameters.map_along_first + turn.x * parameters.map_along_second;
+    let around = turn.y * parameters.map_along_second - turn.x * parameters.map_along_first;
+    let uv = parameters.map_at_camera + ray.x * outwards;
+    if any(uv < vec2f(0.0)) || any(uv > vec2f(1.0)) {
+        // What the light's map does not know casts no shadow.
+        textureStore(rectified_map, id.xy, encoding_texel(encoding_channels(1.0)));
+        return;
+    }
+    let region = map_region_within(parameters.region, textureDimensions(moments_map));
+    let texels = vec2f(region.extent);
+    let column = parameters.frame.largest_radius / f32(size.x) * texels * outwards;
+    let row = ray.x * parameters.frame.azimuth_extent / f32(size.y) * texels * around;
+    let texel = moments_lookup(parameters.layer, region, uv, column, row);
+    let moments = moments_from_texel(storage_finite_texel(texel, SOURCE_STORAGE), SOURCE_STORAGE);
+    let occluders = two_diracs_of_moments(moments.xyz);
+    let near = encoding_channels(rectified(occluders.depths.x, ray.x));
+    let far = encoding_channels(rectified(occluders.depths.y, ray.x));
+    textureStore(rectified_map, id.xy, encoding_texel(occluders.weights.x * near + occluders.weights.y * far));
+}

@@ -1,0 +1,105 @@
+//! What the nodes of single scattering refuse, and what a plan of them moves.
+
+use moment_shadows::{MapEncoding, Profile, Storage, Technique, TextureFormat};
+use moment_shadows_graph::nodes::{CompositeScattering, IntegrateScattering, RectifyMoments};
+use moment_shadows_graph::{
+    Capabilities, Connected, GraphError, GraphErrorKind, Node, NodeDesc, ResourceDesc, TextureDesc,
+};
+
+fn describe(node: &dyn Node, slot: &str, map: TextureDesc) -> Result<NodeDesc, GraphError> {
+    let depth = TextureDesc::new(TextureFormat::Depth32Float, [64, 64]);
+    let inputs = [(slot, map), ("camera_depth", depth)]
+        .map(|(name, desc)| (name.to_owned(), ResourceDesc::Texture(desc)))
+        .into();
+    let capabilities = Capabilities::of_profile(Profile::WebgpuCore);
+    node.describe(&Connected::new(&inputs, &capabilities))
+}
+
+fn map(technique: Technique) -> TextureDesc {
+    let encoding = MapEncoding::new(technique, Storage::Float32).unwrap();
+    TextureDesc::of_map(encoding, [64, 64])
+}
+
+fn rectify(technique: Technique, extent: [u32; 2]) -> RectifyMoments {
+    RectifyMoments {
+        technique,
+        storage: Storage::Float16,
+        extent,
+    }
+}
+
+#[test]
+fn maps_and_properties_that_do_not_fit_are_named() {
+    let four = || map(Technique::Hamburger4);
+    let cases: [(Box<dyn Node>, &str, TextureDesc, GraphErrorKind, &str); 6] = [
+        (
+            Box::new(rectify(Technique::Vsm, [64, 64])),
+            "moments",
+            four(),
+            GraphErrorKind::Property,
+            "'technique' is 'vsm'",
+        ),
+        (
+            Box::new(rectify(Technique::Hamburger4, [1, 64])),
+            "moments",
+            four(),
+            GraphErrorKind::Property,
+            "'extent' is 1x64",
+        ),
+        (
+            Box::new(rectify(Technique::Hamburger4, [64, 8193])),
+            "moments",
+            four(),
+            GraphErrorKind::Property,
+            "columns and rows are 2 to 8192",
+        ),
+        (
+            Box::new(rectify(Technique::Hamburger4, [64, 64])),
+            "moments",
+            map(Technique::Vsm),
+            GraphErrorKind::Format,
+            "resamples four moments",
+        ),
+        (
+            Box::new(CompositeScattering::default()),
+            "integrated",
+            map(Technique::Vsm),
+            GraphErrorKind::Format,
+            "connect the output of a node 'integrate_scattering'",
+        ),
+        (
+            Box::new(CompositeScattering {
+                format: Some(TextureFormat::Rgba8Unorm),
+            }),
+            "integrated",
+            four(),
+            GraphErrorKind::Property,
+            "radiance has no upper limit",
+        ),
+    ];
+    for (node, slot, map, kind, says) in cases {
+        let error = describe(node.as_ref(), slot, map).unwrap_err();
+        assert_eq!(error.kind, kind, "{error}");
+        assert!(error.to_string().contains(says), "{error}");
+    }
+}
+
+#[test]
+fn six_moments_take_a_pass_per_plane_and_two_lookups() {
+    let six = || map(Technique::Hamburger6);
+    let rectified = rectify(Technique::Hamburger6, [64, 64]);
+    let rectified = describe(&rectified, "moments", map(Technique::Hamburger4)).unwrap();
+    assert_eq!(rectified.passes.len(), 2);
+    let integrated = describe(&IntegrateScattering::default(), "rectified", six()).unwrap();
+    assert_eq!(integrated.passes.len(), 2);
+    for (technique, lookups) in [(Technique::Hamburger4, 1), (Technique::Hamburger6, 2)] {
+        let node = CompositeScattering::default();
+        let desc = describe(&node, "integrated", map(technique)).unwrap();
+        let [pass] = &desc.passes[..] else {
+            panic!("one pass");
+        };
+        let bounds = pass.wgsl.split("fn scattering_bounds(").nth(1).unwrap();
+        let body = bounds.split("\n}").next().unwrap();
+        assert_eq!(body.matches("moments_lookup(").count(), lookups);
+    }
+}

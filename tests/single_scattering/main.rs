@@ -1,0 +1,14 @@
+//! Prefiltered single scattering: its coordinates, its resampling, its sums and what a picture gets of them.
+#![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic)]
+
+mod angle;
+mod cameras;
+mod declarations;
+mod frame;
+mod frame_errors;
+mod medium;
+mod pictures;
+mod stage;
+mod sums;
+mod two_diracs;
+mod weights;

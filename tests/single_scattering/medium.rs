@@ -1,0 +1,107 @@
+//! Media out of range are refused by name; phase functions are normalised.
+
+use moment_shadows::{Profile, SingleScattering};
+use moment_shadows_lab::batch::Batch;
+use moment_shadows_lab::gpu::Gpu;
+
+#[test]
+fn impossible_media_are_refused() {
+    let ones = [1.0; 3];
+    for bad in [-1e-9, f32::NAN, f32::INFINITY] {
+        let vector = [0.5, bad, 0.5];
+        let errors = [
+            (
+                SingleScattering::new(vector, ones, 0.0, ones),
+                "the extinction",
+            ),
+            (
+                SingleScattering::new(ones, vector, 0.0, ones),
+                "the scattering",
+            ),
+            (
+                SingleScattering::new(ones, ones, 0.0, vector),
+                "the irradiance",
+            ),
+            (
+                SingleScattering::new(ones, ones, bad.signum() * 2.0, ones),
+                "the anisotropy",
+            ),
+        ];
+        for (found, name) in errors {
+            let error = found.unwrap_err();
+            assert_eq!(error.name, name);
+            assert!(error.to_string().contains(name));
+        }
+    }
+    // Zero extinction is a medium that scatters without loss.
+    assert!(SingleScattering::new([0.0; 3], ones, 0.0, ones).is_ok());
+    let none = SingleScattering::new([0.0; 3], [0.0; 3], 0.0, [0.0; 3]);
+    assert_eq!(none, Ok(SingleScattering::NONE));
+}
+
+/// x = optical thickness or cosine, y = anisotropy.
+const SHADER: &str = "
+import moment_shadows::phase_function::{PHASE_FUNCTION_ISOTROPIC, phase_function_henyey_greenstein};
+import moment_shadows::single_scattering::{single_scattering_mean_transmittance};
+alias BatchInput = vec2f;
+alias BatchOutput = vec4f;
+fn batch(input: BatchInput) -> BatchOutput {
+    let mean = single_scattering_mean_transmittance(vec3f(abs(input.x))).x;
+    return vec4f(phase_function_henyey_greenstein(input.x, input.y), mean, PHASE_FUNCTION_ISOTROPIC, 0.0);
+}
+";
+
+fn run(inputs: &[[f32; 2]]) -> Vec<[f32; 4]> {
+    let gpu = Gpu::open(Profile::WebgpuCore).unwrap();
+    Batch::new(&gpu, "medium.wgsl", SHADER)
+        .unwrap()
+        .run(inputs)
+        .unwrap()
+}
+
+#[test]
+fn phase_functions_integrate_to_one_and_favour_their_side() {
+    const STEPS: usize = 200_000;
+    for anisotropy in [-0.99_f32, -0.5, 0.0, 0.3, 0.9, 0.99] {
+        let cosines: Vec<[f32; 2]> = (0..STEPS)
+            .map(|step| {
+                [
+                    ((step as f64 + 0.5) / STEPS as f64 * 2.0 - 1.0) as f32,
+                    anisotropy,
+                ]
+            })
+            .collect();
+        let found = run(&cosines);
+        let step = 2.0 / STEPS as f64 * core::f64::consts::TAU;
+        let integral: f64 = found.iter().map(|value| f64::from(value[0]) * step).sum();
+        // Midpoints, whose cosines f32 rounds.
+        assert!((integral - 1.0).abs() <= 2e-3, "{anisotropy}: {integral}");
+        let [first, last] = [found[0][0], found[STEPS - 1][0]];
+        assert_eq!(last > first, anisotropy > 0.0);
+        if anisotropy == 0.0 {
+            assert!(
+                found.iter().all(|value| value[0] == value[2]),
+                "isotropic to the bit"
+            );
+        }
+    }
+}
+
+#[test]
+fn mean_transmittance_is_exact_from_nothing_to_everything() {
+    let inputs: Vec<[f32; 2]> = (0..20_000)
+        .map(|step| [10.0_f32.powf(step as f32 / 20_000.0 * 12.0 - 8.0), 0.0])
+        .chain([[0.0, 0.0], [0.5, 0.0], [0.499_999_97, 0.0]])
+        .collect();
+    for (input, found) in inputs.iter().zip(run(&inputs)) {
+        let x = f64::from(input[0]);
+        let exact = if x == 0.0 { 1.0 } else { -(-x).exp_m1() / x };
+        // A dozen roundings.
+        assert!(
+            (f64::from(found[1]) / exact - 1.0).abs() <= 8e-7,
+            "{x}: {}",
+            found[1]
+        );
+    }
+    assert_eq!(run(&[[0.0, 0.0]])[0][1], 1.0);
+}

@@ -1,0 +1,423 @@
+//! Pictures of scattered light against marched rays.
+
+use bytemuck::bytes_of;
+use glam::{DMat4, DVec3, DVec4};
+use moment_shadows::{MapEncoding, MapRegion, RectifiedView, SingleScattering, Storage, Technique};
+use moment_shadows_graph::nodes::{
+    CameraView, LightDepth, LightView, ScatteringParameters, ScatteringViewError,
+};
+use moment_shadows_lab::gpu::Gpu;
+
+use crate::cameras::{Lens, Pair, looking, pair};
+use crate::stage::{capabilities, draw_over, gpu, run, sky, upload};
+
+const PICTURE: [u32; 2] = [48, 32];
+const MAP: u32 = 256;
+const FAR: f64 = 20.0;
+
+fn graph(technique: &str, storage: &str) -> String {
+    format!(
+        r#"{{
+  "version": 1,
+  "imports": [{{ "name": "map" }}, {{ "name": "camera_depth" }}],
+  "nodes": [
+    {{ "name": "rectify", "type": "rectify_moments",
+       "properties": {{ "technique": {technique}, "storage": "{storage}", "extent": [256, 256] }} }},
+    {{ "name": "integrate", "type": "integrate_scattering" }},
+    {{ "name": "composite", "type": "composite_scattering", "properties": {{ "format": "rgba32float" }} }}
+  ],
+  "edges": [
+    {{ "from": "map", "to": "rectify.moments" }},
+    {{ "from": "rectify.rectified", "to": "integrate.rectified" }},
+    {{ "from": "integrate.integrated", "to": "composite.integrated" }},
+    {{ "from": "camera_depth", "to": "composite.camera_depth" }}
+  ],
+  "outputs": [{{ "name": "scattering", "from": "composite.scattering" }}]
+}}"#
+    )
+}
+
+/// A roof: square panes of 2 units and gaps of 2 between them at height 3, over all that the light's map sees.
+fn covered(x: f64, z: f64) -> bool {
+    let pane = |place: f64| (place / 2.0).floor().rem_euclid(2.0) < 1.0;
+    pane(x) || pane(z)
+}
+
+const ROOF: f64 = 3.0;
+
+/// A directional light and its map.
+struct Sun {
+    direction: DVec3,
+    clip_from_world: DMat4,
+}
+
+impl Sun {
+    fn new(direction: DVec3) -> Self {
+        let direction = direction.normalize();
+        let first = direction.any_orthonormal_vector();
+        let second = direction.cross(first);
+        let half = 30.0;
+        // Moment depth -1 and 1 at 40 units in front of and behind the origin.
+        let column = |axis: usize| {
+            DVec4::new(
+                first[axis] / half,
+                second[axis] / half,
+                direction[axis] / 80.0,
+                0.0,
+            )
+        };
+        Self {
+            direction,
+            clip_from_world: DMat4::from_cols(
+                column(0),
+                column(1),
+                column(2),
+                DVec4::new(0.0, 0.0, 0.5, 1.0),
+            ),
+        }
+    }
+
+    /// Whether light reaches a position.
+    fn lights(&self, position: DVec3) -> bool {
+        let back = (ROOF - position.y) / self.direction.y;
+        let above = position + self.direction * back;
+        back >= 0.0 || !covered(above.x, above.z)
+    }
+
+    fn view(&self) -> LightView {
+        let columns = self.clip_from_world.to_cols_array_2d();
+        LightView {
+            clip_from_world: columns.map(|column| column.map(|value| value as f32)),
+            depth: LightDepth::Orthographic { reversed: false },
+            layer: 0,
+            region: MapRegion::WHOLE,
+            channel: 0,
+        }
+    }
+
+    /// Raw moments of the map, each texel the mean of 16 samples.
+    fn moments(&self) -> Vec<[f32; 4]> {
+        let world_from_clip = self.clip_from_world.inverse();
+        let sample = |u: f64, v: f64| {
+            let clip = DVec4::new(2.0 * u - 1.0, 1.0 - 2.0 * v, 0.0, 1.0);
+            let near = (world_from_clip * clip).truncate();
+            let hit = near + self.direction * ((ROOF - near.y) / self.direction.y);
+            if covered(hit.x, hit.z) {
+                2.0 * (self.clip_from_world * hit.extend(1.0)).z - 1.0
+            } else {
+                1.0
+            }
+        };
+        (0..MAP * MAP)
+            .map(|index| {
+                let [x, y] = [index % MAP, index / MAP].map(f64::from);
+                let mut sums = [0.0; 4];
+                for part in 0..16 {
+                    let [dx, dy] = [part % 4, part / 4].map(|step| (f64::from(step) + 0.5) / 4.0);
+                    let z = sample((x + dx) / f64::from(MAP), (y + dy) / f64::from(MAP));
+                    for (power, sum) in (1..).zip(&mut sums) {
+                        *sum += z.powi(power) / 16.0;
+                    }
+                }
+                sums.map(|sum| sum as f32)
+            })
+            .collect()
+    }
+}
+
+fn camera(forward: DVec3) -> Pair {
+    let lens = Lens {
+        field_of_view: 1.1,
+        aspect: 1.5,
+        near: 0.1,
+        far: None,
+    };
+    let eye = DVec3::new(0.4, 1.7, 0.3);
+    pair(eye, looking(forward, 0.2), lens, FAR, DVec3::NEG_Y)
+}
+
+fn camera_view(pair: &Pair) -> CameraView {
+    CameraView {
+        clip_from_world: pair.clip_from_world,
+        far_depth: 0.0,
+    }
+}
+
+fn medium(density: f32) -> SingleScattering {
+    let extinction = [0.08, 0.1, 0.12].map(|value| value * density);
+    let scattering = [0.07, 0.09, 0.1].map(|value| value * density);
+    SingleScattering::new(extinction, scattering, 0.3, [3.0; 3]).unwrap()
+}
+
+/// The picture that the nodes make.
+fn picture(
+    gpu: &Gpu,
+    pair: &Pair,
+    sun: &Sun,
+    medium: SingleScattering,
+    moments: &[[f32; 4]],
+    [technique, storage]: [&str; 2],
+) -> Vec<[f32; 4]> {
+    let encoding = MapEncoding::new(Technique::Hamburger4, Storage::Float32).unwrap();
+    let map = upload(gpu, &encoding, [MAP; 2], moments);
+    let camera_depth = sky(gpu, PICTURE);
+    let parameters =
+        ScatteringParameters::new(&camera_view(pair), FAR, &sun.view(), medium).unwrap();
+    let layers = run(
+        gpu,
+        &capabilities(gpu),
+        &graph(technique, storage),
+        &[("map", &map), ("camera_depth", &camera_depth)],
+        &[
+            ("rectify", bytes_of(&parameters.rectify)),
+            ("integrate", bytes_of(&parameters.integrate)),
+            ("composite", bytes_of(&parameters.composite)),
+        ],
+        "scattering",
+    );
+    bytemuck::pod_collect_to_vec(&layers[0])
+}
+
+/// Marched rays: radiance with shadows and without, by pixel.
+fn truth(pair: &Pair, sun: &Sun, medium: &SingleScattering) -> Vec<[[f64; 3]; 2]> {
+    const STEPS: usize = 1024;
+    let view = RectifiedView::new(&pair.clip_from_world, FAR, sun.direction.to_array()).unwrap();
+    let eye = DVec3::from_array(view.camera);
+    let middle = pair.world_from_clip * DVec4::new(0.0, 0.0, 1.0, 1.0);
+    let axis = (middle.truncate() / middle.w - eye).normalize();
+    (0..PICTURE[0] * PICTURE[1])
+        .map(|index| {
+            let [x, y] =
+                [index % PICTURE[0], index / PICTURE[0]].map(|place| f64::from(place) + 0.5);
+            let clip = DVec4::new(
+                2.0 * x / f64::from(PICTURE[0]) - 1.0,
+                1.0 - 2.0 * y / f64::from(PICTURE[1]),
+                1.0,
+                1.0,
+            );
+            let point = pair.world_from_clip * clip;
+            let ray = (point.truncate() / point.w - eye).normalize();
+            let length = FAR / ray.dot(axis);
+            let g = f64::from(medium.anisotropy);
+            let cosine = -ray.dot(sun.direction);
+            let phase = (1.0 - g * g)
+                / (4.0 * core::f64::consts::PI * (1.0 + g * g - 2.0 * g * cosine).powf(1.5));
+            let mut sums = [[0.0; 3]; 2];
+            let step = length / STEPS as f64;
+            for index in 0..STEPS {
+                let distance = (index as f64 + 0.5) * step;
+                let lit = sun.lights(eye + ray * distance);
+                for colour in 0..3 {
+                    let [extinction, scattering, irradiance] =
+                        [medium.extinction, medium.scattering, medium.irradiance]
+                            .map(|value| f64::from(value[colour]));
+                    let part =
+                        phase * scattering * irradiance * (-extinction * distance).exp() * step;
+                    sums[0][colour] += if lit { part } else { 0.0 };
+                    sums[1][colour] += part;
+                }
+            }
+            sums
+        })
+        .collect()
+}
+
+/// Mean absolute error by colour, as a share of the mean radiance without shadows.
+fn error(found: &[[f32; 4]], truth: &[[[f64; 3]; 2]]) -> [f64; 3] {
+    [0, 1, 2].map(|colour| {
+        let sum: f64 = found
+            .iter()
+            .zip(truth)
+            .map(|(found, truth)| (f64::from(found[colour]) - truth[0][colour]).abs())
+            .sum();
+        let unshadowed: f64 = truth.iter().map(|truth| truth[1][colour]).sum();
+        sum / unshadowed
+    })
+}
+
+/// Across the light, towards it, away from it, and straight along it either way.
+fn directions(sun: &Sun) -> [(&'static str, DVec3); 5] {
+    let across = sun.direction.any_orthonormal_vector();
+    [
+        ("across", across),
+        ("towards", across - 1.2 * sun.direction),
+        ("away", across + 1.2 * sun.direction),
+        ("straight towards", -sun.direction),
+        ("straight away", sun.direction),
+    ]
+}
+
+#[test]
+fn shafts_of_light_are_those_of_marched_rays() {
+    let gpu = gpu();
+    let sun = Sun::new(DVec3::new(0.5, -1.0, 0.3));
+    let moments = sun.moments();
+    let medium = medium(1.0);
+    let kinds = [
+        ["\"hamburger4\"", "float16"],
+        ["\"hamburger4\"", "float32"],
+        ["\"hamburger6\"", "float16"],
+        ["\"hamburger6\"", "float32"],
+    ];
+    let mut means = [0.0; 4];
+    for (name, forward) in directions(&sun) {
+        let pair = camera(forward);
+        let truth = truth(&pair, &sun, &medium);
+        for (kind, mean) in kinds.into_iter().zip(&mut means) {
+            let found = picture(&gpu, &pair, &sun, medium, &moments, kind);
+            assert!(
+                found.iter().flatten().all(|value| value.is_finite()),
+                "{name}"
+            );
+            let errors = error(&found, &truth);
+            println!(
+                "{name}, {kind:?}: {:.4} {:.4} {:.4}",
+                errors[0], errors[1], errors[2]
+            );
+            *mean += errors.iter().sum::<f64>() / 15.0;
+        }
+    }
+    println!("mean over all directions and colours: {means:?}");
+    assert!(
+        means[2] < means[0] && means[3] < means[1],
+        "six moments are better than four: {means:?}"
+    );
+    assert!(means[0] <= 0.11 && means[2] <= 0.08, "{means:?}");
+}
+
+#[test]
+fn no_density_is_no_fog_to_the_bit() {
+    let gpu = gpu();
+    let sun = Sun::new(DVec3::new(0.5, -1.0, 0.3));
+    let moments = sun.moments();
+    for (_, forward) in directions(&sun) {
+        let found = picture(
+            &gpu,
+            &camera(forward),
+            &sun,
+            medium(0.0),
+            &moments,
+            ["\"hamburger6\"", "float16"],
+        );
+        for pixel in found {
+            assert_eq!(
+                pixel.map(f32::to_bits),
+                [0.0_f32, 0.0, 0.0, 1.0].map(f32::to_bits)
+            );
+        }
+    }
+}
+
+#[test]
+fn a_hosts_open_pass_is_dimmed_and_lit() {
+    let gpu = gpu();
+    let sun = Sun::new(DVec3::new(0.5, -1.0, 0.3));
+    let moments = sun.moments();
+    let pair = camera(DVec3::new(1.0, 0.2, 0.1));
+    let kind = ["\"hamburger6\"", "float16"];
+    let behind = [0.5, 0.25, 0.125, 0.75];
+    for density in [0.0, 1.0] {
+        let medium = medium(density);
+        let apart = picture(&gpu, &pair, &sun, medium, &moments, kind);
+        let encoding = MapEncoding::new(Technique::Hamburger4, Storage::Float32).unwrap();
+        let map = upload(&gpu, &encoding, [MAP; 2], &moments);
+        let parameters =
+            ScatteringParameters::new(&camera_view(&pair), FAR, &sun.view(), medium).unwrap();
+        let blended = draw_over(
+            &gpu,
+            &graph(kind[0], kind[1]),
+            &[("map", &map), ("camera_depth", &sky(&gpu, PICTURE))],
+            &[
+                ("rectify", bytes_of(&parameters.rectify)),
+                ("integrate", bytes_of(&parameters.integrate)),
+                ("composite", bytes_of(&parameters.composite)),
+            ],
+            PICTURE,
+            wgpu::Color {
+                r: behind[0],
+                g: behind[1],
+                b: behind[2],
+                a: behind[3],
+            },
+        );
+        for (pixel, apart) in blended.chunks_exact(8).zip(&apart) {
+            let found = [0, 1, 2, 3].map(|channel: usize| {
+                half::f16::from_le_bytes([pixel[2 * channel], pixel[2 * channel + 1]]).to_f64()
+            });
+            for colour in 0..3 {
+                let expected = behind[colour] * f64::from(apart[3]) + f64::from(apart[colour]);
+                // A float16 near 1; to the bit where there is no medium.
+                let tolerance = if density == 0.0 { 0.0 } else { 1e-3 };
+                assert!(
+                    (found[colour] - expected).abs() <= tolerance,
+                    "{found:?} {apart:?}"
+                );
+            }
+            assert_eq!(found[3], behind[3]);
+        }
+    }
+}
+
+#[test]
+fn a_map_without_casters_and_a_camera_outside_of_it_are_lit() {
+    let gpu = gpu();
+    let sun = Sun::new(DVec3::new(0.5, -1.0, 0.3));
+    let medium = medium(1.0);
+    let empty = vec![[1.0; 4]; (MAP * MAP) as usize];
+    let dark = vec![[-1.0, 1.0, -1.0, 1.0]; (MAP * MAP) as usize];
+    for (name, forward) in directions(&sun) {
+        for (eye, moments) in [(DVec3::ZERO, &empty), (DVec3::new(500.0, 0.0, 0.0), &dark)] {
+            let lens = Lens {
+                field_of_view: 1.1,
+                aspect: 1.5,
+                near: 0.1,
+                far: None,
+            };
+            let pair = pair(eye, looking(forward, 0.2), lens, FAR, DVec3::NEG_Y);
+            let kind = ["\"hamburger6\"", "float32"];
+            let found = picture(&gpu, &pair, &sun, medium, moments, kind);
+            let truth = truth(&pair, &sun, &medium);
+            for (found, truth) in found.iter().zip(&truth) {
+                for colour in 0..3 {
+                    // The bounds of moments at the far end alone; upper ones near it spread by the bias.
+                    let ratio = f64::from(found[colour]) / truth[1][colour];
+                    assert!((0.9..=1.01).contains(&ratio), "{name}, {eye}: {ratio}");
+                }
+            }
+        }
+    }
+}
+
+#[test]
+fn point_lights_and_broken_lights_are_refused() {
+    let sun = Sun::new(DVec3::NEG_Y);
+    let pair = camera(DVec3::X);
+    let of = |light: &LightView| {
+        ScatteringParameters::new(&camera_view(&pair), FAR, light, medium(1.0)).unwrap_err()
+    };
+    let mut light = sun.view();
+    light.clip_from_world = pair.clip_from_world;
+    assert_eq!(of(&light), ScatteringViewError::PerspectiveLight);
+    light.clip_from_world = [[0.0; 4]; 4];
+    assert_eq!(of(&light), ScatteringViewError::SingularLight);
+    light.clip_from_world = [[f32::NAN; 4]; 4];
+    let found = of(&light);
+    assert!(
+        matches!(
+            found,
+            ScatteringViewError::PerspectiveLight | ScatteringViewError::SingularLight
+        ),
+        "{found}"
+    );
+    light = sun.view();
+    light.depth = LightDepth::Perspective {
+        near: 0.1,
+        far: 10.0,
+        reversed: true,
+        range: moment_shadows::DepthRange {
+            near: 0.1,
+            far: 10.0,
+        },
+    };
+    assert_eq!(of(&light), ScatteringViewError::PerspectiveLight);
+}

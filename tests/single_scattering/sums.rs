@@ -1,0 +1,174 @@
+//! Prefix sums along rows against f64, by either shader.
+
+use bytemuck::bytes_of;
+use glam::DVec3;
+use moment_shadows::{MapEncoding, RectifiedFrame, RectifiedView, Storage, Technique};
+use moment_shadows_graph::Capabilities;
+use moment_shadows_graph::nodes::IntegrateScatteringParameters;
+use moment_shadows_lab::batch::Batch;
+use rand::{RngExt, SeedableRng};
+use rand_chacha::ChaCha8Rng;
+
+use crate::cameras::{Lens, looking, pair};
+use crate::stage::{capabilities, gpu, run, upload};
+
+const GRAPH: &str = r#"{
+  "version": 1,
+  "imports": [{ "name": "map" }],
+  "nodes": [{ "name": "integrate", "type": "integrate_scattering" }],
+  "edges": [{ "from": "map", "to": "integrate.rectified" }],
+  "outputs": [{ "name": "integrated", "from": "integrate.integrated" }]
+}"#;
+
+/// One more than twice what a workgroup sums up at a time, and rows of less than a workgroup's.
+const SIZE: [u32; 2] = [1025, 67];
+
+fn frame() -> RectifiedFrame {
+    let lens = Lens {
+        field_of_view: 1.2,
+        aspect: 1.5,
+        near: 0.1,
+        far: None,
+    };
+    let pair = pair(
+        DVec3::ZERO,
+        looking(DVec3::new(0.3, -0.2, 1.0), 0.0),
+        lens,
+        50.0,
+        DVec3::new(0.5, -1.0, 0.2),
+    );
+    RectifiedView::new(&pair.clip_from_world, pair.far, pair.light)
+        .unwrap()
+        .frame
+}
+
+/// The optical thickness of a column of each row, as the shader has it; another test compares it with brute force.
+fn thicknesses(frame: RectifiedFrame, extinction: f32) -> Vec<f64> {
+    let gpu = gpu();
+    let shader = format!(
+        "
+import moment_shadows::rectified_frame::{{RectifiedFrame, rectified_frame_ray}};
+import moment_shadows::scattering_weights::{{scattering_weights_thickness}};
+struct BatchInput {{ frame: RectifiedFrame, row: f32, extinction: f32, padding: vec2f }}
+alias BatchOutput = f32;
+fn batch(input: BatchInput) -> BatchOutput {{
+    let azimuth = rectified_frame_ray(input.frame, vec2f(0.0, input.row)).y;
+    return scattering_weights_thickness(input.frame, azimuth, input.extinction, {}.0);
+}}
+",
+        SIZE[0]
+    );
+    let inputs: Vec<[f32; 24]> = (0..SIZE[1])
+        .map(|row| {
+            let mut input = [0.0; 24];
+            input[..20].copy_from_slice(bytemuck::cast_slice(&[frame]));
+            input[20] = row as f32 / (SIZE[1] - 1) as f32;
+            input[21] = extinction;
+            input
+        })
+        .collect();
+    let found: Vec<f32> = Batch::new(&gpu, "thickness.wgsl", &shader)
+        .unwrap()
+        .run(&inputs)
+        .unwrap();
+    found.into_iter().map(f64::from).collect()
+}
+
+/// The values of a layer's texels.
+fn values(bytes: &[u8], encoding: &MapEncoding) -> Vec<f64> {
+    match encoding.storage() {
+        Storage::Float32 => bytes
+            .chunks_exact(4)
+            .map(|value| f64::from(f32::from_le_bytes(value.try_into().unwrap())))
+            .collect(),
+        Storage::Float16 => bytes
+            .chunks_exact(2)
+            .map(|value| half::f16::from_le_bytes(value.try_into().unwrap()).to_f64())
+            .collect(),
+        _ => bytes
+            .chunks_exact(2)
+            .map(|value| f64::from(u16::from_le_bytes(value.try_into().unwrap())) / 65535.0)
+            .collect(),
+    }
+}
+
+#[test]
+fn prefix_sums_are_exact_within_the_rounding_of_their_storage() {
+    let gpu = gpu();
+    let frame = frame();
+    let mut random = ChaCha8Rng::seed_from_u64(64);
+    let native = capabilities(&gpu);
+    // Half a unit in the last place of each storage below 1, and the roundings of a thousand sums in f32.
+    let cases = [
+        (Technique::Hamburger4, Storage::Float16, 2.5e-4),
+        (Technique::Hamburger6, Storage::Float16, 2.5e-4),
+        (Technique::Hamburger4, Storage::Unorm16, 9.6e-6),
+        (Technique::Hamburger4, Storage::Float32, 4e-6),
+    ];
+    for (technique, storage, tolerance) in cases {
+        let encoding = MapEncoding::new(technique, storage).unwrap();
+        let texels = (SIZE[0] * SIZE[1] * encoding.planes()) as usize;
+        let low = if storage == Storage::Unorm16 {
+            0.0
+        } else {
+            -0.5
+        };
+        let channels: Vec<[f32; 4]> = (0..texels)
+            .map(|_| [0; 4].map(|_| random.random_range(low..low + 1.0)))
+            .collect();
+        let map = upload(&gpu, &encoding, SIZE, &channels);
+        let stored = |value: f32| match storage {
+            Storage::Float16 => half::f16::from_f32(value).to_f64(),
+            Storage::Unorm16 => f64::from((value * 65535.0).round()) / 65535.0,
+            _ => f64::from(value),
+        };
+        for extinction in [0.0, 0.003, 0.1, 30.0] {
+            let parameters = IntegrateScatteringParameters {
+                frame,
+                extinction,
+                padding: [0.0; 3],
+            };
+            let thicknesses = thicknesses(frame, extinction);
+            for software_adapter in [true, false] {
+                let capabilities = Capabilities {
+                    software_adapter,
+                    ..native.clone()
+                };
+                let layers = run(
+                    &gpu,
+                    &capabilities,
+                    GRAPH,
+                    &[("map", &map)],
+                    &[("integrate", bytes_of(&parameters))],
+                    "integrated",
+                );
+                let found: Vec<f64> = layers
+                    .iter()
+                    .flat_map(|layer| values(layer, &encoding))
+                    .collect();
+                let mut largest: f64 = 0.0;
+                for (row, texels) in channels.chunks(SIZE[0] as usize).enumerate() {
+                    let thickness = thicknesses[row % SIZE[1] as usize];
+                    let (mut sum, mut weight) = ([0.0; 4], 0.0);
+                    for (column, texel) in texels.iter().enumerate() {
+                        let of_column = (-thickness * column as f64).exp();
+                        weight += of_column;
+                        for channel in 0..4 {
+                            sum[channel] += of_column * stored(texel[channel]);
+                            let place = (row * SIZE[0] as usize + column) * 4 + channel;
+                            let error = (found[place] - sum[channel] / weight).abs();
+                            largest = largest.max(error);
+                        }
+                    }
+                }
+                println!(
+                    "{encoding}, extinction {extinction}, serial {software_adapter}: {largest:.1e}"
+                );
+                assert!(
+                    largest <= tolerance,
+                    "{encoding} {extinction} {software_adapter}: {largest}"
+                );
+            }
+        }
+    }
+}
