@@ -28,10 +28,19 @@ fn rectify(technique: Technique, extent: [u32; 2]) -> RectifyMoments {
     }
 }
 
+/// A node, a slot with what is connected to it, and the error with a part of its text.
+type Case = (
+    Box<dyn Node>,
+    &'static str,
+    TextureDesc,
+    GraphErrorKind,
+    &'static str,
+);
+
 #[test]
 fn maps_and_properties_that_do_not_fit_are_named() {
     let four = || map(Technique::Hamburger4);
-    let cases: [(Box<dyn Node>, &str, TextureDesc, GraphErrorKind, &str); 6] = [
+    let cases: [Case; 6] = [
         (
             Box::new(rectify(Technique::Vsm, [64, 64])),
             "moments",
