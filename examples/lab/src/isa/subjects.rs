@@ -429,7 +429,7 @@ fn scattering(technique: Technique) -> Result<Vec<Entry>, IsaError> {
         ),
         entry(
             "",
-            Box::new(CompositeScattering::default()),
+            Box::<CompositeScattering>::default(),
             "integrated",
             map,
             false,
