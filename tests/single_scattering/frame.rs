@@ -356,3 +356,37 @@ fn a_camera_that_looks_along_the_light_has_all_azimuths() {
     assert!(across.azimuth_extent < 1.8 && across.smallest_inclination > 0.5);
     assert!(across.largest_inclination < 2.7);
 }
+
+#[test]
+fn azimuths_outside_of_the_frame_take_its_nearer_end() {
+    const SHADER: &str = "
+import moment_shadows::rectified_frame::{RectifiedFrame, rectified_frame_place};
+alias BatchInput = vec2f;
+alias BatchOutput = f32;
+fn batch(input: vec2f) -> f32 {
+    var frame: RectifiedFrame;
+    frame.largest_radius = 1.0;
+    frame.first_azimuth = 3.0;
+    frame.azimuth_extent = input.y;
+    return rectified_frame_place(frame, vec3f(0.5, input.x, 1.0)).y;
+}
+";
+    let gpu = Gpu::open(Profile::WebgpuCore).unwrap();
+    let batch = Batch::<[f32; 2], f32>::new(&gpu, "azimuths.wgsl", SHADER).unwrap();
+    // The interval from 3 to 4 leaves 5.28 of a turn; azimuths come in [-pi, pi].
+    let cases = [
+        (2.9, 0.0),
+        (3.1, 0.1),
+        (-2.4, 0.883_185),
+        (-2.2, 1.0),
+        (0.0, 1.0),
+        (0.8, 0.0),
+    ];
+    let inputs = cases.map(|(azimuth, _)| [azimuth, 1.0]);
+    for ((azimuth, expected), found) in cases.into_iter().zip(batch.run(&inputs).unwrap()) {
+        assert!(
+            (found - expected).abs() <= 1e-5,
+            "{azimuth}: {found}, not {expected}"
+        );
+    }
+}

@@ -105,3 +105,20 @@ fn mean_transmittance_is_exact_from_nothing_to_everything() {
     }
     assert_eq!(run(&[[0.0, 0.0]])[0][1], 1.0);
 }
+
+#[test]
+fn overestimation_turns_from_the_upper_bound_to_the_lower_with_the_light() {
+    const SHADER: &str = "
+import moment_shadows::single_scattering::{single_scattering_shadow};
+alias BatchInput = f32;
+alias BatchOutput = f32;
+fn batch(cosine: f32) -> f32 {
+    return single_scattering_shadow(vec2f(0.25, 0.75), cosine);
+}
+";
+    let gpu = Gpu::open(Profile::WebgpuCore).unwrap();
+    let batch = Batch::<f32, f32>::new(&gpu, "overestimation.wgsl", SHADER).unwrap();
+    // Against the light, across it and with it; rounding may leave the range.
+    let found = batch.run(&[-1.0, -1.000_001, 0.0, 1.0, 1.000_001]).unwrap();
+    assert_eq!(found, [0.75, 0.75, 0.5, 0.25, 0.25]);
+}

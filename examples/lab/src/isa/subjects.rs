@@ -415,8 +415,8 @@ fn scattering(technique: Technique) -> Result<Vec<Entry>, IsaError> {
     };
     let source = texture(storage.format());
     let integrate = || Box::new(IntegrateScattering::default());
-    // 512 columns at a time, with six steps of the scan; side planes of the frustum.
-    let parallel = vec![4, SIZE[0] / 512, 6];
+    // Shared memory that is cleared; 512 columns at a time, with six steps of the scan.
+    let parallel = vec![64, SIZE[0] / 512, 6];
     Ok(vec![
         entry("", Box::new(rectify), "moments", source, false, Vec::new()),
         entry("", integrate(), "rectified", map.clone(), false, parallel),
@@ -426,7 +426,7 @@ fn scattering(technique: Technique) -> Result<Vec<Entry>, IsaError> {
             "rectified",
             map.clone(),
             true,
-            vec![4, SIZE[0]],
+            vec![SIZE[0]],
         ),
         entry(
             "",
