@@ -58,6 +58,9 @@ fn samples(count: u32, angle: f32) -> Vec<[f32; 2]> {
     run(&inputs)
 }
 
+/// What WGSL asks of sines and cosines. Adapters are off by less, but by different amounts.
+const TURN: f32 = 1.0 / 2048.0;
+
 fn smallest_distance(samples: &[[f32; 2]]) -> f32 {
     let mut smallest = f32::MAX;
     for (index, a) in samples.iter().enumerate() {
@@ -80,9 +83,9 @@ fn the_poisson_disk_keeps_its_distances_and_fills_rings_of_equal_area() {
         );
         for (index, sample) in disk.iter().enumerate() {
             let area = sample[0].powi(2) + sample[1].powi(2);
-            // Six decimals.
+            // Six decimals, and a turn by a vector whose length is off by both.
             assert!(
-                (area - (index as f32 + 0.5) / 16.0).abs() < 3e-6,
+                (area - (index as f32 + 0.5) / 16.0).abs() < 3e-6 + 3.0 * TURN * area,
                 "sample {index} at {angle}"
             );
         }
@@ -90,7 +93,11 @@ fn the_poisson_disk_keeps_its_distances_and_fills_rings_of_equal_area() {
     // Turned by a quarter, x becomes y.
     let turned = samples(0, std::f32::consts::FRAC_PI_2);
     for (before, after) in samples(0, 0.0).iter().zip(turned) {
-        assert!((before[0] - after[1]).abs() < 1e-6 && (before[1] + after[0]).abs() < 1e-6);
+        let off = [before[0] - after[1], before[1] + after[0]];
+        assert!(
+            off.iter().all(|off| off.abs() < 1e-6 + 2.0 * TURN),
+            "{off:?}"
+        );
     }
 }
 
@@ -111,7 +118,7 @@ fn sunflowers_of_any_count_cover_the_disk_evenly() {
             .map(|s| s[0].powi(2) + s[1].powi(2))
             .sum::<f32>()
             / count as f32;
-        assert!((mean - 0.5).abs() < 1e-4, "{count}: {mean}");
+        assert!((mean - 0.5).abs() < 1e-4 + 1.5 * TURN, "{count}: {mean}");
         assert!(disk.iter().all(|s| s[0].hypot(s[1]) < 1.0));
     }
 }
