@@ -172,7 +172,9 @@ fn lit_surfaces_have_no_acne_and_everything_is_a_number() {
                     .desc()
                     .light
                     .uv(glam::DVec3::from(position.map(f64::from)));
-                **covered && uv.is_none_or(|uv| uv.min_element() < 0.0 || uv.max_element() > 1.0)
+                // Positions are off by what rasterisers round.
+                let beyond = |uv: glam::DVec2| uv.min_element() < -1e-3 || uv.max_element() > 1.001;
+                **covered && uv.is_none_or(beyond)
             })
             .map(|((&value, _), _)| value);
         assert!(outside.into_iter().all(|value| value == 0.0));
