@@ -58,7 +58,7 @@ impl Default for Overestimation {
     fn default() -> Self {
         Self {
             towards: 0.1,
-            away: 0.6,
+            away: 0.8,
         }
     }
 }

@@ -157,7 +157,7 @@ fn judge(
     })
 }
 
-/// Saves the truth, every candidate with its difference, and all of them side by side: `STEM-truth.png`, `STEM-NAME.png`,
+/// Saves the truth, every candidate with its difference, and a row of all three for each: `STEM-truth.png`, `STEM-NAME.png`,
 /// `STEM-NAME-difference.png`, `STEM.png`.
 fn save(
     gpu: &Gpu,
@@ -194,28 +194,21 @@ fn save(
             .map(|mean| mean / brightness as f32)
             .collect()
     };
-    let mut panels = vec![lit(&surfaces, &truth, exposure)];
-    let mut differences = vec![vec![255; panels[0].len()]];
-    for picture in pictures {
-        panels.push(lit(&surfaces, picture, exposure));
-        // Too bright is blue, as too little shadow is.
-        differences.push(signed_difference(
-            &grey(&truth),
-            &grey(picture),
-            FULL_DIFFERENCE,
-        ));
-    }
-    save_rgba(&named("-truth.png"), width, height, &panels[0])?;
-    for (candidate, (panel, difference)) in
-        (candidates.iter()).zip(panels[1..].iter().zip(&differences[1..]))
-    {
+    let of_truth = lit(&surfaces, &truth, exposure);
+    save_rgba(&named("-truth.png"), width, height, &of_truth)?;
+    let mut panels = Vec::new();
+    for (candidate, picture) in candidates.iter().zip(pictures) {
         let name = candidate.file_stem();
-        save_rgba(&named(&format!("-{name}.png")), width, height, panel)?;
+        let of_candidate = lit(&surfaces, picture, exposure);
+        // Too bright is blue, as too little shadow is.
+        let difference = signed_difference(&grey(&truth), &grey(picture), FULL_DIFFERENCE);
+        let path = named(&format!("-{name}.png"));
+        save_rgba(&path, width, height, &of_candidate)?;
         let path = named(&format!("-{name}-difference.png"));
-        save_rgba(&path, width, height, difference)?;
+        save_rgba(&path, width, height, &difference)?;
+        panels.extend([of_truth.clone(), of_candidate, difference]);
     }
-    let all = [panels.as_slice(), &differences].concat();
-    save_panels(&named(".png"), &all, [width, height], panels.len() as u32)?;
+    save_panels(&named(".png"), &panels, [width, height], 3)?;
     Ok(())
 }
 
