@@ -26,6 +26,7 @@ impl Storage {
             Storage::Unorm16 => 1e-4,
             Storage::Float16 => 1.5e-3,
             Storage::Float32 => 1e-5,
+            Storage::Unorm10 => 5.5e-3,
             Storage::Unorm8 | Storage::Fixed32 => return None,
         };
         Some(SixMomentsBias {

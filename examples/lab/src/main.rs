@@ -535,6 +535,7 @@ enum LightArgument {
 enum BiasTechniqueArgument {
     Hamburger4,
     Hausdorff4,
+    Hamburger6,
 }
 
 impl From<BiasTechniqueArgument> for BiasTechnique {
@@ -542,6 +543,7 @@ impl From<BiasTechniqueArgument> for BiasTechnique {
         match argument {
             BiasTechniqueArgument::Hamburger4 => BiasTechnique::Hamburger4,
             BiasTechniqueArgument::Hausdorff4 => BiasTechnique::Hausdorff4,
+            BiasTechniqueArgument::Hamburger6 => BiasTechnique::Hamburger6,
         }
     }
 }
@@ -549,6 +551,7 @@ impl From<BiasTechniqueArgument> for BiasTechnique {
 #[derive(Clone, Copy, ValueEnum)]
 enum StorageArgument {
     Unorm8,
+    Unorm10,
     Unorm16,
     Float16,
     Float32,
@@ -561,6 +564,7 @@ impl From<StorageArgument> for Storage {
             StorageArgument::Float16 => Storage::Float16,
             StorageArgument::Float32 => Storage::Float32,
             StorageArgument::Unorm8 => Storage::Unorm8,
+            StorageArgument::Unorm10 => Storage::Unorm10,
         }
     }
 }
