@@ -2,7 +2,8 @@
 
 use moment_shadows::{MapEncoding, Profile, Storage, Technique, TextureFormat};
 use moment_shadows_graph::nodes::{
-    DebugMoments, IntegrateScattering, LargestKernel, RectifyMoments, SummedAreaTable,
+    CompositeScattering, DebugMoments, IntegrateScattering, LargestKernel, RectifyMoments,
+    SummedAreaTable,
 };
 use moment_shadows_graph::{
     Access, Capabilities, Connected, GraphError, GraphErrorKind, Node, NodeDesc, Plan, PlanError,
@@ -152,7 +153,11 @@ fn prefix_sums_are_not_drawn() {
     let other = described(&IntegrateScattering::default(), "rectified", rectified).unwrap_err();
     assert_eq!(other.kind, GraphErrorKind::Format, "{other}");
     assert_eq!(other.slot.as_deref(), Some("rectified"));
-    for error in [error, other] {
+    let integrated = map(Technique::Hamburger6, Storage::Unorm10);
+    let last = described(&CompositeScattering::default(), "integrated", integrated).unwrap_err();
+    assert_eq!(last.kind, GraphErrorKind::Format, "{last}");
+    assert_eq!(last.slot.as_deref(), Some("integrated"));
+    for error in [error, other, last] {
         let text = error.to_string();
         assert!(
             text.contains("prefix sums of a row are written by compute shaders"),
