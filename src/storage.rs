@@ -21,7 +21,7 @@ use crate::{Profile, SummedAreaTable, TextureFormat};
 /// | [`Unorm16`](Storage::Unorm16) | 2 x rgba16unorm | 128 | 1e-4 | native only |
 /// | [`Float16`](Storage::Float16) | 2 x rgba16float | 128 | 1.5e-3 | everywhere |
 /// | [`Float32`](Storage::Float32) | 2 x rgba32float | 256 | 1e-5 | |
-/// | [`Unorm10`](Storage::Unorm10) | 2 x rgb10a2unorm | 64 | 5.5e-3 | everywhere, drawn by render passes; leaks twice as far as float16 |
+/// | [`Unorm10`](Storage::Unorm10) | 2 x rgb10a2unorm | 64 | 6.5e-3 | everywhere, drawn by render passes; leaks twice as far as float16 |
 ///
 /// Light leaks behind an occluder over a distance that grows with the square root of the bias.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, Serialize, Deserialize)]

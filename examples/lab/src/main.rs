@@ -426,7 +426,7 @@ struct StabilityArguments {
     #[arg(long, value_parser = technique)]
     technique: Option<String>,
     /// Only this storage.
-    #[arg(long, value_parser = ["unorm8", "unorm16", "float16", "float32"])]
+    #[arg(long, value_parser = ["unorm8", "unorm10", "unorm16", "float16", "float32"])]
     storage: Option<String>,
     /// Inputs per technique and storage in place of 10000000, or of 100000 if quick.
     #[arg(long, value_parser = clap::value_parser!(u64).range(10..=1_000_000_000))]
