@@ -198,5 +198,6 @@ fn stored_values_are_the_nearest() {
     assert_eq!(Rounding::Float32.store(0.1), 0.1);
     // 10 bits: 1/3 is 341 / 1023.
     assert_eq!(Rounding::Unorm10.store(1.0 / 3.0), 341.0 / 1023.0);
+    assert_eq!(Rounding::Unorm10.store(0.6 / 1023.0), 1.0 / 1023.0);
     assert_eq!(Rounding::Unorm10.store(1.1), 1.0);
 }
