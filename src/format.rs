@@ -27,6 +27,8 @@ pub enum TextureFormat {
     R32Float,
     /// Two single-precision channels.
     Rg32Float,
+    /// Three channels of 10 bits and one of 2 bits in [0, 1].
+    Rgb10a2Unorm,
     /// Four channels of 16 bits in [0, 1].
     Rgba16Unorm,
     /// Four half-precision channels.
@@ -65,7 +67,7 @@ const NOTHING: FormatSupport = FormatSupport {
 
 impl TextureFormat {
     /// Every format.
-    pub const ALL: [TextureFormat; 15] = [
+    pub const ALL: [TextureFormat; 16] = [
         TextureFormat::R8Unorm,
         TextureFormat::Rgba8Unorm,
         TextureFormat::R16Unorm,
@@ -74,6 +76,7 @@ impl TextureFormat {
         TextureFormat::Rg16Float,
         TextureFormat::R32Float,
         TextureFormat::Rg32Float,
+        TextureFormat::Rgb10a2Unorm,
         TextureFormat::Rgba16Unorm,
         TextureFormat::Rgba16Float,
         TextureFormat::Rgba32Float,
@@ -95,6 +98,7 @@ impl TextureFormat {
             TextureFormat::Rg16Float => "rg16float",
             TextureFormat::R32Float => "r32float",
             TextureFormat::Rg32Float => "rg32float",
+            TextureFormat::Rgb10a2Unorm => "rgb10a2unorm",
             TextureFormat::Rgba16Unorm => "rgba16unorm",
             TextureFormat::Rgba16Float => "rgba16float",
             TextureFormat::Rgba32Float => "rgba32float",
@@ -115,6 +119,7 @@ impl TextureFormat {
             | TextureFormat::Rg16Unorm
             | TextureFormat::Rg16Float
             | TextureFormat::R32Float
+            | TextureFormat::Rgb10a2Unorm
             | TextureFormat::Depth32Float => 4,
             TextureFormat::Rg32Float
             | TextureFormat::Rg32Uint
@@ -149,7 +154,7 @@ impl TextureFormat {
             blendable: true,
         };
         match self {
-            TextureFormat::R8Unorm => colour,
+            TextureFormat::R8Unorm | TextureFormat::Rgb10a2Unorm => colour,
             // To be written as storage they need what an adapter adds of its own.
             TextureFormat::R16Float | TextureFormat::Rg16Float => FormatSupport {
                 storage_write: profile == Profile::NativeAdapter,

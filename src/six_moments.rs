@@ -19,13 +19,14 @@ pub struct SixMomentsBias {
 impl Storage {
     /// The smallest bias of six moments that covers a resolve and a two-pass blur, every stage rounded to the storage; none
     /// for storages that six moments cannot have. All hold the optimised basis, floats less one half in every channel. That of
-    /// float32 is what the evaluation in f32 needs rather than the storage.
+    /// float32 is what the evaluation in f32 needs rather than the storage, and that of unorm10 covers the worst patches that are known.
     #[must_use]
     pub fn six_moments_bias(self) -> Option<SixMomentsBias> {
         let alpha = match self {
             Storage::Unorm16 => 1e-4,
             Storage::Float16 => 1.5e-3,
             Storage::Float32 => 1e-5,
+            Storage::Unorm10 => 6.5e-3,
             Storage::Unorm8 | Storage::Fixed32 => return None,
         };
         Some(SixMomentsBias {

@@ -14,6 +14,15 @@ use crate::{Profile, SummedAreaTable, TextureFormat};
 /// | [`Float16`](Storage::Float16) | rgba16float | 64 | 1e-3 | optimised basis less one half; everywhere, leaks four times as far |
 /// | [`Float32`](Storage::Float32) | rgba32float | 128 | 1.5e-6 | raw moments; filtered in the shader where the device cannot |
 ///
+/// Six moments take two such texels, all with the optimised basis, or the smallest of all:
+///
+/// | storage | format | bits | moment bias | remark |
+/// |---|---|---|---|---|
+/// | [`Unorm16`](Storage::Unorm16) | 2 x rgba16unorm | 128 | 1e-4 | native only |
+/// | [`Float16`](Storage::Float16) | 2 x rgba16float | 128 | 1.5e-3 | everywhere |
+/// | [`Float32`](Storage::Float32) | 2 x rgba32float | 256 | 1e-5 | |
+/// | [`Unorm10`](Storage::Unorm10) | 2 x rgb10a2unorm | 64 | 6.5e-3 | everywhere, drawn by render passes; leaks twice as far as float16 |
+///
 /// Light leaks behind an occluder over a distance that grows with the square root of the bias.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, Serialize, Deserialize)]
 #[serde(rename_all = "lowercase")]
@@ -27,6 +36,9 @@ pub enum Storage {
     Float32,
     /// 8-bit normalised channels: for bounded functions of depth, not for moments.
     Unorm8,
+    /// 10-bit normalised channels, three to a texel: for six moments alone. No device need write the format from compute
+    /// shaders, so that such maps are [drawn](Storage::is_drawn).
+    Unorm10,
     /// Sums of 32-bit integers: a summed-area table, see [`SummedAreaTable`](crate::SummedAreaTable).
     Fixed32,
 }
@@ -74,6 +86,7 @@ impl Storage {
             Storage::Float16 => "float16",
             Storage::Float32 => "float32",
             Storage::Unorm8 => "unorm8",
+            Storage::Unorm10 => "unorm10",
             Storage::Fixed32 => "fixed32",
         }
     }
@@ -86,6 +99,7 @@ impl Storage {
             Storage::Float16 => TextureFormat::Rgba16Float,
             Storage::Float32 => TextureFormat::Rgba32Float,
             Storage::Unorm8 => TextureFormat::Rgba8Unorm,
+            Storage::Unorm10 => TextureFormat::Rgb10a2Unorm,
             Storage::Fixed32 => TextureFormat::Rgba32Uint,
         }
     }
@@ -121,8 +135,8 @@ impl Storage {
         self.format().bytes_per_texel() * 8
     }
 
-    /// The smallest moment bias that covers a resolve and a two-pass blur, every stage rounded to the storage. With 8 bits it
-    /// leaks so far that no technique stores four moments like that. That of float32 relies on sums as exact as those of the
+    /// The smallest moment bias that covers a resolve and a two-pass blur, every stage rounded to the storage. With 8 or 10
+    /// bits it leaks so far that no technique stores four moments like that. That of float32 relies on sums as exact as those of the
     /// WGSL module `split_sum`, which blurs of any width have then. That of a summed-area table depends on
     /// its largest kernel ([`SummedAreaTable::moment_bias`]); here it is that of the largest possible.
     #[must_use]
@@ -130,6 +144,11 @@ impl Storage {
         match self {
             Storage::Unorm8 => MomentBias {
                 alpha: 1.8e-2,
+                second: 0.628,
+                fourth: 0.628,
+            },
+            Storage::Unorm10 => MomentBias {
+                alpha: 4.4e-3,
                 second: 0.628,
                 fourth: 0.628,
             },
@@ -162,6 +181,11 @@ impl Storage {
                 second: 0.6036,
                 fourth: 0.4875,
             },
+            Storage::Unorm10 => MomentBias {
+                alpha: 6e-3,
+                second: 0.6036,
+                fourth: 0.4875,
+            },
             Storage::Unorm16 => MomentBias {
                 alpha: 8e-5,
                 second: 0.6036,
@@ -190,6 +214,23 @@ impl Storage {
             Storage::Float32 => 2,
             Storage::Unorm8 => 3,
             Storage::Fixed32 => 4,
+            Storage::Unorm10 => 5,
+        }
+    }
+
+    /// Whether maps are drawn by render passes, since compute shaders cannot write the format.
+    #[must_use]
+    pub fn is_drawn(self) -> bool {
+        self == Storage::Unorm10
+    }
+
+    /// Whether every device of the profile can make a map of this storage in a texture of this format.
+    pub(crate) fn can_write(self, format: TextureFormat, profile: Profile) -> bool {
+        let support = format.support(profile);
+        if self.is_drawn() {
+            support.renderable
+        } else {
+            support.storage_write
         }
     }
 
@@ -204,7 +245,7 @@ impl Storage {
 
     /// Whether every device of the profile can write the storage, or which one to use instead.
     pub fn check(self, profile: Profile) -> Result<(), UnsupportedStorage> {
-        if self.format().support(profile).storage_write {
+        if self.can_write(self.format(), profile) {
             return Ok(());
         }
         Err(UnsupportedStorage {

@@ -11,8 +11,8 @@ use std::mem::offset_of;
 use moment_shadows::{
     AreaLight, DepthConversion, EsmFiltering, Finite, Kernel, LARGEST_RADIUS, LayerSplits,
     LeakReduction, MapRegion, MomentBias, PcfTaps, Pcss, PercentageCloserKernel, Profile,
-    ReceiverBias, RectifiedFrame, STANDARD_DEVIATIONS, SingleScattering, Source, Storage,
-    SummedAreaTable, Technique, TextureFormat, link,
+    ReceiverBias, RectifiedFrame, STANDARD_DEVIATIONS, SingleScattering, SixMomentsBias, Source,
+    Storage, SummedAreaTable, Technique, TextureFormat, link,
 };
 use moment_shadows_graph::nodes::{
     BlurMoments, BlurParameters, CompositeScattering, CompositeScatteringParameters,
@@ -397,6 +397,26 @@ fn storages_have_the_numbers_and_biases_of_the_module() {
             "{bias}"
         );
     }
+}
+
+#[test]
+fn storages_of_other_techniques_have_the_numbers_and_biases_of_the_modules() {
+    for storage in [Storage::Unorm8, Storage::Unorm10] {
+        let index = format!("STORAGE_{}", storage.name().to_uppercase());
+        let found = constant(&module("storage", &index), &index);
+        assert_eq!(found, [f64::from(storage.wgsl_index())], "{index}");
+    }
+    for &storage in Technique::Hamburger6.storages() {
+        let name = format!("SIX_MOMENTS_BIAS_{}", storage.name().to_uppercase());
+        let found = constant(&module("six_moments", &name), &name);
+        let SixMomentsBias { even, alpha } = storage.six_moments_bias().unwrap();
+        assert_eq!(
+            found,
+            [even[0], even[1], even[2], alpha].map(f64::from),
+            "{name}"
+        );
+    }
+    assert_eq!(Storage::Unorm8.six_moments_bias(), None);
 }
 
 #[test]

@@ -253,10 +253,18 @@ pub enum Work {
     },
     /// A triangle over the whole of a target, which need not be cleared.
     Fullscreen {
-        /// The slot that is drawn to.
+        /// The slot that is drawn to; of a map with planes the pass's plane.
         target: String,
         /// Once per dirty layer of the target; otherwise once, to layer 0.
         each_layer: bool,
+    },
+    /// A triangle over the whole of a mip level of one layer, once per dirty layer, whose shader discards what lies in no
+    /// region: as with [`ComputeRegions`](Work::ComputeRegions) the target keeps its contents there.
+    FullscreenRegions {
+        /// The slot that is drawn to; of a map with planes the pass's plane.
+        target: String,
+        /// The mip level that is drawn to.
+        level: u32,
     },
     /// A hole in the plan where the host draws.
     Host {

@@ -166,10 +166,19 @@ pub enum PlannedWork {
         /// Workgroups in x and y.
         workgroups: [u32; 2],
     },
-    /// A triangle over the whole of a target.
+    /// A triangle over the whole of a mip level of a target.
     Fullscreen {
         /// Index into [`Plan::resources`].
         target: usize,
+        /// The mip level.
+        #[serde(default)]
+        level: u32,
+        /// The plane, as of [`PlannedBindingResource::Texture`].
+        #[serde(default)]
+        plane: u32,
+        /// Whether the target keeps its contents where the shader discards; otherwise it is drawn whole.
+        #[serde(default)]
+        keeps: bool,
     },
     /// A hole where the host draws.
     Host {

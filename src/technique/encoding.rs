@@ -153,7 +153,7 @@ impl MapEncoding {
 
     /// Whether every device of the profile can write the map, or which storage to use instead.
     pub fn check(&self, profile: Profile) -> Result<(), UnsupportedStorage> {
-        if self.format.support(profile).storage_write {
+        if self.storage.can_write(self.format, profile) {
             return Ok(());
         }
         Err(UnsupportedStorage {

@@ -8,6 +8,7 @@
 
 mod arbitrary;
 mod declarations;
+mod drawn;
 mod example;
 mod file;
 #[allow(dead_code, reason = "shared with the tests of the recorder")]

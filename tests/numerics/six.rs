@@ -1,7 +1,7 @@
 //! Six moments: the shader's bounds against the exact ones, against those of four moments, and on moments that are none.
 
 use bytemuck::{Pod, Zeroable};
-use moment_shadows::{Profile, SixMomentsBias, Storage};
+use moment_shadows::{Profile, SixMomentsBias, Storage, Technique};
 use moment_shadows_lab::batch::Batch;
 use moment_shadows_lab::gpu::Gpu;
 use moment_shadows_lab::oracle::{Mixture, hamburger, rational, sensitivity, tolerance_unit};
@@ -66,20 +66,18 @@ fn tolerance(alpha: f32) -> f64 {
     if alpha >= 5e-5 { 32.0 } else { 128.0 }
 }
 
-/// The biases of the storages, the published ones of 10-bit channels and of float32 without a basis.
+/// The biases of the storages, and the published one of float32 without a basis.
 fn biases() -> Vec<SixMomentsBias> {
-    let own = Storage::ALL.map(|storage| storage.six_moments_bias().unwrap());
-    let published = [
-        SixMomentsBias {
-            alpha: 6e-3,
-            ..own[0]
-        },
-        SixMomentsBias {
-            even: [0.48, 0.451, 0.45],
-            alpha: 5e-6,
-        },
-    ];
-    own.into_iter().chain(published).collect()
+    let published = SixMomentsBias {
+        even: [0.48, 0.451, 0.45],
+        alpha: 5e-6,
+    };
+    Technique::Hamburger6
+        .storages()
+        .iter()
+        .map(|storage| storage.six_moments_bias().unwrap())
+        .chain([published])
+        .collect()
 }
 
 fn biased(moments: [f64; 6], bias: &SixMomentsBias) -> [f32; 6] {

@@ -7,6 +7,7 @@ mod hausdorff;
 mod ideal;
 mod linear;
 mod orderings;
+mod six;
 
 // Random distributions of every regime; the shader's tests use the rest of it.
 #[allow(dead_code)]

@@ -25,5 +25,6 @@ mod resolve;
 mod setup;
 mod shade;
 mod shade_regions;
+mod six_moments;
 mod techniques;
 mod views;

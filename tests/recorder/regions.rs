@@ -11,12 +11,18 @@ use crate::setup::{Bound, bind, capabilities, compiled, gpu};
 
 /// Resolved, blurred, downsampled; the map is the output.
 fn graph(storage: &str, radius: u32, mip_levels: &str) -> String {
+    // A map that is drawn holds six moments.
+    let technique = match storage {
+        "unorm10" => "hamburger6",
+        _ => "hamburger4",
+    };
     format!(
         r#"{{
   "version": 1,
   "imports": [{{ "name": "light_depth" }}],
   "nodes": [
-    {{ "name": "resolve", "type": "resolve_moments", "properties": {{ "storage": "{storage}" }} }},
+    {{ "name": "resolve", "type": "resolve_moments",
+       "properties": {{ "technique": "{technique}", "storage": "{storage}" }} }},
     {{ "name": "blur", "type": "blur_moments",
        "properties": {{ "kernel": {{ "radius": {radius} }}, "mip_levels": {mip_levels} }} }},
     {{ "name": "downsample", "type": "downsample_moments" }}
@@ -125,10 +131,17 @@ impl Atlas {
         self.bound.run_layers(gpu, Layers::All);
     }
 
-    /// The texels of a region on a mip level.
+    /// The texels of a region on a mip level, plane by plane.
     fn read(&self, gpu: &Gpu, region: &MapRegion, level: u32) -> Vec<u8> {
+        let planes = self.plan().output_texture("map").unwrap().planes;
+        (0..planes)
+            .flat_map(|plane| self.read_plane(gpu, region, level, plane))
+            .collect()
+    }
+
+    fn read_plane(&self, gpu: &Gpu, region: &MapRegion, level: u32, plane: u32) -> Vec<u8> {
         let texture = self.bound.bindings.output("map").unwrap();
-        let bytes = gpu.read_level(texture, 0, level, "map").unwrap();
+        let bytes = gpu.read_level(texture, plane, level, "map").unwrap();
         let width = (self.size[0] >> level) as usize;
         let texel = bytes.len() / (width * (self.size[1] >> level) as usize);
         let part = region.at_level(level);
@@ -165,7 +178,13 @@ fn regions_that_touch_leave_each_other_untouched_to_the_bit() {
         DepthConversion::orthographic(),
         DepthConversion::orthographic_reversed(),
     ];
-    for (storage, radius) in [("unorm16", 32), ("float16", 12), ("float32", 32)] {
+    for (storage, radius) in [
+        ("unorm16", 32),
+        ("float16", 12),
+        ("float32", 32),
+        ("unorm10", 32),
+        ("unorm10", 12),
+    ] {
         let atlas = Atlas::new(&gpu, &graph(storage, radius, "\"all\""), size, 2);
         assert_eq!(atlas.levels(), 7);
         let texels = |region: usize| -> Vec<Vec<u8>> {
@@ -239,7 +258,11 @@ fn cut(size: [u32; 2], count: usize, smallest: u32, seed: u64) -> Vec<MapRegion>
 fn each_of_many_regions_is_what_a_map_of_its_own_would_be() {
     let gpu = gpu();
     let size = [173, 131];
-    for (seed, radius, per_frame_radius) in [(1, 2, false), (2, 13, true)] {
+    for (storage, seed, radius, per_frame_radius) in [
+        ("unorm16", 1, 2, false),
+        ("unorm16", 2, 13, true),
+        ("unorm10", 3, 2, false),
+    ] {
         let smallest = 2 * radius + 1;
         let count = if per_frame_radius { 9 } else { 40 };
         let regions = cut(size, count, smallest, seed);
@@ -251,7 +274,7 @@ fn each_of_many_regions_is_what_a_map_of_its_own_would_be() {
                 _ => DepthConversion::orthographic_reversed(),
             })
             .collect();
-        let text = graph("unorm16", radius, "2");
+        let text = graph(storage, radius, "2");
         let atlas = Atlas::new(&gpu, &text, size, 64);
         let depths = depths_of(size, &regions, &turns);
         atlas.run(&gpu, &regions, &conversions, &depths);

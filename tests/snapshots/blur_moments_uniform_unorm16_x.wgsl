@@ -7,6 +7,22 @@ alias MomentsStorage = texture_storage_2d<rgba16unorm, write>;
 const STORAGE = 0u;
 const REGIONS = 1u;
 
+// blur_parameters
+
+// Weights of a blur that a host can change per frame.
+
+struct BlurParameters {
+    // Texels on either side of the centre.
+    radius: u32,
+    // Blocks of 16 taps: 2 radius + OUTPUTS taps, rounded up.
+    blocks: u32,
+    padding: vec2u,
+    // The weights, preceded by 15 zeros and followed by zeros.
+    weights: array<vec4f, 40>,
+}
+
+@group(GROUP) @binding(2) var<uniform> parameters: BlurParameters;
+
 // moment_shadows/storage.wgsl
 // Storages: how the channels of a texel lie in memory, whatever they mean.
 //
@@ -20,6 +36,8 @@ const STORAGE_FLOAT32: u32 = 2u;
 const STORAGE_UNORM8: u32 = 3u;
 // Sums of channels as unorm16 has them; see `summed_area_encoding`.
 const STORAGE_FIXED32: u32 = 4u;
+// Three channels to a texel, in maps that are drawn.
+const STORAGE_UNORM10: u32 = 5u;
 
 // The largest finite float16.
 const STORAGE_LARGEST_FLOAT16: f32 = 65504.0;
@@ -40,10 +58,19 @@ fn storage_round_to_float16(value: vec4f) -> vec4f {
     return select(rounded, small, abs(value) < vec4f(0x1p-14));
 }
 
+// What to draw so that a target of 10 bits per channel holds the nearest number to each component, for any finite value. A driver
+// may round down, or round to 16 bits and drop the last six (lavapipe does): a little above that number they give it all the same.
+fn storage_round_to_unorm10(value: vec4f) -> vec4f {
+    return (round(saturate(value) * 1023.0) + 0x1p-8) / 1023.0;
+}
+
 // A filtered combination of texels, as it has to be written back to the same storage.
 fn storage_round_texel(texel: vec4f, storage: u32) -> vec4f {
     if storage == STORAGE_FLOAT16 {
         return storage_round_to_float16(texel);
+    }
+    if storage == STORAGE_UNORM10 {
+        return storage_round_to_unorm10(texel);
     }
     return texel;
 }
@@ -482,18 +509,6 @@ fn region_tile(workgroup: vec3u, workgroups: vec3u, size: vec2u, level: u32, tex
 // One direction of a separable filter over the regions of one layer, with weights that a host can change per frame.
 // An invocation makes OUTPUTS texels in a row along AXIS; it runs through the texels in blocks of 16 and through the
 // weights in step, keeping the half that the next block needs again.
-
-struct BlurParameters {
-    // Texels on either side of the centre.
-    radius: u32,
-    // Blocks of 16 taps: 2 radius + OUTPUTS taps, rounded up.
-    blocks: u32,
-    padding: vec2u,
-    // The weights, preceded by 15 zeros and followed by zeros.
-    weights: array<vec4f, 40>,
-}
-
-@group(GROUP) @binding(2) var<uniform> parameters: BlurParameters;
 
 @compute @workgroup_size(WORKGROUP_X, WORKGROUP_Y)
 fn blur(@builtin(local_invocation_id) local: vec3u, @builtin(workgroup_id) workgroup: vec3u, @builtin(num_workgroups) workgroups: vec3u) {

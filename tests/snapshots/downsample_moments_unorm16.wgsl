@@ -17,6 +17,8 @@ const STORAGE_FLOAT32: u32 = 2u;
 const STORAGE_UNORM8: u32 = 3u;
 // Sums of channels as unorm16 has them; see `summed_area_encoding`.
 const STORAGE_FIXED32: u32 = 4u;
+// Three channels to a texel, in maps that are drawn.
+const STORAGE_UNORM10: u32 = 5u;
 
 // The largest finite float16.
 const STORAGE_LARGEST_FLOAT16: f32 = 65504.0;
@@ -37,10 +39,19 @@ fn storage_round_to_float16(value: vec4f) -> vec4f {
     return select(rounded, small, abs(value) < vec4f(0x1p-14));
 }
 
+// What to draw so that a target of 10 bits per channel holds the nearest number to each component, for any finite value. A driver
+// may round down, or round to 16 bits and drop the last six (lavapipe does): a little above that number they give it all the same.
+fn storage_round_to_unorm10(value: vec4f) -> vec4f {
+    return (round(saturate(value) * 1023.0) + 0x1p-8) / 1023.0;
+}
+
 // A filtered combination of texels, as it has to be written back to the same storage.
 fn storage_round_texel(texel: vec4f, storage: u32) -> vec4f {
     if storage == STORAGE_FLOAT16 {
         return storage_round_to_float16(texel);
+    }
+    if storage == STORAGE_UNORM10 {
+        return storage_round_to_unorm10(texel);
     }
     return texel;
 }
@@ -108,6 +119,46 @@ fn map_region_place(region_on_level: MapRegion, uv: vec2f) -> vec2f {
     return vec2f(region_on_level.origin) + clamp(uv * extent, vec2f(0.5), max(extent - 0.5, vec2f(0.5)));
 }
 
+// downsample_texel
+
+// What a texel of a mip level holds, from one layer of the finer level.
+//
+// A texel is the exact mean over the part of the finer level that it covers, whatever the region's size: two texels along
+// an axis where that is even, up to three where it is odd. Other than with the two texels that are next to it, the last
+// row of a region with an odd size counts as much as the others.
+
+@group(GROUP) @binding(0) var finer_level: texture_2d<f32>;
+
+// The weights of three texels in a row of a box that is `width` texels wide and begins at `start` in the first of them.
+fn box_weights(start: f32, width: f32) -> vec3f {
+    let texel = vec3f(0.0, 1.0, 2.0);
+    let covered = max(min(texel + 1.0, vec3f(start + width)) - max(texel, vec3f(start)), vec3f(0.0));
+    // The box covers at least one texel in all.
+    return covered / (covered.x + covered.y + covered.z);
+}
+
+// The texel at `place` in a region of `extent` texels, which is the region `finer` of the finer level.
+fn downsample_texel(place: vec2u, extent: vec2u, finer: MapRegion) -> vec4f {
+    // In whole numbers as far as possible: a texel at the far end of a large map loses no digits.
+    let start = place * finer.extent;
+    let width = vec2f(finer.extent) / vec2f(extent);
+    let offset = vec2f(start % extent) / vec2f(extent);
+    let across = box_weights(offset.x, width.x);
+    let down = box_weights(offset.y, width.y);
+    let first = vec2i(finer.origin + start / extent);
+    let last = vec2i(finer.origin + finer.extent) - 1;
+    var sum = vec4f(0.0);
+    for (var y = 0; y < 3; y++) {
+        for (var x = 0; x < 3; x++) {
+            let weight = across[x] * down[y];
+            if weight > 0.0 {
+                sum = fma(vec4f(weight), textureLoad(finer_level, min(first + vec2i(x, y), last), 0), sum);
+            }
+        }
+    }
+    return filtering_texel(sum);
+}
+
 // region_tile
 
 // Which part of which region a workgroup makes. Regions change per frame; the number of workgroups does not, and suffices
@@ -147,24 +198,11 @@ fn region_tile(workgroup: vec3u, workgroups: vec3u, size: vec2u, level: u32, tex
 // downsample_moments.wgsl
 
 // Makes one mip level of the regions of one layer out of the finer one: one texel per invocation.
-//
-// A texel is the exact mean over the part of the finer level that it covers, whatever the region's size: two texels along
-// an axis where that is even, up to three where it is odd. Other than with the two texels that are next to it, the last
-// row of a region with an odd size counts as much as the others.
 
 // The mip level that is made, at least 1.
 override LEVEL: u32;
 
-@group(GROUP) @binding(0) var finer_level: texture_2d<f32>;
 @group(GROUP) @binding(1) var coarser_level: MomentsStorage;
-
-// The weights of three texels in a row of a box that is `width` texels wide and begins at `start` in the first of them.
-fn box_weights(start: f32, width: f32) -> vec3f {
-    let texel = vec3f(0.0, 1.0, 2.0);
-    let covered = max(min(texel + 1.0, vec3f(start + width)) - max(texel, vec3f(start)), vec3f(0.0));
-    // The box covers at least one texel in all.
-    return covered / (covered.x + covered.y + covered.z);
-}
 
 @compute @workgroup_size(8, 8)
 fn downsample(@builtin(local_invocation_id) local: vec3u, @builtin(workgroup_id) workgroup: vec3u, @builtin(num_workgroups) workgroups: vec3u) {
@@ -175,23 +213,5 @@ fn downsample(@builtin(local_invocation_id) local: vec3u, @builtin(workgroup_id)
         return;
     }
     let finer = map_region_at_level(map_region_within(regions[tile.number], size), LEVEL - 1u);
-    // In whole numbers as far as possible: a texel at the far end of a large map loses no digits.
-    let start = place * finer.extent;
-    let width = vec2f(finer.extent) / vec2f(tile.region.extent);
-    let offset = vec2f(start % tile.region.extent) / vec2f(tile.region.extent);
-    let across = box_weights(offset.x, width.x);
-    let down = box_weights(offset.y, width.y);
-    let first = vec2i(finer.origin + start / tile.region.extent);
-    let last = vec2i(finer.origin + finer.extent) - 1;
-    var sum = vec4f(0.0);
-    for (var y = 0; y < 3; y++) {
-        for (var x = 0; x < 3; x++) {
-            let weight = across[x] * down[y];
-            if weight > 0.0 {
-                sum = fma(vec4f(weight), textureLoad(finer_level, min(first + vec2i(x, y), last), 0), sum);
-            }
-        }
-    }
-    let texel = tile.region.origin + place;
-    textureStore(coarser_level, texel, filtering_texel(sum));
+    textureStore(coarser_level, tile.region.origin + place, downsample_texel(place, tile.region.extent, finer));
 }

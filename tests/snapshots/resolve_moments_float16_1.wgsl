@@ -1,3 +1,88 @@
+// moment_shadows/map_region.wgsl
+// Regions: rectangles of a layer that share an atlas and know nothing of each other.
+//
+// Mip level k of a region runs from floor(first / 2^k) to floor(end / 2^k). Regions that touch share that edge on every
+// level, wherever it lies, so none covers a texel of another, and a gutter is not needed.
+
+// Filled by the host-side `MapRegion`: texels of mip level 0. No texels: no region. A rectangle that leaves the map is
+// cut off at its border.
+struct MapRegion {
+    origin: vec2u,
+    extent: vec2u,
+}
+
+// The part of a region that lies in a map of `size` texels.
+fn map_region_within(region: MapRegion, size: vec2u) -> MapRegion {
+    let origin = min(region.origin, size);
+    return MapRegion(origin, min(region.extent, size - origin));
+}
+
+// A region of a map (within it) on mip level `level`, below 32.
+fn map_region_at_level(region: MapRegion, level: u32) -> MapRegion {
+    let origin = region.origin >> vec2u(level);
+    return MapRegion(origin, ((region.origin + region.extent) >> vec2u(level)) - origin);
+}
+
+// The coarsest of `levels` mip levels on which a region still has texels.
+fn map_region_last_level(region: MapRegion, levels: u32) -> u32 {
+    var level = max(levels, 1u) - 1u;
+    while level > 0u && any(map_region_at_level(region, level).extent == vec2u(0u)) {
+        level--;
+    }
+    return level;
+}
+
+// The place of `uv` (from 0 to 1 across the region) in texels of a region's mip level, kept half a texel away from its
+// edge: a bilinear filter there reads no other region.
+fn map_region_place(region_on_level: MapRegion, uv: vec2f) -> vec2f {
+    let extent = vec2f(region_on_level.extent);
+    return vec2f(region_on_level.origin) + clamp(uv * extent, vec2f(0.5), max(extent - 0.5, vec2f(0.5)));
+}
+
+// specialization
+const GROUP = 0;
+alias DepthTexture = texture_depth_2d;
+const SAMPLES = 1;
+alias MomentsStorage = texture_storage_2d<rgba16float, write>;
+const STORAGE = 1u;
+const REGIONS = 1u;
+
+// region_tile
+
+// Which part of which region a workgroup makes. Regions change per frame; the number of workgroups does not, and suffices
+// for all of them.
+
+@group(GROUP) @binding(4) var<uniform> regions: array<MapRegion, REGIONS>;
+
+struct RegionTile {
+    // The region's number in its table.
+    number: u32,
+    // The region in texels of a mip level; empty where nothing is left to do.
+    region: MapRegion,
+    // The tile's first texel, from the region's origin on.
+    first: vec2u,
+}
+
+// The tile of a workgroup that covers `texels` of mip level `level`, in a layer of `size` texels on mip level 0.
+fn region_tile(workgroup: vec3u, workgroups: vec3u, size: vec2u, level: u32, texels: vec2u) -> RegionTile {
+    if REGIONS == 1u {
+        let only = map_region_at_level(map_region_within(regions[0], size), level);
+        return RegionTile(0u, only, workgroup.xy * texels);
+    }
+    // Workgroups are numbered through the regions.
+    var index = workgroup.y * workgroups.x + workgroup.x;
+    for (var number = 0u; number < REGIONS; number++) {
+        let region = map_region_at_level(map_region_within(regions[number], size), level);
+        let tiles = (region.extent + texels - 1u) / texels;
+        let count = tiles.x * tiles.y;
+        if index < count {
+            return RegionTile(number, region, vec2u(index % tiles.x, index / tiles.x) * texels);
+        }
+        index -= count;
+    }
+    return RegionTile(0u, MapRegion(vec2u(0u), vec2u(0u)), vec2u(0u));
+}
+
 // moment_shadows/depth.wgsl
 // Moment depth: the one interval that all moment arithmetic uses.
 //
@@ -86,6 +171,8 @@ const STORAGE_FLOAT32: u32 = 2u;
 const STORAGE_UNORM8: u32 = 3u;
 // Sums of channels as unorm16 has them; see `summed_area_encoding`.
 const STORAGE_FIXED32: u32 = 4u;
+// Three channels to a texel, in maps that are drawn.
+const STORAGE_UNORM10: u32 = 5u;
 
 // The largest finite float16.
 const STORAGE_LARGEST_FLOAT16: f32 = 65504.0;
@@ -106,10 +193,19 @@ fn storage_round_to_float16(value: vec4f) -> vec4f {
     return select(rounded, small, abs(value) < vec4f(0x1p-14));
 }
 
+// What to draw so that a target of 10 bits per channel holds the nearest number to each component, for any finite value. A driver
+// may round down, or round to 16 bits and drop the last six (lavapipe does): a little above that number they give it all the same.
+fn storage_round_to_unorm10(value: vec4f) -> vec4f {
+    return (round(saturate(value) * 1023.0) + 0x1p-8) / 1023.0;
+}
+
 // A filtered combination of texels, as it has to be written back to the same storage.
 fn storage_round_texel(texel: vec4f, storage: u32) -> vec4f {
     if storage == STORAGE_FLOAT16 {
         return storage_round_to_float16(texel);
+    }
+    if storage == STORAGE_UNORM10 {
+        return storage_round_to_unorm10(texel);
     }
     return texel;
 }
@@ -247,14 +343,6 @@ fn moments_biased_from_texel(texel: vec4f, storage: u32, bias: MomentBias) -> ve
     return biased;
 }
 
-// specialization
-const GROUP = 0;
-alias DepthTexture = texture_depth_2d;
-const SAMPLES = 1;
-alias MomentsStorage = texture_storage_2d<rgba16float, write>;
-const STORAGE = 1u;
-const REGIONS = 1u;
-
 // map_encoding
 
 // Four moments: what is averaged for a moment depth, and the texel for the mean.
@@ -267,92 +355,32 @@ fn encoding_texel(mean: vec4f) -> vec4f {
     return moments_to_texel(mean, STORAGE);
 }
 
-// moment_shadows/map_region.wgsl
-// Regions: rectangles of a layer that share an atlas and know nothing of each other.
-//
-// Mip level k of a region runs from floor(first / 2^k) to floor(end / 2^k). Regions that touch share that edge on every
-// level, wherever it lies, so none covers a texel of another, and a gutter is not needed.
+// resolve_texel
 
-// Filled by the host-side `MapRegion`: texels of mip level 0. No texels: no region. A rectangle that leaves the map is
-// cut off at its border.
-struct MapRegion {
-    origin: vec2u,
-    extent: vec2u,
-}
-
-// The part of a region that lies in a map of `size` texels.
-fn map_region_within(region: MapRegion, size: vec2u) -> MapRegion {
-    let origin = min(region.origin, size);
-    return MapRegion(origin, min(region.extent, size - origin));
-}
-
-// A region of a map (within it) on mip level `level`, below 32.
-fn map_region_at_level(region: MapRegion, level: u32) -> MapRegion {
-    let origin = region.origin >> vec2u(level);
-    return MapRegion(origin, ((region.origin + region.extent) >> vec2u(level)) - origin);
-}
-
-// The coarsest of `levels` mip levels on which a region still has texels.
-fn map_region_last_level(region: MapRegion, levels: u32) -> u32 {
-    var level = max(levels, 1u) - 1u;
-    while level > 0u && any(map_region_at_level(region, level).extent == vec2u(0u)) {
-        level--;
-    }
-    return level;
-}
-
-// The place of `uv` (from 0 to 1 across the region) in texels of a region's mip level, kept half a texel away from its
-// edge: a bilinear filter there reads no other region.
-fn map_region_place(region_on_level: MapRegion, uv: vec2f) -> vec2f {
-    let extent = vec2f(region_on_level.extent);
-    return vec2f(region_on_level.origin) + clamp(uv * extent, vec2f(0.5), max(extent - 0.5, vec2f(0.5)));
-}
-
-// region_tile
-
-// Which part of which region a workgroup makes. Regions change per frame; the number of workgroups does not, and suffices
-// for all of them.
-
-@group(GROUP) @binding(4) var<uniform> regions: array<MapRegion, REGIONS>;
-
-struct RegionTile {
-    // The region's number in its table.
-    number: u32,
-    // The region in texels of a mip level; empty where nothing is left to do.
-    region: MapRegion,
-    // The tile's first texel, from the region's origin on.
-    first: vec2u,
-}
-
-// The tile of a workgroup that covers `texels` of mip level `level`, in a layer of `size` texels on mip level 0.
-fn region_tile(workgroup: vec3u, workgroups: vec3u, size: vec2u, level: u32, texels: vec2u) -> RegionTile {
-    if REGIONS == 1u {
-        let only = map_region_at_level(map_region_within(regions[0], size), level);
-        return RegionTile(0u, only, workgroup.xy * texels);
-    }
-    // Workgroups are numbered through the regions.
-    var index = workgroup.y * workgroups.x + workgroup.x;
-    for (var number = 0u; number < REGIONS; number++) {
-        let region = map_region_at_level(map_region_within(regions[number], size), level);
-        let tiles = (region.extent + texels - 1u) / texels;
-        let count = tiles.x * tiles.y;
-        if index < count {
-            return RegionTile(number, region, vec2u(index % tiles.x, index / tiles.x) * texels);
-        }
-        index -= count;
-    }
-    return RegionTile(0u, MapRegion(vec2u(0u), vec2u(0u)), vec2u(0u));
-}
-
-// resolve_moments.wgsl
-
-// Resolves the regions of one layer of a depth map to one plane of a filterable map: one texel per invocation.
+// What a texel of one plane of a filterable map holds, from one layer of a depth map.
 //
 // The moments (or other channels) of the samples are averaged. Averaging depths instead would put an occluder between foreground and
 // background, where there is none (Peters & Klein, i3D 2015, section 4).
 
 @group(GROUP) @binding(0) var<uniform> conversions: array<DepthConversion, REGIONS>;
 @group(GROUP) @binding(1) var depth_map: DepthTexture;
+
+// The texel of the map, in the region of this number.
+fn resolve_texel(texel: vec2i, region: u32) -> vec4f {
+    let conversion = conversions[region];
+    var sum = vec4f(0.0);
+    // For a single sample the last argument of the load is its mip level, 0.
+    for (var sample = 0; sample < SAMPLES; sample++) {
+        let stored = textureLoad(depth_map, texel, sample);
+        sum += encoding_channels(depth_to_moment_depth(stored, conversion));
+    }
+    return encoding_texel(sum / f32(SAMPLES));
+}
+
+// resolve_moments.wgsl
+
+// Resolves the regions of one layer of a depth map to one plane of a filterable map: one texel per invocation.
+
 @group(GROUP) @binding(2) var moments_map: MomentsStorage;
 
 @compute @workgroup_size(8, 8)
@@ -363,12 +391,5 @@ fn resolve(@builtin(local_invocation_id) local: vec3u, @builtin(workgroup_id) wo
         return;
     }
     let texel = vec2i(tile.region.origin + place);
-    let conversion = conversions[tile.number];
-    var sum = vec4f(0.0);
-    // For a single sample the last argument of the load is its mip level, 0.
-    for (var sample = 0; sample < SAMPLES; sample++) {
-        let stored = textureLoad(depth_map, texel, sample);
-        sum += encoding_channels(depth_to_moment_depth(stored, conversion));
-    }
-    textureStore(moments_map, texel, encoding_texel(sum / f32(SAMPLES)));
+    textureStore(moments_map, texel, resolve_texel(texel, tile.number));
 }

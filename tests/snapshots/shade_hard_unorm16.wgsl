@@ -480,6 +480,8 @@ const STORAGE_FLOAT32: u32 = 2u;
 const STORAGE_UNORM8: u32 = 3u;
 // Sums of channels as unorm16 has them; see `summed_area_encoding`.
 const STORAGE_FIXED32: u32 = 4u;
+// Three channels to a texel, in maps that are drawn.
+const STORAGE_UNORM10: u32 = 5u;
 
 // The largest finite float16.
 const STORAGE_LARGEST_FLOAT16: f32 = 65504.0;
@@ -500,10 +502,19 @@ fn storage_round_to_float16(value: vec4f) -> vec4f {
     return select(rounded, small, abs(value) < vec4f(0x1p-14));
 }
 
+// What to draw so that a target of 10 bits per channel holds the nearest number to each component, for any finite value. A driver
+// may round down, or round to 16 bits and drop the last six (lavapipe does): a little above that number they give it all the same.
+fn storage_round_to_unorm10(value: vec4f) -> vec4f {
+    return (round(saturate(value) * 1023.0) + 0x1p-8) / 1023.0;
+}
+
 // A filtered combination of texels, as it has to be written back to the same storage.
 fn storage_round_texel(texel: vec4f, storage: u32) -> vec4f {
     if storage == STORAGE_FLOAT16 {
         return storage_round_to_float16(texel);
+    }
+    if storage == STORAGE_UNORM10 {
+        return storage_round_to_unorm10(texel);
     }
     return texel;
 }

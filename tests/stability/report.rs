@@ -32,7 +32,7 @@ fn a_quick_report_of_two_pairs_finds_no_fault() {
 #[test]
 fn six_moments_have_no_fault_in_any_storage() {
     let pairs = pairs(Some("hamburger6"), None).unwrap();
-    assert_eq!(pairs.len(), 3);
+    assert_eq!(pairs.len(), 4);
     let report = report(&pairs, Effort::QUICK);
     println!("{report}");
     assert_eq!(report.faults(), 0);

@@ -79,6 +79,7 @@ pub(crate) fn weights() -> [f32; SIDE] {
 
 fn rounded(value: f32, storage: Storage) -> f32 {
     match storage {
+        Storage::Unorm10 => (value.clamp(0.0, 1.0) * 1023.0).round() / 1023.0,
         Storage::Unorm16 => (value.clamp(0.0, 1.0) * 65535.0).round() / 65535.0,
         Storage::Float16 => f16::from_f32(value).to_f32(),
         _ => value,

@@ -172,6 +172,7 @@ fn draw_marker<B: DrawingBackend>(
         Some(Storage::Unorm16) => around(&[(-m, -m), (m, -m), (m, m), (-m, m)]),
         Some(Storage::Float16) => around(&[(0, -m - 1), (m + 1, m), (-m - 1, m)]),
         Some(Storage::Float32) => around(&[(0, -m - 2), (m + 2, 0), (0, m + 2), (-m - 2, 0)]),
+        Some(Storage::Unorm10) => around(&[(-m - 1, 0), (m + 1, -m - 1), (m + 1, m + 1)]),
         Some(_) => around(&[(-m - 1, -m), (m + 1, -m), (0, m + 1)]),
     };
     if filled {
@@ -202,6 +203,7 @@ fn draw_legend<B: DrawingBackend>(
     row += 14;
     let storages = [
         (Some(Storage::Unorm8), "unorm8"),
+        (Some(Storage::Unorm10), "unorm10"),
         (Some(Storage::Unorm16), "unorm16"),
         (Some(Storage::Float16), "float16"),
         (Some(Storage::Float32), "float32"),

@@ -428,7 +428,7 @@ struct StabilityArguments {
     #[arg(long, value_parser = technique)]
     technique: Option<String>,
     /// Only this storage.
-    #[arg(long, value_parser = ["unorm8", "unorm16", "float16", "float32"])]
+    #[arg(long, value_parser = ["unorm8", "unorm10", "unorm16", "float16", "float32"])]
     storage: Option<String>,
     /// Inputs per technique and storage in place of 10000000, or of 100000 if quick.
     #[arg(long, value_parser = clap::value_parser!(u64).range(10..=1_000_000_000))]
@@ -600,6 +600,7 @@ enum LightArgument {
 enum BiasTechniqueArgument {
     Hamburger4,
     Hausdorff4,
+    Hamburger6,
 }
 
 impl From<BiasTechniqueArgument> for BiasTechnique {
@@ -607,6 +608,7 @@ impl From<BiasTechniqueArgument> for BiasTechnique {
         match argument {
             BiasTechniqueArgument::Hamburger4 => BiasTechnique::Hamburger4,
             BiasTechniqueArgument::Hausdorff4 => BiasTechnique::Hausdorff4,
+            BiasTechniqueArgument::Hamburger6 => BiasTechnique::Hamburger6,
         }
     }
 }
@@ -614,6 +616,7 @@ impl From<BiasTechniqueArgument> for BiasTechnique {
 #[derive(Clone, Copy, ValueEnum)]
 enum StorageArgument {
     Unorm8,
+    Unorm10,
     Unorm16,
     Float16,
     Float32,
@@ -626,6 +629,7 @@ impl From<StorageArgument> for Storage {
             StorageArgument::Float16 => Storage::Float16,
             StorageArgument::Float32 => Storage::Float32,
             StorageArgument::Unorm8 => Storage::Unorm8,
+            StorageArgument::Unorm10 => Storage::Unorm10,
         }
     }
 }

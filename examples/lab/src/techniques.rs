@@ -9,6 +9,7 @@ use moment_shadows::{
 pub fn filterable() -> Vec<MapEncoding> {
     let every = [
         Storage::Unorm8,
+        Storage::Unorm10,
         Storage::Unorm16,
         Storage::Float16,
         Storage::Float32,

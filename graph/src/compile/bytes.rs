@@ -37,7 +37,11 @@ pub(super) fn count(pass: &mut PlannedPass, resources: &[PlannedResource]) {
     }
     match &pass.work {
         PlannedWork::Compute { .. } => {}
-        PlannedWork::Fullscreen { target } => written += level(*target, 0),
+        PlannedWork::Fullscreen {
+            target,
+            level: drawn,
+            ..
+        } => written += level(*target, *drawn),
         PlannedWork::Host {
             targets,
             blend,

@@ -141,15 +141,6 @@ impl Planner<'_> {
         filtered: bool,
         resources: &[PlannedResource],
     ) -> Result<PlannedBindingResource, GraphError> {
-        let plane_of = |slot: &str, texture: &TextureDesc| match texture.planes {
-            1 => Ok(0),
-            planes if pass.plane < planes => Ok(pass.plane),
-            planes => Err(declaration(format!(
-                "pass '{}' uses plane {} of '{slot}', which has {planes}",
-                pass.label, pass.plane
-            ))
-            .at_slot(slot)),
-        };
         let loaded = |slot: &str, one_layer: bool, level: u32| {
             let (resource, texture) = self.level(pass, slot, level, resources)?;
             let filterable = self.capabilities.support(texture.format).filterable;
@@ -159,7 +150,7 @@ impl Planner<'_> {
                 one_layer,
                 level,
                 plane: if one_layer {
-                    plane_of(slot, texture)?
+                    plane(pass, slot, texture)?
                 } else {
                     0
                 },
@@ -180,7 +171,7 @@ impl Planner<'_> {
             Ok::<_, GraphError>(PlannedBindingResource::StorageTexture {
                 resource,
                 level,
-                plane: plane_of(slot, texture)?,
+                plane: plane(pass, slot, texture)?,
             })
         };
         match resource {
@@ -286,13 +277,38 @@ impl Planner<'_> {
                     each_layer: true,
                 })
             }
-            Work::Fullscreen { target, each_layer } => {
-                let (index, target) = self.texture(pass, target, resources)?;
+            Work::Fullscreen {
+                target: slot,
+                each_layer,
+            } => {
+                let (index, target) = self.texture(pass, slot, resources)?;
                 Ok(Resolved {
-                    work: PlannedWork::Fullscreen { target: index },
+                    work: PlannedWork::Fullscreen {
+                        target: index,
+                        level: 0,
+                        plane: plane(pass, slot, target)?,
+                        keeps: false,
+                    },
                     followed: index,
                     layers: target.layers,
                     each_layer: *each_layer,
+                })
+            }
+            Work::FullscreenRegions {
+                target: slot,
+                level,
+            } => {
+                let (index, target) = self.level(pass, slot, *level, resources)?;
+                Ok(Resolved {
+                    work: PlannedWork::Fullscreen {
+                        target: index,
+                        level: *level,
+                        plane: plane(pass, slot, target)?,
+                        keeps: true,
+                    },
+                    followed: index,
+                    layers: target.layers,
+                    each_layer: true,
                 })
             }
             Work::Host {
@@ -381,6 +397,19 @@ struct Resolved {
     followed: usize,
     layers: u32,
     each_layer: bool,
+}
+
+/// The plane that a pass means of a slot's texture.
+fn plane(pass: &Pass, slot: &str, texture: &TextureDesc) -> Result<u32, GraphError> {
+    match texture.planes {
+        1 => Ok(0),
+        planes if pass.plane < planes => Ok(pass.plane),
+        planes => Err(declaration(format!(
+            "pass '{}' uses plane {} of '{slot}', which has {planes}",
+            pass.label, pass.plane
+        ))
+        .at_slot(slot)),
+    }
 }
 
 fn declaration(message: String) -> GraphError {

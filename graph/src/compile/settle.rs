@@ -133,7 +133,7 @@ fn renumber_pass(pass: &mut PlannedPass, renumbered: &impl Fn(&mut usize)) {
     }
     match &mut pass.work {
         PlannedWork::Compute { .. } => {}
-        PlannedWork::Fullscreen { target } => renumbered(target),
+        PlannedWork::Fullscreen { target, .. } => renumbered(target),
         PlannedWork::Host { targets, depth, .. } => {
             targets.iter_mut().for_each(renumbered);
             depth.iter_mut().for_each(renumbered);

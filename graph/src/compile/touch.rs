@@ -59,8 +59,8 @@ pub(super) fn touched(pass: &PlannedPass) -> Vec<Touch> {
     let mut touched: Vec<Touch> = bound.collect();
     match &pass.work {
         PlannedWork::Compute { .. } => {}
-        PlannedWork::Fullscreen { target } => {
-            touched.push(touch(*target, Access::RENDER_TARGET, true, Some(0)));
+        PlannedWork::Fullscreen { target, level, .. } => {
+            touched.push(touch(*target, Access::RENDER_TARGET, true, Some(*level)));
         }
         PlannedWork::Host { targets, depth, .. } => {
             let all = targets.iter().chain(depth);

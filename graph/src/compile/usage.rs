@@ -29,7 +29,7 @@ pub(super) fn check_pass(
     let texture = |index: usize| resources.get(index)?.desc.texture();
     match &pass.work {
         PlannedWork::Compute { .. } => Ok(()),
-        PlannedWork::Fullscreen { target } => texture(*target).map_or(Ok(()), |target| {
+        PlannedWork::Fullscreen { target, .. } => texture(*target).map_or(Ok(()), |target| {
             colour_target(pass, target, false, capabilities)
         }),
         PlannedWork::Host {

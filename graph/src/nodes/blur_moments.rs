@@ -5,18 +5,21 @@ use moment_shadows::{Kernel, LARGEST_RADIUS, MapEncoding};
 use serde::{Deserialize, Serialize};
 
 use super::moments_input::{map_formats, moments_input};
-use super::specialization::Specialization;
+use super::specialization::{FULLSCREEN, Specialization};
 use super::unrolled::{self, Sums};
-use super::{KernelProperty, MipLevels, region_tiles, techniques};
+use super::{KernelProperty, MipLevels, drawn_map, region_tiles, techniques};
 use crate::{
     Access, Binding, BindingResource, Connected, CountRule, Direction, ExtentRule, FormatRule,
     GraphError, GraphErrorKind, Lifetime, Node, NodeDesc, ParameterBlock, Pass, Slot, SlotResource,
-    Stage, TextureDesc, Work,
+    Stage, TextureDesc,
 };
 
 const UNROLLED_SHADER: &str = include_str!("blur_moments_unrolled.wgsl");
 const TARGET: &str = include_str!("blur_target.wgsl");
 const UNIFORM_SHADER: &str = include_str!("blur_moments_uniform.wgsl");
+const PARAMETERS: (&str, &str) = ("blur_parameters", include_str!("blur_parameters.wgsl"));
+const DRAWN_SHADER: &str = include_str!("blur_moments_drawn.wgsl");
+const DRAWN_TEXEL: &str = include_str!("blur_texel_uniform.wgsl");
 
 /// Up to this radius the weights are literals and every load is unrolled; beyond it the code would leave the instruction
 /// cache.
@@ -30,7 +33,8 @@ const WORKGROUP: [u32; 2] = [8, 8];
 const WORKGROUP_UNROLLED_Y: [u32; 2] = [64, 1];
 
 /// Node `blur_moments`: `moments` to `blurred`, of the same format, size, layers and regions. Two passes, along x and along
-/// y; beyond the edge of a region its last texel repeats.
+/// y, for each plane; beyond the edge of a region its last texel repeats. Maps stored as `unorm10` are drawn, others are written by
+/// compute shaders.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct BlurMoments {
@@ -119,14 +123,14 @@ impl Node for BlurMoments {
                 slot(
                     "half_blurred",
                     Direction::Internal,
-                    Access::READ.union(Access::STORAGE_WRITE),
+                    Access::READ.union(drawn_map::write_access(&encoding)),
                     FormatRule::Exact(encoding.format()),
                     CountRule::Exact(1),
                 ),
                 slot(
                     "blurred",
                     Direction::Out,
-                    Access::STORAGE_WRITE,
+                    drawn_map::write_access(&encoding),
                     FormatRule::SameAs("moments".to_owned()),
                     CountRule::Exact(mips),
                 ),
@@ -203,14 +207,34 @@ impl Along {
                 binding: 0,
                 resource: BindingResource::Layer(self.from.to_owned()),
             },
-            Binding {
-                binding: 1,
-                resource: BindingResource::StorageLayer(self.to.to_owned()),
-            },
             // A region holds at least a kernel, so that no texel is repeated at two edges.
             region_tiles::binding(self.to, 2 * kernel.radius() + 1),
         ];
-        let (wgsl, outputs) = if unrolled {
+        bindings.extend(drawn_map::binding(encoding, 1, self.to, 0));
+        if !unrolled {
+            bindings.push(Binding {
+                binding: 2,
+                resource: BindingResource::Parameters,
+            });
+        }
+        let (wgsl, outputs) = if encoding.storage().is_drawn() {
+            let text;
+            let texel = if unrolled {
+                text = unrolled::literal_texel(kernel.weights());
+                &text
+            } else {
+                DRAWN_TEXEL
+            };
+            let modules = [
+                ("blur_texel", texel),
+                PARAMETERS,
+                filtering,
+                drawn_map::MODULE,
+                FULLSCREEN,
+            ];
+            let wgsl = specialization.link("blur_moments_drawn.wgsl", DRAWN_SHADER, &modules)?;
+            (wgsl, 1)
+        } else if unrolled {
             let text = unrolled::literal_weights(kernel.weights(), sums);
             (
                 specialization.link(
@@ -226,10 +250,6 @@ impl Along {
                 unrolled::OUTPUTS_LITERAL,
             )
         } else {
-            bindings.push(Binding {
-                binding: 2,
-                resource: BindingResource::Parameters,
-            });
             let text = unrolled::uniform_weights(sums);
             (
                 specialization.link(
@@ -237,6 +257,7 @@ impl Along {
                     UNIFORM_SHADER,
                     &[
                         ("blur_target", TARGET),
+                        PARAMETERS,
                         (unrolled::MODULE, &text),
                         filtering,
                         region_tiles::MODULE,
@@ -254,11 +275,7 @@ impl Along {
             bindings,
             constants: [].into(),
             plane: 0,
-            work: Work::ComputeRegions {
-                covers: self.to.to_owned(),
-                level: 0,
-                texels_per_workgroup,
-            },
+            work: drawn_map::work(encoding, self.to, 0, texels_per_workgroup),
         })
     }
 }

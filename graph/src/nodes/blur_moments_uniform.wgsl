@@ -1,23 +1,12 @@
+import moment_shadows::blur_parameters::{parameters};
 import moment_shadows::blur_target::{blur_store, blurred_map, moments_map};
 import moment_shadows::blur_unrolled::{BlurSums, OUTPUTS, blur_outputs, blur_taps};
 import moment_shadows::region_tile::{region_tile};
-import moment_shadows::specialization::{AXIS, GROUP, WORKGROUP_X, WORKGROUP_Y};
+import moment_shadows::specialization::{AXIS, WORKGROUP_X, WORKGROUP_Y};
 
 // One direction of a separable filter over the regions of one layer, with weights that a host can change per frame.
 // An invocation makes OUTPUTS texels in a row along AXIS; it runs through the texels in blocks of 16 and through the
 // weights in step, keeping the half that the next block needs again.
-
-struct BlurParameters {
-    // Texels on either side of the centre.
-    radius: u32,
-    // Blocks of 16 taps: 2 radius + OUTPUTS taps, rounded up.
-    blocks: u32,
-    padding: vec2u,
-    // The weights, preceded by 15 zeros and followed by zeros.
-    weights: array<vec4f, 40>,
-}
-
-@group(GROUP) @binding(2) var<uniform> parameters: BlurParameters;
 
 @compute @workgroup_size(WORKGROUP_X, WORKGROUP_Y)
 fn blur(@builtin(local_invocation_id) local: vec3u, @builtin(workgroup_id) workgroup: vec3u, @builtin(num_workgroups) workgroups: vec3u) {

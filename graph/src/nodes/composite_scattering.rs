@@ -6,7 +6,7 @@ use serde::{Deserialize, Serialize};
 use super::moments_input::{encoding_of, map_formats};
 use super::moments_lookup::moments_lookup;
 use super::specialization::{FULLSCREEN, Specialization};
-use super::{CompositeScatteringParameters, techniques};
+use super::{CompositeScatteringParameters, drawn_map, techniques};
 use crate::{
     Access, Binding, BindingResource, Connected, CountRule, Direction, ExtentRule, FormatRule,
     GraphError, GraphErrorKind, Lifetime, Node, NodeDesc, ParameterBlock, Pass, Slot, SlotResource,
@@ -91,6 +91,8 @@ impl Node for CompositeScattering {
         }
         let integrated = upstream.texture("integrated")?;
         let encoding = encoding_of(integrated).map_err(|error| error.at_slot("integrated"))?;
+        drawn_map::refuse_prefix_sums(&encoding, GraphErrorKind::Format)
+            .map_err(|error| error.at_slot("integrated"))?;
         let bounds = match encoding.technique() {
             Technique::Hamburger4 => include_str!("scattering/bounds_four_moments.wgsl"),
             Technique::Hamburger6 => include_str!("scattering/bounds_six_moments.wgsl"),

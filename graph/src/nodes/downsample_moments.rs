@@ -3,15 +3,17 @@
 use serde::{Deserialize, Serialize};
 
 use super::moments_input::{map_formats, moments_input};
-use super::specialization::Specialization;
-use super::{region_tiles, techniques};
+use super::specialization::{FULLSCREEN, Specialization};
+use super::{drawn_map, region_tiles, techniques};
 use crate::{
     Access, Binding, BindingResource, Connected, CountRule, Direction, ExtentRule, FormatRule,
     GraphError, GraphErrorKind, Lifetime, MipLevel, Node, NodeDesc, Pass, Slot, SlotResource,
-    Stage, Work,
+    Stage,
 };
 
 const SHADER: &str = include_str!("downsample_moments.wgsl");
+const SHADER_DRAWN: &str = include_str!("downsample_moments_drawn.wgsl");
+const TEXEL: &str = include_str!("downsample_texel.wgsl");
 
 /// Node `downsample_moments`: fills the mip levels of `moments` in place, within each region. The map has room for them
 /// where the node that made it says so (`mip_levels`). One pass per level; each texel is the mean over what it covers.
@@ -40,17 +42,35 @@ impl Node for DownsampleMoments {
         }
         let specialization = Specialization::new(upstream.capabilities());
         let specialization = techniques::specialize_map(specialization, &encoding);
-        let wgsl = region_tiles::specialize(specialization, moments).link(
-            "downsample_moments.wgsl",
-            SHADER,
-            &[
-                region_tiles::MODULE,
-                techniques::filtering(encoding.technique()),
-            ],
-        )?;
-        let level_of = |level: u32| MipLevel {
-            slot: "moments".to_owned(),
-            level,
+        let drawn = encoding.storage().is_drawn();
+        let (file, shader) = if drawn {
+            ("downsample_moments_drawn.wgsl", SHADER_DRAWN)
+        } else {
+            ("downsample_moments.wgsl", SHADER)
+        };
+        let mut modules = vec![
+            ("downsample_texel", TEXEL),
+            techniques::filtering(encoding.technique()),
+        ];
+        if drawn {
+            modules.extend([drawn_map::MODULE, FULLSCREEN]);
+        } else {
+            modules.push(region_tiles::MODULE);
+        }
+        let wgsl =
+            region_tiles::specialize(specialization, moments).link(file, shader, &modules)?;
+        let bindings = |level: u32| {
+            let finer = Binding {
+                binding: 0,
+                resource: BindingResource::Level(MipLevel {
+                    slot: "moments".to_owned(),
+                    level: level - 1,
+                }),
+            };
+            [finer, region_tiles::binding("moments", 1)]
+                .into_iter()
+                .chain(drawn_map::binding(&encoding, 1, "moments", level))
+                .collect()
         };
         let passes = (1..moments.mips)
             .flat_map(|level| (0..moments.planes).map(move |plane| (level, plane)))
@@ -62,23 +82,9 @@ impl Node for DownsampleMoments {
                 plane,
                 wgsl: wgsl.clone(),
                 entry_point: "downsample".to_owned(),
-                bindings: vec![
-                    Binding {
-                        binding: 0,
-                        resource: BindingResource::Level(level_of(level - 1)),
-                    },
-                    Binding {
-                        binding: 1,
-                        resource: BindingResource::StorageLevel(level_of(level)),
-                    },
-                    region_tiles::binding("moments", 1),
-                ],
+                bindings: bindings(level),
                 constants: [("LEVEL".to_owned(), f64::from(level))].into(),
-                work: Work::ComputeRegions {
-                    covers: "moments".to_owned(),
-                    level,
-                    texels_per_workgroup: [8, 8],
-                },
+                work: drawn_map::work(&encoding, "moments", level, [8, 8]),
             })
             .collect();
         Ok(NodeDesc {
@@ -90,7 +96,7 @@ impl Node for DownsampleMoments {
                 lifetime: Lifetime::Frame,
                 optional: false,
                 resource: SlotResource::Texture {
-                    access: Access::READ.union(Access::STORAGE_WRITE),
+                    access: Access::READ.union(drawn_map::write_access(&encoding)),
                     format: FormatRule::OneOf(map_formats()),
                     extent: ExtentRule::Any,
                     layers: CountRule::Any,

@@ -4,10 +4,11 @@ use serde::{Deserialize, Serialize};
 
 use super::moments_input::{encoding_of, map_formats};
 use super::specialization::Specialization;
-use super::{IntegrateScatteringParameters, techniques};
+use super::{IntegrateScatteringParameters, drawn_map, techniques};
 use crate::{
     Access, Binding, BindingResource, Connected, CountRule, Direction, ExtentRule, FormatRule,
-    GraphError, Lifetime, Node, NodeDesc, ParameterBlock, Pass, Slot, SlotResource, Stage, Work,
+    GraphError, GraphErrorKind, Lifetime, Node, NodeDesc, ParameterBlock, Pass, Slot, SlotResource,
+    Stage, Work,
 };
 
 /// Node `integrate_scattering`: `rectified` (from [`super::RectifyMoments`]) to `integrated`, of the same size, encoding and
@@ -28,6 +29,8 @@ impl Node for IntegrateScattering {
     fn describe(&self, upstream: &Connected<'_>) -> Result<NodeDesc, GraphError> {
         let rectified = upstream.texture("rectified")?;
         let encoding = encoding_of(rectified).map_err(|error| error.at_slot("rectified"))?;
+        drawn_map::refuse_prefix_sums(&encoding, GraphErrorKind::Format)
+            .map_err(|error| error.at_slot("rectified"))?;
         let capabilities = upstream.capabilities();
         let (file, shader, rows) = if capabilities.software_adapter {
             let text = include_str!("integrate_scattering_serial.wgsl");

@@ -4,6 +4,7 @@ mod blur_moments;
 mod composite_scattering;
 mod debug_moments;
 mod downsample_moments;
+mod drawn_map;
 mod integrate_scattering;
 mod kernel_property;
 mod mip_levels;

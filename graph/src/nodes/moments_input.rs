@@ -43,8 +43,8 @@ pub(super) fn encoding_of(moments: &TextureDesc) -> Result<MapEncoding, GraphErr
 /// The formats that a filterable map can have.
 pub(super) fn map_formats() -> Vec<moment_shadows::TextureFormat> {
     use moment_shadows::TextureFormat::{
-        R16Float, R16Unorm, R32Float, Rg16Float, Rg16Unorm, Rg32Float, Rgba8Unorm, Rgba16Float,
-        Rgba16Unorm, Rgba32Float,
+        R16Float, R16Unorm, R32Float, Rg16Float, Rg16Unorm, Rg32Float, Rgb10a2Unorm, Rgba8Unorm,
+        Rgba16Float, Rgba16Unorm, Rgba32Float,
     };
     vec![
         Rgba16Unorm,
@@ -57,5 +57,6 @@ pub(super) fn map_formats() -> Vec<moment_shadows::TextureFormat> {
         R16Float,
         R32Float,
         Rgba8Unorm,
+        Rgb10a2Unorm,
     ]
 }

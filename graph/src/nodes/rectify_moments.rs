@@ -6,7 +6,7 @@ use serde::{Deserialize, Serialize};
 use super::moments_input::{map_formats, moments_input};
 use super::moments_lookup::moments_lookup;
 use super::specialization::Specialization;
-use super::{RectifyMomentsParameters, techniques};
+use super::{RectifyMomentsParameters, drawn_map, techniques};
 use crate::{
     Access, Binding, BindingResource, Connected, CountRule, Direction, ExtentRule, FormatRule,
     GraphError, GraphErrorKind, Lifetime, Node, NodeDesc, ParameterBlock, Pass, Slot, SlotResource,
@@ -26,7 +26,7 @@ pub struct RectifyMoments {
     /// `hamburger4` or `hamburger6`: how many moments the two depths of a texel are encoded as again.
     #[serde(default)]
     pub technique: Technique,
-    /// How they are stored.
+    /// How they are stored: not as `unorm10`, since prefix sums are written by compute shaders.
     pub storage: Storage,
     /// Columns and rows, each from 2 to 8192.
     #[serde(default = "default_extent")]
@@ -142,7 +142,10 @@ impl RectifyMoments {
                 self.extent[0], self.extent[1]
             )));
         }
-        MapEncoding::new(self.technique.clone(), self.storage).map_err(techniques::property)
+        let encoding =
+            MapEncoding::new(self.technique.clone(), self.storage).map_err(techniques::property)?;
+        drawn_map::refuse_prefix_sums(&encoding, GraphErrorKind::Property)?;
+        Ok(encoding)
     }
 
     fn slots(&self, encoding: MapEncoding) -> Vec<Slot> {

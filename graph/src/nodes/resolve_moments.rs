@@ -3,19 +3,22 @@
 use moment_shadows::{DepthConversion, MapEncoding, Storage, Technique, TextureFormat};
 use serde::{Deserialize, Serialize};
 
-use super::specialization::Specialization;
-use super::{MipLevels, region_tiles, techniques};
+use super::specialization::{FULLSCREEN, Specialization};
+use super::{MipLevels, drawn_map, region_tiles, techniques};
 use crate::{
     Access, Binding, BindingResource, Connected, CountRule, Direction, ExtentRule, FormatRule,
-    GraphError, Lifetime, Node, NodeDesc, ParameterBlock, Pass, Slot, SlotResource, Stage, Work,
+    GraphError, Lifetime, Node, NodeDesc, ParameterBlock, Pass, Slot, SlotResource, Stage,
 };
 
 const SHADER: &str = include_str!("resolve_moments.wgsl");
+const SHADER_DRAWN: &str = include_str!("resolve_moments_drawn.wgsl");
+const TEXEL: &str = include_str!("resolve_texel.wgsl");
 
 /// Node `resolve_moments`: `depth` (1, 2, 4 or 8 samples of depth32float or depth16unorm, any number of layers) to
 /// `moments`, a filterable map of the same size, layers and regions, encoded for a technique. The *moments* (or what else the
 /// technique stores) of the samples are averaged, not their depths, so edges are antialiased. With splits placed by Lloyd
-/// relaxation there is a second input, `splits`. Parameters: a [`DepthConversion`] per layer and region.
+/// relaxation there is a second input, `splits`. The storage `unorm10` is drawn by render passes, others are written by compute
+/// shaders. Parameters: a [`DepthConversion`] per layer and region.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct ResolveMoments {
@@ -45,15 +48,23 @@ impl Node for ResolveMoments {
             .alias("DepthTexture", texture)
             .constant("SAMPLES", &depth.samples.to_string());
         let specialization = techniques::specialize_map(specialization, &encoding);
-        let wgsl = region_tiles::specialize(specialization, depth).link(
-            "resolve_moments.wgsl",
-            SHADER,
-            &[
-                region_tiles::MODULE,
-                techniques::encoding(technique),
-                ("technique_layers", techniques::layers(technique, true)),
-            ],
-        )?;
+        let drawn = self.storage.is_drawn();
+        let (file, shader) = if drawn {
+            ("resolve_moments_drawn.wgsl", SHADER_DRAWN)
+        } else {
+            ("resolve_moments.wgsl", SHADER)
+        };
+        let mut modules = vec![
+            ("resolve_texel", TEXEL),
+            techniques::encoding(technique),
+            ("technique_layers", techniques::layers(technique, true)),
+        ];
+        if drawn {
+            modules.extend([drawn_map::MODULE, FULLSCREEN]);
+        } else {
+            modules.push(region_tiles::MODULE);
+        }
+        let wgsl = region_tiles::specialize(specialization, depth).link(file, shader, &modules)?;
         let splits = techniques::places_layers(technique).then(|| techniques::splits_input(true));
         let pass = |plane: u32| {
             let mut bindings = vec![
@@ -65,12 +76,9 @@ impl Node for ResolveMoments {
                     binding: 1,
                     resource: BindingResource::Layer("depth".to_owned()),
                 },
-                Binding {
-                    binding: 2,
-                    resource: BindingResource::StorageLayer("moments".to_owned()),
-                },
                 region_tiles::binding("moments", 1),
             ];
+            bindings.extend(drawn_map::binding(&encoding, 2, "moments", 0));
             bindings.extend(splits.iter().map(|(_, binding)| binding.clone()));
             let (label, constants) = if techniques::encodes_planes(technique) {
                 (
@@ -87,11 +95,7 @@ impl Node for ResolveMoments {
                 bindings,
                 constants,
                 plane,
-                work: Work::ComputeRegions {
-                    covers: "moments".to_owned(),
-                    level: 0,
-                    texels_per_workgroup: [8, 8],
-                },
+                work: drawn_map::work(&encoding, "moments", 0, [8, 8]),
             }
         };
         let passes = (0..encoding.planes()).map(pass).collect();
@@ -122,7 +126,7 @@ impl Node for ResolveMoments {
                     lifetime: Lifetime::Frame,
                     optional: false,
                     resource: SlotResource::Texture {
-                        access: Access::STORAGE_WRITE,
+                        access: drawn_map::write_access(&encoding),
                         format: FormatRule::Encoded(encoding),
                         extent: ExtentRule::SameAs("depth".to_owned()),
                         layers: CountRule::SameAs("depth".to_owned()),

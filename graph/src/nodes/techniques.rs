@@ -248,17 +248,17 @@ pub(super) fn splits_input(one_layer: bool) -> (Slot, Binding) {
     (slot, binding)
 }
 
-/// Storage texture, storage and what else the shaders of a map's filters import.
+/// Storage texture (of maps that are not drawn), storage and what else the shaders of a map's filters import.
 pub(super) fn specialize_map(
-    specialization: Specialization,
+    mut specialization: Specialization,
     encoding: &MapEncoding,
 ) -> Specialization {
-    let specialization = specialization
-        .alias(
-            "MomentsStorage",
-            &format!("texture_storage_2d<{}, write>", encoding.format()),
-        )
-        .constant("STORAGE", &format!("{}u", encoding.storage().wgsl_index()));
+    let storage = encoding.storage();
+    if !storage.is_drawn() {
+        let texture = format!("texture_storage_2d<{}, write>", encoding.format());
+        specialization = specialization.alias("MomentsStorage", &texture);
+    }
+    let specialization = specialization.constant("STORAGE", &format!("{}u", storage.wgsl_index()));
     specialize(specialization, encoding.technique())
 }
 

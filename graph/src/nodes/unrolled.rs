@@ -108,6 +108,26 @@ pub(super) fn literal_weights(weights: &[f32], sums: Sums) -> String {
     )
 }
 
+/// `fn blur_texel(map, texel, low, last) -> vec4f`: one output with these weights, in plain sums. Beyond `low` and `last`, the
+/// corners of the region, its texels repeat.
+pub(super) fn literal_texel(weights: &[f32]) -> String {
+    let radius = weights.len() / 2;
+    let mut body = String::new();
+    for (tap, weight) in weights.iter().enumerate() {
+        let offset = tap as i64 - radius as i64;
+        // Writing to a string cannot fail.
+        let _ = writeln!(
+            body,
+            "    sum = fma(vec4f({weight:?}), filtering_value(textureLoad(map, clamp(texel + {offset} * AXIS, low, last), 0)), sum);"
+        );
+    }
+    format!(
+        "{}fn blur_texel(map: texture_2d<f32>, texel: vec2i, low: vec2i, last: vec2i) -> vec4f {{\n\
+         \x20   var sum = vec4f(0.0);\n{body}    return sum;\n}}\n",
+        Sums::Plain.imports()
+    )
+}
+
 /// `struct BlurSums` of 16 outputs, `fn blur_taps(map, first, low, last, sums, w0, .., w7) -> BlurSums`, which adds the 16
 /// texels at `first`, `first + AXIS`, .. to their sums, and `fn blur_outputs(sums) -> array<vec4f, 16>`. Output o takes texel
 /// t with weight number t - o + 15.

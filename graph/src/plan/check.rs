@@ -161,7 +161,16 @@ impl Plan {
         }
         match &pass.work {
             PlannedWork::Compute { .. } => Ok(()),
-            PlannedWork::Fullscreen { target } => self.check_kind(what(), *target, true),
+            PlannedWork::Fullscreen {
+                target,
+                level,
+                plane,
+                ..
+            } => {
+                self.check_kind(what(), *target, true)?;
+                self.check_level(what(), *target, *level)?;
+                self.check_plane(what(), *target, *plane)
+            }
             PlannedWork::Host { targets, depth, .. } => targets
                 .iter()
                 .chain(depth)

@@ -23,7 +23,7 @@ impl fmt::Display for Plan {
                     PlannedWork::Compute { workgroups } => {
                         format!("compute {}x{} workgroups", workgroups[0], workgroups[1])
                     }
-                    PlannedWork::Fullscreen { target } => {
+                    PlannedWork::Fullscreen { target, .. } => {
                         format!("fullscreen to {}", name(self, *target))
                     }
                     PlannedWork::Host { .. } => "the host draws".to_owned(),

@@ -59,6 +59,8 @@ pub(super) enum Action {
         drawn: Option<wgpu::RenderPipeline>,
         /// One per layer.
         targets: Vec<wgpu::TextureView>,
+        /// Whether they are not cleared.
+        keeps: bool,
     },
     Host {
         targets: Vec<wgpu::TextureView>,
@@ -189,17 +191,6 @@ impl Binder<'_> {
                 reason: format!("it has {} uniform bindings", uniforms.len()),
             });
         }
-        let targets = |resource: usize, layers: u32| {
-            (0..layers)
-                .map(|layer| {
-                    let part = Part {
-                        layer,
-                        ..Part::default()
-                    };
-                    self.view(resource, Some(part))
-                })
-                .collect::<Result<Vec<_>, _>>()
-        };
         let action = match (&pass.work, pipeline.map(|(pipeline, _)| pipeline)) {
             (PlannedWork::Compute { workgroups }, Some(Pipeline::Compute(pipeline))) => {
                 Action::Dispatch {
@@ -207,11 +198,27 @@ impl Binder<'_> {
                     workgroups: *workgroups,
                 }
             }
-            (PlannedWork::Fullscreen { target }, Some(Pipeline::Render(pipeline))) => {
+            (
+                &PlannedWork::Fullscreen {
+                    target,
+                    level,
+                    plane,
+                    keeps,
+                },
+                Some(Pipeline::Render(pipeline)),
+            ) => {
+                let part = |layer| Part {
+                    layer,
+                    plane,
+                    level,
+                };
                 Action::Draw {
                     pipeline: pipeline.clone(),
                     drawn: None,
-                    targets: targets(*target, pass.layers)?,
+                    keeps,
+                    targets: (0..pass.layers)
+                        .map(|layer| self.view(target, Some(part(layer))))
+                        .collect::<Result<_, _>>()?,
                 }
             }
             (

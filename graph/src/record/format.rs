@@ -16,6 +16,7 @@ pub fn texture_format(format: TextureFormat) -> Option<wgpu::TextureFormat> {
         TextureFormat::Rg16Float => wgpu::TextureFormat::Rg16Float,
         TextureFormat::R32Float => wgpu::TextureFormat::R32Float,
         TextureFormat::Rg32Float => wgpu::TextureFormat::Rg32Float,
+        TextureFormat::Rgb10a2Unorm => wgpu::TextureFormat::Rgb10a2Unorm,
         TextureFormat::Rgba16Unorm => wgpu::TextureFormat::Rgba16Unorm,
         TextureFormat::Rgba16Float => wgpu::TextureFormat::Rgba16Float,
         TextureFormat::Rgba32Float => wgpu::TextureFormat::Rgba32Float,

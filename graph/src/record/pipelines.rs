@@ -226,7 +226,7 @@ pub(super) fn label(pass: &PlannedPass) -> String {
 impl PipelineKey {
     fn of(plan: &Plan, pass: &PlannedPass, label: &str) -> Result<Self, RecordError> {
         let target = match pass.work {
-            PlannedWork::Fullscreen { target } => {
+            PlannedWork::Fullscreen { target, .. } => {
                 let format = plan.resources[target]
                     .desc
                     .texture()

@@ -102,8 +102,17 @@ impl Bindings {
                     workgroups,
                 } => self.dispatch(step, pipeline, *workgroups, encoder, &recording, queries),
                 Action::Draw {
-                    pipeline, targets, ..
+                    pipeline,
+                    targets,
+                    keeps,
+                    ..
                 } => {
+                    let load = if *keeps {
+                        wgpu::LoadOp::Load
+                    } else {
+                        wgpu::LoadOp::Clear(wgpu::Color::TRANSPARENT)
+                    };
+                    let targets = (&targets[..], load);
                     self.draw_layers(step, pipeline, targets, encoder, &recording, queries);
                 }
                 Action::Host {
@@ -192,7 +201,7 @@ impl Bindings {
         &self,
         step: &Step,
         pipeline: &wgpu::RenderPipeline,
-        targets: &[wgpu::TextureView],
+        (targets, load): (&[wgpu::TextureView], wgpu::LoadOp<wgpu::Color>),
         encoder: &mut wgpu::CommandEncoder,
         recording: &Recording<'_>,
         queries: Option<(&wgpu::QuerySet, u32)>,
@@ -209,7 +218,7 @@ impl Bindings {
                     depth_slice: None,
                     resolve_target: None,
                     ops: wgpu::Operations {
-                        load: wgpu::LoadOp::Clear(wgpu::Color::TRANSPARENT),
+                        load,
                         store: wgpu::StoreOp::Store,
                     },
                 })],

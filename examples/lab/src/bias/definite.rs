@@ -17,24 +17,28 @@ pub enum Condition {
 /// Alphas tried for a target that is itself on the boundary: 16 per decade from 1e-9 to almost 1.
 const TRIED: i32 = 16 * 9;
 
-/// How to find the smallest alpha towards one target.
-pub(super) struct Repair {
+/// How to find the smallest alpha towards one target of `M` moments, four or six.
+pub(super) struct Repair<const M: usize> {
     interval: [f64; 2],
     condition: Condition,
-    target: [f64; 4],
+    target: [f64; M],
     /// Inverse Cholesky factors of the target's matrices; none if it is on the boundary.
-    outer: Option<[[f64; 3]; 3]>,
-    inner: Option<[[f64; 2]; 2]>,
+    outer: Option<Outer>,
+    inner: Option<Inner>,
 }
 
-impl Repair {
-    pub(super) fn new(interval: [f64; 2], condition: Condition, target: [f64; 4]) -> Self {
+/// The matrices of six moments. Those of four are bordered with a one, which changes no other eigenvalue.
+type Outer = [[f64; 4]; 4];
+type Inner = [[f64; 3]; 3];
+
+impl<const M: usize> Repair<M> {
+    pub(super) fn new(interval: [f64; 2], condition: Condition, target: [f64; M]) -> Self {
         Self {
             interval,
             condition,
             target,
-            outer: cholesky(outer(target)).map(invert),
-            inner: cholesky(inner(target, interval)).map(invert),
+            outer: cholesky(outer(&target)).map(invert),
+            inner: cholesky(inner(&target, interval)).map(invert),
         }
     }
 
@@ -42,17 +46,17 @@ impl Repair {
     ///
     /// With the target's matrix as L L^T, that of the biased moments is positive semi-definite from
     /// alpha / (1 - alpha) = -(least eigenvalue of L^-1 H L^-T) on.
-    pub(super) fn smallest_alpha(&self, moments: [f64; 4]) -> f64 {
+    pub(super) fn smallest_alpha(&self, moments: [f64; M]) -> f64 {
         let Some(l) = &self.outer else {
             return self.by_trial(moments);
         };
-        let least = smallest_eigenvalue(congruent(l, &outer(moments)));
+        let least = smallest_eigenvalue(congruent(l, &outer(&moments)));
         let least = match (self.condition, &self.inner) {
             (Condition::Line, _) => least,
             (Condition::Interval, None) => return self.by_trial(moments),
             (Condition::Interval, Some(l)) => least.min(smallest_eigenvalue(congruent(
                 l,
-                &inner(moments, self.interval),
+                &inner(&moments, self.interval),
             ))),
         };
         if least >= 0.0 {
@@ -62,28 +66,51 @@ impl Repair {
         }
     }
 
-    fn by_trial(&self, moments: [f64; 4]) -> f64 {
+    fn by_trial(&self, moments: [f64; M]) -> f64 {
         (0..TRIED)
             .map(|index| 1e-9 * 10.0_f64.powf(f64::from(index) / 16.0))
             .find(|alpha| {
-                let biased: [f64; 4] =
+                let biased: [f64; M] =
                     core::array::from_fn(|j| moments[j] + alpha * (self.target[j] - moments[j]));
-                cholesky(outer(biased)).is_some()
+                cholesky(outer(&biased)).is_some()
                     && (self.condition == Condition::Line
-                        || cholesky(inner(biased, self.interval)).is_some())
+                        || cholesky(inner(&biased, self.interval)).is_some())
             })
             .unwrap_or(f64::INFINITY)
     }
 }
 
-fn outer([b1, b2, b3, b4]: [f64; 4]) -> [[f64; 3]; 3] {
-    [[1.0, b1, b2], [b1, b2, b3], [b2, b3, b4]]
+/// The Hankel matrix of the moments.
+fn outer<const M: usize>(moments: &[f64; M]) -> Outer {
+    hankel(M / 2 + 1, |power| moment(moments, power))
 }
 
-fn inner([b1, b2, b3, b4]: [f64; 4], [low, high]: [f64; 2]) -> [[f64; 2]; 2] {
-    let moment = |one: f64, two: f64, three: f64| (low + high) * two - low * high * one - three;
-    let [t0, t1, t2] = [moment(1.0, b1, b2), moment(b1, b2, b3), moment(b2, b3, b4)];
-    [[t0, t1], [t1, t2]]
+/// That of the moments of (z - low)(high - z) dS.
+fn inner<const M: usize>(moments: &[f64; M], [low, high]: [f64; 2]) -> Inner {
+    let moment = |power: usize| moment(moments, power);
+    hankel(M / 2, |power| {
+        (low + high) * moment(power + 1) - low * high * moment(power) - moment(power + 2)
+    })
+}
+
+fn moment<const M: usize>(moments: &[f64; M], power: usize) -> f64 {
+    match power {
+        0 => 1.0,
+        _ => moments[power - 1],
+    }
+}
+
+/// A Hankel matrix of `size` rows in the corner of an identity.
+fn hankel<const N: usize>(size: usize, entry: impl Fn(usize) -> f64) -> [[f64; N]; N] {
+    core::array::from_fn(|row| {
+        core::array::from_fn(|column| {
+            if row.max(column) < size {
+                entry(row + column)
+            } else {
+                f64::from(u8::from(row == column))
+            }
+        })
+    })
 }
 
 /// The inverse of a lower triangle.

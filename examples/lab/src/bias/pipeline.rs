@@ -21,11 +21,15 @@ pub(super) fn weights() -> [f32; SIDE] {
 }
 
 /// The filtered moments after every texel, every row and the column have been rounded.
-pub(super) fn three_roundings(form: &Form, patch: &Patch, weights: &[f32; SIDE]) -> [f64; 4] {
-    let store = |texel: [f32; 4]| texel.map(|channel| form.rounding.store(channel));
-    let mut column = [[0.0; 4]; SIDE];
+pub(super) fn three_roundings<const M: usize>(
+    form: &Form<M>,
+    patch: &Patch,
+    weights: &[f32; SIDE],
+) -> [f64; M] {
+    let store = |texel: [f32; M]| texel.map(|channel| form.rounding.store(channel));
+    let mut column = [[0.0; M]; SIDE];
     for (row, filtered) in column.iter_mut().enumerate() {
-        let texels: [[f32; 4]; SIDE] =
+        let texels: [[f32; M]; SIDE] =
             core::array::from_fn(|tap| store(form.texel(patch[SIDE * row + tap])));
         *filtered = store(blend(&texels, weights));
     }
@@ -33,8 +37,12 @@ pub(super) fn three_roundings(form: &Form, patch: &Patch, weights: &[f32; SIDE])
 }
 
 /// The exact filtered moments, rounded once.
-pub(super) fn one_rounding(form: &Form, patch: &Patch, weights: &[f32; SIDE]) -> [f64; 4] {
-    let mut sum = [0.0; 4];
+pub(super) fn one_rounding<const M: usize>(
+    form: &Form<M>,
+    patch: &Patch,
+    weights: &[f32; SIDE],
+) -> [f64; M] {
+    let mut sum = [0.0; M];
     let mut total = 0.0;
     for (texel, &depth) in patch.iter().enumerate() {
         let weight = f64::from(weights[texel % SIDE]) * f64::from(weights[texel / SIDE]);
@@ -54,8 +62,8 @@ pub(super) fn one_rounding(form: &Form, patch: &Patch, weights: &[f32; SIDE]) ->
 }
 
 /// A weighted sum in f32.
-fn blend(texels: &[[f32; 4]; SIDE], weights: &[f32; SIDE]) -> [f32; 4] {
-    let mut sum = [0.0; 4];
+fn blend<const M: usize>(texels: &[[f32; M]; SIDE], weights: &[f32; SIDE]) -> [f32; M] {
+    let mut sum = [0.0; M];
     for (texel, weight) in texels.iter().zip(weights) {
         for (sum, channel) in sum.iter_mut().zip(texel) {
             *sum += weight * channel;
@@ -64,7 +72,7 @@ fn blend(texels: &[[f32; 4]; SIDE], weights: &[f32; SIDE]) -> [f32; 4] {
     sum
 }
 
-impl Form {
+impl<const M: usize> Form<M> {
     /// The form's depth of a moment depth in [-1, 1].
     fn depth(&self, depth: f32) -> f64 {
         let [low, high] = self.interval;
@@ -72,22 +80,31 @@ impl Form {
     }
 
     /// The channels of one depth, before they are stored. Raw moments are powers in f32.
-    fn texel(&self, depth: f32) -> [f32; 4] {
+    fn texel(&self, depth: f32) -> [f32; M] {
         let z = self.depth(depth);
         match &self.basis {
-            Some(basis) => basis
-                .encode([z, z * z, z * z * z, z * z * z * z])
-                .map(|value| value as f32),
+            Some(basis) => {
+                let mut power = 1.0;
+                let powers = core::array::from_fn(|_| {
+                    power *= z;
+                    power
+                });
+                basis.encode(powers).map(|value| value as f32)
+            }
             None => {
-                let z = z as f32;
-                let square = z * z;
-                [z, square, z * square, square * square]
+                let mut powers = [z as f32; M];
+                for index in 1..M {
+                    // Of each power the two halves, as the shader has them.
+                    let half = index.div_ceil(2);
+                    powers[index] = powers[half - 1] * powers[index - half];
+                }
+                powers
             }
         }
     }
 
     /// The moments of stored channels.
-    fn moments(&self, channels: [f32; 4]) -> [f64; 4] {
+    fn moments(&self, channels: [f32; M]) -> [f64; M] {
         let channels = channels.map(f64::from);
         self.basis
             .as_ref()

@@ -9,66 +9,66 @@
 use super::definite::Condition;
 use super::form::Form;
 
-/// Steps of the first search along each parameter.
-const STEPS: u32 = 256;
+/// Places that the first search tries, at most, over all parameters.
+const PLACES: f64 = 300_000.0;
 
-/// Halvings of the step afterwards.
+/// Shrinkings of the step afterwards.
 const REFINEMENTS: u32 = 40;
 
 /// K: the alpha that a rounding needs, in units of the error of a channel.
 #[must_use]
-pub fn error_factor(form: &Form) -> f64 {
+pub fn error_factor<const M: usize>(form: &Form<M>) -> f64 {
     let [low, high] = form.interval;
-    // One root in the interval, the other anywhere on the projective line.
-    let square = |[root, angle]: [f64; 2]| {
-        let root = low + (high - low) * root.clamp(0.0, 1.0);
-        let (sine, cosine) = (core::f64::consts::PI * angle).sin_cos();
-        let p = [root * sine, -(root * cosine + sine), cosine];
-        ratio(form, multiply(&p, &p))
+    let root = |at: f64| low + (high - low) * at.clamp(0.0, 1.0);
+    let inside = |places: &[f64], first: Vec<f64>| {
+        places
+            .iter()
+            .fold(first, |product, &at| multiply(&product, &[-root(at), 1.0]))
     };
-    let on_line = largest(square);
+    // All roots but one in the interval, the other anywhere on the projective line.
+    let square = |places: &[f64]| {
+        let [others @ .., angle] = places else {
+            return f64::NEG_INFINITY;
+        };
+        let (sine, cosine) = (core::f64::consts::PI * angle).sin_cos();
+        let p = inside(others, vec![-sine, cosine]);
+        ratio(form, &multiply(&p, &p))
+    };
+    let on_line = largest(M / 2, square);
     match form.condition {
         Condition::Line => on_line,
         Condition::Interval => {
-            let inner = |[_, root]: [f64; 2]| {
-                let root = low + (high - low) * root.clamp(0.0, 1.0);
-                let l = [-root, 1.0];
+            let inner = |places: &[f64]| {
+                let l = inside(places, vec![1.0]);
                 let weight = [-low * high, low + high, -1.0];
-                ratio(form, multiply(&multiply(&l, &l), &weight))
+                ratio(form, &multiply(&multiply(&l, &l), &weight))
             };
-            on_line.max(largest(inner))
+            on_line.max(largest(M / 2 - 1, inner))
         }
     }
 }
 
-/// The maximum over [0, 1]^2.
-fn largest(function: impl Fn([f64; 2]) -> f64) -> f64 {
-    let place = |step: u32| f64::from(step) / f64::from(STEPS);
-    let mut best = [0.0; 2];
+/// The maximum over [0, 1]^`parameters`.
+fn largest(parameters: usize, function: impl Fn(&[f64]) -> f64) -> f64 {
+    let steps = PLACES.powf(1.0 / parameters as f64).min(256.0) as usize;
+    let mut best = vec![0.0; parameters];
     let mut value = f64::NEG_INFINITY;
-    for first in 0..=STEPS {
-        for second in 0..=STEPS {
-            let at = [place(first), place(second)];
-            let here = function(at);
-            if here > value {
-                (best, value) = (at, here);
-            }
+    for at in lattice(parameters, steps + 1) {
+        let at: Vec<f64> = at.map(|step| step as f64 / steps as f64).collect();
+        let here = function(&at);
+        if here > value {
+            (best, value) = (at, here);
         }
     }
-    let mut step = place(1);
+    let mut step = 1.0 / steps as f64;
     for _ in 0..REFINEMENTS {
-        for direction in [
-            [1.0, 0.0],
-            [-1.0, 0.0],
-            [0.0, 1.0],
-            [0.0, -1.0],
-            [1.0, 1.0],
-            [-1.0, -1.0],
-            [1.0, -1.0],
-            [-1.0, 1.0],
-        ] {
-            let at = core::array::from_fn(|axis| best[axis] + step * direction[axis]);
-            let here = function(at);
+        for direction in lattice(parameters, 3) {
+            let at: Vec<f64> = best
+                .iter()
+                .zip(direction)
+                .map(|(place, direction)| place + step * (direction as f64 - 1.0))
+                .collect();
+            let here = function(&at);
             if here > value {
                 (best, value) = (at, here);
             }
@@ -78,9 +78,18 @@ fn largest(function: impl Fn([f64; 2]) -> f64) -> f64 {
     value
 }
 
-/// What the errors of channels do to the expectation of a polynomial of degree 4, over what the target does.
-fn ratio(form: &Form, q: Vec<f64>) -> f64 {
-    let of_moments = [q[1], q[2], q[3], q[4]];
+/// The points of a lattice with `side` of them along each axis, as coordinates.
+fn lattice(
+    axes: usize,
+    side: usize,
+) -> impl Iterator<Item = impl Iterator<Item = usize> + use<>> + use<> {
+    (0..side.pow(axes as u32))
+        .map(move |index| (0..axes).map(move |axis| index / side.pow(axis as u32) % side))
+}
+
+/// What the errors of channels do to the expectation of a polynomial of degree `M`, over what the target does.
+fn ratio<const M: usize>(form: &Form<M>, q: &[f64]) -> f64 {
+    let of_moments: [f64; M] = core::array::from_fn(|index| q[index + 1]);
     let gradient = form
         .basis
         .as_ref()

@@ -2,7 +2,7 @@
 
 use core::fmt;
 
-use moment_shadows::{MomentBias, Storage};
+use moment_shadows::{Storage, Technique};
 use rand::SeedableRng;
 use rand_chacha::ChaCha8Rng;
 use rayon::prelude::*;
@@ -30,6 +30,14 @@ pub enum BiasError {
         "0 samples were asked for; ask for at least 1, and for at least 100000 to see the 99.999th percentile"
     )]
     NoSamples,
+    /// A storage that the technique has not.
+    #[error(
+        "'hamburger6' is not stored as {storage}; choose one of unorm16, float16, float32 and unorm10"
+    )]
+    NoStorage {
+        /// The storage.
+        storage: Storage,
+    },
 }
 
 /// Which solver the bias is for.
@@ -40,6 +48,8 @@ pub enum BiasTechnique {
     Hamburger4,
     /// Four moments on [-1, 1].
     Hausdorff4,
+    /// Six moments on the real line.
+    Hamburger6,
 }
 
 impl BiasTechnique {
@@ -47,17 +57,18 @@ impl BiasTechnique {
     #[must_use]
     pub fn condition(self) -> Condition {
         match self {
-            BiasTechnique::Hamburger4 => Condition::Line,
+            BiasTechnique::Hamburger4 | BiasTechnique::Hamburger6 => Condition::Line,
             BiasTechnique::Hausdorff4 => Condition::Interval,
         }
     }
 
-    /// What the library applies.
+    /// The storages that are searched where none is chosen.
     #[must_use]
-    pub fn library_bias(self, storage: Storage) -> MomentBias {
+    pub fn storages(self) -> &'static [Storage] {
         match self {
-            BiasTechnique::Hamburger4 => storage.moment_bias(),
-            BiasTechnique::Hausdorff4 => storage.hausdorff_moment_bias(),
+            BiasTechnique::Hamburger4 => Technique::Hamburger4.storages(),
+            BiasTechnique::Hausdorff4 => Technique::Hausdorff4.storages(),
+            BiasTechnique::Hamburger6 => Technique::Hamburger6.storages(),
         }
     }
 }
@@ -79,7 +90,7 @@ pub struct BiasRow {
     /// Its name.
     pub form: String,
     /// b*.
-    pub target: [f64; 4],
+    pub target: Vec<f64>,
     /// Exact moments, rounded once.
     pub one_rounding: Quantiles,
     /// Resolve and both passes of a blur, each rounded.
@@ -116,12 +127,27 @@ pub fn search(
     seed: u64,
     step: impl Fn() + Sync,
 ) -> Result<BiasTable, BiasError> {
-    let storages = storage.map_or(Storage::ALL.to_vec(), |storage| vec![storage]);
+    let storages = storage.map_or(technique.storages().to_vec(), |storage| vec![storage]);
     let mut rows = Vec::new();
     for storage in storages {
-        let form = Form::of_library(storage, technique);
-        let mut row = measure(&form, samples, seed, &step)?;
-        row.library = Some(f64::from(technique.library_bias(storage).alpha));
+        let (mut row, alpha) = match technique {
+            BiasTechnique::Hamburger4 => {
+                let form = Form::of_library(storage, Condition::Line);
+                let row = measure(&form, samples, seed, &step)?;
+                (row, storage.moment_bias().alpha)
+            }
+            BiasTechnique::Hausdorff4 => {
+                let form = Form::of_library(storage, Condition::Interval);
+                let row = measure(&form, samples, seed, &step)?;
+                (row, storage.hausdorff_moment_bias().alpha)
+            }
+            BiasTechnique::Hamburger6 => {
+                let form = Form::of_six_moments(storage).zip(storage.six_moments_bias());
+                let (form, bias) = form.ok_or(BiasError::NoStorage { storage })?;
+                (measure(&form, samples, seed, &step)?, bias.alpha)
+            }
+        };
+        row.library = Some(f64::from(alpha));
         rows.push(row);
     }
     if storage.is_none() && technique == BiasTechnique::Hamburger4 {
@@ -138,8 +164,8 @@ pub fn search(
 }
 
 /// Searches the smallest safe bias of one form.
-pub fn measure(
-    form: &Form,
+pub fn measure<const M: usize>(
+    form: &Form<M>,
     samples: usize,
     seed: u64,
     step: impl Fn() + Sync,
@@ -171,11 +197,11 @@ pub fn measure(
     let error_factor = scaling::error_factor(form);
     Ok(BiasRow {
         form: form.name.clone(),
-        target: form.target,
+        target: form.target.to_vec(),
         one_rounding,
         three_roundings,
         error_factor,
-        bound: error_factor * form.rounding.error(),
+        bound: error_factor * form.error(),
         recommended: round_up(three_roundings.most),
         library: None,
     })
@@ -211,6 +237,7 @@ impl fmt::Display for BiasTable {
         let technique = match self.technique {
             BiasTechnique::Hamburger4 => "Hamburger 4 (Hankel matrix positive definite)",
             BiasTechnique::Hausdorff4 => "Hausdorff 4 (both Hankel matrices positive definite)",
+            BiasTechnique::Hamburger6 => "Hamburger 6 (Hankel matrix positive definite)",
         };
         writeln!(
             f,

@@ -17,8 +17,8 @@ pub fn run(
 ) -> Result<BiasTable, BiasError> {
     let rows = match (storage, technique) {
         (Some(_), _) => 1,
-        (None, BiasTechnique::Hamburger4) => Storage::ALL.len() + Form::published().len(),
-        (None, BiasTechnique::Hausdorff4) => Storage::ALL.len(),
+        (None, BiasTechnique::Hamburger4) => technique.storages().len() + Form::published().len(),
+        (None, _) => technique.storages().len(),
     };
     let bar = progress::bar((rows * steps(samples)) as u64, "filtering patches");
     let table = search(technique, storage, samples, seed, || bar.inc(1));

@@ -258,7 +258,7 @@ fn written(plan: &Plan, pass: &PlannedPass) -> Option<Target> {
                     })?;
             (resource, level, CopyWork::Compute)
         }
-        PlannedWork::Fullscreen { target } => (*target, 0, CopyWork::Fullscreen),
+        PlannedWork::Fullscreen { target, level, .. } => (*target, *level, CopyWork::Fullscreen),
         PlannedWork::Host { .. } => return None,
     };
     let desc = plan.resources.get(resource)?.desc.texture()?;

@@ -44,17 +44,19 @@ pub(super) fn describe(entry: &Entry) -> Result<Vec<Subject>, IsaError> {
                         .map(|(&texels, side)| texels.min(side))
                         .product(),
                 },
-                Work::Fullscreen { target, .. } => match formats.of(target) {
-                    Some(format) => SubjectWork::Fragment {
-                        targets: vec![format],
-                    },
-                    None => {
-                        return Some(Err(IsaError::Shader {
-                            shader: name,
-                            reason: format!("its target '{target}' has no format"),
-                        }));
+                Work::Fullscreen { target, .. } | Work::FullscreenRegions { target, .. } => {
+                    match formats.of(target) {
+                        Some(format) => SubjectWork::Fragment {
+                            targets: vec![format],
+                        },
+                        None => {
+                            return Some(Err(IsaError::Shader {
+                                shader: name,
+                                reason: format!("its target '{target}' has no format"),
+                            }));
+                        }
                     }
-                },
+                }
                 Work::Host { .. } => return None,
             };
             Some(Ok(Subject {

@@ -155,6 +155,7 @@ pub(super) fn nodes() -> Result<Vec<Entry>, IsaError> {
         encoding.technique().best_storage(Profile::Native) == Some(encoding.storage())
     });
     entries.extend(encodings.iter().map(of_technique));
+    entries.extend(drawn()?);
     entries.extend(techniques::reading_depth().iter().map(reading_depth));
     Ok(entries)
 }
@@ -459,6 +460,64 @@ fn of_technique(encoding: &MapEncoding) -> Entry {
         trips: trips(encoding.technique()),
         pass_trips: BTreeMap::new(),
     }
+}
+
+/// What makes and reads a map that is drawn.
+fn drawn() -> Result<Vec<Entry>, IsaError> {
+    let (technique, storage) = (Technique::Hamburger6, Storage::Unorm10);
+    let encoding =
+        MapEncoding::new(technique.clone(), storage).map_err(|error| IsaError::Shader {
+            shader: techniques::label(&technique),
+            reason: error.to_string(),
+        })?;
+    let map = TextureDesc::of_map(encoding.clone(), SIZE);
+    let levels = TextureDesc {
+        mips: 2,
+        ..map.clone()
+    };
+    let entry =
+        |settings: &str, node: Box<dyn Node>, slot: &str, given: TextureDesc, trips| Entry {
+            settings: format!("{encoding}{settings}"),
+            node,
+            inputs: inputs([(slot, given)]),
+            capabilities: native(),
+            trips,
+            pass_trips: BTreeMap::new(),
+        };
+    let resolve = ResolveMoments {
+        technique,
+        storage,
+        mip_levels: MipLevels::default(),
+    };
+    let blur = |radius| BlurMoments {
+        kernel: KernelProperty {
+            radius: Some(radius),
+            ..KernelProperty::default()
+        },
+        per_frame: false,
+        mip_levels: MipLevels::default(),
+    };
+    let depth = texture(TextureFormat::Depth32Float);
+    Ok(vec![
+        entry("", Box::new(resolve), "depth", depth, Vec::new()),
+        entry(
+            ", radius 4",
+            Box::new(blur(4)),
+            "moments",
+            map.clone(),
+            Vec::new(),
+        ),
+        // A loop over all taps.
+        entry(", radius 32", Box::new(blur(32)), "moments", map, vec![65]),
+        entry(
+            "",
+            Box::new(DownsampleMoments {}),
+            "moments",
+            levels,
+            Vec::new(),
+        ),
+        of_technique(&encoding),
+    ])
 }
 
 /// Shading with the plain depth map.

@@ -15,6 +15,7 @@ mod linear;
 mod mixture;
 mod polynomial;
 mod rounding;
+mod rounding_of_six;
 mod sensitivity;
 mod simplex;
 #[cfg(test)]
@@ -26,4 +27,5 @@ pub use linear::{LinearBound, LinearError, MomentProblem};
 pub use mixture::{Atom, Mixture};
 pub use polynomial::Real;
 pub use rounding::{Fma, bounds_in_f32};
+pub use rounding_of_six::six_bounds_in_f32;
 pub use sensitivity::{sensitivity, tolerance_unit};

@@ -14,7 +14,7 @@ pub enum Fma {
 }
 
 impl Fma {
-    fn apply(self, a: f32, b: f32, c: f32) -> f32 {
+    pub(super) fn apply(self, a: f32, b: f32, c: f32) -> f32 {
         match self {
             Fma::Fused => a.mul_add(b, c),
             Fma::Separate => a * b + c,

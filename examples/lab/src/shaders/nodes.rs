@@ -8,7 +8,7 @@ use moment_shadows_graph::nodes::{
     Interpolation, KernelProperty, MipLevels, PlaceLayers, RectifyMoments, ResolveMoments,
     ShadeHard, ShadeSoft, Show, SummedAreaTable,
 };
-use moment_shadows_graph::{Capabilities, Connected, Node, ResourceDesc, TextureDesc};
+use moment_shadows_graph::{Capabilities, Connected, Node, Pass, ResourceDesc, TextureDesc};
 
 use super::{Kind, Shader, ShadersError};
 use crate::techniques;
@@ -295,6 +295,9 @@ fn of_technique(encoding: &MapEncoding, capabilities: &Capabilities) -> Vec<Vari
     if techniques::label(technique).contains("logarithmic") {
         variants.push(with_map("blur_moments", Box::new(blur), 1));
     }
+    if storage.is_drawn() {
+        variants.extend(drawn(encoding, capabilities));
+    }
     if let Technique::Convolution { terms, .. } = technique {
         let series = Technique::Convolution {
             terms: *terms,
@@ -304,6 +307,47 @@ fn of_technique(encoding: &MapEncoding, capabilities: &Capabilities) -> Vec<Vari
             name: format!("shade_hard_{}_{storage}", techniques::label(&series)),
             ..with_map("", shade(Some(series)), 1)
         });
+    }
+    variants
+}
+
+/// A map that is drawn: whatever changes the text of what draws it, and of lookups in its mip levels.
+fn drawn(encoding: &MapEncoding, capabilities: &Capabilities) -> Vec<Variant> {
+    let suffixed = |regions| {
+        let label = techniques::label(encoding.technique());
+        format!("{label}_{}{}", encoding.storage(), suffix(regions))
+    };
+    let with_map = |name: &str, node: Box<dyn Node>, samples, mips, regions| Variant {
+        name: format!("{name}_{}", suffixed(regions)),
+        node,
+        samples,
+        mips,
+        regions,
+        encoding: Some(encoding.clone()),
+        capabilities: capabilities.clone(),
+    };
+    let resolve = || ResolveMoments {
+        technique: encoding.technique().clone(),
+        storage: encoding.storage(),
+        mip_levels: MipLevels::default(),
+    };
+    let mut variants = vec![
+        with_map("resolve_moments_single", Box::new(resolve()), 1, 1, 1),
+        with_map("resolve_moments", Box::new(resolve()), 4, 1, 16),
+        with_map("shade_hard_mips", Box::<ShadeHard>::default(), 1, 4, 1),
+    ];
+    for regions in [1, 16] {
+        for (kind, per_frame) in [("unrolled", false), ("uniform", true)] {
+            let node = BlurMoments {
+                kernel: KernelProperty::gaussian(1, 0.6),
+                per_frame,
+                mip_levels: MipLevels::default(),
+            };
+            let name = format!("blur_moments_{kind}");
+            variants.push(with_map(&name, Box::new(node), 1, 1, regions));
+        }
+        let node = Box::new(DownsampleMoments::default());
+        variants.push(with_map("downsample_moments", node, 1, 4, regions));
     }
     variants
 }
@@ -345,11 +389,19 @@ fn suffix(regions: u32) -> &'static str {
     if regions > 1 { "_regions" } else { "" }
 }
 
-/// The least demanding profile that can write a format as a storage texture.
-fn profile(format: TextureFormat) -> Profile {
+/// The least demanding profile that can write a map: as a storage texture, or by drawing where it is drawn.
+fn profile(format: TextureFormat, storage: Storage) -> Profile {
+    let writes = |profile: &Profile| {
+        let support = format.support(*profile);
+        if storage.is_drawn() {
+            support.renderable
+        } else {
+            support.storage_write
+        }
+    };
     Profile::ALL
         .into_iter()
-        .find(|profile| format.support(*profile).storage_write)
+        .find(writes)
         .unwrap_or(Profile::NativeAdapter)
 }
 
@@ -357,7 +409,7 @@ fn profile(format: TextureFormat) -> Profile {
 pub fn nodes() -> Result<Vec<NodeShader>, ShadersError> {
     let mut all = Vec::new();
     for storage in Storage::ALL {
-        let profile = profile(storage.format());
+        let profile = profile(storage.format(), storage);
         for variant in variants(storage, &Capabilities::of_profile(profile)) {
             describe(&variant, storage, profile, &mut all)?;
         }
@@ -377,7 +429,7 @@ pub fn nodes() -> Result<Vec<NodeShader>, ShadersError> {
     };
     encodings.extend(MapEncoding::new(lloyd, Storage::Unorm16));
     for encoding in encodings {
-        let profile = profile(encoding.format());
+        let profile = profile(encoding.format(), encoding.storage());
         for variant in of_technique(&encoding, &Capabilities::of_profile(profile)) {
             describe(&variant, encoding.storage(), profile, &mut all)?;
         }
@@ -400,8 +452,13 @@ fn describe(
             error: Box::new(error),
         })?;
     // Passes that share a text differ by their constants only.
-    let mut passes = desc.passes;
-    passes.dedup_by(|pass, before| pass.wgsl == before.wgsl);
+    let mut passes: Vec<Pass> = Vec::new();
+    for pass in desc.passes {
+        // Planes take turns, so that equal texts need not follow each other.
+        if !passes.iter().any(|before| before.wgsl == pass.wgsl) {
+            passes.push(pass);
+        }
+    }
     let several = passes.len() > 1;
     for pass in passes {
         // Passes are told apart by the last words of their labels: "blur along x", "blur along y".
@@ -437,6 +494,7 @@ fn inputs(variant: &Variant, storage: Storage) -> BTreeMap<String, ResourceDesc>
     };
     let moments = TextureDesc {
         mips: variant.mips,
+        regions: variant.regions,
         ..moments
     };
     let splits = TextureDesc::new(TextureFormat::Rgba32Float, [2, 1]);

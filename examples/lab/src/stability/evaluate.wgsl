@@ -4,7 +4,7 @@ import moment_shadows::map_filtering::{filtering_texel, filtering_value};
 import moment_shadows::map_texel::{filtered_texels};
 import moment_shadows::specialization::{PLANES, SPLIT_SUMS, STORAGE};
 import moment_shadows::split_sum::{split_sum_coarse};
-import moment_shadows::storage::{STORAGE_FLOAT16, STORAGE_FLOAT32, STORAGE_UNORM16};
+import moment_shadows::storage::{STORAGE_FLOAT16, STORAGE_FLOAT32, STORAGE_UNORM10, STORAGE_UNORM16};
 import moment_shadows::technique::{technique_shadow_intensity};
 import moment_shadows::technique_receiver::{TechniqueReceiver};
 
@@ -45,6 +45,10 @@ fn stored(texel: vec4f) -> vec4f {
         }
         case STORAGE_FLOAT32: {
             return texel;
+        }
+        case STORAGE_UNORM10: {
+            // The fourth channel is 1, for which its two bits suffice.
+            return vec4f(min(vec4u(saturate(texel) * 1023.0 + 0.5), vec4u(1023u))) / 1023.0;
         }
         default: {
             return unpack4x8unorm(pack4x8unorm(texel));

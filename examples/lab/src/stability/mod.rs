@@ -5,6 +5,7 @@
 //! truth is counted from the surfaces on the processor, and knows nothing of moments.
 
 mod climb;
+mod gauss_node;
 pub mod input;
 pub mod judge;
 pub mod kernels;

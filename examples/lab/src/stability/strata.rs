@@ -2,12 +2,12 @@
 
 use core::ops::Range;
 
-use moment_shadows::{DepthConversion, DepthRange, Storage};
+use moment_shadows::{DepthConversion, DepthRange};
 use rand::RngExt;
 use rand_chacha::ChaCha8Rng;
 
 use super::input::Input;
-use super::kernels;
+use super::{gauss_node, kernels};
 
 /// A regime of inputs.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, serde::Serialize)]
@@ -25,8 +25,10 @@ pub enum Stratum {
     DepthRange,
     /// A fragment exactly at a surface.
     AtSurface,
-    /// A fragment at a Gauss node of the biased moments, or a few units in the last place beside it.
+    /// A fragment at a Gauss node of four biased moments, or a few units in the last place beside it.
     AtGaussNode,
+    /// The same of six.
+    AtGaussNodeOfSix,
     /// A resolve and a two-pass blur, 3 to 9 texels wide.
     Filtered,
     /// The same, 17 to 129 texels wide.
@@ -39,7 +41,7 @@ pub enum Stratum {
 
 impl Stratum {
     /// All of them, each of which gets an equal share of the inputs.
-    pub const ALL: [Stratum; 11] = [
+    pub const ALL: [Stratum; 12] = [
         Stratum::Diracs,
         Stratum::NearCoincident,
         Stratum::Ends,
@@ -47,6 +49,7 @@ impl Stratum {
         Stratum::DepthRange,
         Stratum::AtSurface,
         Stratum::AtGaussNode,
+        Stratum::AtGaussNodeOfSix,
         Stratum::Filtered,
         Stratum::FilteredWide,
         Stratum::InvalidTexel,
@@ -64,6 +67,7 @@ impl Stratum {
             Stratum::DepthRange => "depth range",
             Stratum::AtSurface => "at a surface",
             Stratum::AtGaussNode => "at a Gauss node",
+            Stratum::AtGaussNodeOfSix => "at a Gauss node of six",
             Stratum::Filtered => "filtered",
             Stratum::FilteredWide => "filtered widely",
             Stratum::InvalidTexel => "invalid texel",
@@ -80,7 +84,8 @@ impl Stratum {
             Stratum::Slope => slope(random),
             Stratum::DepthRange => depth_range(random),
             Stratum::AtSurface => at_surface(random),
-            Stratum::AtGaussNode => at_gauss_node(random),
+            Stratum::AtGaussNode => gauss_node::of_four_moments(diracs(random), random),
+            Stratum::AtGaussNodeOfSix => gauss_node::of_six_moments(diracs(random), random),
             Stratum::Filtered => filtered(random, 0..kernels::NARROW),
             Stratum::FilteredWide => filtered(random, kernels::NARROW..kernels::COUNT),
             Stratum::InvalidTexel => invalid_texel(random),
@@ -216,40 +221,6 @@ fn at_surface(random: &mut ChaCha8Rng) -> Input {
     };
     let mut input = mixture(random, &depths);
     input.fragment_depth = input.depths[random.random_range(0..depths.len())];
-    input
-}
-
-/// A Gauss node of two points for the moments of the mixture, with one of the biases.
-fn at_gauss_node(random: &mut ChaCha8Rng) -> Input {
-    let mut input = diracs(random);
-    let moment = |power: i32| -> f64 {
-        let surfaces = input.depths.iter().zip(input.weights);
-        surfaces
-            .map(|(&depth, weight)| f64::from(weight) * f64::from(depth).powi(power))
-            .sum()
-    };
-    let storage = Storage::ALL[random.random_range(0..3)];
-    let bias = if random.random() {
-        storage.moment_bias()
-    } else {
-        storage.hausdorff_moment_bias()
-    };
-    // The fourth moment is no part of the nodes.
-    let [alpha, second] = [bias.alpha, bias.second].map(f64::from);
-    let b: [f64; 3] = [
-        (1.0 - alpha) * moment(1),
-        (1.0 - alpha) * moment(2) + alpha * second,
-        (1.0 - alpha) * moment(3),
-    ];
-    let variance = b[1] - b[0] * b[0];
-    let skew = (b[2] - b[0] * b[1]) / variance - 2.0 * b[0];
-    let root = (skew * skew + 4.0 * variance).max(0.0).sqrt();
-    let sign = if random.random() { 0.5 } else { -0.5 };
-    let node = b[0] + 0.5 * skew + sign * root;
-    if node.is_finite() {
-        let beside = f64::from(random.random_range(-2..=2_i32)) * f64::from(f32::EPSILON);
-        input.fragment_depth = (node + 0.5 * beside).clamp(-1.0, 1.0) as f32;
-    }
     input
 }
 
