@@ -206,13 +206,14 @@ enum Command {
     /// Prints how far soft shadows are from those of an area light that is sampled at many places: hard moment shadows,
     /// percentage closer soft shadows, and graphs of your own.
     SoftError(SoftErrorArguments),
-    /// Times the passes of a graph, blurs of several radii or summed-area tables, as ratios to copies, and counts their bytes.
+    /// Times the passes of a graph, blurs of several radii, summed-area tables or single scattering, as ratios to copies, and counts
+    /// their bytes.
     Cost {
         #[command(flatten)]
         subject: CostSubject,
         /// A memory to bound the time by, in 10^9 bytes per second, with a name if you like: 224:GTX 970. Several may be
         /// given; by default three cards.
-        #[arg(long, value_name = "GB/S[:NAME]", conflicts_with_all = ["blur", "summed_area_table"])]
+        #[arg(long, value_name = "GB/S[:NAME]", conflicts_with_all = ["blur", "summed_area_table", "scattering"])]
         bandwidth: Vec<Memory>,
         /// Texels per side of the light's map.
         #[arg(long, default_value_t = 1024, value_parser = clap::value_parser!(u32).range(256..=8192))]
@@ -491,6 +492,10 @@ struct CostSubject {
     /// they cost more than they may on a software adapter.
     #[arg(long)]
     summed_area_table: bool,
+    /// The nodes of single scattering on maps from 256 texels per side up to the size, with both ways to sum rows up. Fails
+    /// where they cost more than they may on a software adapter.
+    #[arg(long)]
+    scattering: bool,
 }
 
 #[derive(clap::Args)]
@@ -840,6 +845,13 @@ fn run(command: Command) -> Result<ExitCode, Box<dyn std::error::Error>> {
             }
             None if subject.summed_area_table => {
                 let cost = cost::summed_area_table(size, rounds)?;
+                print(&cost, json)?;
+                if !cost.passed() {
+                    return Ok(ExitCode::FAILURE);
+                }
+            }
+            None if subject.scattering => {
+                let cost = cost::scattering(size, rounds)?;
                 print(&cost, json)?;
                 if !cost.passed() {
                     return Ok(ExitCode::FAILURE);
