@@ -1,7 +1,9 @@
 //! What the nodes of single scattering refuse, and what a plan of them moves.
 
 use moment_shadows::{MapEncoding, Profile, Storage, Technique, TextureFormat};
-use moment_shadows_graph::nodes::{CompositeScattering, IntegrateScattering, RectifyMoments};
+use moment_shadows_graph::nodes::{
+    CompositeScattering, IntegrateScattering, Medium, RectifyMoments,
+};
 use moment_shadows_graph::{
     Capabilities, Connected, GraphError, GraphErrorKind, Node, NodeDesc, ResourceDesc, TextureDesc,
 };
@@ -40,7 +42,7 @@ type Case = (
 #[test]
 fn maps_and_properties_that_do_not_fit_are_named() {
     let four = || map(Technique::Hamburger4);
-    let cases: [Case; 6] = [
+    let cases: [Case; 7] = [
         (
             Box::new(rectify(Technique::Vsm, [64, 64])),
             "moments",
@@ -68,6 +70,15 @@ fn maps_and_properties_that_do_not_fit_are_named() {
             map(Technique::Vsm),
             GraphErrorKind::Format,
             "resamples four moments",
+        ),
+        (
+            Box::new(IntegrateScattering {
+                medium: Medium::Inhomogeneous,
+            }),
+            "rectified",
+            four(),
+            GraphErrorKind::Property,
+            "'medium' is 'inhomogeneous'",
         ),
         (
             Box::new(CompositeScattering::default()),

@@ -6,6 +6,8 @@ mod cameras;
 mod declarations;
 mod frame;
 mod frame_errors;
+mod hostile;
+mod light_maps;
 mod medium;
 mod pictures;
 mod stage;
