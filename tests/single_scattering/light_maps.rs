@@ -192,7 +192,7 @@ fn mip_levels_are_averaged_over_what_a_texel_covers() {
     // Surfaces at both ends of the light's range, one in each texel of a checkerboard: on average neither.
     let checkers: Vec<[f32; 4]> = (0..MAP * MAP)
         .map(|index| {
-            if (index % MAP + index / MAP) % 2 == 0 {
+            if (index % MAP + index / MAP).is_multiple_of(2) {
                 1.0
             } else {
                 -1.0
