@@ -8,6 +8,7 @@ mod frame;
 mod frame_errors;
 mod hostile;
 mod light_maps;
+mod lookups;
 mod medium;
 mod pictures;
 mod stage;

@@ -14,7 +14,7 @@ use crate::stage::{capabilities, draw_over, gpu, run, sky, upload};
 
 pub(crate) const PICTURE: [u32; 2] = [48, 32];
 pub(crate) const MAP: u32 = 256;
-const FAR: f64 = 20.0;
+pub(crate) const FAR: f64 = 20.0;
 
 pub(crate) fn graph(technique: &str, storage: &str) -> String {
     graph_of([256, 256], technique, storage)
@@ -182,6 +182,14 @@ impl Scene {
 
     pub(crate) fn parameters(&self) -> ScatteringParameters {
         self.parameters_of(&self.light())
+    }
+
+    pub(crate) fn camera(&self) -> Pair {
+        self.camera
+    }
+
+    pub(crate) fn light_direction(&self) -> DVec3 {
+        self.sun.direction
     }
 
     /// What describes the light.
