@@ -131,6 +131,37 @@ fn no_number_in_a_parameter_gives_a_pixel_that_is_none() {
 }
 
 #[test]
+fn a_medium_of_no_number_is_no_fog() {
+    let gpu = gpu();
+    let scene = Scene::across();
+    let bound = bound(&gpu, &scene, true);
+    let given = scene.parameters();
+    for colour in 0..3 {
+        let mut media = [given.composite.medium; 3];
+        media[0].extinction[colour] = f32::NAN;
+        media[1].scattering[colour] = f32::NAN;
+        media[2].irradiance[colour] = f32::INFINITY;
+        for medium in media {
+            let composite = CompositeScatteringParameters {
+                medium,
+                ..given.composite
+            };
+            let blocks = [
+                ("rectify", bytes_of(&given.rectify)),
+                ("integrate", bytes_of(&given.integrate)),
+                ("composite", bytes_of(&composite)),
+            ];
+            let layers = bound.run(&gpu, &blocks, "scattering");
+            let pixels: Vec<[f32; 4]> = bytemuck::pod_collect_to_vec(&layers[0]);
+            assert!(
+                pixels.iter().all(|&pixel| pixel == [0.0, 0.0, 0.0, 1.0]),
+                "{medium:?}"
+            );
+        }
+    }
+}
+
+#[test]
 fn negative_extinction_counts_as_none() {
     let gpu = gpu();
     let scene = Scene::across();

@@ -6,7 +6,6 @@ use moment_shadows::{MapEncoding, MapRegion, SingleScattering, Storage, Techniqu
 use moment_shadows_graph::TextureDesc;
 use moment_shadows_graph::nodes::{LightDepth, LightView, ScatteringParameters};
 use moment_shadows_lab::gpu::Gpu;
-use wgpu::util::DeviceExt as _;
 
 use crate::pictures::{EYE, MAP, Scene, graph};
 use crate::stage::{Block, capabilities, gpu, run, upload, upload_layers};
@@ -172,86 +171,4 @@ fn nodes_are_told_of_the_light_the_medium_and_one_frame() {
     }
     // Moment depth runs from -1 to 1 over 70 scene units.
     assert!((found.rectify.depth_per_length * 35.0 - 1.0).abs() < 1e-5);
-}
-
-#[test]
-fn mip_levels_are_averaged_over_what_a_texel_covers() {
-    const GRAPH: &str = r#"{
-  "version": 1,
-  "imports": [{ "name": "map" }],
-  "nodes": [
-    { "name": "rectify", "type": "rectify_moments",
-      "properties": { "technique": "hamburger4", "storage": "float32", "extent": [16, 16] } }
-  ],
-  "edges": [{ "from": "map", "to": "rectify.moments" }],
-  "outputs": [{ "name": "rectified", "from": "rectify.rectified" }]
-}"#;
-    let gpu = gpu();
-    let scene = Scene::across();
-    let rectify = scene.parameters().rectify;
-    // Surfaces at both ends of the light's range, one in each texel of a checkerboard: on average neither.
-    let checkers: Vec<[f32; 4]> = (0..MAP * MAP)
-        .map(|index| {
-            if (index % MAP + index / MAP).is_multiple_of(2) {
-                1.0
-            } else {
-                -1.0
-            }
-        })
-        .map(|z: f32| [z, 1.0, z, 1.0])
-        .collect();
-    // How far from the average texels are, by row.
-    let means = |levels: u32| -> Vec<f32> {
-        let map = minified(&gpu, &checkers, levels);
-        let layers = run(
-            &gpu,
-            &capabilities(&gpu),
-            GRAPH,
-            &[("map", &map)],
-            &[("rectify", bytes_of(&rectify))],
-            "rectified",
-        );
-        let texels: Vec<[f32; 4]> = bytemuck::pod_collect_to_vec(&layers[0]);
-        let mean = |row: &[[f32; 4]]| row.iter().map(|texel| texel[0].abs()).sum::<f32>() / 16.0;
-        texels.chunks(16).map(mean).collect()
-    };
-    let [plain, filtered] = [1, 9].map(means);
-    println!("{plain:?}\n{filtered:?}");
-    let total = |rows: &[f32]| rows.iter().sum::<f32>();
-    // Bilinear lookups in a checkerboard are off by a quarter on average.
-    assert!(total(&plain) > 3.0, "{plain:?}");
-    assert!(total(&filtered) < 0.3 * total(&plain), "{filtered:?}");
-}
-
-/// A map with mip levels, of which all but the first hold the average of surfaces at both ends.
-fn minified(gpu: &Gpu, texels: &[[f32; 4]], levels: u32) -> (TextureDesc, wgpu::Texture) {
-    let mut all = texels.to_vec();
-    all.extend((1..levels).flat_map(|level| {
-        let side = MAP >> level;
-        vec![[0.0, 1.0, 0.0, 1.0]; (side * side) as usize]
-    }));
-    let texture = gpu.device.create_texture_with_data(
-        &gpu.queue,
-        &wgpu::TextureDescriptor {
-            label: Some("map with mip levels"),
-            size: wgpu::Extent3d {
-                width: MAP,
-                height: MAP,
-                depth_or_array_layers: 1,
-            },
-            mip_level_count: levels,
-            sample_count: 1,
-            dimension: wgpu::TextureDimension::D2,
-            format: wgpu::TextureFormat::Rgba32Float,
-            usage: wgpu::TextureUsages::TEXTURE_BINDING,
-            view_formats: &[],
-        },
-        wgpu::util::TextureDataOrder::LayerMajor,
-        bytemuck::cast_slice(&all),
-    );
-    let desc = TextureDesc {
-        mips: levels,
-        ..TextureDesc::of_map(raw(), [MAP; 2])
-    };
-    (desc, texture)
 }

@@ -126,43 +126,42 @@ fn depths_of_the_light_become_inclinations() {
 /// Few enough that half a texel is much.
 const SIZE: u32 = 5;
 
-/// The shadow of each pixel under a map whose texels are in shadow by a part.
-fn shadows(scene: &Scene, part: impl Fn(u32, u32) -> f32) -> Vec<f64> {
+/// The picture under a map whose texels are in shadow by a part.
+fn picture(scene: &Scene, part: impl Fn(u32, u32) -> f32) -> Vec<[f32; 4]> {
     let gpu = gpu();
     let encoding = MapEncoding::new(Technique::Hamburger4, Storage::Float32).unwrap();
     let camera_depth = sky(&gpu, PICTURE);
     let parameters = scene.parameters();
-    let radiance = |part: &dyn Fn(u32, u32) -> f32| -> Vec<f32> {
-        let texels: Vec<[f32; 4]> = (0..SIZE * SIZE)
-            .map(|index| part(index % SIZE, index / SIZE))
-            // Occluders in front of all view rays, or behind.
-            .map(|front| [1.0 - 2.0 * front, 1.0, 1.0 - 2.0 * front, 1.0])
-            .collect();
-        let map = upload(&gpu, &encoding, [SIZE; 2], &texels);
-        let layers = run(
-            &gpu,
-            &capabilities(&gpu),
-            GRAPH,
-            &[("map", &map), ("camera_depth", &camera_depth)],
-            &[("composite", bytes_of(&parameters.composite))],
-            "scattering",
-        );
-        let pixels: Vec<[f32; 4]> = bytemuck::pod_collect_to_vec(&layers[0]);
-        pixels.into_iter().map(|pixel| pixel[0]).collect()
-    };
-    let shadowed = radiance(&part);
-    let lit = radiance(&|_, _| 0.0);
-    let pairs = shadowed.into_iter().zip(lit);
+    let texels: Vec<[f32; 4]> = (0..SIZE * SIZE)
+        .map(|index| part(index % SIZE, index / SIZE))
+        // Occluders in front of all view rays, or behind.
+        .map(|front| [1.0 - 2.0 * front, 1.0, 1.0 - 2.0 * front, 1.0])
+        .collect();
+    let map = upload(&gpu, &encoding, [SIZE; 2], &texels);
+    let layers = run(
+        &gpu,
+        &capabilities(&gpu),
+        GRAPH,
+        &[("map", &map), ("camera_depth", &camera_depth)],
+        &[("composite", bytes_of(&parameters.composite))],
+        "scattering",
+    );
+    bytemuck::pod_collect_to_vec(&layers[0])
+}
+
+/// The shadow of each pixel.
+fn shadows(scene: &Scene, part: impl Fn(u32, u32) -> f32) -> Vec<f64> {
+    let pairs = picture(scene, part)
+        .into_iter()
+        .zip(picture(scene, |_, _| 0.0));
     pairs
-        .map(|(shadowed, lit)| 1.0 - f64::from(shadowed) / f64::from(lit))
+        .map(|(shadowed, lit)| 1.0 - f64::from(shadowed[0]) / f64::from(lit[0]))
         .collect()
 }
 
-/// Radius and azimuth of each pixel's view ray at the far end, from 0 to 1 across the frame.
-fn places(scene: &Scene) -> Vec<[f64; 2]> {
+/// From the camera to the far end of each pixel's view ray.
+fn ends(scene: &Scene, view: &RectifiedView) -> Vec<DVec3> {
     let pair = scene.camera();
-    let light = scene.light_direction();
-    let view = RectifiedView::new(&pair.clip_from_world, FAR, light.to_array()).unwrap();
     let eye = DVec3::from_array(view.camera);
     let along = |x: f64, y: f64| {
         let point = pair.world_from_clip * DVec4::new(x, y, 1.0, 1.0);
@@ -175,15 +174,23 @@ fn places(scene: &Scene) -> Vec<[f64; 2]> {
             let [x, y] =
                 [index % PICTURE[0], index / PICTURE[0]].map(|place| f64::from(place) + 0.5);
             let ray = along(2.0 * x / width - 1.0, 1.0 - 2.0 * y / height);
-            let end = ray * (FAR / ray.dot(axis));
-            let [first, second, _] = view.axes.map(|axis| DVec3::from_array(axis).dot(end));
-            let turned = second.atan2(first) - f64::from(view.frame.first_azimuth);
-            [
-                first.hypot(second) / f64::from(view.frame.largest_radius),
-                turned.rem_euclid(core::f64::consts::TAU) / f64::from(view.frame.azimuth_extent),
-            ]
+            ray * (FAR / ray.dot(axis))
         })
         .collect()
+}
+
+/// Radius and azimuth of those, from 0 to 1 across the frame.
+fn places(scene: &Scene) -> Vec<[f64; 2]> {
+    let view = view(scene);
+    let place = |end: DVec3| {
+        let [first, second, _] = view.axes.map(|axis| DVec3::from_array(axis).dot(end));
+        let turned = second.atan2(first) - f64::from(view.frame.first_azimuth);
+        [
+            first.hypot(second) / f64::from(view.frame.largest_radius),
+            turned.rem_euclid(core::f64::consts::TAU) / f64::from(view.frame.azimuth_extent),
+        ]
+    };
+    ends(scene, &view).into_iter().map(place).collect()
 }
 
 /// What a bias and f32 make of a shadow.
@@ -216,4 +223,18 @@ fn columns_hold_sums_up_to_their_far_edges() {
         range = [range[0].min(column), range[1].max(column)];
     }
     assert!(range[0] < 0.8 && range[1] > 0.95, "{range:?}");
+}
+
+#[test]
+fn transmittance_is_the_mean_over_the_colours() {
+    let scene = Scene::across();
+    let extinction = scene.parameters().composite.medium.extinction;
+    assert!(extinction[0] < extinction[1] && extinction[1] < extinction[2]);
+    let pixels = picture(&scene, |_, _| 0.5);
+    for (pixel, end) in pixels.into_iter().zip(ends(&scene, &view(&scene))) {
+        let colours = extinction.map(|colour| (-f64::from(colour) * end.length()).exp());
+        let expected = colours.iter().sum::<f64>() / 3.0;
+        let error = f64::from(pixel[3]) - expected;
+        assert!(error.abs() < 1e-5, "{} for {expected}", pixel[3]);
+    }
 }

@@ -10,6 +10,7 @@ mod hostile;
 mod light_maps;
 mod lookups;
 mod medium;
+mod mip_levels;
 mod pictures;
 mod stage;
 mod sums;
