@@ -24,6 +24,7 @@ pub fn modules() -> &'static [Module] {
         "convolution",
         "depth",
         "disk_samples",
+        "enclosed_moments",
         "exponential",
         "exponential_variance",
         "gaussian",

@@ -92,9 +92,9 @@ fn nodes_of_single_scattering_are_checked_before_they_are_timed() {
     let methods: Vec<Method> = rows.iter().map(|row| row.method).collect();
     assert_eq!(methods, [Method::Rectify, Method::Serial, Method::Parallel]);
     for row in &rows {
-        // Float16 rounds channels of up to 1/2 by up to 1.2e-4; less would mean that nothing was compared.
+        // Float16 rounds channels of up to 1/2 by up to 1.2e-4, weights of up to 1 by twice that; less would mean that nothing was compared.
         assert!(
-            (1e-4..2.3e-4).contains(&row.error),
+            (1e-4..3.5e-4).contains(&row.error),
             "{}: {}",
             row.method,
             row.error

@@ -42,7 +42,7 @@ type Case = (
 #[test]
 fn maps_and_properties_that_do_not_fit_are_named() {
     let four = || map(Technique::Hamburger4);
-    let cases: [Case; 7] = [
+    let cases: [Case; 9] = [
         (
             Box::new(rectify(Technique::Vsm, [64, 64])),
             "moments",
@@ -90,11 +90,32 @@ fn maps_and_properties_that_do_not_fit_are_named() {
         (
             Box::new(CompositeScattering {
                 format: Some(TextureFormat::Rgba8Unorm),
+                ..CompositeScattering::default()
             }),
             "integrated",
             four(),
             GraphErrorKind::Property,
             "radiance has no upper limit",
+        ),
+        (
+            Box::new(CompositeScattering {
+                overestimation: 1.5,
+                ..CompositeScattering::default()
+            }),
+            "integrated",
+            four(),
+            GraphErrorKind::Property,
+            "'overestimation' is 1.5; it is from 0",
+        ),
+        (
+            Box::new(CompositeScattering {
+                overestimation: f32::NAN,
+                ..CompositeScattering::default()
+            }),
+            "integrated",
+            four(),
+            GraphErrorKind::Property,
+            "'overestimation' is NaN",
         ),
     ];
     for (node, slot, map, kind, says) in cases {

@@ -4,6 +4,7 @@
 mod angle;
 mod cameras;
 mod declarations;
+mod enclosed;
 mod frame;
 mod frame_errors;
 mod hostile;

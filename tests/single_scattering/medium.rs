@@ -110,15 +110,23 @@ fn mean_transmittance_is_exact_from_nothing_to_everything() {
 fn overestimation_turns_from_the_upper_bound_to_the_lower_with_the_light() {
     const SHADER: &str = "
 import moment_shadows::single_scattering::{single_scattering_shadow};
-alias BatchInput = f32;
+alias BatchInput = vec2f;
 alias BatchOutput = f32;
-fn batch(cosine: f32) -> f32 {
-    return single_scattering_shadow(vec2f(0.25, 0.75), cosine);
+fn batch(input: vec2f) -> f32 {
+    return single_scattering_shadow(vec2f(0.25, 0.75), input.x, input.y);
 }
 ";
     let gpu = Gpu::open(Profile::WebgpuCore).unwrap();
-    let batch = Batch::<f32, f32>::new(&gpu, "overestimation.wgsl", SHADER).unwrap();
+    let batch = Batch::<[f32; 2], f32>::new(&gpu, "overestimation.wgsl", SHADER).unwrap();
     // Against the light, across it and with it; rounding may leave the range.
-    let found = batch.run(&[-1.0, -1.000_001, 0.0, 1.0, 1.000_001]).unwrap();
-    assert_eq!(found, [0.75, 0.75, 0.5, 0.25, 0.25]);
+    let cosines = [-1.0, -1.000_001, 0.0, 1.0, 1.000_001];
+    let at = |overestimation: f32| {
+        batch
+            .run(&cosines.map(|cosine| [cosine, overestimation]))
+            .unwrap()
+    };
+    assert_eq!(at(1.0), [0.75, 0.75, 0.5, 0.25, 0.25]);
+    assert_eq!(at(0.0), [0.5; 5]);
+    let half = at(0.5);
+    assert_eq!([half[0], half[2], half[3]], [0.625, 0.5, 0.375]);
 }

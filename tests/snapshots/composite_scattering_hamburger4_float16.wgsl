@@ -229,6 +229,7 @@ fn map_lookup_is_inner(region: MapRegion, size: vec2u, levels: u32, place: vec2f
 const GROUP = 0;
 const LEVELS = 1u;
 const ANISOTROPY = 1.0;
+const OVERESTIMATION = 0.25;
 alias MomentsStorage = texture_storage_2d<rgba16float, write>;
 const STORAGE = 1u;
 
@@ -861,10 +862,11 @@ fn single_scattering_pixel(radiance: vec3f, transmittance: vec3f) -> vec4f {
 }
 
 // The shadow that is shown, between its bounds (x <= y): overestimation that adapts to the direction. Where a view ray runs
-// with the light, the lower bound, whose light leaks into shadow; against it the upper one, whose error is darkness
-// (GDC 2016, where the weight of the lower bound is beta; the supplement of i3D 2016 calls its complement so).
-fn single_scattering_shadow(bounds: vec2f, cosine: f32) -> f32 {
-    return mix(bounds.y, bounds.x, saturate(fma(0.5, cosine, 0.5)));
+// with the light it leans to the lower bound, whose light leaks into shadow; against it to the upper one, whose error is
+// darkness (GDC 2016, where the weight of the lower bound is beta; the supplement of i3D 2016 calls its complement so). Both
+// sources go all the way, an `overestimation` of 1; 0 is the middle of the bounds.
+fn single_scattering_shadow(bounds: vec2f, cosine: f32, overestimation: f32) -> f32 {
+    return mix(bounds.y, bounds.x, saturate(fma(0.5 * overestimation, cosine, 0.5)));
 }
 
 // composite_scattering.wgsl
@@ -897,7 +899,7 @@ fn composite(covered: Covered) -> @location(0) vec4f {
     let map_uv = vec2f(rectified_frame_prefix(place.x, texels.x), rectified_frame_row(place.y, texels.y));
     let depth = rectified_frame_depth(parameters.frame, coordinates.z);
     let bounds = scattering_bounds(map_uv, MapRegion(vec2u(0u), size), depth);
-    let shadow = single_scattering_shadow(bounds, cosine);
+    let shadow = single_scattering_shadow(bounds, cosine, OVERESTIMATION);
 
     let radiance = single_scattering_radiance(parameters.medium, distance, cosine, shadow);
     let transmittance = single_scattering_transmittance(parameters.medium, distance);

@@ -229,6 +229,7 @@ fn map_lookup_is_inner(region: MapRegion, size: vec2u, levels: u32, place: vec2f
 const GROUP = 0;
 const LEVELS = 1u;
 const ANISOTROPY = 1.0;
+const OVERESTIMATION = 0.25;
 alias MomentsStorage = texture_storage_2d<rgba16float, write>;
 const STORAGE = 1u;
 
@@ -829,15 +830,115 @@ fn hamburger6_shadow_intensity_of_texels(texels: array<vec4f, 2>, fragment_depth
     return hamburger6_shadow_intensity(six_moments_from_texels(texels, storage), fragment_depth, six_moments_bias_of(storage));
 }
 
+// moment_shadows/enclosed_moments.wgsl
+
+// Six moments of the occluders between the ends of a range, and apart from them how much lies before and behind it.
+//
+// In rectified coordinates much of a view ray has no occluder at all, or one that shadows every view ray of the frustum. As
+// depths at the very ends of the range these take part in the moment problem, though it is known exactly what they do, and the
+// bounds of everything else become looser by it. Six moments leave the fourth channel of both texels free, which is room for
+// both weights. What is stored is linear in all of it and commutes with filtering and prefix sums.
+
+// Sums over the occluders of a texel, each times its weight; all weights together are one.
+struct EnclosedMoments {
+    // Of those at depths between -1 and 1.
+    moments: SixMoments,
+    // Their weight.
+    weight: f32,
+    // The weight of those at -1 and before. What is left of one is behind the range: no occluder.
+    front: f32,
+}
+
+// With less weight than this between the ends, where in between does not matter, and float16 has few digits left for it.
+const ENCLOSED_MOMENTS_SMALLEST_WEIGHT: f32 = 0.001953125;
+
+// Beyond this a moment bias leaves nothing of the moments.
+const ENCLOSED_MOMENTS_LARGEST_ALPHA: f32 = 0.5;
+
+// One occluder.
+fn enclosed_moments_of_occluder(depth: f32, weight: f32) -> EnclosedMoments {
+    let inner = select(0.0, weight, depth > -1.0 && depth < 1.0);
+    let powers = six_moments_from_depth(clamp(depth, -1.0, 1.0));
+    return EnclosedMoments(
+        SixMoments(inner * powers.odd, inner * powers.even),
+        inner,
+        select(0.0, weight, depth <= -1.0),
+    );
+}
+
+// Two occluders together.
+fn enclosed_moments_sum(a: EnclosedMoments, b: EnclosedMoments) -> EnclosedMoments {
+    let moments = SixMoments(a.moments.odd + b.moments.odd, a.moments.even + b.moments.even);
+    return EnclosedMoments(moments, a.weight + b.weight, a.front + b.front);
+}
+
+// Three channels of the optimised basis times the weight, and one more.
+fn enclosed_moments_texel(channels: vec3f, last: f32, weight: f32, storage: u32) -> vec4f {
+    let middle = six_moments_middle(storage);
+    let inside = saturate(weight);
+    let texel = vec4f(clamp(channels, vec3f(-middle * inside), vec3f((1.0 - middle) * inside)), saturate(last));
+    if storage == STORAGE_FLOAT16 {
+        return storage_round_to_float16(texel);
+    }
+    return texel;
+}
+
+// What to write to the first texel of the storage: the odd moments, and what does not lie in front of the range. Moments of
+// whole distributions, as `six_moments_to_odd_texel` has them, look the same.
+fn enclosed_moments_to_odd_texel(sums: EnclosedMoments, storage: u32) -> vec4f {
+    let offset = sums.weight * (SIX_MOMENTS_ODD_OFFSET - six_moments_middle(storage));
+    let channels = six_moments_affine(SIX_MOMENTS_ODD_BASIS, sums.moments.odd, offset);
+    return enclosed_moments_texel(channels, 1.0 - sums.front, sums.weight, storage);
+}
+
+// What to write to the second one: the even moments, and the weight between the ends.
+fn enclosed_moments_to_even_texel(sums: EnclosedMoments, storage: u32) -> vec4f {
+    let offset = sums.weight * (SIX_MOMENTS_EVEN_OFFSET - six_moments_middle(storage));
+    let channels = six_moments_affine(SIX_MOMENTS_EVEN_BASIS, sums.moments.even, offset);
+    return enclosed_moments_texel(channels, sums.weight, sums.weight, storage);
+}
+
+// The moments of a filtered texel's occluders between the ends, as means over them alone. Weights below
+// `ENCLOSED_MOMENTS_SMALLEST_WEIGHT` count as that.
+fn enclosed_moments_means(texels: array<vec4f, 2>, weight: f32, storage: u32) -> SixMoments {
+    let middle = six_moments_middle(storage);
+    let scale = 1.0 / max(weight, ENCLOSED_MOMENTS_SMALLEST_WEIGHT);
+    let odd = clamp(scale * texels[0].xyz, vec3f(-middle), vec3f(1.0 - middle));
+    let even = clamp(scale * texels[1].xyz, vec3f(-middle), vec3f(1.0 - middle));
+    return SixMoments(
+        six_moments_affine(SIX_MOMENTS_ODD_INVERSE, odd - (SIX_MOMENTS_ODD_OFFSET - middle), vec3f(0.0)),
+        six_moments_affine(SIX_MOMENTS_EVEN_INVERSE, even - (SIX_MOMENTS_EVEN_OFFSET - middle), vec3f(0.0)),
+    );
+}
+
+// The moment bias of means: that of the storage, which floats keep whatever the weight is, as they are finest around zero; the
+// step of others is the same for small weights.
+fn enclosed_moments_bias(weight: f32, storage: u32) -> SixMomentsBias {
+    let bias = six_moments_bias_of(storage);
+    let scale = select(1.0 / max(weight, ENCLOSED_MOMENTS_SMALLEST_WEIGHT), 1.0, storage_is_float(storage));
+    return SixMomentsBias(bias.even, min(bias.alpha * scale, ENCLOSED_MOMENTS_LARGEST_ALPHA));
+}
+
+// Bounds of the shadow at a depth: x = how much of the weight is certainly before it, y = how much may be. Both in [0, 1] for all
+// texels, filtered or broken; depths in [-1, 1].
+fn enclosed_moments_bounds(filtered: array<vec4f, 2>, depth: f32, storage: u32) -> vec2f {
+    let texels = array<vec4f, 2>(storage_finite_texel(filtered[0], storage), storage_finite_texel(filtered[1], storage));
+    let weight = saturate(texels[1].w);
+    let front = clamp(1.0 - texels[0].w, 0.0, 1.0 - weight);
+    let bias = enclosed_moments_bias(weight, storage);
+    let means = enclosed_moments_means(texels, weight, storage);
+    let bounds = hamburger6_bounds(six_moments_apply_bias(means, bias), depth, bias.alpha);
+    let known = weight >= ENCLOSED_MOMENTS_SMALLEST_WEIGHT;
+    return fma(select(vec2f(0.0, 1.0), bounds, known), vec2f(weight), vec2f(front));
+}
+
 // scattering_bounds
 
 // Both bounds of the shadow of a depth at a place of the integrated map, from a texel of each of its planes.
 fn scattering_bounds(uv: vec2f, region: MapRegion, depth: f32) -> vec2f {
-    let bias = six_moments_bias_of(STORAGE);
     let odd = moments_lookup(0u, region, uv, vec2f(0.0), vec2f(0.0));
     let even = moments_lookup(1u, region, uv, vec2f(0.0), vec2f(0.0));
-    let moments = six_moments_from_texels(array<vec4f, 2>(odd, even), STORAGE);
-    return hamburger6_bounds(six_moments_apply_bias(moments, bias), depth, bias.alpha);
+    return enclosed_moments_bounds(array<vec4f, 2>(odd, even), depth, STORAGE);
 }
 
 // moment_shadows/phase_function.wgsl
@@ -931,10 +1032,11 @@ fn single_scattering_pixel(radiance: vec3f, transmittance: vec3f) -> vec4f {
 }
 
 // The shadow that is shown, between its bounds (x <= y): overestimation that adapts to the direction. Where a view ray runs
-// with the light, the lower bound, whose light leaks into shadow; against it the upper one, whose error is darkness
-// (GDC 2016, where the weight of the lower bound is beta; the supplement of i3D 2016 calls its complement so).
-fn single_scattering_shadow(bounds: vec2f, cosine: f32) -> f32 {
-    return mix(bounds.y, bounds.x, saturate(fma(0.5, cosine, 0.5)));
+// with the light it leans to the lower bound, whose light leaks into shadow; against it to the upper one, whose error is
+// darkness (GDC 2016, where the weight of the lower bound is beta; the supplement of i3D 2016 calls its complement so). Both
+// sources go all the way, an `overestimation` of 1; 0 is the middle of the bounds.
+fn single_scattering_shadow(bounds: vec2f, cosine: f32, overestimation: f32) -> f32 {
+    return mix(bounds.y, bounds.x, saturate(fma(0.5 * overestimation, cosine, 0.5)));
 }
 
 // composite_scattering.wgsl
@@ -967,7 +1069,7 @@ fn composite(covered: Covered) -> @location(0) vec4f {
     let map_uv = vec2f(rectified_frame_prefix(place.x, texels.x), rectified_frame_row(place.y, texels.y));
     let depth = rectified_frame_depth(parameters.frame, coordinates.z);
     let bounds = scattering_bounds(map_uv, MapRegion(vec2u(0u), size), depth);
-    let shadow = single_scattering_shadow(bounds, cosine);
+    let shadow = single_scattering_shadow(bounds, cosine, OVERESTIMATION);
 
     let radiance = single_scattering_radiance(parameters.medium, distance, cosine, shadow);
     let transmittance = single_scattering_transmittance(parameters.medium, distance);

@@ -75,6 +75,47 @@ fn angle_sin_cos(angle: f32) -> vec2f {
     return vec2f(select(sine, -sine, quadrant >= 2), select(cosine, -cosine, quadrant == 1 || quadrant == 2));
 }
 
+// moment_shadows/map_region.wgsl
+// Regions: rectangles of a layer that share an atlas and know nothing of each other.
+//
+// Mip level k of a region runs from floor(first / 2^k) to floor(end / 2^k). Regions that touch share that edge on every
+// level, wherever it lies, so none covers a texel of another, and a gutter is not needed.
+
+// Filled by the host-side `MapRegion`: texels of mip level 0. No texels: no region. A rectangle that leaves the map is
+// cut off at its border.
+struct MapRegion {
+    origin: vec2u,
+    extent: vec2u,
+}
+
+// The part of a region that lies in a map of `size` texels.
+fn map_region_within(region: MapRegion, size: vec2u) -> MapRegion {
+    let origin = min(region.origin, size);
+    return MapRegion(origin, min(region.extent, size - origin));
+}
+
+// A region of a map (within it) on mip level `level`, below 32.
+fn map_region_at_level(region: MapRegion, level: u32) -> MapRegion {
+    let origin = region.origin >> vec2u(level);
+    return MapRegion(origin, ((region.origin + region.extent) >> vec2u(level)) - origin);
+}
+
+// The coarsest of `levels` mip levels on which a region still has texels.
+fn map_region_last_level(region: MapRegion, levels: u32) -> u32 {
+    var level = max(levels, 1u) - 1u;
+    while level > 0u && any(map_region_at_level(region, level).extent == vec2u(0u)) {
+        level--;
+    }
+    return level;
+}
+
+// The place of `uv` (from 0 to 1 across the region) in texels of a region's mip level, kept half a texel away from its
+// edge: a bilinear filter there reads no other region.
+fn map_region_place(region_on_level: MapRegion, uv: vec2f) -> vec2f {
+    let extent = vec2f(region_on_level.extent);
+    return vec2f(region_on_level.origin) + clamp(uv * extent, vec2f(0.5), max(extent - 0.5, vec2f(0.5)));
+}
+
 // moment_shadows/storage.wgsl
 // Storages: how the channels of a texel lie in memory, whatever they mean.
 //
@@ -249,67 +290,6 @@ fn moments_biased_from_texel(texel: vec4f, storage: u32, bias: MomentBias) -> ve
     return biased;
 }
 
-// specialization
-const GROUP = 0;
-const SOURCE_STORAGE = 1u;
-const LEVELS = 1u;
-const ANISOTROPY = 8.0;
-alias MomentsStorage = texture_storage_2d<rgba16float, write>;
-const STORAGE = 1u;
-
-// map_encoding
-
-// Four moments: what is averaged for a moment depth, and the texel for the mean.
-
-fn encoding_channels(z: f32) -> vec4f {
-    return moments_from_depth(z);
-}
-
-fn encoding_texel(mean: vec4f) -> vec4f {
-    return moments_to_texel(mean, STORAGE);
-}
-
-// moment_shadows/map_region.wgsl
-// Regions: rectangles of a layer that share an atlas and know nothing of each other.
-//
-// Mip level k of a region runs from floor(first / 2^k) to floor(end / 2^k). Regions that touch share that edge on every
-// level, wherever it lies, so none covers a texel of another, and a gutter is not needed.
-
-// Filled by the host-side `MapRegion`: texels of mip level 0. No texels: no region. A rectangle that leaves the map is
-// cut off at its border.
-struct MapRegion {
-    origin: vec2u,
-    extent: vec2u,
-}
-
-// The part of a region that lies in a map of `size` texels.
-fn map_region_within(region: MapRegion, size: vec2u) -> MapRegion {
-    let origin = min(region.origin, size);
-    return MapRegion(origin, min(region.extent, size - origin));
-}
-
-// A region of a map (within it) on mip level `level`, below 32.
-fn map_region_at_level(region: MapRegion, level: u32) -> MapRegion {
-    let origin = region.origin >> vec2u(level);
-    return MapRegion(origin, ((region.origin + region.extent) >> vec2u(level)) - origin);
-}
-
-// The coarsest of `levels` mip levels on which a region still has texels.
-fn map_region_last_level(region: MapRegion, levels: u32) -> u32 {
-    var level = max(levels, 1u) - 1u;
-    while level > 0u && any(map_region_at_level(region, level).extent == vec2u(0u)) {
-        level--;
-    }
-    return level;
-}
-
-// The place of `uv` (from 0 to 1 across the region) in texels of a region's mip level, kept half a texel away from its
-// edge: a bilinear filter there reads no other region.
-fn map_region_place(region_on_level: MapRegion, uv: vec2f) -> vec2f {
-    let extent = vec2f(region_on_level.extent);
-    return vec2f(region_on_level.origin) + clamp(uv * extent, vec2f(0.5), max(extent - 0.5, vec2f(0.5)));
-}
-
 // moment_shadows/minification.wgsl
 // Minification: what part of a map a pixel covers.
 //
@@ -479,6 +459,14 @@ fn map_lookup_is_inner(region: MapRegion, size: vec2u, levels: u32, place: vec2f
     return aligned && all(place >= low) && all(place <= high);
 }
 
+// specialization
+const GROUP = 0;
+const SOURCE_STORAGE = 1u;
+const LEVELS = 1u;
+const ANISOTROPY = 8.0;
+alias MomentsStorage = texture_storage_2d<rgba16float, write>;
+const STORAGE = 1u;
+
 // moments_lookup
 
 // The lookup in a map that the device can filter, without mip levels.
@@ -598,6 +586,15 @@ fn rectified_frame_prefix(column: f32, columns: f32) -> f32 {
     return column - 0.5 / columns;
 }
 
+// rectified_texel
+
+// Four moments of two occluders in rectified coordinates.
+
+fn rectified_texel(depths: vec2f, weights: vec2f) -> vec4f {
+    let sums = weights.x * moments_from_depth(depths.x) + weights.y * moments_from_depth(depths.y);
+    return moments_to_texel(sums, STORAGE);
+}
+
 // moment_shadows/two_diracs.wgsl
 // Two depths with weights that have given first three moments: what a filtered texel of a shadow map is resampled as.
 //
@@ -684,7 +681,7 @@ fn rectify(@builtin(global_invocation_id) id: vec3u) {
     let uv = parameters.map_at_camera + ray.x * outwards;
     if any(uv < vec2f(0.0)) || any(uv > vec2f(1.0)) {
         // What the light's map does not know casts no shadow.
-        textureStore(rectified_map, id.xy, encoding_texel(encoding_channels(1.0)));
+        textureStore(rectified_map, id.xy, rectified_texel(vec2f(1.0), vec2f(0.5)));
         return;
     }
     let region = map_region_within(parameters.region, textureDimensions(moments_map));
@@ -694,7 +691,6 @@ fn rectify(@builtin(global_invocation_id) id: vec3u) {
     let texel = moments_lookup(parameters.layer, region, uv, column, row);
     let moments = moments_from_texel(storage_finite_texel(texel, SOURCE_STORAGE), SOURCE_STORAGE);
     let occluders = two_diracs_of_moments(moments.xyz);
-    let near = encoding_channels(rectified(occluders.depths.x, ray.x));
-    let far = encoding_channels(rectified(occluders.depths.y, ray.x));
-    textureStore(rectified_map, id.xy, encoding_texel(occluders.weights.x * near + occluders.weights.y * far));
+    let depths = vec2f(rectified(occluders.depths.x, ray.x), rectified(occluders.depths.y, ray.x));
+    textureStore(rectified_map, id.xy, rectified_texel(depths, occluders.weights));
 }

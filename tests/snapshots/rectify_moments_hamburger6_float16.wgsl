@@ -75,6 +75,47 @@ fn angle_sin_cos(angle: f32) -> vec2f {
     return vec2f(select(sine, -sine, quadrant >= 2), select(cosine, -cosine, quadrant == 1 || quadrant == 2));
 }
 
+// moment_shadows/map_region.wgsl
+// Regions: rectangles of a layer that share an atlas and know nothing of each other.
+//
+// Mip level k of a region runs from floor(first / 2^k) to floor(end / 2^k). Regions that touch share that edge on every
+// level, wherever it lies, so none covers a texel of another, and a gutter is not needed.
+
+// Filled by the host-side `MapRegion`: texels of mip level 0. No texels: no region. A rectangle that leaves the map is
+// cut off at its border.
+struct MapRegion {
+    origin: vec2u,
+    extent: vec2u,
+}
+
+// The part of a region that lies in a map of `size` texels.
+fn map_region_within(region: MapRegion, size: vec2u) -> MapRegion {
+    let origin = min(region.origin, size);
+    return MapRegion(origin, min(region.extent, size - origin));
+}
+
+// A region of a map (within it) on mip level `level`, below 32.
+fn map_region_at_level(region: MapRegion, level: u32) -> MapRegion {
+    let origin = region.origin >> vec2u(level);
+    return MapRegion(origin, ((region.origin + region.extent) >> vec2u(level)) - origin);
+}
+
+// The coarsest of `levels` mip levels on which a region still has texels.
+fn map_region_last_level(region: MapRegion, levels: u32) -> u32 {
+    var level = max(levels, 1u) - 1u;
+    while level > 0u && any(map_region_at_level(region, level).extent == vec2u(0u)) {
+        level--;
+    }
+    return level;
+}
+
+// The place of `uv` (from 0 to 1 across the region) in texels of a region's mip level, kept half a texel away from its
+// edge: a bilinear filter there reads no other region.
+fn map_region_place(region_on_level: MapRegion, uv: vec2f) -> vec2f {
+    let extent = vec2f(region_on_level.extent);
+    return vec2f(region_on_level.origin) + clamp(uv * extent, vec2f(0.5), max(extent - 0.5, vec2f(0.5)));
+}
+
 // moment_shadows/storage.wgsl
 // Storages: how the channels of a texel lie in memory, whatever they mean.
 //
@@ -124,211 +165,6 @@ fn storage_finite_texel(texel: vec4f, storage: u32) -> vec4f {
     }
     let exponent = bitcast<vec4u>(texel) & vec4u(0x7f800000u);
     return select(texel, vec4f(0.0), exponent == vec4u(0x7f800000u));
-}
-
-// moment_shadows/six_moments.wgsl
-
-// Six moments of depth: encoding, storage, bias.
-//
-// A map holds b = (E[z], ..., E[z^6]) of the moment depths z in [-1, 1] that a texel covers, in two texels: the odd moments
-// in one, the even ones in the other, since the optimised basis mixes neither with the other (Peters, GDC 2016; Peters et
-// al., JCGT 6(1) 2017). Like that of four moments it spreads the moments over the range of every channel, and commutes
-// with filtering.
-
-// The moments of one distribution.
-struct SixMoments {
-    // E[z], E[z^3], E[z^5].
-    odd: vec3f,
-    // E[z^2], E[z^4], E[z^6].
-    even: vec3f,
-}
-
-// A moment bias: b is moved by alpha towards moments whose odd ones are 0.
-struct SixMomentsBias {
-    // The target's E[z^2], E[z^4], E[z^6].
-    even: vec3f,
-    alpha: f32,
-}
-
-// The bias belongs to a storage's rounding error, not to a scene. Each value covers a resolve and a two-pass blur, every
-// stage rounded to the storage, for 99.999 % of filter regions. 3e-6 would do so for float32, but below 8e-6 what is left of
-// the last pivot of `hamburger6` in f32 can be nothing but rounding. The target is the one published for moment-based
-// transparency (Muenstermann et al., "Moment-Based Order-Independent Transparency", i3D 2018).
-const SIX_MOMENTS_BIAS_TARGET: vec3f = vec3f(0.5566, 0.489, 0.47869382);
-const SIX_MOMENTS_BIAS_UNORM16: SixMomentsBias = SixMomentsBias(SIX_MOMENTS_BIAS_TARGET, 1e-4);
-const SIX_MOMENTS_BIAS_FLOAT16: SixMomentsBias = SixMomentsBias(SIX_MOMENTS_BIAS_TARGET, 1.5e-3);
-const SIX_MOMENTS_BIAS_FLOAT32: SixMomentsBias = SixMomentsBias(SIX_MOMENTS_BIAS_TARGET, 1e-5);
-
-// The optimised basis, by columns: these products plus the offsets map the odd and the even moments of depths in [-1, 1]
-// into [0, 1]^3 each.
-const SIX_MOMENTS_ODD_BASIS: mat3x3f = mat3x3f(
-    2.5, -1.8749986445, 1.26583039016,
-    -10.0, 4.20757543111, -1.47644882902,
-    8.0, -1.83257678661, 0.71061660238,
-);
-const SIX_MOMENTS_EVEN_BASIS: mat3x3f = mat3x3f(
-    4.0, 9.0, -0.57759806484,
-    -4.0, -24.0, 4.61936647543,
-    0.0, 16.0, -3.07953906655,
-);
-const SIX_MOMENTS_ODD_OFFSET: vec3f = vec3f(0.5);
-const SIX_MOMENTS_EVEN_OFFSET: vec3f = vec3f(0.0, 0.0, 0.018888946);
-
-// Their inverses, by columns.
-const SIX_MOMENTS_ODD_INVERSE: mat3x3f = mat3x3f(
-    -0.02877789191977914, 0.09995235706024454, 0.25893353755023666,
-    0.4763555042123262, 0.8453258093069343, 0.907796166567316,
-    1.5524280897137293, 1.0547257075981561, 0.8332733564621547,
-);
-const SIX_MOMENTS_EVEN_INVERSE: mat3x3f = mat3x3f(
-    1.2530436076429571e-5, -0.24998746956392357, -0.37498825271617835,
-    0.16668494186053159, 0.16668494186053159, 0.21876713299424836,
-    0.866025405794346, 0.866025405794346, 0.8118988179321994,
-);
-
-// matrix * vector + offset, every step fused where the hardware does.
-fn six_moments_affine(matrix: mat3x3f, vector: vec3f, offset: vec3f) -> vec3f {
-    let last = fma(matrix[2], vector.zzz, offset);
-    return fma(matrix[0], vector.xxx, fma(matrix[1], vector.yyy, last));
-}
-
-// The moments of a single depth z in [-1, 1]: its powers.
-fn six_moments_from_depth(z: f32) -> SixMoments {
-    let square = z * z;
-    let powers = vec3f(1.0, square, square * square);
-    return SixMoments(z * powers, square * powers);
-}
-
-// What is subtracted from channels before they are stored: floats are finest around zero.
-fn six_moments_middle(storage: u32) -> f32 {
-    return select(0.0, 0.5, storage_is_float(storage));
-}
-
-// A texel of three channels, with 1 in the fourth.
-fn six_moments_texel(channels: vec3f, storage: u32) -> vec4f {
-    let texel = vec4f(saturate(channels) - six_moments_middle(storage), 1.0);
-    if storage == STORAGE_FLOAT16 {
-        return storage_round_to_float16(texel);
-    }
-    return texel;
-}
-
-// What to write to the first texel of the storage: the odd moments.
-fn six_moments_to_odd_texel(odd: vec3f, storage: u32) -> vec4f {
-    return six_moments_texel(six_moments_affine(SIX_MOMENTS_ODD_BASIS, odd, SIX_MOMENTS_ODD_OFFSET), storage);
-}
-
-// What to write to the second one: the even moments.
-fn six_moments_to_even_texel(even: vec3f, storage: u32) -> vec4f {
-    return six_moments_texel(six_moments_affine(SIX_MOMENTS_EVEN_BASIS, even, SIX_MOMENTS_EVEN_OFFSET), storage);
-}
-
-// Both texels.
-fn six_moments_to_texels(b: SixMoments, storage: u32) -> array<vec4f, 2> {
-    return array<vec4f, 2>(six_moments_to_odd_texel(b.odd, storage), six_moments_to_even_texel(b.even, storage));
-}
-
-// The moments in the two (filtered) texels of the storage, |b| < 1.05. Float storage can hold anything: channels beyond their
-// range count as its ends. Channels and not moments are clamped, since the bias covers errors of channels; moments at the ends
-// of their ranges, of which rounding has moved one inwards, would need one ten times as large if the others were clamped.
-fn six_moments_from_texels(texels: array<vec4f, 2>, storage: u32) -> SixMoments {
-    let middle = six_moments_middle(storage);
-    var odd = texels[0].xyz;
-    var even = texels[1].xyz;
-    if storage_is_float(storage) {
-        odd = clamp(odd, vec3f(-0.5), vec3f(0.5));
-        even = clamp(even, vec3f(-0.5), vec3f(0.5));
-    }
-    return SixMoments(
-        six_moments_affine(SIX_MOMENTS_ODD_INVERSE, odd - (SIX_MOMENTS_ODD_OFFSET - middle), vec3f(0.0)),
-        six_moments_affine(SIX_MOMENTS_EVEN_INVERSE, even - (SIX_MOMENTS_EVEN_OFFSET - middle), vec3f(0.0)),
-    );
-}
-
-// The moment bias of a storage.
-fn six_moments_bias_of(storage: u32) -> SixMomentsBias {
-    if storage == STORAGE_FLOAT32 {
-        return SIX_MOMENTS_BIAS_FLOAT32;
-    }
-    if storage == STORAGE_FLOAT16 {
-        return SIX_MOMENTS_BIAS_FLOAT16;
-    }
-    return SIX_MOMENTS_BIAS_UNORM16;
-}
-
-// Applies the moment bias (i3D 2015, section 3.3). Written as a step towards the target: 1 - alpha would keep only a
-// few bits of alpha.
-fn six_moments_apply_bias(b: SixMoments, bias: SixMomentsBias) -> SixMoments {
-    let alpha = vec3f(bias.alpha);
-    return SixMoments(fma(-alpha, b.odd, b.odd), fma(alpha, bias.even - b.even, b.even));
-}
-
-// specialization
-const GROUP = 0;
-const SOURCE_STORAGE = 1u;
-const LEVELS = 1u;
-const ANISOTROPY = 8.0;
-alias MomentsStorage = texture_storage_2d<rgba16float, write>;
-const STORAGE = 1u;
-
-// map_encoding
-
-// Three of six moments: what is averaged for a moment depth, and the texel for the mean.
-
-// The plane that is made: 0 for odd moments, 1 for even ones.
-override PLANE: u32;
-
-fn encoding_channels(z: f32) -> vec4f {
-    let moments = six_moments_from_depth(z);
-    return vec4f(select(moments.even, moments.odd, PLANE == 0u), 1.0);
-}
-
-fn encoding_texel(mean: vec4f) -> vec4f {
-    if PLANE == 0u {
-        return six_moments_to_odd_texel(mean.xyz, STORAGE);
-    }
-    return six_moments_to_even_texel(mean.xyz, STORAGE);
-}
-
-// moment_shadows/map_region.wgsl
-// Regions: rectangles of a layer that share an atlas and know nothing of each other.
-//
-// Mip level k of a region runs from floor(first / 2^k) to floor(end / 2^k). Regions that touch share that edge on every
-// level, wherever it lies, so none covers a texel of another, and a gutter is not needed.
-
-// Filled by the host-side `MapRegion`: texels of mip level 0. No texels: no region. A rectangle that leaves the map is
-// cut off at its border.
-struct MapRegion {
-    origin: vec2u,
-    extent: vec2u,
-}
-
-// The part of a region that lies in a map of `size` texels.
-fn map_region_within(region: MapRegion, size: vec2u) -> MapRegion {
-    let origin = min(region.origin, size);
-    return MapRegion(origin, min(region.extent, size - origin));
-}
-
-// A region of a map (within it) on mip level `level`, below 32.
-fn map_region_at_level(region: MapRegion, level: u32) -> MapRegion {
-    let origin = region.origin >> vec2u(level);
-    return MapRegion(origin, ((region.origin + region.extent) >> vec2u(level)) - origin);
-}
-
-// The coarsest of `levels` mip levels on which a region still has texels.
-fn map_region_last_level(region: MapRegion, levels: u32) -> u32 {
-    var level = max(levels, 1u) - 1u;
-    while level > 0u && any(map_region_at_level(region, level).extent == vec2u(0u)) {
-        level--;
-    }
-    return level;
-}
-
-// The place of `uv` (from 0 to 1 across the region) in texels of a region's mip level, kept half a texel away from its
-// edge: a bilinear filter there reads no other region.
-fn map_region_place(region_on_level: MapRegion, uv: vec2f) -> vec2f {
-    let extent = vec2f(region_on_level.extent);
-    return vec2f(region_on_level.origin) + clamp(uv * extent, vec2f(0.5), max(extent - 0.5, vec2f(0.5)));
 }
 
 // moment_shadows/moments.wgsl
@@ -623,6 +459,14 @@ fn map_lookup_is_inner(region: MapRegion, size: vec2u, levels: u32, place: vec2f
     return aligned && all(place >= low) && all(place <= high);
 }
 
+// specialization
+const GROUP = 0;
+const SOURCE_STORAGE = 1u;
+const LEVELS = 1u;
+const ANISOTROPY = 8.0;
+alias MomentsStorage = texture_storage_2d<rgba16float, write>;
+const STORAGE = 1u;
+
 // moments_lookup
 
 // The lookup in a map that the device can filter, without mip levels.
@@ -742,6 +586,475 @@ fn rectified_frame_prefix(column: f32, columns: f32) -> f32 {
     return column - 0.5 / columns;
 }
 
+// moment_shadows/hankel.wgsl
+// The shared factorisation: LDL^T of the Hankel matrix of four moments.
+//
+//       | 1  b1 b2 |
+//   B = | b1 b2 b3 |     B is positive semi-definite exactly if some distribution on the real line has these moments
+//       | b2 b3 b4 |     (Hamburger moment problem; Peters & Klein, i3D 2015, section 2.2 and Algorithm 3).
+//
+// Its pivots define the monic orthogonal polynomials of the distribution, with x = z - b1:
+//   P0 = 1,  P1(x) = x,  P2(x) = x (x - shift) - variance,
+// with squared norms 1, variance and residue. The roots of P2 are the two Gauss nodes.
+
+// The pivots of B and what the orthogonal polynomials need.
+struct HankelFactor {
+    // b2 - b1^2, the variance of z; positive.
+    variance: f32,
+    // The Schur complement of b4, the variance of z^2 that z does not explain; positive.
+    residue: f32,
+    // residue / variance.
+    ratio: f32,
+    // L32 - 2 b1, with L32 the slope of the regression of z^2 on z.
+    shift: f32,
+}
+
+// Pivots of valid moments stay above these multiples of the moment bias alpha, so the guards bind only where rounding
+// has left the pivots without a correct digit (or the moments are none). They also bound all that is divided by a pivot:
+// with alpha >= 1e-7 nothing below overflows on the way to a weight, whatever the moments.
+const HANKEL_SMALLEST_VARIANCE: f32 = 0.03;
+const HANKEL_SMALLEST_RESIDUE: f32 = 0.02;
+
+// Factorises the Hankel matrix of moments biased by `alpha` >= 1e-7. Moments must lie within [-2.1, 2.1].
+// The differences of products lose almost all digits near a single surface; `fma` keeps them where it is fused.
+fn hankel_factor(biased: vec4f, alpha: f32) -> HankelFactor {
+    let variance = max(fma(-biased.x, biased.x, biased.y), HANKEL_SMALLEST_VARIANCE * alpha);
+    // One division for all quotients.
+    let inverse = 1.0 / variance;
+    let covariance = fma(-biased.x, biased.y, biased.z);
+    let slope = covariance * inverse;
+    let residue = max(
+        fma(-covariance, slope, fma(-biased.y, biased.y, biased.w)),
+        HANKEL_SMALLEST_RESIDUE * alpha,
+    );
+    return HankelFactor(variance, residue, residue * inverse, fma(-2.0, biased.x, slope));
+}
+
+// P2 at x = z - b1. Negative exactly between the Gauss nodes.
+fn hankel_second_polynomial(factor: HankelFactor, x: f32) -> f32 {
+    return fma(x, x - factor.shift, -factor.variance);
+}
+
+// The Christoffel number of x = z - b1, 1 / (1 + x^2 / variance + P2^2 / residue): the largest weight that a distribution
+// with these moments can have at z, which is the weight that the extremal distribution through z has there. A sum of
+// positive terms, here times the residue: nothing cancels.
+fn hankel_christoffel_number(factor: HankelFactor, x: f32, second_polynomial: f32) -> f32 {
+    let x_term = fma(x * factor.ratio, x, factor.residue);
+    return factor.residue / fma(second_polynomial, second_polynomial, x_term);
+}
+
+// moment_shadows/six_moments.wgsl
+
+// Six moments of depth: encoding, storage, bias.
+//
+// A map holds b = (E[z], ..., E[z^6]) of the moment depths z in [-1, 1] that a texel covers, in two texels: the odd moments
+// in one, the even ones in the other, since the optimised basis mixes neither with the other (Peters, GDC 2016; Peters et
+// al., JCGT 6(1) 2017). Like that of four moments it spreads the moments over the range of every channel, and commutes
+// with filtering.
+
+// The moments of one distribution.
+struct SixMoments {
+    // E[z], E[z^3], E[z^5].
+    odd: vec3f,
+    // E[z^2], E[z^4], E[z^6].
+    even: vec3f,
+}
+
+// A moment bias: b is moved by alpha towards moments whose odd ones are 0.
+struct SixMomentsBias {
+    // The target's E[z^2], E[z^4], E[z^6].
+    even: vec3f,
+    alpha: f32,
+}
+
+// The bias belongs to a storage's rounding error, not to a scene. Each value covers a resolve and a two-pass blur, every
+// stage rounded to the storage, for 99.999 % of filter regions. 3e-6 would do so for float32, but below 8e-6 what is left of
+// the last pivot of `hamburger6` in f32 can be nothing but rounding. The target is the one published for moment-based
+// transparency (Muenstermann et al., "Moment-Based Order-Independent Transparency", i3D 2018).
+const SIX_MOMENTS_BIAS_TARGET: vec3f = vec3f(0.5566, 0.489, 0.47869382);
+const SIX_MOMENTS_BIAS_UNORM16: SixMomentsBias = SixMomentsBias(SIX_MOMENTS_BIAS_TARGET, 1e-4);
+const SIX_MOMENTS_BIAS_FLOAT16: SixMomentsBias = SixMomentsBias(SIX_MOMENTS_BIAS_TARGET, 1.5e-3);
+const SIX_MOMENTS_BIAS_FLOAT32: SixMomentsBias = SixMomentsBias(SIX_MOMENTS_BIAS_TARGET, 1e-5);
+
+// The optimised basis, by columns: these products plus the offsets map the odd and the even moments of depths in [-1, 1]
+// into [0, 1]^3 each.
+const SIX_MOMENTS_ODD_BASIS: mat3x3f = mat3x3f(
+    2.5, -1.8749986445, 1.26583039016,
+    -10.0, 4.20757543111, -1.47644882902,
+    8.0, -1.83257678661, 0.71061660238,
+);
+const SIX_MOMENTS_EVEN_BASIS: mat3x3f = mat3x3f(
+    4.0, 9.0, -0.57759806484,
+    -4.0, -24.0, 4.61936647543,
+    0.0, 16.0, -3.07953906655,
+);
+const SIX_MOMENTS_ODD_OFFSET: vec3f = vec3f(0.5);
+const SIX_MOMENTS_EVEN_OFFSET: vec3f = vec3f(0.0, 0.0, 0.018888946);
+
+// Their inverses, by columns.
+const SIX_MOMENTS_ODD_INVERSE: mat3x3f = mat3x3f(
+    -0.02877789191977914, 0.09995235706024454, 0.25893353755023666,
+    0.4763555042123262, 0.8453258093069343, 0.907796166567316,
+    1.5524280897137293, 1.0547257075981561, 0.8332733564621547,
+);
+const SIX_MOMENTS_EVEN_INVERSE: mat3x3f = mat3x3f(
+    1.2530436076429571e-5, -0.24998746956392357, -0.37498825271617835,
+    0.16668494186053159, 0.16668494186053159, 0.21876713299424836,
+    0.866025405794346, 0.866025405794346, 0.8118988179321994,
+);
+
+// matrix * vector + offset, every step fused where the hardware does.
+fn six_moments_affine(matrix: mat3x3f, vector: vec3f, offset: vec3f) -> vec3f {
+    let last = fma(matrix[2], vector.zzz, offset);
+    return fma(matrix[0], vector.xxx, fma(matrix[1], vector.yyy, last));
+}
+
+// The moments of a single depth z in [-1, 1]: its powers.
+fn six_moments_from_depth(z: f32) -> SixMoments {
+    let square = z * z;
+    let powers = vec3f(1.0, square, square * square);
+    return SixMoments(z * powers, square * powers);
+}
+
+// What is subtracted from channels before they are stored: floats are finest around zero.
+fn six_moments_middle(storage: u32) -> f32 {
+    return select(0.0, 0.5, storage_is_float(storage));
+}
+
+// A texel of three channels, with 1 in the fourth.
+fn six_moments_texel(channels: vec3f, storage: u32) -> vec4f {
+    let texel = vec4f(saturate(channels) - six_moments_middle(storage), 1.0);
+    if storage == STORAGE_FLOAT16 {
+        return storage_round_to_float16(texel);
+    }
+    return texel;
+}
+
+// What to write to the first texel of the storage: the odd moments.
+fn six_moments_to_odd_texel(odd: vec3f, storage: u32) -> vec4f {
+    return six_moments_texel(six_moments_affine(SIX_MOMENTS_ODD_BASIS, odd, SIX_MOMENTS_ODD_OFFSET), storage);
+}
+
+// What to write to the second one: the even moments.
+fn six_moments_to_even_texel(even: vec3f, storage: u32) -> vec4f {
+    return six_moments_texel(six_moments_affine(SIX_MOMENTS_EVEN_BASIS, even, SIX_MOMENTS_EVEN_OFFSET), storage);
+}
+
+// Both texels.
+fn six_moments_to_texels(b: SixMoments, storage: u32) -> array<vec4f, 2> {
+    return array<vec4f, 2>(six_moments_to_odd_texel(b.odd, storage), six_moments_to_even_texel(b.even, storage));
+}
+
+// The moments in the two (filtered) texels of the storage, |b| < 1.05. Float storage can hold anything: channels beyond their
+// range count as its ends. Channels and not moments are clamped, since the bias covers errors of channels; moments at the ends
+// of their ranges, of which rounding has moved one inwards, would need one ten times as large if the others were clamped.
+fn six_moments_from_texels(texels: array<vec4f, 2>, storage: u32) -> SixMoments {
+    let middle = six_moments_middle(storage);
+    var odd = texels[0].xyz;
+    var even = texels[1].xyz;
+    if storage_is_float(storage) {
+        odd = clamp(odd, vec3f(-0.5), vec3f(0.5));
+        even = clamp(even, vec3f(-0.5), vec3f(0.5));
+    }
+    return SixMoments(
+        six_moments_affine(SIX_MOMENTS_ODD_INVERSE, odd - (SIX_MOMENTS_ODD_OFFSET - middle), vec3f(0.0)),
+        six_moments_affine(SIX_MOMENTS_EVEN_INVERSE, even - (SIX_MOMENTS_EVEN_OFFSET - middle), vec3f(0.0)),
+    );
+}
+
+// The moment bias of a storage.
+fn six_moments_bias_of(storage: u32) -> SixMomentsBias {
+    if storage == STORAGE_FLOAT32 {
+        return SIX_MOMENTS_BIAS_FLOAT32;
+    }
+    if storage == STORAGE_FLOAT16 {
+        return SIX_MOMENTS_BIAS_FLOAT16;
+    }
+    return SIX_MOMENTS_BIAS_UNORM16;
+}
+
+// Applies the moment bias (i3D 2015, section 3.3). Written as a step towards the target: 1 - alpha would keep only a
+// few bits of alpha.
+fn six_moments_apply_bias(b: SixMoments, bias: SixMomentsBias) -> SixMoments {
+    let alpha = vec3f(bias.alpha);
+    return SixMoments(fma(-alpha, b.odd, b.odd), fma(alpha, bias.even - b.even, b.even));
+}
+
+// moment_shadows/hamburger6.wgsl
+
+// Hamburger six-moment shadow mapping: the sharpest bounds on shadow intensity that six moments allow.
+//
+// As with four moments the extremal distribution has the fragment depth in its support, and now three more points (Peters &
+// Klein, i3D 2015, Proposition 3; six moments in Peters et al., JCGT 6(1) 2017). The published evaluation takes the three
+// roots of a cubic by arc tangents and divides by its leading coefficient, which vanishes when the fragment is at a Gauss
+// node. This one gives the same values without either:
+//   - the weight of a support point is its Christoffel number, a sum of positive terms;
+//   - how many support points lie in front of the fragment follows from the signs of the orthogonal polynomials (Sturm);
+//   - since all weights add up to one, only the one point that is alone on its side is needed. In y = 1 / (z - fragment)
+//     it is an extreme root of a cubic that never degenerates, and Laguerre's method finds it from outside.
+//
+// With x = z - b1 the monic orthogonal polynomials are P0 to P2 of `hankel`, and P3(x) = (x - offset) P2(x) - ratio x.
+
+// The Hankel matrix of six moments, factorised.
+struct Hamburger6Factor {
+    // That of the first four moments.
+    four: HankelFactor,
+    // By how much x is shifted in the recurrence that makes P3.
+    offset: f32,
+    // One over the squared norms of P1, P2 and P3.
+    inverse_norms: vec3f,
+}
+
+// P1, P2 and P3 at one place, and these over their squared norms.
+struct Hamburger6Polynomials {
+    values: vec3f,
+    coefficients: vec3f,
+    // The Christoffel number 1 / (1 + P1^2 / D1 + P2^2 / D2 + P3^2 / D3).
+    weight: f32,
+}
+
+// The last pivot of valid moments stays above this multiple of the moment bias alpha, that of the bias' target being 0.049.
+const HAMBURGER6_SMALLEST_PIVOT: f32 = 0.004;
+
+// Coefficients of the recurrence are those of a distribution on [-1, 1] and below these, but for moments that are none or
+// have lost all digits. They keep what follows from overflowing: with coefficients in these ranges and positive norms the
+// polynomials are orthogonal for some distribution, so that everything below holds for them too.
+const HAMBURGER6_LARGEST_SHIFT: f32 = 8.0;
+const HAMBURGER6_LARGEST_RATIO: f32 = 4.0;
+
+// Support points and fragments farther out than this have a weight below 1e-8 or count as being there.
+const HAMBURGER6_FARTHEST_SUPPORT: f32 = 1e4;
+
+// Steps of Laguerre's method; without enough of them errors of 0.1 remain in one of 10^4 cases.
+const HAMBURGER6_STEPS: u32 = 6u;
+
+// With a moment bias of at least this so many steps do.
+const HAMBURGER6_LARGE_ALPHA: f32 = 1e-3;
+const HAMBURGER6_STEPS_OF_LARGE_ALPHA: u32 = 4u;
+
+// Factorises the Hankel matrix of moments biased by `alpha` >= 1e-7. Moments must lie within [-2, 2].
+fn hamburger6_factor(biased: SixMoments, alpha: f32) -> Hamburger6Factor {
+    let b = vec4f(biased.odd.x, biased.even.x, biased.odd.y, biased.even.y);
+    var four = hankel_factor(b, alpha);
+    four.shift = clamp(four.shift, -HAMBURGER6_LARGEST_SHIFT, HAMBURGER6_LARGEST_SHIFT);
+    four.ratio = min(four.ratio, HAMBURGER6_LARGEST_RATIO);
+    four.residue = min(four.residue, HAMBURGER6_LARGEST_RATIO * four.variance);
+    let inverse = 1.0 / vec2f(four.variance, four.residue);
+    // What the regressions of z^3 on 1 and z, and on z^2 besides, leave.
+    let third = fma(-b.x, b.z, b.w);
+    let third_slope = third * inverse.x;
+    let fourth = fma(-fma(-b.x, b.y, b.z), third_slope, fma(-b.y, b.z, biased.odd.z));
+    let fourth_slope = fourth * inverse.y;
+    let pivot = fma(-fourth, fourth_slope, fma(-third, third_slope, fma(-b.z, b.z, biased.even.z)));
+    let offset = fma(-3.0, b.x, fourth_slope - four.shift);
+    return Hamburger6Factor(
+        four,
+        clamp(offset, -HAMBURGER6_LARGEST_SHIFT, HAMBURGER6_LARGEST_SHIFT),
+        vec3f(inverse, 1.0 / max(pivot, HAMBURGER6_SMALLEST_PIVOT * alpha)),
+    );
+}
+
+// The orthogonal polynomials and the Christoffel number at x.
+fn hamburger6_polynomials(factor: Hamburger6Factor, x: f32) -> Hamburger6Polynomials {
+    let second = hankel_second_polynomial(factor.four, x);
+    let values = vec3f(x, second, fma(x - factor.offset, second, -factor.four.ratio * x));
+    let coefficients = values * factor.inverse_norms;
+    return Hamburger6Polynomials(values, coefficients, 1.0 / (1.0 + dot(values, coefficients)));
+}
+
+// How many Gauss nodes, the roots of P3, are below the place of the polynomials: agreements of neighbours' signs.
+fn hamburger6_nodes_below(polynomials: Hamburger6Polynomials) -> u32 {
+    let positive = vec4<bool>(true, polynomials.values >= vec3f(0.0));
+    let agree = positive.xyz == positive.yzw;
+    return u32(agree.x) + u32(agree.y) + u32(agree.z);
+}
+
+// The weight of the support point that is alone on its side of a fragment at x: below it if one Gauss node is (`side` 1),
+// above it if two are (`side` -1).
+fn hamburger6_lone_weight(factor: Hamburger6Factor, x: f32, fragment: Hamburger6Polynomials, side: f32, alpha: f32) -> f32 {
+    // The kernel sum_k P_k(x) P_k(t) / D_k, which vanishes at the support points, as a polynomial in t - x, by powers of y:
+    // y^3 + e2 y^2 + e1 y + e0 with only positive terms in what it was divided by.
+    let k = fragment.coefficients;
+    let shift = factor.four.shift;
+    let second = fma(-k.z, shift + factor.offset, k.y);
+    let product = fma(factor.offset, shift, -factor.four.variance - factor.four.ratio);
+    let first = fma(-k.y, shift, fma(k.z, product, k.x));
+    let e2 = side * fragment.weight * fma(x, fma(3.0 * k.z, x, 2.0 * second), first);
+    let e1 = fragment.weight * fma(3.0 * k.z, x, second);
+    let e0 = side * fragment.weight * k.z;
+    // The only negative root, from a place that is left of all roots. Steps only lead towards it.
+    const nearest_to_zero: f32 = -1.0 / HAMBURGER6_FARTHEST_SUPPORT;
+    var y = min(-(e2 + 2.0 * sqrt(max(fma(e2, e2, -3.0 * e1), 0.0))) / 3.0, nearest_to_zero);
+    let steps = select(HAMBURGER6_STEPS, HAMBURGER6_STEPS_OF_LARGE_ALPHA, alpha >= HAMBURGER6_LARGE_ALPHA);
+    for (var step = 0u; step < steps; step++) {
+        let value = fma(fma(y + e2, y, e1), y, e0);
+        let slope = fma(fma(3.0, y, 2.0 * e2), y, e1);
+        let curvature = fma(6.0, y, 2.0 * e2);
+        let root = sqrt(max(fma(4.0 * slope, slope, -6.0 * value * curvature), 0.0));
+        // Left of the root the sum is at least y^2, which stays above 1e-8.
+        y = min(y - 3.0 * value / max(slope + root, 1e-9), nearest_to_zero);
+    }
+    return hamburger6_polynomials(factor, fma(side, 1.0 / y, x)).weight;
+}
+
+// The sharp bounds of shadow intensity: x = inf S(z < fragment_depth), y = sup S(z <= fragment_depth) over all
+// distributions S with the moments `biased`, which are already biased by `alpha` >= 1e-7 and lie within [-2, 2].
+// Both are in [0, 1] for all such moments, valid or not, and every finite fragment depth; farther out than 1e4 the
+// fragment depth counts as 1e4. Error: |error| <= C * 2^-24 * (1 + sensitivity) where fma is fused, with C = 32 for alpha
+// of 1e-4 and more and C = 128 for alpha about 5e-6.
+fn hamburger6_bounds(biased: SixMoments, fragment_depth: f32, alpha: f32) -> vec2f {
+    let factor = hamburger6_factor(biased, alpha);
+    let x = clamp(fragment_depth, -HAMBURGER6_FARTHEST_SUPPORT, HAMBURGER6_FARTHEST_SUPPORT) - biased.odd.x;
+    let fragment = hamburger6_polynomials(factor, x);
+    let below = hamburger6_nodes_below(fragment);
+    if below == 0u {
+        return vec2f(0.0, fragment.weight);
+    }
+    if below == 3u {
+        return vec2f(1.0 - fragment.weight, 1.0);
+    }
+    let side = select(-1.0, 1.0, below == 1u);
+    let weight = hamburger6_lone_weight(factor, x, fragment, side, alpha);
+    let sum = weight + fragment.weight;
+    return saturate(select(vec2f(1.0 - sum, 1.0 - weight), vec2f(weight, sum), below == 1u));
+}
+
+// The lower one of `hamburger6_bounds`, with fragment depths beyond the light's range counting as its ends.
+fn hamburger6_lower_bound(biased: SixMoments, fragment_depth: f32, alpha: f32) -> f32 {
+    return hamburger6_bounds(biased, clamp(fragment_depth, -1.0, 1.0), alpha).x;
+}
+
+// Shadow intensity in [0, 1] (1 = shadowed) of a fragment at `fragment_depth` (moment depth) under the filtered moments
+// of its map: the lower bound, never darker than the truth but for the bias. Moments lie within [-2, 2], as those from
+// `six_moments_from_texels` do, valid or not; fragment depths beyond the light's range count as its ends.
+fn hamburger6_shadow_intensity(moments: SixMoments, fragment_depth: f32, bias: SixMomentsBias) -> f32 {
+    return hamburger6_lower_bound(six_moments_apply_bias(moments, bias), fragment_depth, bias.alpha);
+}
+
+// The same for the two filtered texels of a storage, with the bias of the storage.
+fn hamburger6_shadow_intensity_of_texels(texels: array<vec4f, 2>, fragment_depth: f32, storage: u32) -> f32 {
+    return hamburger6_shadow_intensity(six_moments_from_texels(texels, storage), fragment_depth, six_moments_bias_of(storage));
+}
+
+// moment_shadows/enclosed_moments.wgsl
+
+// Six moments of the occluders between the ends of a range, and apart from them how much lies before and behind it.
+//
+// In rectified coordinates much of a view ray has no occluder at all, or one that shadows every view ray of the frustum. As
+// depths at the very ends of the range these take part in the moment problem, though it is known exactly what they do, and the
+// bounds of everything else become looser by it. Six moments leave the fourth channel of both texels free, which is room for
+// both weights. What is stored is linear in all of it and commutes with filtering and prefix sums.
+
+// Sums over the occluders of a texel, each times its weight; all weights together are one.
+struct EnclosedMoments {
+    // Of those at depths between -1 and 1.
+    moments: SixMoments,
+    // Their weight.
+    weight: f32,
+    // The weight of those at -1 and before. What is left of one is behind the range: no occluder.
+    front: f32,
+}
+
+// With less weight than this between the ends, where in between does not matter, and float16 has few digits left for it.
+const ENCLOSED_MOMENTS_SMALLEST_WEIGHT: f32 = 0.001953125;
+
+// Beyond this a moment bias leaves nothing of the moments.
+const ENCLOSED_MOMENTS_LARGEST_ALPHA: f32 = 0.5;
+
+// One occluder.
+fn enclosed_moments_of_occluder(depth: f32, weight: f32) -> EnclosedMoments {
+    let inner = select(0.0, weight, depth > -1.0 && depth < 1.0);
+    let powers = six_moments_from_depth(clamp(depth, -1.0, 1.0));
+    return EnclosedMoments(
+        SixMoments(inner * powers.odd, inner * powers.even),
+        inner,
+        select(0.0, weight, depth <= -1.0),
+    );
+}
+
+// Two occluders together.
+fn enclosed_moments_sum(a: EnclosedMoments, b: EnclosedMoments) -> EnclosedMoments {
+    let moments = SixMoments(a.moments.odd + b.moments.odd, a.moments.even + b.moments.even);
+    return EnclosedMoments(moments, a.weight + b.weight, a.front + b.front);
+}
+
+// Three channels of the optimised basis times the weight, and one more.
+fn enclosed_moments_texel(channels: vec3f, last: f32, weight: f32, storage: u32) -> vec4f {
+    let middle = six_moments_middle(storage);
+    let inside = saturate(weight);
+    let texel = vec4f(clamp(channels, vec3f(-middle * inside), vec3f((1.0 - middle) * inside)), saturate(last));
+    if storage == STORAGE_FLOAT16 {
+        return storage_round_to_float16(texel);
+    }
+    return texel;
+}
+
+// What to write to the first texel of the storage: the odd moments, and what does not lie in front of the range. Moments of
+// whole distributions, as `six_moments_to_odd_texel` has them, look the same.
+fn enclosed_moments_to_odd_texel(sums: EnclosedMoments, storage: u32) -> vec4f {
+    let offset = sums.weight * (SIX_MOMENTS_ODD_OFFSET - six_moments_middle(storage));
+    let channels = six_moments_affine(SIX_MOMENTS_ODD_BASIS, sums.moments.odd, offset);
+    return enclosed_moments_texel(channels, 1.0 - sums.front, sums.weight, storage);
+}
+
+// What to write to the second one: the even moments, and the weight between the ends.
+fn enclosed_moments_to_even_texel(sums: EnclosedMoments, storage: u32) -> vec4f {
+    let offset = sums.weight * (SIX_MOMENTS_EVEN_OFFSET - six_moments_middle(storage));
+    let channels = six_moments_affine(SIX_MOMENTS_EVEN_BASIS, sums.moments.even, offset);
+    return enclosed_moments_texel(channels, sums.weight, sums.weight, storage);
+}
+
+// The moments of a filtered texel's occluders between the ends, as means over them alone. Weights below
+// `ENCLOSED_MOMENTS_SMALLEST_WEIGHT` count as that.
+fn enclosed_moments_means(texels: array<vec4f, 2>, weight: f32, storage: u32) -> SixMoments {
+    let middle = six_moments_middle(storage);
+    let scale = 1.0 / max(weight, ENCLOSED_MOMENTS_SMALLEST_WEIGHT);
+    let odd = clamp(scale * texels[0].xyz, vec3f(-middle), vec3f(1.0 - middle));
+    let even = clamp(scale * texels[1].xyz, vec3f(-middle), vec3f(1.0 - middle));
+    return SixMoments(
+        six_moments_affine(SIX_MOMENTS_ODD_INVERSE, odd - (SIX_MOMENTS_ODD_OFFSET - middle), vec3f(0.0)),
+        six_moments_affine(SIX_MOMENTS_EVEN_INVERSE, even - (SIX_MOMENTS_EVEN_OFFSET - middle), vec3f(0.0)),
+    );
+}
+
+// The moment bias of means: that of the storage, which floats keep whatever the weight is, as they are finest around zero; the
+// step of others is the same for small weights.
+fn enclosed_moments_bias(weight: f32, storage: u32) -> SixMomentsBias {
+    let bias = six_moments_bias_of(storage);
+    let scale = select(1.0 / max(weight, ENCLOSED_MOMENTS_SMALLEST_WEIGHT), 1.0, storage_is_float(storage));
+    return SixMomentsBias(bias.even, min(bias.alpha * scale, ENCLOSED_MOMENTS_LARGEST_ALPHA));
+}
+
+// Bounds of the shadow at a depth: x = how much of the weight is certainly before it, y = how much may be. Both in [0, 1] for all
+// texels, filtered or broken; depths in [-1, 1].
+fn enclosed_moments_bounds(filtered: array<vec4f, 2>, depth: f32, storage: u32) -> vec2f {
+    let texels = array<vec4f, 2>(storage_finite_texel(filtered[0], storage), storage_finite_texel(filtered[1], storage));
+    let weight = saturate(texels[1].w);
+    let front = clamp(1.0 - texels[0].w, 0.0, 1.0 - weight);
+    let bias = enclosed_moments_bias(weight, storage);
+    let means = enclosed_moments_means(texels, weight, storage);
+    let bounds = hamburger6_bounds(six_moments_apply_bias(means, bias), depth, bias.alpha);
+    let known = weight >= ENCLOSED_MOMENTS_SMALLEST_WEIGHT;
+    return fma(select(vec2f(0.0, 1.0), bounds, known), vec2f(weight), vec2f(front));
+}
+
+// rectified_texel
+
+// Three of six moments of two occluders in rectified coordinates.
+
+// The plane that is made: 0 for odd moments, 1 for even ones.
+override PLANE: u32;
+
+fn rectified_texel(depths: vec2f, weights: vec2f) -> vec4f {
+    let near = enclosed_moments_of_occluder(depths.x, weights.x);
+    let far = enclosed_moments_of_occluder(depths.y, weights.y);
+    let sums = enclosed_moments_sum(near, far);
+    if PLANE == 0u {
+        return enclosed_moments_to_odd_texel(sums, STORAGE);
+    }
+    return enclosed_moments_to_even_texel(sums, STORAGE);
+}
+
 // moment_shadows/two_diracs.wgsl
 // Two depths with weights that have given first three moments: what a filtered texel of a shadow map is resampled as.
 //
@@ -828,7 +1141,7 @@ fn rectify(@builtin(global_invocation_id) id: vec3u) {
     let uv = parameters.map_at_camera + ray.x * outwards;
     if any(uv < vec2f(0.0)) || any(uv > vec2f(1.0)) {
         // What the light's map does not know casts no shadow.
-        textureStore(rectified_map, id.xy, encoding_texel(encoding_channels(1.0)));
+        textureStore(rectified_map, id.xy, rectified_texel(vec2f(1.0), vec2f(0.5)));
         return;
     }
     let region = map_region_within(parameters.region, textureDimensions(moments_map));
@@ -838,7 +1151,6 @@ fn rectify(@builtin(global_invocation_id) id: vec3u) {
     let texel = moments_lookup(parameters.layer, region, uv, column, row);
     let moments = moments_from_texel(storage_finite_texel(texel, SOURCE_STORAGE), SOURCE_STORAGE);
     let occluders = two_diracs_of_moments(moments.xyz);
-    let near = encoding_channels(rectified(occluders.depths.x, ray.x));
-    let far = encoding_channels(rectified(occluders.depths.y, ray.x));
-    textureStore(rectified_map, id.xy, encoding_texel(occluders.weights.x * near + occluders.weights.y * far));
+    let depths = vec2f(rectified(occluders.depths.x, ray.x), rectified(occluders.depths.y, ray.x));
+    textureStore(rectified_map, id.xy, rectified_texel(depths, occluders.weights));
 }

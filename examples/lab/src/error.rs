@@ -72,6 +72,15 @@ pub enum LabError {
     /// A light's size.
     #[error(transparent)]
     SoftLight(#[from] moment_shadows::AreaLightError),
+    /// A camera or light whose scattering cannot be prefiltered.
+    #[error(transparent)]
+    ScatteringView(#[from] moment_shadows_graph::nodes::ScatteringViewError),
+    /// A medium that there is not.
+    #[error(transparent)]
+    SingleScattering(#[from] moment_shadows::SingleScatteringError),
+    /// A kernel.
+    #[error(transparent)]
+    Kernel(#[from] moment_shadows::KernelError),
     /// The library's recorder.
     #[error(transparent)]
     Record(#[from] RecordError),

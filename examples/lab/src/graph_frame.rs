@@ -4,7 +4,9 @@ use moment_shadows::{
     AreaLight, DepthRange, LeakReduction, MapRegion, ReceiverBias, SoftRadii, Technique,
     TextureFormat,
 };
-use moment_shadows_graph::nodes::{CameraView, LightDepth, LightView, ShadeHardParameters};
+use moment_shadows_graph::nodes::{
+    CameraView, LightDepth, LightView, ScatteringParameters, ShadeHardParameters,
+};
 use moment_shadows_graph::record::{
     Bindings, ImportedResource, PipelineOptions, Pipelines, Recording, Resources,
 };
@@ -18,6 +20,7 @@ use crate::frame::{Frame, FrameDesc};
 use crate::gpu::Gpu;
 use crate::graph_file::GraphFile;
 use crate::light::{LightKind, LightShape, StoredDepth};
+use crate::scattering::Air;
 
 /// The output that the lab shades with.
 const SHADOW_INTENSITY: &str = "shadow_intensity";
@@ -47,6 +50,16 @@ pub struct GraphFrame {
 impl GraphFrame {
     /// Compiles the graph for the frame's textures, creates what it needs and fills in its parameters.
     pub fn new(gpu: &Gpu, frame: &Frame, file: &GraphFile) -> Result<Self, LabError> {
+        Self::in_air(gpu, frame, file, None)
+    }
+
+    /// The same, with something in the air for nodes that light it.
+    pub fn in_air(
+        gpu: &Gpu,
+        frame: &Frame,
+        file: &GraphFile,
+        air: Option<&Air>,
+    ) -> Result<Self, LabError> {
         let desc = &frame.desc;
         let capabilities = Capabilities::of_device(&gpu.adapter, &gpu.device);
         let plan = compile(&file.graph, &capabilities, &imports(desc)).map_err(|error| {
@@ -67,8 +80,11 @@ impl GraphFrame {
             usage: wgpu::BufferUsages::UNIFORM | wgpu::BufferUsages::COPY_DST,
             mapped_at_creation: false,
         });
-        gpu.queue
-            .write_buffer(&parameters, 0, &parameter_bytes(&plan, desc, file)?);
+        let mut bytes = parameter_bytes(&plan, desc, file)?;
+        if let Some(air) = air {
+            fill_scattering(&plan, &mut bytes, &scattering_parameters(desc, air)?)?;
+        }
+        gpu.queue.write_buffer(&parameters, 0, &bytes);
         let bindings = block_on(Bindings::create(
             &gpu.device,
             &plan,
@@ -191,16 +207,56 @@ pub fn parameter_bytes(
     Ok(bytes)
 }
 
+/// What the nodes of single scattering are given for a frame.
+pub fn scattering_parameters(
+    desc: &FrameDesc,
+    air: &Air,
+) -> Result<ScatteringParameters, LabError> {
+    let camera = camera_view(desc)?;
+    Ok(ScatteringParameters::new(
+        &camera,
+        air.far,
+        &light_view(desc),
+        air.medium,
+    )?)
+}
+
+/// Fills the blocks of all nodes of single scattering.
+pub(crate) fn fill_scattering(
+    plan: &Plan,
+    bytes: &mut [u8],
+    parameters: &ScatteringParameters,
+) -> Result<(), LabError> {
+    for block in &plan.parameters.blocks {
+        let (blocks, node) = (&plan.parameters, &block.node);
+        match block.name.as_str() {
+            "RectifyMomentsParameters" => blocks.write(bytes, node, 0, &parameters.rectify)?,
+            "IntegrateScatteringParameters" => {
+                blocks.write(bytes, node, 0, &parameters.integrate)?;
+            }
+            "CompositeScatteringParameters" => {
+                blocks.write(bytes, node, 0, &parameters.composite)?;
+            }
+            _ => {}
+        }
+    }
+    Ok(())
+}
+
+fn camera_view(desc: &FrameDesc) -> Result<CameraView, LabError> {
+    Ok(CameraView {
+        clip_from_world: desc.camera.clip_from_world_columns()?,
+        far_depth: 0.0,
+    })
+}
+
 /// What `shade_hard` is given for a frame.
 pub fn shade_parameters(
     desc: &FrameDesc,
     file: &GraphFile,
 ) -> Result<ShadeHardParameters, LabError> {
     let mut parameters = ShadeHardParameters::new(
-        &CameraView {
-            clip_from_world: desc.camera.clip_from_world_columns()?,
-            far_depth: 0.0,
-        },
+        &camera_view(desc)?,
         &light_view(desc),
         receiver_bias(desc, file)?,
         LeakReduction::DEFAULT,

@@ -21,12 +21,33 @@ use crate::{
 ///
 /// One texel is looked up per pixel for four moments, two for six. Where the medium has no density the result is (0, 0, 0, 1) to
 /// the bit, and so it is wherever a parameter is no finite number and the result would be none. Radiance is at most 65504.
-#[derive(Clone, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct CompositeScattering {
     /// The format of the radiance: rgba16float or rgba32float. Where it is left out, rgba16float.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub format: Option<TextureFormat>,
+    /// How strongly the shown shadow leans from the middle of its bounds towards one of them (adaptive overestimation): 0 not at
+    /// all, whatever the view; 1 as published, all the way to the upper bound (too dark) looking towards the light, and to the
+    /// lower one (too bright) looking away from it. Where it is left out, 0.25: near the smallest error of every scene and view
+    /// that was measured.
+    #[serde(default = "default_overestimation")]
+    pub overestimation: f32,
+}
+
+impl Default for CompositeScattering {
+    fn default() -> Self {
+        Self {
+            format: None,
+            overestimation: DEFAULT_OVERESTIMATION,
+        }
+    }
+}
+
+const DEFAULT_OVERESTIMATION: f32 = 0.25;
+
+fn default_overestimation() -> f32 {
+    DEFAULT_OVERESTIMATION
 }
 
 impl Node for CompositeScattering {
@@ -40,6 +61,15 @@ impl Node for CompositeScattering {
                 GraphErrorKind::Property,
                 format!(
                     "radiance has no upper limit; 'format' is rgba16float or rgba32float, not {format}"
+                ),
+            ));
+        }
+        if !(0.0..=1.0).contains(&self.overestimation) {
+            return Err(GraphError::new(
+                GraphErrorKind::Property,
+                format!(
+                    "'overestimation' is {}; it is from 0 (the middle of the bounds) to 1 (as published)",
+                    self.overestimation
                 ),
             ));
         }
@@ -62,7 +92,8 @@ impl Node for CompositeScattering {
         let (lookup, sampler) = moments_lookup(integrated.format, 1, 1, true, capabilities);
         let specialization = Specialization::new(capabilities)
             .constant("LEVELS", "1u")
-            .constant("ANISOTROPY", "1.0");
+            .constant("ANISOTROPY", "1.0")
+            .constant("OVERESTIMATION", &format!("{:?}", self.overestimation));
         let wgsl = techniques::specialize_map(specialization, &encoding).link(
             "composite_scattering.wgsl",
             include_str!("composite_scattering.wgsl"),

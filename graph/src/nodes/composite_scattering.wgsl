@@ -4,7 +4,7 @@ import moment_shadows::moments_lookup::{moments_map};
 import moment_shadows::rectified_frame::{RectifiedFrame, rectified_frame_coordinates, rectified_frame_depth, rectified_frame_place, rectified_frame_prefix, rectified_frame_row, rectified_frame_surface};
 import moment_shadows::scattering_bounds::{scattering_bounds};
 import moment_shadows::single_scattering::{SingleScattering, single_scattering_pixel, single_scattering_radiance, single_scattering_shadow, single_scattering_transmittance};
-import moment_shadows::specialization::{GROUP};
+import moment_shadows::specialization::{GROUP, OVERESTIMATION};
 
 // In-scattered radiance of every pixel from the camera's depth and the integrated map, to be added to the picture behind the
 // medium, which is first multiplied by the transmittance.
@@ -34,7 +34,7 @@ fn composite(covered: Covered) -> @location(0) vec4f {
     let map_uv = vec2f(rectified_frame_prefix(place.x, texels.x), rectified_frame_row(place.y, texels.y));
     let depth = rectified_frame_depth(parameters.frame, coordinates.z);
     let bounds = scattering_bounds(map_uv, MapRegion(vec2u(0u), size), depth);
-    let shadow = single_scattering_shadow(bounds, cosine);
+    let shadow = single_scattering_shadow(bounds, cosine, OVERESTIMATION);
 
     let radiance = single_scattering_radiance(parameters.medium, distance, cosine, shadow);
     let transmittance = single_scattering_transmittance(parameters.medium, distance);

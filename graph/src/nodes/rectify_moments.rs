@@ -54,6 +54,10 @@ impl Node for RectifyMoments {
             .at_slot("moments"));
         }
         let encoding = self.encoding()?;
+        let texel = match self.technique {
+            Technique::Hamburger6 => include_str!("scattering/rectified_six_moments.wgsl"),
+            _ => include_str!("scattering/rectified_four_moments.wgsl"),
+        };
         let capabilities = upstream.capabilities();
         let (lookup, sampler) =
             moments_lookup(moments.format, moments.mips, ANISOTROPY, true, capabilities);
@@ -67,10 +71,7 @@ impl Node for RectifyMoments {
         let wgsl = techniques::specialize_map(specialization, &encoding).link(
             "rectify_moments.wgsl",
             include_str!("rectify_moments.wgsl"),
-            &[
-                techniques::encoding(&self.technique),
-                ("moments_lookup", lookup),
-            ],
+            &[("rectified_texel", texel), ("moments_lookup", lookup)],
         )?;
         let mut bindings = vec![
             BindingResource::Parameters,

@@ -1,9 +1,9 @@
 import moment_shadows::angle::{angle_atan2, angle_sin_cos};
-import moment_shadows::map_encoding::{encoding_channels, encoding_texel};
 import moment_shadows::map_region::{MapRegion, map_region_within};
 import moment_shadows::moments::{moments_from_texel};
 import moment_shadows::moments_lookup::{moments_lookup, moments_map};
 import moment_shadows::rectified_frame::{RectifiedFrame, rectified_frame_depth, rectified_frame_ray};
+import moment_shadows::rectified_texel::{rectified_texel};
 import moment_shadows::specialization::{GROUP, MomentsStorage, SOURCE_STORAGE};
 import moment_shadows::storage::{storage_finite_texel};
 import moment_shadows::two_diracs::{two_diracs_of_moments};
@@ -58,7 +58,7 @@ fn rectify(@builtin(global_invocation_id) id: vec3u) {
     let uv = parameters.map_at_camera + ray.x * outwards;
     if any(uv < vec2f(0.0)) || any(uv > vec2f(1.0)) {
         // What the light's map does not know casts no shadow.
-        textureStore(rectified_map, id.xy, encoding_texel(encoding_channels(1.0)));
+        textureStore(rectified_map, id.xy, rectified_texel(vec2f(1.0), vec2f(0.5)));
         return;
     }
     let region = map_region_within(parameters.region, textureDimensions(moments_map));
@@ -68,7 +68,6 @@ fn rectify(@builtin(global_invocation_id) id: vec3u) {
     let texel = moments_lookup(parameters.layer, region, uv, column, row);
     let moments = moments_from_texel(storage_finite_texel(texel, SOURCE_STORAGE), SOURCE_STORAGE);
     let occluders = two_diracs_of_moments(moments.xyz);
-    let near = encoding_channels(rectified(occluders.depths.x, ray.x));
-    let far = encoding_channels(rectified(occluders.depths.y, ray.x));
-    textureStore(rectified_map, id.xy, encoding_texel(occluders.weights.x * near + occluders.weights.y * far));
+    let depths = vec2f(rectified(occluders.depths.x, ray.x), rectified(occluders.depths.y, ray.x));
+    textureStore(rectified_map, id.xy, rectified_texel(depths, occluders.weights));
 }

@@ -14,6 +14,8 @@ pub mod measure;
 pub mod minification;
 pub mod orderings;
 pub mod render;
+pub mod scattering_error;
+pub mod scattering_flicker;
 pub mod shaders;
 pub mod soft_error;
 pub mod stability;

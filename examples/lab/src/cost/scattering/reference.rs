@@ -139,8 +139,9 @@ impl Resampled<'_> {
                     let expected = self.channels(column, row);
                     let index = row as usize * self.size as usize + column as usize;
                     let [odd, even] = [odd, even].map(|plane| texel(plane, index));
-                    let found = [odd[0], odd[1], odd[2], even[0], even[1], even[2]];
-                    (0..6).map(move |channel| (found[channel] - expected[channel]).abs())
+                    let found = [odd, even].concat();
+                    let expected = expected.into_iter().flatten().zip(found);
+                    expected.map(|(expected, found)| (found - expected).abs())
                 })
                 .fold(0.0, |error, next| largest(next, error))
         };
@@ -148,8 +149,10 @@ impl Resampled<'_> {
         rows.reduce(|| 0.0, largest)
     }
 
-    /// The six channels of a rectified texel, odd moments first.
-    fn channels(&self, column: u32, row: u32) -> [f64; 6] {
+    /// Both texels of a ray: the channels of the moments of its occluders between the ends of the range times their weight, with
+    /// what is not before the range in the odd ones' fourth channel, and their weight in that of the even ones. None where
+    /// rounding decides whether an occluder lies between the ends.
+    fn channels(&self, column: u32, row: u32) -> Option<[f64; 8]> {
         let frame = &self.view.frame;
         let size = f64::from(self.size);
         let radius = (f64::from(column) + 0.5) / size * f64::from(frame.largest_radius);
@@ -161,15 +164,25 @@ impl Resampled<'_> {
         let raw = self.moments(0.5 * (clip.x + 1.0) * size, 0.5 * (1.0 - clip.y) * size);
         let [low, high] = [frame.largest_inclination, frame.smallest_inclination].map(f64::from);
         let mut moments = [0.0; 6];
+        let (mut inner, mut front) = (0.0, 0.0);
         for (depth, weight) in two_depths(raw) {
             let distance = (depth - (2.0 * clip.z - 1.0)) / depth_per_length;
             let inclination = radius.atan2(distance);
-            let z = (2.0 * (inclination - low) / (high - low) - 1.0).clamp(-1.0, 1.0);
-            for (power, moment) in (1..).zip(&mut moments) {
-                *moment += weight * z.powi(power);
+            let z = 2.0 * (inclination - low) / (high - low) - 1.0;
+            if (z.abs() - 1.0).abs() < UNCERTAIN {
+                return None;
+            }
+            if z.abs() < 1.0 {
+                inner += weight;
+                for (power, moment) in (1..).zip(&mut moments) {
+                    *moment += weight * z.powi(power);
+                }
+            } else if z < 0.0 {
+                front += weight;
             }
         }
-        six_channels(moments)
+        let [a, b, c, d, e, f] = six_channels(moments, inner);
+        Some([a, b, c, 1.0 - front, d, e, f, inner])
     }
 
     /// Three moments between four texels, whose middles lie at halves.
@@ -200,15 +213,19 @@ fn three_moments([x, y, z, w]: [f64; 4]) -> [f64; 3] {
     ]
 }
 
-/// The centred channels of six moments, odd ones first (Peters, GDC 2016).
-fn six_channels([b1, b2, b3, b4, b5, b6]: [f64; 6]) -> [f64; 6] {
+/// Depths this close to an end of the range may be on either side of it in f32.
+const UNCERTAIN: f64 = 1e-4;
+
+/// The centred channels of six moments, odd ones first (Peters, GDC 2016), of occluders with a weight.
+fn six_channels([b1, b2, b3, b4, b5, b6]: [f64; 6], weight: f64) -> [f64; 6] {
     [
         2.5 * b1 - 10.0 * b3 + 8.0 * b5,
         -1.8749986445 * b1 + 4.20757543111 * b3 - 1.83257678661 * b5,
         1.26583039016 * b1 - 1.47644882902 * b3 + 0.71061660238 * b5,
-        4.0 * b2 - 4.0 * b4 - 0.5,
-        9.0 * b2 - 24.0 * b4 + 16.0 * b6 - 0.5,
-        -0.57759806484 * b2 + 4.61936647543 * b4 - 3.07953906655 * b6 + 0.018888946 - 0.5,
+        4.0 * b2 - 4.0 * b4 - 0.5 * weight,
+        9.0 * b2 - 24.0 * b4 + 16.0 * b6 - 0.5 * weight,
+        -0.57759806484 * b2 + 4.61936647543 * b4 - 3.07953906655 * b6
+            + (0.018888946 - 0.5) * weight,
     ]
 }
 

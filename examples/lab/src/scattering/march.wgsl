@@ -1,0 +1,38 @@
+import moment_shadows::scattering_view::{view, view_cosine, view_dimming, view_surface};
+import moment_shadows::scattering_visibility::{visibility_shadow};
+import moment_shadows::single_scattering::{single_scattering_radiance, single_scattering_transmittance};
+
+// In-scattered radiance by marching: visibility at the middle of each step, everything else in closed form. Pixels of the
+// target are every so many pixels of the picture.
+
+override STEPS: u32 = 16;
+override PIXELS: i32 = 1;
+// Whether steps are shifted from pixel to pixel, as renderers do that blur the result.
+override DITHERED: bool = false;
+
+// Interleaved gradient noise (Jimenez, "Next generation post processing in Call of Duty", SIGGRAPH 2014).
+fn dither(pixel: vec2f) -> f32 {
+    return fract(52.9829189 * fract(dot(pixel, vec2f(0.06711056, 0.00583715))));
+}
+
+@fragment
+fn march(@builtin(position) position: vec4f) -> @location(0) vec4f {
+    let surface = view_surface(vec2i(position.xy) * PIXELS);
+    let distance = length(surface);
+    let step = distance / f32(STEPS);
+    let through = exp(-view.medium.extinction * step);
+    let uv_change = surface.x * view.map_along_first + surface.y * view.map_along_second;
+    let depth_change = surface.z * view.depth_per_length;
+    let offset = select(0.5, dither(position.xy), DITHERED);
+    var before = vec3f(1.0);
+    var lit = vec3f(0.0);
+    for (var index = 0u; index < STEPS; index++) {
+        let part = (f32(index) + offset) / f32(STEPS);
+        let uv = fma(vec2f(part), uv_change, view.map_at_camera);
+        let shadow = visibility_shadow(uv, fma(part, depth_change, view.depth_at_camera));
+        lit = fma(vec3f(1.0 - shadow), before, lit);
+        before *= through;
+    }
+    let radiance = single_scattering_radiance(view.medium, step, view_cosine(surface), 0.0) * lit;
+    return vec4f(radiance, view_dimming(single_scattering_transmittance(view.medium, distance)));
+}

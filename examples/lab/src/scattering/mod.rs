@@ -1,0 +1,25 @@
+//! Single scattering, judged: the library's nodes and what renderers do instead, against marched rays.
+
+mod air;
+mod candidate;
+mod convolution;
+mod cost;
+mod draw;
+mod flicker;
+mod look;
+mod march;
+mod report;
+mod stage;
+mod truth;
+
+pub use air::Air;
+pub use candidate::{PROFILE, ScatteringCandidate, candidates};
+pub use cost::{ScatteringCost, costs};
+pub use flicker::{
+    Chain, Change, FRAMES, Flicker, FlickerDesc, GOAL, Path, RectifyNearest, STILL, WINDOW,
+    flicker, static_region,
+};
+pub use look::{Look, LookDesc};
+pub use report::{ScatteringError, ScatteringReport, ScatteringRow};
+pub use stage::{ScatteringStage, ScatteringStageDesc};
+pub use truth::{MarchedRays, Rays, marched, marched_filtered};
