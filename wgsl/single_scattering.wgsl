@@ -69,7 +69,9 @@ fn single_scattering_pixel(radiance: vec3f, transmittance: vec3f) -> vec4f {
 // The shadow that is shown, between its bounds (x <= y): overestimation that adapts to the direction. Where a view ray runs
 // with the light it leans to the lower bound, whose light leaks into shadow; against it to the upper one, whose error is
 // darkness (GDC 2016, where the weight of the lower bound is beta; the supplement of i3D 2016 calls its complement so). Both
-// sources go all the way, an `overestimation` of 1; 0 is the middle of the bounds.
-fn single_scattering_shadow(bounds: vec2f, cosine: f32, overestimation: f32) -> f32 {
-    return mix(bounds.y, bounds.x, saturate(fma(0.5 * overestimation, cosine, 0.5)));
+// sources go all the way; here `overestimation` says how strongly, x against the light and y with it, each in [0, 1]. With 0 it
+// is the middle of the bounds, which is too dark looking away from the light.
+fn single_scattering_shadow(bounds: vec2f, cosine: f32, overestimation: vec2f) -> f32 {
+    let strength = select(overestimation.x, overestimation.y, cosine > 0.0);
+    return mix(bounds.y, bounds.x, saturate(fma(0.5 * strength, cosine, 0.5)));
 }

@@ -2,7 +2,7 @@
 
 use moment_shadows::{MapEncoding, Profile, Storage, Technique, TextureFormat};
 use moment_shadows_graph::nodes::{
-    CompositeScattering, IntegrateScattering, Medium, RectifyMoments,
+    CompositeScattering, IntegrateScattering, Medium, Overestimation, RectifyMoments,
 };
 use moment_shadows_graph::{
     Capabilities, Connected, GraphError, GraphErrorKind, Node, NodeDesc, ResourceDesc, TextureDesc,
@@ -99,23 +99,29 @@ fn maps_and_properties_that_do_not_fit_are_named() {
         ),
         (
             Box::new(CompositeScattering {
-                overestimation: 1.5,
+                overestimation: Overestimation {
+                    towards: 1.5,
+                    ..Overestimation::default()
+                },
                 ..CompositeScattering::default()
             }),
             "integrated",
             four(),
             GraphErrorKind::Property,
-            "'overestimation' is 1.5; it is from 0",
+            "'towards' of 'overestimation' is 1.5; it is from 0",
         ),
         (
             Box::new(CompositeScattering {
-                overestimation: f32::NAN,
+                overestimation: Overestimation {
+                    away: f32::NAN,
+                    ..Overestimation::default()
+                },
                 ..CompositeScattering::default()
             }),
             "integrated",
             four(),
             GraphErrorKind::Property,
-            "'overestimation' is NaN",
+            "'away' of 'overestimation' is NaN",
         ),
     ];
     for (node, slot, map, kind, says) in cases {

@@ -110,23 +110,25 @@ fn mean_transmittance_is_exact_from_nothing_to_everything() {
 fn overestimation_turns_from_the_upper_bound_to_the_lower_with_the_light() {
     const SHADER: &str = "
 import moment_shadows::single_scattering::{single_scattering_shadow};
-alias BatchInput = vec2f;
+alias BatchInput = vec4f;
 alias BatchOutput = f32;
-fn batch(input: vec2f) -> f32 {
-    return single_scattering_shadow(vec2f(0.25, 0.75), input.x, input.y);
+fn batch(input: vec4f) -> f32 {
+    return single_scattering_shadow(vec2f(0.25, 0.75), input.x, input.yz);
 }
 ";
     let gpu = Gpu::open(Profile::WebgpuCore).unwrap();
-    let batch = Batch::<[f32; 2], f32>::new(&gpu, "overestimation.wgsl", SHADER).unwrap();
+    let batch = Batch::<[f32; 4], f32>::new(&gpu, "overestimation.wgsl", SHADER).unwrap();
     // Against the light, across it and with it; rounding may leave the range.
     let cosines = [-1.0, -1.000_001, 0.0, 1.0, 1.000_001];
-    let at = |overestimation: f32| {
+    let at = |[towards, away]: [f32; 2]| {
         batch
-            .run(&cosines.map(|cosine| [cosine, overestimation]))
+            .run(&cosines.map(|cosine| [cosine, towards, away, 0.0]))
             .unwrap()
     };
-    assert_eq!(at(1.0), [0.75, 0.75, 0.5, 0.25, 0.25]);
-    assert_eq!(at(0.0), [0.5; 5]);
-    let half = at(0.5);
-    assert_eq!([half[0], half[2], half[3]], [0.625, 0.5, 0.375]);
+    assert_eq!(at([1.0, 1.0]), [0.75, 0.75, 0.5, 0.25, 0.25]);
+    assert_eq!(at([0.0, 0.0]), [0.5; 5]);
+    let half = at([0.5, 1.0]);
+    assert_eq!([half[0], half[2], half[3]], [0.625, 0.5, 0.25]);
+    let half = at([1.0, 0.5]);
+    assert_eq!([half[0], half[2], half[3]], [0.75, 0.5, 0.375]);
 }

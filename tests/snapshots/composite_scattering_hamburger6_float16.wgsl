@@ -229,7 +229,7 @@ fn map_lookup_is_inner(region: MapRegion, size: vec2u, levels: u32, place: vec2f
 const GROUP = 0;
 const LEVELS = 1u;
 const ANISOTROPY = 1.0;
-const OVERESTIMATION = 0.25;
+const OVERESTIMATION = vec2f(0.1, 0.6);
 alias MomentsStorage = texture_storage_2d<rgba16float, write>;
 const STORAGE = 1u;
 
@@ -423,10 +423,11 @@ fn rectified_frame_row(row: f32, rows: f32) -> f32 {
     return fma(row, rows - 1.0, 0.5) / rows;
 }
 
-// Where in a map of so many columns the prefix sums up to one lie, from 0 to 1: a texel holds the sum up to its
-// far edge.
+// Where in a map of so many columns the prefix sums up to one lie, from 0 to 1: a texel holds the sum up to its far edge, and is
+// right for view rays that end at the next column's middle. So no column is counted whose middle lies beyond a ray's end, where
+// what the ray ends at no longer shadows it.
 fn rectified_frame_prefix(column: f32, columns: f32) -> f32 {
-    return column - 0.5 / columns;
+    return column - 1.0 / columns;
 }
 
 // moment_shadows/hankel.wgsl
@@ -1034,9 +1035,11 @@ fn single_scattering_pixel(radiance: vec3f, transmittance: vec3f) -> vec4f {
 // The shadow that is shown, between its bounds (x <= y): overestimation that adapts to the direction. Where a view ray runs
 // with the light it leans to the lower bound, whose light leaks into shadow; against it to the upper one, whose error is
 // darkness (GDC 2016, where the weight of the lower bound is beta; the supplement of i3D 2016 calls its complement so). Both
-// sources go all the way, an `overestimation` of 1; 0 is the middle of the bounds.
-fn single_scattering_shadow(bounds: vec2f, cosine: f32, overestimation: f32) -> f32 {
-    return mix(bounds.y, bounds.x, saturate(fma(0.5 * overestimation, cosine, 0.5)));
+// sources go all the way; here `overestimation` says how strongly, x against the light and y with it, each in [0, 1]. With 0 it
+// is the middle of the bounds, which is too dark looking away from the light.
+fn single_scattering_shadow(bounds: vec2f, cosine: f32, overestimation: vec2f) -> f32 {
+    let strength = select(overestimation.x, overestimation.y, cosine > 0.0);
+    return mix(bounds.y, bounds.x, saturate(fma(0.5 * strength, cosine, 0.5)));
 }
 
 // composite_scattering.wgsl

@@ -176,10 +176,11 @@ fn rectified_frame_row(row: f32, rows: f32) -> f32 {
     return fma(row, rows - 1.0, 0.5) / rows;
 }
 
-// Where in a map of so many columns the prefix sums up to one lie, from 0 to 1: a texel holds the sum up to its
-// far edge.
+// Where in a map of so many columns the prefix sums up to one lie, from 0 to 1: a texel holds the sum up to its far edge, and is
+// right for view rays that end at the next column's middle. So no column is counted whose middle lies beyond a ray's end, where
+// what the ray ends at no longer shadows it.
 fn rectified_frame_prefix(column: f32, columns: f32) -> f32 {
-    return column - 0.5 / columns;
+    return column - 1.0 / columns;
 }
 
 // moment_shadows/scattering_weights.wgsl

@@ -580,10 +580,11 @@ fn rectified_frame_row(row: f32, rows: f32) -> f32 {
     return fma(row, rows - 1.0, 0.5) / rows;
 }
 
-// Where in a map of so many columns the prefix sums up to one lie, from 0 to 1: a texel holds the sum up to its
-// far edge.
+// Where in a map of so many columns the prefix sums up to one lie, from 0 to 1: a texel holds the sum up to its far edge, and is
+// right for view rays that end at the next column's middle. So no column is counted whose middle lies beyond a ray's end, where
+// what the ray ends at no longer shadows it.
 fn rectified_frame_prefix(column: f32, columns: f32) -> f32 {
-    return column - 0.5 / columns;
+    return column - 1.0 / columns;
 }
 
 // moment_shadows/hankel.wgsl
@@ -1151,6 +1152,8 @@ fn rectify(@builtin(global_invocation_id) id: vec3u) {
     let texel = moments_lookup(parameters.layer, region, uv, column, row);
     let moments = moments_from_texel(storage_finite_texel(texel, SOURCE_STORAGE), SOURCE_STORAGE);
     let occluders = two_diracs_of_moments(moments.xyz);
-    let depths = vec2f(rectified(occluders.depths.x, ray.x), rectified(occluders.depths.y, ray.x));
+    // View rays that end within the first column run along the light: whatever is before the camera shadows all of them.
+    let radius = select(ray.x, 0.0, id.x == 0u);
+    let depths = vec2f(rectified(occluders.depths.x, radius), rectified(occluders.depths.y, radius));
     textureStore(rectified_map, id.xy, rectified_texel(depths, occluders.weights));
 }

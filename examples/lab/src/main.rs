@@ -5,6 +5,7 @@ use std::process::ExitCode;
 
 use clap::{Parser, Subcommand, ValueEnum};
 use moment_shadows::{Profile, Storage, TechniqueError, nearest};
+use moment_shadows_graph::nodes::Overestimation;
 use moment_shadows_lab::bias::BiasTechnique;
 use moment_shadows_lab::candidate::{Candidate, TechniqueChoice, candidates};
 use moment_shadows_lab::command::cost_growth::GrowthOptions;
@@ -375,9 +376,10 @@ struct ScatteringErrorArguments {
     /// Rows of rectified maps.
     #[arg(long, default_value_t = 512, value_parser = clap::value_parser!(u32).range(2..=8192))]
     rows: u32,
-    /// How strongly our nodes lean towards a bound: from 0, the middle of the bounds, to 1, as published.
-    #[arg(long, default_value_t = 0.25)]
-    overestimation: f32,
+    /// How strongly our nodes lean towards a bound, looking towards the light and away from it: from 0, the middle of the bounds,
+    /// to 1, as published.
+    #[arg(long, num_args = 2, value_names = ["TOWARDS", "AWAY"])]
+    overestimation: Option<Vec<f32>>,
     /// Width of the picture.
     #[arg(long, default_value_t = 640, value_parser = clap::value_parser!(u32).range(16..=8192))]
     width: u32,
@@ -1071,7 +1073,10 @@ fn run_scattering_error(
             steps: arguments.steps,
         },
         extent: [arguments.columns, arguments.rows],
-        overestimation: arguments.overestimation,
+        overestimation: match arguments.overestimation.as_deref() {
+            Some(&[towards, away]) => Overestimation { towards, away },
+            _ => Overestimation::default(),
+        },
         only: arguments.only,
         rounds: arguments.cost,
         out: arguments.out,

@@ -23,7 +23,7 @@ mod techniques;
 mod unrolled;
 
 pub use blur_moments::{BlurMoments, BlurParameters};
-pub use composite_scattering::CompositeScattering;
+pub use composite_scattering::{CompositeScattering, Overestimation};
 pub use debug_moments::{DebugMoments, Show};
 pub use downsample_moments::DownsampleMoments;
 pub use integrate_scattering::{IntegrateScattering, Medium};

@@ -68,6 +68,8 @@ fn rectify(@builtin(global_invocation_id) id: vec3u) {
     let texel = moments_lookup(parameters.layer, region, uv, column, row);
     let moments = moments_from_texel(storage_finite_texel(texel, SOURCE_STORAGE), SOURCE_STORAGE);
     let occluders = two_diracs_of_moments(moments.xyz);
-    let depths = vec2f(rectified(occluders.depths.x, ray.x), rectified(occluders.depths.y, ray.x));
+    // View rays that end within the first column run along the light: whatever is before the camera shadows all of them.
+    let radius = select(ray.x, 0.0, id.x == 0u);
+    let depths = vec2f(rectified(occluders.depths.x, radius), rectified(occluders.depths.y, radius));
     textureStore(rectified_map, id.xy, rectified_texel(depths, occluders.weights));
 }

@@ -3,6 +3,8 @@
 use std::path::{Path, PathBuf};
 use std::time::Instant;
 
+use moment_shadows_graph::nodes::Overestimation;
+
 use crate::cost::CostError;
 use crate::cost::clock::{Clock, ClockKind, FEATURES};
 use crate::cost::protocol::FEWEST_ROUNDS;
@@ -26,8 +28,8 @@ pub struct ScatteringErrorOptions {
     pub stage: ScatteringStageDesc,
     /// Columns and rows of rectified maps.
     pub extent: [u32; 2],
-    /// How strongly our nodes lean towards a bound, from 0 to 1.
-    pub overestimation: f32,
+    /// How strongly our nodes lean towards a bound.
+    pub overestimation: Overestimation,
     /// Only candidates with one of these names, unless empty.
     pub only: Vec<String>,
     /// Rounds of measuring costs; none of them, no costs.

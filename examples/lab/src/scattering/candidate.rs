@@ -2,6 +2,7 @@
 
 use moment_shadows::{Profile, Storage, Technique};
 use moment_shadows_graph::Stage;
+use moment_shadows_graph::nodes::Overestimation;
 use moment_shadows_graph::record::Recording;
 
 use super::convolution::ConvolutionRows;
@@ -56,7 +57,7 @@ pub fn candidates(
     gpu: &Gpu,
     radius: u32,
     extent: [u32; 2],
-    overestimation: f32,
+    overestimation: Overestimation,
 ) -> Result<Vec<ScatteringCandidate>, LabError> {
     let has_unorm16 = gpu
         .device
@@ -116,10 +117,11 @@ fn graph(
     storage: Storage,
     radius: u32,
     extent: [u32; 2],
-    overestimation: f32,
+    overestimation: Overestimation,
 ) -> Result<GraphFile, LabError> {
     let [columns, rows] = extent;
     let technique = serde_json::to_value(technique).unwrap_or_default();
+    let overestimation = serde_json::to_value(overestimation).unwrap_or_default();
     let text = format!(
         r#"{{
   "version": 1,

@@ -13,7 +13,7 @@ import moment_shadows::storage::{STORAGE_FLOAT16};
 
 const PLANES = 4u;
 
-// The rectified depth of the caster on a light ray.
+// The rectified depth of the caster at a place of the map, on a light ray.
 fn occluder(uv: vec2f, radius: f32) -> f32 {
     let size = vec2f(textureDimensions(light_depth));
     let stored = textureLoad(light_depth, vec2i(min(saturate(uv) * size, size - 1.0)), 0);
@@ -37,7 +37,7 @@ fn sum_rows(@builtin(global_invocation_id) id: vec3u) {
     var weights = 0.0;
     for (var column = 0u; column < size.x; column++) {
         let radius = (f32(column) + 0.5) / f32(size.x) * view.frame.largest_radius;
-        let depth = occluder(view.map_at_camera + radius * outwards, radius);
+        let depth = occluder(view.map_at_camera + radius * outwards, select(radius, 0.0, column == 0u));
         let weight = scattering_weights_of_column(thickness, f32(column));
         weights += weight;
         for (var plane = 0u; plane < PLANES; plane++) {

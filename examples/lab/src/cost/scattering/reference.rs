@@ -167,7 +167,8 @@ impl Resampled<'_> {
         let (mut inner, mut front) = (0.0, 0.0);
         for (depth, weight) in two_depths(raw) {
             let distance = (depth - (2.0 * clip.z - 1.0)) / depth_per_length;
-            let inclination = radius.atan2(distance);
+            // The first column is that of view rays along the light.
+            let inclination = if column == 0 { 0.0 } else { radius }.atan2(distance);
             let z = 2.0 * (inclination - low) / (high - low) - 1.0;
             if (z.abs() - 1.0).abs() < UNCERTAIN {
                 return None;
