@@ -17,7 +17,8 @@ use moment_shadows_lab::cost::blur::{BOUNDS, BlurredMap, Bound};
 use moment_shadows_lab::cost::clock::{Clock, ClockKind, FEATURES};
 use moment_shadows_lab::cost::protocol::{CopyNumbers, FEWEST_ROUNDS, Rounds, Subject};
 use moment_shadows_lab::cost::reference;
-use moment_shadows_lab::cost::report::{BlurRow, Time};
+use moment_shadows_lab::cost::report::{BlurRow, Conditions, Time};
+use moment_shadows_lab::cost::scattering::{self, Method, ScatteringCost, ScatteringRow};
 use moment_shadows_lab::cost::statistics::Distribution;
 use moment_shadows_lab::cost::texels::{decode, encode, noise, step};
 use moment_shadows_lab::gpu::Gpu;
@@ -81,6 +82,86 @@ fn a_gate_holds_on_software_adapters_alone() {
             (64, Some(24.0))
         ]
     );
+}
+
+#[test]
+fn nodes_of_single_scattering_are_checked_before_they_are_timed() {
+    let gpu = Gpu::open_with(Profile::Native, FEATURES).unwrap();
+    let clock = Clock::new(&gpu, ClockKind::ProcessTime);
+    let rows = scattering::rows(&gpu, &clock, 96, 9).unwrap();
+    let methods: Vec<Method> = rows.iter().map(|row| row.method).collect();
+    assert_eq!(methods, [Method::Rectify, Method::Serial, Method::Parallel]);
+    for row in &rows {
+        // Float16 rounds channels of up to 1/2 by up to 1.2e-4, weights of up to 1 by twice that; less would mean that nothing was compared.
+        assert!(
+            (1e-4..3.5e-4).contains(&row.error),
+            "{}: {}",
+            row.method,
+            row.error
+        );
+        // Both planes are read and written, 8 bytes each.
+        assert!(row.bytes_per_texel >= 32.0, "{}", row.bytes_per_texel);
+    }
+}
+
+#[test]
+fn a_difference_from_sums_in_f64_is_found() {
+    let bytes = |values: [f32; 8]| -> Vec<u8> {
+        let halves = values.map(|value| half::f16::from_f32(value).to_le_bytes());
+        halves.concat()
+    };
+    let summed = bytes([0.5, 0.0, 0.25, -0.5, 0.25, 0.5, 0.25, 0.5]);
+    // Weights 1 and 1/2: two thirds of the first texel and a third of the second.
+    let thickness = [core::f64::consts::LN_2];
+    let third = |first: f32, second: f32| (2.0 * first + second) / 3.0;
+    let means = [third(0.5, 0.25), third(0.0, 0.5), 0.25, third(-0.5, 0.5)];
+    let [a, b, c, d] = means;
+    let found = |d: f32| bytes([0.5, 0.0, 0.25, -0.5, a, b, c, d]);
+    let error = |found: &[u8]| scattering::reference::sums_error(found, &summed, &thickness);
+    assert!(error(&found(d)) < 1.3e-4);
+    assert!((error(&found(d + 0.125)) - 0.125).abs() < 2e-4);
+    assert!(error(&found(f32::NAN)).is_nan());
+    assert!(error(&[]).is_nan());
+}
+
+#[test]
+fn growth_of_single_scattering_is_measured_from_512_and_bounded() {
+    let row = |method, size: u32, copies: f64, per_texel: f64| {
+        let mut time = time(copies, 0.1);
+        time.seconds.median = per_texel * f64::from(size) * f64::from(size);
+        ScatteringRow {
+            size,
+            method,
+            time,
+            bytes_per_texel: 32.0,
+            error: 0.0,
+            growth: None,
+            chosen: method != Method::Parallel,
+        }
+    };
+    let conditions = |clock| Conditions {
+        adapter: String::new(),
+        driver: String::new(),
+        device_type: String::new(),
+        clock,
+        rounds: 9,
+    };
+    let passed = |clock, rows| ScatteringCost::new(conditions(clock), rows).passed();
+    let at = |method, copies, largest| {
+        vec![
+            row(method, 256, copies, 9.0),
+            row(method, 512, copies, 1.0),
+            row(method, 4096, copies, largest),
+        ]
+    };
+    let cpu = ClockKind::ProcessTime;
+    assert!(passed(cpu, at(Method::Serial, 1.3, 1.29)));
+    assert!(!passed(cpu, at(Method::Serial, 1.31, 1.0)));
+    assert!(!passed(cpu, at(Method::Serial, 1.0, 1.31)));
+    assert!(passed(cpu, at(Method::Rectify, 5.0, 1.0)));
+    assert!(!passed(cpu, at(Method::Rectify, 5.0, 1.31)));
+    assert!(passed(cpu, at(Method::Parallel, 9.0, 2.0)));
+    assert!(passed(ClockKind::Timestamps, at(Method::Serial, 9.0, 2.0)));
 }
 
 #[test]

@@ -2,7 +2,7 @@
 
 use moment_shadows::{MapEncoding, Profile, Storage, Technique, TextureFormat};
 use moment_shadows_graph::nodes::{
-    CompositeScattering, IntegrateScattering, Overestimation, RectifyMoments,
+    CompositeScattering, IntegrateScattering, Medium, Overestimation, RectifyMoments,
 };
 use moment_shadows_graph::{
     Capabilities, Connected, GraphError, GraphErrorKind, Node, NodeDesc, ResourceDesc, TextureDesc,
@@ -42,7 +42,7 @@ type Case = (
 #[test]
 fn maps_and_properties_that_do_not_fit_are_named() {
     let four = || map(Technique::Hamburger4);
-    let cases: [Case; 8] = [
+    let cases: [Case; 9] = [
         (
             Box::new(rectify(Technique::Vsm, [64, 64])),
             "moments",
@@ -70,6 +70,15 @@ fn maps_and_properties_that_do_not_fit_are_named() {
             map(Technique::Vsm),
             GraphErrorKind::Format,
             "resamples four moments",
+        ),
+        (
+            Box::new(IntegrateScattering {
+                medium: Medium::Inhomogeneous,
+            }),
+            "rectified",
+            four(),
+            GraphErrorKind::Property,
+            "'medium' is 'inhomogeneous'",
         ),
         (
             Box::new(CompositeScattering::default()),

@@ -3,6 +3,7 @@
 use bytemuck::bytes_of;
 use glam::{DMat4, DVec3, DVec4};
 use moment_shadows::{MapEncoding, MapRegion, RectifiedView, SingleScattering, Storage, Technique};
+use moment_shadows_graph::TextureDesc;
 use moment_shadows_graph::nodes::{
     CameraView, LightDepth, LightView, ScatteringParameters, ScatteringViewError,
 };
@@ -11,18 +12,23 @@ use moment_shadows_lab::gpu::Gpu;
 use crate::cameras::{Lens, Pair, looking, pair};
 use crate::stage::{capabilities, draw_over, gpu, run, sky, upload};
 
-const PICTURE: [u32; 2] = [48, 32];
-const MAP: u32 = 256;
-const FAR: f64 = 20.0;
+pub(crate) const PICTURE: [u32; 2] = [48, 32];
+pub(crate) const MAP: u32 = 256;
+pub(crate) const FAR: f64 = 20.0;
 
-fn graph(technique: &str, storage: &str) -> String {
+pub(crate) fn graph(technique: &str, storage: &str) -> String {
+    graph_of([256, 256], technique, storage)
+}
+
+/// The same for a rectified map of some extent.
+pub(crate) fn graph_of([columns, rows]: [u32; 2], technique: &str, storage: &str) -> String {
     format!(
         r#"{{
   "version": 1,
   "imports": [{{ "name": "map" }}, {{ "name": "camera_depth" }}],
   "nodes": [
     {{ "name": "rectify", "type": "rectify_moments",
-       "properties": {{ "technique": {technique}, "storage": "{storage}", "extent": [256, 256] }} }},
+       "properties": {{ "technique": {technique}, "storage": "{storage}", "extent": [{columns}, {rows}] }} }},
     {{ "name": "integrate", "type": "integrate_scattering" }},
     {{ "name": "composite", "type": "composite_scattering", "properties": {{ "format": "rgba32float" }} }}
   ],
@@ -129,6 +135,8 @@ impl Sun {
     }
 }
 
+pub(crate) const EYE: DVec3 = DVec3::new(0.4, 1.7, 0.3);
+
 fn camera(forward: DVec3) -> Pair {
     let lens = Lens {
         field_of_view: 1.1,
@@ -136,8 +144,7 @@ fn camera(forward: DVec3) -> Pair {
         near: 0.1,
         far: None,
     };
-    let eye = DVec3::new(0.4, 1.7, 0.3);
-    pair(eye, looking(forward, 0.2), lens, FAR, DVec3::NEG_Y)
+    pair(EYE, looking(forward, 0.2), lens, FAR, DVec3::NEG_Y)
 }
 
 fn camera_view(pair: &Pair) -> CameraView {
@@ -153,6 +160,68 @@ fn medium(density: f32) -> SingleScattering {
     SingleScattering::new(extinction, scattering, 0.3, [3.0; 3]).unwrap()
 }
 
+/// A camera under the roof, its light and the light's map.
+pub(crate) struct Scene {
+    sun: Sun,
+    camera: Pair,
+    /// The texels of the light's map, row by row.
+    pub(crate) moments: Vec<[f32; 4]>,
+}
+
+impl Scene {
+    /// That looks across the light.
+    pub(crate) fn across() -> Self {
+        // The origin is not in the middle of its range.
+        let sun = Sun::ending(DVec3::new(0.5, -1.0, 0.3), 30.0);
+        Self {
+            camera: camera(sun.direction.any_orthonormal_vector()),
+            moments: sun.moments(),
+            sun,
+        }
+    }
+
+    pub(crate) fn parameters(&self) -> ScatteringParameters {
+        self.parameters_of(&self.light())
+    }
+
+    pub(crate) fn camera(&self) -> Pair {
+        self.camera
+    }
+
+    pub(crate) fn light_direction(&self) -> DVec3 {
+        self.sun.direction
+    }
+
+    /// What describes the light.
+    pub(crate) fn light(&self) -> LightView {
+        self.sun.view()
+    }
+
+    /// With another description of the light.
+    pub(crate) fn parameters_of(&self, light: &LightView) -> ScatteringParameters {
+        self.parameters_in(light, medium(1.0))
+    }
+
+    /// And another medium.
+    pub(crate) fn parameters_in(
+        &self,
+        light: &LightView,
+        medium: SingleScattering,
+    ) -> ScatteringParameters {
+        let camera = camera_view(&self.camera);
+        ScatteringParameters::new(&camera, FAR, light, medium).unwrap()
+    }
+
+    /// The light's map and the camera's depth.
+    pub(crate) fn imports(&self, gpu: &Gpu) -> [(TextureDesc, wgpu::Texture); 2] {
+        let encoding = MapEncoding::new(Technique::Hamburger4, Storage::Float32).unwrap();
+        [
+            upload(gpu, &encoding, [MAP; 2], &self.moments),
+            sky(gpu, PICTURE),
+        ]
+    }
+}
+
 /// The picture that the nodes make.
 fn picture(
     gpu: &Gpu,
@@ -162,11 +231,21 @@ fn picture(
     moments: &[[f32; 4]],
     [technique, storage]: [&str; 2],
 ) -> Vec<[f32; 4]> {
+    let parameters =
+        ScatteringParameters::new(&camera_view(pair), FAR, &sun.view(), medium).unwrap();
+    picture_of(gpu, &parameters, moments, [technique, storage])
+}
+
+/// The same with parameters of any kind.
+fn picture_of(
+    gpu: &Gpu,
+    parameters: &ScatteringParameters,
+    moments: &[[f32; 4]],
+    [technique, storage]: [&str; 2],
+) -> Vec<[f32; 4]> {
     let encoding = MapEncoding::new(Technique::Hamburger4, Storage::Float32).unwrap();
     let map = upload(gpu, &encoding, [MAP; 2], moments);
     let camera_depth = sky(gpu, PICTURE);
-    let parameters =
-        ScatteringParameters::new(&camera_view(pair), FAR, &sun.view(), medium).unwrap();
     let layers = run(
         gpu,
         &capabilities(gpu),
@@ -254,7 +333,7 @@ fn directions(sun: &Sun) -> [(&'static str, DVec3); 5] {
 #[test]
 fn shafts_of_light_are_those_of_marched_rays() {
     let gpu = gpu();
-    let sun = Sun::new(DVec3::new(0.5, -1.0, 0.3));
+    let sun = Sun::ending(DVec3::new(0.5, -1.0, 0.3), 30.0);
     let moments = sun.moments();
     let medium = medium(1.0);
     let kinds = [
@@ -309,6 +388,56 @@ fn no_density_is_no_fog_to_the_bit() {
                 [0.0_f32, 0.0, 0.0, 1.0].map(f32::to_bits)
             );
         }
+    }
+}
+
+#[test]
+fn in_a_thick_medium_sums_are_weighted_with_its_transmittance() {
+    let gpu = gpu();
+    let sun = Sun::new(DVec3::new(0.5, -1.0, 0.3));
+    let moments = sun.moments();
+    let medium = medium(4.0);
+    let kind = ["\"hamburger6\"", "float32"];
+    let mean = |errors: [f64; 3]| errors.iter().sum::<f64>() / 3.0;
+    let (mut weighted, mut unweighted) = (0.0, 0.0);
+    for (name, forward) in directions(&sun) {
+        let pair = camera(forward);
+        let truth = truth(&pair, &sun, &medium);
+        let picture = |extinction: Option<f32>| {
+            let mut parameters =
+                ScatteringParameters::new(&camera_view(&pair), FAR, &sun.view(), medium).unwrap();
+            if let Some(extinction) = extinction {
+                parameters.integrate.extinction = extinction;
+            }
+            picture_of(&gpu, &parameters, &moments, kind)
+        };
+        let errors = [None, Some(0.0)].map(|extinction| mean(error(&picture(extinction), &truth)));
+        println!("{name}: {errors:?}");
+        weighted += errors[0] / 5.0;
+        unweighted += errors[1] / 5.0;
+    }
+    assert!(weighted < 0.7 * unweighted, "{weighted} and {unweighted}");
+}
+
+#[test]
+fn without_extinction_light_is_scattered_without_loss() {
+    let gpu = gpu();
+    let sun = Sun::new(DVec3::new(0.5, -1.0, 0.3));
+    let moments = sun.moments();
+    let scattering = [0.07, 0.09, 0.1];
+    let medium = SingleScattering::new([0.0; 3], scattering, 0.3, [3.0; 3]).unwrap();
+    for (name, forward) in directions(&sun) {
+        let pair = camera(forward);
+        let kind = ["\"hamburger6\"", "float32"];
+        let found = picture(&gpu, &pair, &sun, medium, &moments, kind);
+        assert!(found.iter().all(|pixel| pixel[3] == 1.0), "{name}");
+        let errors = error(&found, &truth(&pair, &sun, &medium));
+        println!("{name}: {errors:?}");
+        // As with extinction: what six moments leave open.
+        assert!(
+            errors.iter().all(|&error| error <= 0.08),
+            "{name}: {errors:?}"
+        );
     }
 }
 

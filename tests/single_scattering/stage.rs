@@ -5,7 +5,7 @@ use moment_shadows_graph::record::{
     Bindings, HostTarget, ImportedResource, PipelineOptions, Pipelines, Recording, Resources,
 };
 use moment_shadows_graph::{
-    Capabilities, Graph, Imports, NodeRegistry, ResourceDesc, Stage, TextureDesc, compile,
+    Capabilities, Graph, Imports, NodeRegistry, Plan, ResourceDesc, Stage, TextureDesc, compile,
 };
 use moment_shadows_lab::gpu::Gpu;
 use pollster::block_on;
@@ -27,6 +27,17 @@ pub(crate) fn upload(
     gpu: &Gpu,
     encoding: &MapEncoding,
     size: [u32; 2],
+    channels: &[[f32; 4]],
+) -> (TextureDesc, wgpu::Texture) {
+    upload_layers(gpu, encoding, size, 1, channels)
+}
+
+/// The same for a map of several layers.
+pub(crate) fn upload_layers(
+    gpu: &Gpu,
+    encoding: &MapEncoding,
+    size: [u32; 2],
+    layers: u32,
     channels: &[[f32; 4]],
 ) -> (TextureDesc, wgpu::Texture) {
     use moment_shadows::TextureFormat::{Rgba16Float, Rgba16Unorm, Rgba32Float};
@@ -57,7 +68,7 @@ pub(crate) fn upload(
             size: wgpu::Extent3d {
                 width: size[0],
                 height: size[1],
-                depth_or_array_layers: encoding.planes(),
+                depth_or_array_layers: layers * encoding.planes(),
             },
             mip_level_count: 1,
             sample_count: 1,
@@ -69,7 +80,11 @@ pub(crate) fn upload(
         wgpu::util::TextureDataOrder::LayerMajor,
         &bytes,
     );
-    (TextureDesc::of_map(encoding.clone(), size), texture)
+    let desc = TextureDesc {
+        layers,
+        ..TextureDesc::of_map(encoding.clone(), size)
+    };
+    (desc, texture)
 }
 
 /// A camera's depth of nothing but sky: zeros, infinitely far.
@@ -94,6 +109,8 @@ pub(crate) fn sky(gpu: &Gpu, size: [u32; 2]) -> (TextureDesc, wgpu::Texture) {
 
 /// A plan with all that recording it needs.
 pub(crate) struct Bound {
+    plan: Plan,
+    parameters: wgpu::Buffer,
     bindings: Bindings,
     // What the bindings refer to.
     _resources: Resources,
@@ -108,20 +125,43 @@ pub(crate) fn run(
     blocks: &[Block<'_>],
     output: &str,
 ) -> Vec<Vec<u8>> {
-    let bound = bind(gpu, capabilities, graph, imports, blocks, &[]);
-    let mut encoder = gpu.device.create_command_encoder(&Default::default());
-    for stage in Stage::ALL {
-        bound
-            .bindings
-            .record(stage, &mut encoder, Recording::default())
-            .unwrap();
+    bind(gpu, capabilities, graph, imports, blocks, &[]).run(gpu, blocks, output)
+}
+
+impl Bound {
+    /// All layers of an output as bytes, with these parameters.
+    pub(crate) fn run(&self, gpu: &Gpu, blocks: &[Block<'_>], output: &str) -> Vec<Vec<u8>> {
+        gpu.queue
+            .write_buffer(&self.parameters, 0, &contents(&self.plan, blocks));
+        let mut encoder = gpu.device.create_command_encoder(&Default::default());
+        for stage in Stage::ALL {
+            self.bindings
+                .record(stage, &mut encoder, Recording::default())
+                .unwrap();
+        }
+        gpu.queue.submit([encoder.finish()]);
+        gpu.check().unwrap();
+        let texture = self.bindings.output(output).unwrap();
+        (0..texture.depth_or_array_layers())
+            .map(|layer| gpu.read_texture(texture, layer, output).unwrap())
+            .collect()
     }
-    gpu.queue.submit([encoder.finish()]);
-    gpu.check().unwrap();
-    let texture = bound.bindings.output(output).unwrap();
-    (0..texture.depth_or_array_layers())
-        .map(|layer| gpu.read_texture(texture, layer, output).unwrap())
-        .collect()
+}
+
+/// The parameter buffer of a plan with some blocks filled.
+fn contents(plan: &Plan, blocks: &[Block<'_>]) -> Vec<u8> {
+    let mut bytes = plan.parameters.initial();
+    for (node, block) in blocks {
+        let planned = plan
+            .parameters
+            .blocks
+            .iter()
+            .find(|planned| planned.node == *node)
+            .unwrap();
+        let start = planned.offset as usize;
+        bytes[start..start + block.len()].copy_from_slice(block);
+    }
+    bytes
 }
 
 /// The same graph with the pass `composite/composite` drawn into a host's pass of rgba16float, which holds `behind`.
@@ -176,7 +216,8 @@ pub(crate) fn draw_over(
     gpu.read_texture(&target, 0, "the host's").unwrap()
 }
 
-fn bind(
+/// A graph, compiled and bound.
+pub(crate) fn bind(
     gpu: &Gpu,
     capabilities: &Capabilities,
     graph: &str,
@@ -197,21 +238,10 @@ fn bind(
     };
     let pipelines = block_on(Pipelines::create(device, &plan, options)).unwrap();
     let resources = block_on(Resources::create(device, &plan)).unwrap();
-    let mut bytes = plan.parameters.initial();
-    for (node, block) in blocks {
-        let planned = plan
-            .parameters
-            .blocks
-            .iter()
-            .find(|planned| planned.node == *node)
-            .unwrap();
-        let start = planned.offset as usize;
-        bytes[start..start + block.len()].copy_from_slice(block);
-    }
     let parameters = device.create_buffer_init(&wgpu::util::BufferInitDescriptor {
         label: Some("parameters"),
-        contents: &bytes,
-        usage: wgpu::BufferUsages::UNIFORM,
+        contents: &contents(&plan, blocks),
+        usage: wgpu::BufferUsages::UNIFORM | wgpu::BufferUsages::COPY_DST,
     });
     let imports: Vec<(&str, ImportedResource<'_>)> = imports
         .iter()
@@ -227,6 +257,8 @@ fn bind(
     ))
     .unwrap();
     Bound {
+        plan,
+        parameters,
         bindings,
         _resources: resources,
     }

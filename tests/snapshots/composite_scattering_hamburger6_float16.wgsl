@@ -1012,6 +1012,9 @@ fn single_scattering_mean_transmittance(x: vec3f) -> vec3f {
     return select(direct, series, x < vec3f(0.5));
 }
 
+// The most radiance of a pixel: what float16 holds.
+const SINGLE_SCATTERING_LARGEST: f32 = 65504.0;
+
 // Transmittance of a stretch of the medium, by colour: what is left of the light behind it. 1 to the bit where nothing is
 // extinguished.
 fn single_scattering_transmittance(medium: SingleScattering, distance: f32) -> vec3f {
@@ -1025,7 +1028,20 @@ fn single_scattering_radiance(medium: SingleScattering, distance: f32, cosine: f
     // Light that reaches the camera has turned from the light's direction to that against the view ray.
     let phase = phase_function_henyey_greenstein(-cosine, medium.anisotropy);
     let lit = phase * (1.0 - shadow) * distance;
-    return lit * medium.irradiance * medium.scattering * single_scattering_mean_transmittance(medium.extinction * distance);
+    let thickness = max(medium.extinction * distance, vec3f(0.0));
+    return lit * medium.irradiance * medium.scattering * single_scattering_mean_transmittance(thickness);
+}
+
+// What a pixel is given: radiance, and the mean of the colours' transmittance, which is 1 to the bit where all of them are.
+// Where one of them is no finite number, since one of the parameters is none, there is no medium; less than no light is none.
+fn single_scattering_pixel(radiance: vec3f, transmittance: vec3f) -> vec4f {
+    let others = (transmittance.y - transmittance.x) + (transmittance.z - transmittance.x);
+    let pixel = vec4f(radiance, fma(others, 1.0 / 3.0, transmittance.x));
+    // By their bits: a compiler may assume that there is neither.
+    let exponent = bitcast<vec4u>(pixel) & vec4u(0x7f800000u);
+    let impossible = any(exponent == vec4u(0x7f800000u));
+    let lit = clamp(pixel.xyz, vec3f(0.0), vec3f(SINGLE_SCATTERING_LARGEST));
+    return select(vec4f(lit, saturate(pixel.w)), vec4f(0.0, 0.0, 0.0, 1.0), impossible);
 }
 
 // The shadow that is shown, between its bounds (x <= y): overestimation that adapts to the direction. Where a view ray runs
@@ -1072,7 +1088,5 @@ fn composite(covered: Covered) -> @location(0) vec4f {
 
     let radiance = single_scattering_radiance(parameters.medium, distance, cosine, shadow);
     let transmittance = single_scattering_transmittance(parameters.medium, distance);
-    // A mean that is 1 to the bit where all of them are.
-    let others = (transmittance.y - transmittance.x) + (transmittance.z - transmittance.x);
-    return vec4f(radiance, fma(others, 1.0 / 3.0, transmittance.x));
+    return single_scattering_pixel(radiance, transmittance);
 }

@@ -222,7 +222,7 @@ pub fn scattering_parameters(
 }
 
 /// Fills the blocks of all nodes of single scattering.
-fn fill_scattering(
+pub(crate) fn fill_scattering(
     plan: &Plan,
     bytes: &mut [u8],
     parameters: &ScatteringParameters,

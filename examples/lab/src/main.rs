@@ -15,15 +15,15 @@ use moment_shadows_lab::command::scattering_error::ScatteringErrorOptions;
 use moment_shadows_lab::command::soft_error::SoftErrorOptions;
 use moment_shadows_lab::command::{
     bases, bias, contacts, cost, cost_growth, error, error_table, graph, isa, layers_figure,
-    measure, minification, orderings, render, scattering_error, shaders, soft_error, stability,
-    technique_pictures, validate,
+    measure, minification, orderings, render, scattering_error, scattering_flicker, shaders,
+    soft_error, stability, technique_pictures, validate,
 };
 use moment_shadows_lab::cost::bandwidth::Memory;
 
 use moment_shadows_lab::gpu::Gpu;
 use moment_shadows_lab::isa::child;
 use moment_shadows_lab::isa::chip::Chip;
-use moment_shadows_lab::scattering::{Look, LookDesc, ScatteringStageDesc};
+use moment_shadows_lab::scattering::{FRAMES, FlickerDesc, Look, LookDesc, ScatteringStageDesc};
 use moment_shadows_lab::soft::{LightSize, NamedGraph, SoftLightChoice, StageDesc};
 use moment_shadows_lab::stability::Effort;
 use moment_shadows_lab::technique_argument::TechniqueArgument;
@@ -211,13 +211,17 @@ enum Command {
     SoftError(SoftErrorArguments),
     /// Renders the light that a medium scatters by every technique beside marched rays, and prints errors and costs.
     ScatteringError(ScatteringErrorArguments),
-    /// Times the passes of a graph, blurs of several radii or summed-area tables, as ratios to copies, and counts their bytes.
+    /// Walks a slow path of camera and light, and prints how much the air flickers with filtered resampling and without. Fails
+    /// where it is more than a third as much. Takes minutes.
+    ScatteringFlicker(ScatteringFlickerArguments),
+    /// Times the passes of a graph, blurs of several radii, summed-area tables or single scattering, as ratios to copies, and counts
+    /// their bytes.
     Cost {
         #[command(flatten)]
         subject: CostSubject,
         /// A memory to bound the time by, in 10^9 bytes per second, with a name if you like: 224:GTX 970. Several may be
         /// given; by default three cards.
-        #[arg(long, value_name = "GB/S[:NAME]", conflicts_with_all = ["blur", "summed_area_table"])]
+        #[arg(long, value_name = "GB/S[:NAME]", conflicts_with_all = ["blur", "summed_area_table", "scattering"])]
         bandwidth: Vec<Memory>,
         /// Texels per side of the light's map.
         #[arg(long, default_value_t = 1024, value_parser = clap::value_parser!(u32).range(256..=8192))]
@@ -399,6 +403,75 @@ struct ScatteringErrorArguments {
     json: Option<PathBuf>,
 }
 
+#[derive(clap::Args)]
+struct ScatteringFlickerArguments {
+    /// glTF or GLB files, or procedural scenes: fence-and-foliage, hall, chairs, edge, hole.
+    #[arg(long, required = true, num_args = 1..)]
+    scene: Vec<String>,
+    /// A numbered viewpoint, or how the camera looks: towards the light, away from it, straight into it, or straight along it.
+    #[arg(
+        long,
+        default_value = "0",
+        value_name = "NUMBER|towards|away|into|along"
+    )]
+    view: Look,
+    /// The light's height above the horizon in degrees, in place of the viewpoint's own.
+    #[arg(long)]
+    elevation: Option<f64>,
+    /// Frames from the beginning of the path on; all of it has 240.
+    #[arg(long, default_value_t = FRAMES, value_parser = clap::value_parser!(u32).range(2..=10_000))]
+    frames: u32,
+    /// Optical thickness between the camera and the far end.
+    #[arg(long, default_value_t = 0.7)]
+    thickness: f64,
+    /// Of the phase function, from -0.99 (backwards) to 0.99 (forwards).
+    #[arg(long, default_value_t = 0.4, allow_negative_numbers = true)]
+    anisotropy: f32,
+    /// Texels per side of the light's map.
+    #[arg(long, default_value_t = 1024, value_parser = clap::value_parser!(u32).range(16..=8192))]
+    map: u32,
+    /// Columns of rectified maps.
+    #[arg(long, default_value_t = 512, value_parser = clap::value_parser!(u32).range(2..=8192))]
+    columns: u32,
+    /// Rows of rectified maps.
+    #[arg(long, default_value_t = 512, value_parser = clap::value_parser!(u32).range(2..=8192))]
+    rows: u32,
+    /// Width of the picture.
+    #[arg(long, default_value_t = 320, value_parser = clap::value_parser!(u32).range(16..=8192))]
+    width: u32,
+    /// Height of the picture.
+    #[arg(long, default_value_t = 180, value_parser = clap::value_parser!(u32).range(16..=8192))]
+    height: u32,
+    /// Texels per side of the map that the truth is marched through.
+    #[arg(long, default_value_t = 2048, value_parser = clap::value_parser!(u32).range(16..=8192))]
+    truth_map: u32,
+    /// Steps of the truth.
+    #[arg(long, default_value_t = 256, value_parser = clap::value_parser!(u32).range(1..=65_536))]
+    steps: u32,
+    /// Prints JSON.
+    #[arg(long)]
+    json: bool,
+}
+
+impl ScatteringFlickerArguments {
+    fn desc(&self) -> FlickerDesc {
+        FlickerDesc {
+            look: LookDesc {
+                look: self.view,
+                elevation: self.elevation,
+            },
+            frames: self.frames,
+            thickness: self.thickness,
+            anisotropy: self.anisotropy,
+            map: self.map,
+            extent: [self.columns, self.rows],
+            picture: [self.width, self.height],
+            truth_map: self.truth_map,
+            steps: self.steps,
+        }
+    }
+}
+
 #[derive(Clone, Copy, ValueEnum)]
 enum SoftLightArgument {
     Directional,
@@ -556,6 +629,10 @@ struct CostSubject {
     /// they cost more than they may on a software adapter.
     #[arg(long)]
     summed_area_table: bool,
+    /// The nodes of single scattering on maps from 256 texels per side up to the size, with both ways to sum rows up. Fails
+    /// where they cost more than they may on a software adapter.
+    #[arg(long)]
+    scattering: bool,
 }
 
 #[derive(clap::Args)]
@@ -887,6 +964,13 @@ fn run(command: Command) -> Result<ExitCode, Box<dyn std::error::Error>> {
         }
         Command::SoftError(arguments) => run_soft_error(arguments)?,
         Command::ScatteringError(arguments) => run_scattering_error(arguments)?,
+        Command::ScatteringFlicker(arguments) => {
+            let report = scattering_flicker::run(&arguments.scene, &arguments.desc())?;
+            print(&report, arguments.json)?;
+            if !report.passed() {
+                return Ok(ExitCode::FAILURE);
+            }
+        }
         Command::CostGrowth(arguments) => {
             let json = arguments.json;
             let (graph, out) = (arguments.graph.clone(), arguments.out.clone());
@@ -910,6 +994,13 @@ fn run(command: Command) -> Result<ExitCode, Box<dyn std::error::Error>> {
             }
             None if subject.summed_area_table => {
                 let cost = cost::summed_area_table(size, rounds)?;
+                print(&cost, json)?;
+                if !cost.passed() {
+                    return Ok(ExitCode::FAILURE);
+                }
+            }
+            None if subject.scattering => {
+                let cost = cost::scattering(size, rounds)?;
                 print(&cost, json)?;
                 if !cost.passed() {
                     return Ok(ExitCode::FAILURE);

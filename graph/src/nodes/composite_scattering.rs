@@ -20,7 +20,7 @@ use crate::{
 /// [`CompositeScatteringParameters`].
 ///
 /// One texel is looked up per pixel for four moments, two for six. Where the medium has no density the result is (0, 0, 0, 1) to
-/// the bit.
+/// the bit, and so it is wherever a parameter is no finite number and the result would be none. Radiance is at most 65504.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct CompositeScattering {

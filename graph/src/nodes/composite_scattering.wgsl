@@ -3,7 +3,7 @@ import moment_shadows::map_region::{MapRegion};
 import moment_shadows::moments_lookup::{moments_map};
 import moment_shadows::rectified_frame::{RectifiedFrame, rectified_frame_coordinates, rectified_frame_depth, rectified_frame_place, rectified_frame_prefix, rectified_frame_row, rectified_frame_surface};
 import moment_shadows::scattering_bounds::{scattering_bounds};
-import moment_shadows::single_scattering::{SingleScattering, single_scattering_radiance, single_scattering_shadow, single_scattering_transmittance};
+import moment_shadows::single_scattering::{SingleScattering, single_scattering_pixel, single_scattering_radiance, single_scattering_shadow, single_scattering_transmittance};
 import moment_shadows::specialization::{GROUP, OVERESTIMATION};
 
 // In-scattered radiance of every pixel from the camera's depth and the integrated map, to be added to the picture behind the
@@ -38,7 +38,5 @@ fn composite(covered: Covered) -> @location(0) vec4f {
 
     let radiance = single_scattering_radiance(parameters.medium, distance, cosine, shadow);
     let transmittance = single_scattering_transmittance(parameters.medium, distance);
-    // A mean that is 1 to the bit where all of them are.
-    let others = (transmittance.y - transmittance.x) + (transmittance.z - transmittance.x);
-    return vec4f(radiance, fma(others, 1.0 / 3.0, transmittance.x));
+    return single_scattering_pixel(radiance, transmittance);
 }

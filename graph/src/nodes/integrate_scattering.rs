@@ -20,13 +20,35 @@ use crate::{
 /// transmittance serves all view rays of a row, and what that costs, is said in the WGSL module `scattering_weights`.
 #[derive(Clone, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
-pub struct IntegrateScattering {}
+pub struct IntegrateScattering {
+    /// The kind of medium that the sums are for.
+    #[serde(default)]
+    pub medium: Medium,
+}
+
+/// Kinds of media.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Medium {
+    /// The same extinction and scattering everywhere.
+    #[default]
+    Homogeneous,
+    /// Density that differs from place to place. Refused: sums along rows would be of another medium for each view ray.
+    Inhomogeneous,
+}
 
 /// Texels that a row may have: more than any texture.
 const ENDLESS: u32 = 65536;
 
 impl Node for IntegrateScattering {
     fn describe(&self, upstream: &Connected<'_>) -> Result<NodeDesc, GraphError> {
+        if self.medium != Medium::Homogeneous {
+            return Err(GraphError::new(
+                GraphErrorKind::Property,
+                "'medium' is 'inhomogeneous'; all view rays of a row share its sums, which they can in a homogeneous medium \
+                 alone: give it one density, or march its scattering",
+            ));
+        }
         let rectified = upstream.texture("rectified")?;
         let encoding = encoding_of(rectified).map_err(|error| error.at_slot("rectified"))?;
         drawn_map::refuse_prefix_sums(&encoding, GraphErrorKind::Format)

@@ -27,7 +27,7 @@ pub use blur_moments::{BlurMoments, BlurParameters};
 pub use composite_scattering::{CompositeScattering, Overestimation};
 pub use debug_moments::{DebugMoments, Show};
 pub use downsample_moments::DownsampleMoments;
-pub use integrate_scattering::IntegrateScattering;
+pub use integrate_scattering::{IntegrateScattering, Medium};
 pub use kernel_property::KernelProperty;
 pub use mip_levels::{AllLevels, MipLevels};
 pub use place_layers::PlaceLayers;

@@ -105,7 +105,8 @@ impl ScatteringParameters {
         if row(&clip, 3)[..3].iter().any(|&entry| entry != 0.0) {
             return Err(ScatteringViewError::PerspectiveLight);
         }
-        let [x, y] = [0, 1].map(|axis| row(&clip, axis).map(|entry| entry / scale));
+        let clip = clip.map(|column| column.map(|entry| entry / scale));
+        let [x, y] = [0, 1].map(|axis| row(&clip, axis));
         let depth = light.depth.row(&clip);
         // Along the light the place in its map stays.
         let mut direction = cross(x, y);

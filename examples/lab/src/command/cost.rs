@@ -16,6 +16,7 @@ use crate::cost::graph_cost::GraphCost;
 use crate::cost::passes::{Grouping, PassSubjects};
 use crate::cost::protocol::{CopyNumbers, Rounds, Subject};
 use crate::cost::report::{BlurCost, BlurRow, Conditions};
+use crate::cost::scattering::{self, ScatteringCost};
 use crate::cost::summed_area::{self, SIZES, TableCost};
 use crate::cost::texels::noise;
 use crate::gpu::Gpu;
@@ -69,6 +70,23 @@ pub fn summed_area_table(largest: u32, rounds: u32) -> Result<TableCost, CostErr
     bar.finish_and_clear();
     let conditions = Conditions::of(&clock, rounds);
     Ok(TableCost::new(conditions, rows, clock.kind()))
+}
+
+/// Times the nodes of single scattering on maps of up to `largest` texels squared.
+pub fn scattering(largest: u32, rounds: u32) -> Result<ScatteringCost, CostError> {
+    let gpu = Gpu::open_with(PROFILE, FEATURES)?;
+    let clock = Clock::new(&gpu, ClockKind::for_device(&gpu));
+    let sizes = scattering::SIZES
+        .into_iter()
+        .filter(|&size| size <= largest);
+    let bar = progress::bar(sizes.clone().count() as u64, "checking and timing");
+    let mut rows = Vec::new();
+    for size in sizes {
+        rows.extend(scattering::rows(&gpu, &clock, size, rounds)?);
+        bar.inc(1);
+    }
+    bar.finish_and_clear();
+    Ok(ScatteringCost::new(Conditions::of(&clock, rounds), rows))
 }
 
 /// The numbers of the copies beside the blurs.

@@ -15,6 +15,7 @@ pub mod minification;
 pub mod orderings;
 pub mod render;
 pub mod scattering_error;
+pub mod scattering_flicker;
 pub mod shaders;
 pub mod soft_error;
 pub mod stability;

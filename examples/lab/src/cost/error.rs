@@ -1,8 +1,9 @@
 //! Why a cost was not reported.
 
-use moment_shadows::{TechniqueError, TextureFormat};
-use moment_shadows_graph::GraphError;
+use moment_shadows::{RectifiedFrameError, SingleScatteringError, TechniqueError, TextureFormat};
+use moment_shadows_graph::nodes::ScatteringViewError;
 use moment_shadows_graph::record::RecordError;
+use moment_shadows_graph::{GraphError, ParameterError};
 
 use crate::error::LabError;
 use crate::gpu::GpuError;
@@ -38,6 +39,18 @@ pub enum CostError {
     /// A graph that the harness makes itself.
     #[error(transparent)]
     Graph(#[from] GraphError),
+    /// Parameters that a graph does not have.
+    #[error(transparent)]
+    Parameter(#[from] ParameterError),
+    /// A camera and a light that are not for single scattering.
+    #[error(transparent)]
+    Scattering(#[from] ScatteringViewError),
+    /// A camera and a light without rectified coordinates.
+    #[error(transparent)]
+    Frame(#[from] RectifiedFrameError),
+    /// A medium that there is not.
+    #[error(transparent)]
+    Medium(#[from] SingleScatteringError),
     /// The work was submitted, but its end could not be waited for.
     #[error("the device did not finish '{what}': {reason}; it may have been lost")]
     Wait {

@@ -18,6 +18,7 @@ pub mod plot;
 pub mod protocol;
 pub mod reference;
 pub mod report;
+pub mod scattering;
 mod shading;
 pub mod statistics;
 pub mod summed_area;

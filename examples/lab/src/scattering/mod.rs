@@ -5,6 +5,7 @@ mod candidate;
 mod convolution;
 mod cost;
 mod draw;
+mod flicker;
 mod look;
 mod march;
 mod report;
@@ -14,6 +15,10 @@ mod truth;
 pub use air::Air;
 pub use candidate::{PROFILE, ScatteringCandidate, candidates};
 pub use cost::{ScatteringCost, costs};
+pub use flicker::{
+    Chain, Change, FRAMES, Flicker, FlickerDesc, GOAL, Path, RectifyNearest, STILL, WINDOW,
+    flicker, static_region,
+};
 pub use look::{Look, LookDesc};
 pub use report::{ScatteringError, ScatteringReport, ScatteringRow};
 pub use stage::{ScatteringStage, ScatteringStageDesc};

@@ -13,7 +13,7 @@ use crate::error::LabError;
 use crate::frame::{Frame, FrameDesc};
 use crate::gpu::Gpu;
 use crate::graph_frame::scattering_parameters;
-use crate::host::{read_depth_samples, read_gbuffer};
+use crate::host::{Surface, read_depth_samples, read_gbuffer};
 use crate::light::LightShape;
 use crate::scene::Scene;
 use crate::truth::kernel::TapPattern;
@@ -99,7 +99,7 @@ impl ScatteringStage {
             Frame::draw(gpu, scene, desc)
         };
         let frames = [frame(SAMPLES)?, frame(1)?];
-        let ends = ends(gpu, &frames[1], far)?;
+        let ends = ends(gpu, &frames[1].desc, &frames[1].surface, far)?;
         let depth = read_depth_samples(gpu, &frames[1].light_map.texture)?;
         let rays = Rays {
             eye: camera.eye,
@@ -159,12 +159,17 @@ impl ScatteringView {
 }
 
 /// From the camera to what each pixel shows, or to the far end.
-fn ends(gpu: &Gpu, frame: &Frame, far: f64) -> Result<Vec<DVec3>, LabError> {
-    let pixels = read_gbuffer(gpu, &frame.surface)?;
-    let camera = &frame.desc.camera;
+pub(super) fn ends(
+    gpu: &Gpu,
+    desc: &FrameDesc,
+    surface: &Surface,
+    far: f64,
+) -> Result<Vec<DVec3>, LabError> {
+    let pixels = read_gbuffer(gpu, surface)?;
+    let camera = &desc.camera;
     let axis = (camera.target - camera.eye).normalize();
     let world_from_clip = camera.clip_from_world()?.inverse();
-    let [width, height] = frame.desc.picture;
+    let [width, height] = desc.picture;
     let directions = (0..height).flat_map(|y| {
         (0..width).map(move |x| {
             let device = [

@@ -1,0 +1,130 @@
+//! One node of single scattering on its own, bound to a map.
+
+use moment_shadows_graph::record::{
+    Bindings, ImportedResource, PipelineOptions, Pipelines, Recording, Resources, texture_format,
+};
+use moment_shadows_graph::{
+    Capabilities, Graph, Imports, NodeRegistry, Plan, ResourceDesc, Stage, TextureDesc, compile,
+};
+use pollster::block_on;
+use serde_json::Value;
+use wgpu::util::DeviceExt;
+
+use super::super::CostError;
+use crate::gpu::Gpu;
+
+/// A graph of one node.
+pub(super) struct NodeOnMap {
+    plan: Plan,
+    bindings: Bindings,
+}
+
+/// What a graph of one node is made of.
+pub(super) struct NodeText {
+    /// The node's type.
+    pub node_type: &'static str,
+    /// Its properties.
+    pub properties: Value,
+    /// The slot that reads the map.
+    pub input: &'static str,
+    /// The slot whose contents are wanted.
+    pub output: &'static str,
+}
+
+impl NodeOnMap {
+    /// Compiles the graph and binds it to a map and parameters.
+    pub(super) fn new<P: bytemuck::NoUninit>(
+        gpu: &Gpu,
+        capabilities: &Capabilities,
+        text: NodeText,
+        map: (&TextureDesc, &wgpu::Texture),
+        parameters: &P,
+    ) -> Result<Self, CostError> {
+        let json = serde_json::json!({
+            "version": 1,
+            "imports": [{ "name": "map" }],
+            "nodes": [{ "name": "node", "type": text.node_type, "properties": text.properties }],
+            "edges": [{ "from": "map", "to": format!("node.{}", text.input) }],
+            "outputs": [{ "name": "output", "from": format!("node.{}", text.output) }]
+        });
+        let graph = Graph::parse(&json.to_string(), &NodeRegistry::new())?;
+        let imports = Imports::from([("map".to_owned(), ResourceDesc::Texture(map.0.clone()))]);
+        let plan = compile(&graph, capabilities, &imports)?;
+        let device = &gpu.device;
+        let pipelines = block_on(Pipelines::create(device, &plan, PipelineOptions::default()))?;
+        let resources = block_on(Resources::create(device, &plan))?;
+        let mut block = plan.parameters.initial();
+        plan.parameters.write(&mut block, "node", 0, parameters)?;
+        let buffer = device.create_buffer_init(&wgpu::util::BufferInitDescriptor {
+            label: Some("cost/parameters"),
+            contents: &block,
+            usage: wgpu::BufferUsages::UNIFORM,
+        });
+        let bindings = block_on(Bindings::create(
+            device,
+            &plan,
+            &pipelines,
+            &resources,
+            &[("map", ImportedResource::Texture(map.1))],
+            Some(&buffer),
+        ))?;
+        Ok(Self { plan, bindings })
+    }
+
+    /// Records all planes.
+    pub(super) fn record(&self, encoder: &mut wgpu::CommandEncoder) -> Result<(), CostError> {
+        let recording = Recording::default();
+        Ok(self
+            .bindings
+            .record(Stage::AfterShadowMaps, encoder, recording)?)
+    }
+
+    /// Bytes that all planes move.
+    #[must_use]
+    pub(super) fn bytes_moved(&self) -> u64 {
+        self.plan.bytes_moved()
+    }
+
+    /// Runs the node once and reads its output, plane by plane.
+    pub(super) fn run(&self, gpu: &Gpu) -> Result<Vec<Vec<u8>>, CostError> {
+        let mut encoder = gpu.device.create_command_encoder(&Default::default());
+        self.record(&mut encoder)?;
+        gpu.queue.submit([encoder.finish()]);
+        let Some(output) = self.bindings.output("output") else {
+            return Ok(Vec::new());
+        };
+        let planes = 0..output.depth_or_array_layers();
+        let read = |plane| gpu.read_texture(output, plane, "output");
+        Ok(planes.map(read).collect::<Result<_, _>>()?)
+    }
+}
+
+/// A texture with these bytes, plane by plane and row by row.
+pub(super) fn upload(
+    gpu: &Gpu,
+    desc: &TextureDesc,
+    bytes: &[u8],
+) -> Result<wgpu::Texture, CostError> {
+    let format = texture_format(desc.format).ok_or(CostError::Format {
+        format: desc.format,
+    })?;
+    Ok(gpu.device.create_texture_with_data(
+        &gpu.queue,
+        &wgpu::TextureDescriptor {
+            label: Some("cost/map"),
+            size: wgpu::Extent3d {
+                width: desc.size[0],
+                height: desc.size[1],
+                depth_or_array_layers: desc.array_layers(),
+            },
+            mip_level_count: 1,
+            sample_count: 1,
+            dimension: wgpu::TextureDimension::D2,
+            format,
+            usage: wgpu::TextureUsages::TEXTURE_BINDING,
+            view_formats: &[],
+        },
+        wgpu::util::TextureDataOrder::LayerMajor,
+        bytes,
+    ))
+}

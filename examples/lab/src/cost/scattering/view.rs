@@ -1,0 +1,116 @@
+//! The camera, the light, the medium and the light's map that the nodes are timed and checked with.
+
+use core::f64::consts::TAU;
+
+use glam::{DMat4, DVec3, DVec4};
+use half::f16;
+use moment_shadows::{MapRegion, RectifiedView, SingleScattering};
+use moment_shadows_graph::nodes::{CameraView, LightDepth, LightView, ScatteringParameters};
+
+use super::super::CostError;
+use crate::error::LabError;
+use crate::view::Camera;
+
+/// Extinction per scene unit: a view ray to the far end is one and a half optical thicknesses long.
+const EXTINCTION: f32 = 0.075;
+
+/// Up to where light is scattered.
+const FAR: f64 = 20.0;
+
+/// Everything that does not depend on the size of a map.
+pub(super) struct ScatteringView {
+    /// From scene to the light's clip space.
+    pub light: DMat4,
+    /// The rectified coordinates, in f64 where that matters.
+    pub rectified: RectifiedView,
+    /// What the nodes are told.
+    pub parameters: ScatteringParameters,
+}
+
+impl ScatteringView {
+    /// A camera that looks across the light, amidst what the light's map sees.
+    pub(super) fn new() -> Result<Self, CostError> {
+        let direction = DVec3::new(0.5, -1.0, 0.3).normalize();
+        let eye = DVec3::new(0.4, 1.7, 0.3);
+        let across = direction.any_orthonormal_vector();
+        let camera = Camera {
+            eye,
+            target: eye + across + 0.2 * direction,
+            vertical_angle: 1.1,
+            aspect: 1.5,
+            near: 0.1,
+            far: None,
+        };
+        let camera = single(camera.clip_from_world().map_err(LabError::from)?);
+        let light = single(light(direction));
+        let extinction = [EXTINCTION; 3];
+        let medium = SingleScattering::new(extinction, extinction, 0.0, [1.0; 3])?;
+        let parameters = ScatteringParameters::new(
+            &CameraView {
+                clip_from_world: camera,
+                far_depth: 0.0,
+            },
+            FAR,
+            &LightView {
+                clip_from_world: light,
+                depth: LightDepth::Orthographic { reversed: false },
+                layer: 0,
+                region: MapRegion::WHOLE,
+                channel: 0,
+            },
+            medium,
+        )?;
+        Ok(Self {
+            light: DMat4::from_cols_array_2d(&light.map(|column| column.map(f64::from))),
+            rectified: RectifiedView::new(&camera, FAR, direction.to_array())?,
+            parameters,
+        })
+    }
+}
+
+/// A light whose map is 80 units wide and deep, about the origin.
+fn light(direction: DVec3) -> DMat4 {
+    let first = direction.any_orthonormal_vector();
+    let second = direction.cross(first);
+    let column = |axis: usize| {
+        let across = [first[axis], second[axis], 0.5 * direction[axis]];
+        (DVec3::from_array(across) / 40.0).extend(0.0)
+    };
+    let origin = DVec4::new(0.0, 0.0, 0.5, 1.0);
+    DMat4::from_cols(column(0), column(1), column(2), origin)
+}
+
+fn single(matrix: DMat4) -> [[f32; 4]; 4] {
+    let columns = matrix.to_cols_array_2d();
+    columns.map(|column| column.map(|value| value as f32))
+}
+
+/// Float16 channels of a light's map of two surfaces in each texel, which change slowly across it: their depths stay far
+/// apart and both well covered, so that both are as sharp as the channels.
+pub(super) fn two_surfaces(size: u32) -> Vec<u8> {
+    let wave = |place: f64| (TAU * place).sin();
+    (0..size * size)
+        .flat_map(|index| {
+            let [u, v] = [index % size, index / size]
+                .map(|place| (f64::from(place) + 0.5) / f64::from(size));
+            let near = -0.5 + 0.2 * wave(2.0 * u + v);
+            let far = 0.3 + 0.2 * wave(2.0 * v - u);
+            let share = 0.5 + 0.3 * wave(u + v);
+            let moments = [1, 2, 3, 4]
+                .map(|power| share * near.powi(power) + (1.0 - share) * far.powi(power));
+            four_channels(moments).map(|channel| f16::from_f64(channel).to_le_bytes())
+        })
+        .flatten()
+        .collect()
+}
+
+/// The centred channels of four moments (Peters et al., JCGT 6(1) 2017, section 3).
+fn four_channels([b1, b2, b3, b4]: [f64; 4]) -> [f64; 4] {
+    let root = 3.0_f64.sqrt();
+    [
+        1.5 * b1 - 2.0 * b3,
+        4.0 * (b2 - b4) - 0.5,
+        root * (0.5 * b1 - 2.0 / 9.0 * b3),
+        0.5 * (b2 + b4) - 0.5,
+    ]
+}
