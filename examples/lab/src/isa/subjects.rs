@@ -427,7 +427,8 @@ fn scattering(technique: Technique) -> Result<Vec<Entry>, IsaError> {
             "rectified",
             map.clone(),
             true,
-            vec![SIZE[0]],
+            // Four columns at a time.
+            vec![SIZE[0] / 4],
         ),
         entry(
             "",
@@ -499,13 +500,14 @@ fn drawn() -> Result<Vec<Entry>, IsaError> {
     };
     let depth = texture(TextureFormat::Depth32Float);
     Ok(vec![
-        entry("", Box::new(resolve), "depth", depth, Vec::new()),
+        // One region, which is looked for.
+        entry("", Box::new(resolve), "depth", depth, vec![1]),
         entry(
             ", radius 4",
             Box::new(blur(4)),
             "moments",
             map.clone(),
-            Vec::new(),
+            vec![1],
         ),
         // A loop over all taps.
         entry(", radius 32", Box::new(blur(32)), "moments", map, vec![65]),
@@ -514,7 +516,7 @@ fn drawn() -> Result<Vec<Entry>, IsaError> {
             Box::new(DownsampleMoments {}),
             "moments",
             levels,
-            Vec::new(),
+            vec![1],
         ),
         of_technique(&encoding),
     ])
