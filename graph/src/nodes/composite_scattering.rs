@@ -57,8 +57,8 @@ impl Overestimation {
 impl Default for Overestimation {
     fn default() -> Self {
         Self {
-            towards: 0.1,
-            away: 0.8,
+            towards: 0.2,
+            away: 0.7,
         }
     }
 }

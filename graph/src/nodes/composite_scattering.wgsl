@@ -3,7 +3,7 @@ import moment_shadows::map_region::{MapRegion};
 import moment_shadows::moments_lookup::{moments_map};
 import moment_shadows::rectified_frame::{RectifiedFrame, rectified_frame_coordinates, rectified_frame_depth, rectified_frame_place, rectified_frame_prefix, rectified_frame_row, rectified_frame_surface};
 import moment_shadows::scattering_bounds::{scattering_bounds};
-import moment_shadows::single_scattering::{SingleScattering, single_scattering_pixel, single_scattering_radiance, single_scattering_shadow, single_scattering_transmittance};
+import moment_shadows::single_scattering::{SingleScattering, single_scattering_fragment_depth, single_scattering_pixel, single_scattering_radiance, single_scattering_shadow, single_scattering_transmittance};
 import moment_shadows::specialization::{GROUP, OVERESTIMATION};
 
 // In-scattered radiance of every pixel from the camera's depth and the integrated map, to be added to the picture behind the
@@ -32,7 +32,7 @@ fn composite(covered: Covered) -> @location(0) vec4f {
     let texels = vec2f(size);
     let place = rectified_frame_place(parameters.frame, coordinates);
     let map_uv = vec2f(rectified_frame_prefix(place.x, texels.x), rectified_frame_row(place.y, texels.y));
-    let depth = rectified_frame_depth(parameters.frame, coordinates.z);
+    let depth = single_scattering_fragment_depth(rectified_frame_depth(parameters.frame, coordinates.z));
     let bounds = scattering_bounds(map_uv, MapRegion(vec2u(0u), size), depth);
     let shadow = single_scattering_shadow(bounds, cosine, OVERESTIMATION);
 
