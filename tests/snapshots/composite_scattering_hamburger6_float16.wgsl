@@ -229,7 +229,7 @@ fn map_lookup_is_inner(region: MapRegion, size: vec2u, levels: u32, place: vec2f
 const GROUP = 0;
 const LEVELS = 1u;
 const ANISOTROPY = 1.0;
-const OVERESTIMATION = vec2f(0.2, 0.7);
+const OVERESTIMATION = vec2f(0.2, 0.35);
 alias MomentsStorage = texture_storage_2d<rgba16float, write>;
 const STORAGE = 1u;
 

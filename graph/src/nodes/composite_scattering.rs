@@ -58,7 +58,7 @@ impl Default for Overestimation {
     fn default() -> Self {
         Self {
             towards: 0.2,
-            away: 0.7,
+            away: 0.35,
         }
     }
 }
