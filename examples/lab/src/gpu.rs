@@ -1,4 +1,4 @@
-//! Opening an adapter the same way everywhere: Vulkan before GL, exactly the features of one profile.
+//! Opening an adapter the same way everywhere: native interfaces only, exactly the features of one profile.
 
 use std::sync::{Arc, Mutex};
 
@@ -8,9 +8,9 @@ use moment_shadows::Profile;
 #[derive(Debug, thiserror::Error)]
 #[non_exhaustive]
 pub enum GpuError {
-    /// The machine has no adapter at all.
+    /// The machine has no adapter that could run a graph.
     #[error(
-        "no graphics adapter was found; on Debian install a software driver with `apt-get install mesa-vulkan-drivers`, \
+        "no graphics adapter was found for Vulkan, Metal or Direct3D 12; on Debian install a software driver with `apt-get install mesa-vulkan-drivers`, \
          elsewhere install a Vulkan, Metal or Direct3D 12 driver"
     )]
     NoAdapter,
@@ -261,25 +261,22 @@ fn required_features(profile: Profile) -> wgpu::Features {
     }
 }
 
-/// Hardware before software, native interfaces before GL.
+/// Hardware before software. OpenGL does not count: wgpu cannot load depth textures through it, so no graph runs there,
+/// and a machine with a driver for nothing else has no adapter.
 fn best_adapter() -> Option<wgpu::Adapter> {
-    let native = wgpu::Backends::VULKAN | wgpu::Backends::METAL | wgpu::Backends::DX12;
-    [native, wgpu::Backends::GL]
+    let backends = wgpu::Backends::VULKAN | wgpu::Backends::METAL | wgpu::Backends::DX12;
+    let instance = wgpu::Instance::new(wgpu::InstanceDescriptor {
+        backends,
+        ..wgpu::InstanceDescriptor::new_without_display_handle()
+    });
+    let adapters = pollster::block_on(instance.enumerate_adapters(backends));
+    adapters
         .into_iter()
-        .find_map(|backends| {
-            let instance = wgpu::Instance::new(wgpu::InstanceDescriptor {
-                backends,
-                ..wgpu::InstanceDescriptor::new_without_display_handle()
-            });
-            let adapters = pollster::block_on(instance.enumerate_adapters(backends));
-            adapters
-                .into_iter()
-                .min_by_key(|adapter| match adapter.get_info().device_type {
-                    wgpu::DeviceType::DiscreteGpu => 0,
-                    wgpu::DeviceType::IntegratedGpu => 1,
-                    wgpu::DeviceType::VirtualGpu => 2,
-                    wgpu::DeviceType::Other => 3,
-                    wgpu::DeviceType::Cpu => 4,
-                })
+        .min_by_key(|adapter| match adapter.get_info().device_type {
+            wgpu::DeviceType::DiscreteGpu => 0,
+            wgpu::DeviceType::IntegratedGpu => 1,
+            wgpu::DeviceType::VirtualGpu => 2,
+            wgpu::DeviceType::Other => 3,
+            wgpu::DeviceType::Cpu => 4,
         })
 }

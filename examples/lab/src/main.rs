@@ -778,6 +778,7 @@ fn technique(text: &str) -> Result<String, String> {
 }
 
 fn main() -> ExitCode {
+    moment_shadows_lab::runtime_dir::ensure();
     match run(Cli::parse().command) {
         Ok(code) => code,
         Err(error) => {
