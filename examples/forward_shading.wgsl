@@ -1,10 +1,10 @@
-import moment_shadows::hamburger::{hamburger_shadow_intensity_of_texel};
-import moment_shadows::leak_reduction::{leak_reduction_full_shadow};
-import moment_shadows::map_lookup::{map_lookup_gradient};
-import moment_shadows::map_region::{MapRegion};
-import moment_shadows::minification::{minification_depth_variance, minification_footprint};
-import moment_shadows::storage::{STORAGE_FLOAT16};
-import moment_shadows::receiver_bias::{ReceiverBias, receiver_bias_depth_minified, receiver_bias_plane};
+import moment_shadows::bounds::hamburger4::{hamburger4_shadow_intensity_of_texel};
+import moment_shadows::shade::leak_reduction::{leak_reduction_full_shadow};
+import moment_shadows::map::map_lookup::{map_lookup_gradient};
+import moment_shadows::map::map_region::{MapRegion};
+import moment_shadows::map::minification::{minification_depth_variance, minification_footprint};
+import moment_shadows::map::storage::{STORAGE_FLOAT16};
+import moment_shadows::shade::receiver_bias::{ReceiverBias, receiver_bias_depth_minified, receiver_bias_plane};
 
 // A forward renderer's own shader: a floor with boxes on it, lit by a sun whose filtered map it samples itself, with mip
 // levels.
@@ -99,7 +99,7 @@ fn shadow_intensity(place: vec3f, difference_x: vec3f, difference_y: vec3f) -> f
         difference_y.xy,
         ANISOTROPY,
     );
-    let intensity = hamburger_shadow_intensity_of_texel(texel, place.z - bias, STORAGE_FLOAT16);
+    let intensity = hamburger4_shadow_intensity_of_texel(texel, place.z - bias, STORAGE_FLOAT16);
     return leak_reduction_full_shadow(intensity, 0.98);
 }
 

@@ -7,7 +7,7 @@ use std::error::Error;
 use std::path::Path;
 
 use moment_shadows::{Kernel, LeakReduction, MapRegion, Profile, ReceiverBias};
-use moment_shadows_graph::nodes::{CameraView, LightDepth, LightView, ShadeHardParameters};
+use moment_shadows_graph::nodes::{CameraView, LightDepth, LightView, ViewParameters};
 use moment_shadows_graph::record::{
     Bindings, ImportedResource, PipelineOptions, Pipelines, Recording, Resources,
 };
@@ -84,7 +84,7 @@ fn main() -> Result<(), Box<dyn Error>> {
         clip_from_world: camera.clip_from_world_columns()?,
         far_depth: 0.0, // reversed depth
     };
-    let shade = ShadeHardParameters::new(
+    let shade = ViewParameters::new(
         &camera_view,
         &light_view,
         ReceiverBias::for_kernel(kernel.standard_deviation(), depth_per_texel as f32),

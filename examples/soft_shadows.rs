@@ -9,7 +9,7 @@ use std::path::Path;
 use moment_shadows::{
     AreaLight, DepthRange, LeakReduction, MapRegion, Profile, ReceiverBias, SoftRadii,
 };
-use moment_shadows_graph::nodes::{CameraView, LightDepth, LightView, ShadeHardParameters};
+use moment_shadows_graph::nodes::{CameraView, LightDepth, LightView, ViewParameters};
 use moment_shadows_graph::record::{
     Bindings, ImportedResource, PipelineOptions, Pipelines, Recording, Resources,
 };
@@ -119,7 +119,7 @@ fn draw(gpu: &Gpu, scene: &scene::Scene, choice: SoftLightChoice) -> Result<Fram
 
 /// What the node is told about camera and light. Blocker search and filter widths follow from the light's size; so does the
 /// receiver bias, from the width of each pixel's own filter.
-fn shade_parameters(desc: &FrameDesc) -> Result<ShadeHardParameters, Box<dyn Error>> {
+fn shade_parameters(desc: &FrameDesc) -> Result<ViewParameters, Box<dyn Error>> {
     let light = &desc.light;
     let [near, far] = light.range;
     let range = DepthRange { near, far };
@@ -163,8 +163,7 @@ fn shade_parameters(desc: &FrameDesc) -> Result<ShadeHardParameters, Box<dyn Err
     };
     let depth_per_texel = 2.0 * texel[0].max(texel[1]) * spread / (far - near);
     let bias = ReceiverBias::for_kernel(0.0, depth_per_texel as f32);
-    let mut shade =
-        ShadeHardParameters::new(&camera_view, &light_view, bias, LeakReduction::DEFAULT)?;
+    let mut shade = ViewParameters::new(&camera_view, &light_view, bias, LeakReduction::DEFAULT)?;
     shade.light = area_light;
     Ok(shade)
 }

@@ -9,7 +9,7 @@ use std::path::Path;
 
 use moment_shadows::{Kernel, LeakReduction, MapRegion, Profile, ReceiverBias, SingleScattering};
 use moment_shadows_graph::nodes::{
-    CameraView, LightDepth, LightView, ScatteringParameters, ShadeHardParameters,
+    CameraView, LightDepth, LightView, ScatteringParameters, ViewParameters,
 };
 use moment_shadows_graph::record::{
     Bindings, ImportedResource, PipelineOptions, Pipelines, Recording, Resources,
@@ -149,14 +149,14 @@ fn shade_parameters(
     desc: &FrameDesc,
     camera: &CameraView,
     light: &LightView,
-) -> Result<ShadeHardParameters, Box<dyn Error>> {
+) -> Result<ViewParameters, Box<dyn Error>> {
     let [near, far] = desc.light.range;
     let [width, height] = desc.light.texel_size([MAP; 2]);
     let depth_per_texel = 2.0 * width.max(height) / (far - near);
     let kernel = Kernel::gaussian(2, 1.2)?;
     let bias = ReceiverBias::for_kernel(kernel.standard_deviation(), depth_per_texel as f32);
     let leaks = LeakReduction::DEFAULT;
-    Ok(ShadeHardParameters::new(camera, light, bias, leaks)?)
+    Ok(ViewParameters::new(camera, light, bias, leaks)?)
 }
 
 /// Adds radiance to what is left of a picture of sRGB bytes, pixel by pixel.

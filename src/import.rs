@@ -1,5 +1,5 @@
-//! An import line: the only forms are `import super::x::{a, b};` within the library and
-//! `import moment_shadows::x::{a, b};` outside it. Both are WESL as it stands.
+//! An import line: the only forms are `import node::x::{a, b};` within the library and
+//! `import node::x::{a, b};` outside it. Both are WESL as it stands.
 
 use crate::LinkError;
 use crate::file::File;
@@ -8,9 +8,9 @@ use crate::token::{Kind, Token, tokens};
 /// Which of the two forms a file uses.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Form {
-    /// `import super::x::{a, b};`, in modules of the library.
+    /// `import node::x::{a, b};`, in modules of the library.
     Inside,
-    /// `import moment_shadows::x::{a, b};`, everywhere else.
+    /// `import node::x::{a, b};`, everywhere else.
     Outside,
 }
 
@@ -24,8 +24,8 @@ impl Form {
 
     fn example(self) -> &'static str {
         match self {
-            Form::Inside => "import super::module::{item, item};",
-            Form::Outside => "import moment_shadows::module::{item, item};",
+            Form::Inside => "import node::module::{item, item};",
+            Form::Outside => "import node::module::{item, item};",
         }
     }
 }
@@ -40,7 +40,7 @@ pub(crate) struct Import<'a> {
     pub(crate) line: u32,
 }
 
-/// Whether `text` starts with an import of the form that modules of the library use, `import super::x::{a};`.
+/// Whether `text` starts with an import of the form that modules of the library use, `import node::x::{a};`.
 #[must_use]
 pub fn imports_super(text: &str) -> bool {
     let text = text.strip_prefix('\u{feff}').unwrap_or(text);
@@ -86,17 +86,7 @@ impl<'a> Reader<'a, '_, '_> {
             return Err(self.wrong("something stands before the import"));
         }
         self.take(|token| token.is_word("import"), "an import is expected")?;
-        let root = self.form.root();
-        let wrong_root = match self.form {
-            Form::Inside => "within the library an import starts with `super::`",
-            Form::Outside => "outside the library an import starts with `moment_shadows::`",
-        };
-        self.take(|token| token.is_word(root), wrong_root)?;
-        self.take(|token| token.kind == Kind::Path, "`::` is missing")?;
-        let module = self.take(
-            |token| token.kind == Kind::Word,
-            "the module's name is missing",
-        )?;
+        let module = self.module()?;
         self.take(
             |token| token.kind == Kind::Path,
             "`::` is missing after the module's name",
@@ -127,6 +117,56 @@ impl<'a> Reader<'a, '_, '_> {
             start,
             line: 0,
         })
+    }
+
+    /// The module's path: `folder::x` of the library, or `node::x`.
+    fn module(&mut self) -> Result<Token<'a>, LinkError> {
+        let (form, wrong_root) = match self.form {
+            Form::Inside => (
+                self.form,
+                "within the library an import starts with `super::super::`",
+            ),
+            Form::Outside => (
+                self.form,
+                "outside the library an import starts with `moment_shadows::` or `node::`",
+            ),
+        };
+        let root = self.take(
+            |token| token.is_word(form.root()) || (form == Form::Outside && token.is_word("node")),
+            wrong_root,
+        )?;
+        self.path()?;
+        if form == Form::Inside {
+            self.take(|token| token.is_word("super"), wrong_root)?;
+            self.path()?;
+        }
+        let mut name = self.name()?;
+        let mut start = root.start;
+        if !root.is_word("node") {
+            start = name.start;
+            self.path()?;
+            name = self.name()?;
+        }
+        Ok(Token {
+            text: self
+                .file
+                .text
+                .get(start..name.range().end)
+                .unwrap_or_default(),
+            start,
+            ..name
+        })
+    }
+
+    fn path(&mut self) -> Result<Token<'a>, LinkError> {
+        self.take(|token| token.kind == Kind::Path, "`::` is missing")
+    }
+
+    fn name(&mut self) -> Result<Token<'a>, LinkError> {
+        self.take(
+            |token| token.kind == Kind::Word,
+            "the module's name is missing",
+        )
     }
 
     /// The next token of this line, if it `fits`.

@@ -9,11 +9,11 @@
 //! let shader = Source {
 //!     name: "lit.wgsl",
 //!     text: "
-//! import moment_shadows::hamburger::{hamburger_shadow_intensity};
-//! import moment_shadows::moments::{MOMENTS_BIAS_FLOAT16};
+//! import moment_shadows::bounds::hamburger4::{hamburger4_shadow_intensity};
+//! import moment_shadows::moments::four_moments::{FOUR_MOMENTS_BIAS_FLOAT16};
 //!
 //! fn shadow(moments: vec4f, fragment_depth: f32) -> f32 {
-//!     return hamburger_shadow_intensity(moments, fragment_depth, MOMENTS_BIAS_FLOAT16);
+//!     return hamburger4_shadow_intensity(moments, fragment_depth, FOUR_MOMENTS_BIAS_FLOAT16);
 //! }
 //! ",
 //! };
@@ -72,7 +72,7 @@ pub use receiver_bias::{ReceiverBias, STANDARD_DEVIATIONS};
 pub use rectified_frame::{RectifiedFrame, RectifiedFrameError, RectifiedView};
 pub use single_scattering::{SingleScattering, SingleScatteringError};
 pub use six_moments::SixMomentsBias;
-pub use storage::{MomentBias, Storage, UnsupportedStorage};
+pub use storage::{FourMomentsBias, Storage, UnsupportedStorage};
 pub use summed_area_table::{SummedAreaTable, SummedAreaTableError};
 pub use technique::{
     EsmFiltering, Finite, LayerSplits, MapEncoding, NotFinite, PcfTaps, Pcss, Technique,

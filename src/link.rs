@@ -19,13 +19,14 @@ pub struct Source<'a> {
 
 /// Links `source`, a shader outside the library, with the modules that it imports, directly or through other modules.
 ///
-/// `generated` are further modules: each can be imported as `moment_shadows::<name>`, and may itself import modules of
+/// `generated` are further modules: each can be imported as `node::<name>`, and may itself import modules of
 /// the library and other generated ones.
 ///
 /// The rules of imports:
 /// - They come first, before directives and declarations; each is one line with nothing else on it but a `//` comment.
-/// - The only form is `import moment_shadows::hankel::{hankel_factor};` (`super` in place of `moment_shadows` within the
-///   library), with any number of items. No `as`, no `public`, no path within code, no conditional attribute.
+/// - The only forms are `import moment_shadows::maths::hankel::{hankel_factor};` (`super::super` in place of `moment_shadows` within
+///   the library) and `import node::name::{item};` for generated modules, with any number of items. No `as`, no `public`, no path
+///   within code, no conditional attribute.
 /// - Every item is defined at top level by its module, and imported once; a file imports every item that it uses.
 ///
 /// The result holds every file once, each after those that it imports, headed by a comment that names it; `source` comes
@@ -38,7 +39,7 @@ pub fn link(source: Source<'_>, generated: &[Source<'_>]) -> Result<Linked, Link
     link_as(Form::Outside, source, generated)
 }
 
-/// Links `source`, a file written as a module of the library (`import super::hankel::{hankel_factor};`), with the modules
+/// Links `source`, a file written as a module of the library (`import super::super::maths::hankel::{hankel_factor};`), with the modules
 /// that it imports, by the rules of [`link()`].
 ///
 /// # Errors
@@ -58,18 +59,24 @@ fn link_as(form: Form, source: Source<'_>, generated: &[Source<'_>]) -> Result<L
 
 /// Every module that can be imported, by name. A module's text is only read once it is imported.
 struct Library<'a> {
-    modules: BTreeMap<&'a str, (Form, &'a str)>,
+    modules: BTreeMap<String, (Form, &'a str)>,
 }
 
 impl<'a> Library<'a> {
     fn new(generated: &[Source<'a>]) -> Result<Self, LinkError> {
         let mut known: BTreeMap<_, _> = modules()
             .iter()
-            .map(|module| (module.name, (Form::Inside, module.source)))
+            .map(|module| {
+                let path = format!("{}::{}", module.folder, module.name);
+                (path, (Form::Inside, module.source))
+            })
             .collect();
         for source in generated {
             if known
-                .insert(source.name, (Form::Outside, source.text))
+                .insert(
+                    format!("node::{}", source.name),
+                    (Form::Outside, source.text),
+                )
                 .is_some()
             {
                 return Err(LinkError::GeneratedName {
@@ -123,12 +130,15 @@ impl<'a> Library<'a> {
     fn open(&self, module: &str, at: Box<Location>) -> Result<File<'a>, LinkError> {
         match self.modules.get(module) {
             Some(&(Form::Inside, text)) => {
-                File::parse(format!("moment_shadows/{module}.wgsl"), text, Form::Inside)
+                let path = module.replace("::", "/");
+                File::parse(format!("moment_shadows/{path}.wgsl"), text, Form::Inside)
             }
-            Some(&(Form::Outside, text)) => File::parse(module.to_owned(), text, Form::Outside),
+            Some(&(Form::Outside, text)) => {
+                File::parse(module.replacen("node::", "", 1), text, Form::Outside)
+            }
             None => Err(LinkError::UnknownModule {
                 module: module.to_owned(),
-                nearest: nearest(module, self.modules.keys().copied()),
+                nearest: nearest(module, self.modules.keys().map(String::as_str)),
                 at,
             }),
         }

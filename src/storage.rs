@@ -48,7 +48,7 @@ pub enum Storage {
     Clone, Copy, Debug, PartialEq, Serialize, Deserialize, bytemuck::Pod, bytemuck::Zeroable,
 )]
 #[repr(C)]
-pub struct MomentBias {
+pub struct FourMomentsBias {
     /// The step towards the target, in (0, 1).
     pub alpha: f32,
     /// The second moment of the target; the odd ones are 0.
@@ -75,8 +75,19 @@ pub struct UnsupportedStorage {
 }
 
 impl Storage {
+    /// Every storage.
+    pub const ALL: [Storage; 6] = [
+        Storage::Unorm16,
+        Storage::Float16,
+        Storage::Float32,
+        Storage::Unorm8,
+        Storage::Unorm10,
+        Storage::Fixed32,
+    ];
+
     /// The storages of four moments.
-    pub const ALL: [Storage; 3] = [Storage::Unorm16, Storage::Float16, Storage::Float32];
+    pub const OF_FOUR_MOMENTS: [Storage; 3] =
+        [Storage::Unorm16, Storage::Float16, Storage::Float32];
 
     /// The name in graph files and on command lines.
     #[must_use]
@@ -124,7 +135,7 @@ impl Storage {
     /// The storage of four moments whose texture has this format.
     #[must_use]
     pub fn of_format(format: TextureFormat) -> Option<Storage> {
-        Storage::ALL
+        Storage::OF_FOUR_MOMENTS
             .into_iter()
             .find(|storage| storage.format() == format)
     }
@@ -140,29 +151,29 @@ impl Storage {
     /// WGSL module `split_sum`, which blurs of any width have then. That of a summed-area table depends on
     /// its largest kernel ([`SummedAreaTable::moment_bias`]); here it is that of the largest possible.
     #[must_use]
-    pub fn moment_bias(self) -> MomentBias {
+    pub fn moment_bias(self) -> FourMomentsBias {
         match self {
-            Storage::Unorm8 => MomentBias {
+            Storage::Unorm8 => FourMomentsBias {
                 alpha: 1.8e-2,
                 second: 0.628,
                 fourth: 0.628,
             },
-            Storage::Unorm10 => MomentBias {
+            Storage::Unorm10 => FourMomentsBias {
                 alpha: 4.4e-3,
                 second: 0.628,
                 fourth: 0.628,
             },
-            Storage::Unorm16 => MomentBias {
+            Storage::Unorm16 => FourMomentsBias {
                 alpha: 6e-5,
                 second: 0.628,
                 fourth: 0.628,
             },
-            Storage::Float16 => MomentBias {
+            Storage::Float16 => FourMomentsBias {
                 alpha: 1e-3,
                 second: 0.628,
                 fourth: 0.628,
             },
-            Storage::Float32 => MomentBias {
+            Storage::Float32 => FourMomentsBias {
                 alpha: 1.5e-6,
                 second: 0.375,
                 fourth: 0.375,
@@ -174,29 +185,29 @@ impl Storage {
     /// The same for distributions on the depth interval (Hausdorff): their moments lie in a smaller set, so that the target
     /// is another one and the step longer.
     #[must_use]
-    pub fn hausdorff_moment_bias(self) -> MomentBias {
+    pub fn hausdorff_moment_bias(self) -> FourMomentsBias {
         match self {
-            Storage::Unorm8 => MomentBias {
+            Storage::Unorm8 => FourMomentsBias {
                 alpha: 2.4e-2,
                 second: 0.6036,
                 fourth: 0.4875,
             },
-            Storage::Unorm10 => MomentBias {
+            Storage::Unorm10 => FourMomentsBias {
                 alpha: 6e-3,
                 second: 0.6036,
                 fourth: 0.4875,
             },
-            Storage::Unorm16 => MomentBias {
+            Storage::Unorm16 => FourMomentsBias {
                 alpha: 8e-5,
                 second: 0.6036,
                 fourth: 0.4875,
             },
-            Storage::Float16 => MomentBias {
+            Storage::Float16 => FourMomentsBias {
                 alpha: 1.5e-3,
                 second: 0.6036,
                 fourth: 0.4875,
             },
-            Storage::Float32 => MomentBias {
+            Storage::Float32 => FourMomentsBias {
                 alpha: 2.8e-6,
                 second: 0.4403,
                 fourth: 0.3124,

@@ -4,7 +4,7 @@ use core::fmt;
 
 use serde::{Deserialize, Serialize};
 
-use crate::{MomentBias, Storage};
+use crate::{FourMomentsBias, Storage};
 
 /// What the integers of a summed-area table mean: the host side of the WGSL module `summed_area_encoding`.
 ///
@@ -113,7 +113,7 @@ impl SummedAreaTable {
     /// The table of a map with this storage, for kernels up to this width and height in texels.
     pub fn new(source: Storage, largest_kernel: [u32; 2]) -> Result<Self, SummedAreaTableError> {
         let [width, height] = largest_kernel;
-        if !Storage::ALL.contains(&source) {
+        if !Storage::OF_FOUR_MOMENTS.contains(&source) {
             return Err(SummedAreaTableError::Source {
                 source_storage: source,
             });
@@ -179,8 +179,8 @@ impl SummedAreaTable {
     /// With the error e of a channel, alpha >= 4.88 e suffices to first order; arithmetic in f32 adds to it. The map is meant to
     /// come from a resolve: each blur in between rounds again.
     #[must_use]
-    pub fn moment_bias(&self) -> MomentBias {
-        MomentBias {
+    pub fn moment_bias(&self) -> FourMomentsBias {
+        FourMomentsBias {
             alpha: BIAS.of(self.error()),
             second: 0.628,
             fourth: 0.628,
@@ -189,8 +189,8 @@ impl SummedAreaTable {
 
     /// The same for distributions on the depth interval (Hausdorff).
     #[must_use]
-    pub fn hausdorff_moment_bias(&self) -> MomentBias {
-        MomentBias {
+    pub fn hausdorff_moment_bias(&self) -> FourMomentsBias {
+        FourMomentsBias {
             alpha: HAUSDORFF_BIAS.of(self.error()),
             second: 0.6036,
             fourth: 0.4875,

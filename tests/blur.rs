@@ -70,7 +70,7 @@ fn largest_difference(a: &[[f64; 4]], b: &[[f64; 4]]) -> f64 {
 #[test]
 fn every_radius_and_storage_gives_the_separable_filter() {
     let gpu = open();
-    for storage in Storage::ALL {
+    for storage in Storage::OF_FOUR_MOMENTS {
         let channels = noise(storage, texels(SIZE));
         for radius in [1, 4, 12, 13, 64] {
             for kernel in [asymmetric(radius), gaussian(radius)] {
@@ -151,7 +151,7 @@ fn an_impulse_shows_the_weights_in_place() {
 #[test]
 fn weights_per_frame_give_what_literal_weights_give() {
     let gpu = open();
-    for storage in Storage::ALL {
+    for storage in Storage::OF_FOUR_MOMENTS {
         let channels = noise(storage, texels(SIZE));
         for radius in [1, 4, 12] {
             let kernel = asymmetric(radius);
@@ -174,7 +174,7 @@ fn weights_per_frame_give_what_literal_weights_give() {
 fn a_constant_map_stays_constant() {
     let gpu = open();
     let size = [97, 70];
-    for storage in Storage::ALL {
+    for storage in Storage::OF_FOUR_MOMENTS {
         let centre = if storage == Storage::Float16 {
             0.5
         } else {

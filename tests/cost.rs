@@ -166,7 +166,7 @@ fn growth_of_single_scattering_is_measured_from_512_and_bounded() {
 
 #[test]
 fn texels_survive_encoding_within_half_a_step() {
-    for storage in Storage::ALL {
+    for storage in Storage::OF_FOUR_MOMENTS {
         let channels = noise(storage, 1000);
         let stored = decode(storage, &encode(storage, &channels));
         assert_eq!(stored.len(), channels.len());

@@ -37,7 +37,7 @@ fn place(at: &Location) -> (u32, u32, u32) {
 fn wrong_form(text: &str) -> ((u32, u32, u32), &'static str) {
     match link_user(text).unwrap_err() {
         LinkError::WrongForm { reason, at, form } => {
-            assert_eq!(form, "import moment_shadows::module::{item, item};");
+            assert_eq!(form, "import node::module::{item, item};");
             assert_eq!(at.file, "user.wgsl");
             assert_eq!(at.text, text.lines().nth(at.line as usize - 1).unwrap());
             (place(&at), reason)
@@ -49,17 +49,17 @@ fn wrong_form(text: &str) -> ((u32, u32, u32), &'static str) {
 #[test]
 fn joins_the_closure_once_in_dependency_order() {
     let linked = link_user(
-        "import moment_shadows::moments::{moments_from_depth};\n\
-         import moment_shadows::hamburger::{hamburger_shadow_intensity};\n\
+        "import moment_shadows::moments::four_moments::{four_moments_from_depth};\n\
+         import moment_shadows::bounds::hamburger4::{hamburger4_shadow_intensity};\n\
          fn shade() {}\n",
     )
     .unwrap();
     let files: Vec<_> = linked.files().collect();
     let expected = [
-        "moment_shadows/storage.wgsl",
-        "moment_shadows/moments.wgsl",
-        "moment_shadows/hankel.wgsl",
-        "moment_shadows/hamburger.wgsl",
+        "moment_shadows/map/storage.wgsl",
+        "moment_shadows/moments/four_moments.wgsl",
+        "moment_shadows/maths/hankel.wgsl",
+        "moment_shadows/bounds/hamburger4.wgsl",
         "user.wgsl",
     ];
     assert_eq!(files, expected);
@@ -84,7 +84,7 @@ fn joins_the_closure_once_in_dependency_order() {
 
 #[test]
 fn removed_imports_leave_one_blank_line() {
-    let text = "// a\n\nimport moment_shadows::m::{m};\n\n\n\nconst b = m;\n";
+    let text = "// a\n\nimport node::m::{m};\n\n\n\nconst b = m;\n";
     let linked = link_with(text, &[("m", "\nconst m = 1;\n\n\n")]).unwrap();
     let expected = "// m\n\nconst m = 1;\n\n\n// user.wgsl\n// a\n\nconst b = m;\n";
     assert_eq!(linked.wgsl(), expected);
@@ -92,13 +92,13 @@ fn removed_imports_leave_one_blank_line() {
 
 #[test]
 fn same_input_same_text() {
-    let text = "import moment_shadows::hamburger::{hamburger_bounds};\n";
+    let text = "import moment_shadows::bounds::hamburger4::{hamburger4_bounds};\n";
     assert_eq!(link_user(text), link_user(text));
 }
 
 #[test]
 fn every_line_maps_back() {
-    let text = "// A shader.\n\nimport moment_shadows::hankel::{hankel_factor};\n\nenable f16;\n\nfn a() {}\n";
+    let text = "// A shader.\n\nimport moment_shadows::maths::hankel::{hankel_factor};\n\nenable f16;\n\nfn a() {}\n";
     let linked = link_user(text).unwrap();
     let mut mapped = 0;
     for (number, line) in (1..).zip(linked.wgsl().lines()) {
@@ -111,7 +111,7 @@ fn every_line_maps_back() {
         };
         let file = match origin.file {
             "user.wgsl" => text,
-            "moment_shadows/hankel.wgsl" => include_str!("../wgsl/hankel.wgsl"),
+            "moment_shadows/maths/hankel.wgsl" => include_str!("../wgsl/maths/hankel.wgsl"),
             other => panic!("no such file was linked: {other}"),
         };
         let original = file.lines().nth(origin.line as usize - 1).unwrap();
@@ -130,7 +130,7 @@ fn every_line_maps_back() {
 #[test]
 fn directives_come_first_at_their_own_column() {
     let linked = link_with(
-        "import moment_shadows::specialization::{A};\n enable f16; /* kept */ fn a() {}\n",
+        "import node::specialization::{A};\n enable f16; /* kept */ fn a() {}\n",
         &[("specialization", "const A = 1;\n")],
     )
     .unwrap();
@@ -143,12 +143,12 @@ fn directives_come_first_at_their_own_column() {
 
 #[test]
 fn import_lines_may_follow_comments_a_byte_order_mark_and_crlf() {
-    let text = "\u{feff}// import moment_shadows::nothing::{x};\r\n/* import /* nested */ ;\r\n*/\r\n\
-                import moment_shadows::hankel::{hankel_factor}; // what is used\r\n\
+    let text = "\u{feff}// import node::nothing::{x};\r\n/* import /* nested */ ;\r\n*/\r\n\
+                import moment_shadows::maths::hankel::{hankel_factor}; // what is used\r\n\
                 fn a() {} // import nothing\r\n";
     let linked = link_user(text).unwrap();
     assert!(!linked.wgsl().contains(['\r', '\u{feff}']));
-    let end = "// user.wgsl\n// import moment_shadows::nothing::{x};\n/* import /* nested */ ;\n*/\n\
+    let end = "// user.wgsl\n// import node::nothing::{x};\n/* import /* nested */ ;\n*/\n\
                fn a() {} // import nothing\n";
     assert!(linked.wgsl().ends_with(end), "{}", linked.wgsl());
     let last = u32::try_from(linked.wgsl().lines().count()).unwrap();
@@ -158,10 +158,10 @@ fn import_lines_may_follow_comments_a_byte_order_mark_and_crlf() {
 #[test]
 fn generated_modules_import_library_modules() {
     let linked = link_with(
-        "import moment_shadows::specialization::{Bias};\nfn f(b: Bias) {}\n",
+        "import node::specialization::{Bias};\nfn f(b: Bias) {}\n",
         &[(
             "specialization",
-            "import moment_shadows::moments::{MomentBias};\nalias Bias = MomentBias;\n",
+            "import moment_shadows::moments::four_moments::{FourMomentsBias};\nalias Bias = FourMomentsBias;\n",
         )],
     )
     .unwrap();
@@ -169,8 +169,8 @@ fn generated_modules_import_library_modules() {
     assert_eq!(
         files,
         [
-            "moment_shadows/storage.wgsl",
-            "moment_shadows/moments.wgsl",
+            "moment_shadows/map/storage.wgsl",
+            "moment_shadows/moments/four_moments.wgsl",
             "specialization",
             "user.wgsl"
         ]
@@ -179,7 +179,7 @@ fn generated_modules_import_library_modules() {
 
 #[test]
 fn a_module_of_the_library_imports_its_siblings() {
-    let text = "import super::hankel::{hankel_factor};\nfn mine() {}\n";
+    let text = "import super::super::maths::hankel::{hankel_factor};\nfn mine() {}\n";
     assert!(imports_super(text));
     let linked = link_module(Source {
         name: "mine.wgsl",
@@ -188,10 +188,10 @@ fn a_module_of_the_library_imports_its_siblings() {
     .unwrap();
     assert_eq!(
         linked.files().collect::<Vec<_>>(),
-        ["moment_shadows/hankel.wgsl", "mine.wgsl"]
+        ["moment_shadows/maths/hankel.wgsl", "mine.wgsl"]
     );
 
-    let text = "import moment_shadows::hankel::{hankel_factor};\n";
+    let text = "import moment_shadows::maths::hankel::{hankel_factor};\n";
     assert!(!imports_super(text));
     let error = link_module(Source {
         name: "mine.wgsl",
@@ -201,7 +201,7 @@ fn a_module_of_the_library_imports_its_siblings() {
     assert!(matches!(
         error,
         LinkError::WrongForm {
-            form: "import super::module::{item, item};",
+            form: "import node::module::{item, item};",
             ..
         }
     ));
@@ -211,7 +211,11 @@ fn a_module_of_the_library_imports_its_siblings() {
 fn refuses_other_forms_of_import() {
     let outside = "outside the library an import starts with `moment_shadows::`";
     let cases = [
-        ("import super::hankel::{hankel_factor};", (1, 8, 5), outside),
+        (
+            "import super::super::maths::hankel::{hankel_factor};",
+            (1, 8, 5),
+            outside,
+        ),
         (
             "\nimport bevy::hankel::{hankel_factor};",
             (2, 8, 4),
@@ -238,48 +242,48 @@ fn refuses_other_forms_of_import() {
             "the module's name is missing",
         ),
         (
-            "import moment_shadows::hankel::{};",
+            "import moment_shadows::maths::hankel::{};",
             (1, 33, 1),
             "an item's name is missing",
         ),
         (
-            "import moment_shadows::hankel::{a,};",
+            "import moment_shadows::maths::hankel::{a,};",
             (1, 35, 1),
             "an item's name is missing",
         ),
         (
-            "import moment_shadows::hankel::{hankel_factor as f};",
+            "import moment_shadows::maths::hankel::{hankel_factor as f};",
             (1, 47, 2),
             "items are plain names with commas between them (no `as`, no path)",
         ),
         (
-            "import moment_shadows::hankel::{a::b};",
+            "import moment_shadows::maths::hankel::{a::b};",
             (1, 34, 2),
             "items are plain names with commas between them (no `as`, no path)",
         ),
         (
-            "import moment_shadows::hankel::{a}",
+            "import moment_shadows::maths::hankel::{a}",
             (1, 34, 1),
             "`;` is missing",
         ),
         (
-            "import moment_shadows::hankel::{\n  a,\n};",
+            "import moment_shadows::maths::hankel::{\n  a,\n};",
             (1, 32, 1),
             "an import is one line",
         ),
         ("import", (1, 1, 6), outside),
         (
-            "/* a */ import moment_shadows::hankel::{a};",
+            "/* a */ import moment_shadows::maths::hankel::{a};",
             (1, 9, 6),
             "something stands before the import",
         ),
         (
-            "import moment_shadows::hankel::{a}; fn f() {}",
+            "import moment_shadows::maths::hankel::{a}; fn f() {}",
             (1, 35, 1),
             "something stands after the import",
         ),
         (
-            "import moment_shadows::hankel::{a}; /* a\n*/",
+            "import moment_shadows::maths::hankel::{a}; /* a\n*/",
             (1, 35, 1),
             "something stands after the import",
         ),
@@ -293,17 +297,17 @@ fn refuses_other_forms_of_import() {
 fn refuses_imports_after_code() {
     let cases = [
         (
-            "\nconst A = 1;\n  import moment_shadows::hankel::{hankel_factor};",
+            "\nconst A = 1;\n  import moment_shadows::maths::hankel::{hankel_factor};",
             (3, 3, 6),
             2,
         ),
         (
-            "enable f16;\nimport moment_shadows::hankel::{hankel_factor};",
+            "enable f16;\nimport moment_shadows::maths::hankel::{hankel_factor};",
             (2, 1, 6),
             1,
         ),
         (
-            "@if(x) import moment_shadows::hankel::{hankel_factor};",
+            "@if(x) import moment_shadows::maths::hankel::{hankel_factor};",
             (1, 2, 2),
             0,
         ),
@@ -333,7 +337,7 @@ fn refuses_paths_conditions_and_public_in_code() {
         }
         other => panic!("another error: {other}"),
     }
-    match link_user("public import moment_shadows::hankel::{hankel_factor};").unwrap_err() {
+    match link_user("public import moment_shadows::maths::hankel::{hankel_factor};").unwrap_err() {
         LinkError::Public { at } => assert_eq!(place(&at), (1, 1, 6)),
         other => panic!("another error: {other}"),
     }
@@ -343,19 +347,21 @@ fn refuses_paths_conditions_and_public_in_code() {
 
 #[test]
 fn names_unknown_modules_and_items_with_the_nearest() {
-    match link_user("\n import moment_shadows::hambruger::{a};").unwrap_err() {
+    match link_user("\n import moment_shadows::bounds::hambruger4::{a};").unwrap_err() {
         LinkError::UnknownModule {
             module,
             nearest,
             at,
         } => {
-            assert_eq!(module, "hambruger");
+            assert_eq!(module, "bounds::hambruger4");
             assert!(nearest.starts_with("`hamburger`, "), "{nearest}");
             assert_eq!(place(&at), (2, 25, 9));
         }
         other => panic!("another error: {other}"),
     }
-    match link_user("import moment_shadows::hankel::{hankel_factor, hankel_facto};").unwrap_err() {
+    match link_user("import moment_shadows::maths::hankel::{hankel_factor, hankel_facto};")
+        .unwrap_err()
+    {
         LinkError::UnknownItem {
             item,
             module,
@@ -376,7 +382,7 @@ fn only_names_at_top_level_are_items() {
                   var<private> v: array<f32, 2>;\n@group(0) @binding(0) var<storage, read_write> w: f32;\n\
                   override o: f32;\nfn f(parameter: f32) { let local = 1; const inner = 2; }\n";
     for item in ["S", "T", "C", "v", "w", "o", "f"] {
-        let text = format!("import moment_shadows::m::{{{item}}};");
+        let text = format!("import node::m::{{{item}}};");
         link_with(&text, &[("m", module)]).unwrap();
     }
     for item in [
@@ -389,7 +395,7 @@ fn only_names_at_top_level_are_items() {
         "f32",
         "fn",
     ] {
-        let text = format!("import moment_shadows::m::{{{item}}};");
+        let text = format!("import node::m::{{{item}}};");
         let error = link_with(&text, &[("m", module)]).unwrap_err();
         assert!(matches!(error, LinkError::UnknownItem { .. }), "{item}");
     }
@@ -397,11 +403,11 @@ fn only_names_at_top_level_are_items() {
 
 #[test]
 fn refuses_an_item_imported_twice() {
-    let one = "import moment_shadows::hankel::{hankel_factor};\n";
+    let one = "import moment_shadows::maths::hankel::{hankel_factor};\n";
     for (text, expected) in [
         (format!("{one}{one}"), (2, 33, 13)),
         (
-            "import moment_shadows::hankel::{hankel_factor, hankel_factor};".to_owned(),
+            "import moment_shadows::maths::hankel::{hankel_factor, hankel_factor};".to_owned(),
             (1, 48, 13),
         ),
     ] {
@@ -417,23 +423,23 @@ fn refuses_an_item_imported_twice() {
     }
     // Two lines with different items of one module are two imports.
     link_user(&format!(
-        "{one}import moment_shadows::hankel::{{HankelFactor}};\n"
+        "{one}import moment_shadows::maths::hankel::{{HankelFactor}};\n"
     ))
     .unwrap();
 }
 
 #[test]
 fn refuses_cycles() {
-    let a = "import moment_shadows::b::{b};\nconst a = 1;";
-    let b = "// b\nimport moment_shadows::a::{a};\nconst b = 1;";
-    match link_with("import moment_shadows::a::{a};", &[("a", a), ("b", b)]).unwrap_err() {
+    let a = "import node::b::{b};\nconst a = 1;";
+    let b = "// b\nimport node::a::{a};\nconst b = 1;";
+    match link_with("import node::a::{a};", &[("a", a), ("b", b)]).unwrap_err() {
         LinkError::Cycle { cycle, at } => {
             assert_eq!((cycle.as_str(), at.file.as_str()), ("a -> b -> a", "b"));
             assert_eq!(place(&at), (2, 24, 1));
         }
         other => panic!("another error: {other}"),
     }
-    let own = "import moment_shadows::a::{a};\nconst a = 1;";
+    let own = "import node::a::{a};\nconst a = 1;";
     let error = link_with(own, &[("a", own)]).unwrap_err();
     assert!(matches!(error, LinkError::Cycle { cycle, .. } if cycle == "a -> a"));
 }
@@ -454,37 +460,39 @@ fn a_long_chain_of_modules_needs_no_deep_stack() {
         .map(|(name, text)| (name.as_str(), text.as_str()))
         .collect();
     generated.push(("m2000", "const c2000 = 1;"));
-    let linked = link_with("import moment_shadows::m0::{c0};", &generated).unwrap();
+    let linked = link_with("import node::m0::{c0};", &generated).unwrap();
     assert_eq!(linked.files().len(), 2_002);
 }
 
 #[test]
 fn refuses_names_that_collide() {
-    let text = "import moment_shadows::hamburger::{hamburger_bounds};\n\nfn hankel_factor() {}\n";
+    let text = "import moment_shadows::bounds::hamburger4::{hamburger4_bounds};\n\nfn hankel_factor() {}\n";
     match link_user(text).unwrap_err() {
         LinkError::Collision { name, at, first } => {
             assert_eq!(name, "hankel_factor");
             assert_eq!((at.file.as_str(), place(&at)), ("user.wgsl", (3, 4, 13)));
-            assert_eq!(first.file, "moment_shadows/hankel.wgsl");
+            assert_eq!(first.file, "moment_shadows/maths/hankel.wgsl");
             assert!(first.text.contains("fn hankel_factor("), "{}", first.text);
         }
         other => panic!("another error: {other}"),
     }
     // A local variable of that name shadows it, as in WGSL.
-    link_user("import moment_shadows::hankel::{hankel_factor};\nfn f() { let hankel_factor = 1; }")
-        .unwrap();
+    link_user(
+        "import moment_shadows::maths::hankel::{hankel_factor};\nfn f() { let hankel_factor = 1; }",
+    )
+    .unwrap();
     // A name defined twice in one file is for the WGSL compiler to refuse.
     link_user("const a = 1;\nconst a = 1;").unwrap();
 }
 
 #[test]
 fn refuses_names_that_are_used_without_being_imported() {
-    // `hankel_factor` comes along with `hamburger_bounds`, but only tools that join files would find it.
-    let text = "import moment_shadows::hamburger::{hamburger_bounds};\n\nfn f(b: vec4f) -> f32 {\n    return hankel_factor(b, 1.0).variance;\n}\n";
+    // `hankel_factor` comes along with `hamburger4_bounds`, but only tools that join files would find it.
+    let text = "import moment_shadows::bounds::hamburger4::{hamburger4_bounds};\n\nfn f(b: vec4f) -> f32 {\n    return hankel_factor(b, 1.0).variance;\n}\n";
     match link_user(text).unwrap_err() {
         LinkError::NotImported { item, owner, at } => {
             assert_eq!(item, "hankel_factor");
-            assert_eq!(owner, "moment_shadows/hankel.wgsl");
+            assert_eq!(owner, "moment_shadows/maths/hankel.wgsl");
             assert_eq!((at.file.as_str(), place(&at)), ("user.wgsl", (4, 12, 13)));
         }
         other => panic!("another error: {other}"),
@@ -496,7 +504,7 @@ fn refuses_names_that_are_used_without_being_imported() {
         "struct S { hankel_factor: f32 }\nfn f(s: S) -> f32 { return s.hankel_factor; }",
     ] {
         link_user(&format!(
-            "import moment_shadows::hamburger::{{hamburger_bounds}};\n{code}"
+            "import moment_shadows::bounds::hamburger4::{{hamburger4_bounds}};\n{code}"
         ))
         .unwrap();
     }
@@ -565,7 +573,7 @@ proptest! {
         parts.insert(at.min(parts.len()), &noise);
         let text = parts.concat();
         for result in [link_user(&text), link_module(Source { name: "user.wgsl", text: &text }),
-            link_with("import moment_shadows::m::{a};", &[("m", &text)])] {
+            link_with("import node::m::{a};", &[("m", &text)])] {
             match result {
                 Ok(linked) => {
                     let lines = linked.wgsl().lines().count();

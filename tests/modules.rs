@@ -36,7 +36,7 @@ const FORBIDDEN: [&str; 8] = [
 
 fn source(module: &Module) -> (String, &'static str) {
     (
-        format!("moment_shadows/{}.wgsl", module.name),
+        format!("moment_shadows/{}/{}.wgsl", module.folder, module.name),
         module.source,
     )
 }
@@ -85,16 +85,21 @@ fn assert_none(failures: &[String]) {
 
 #[test]
 fn the_registry_holds_every_file() {
-    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("wgsl");
-    let files: BTreeSet<_> = fs::read_dir(folder)
-        .unwrap()
-        .map(|entry| entry.unwrap().file_name().into_string().unwrap())
+    let root = Path::new(env!("CARGO_MANIFEST_DIR")).join("wgsl");
+    let entries = |folder: &Path| {
+        fs::read_dir(folder)
+            .unwrap()
+            .map(|entry| entry.unwrap().path())
+    };
+    let files: BTreeSet<_> = entries(&root)
+        .flat_map(|folder| entries(&folder).collect::<Vec<_>>())
+        .map(|file| file.strip_prefix(&root).unwrap().display().to_string())
         .collect();
-    let registered: Vec<_> = modules()
+    let registered: BTreeSet<_> = modules()
         .iter()
-        .map(|module| format!("{}.wgsl", module.name))
+        .map(|module| format!("{}/{}.wgsl", module.folder, module.name))
         .collect();
-    assert_eq!(registered, files.into_iter().collect::<Vec<_>>());
+    assert_eq!(registered, files);
 }
 
 #[test]
@@ -107,7 +112,7 @@ fn names_are_unique_and_say_their_module() {
             if let Some(other) = seen.insert(item.clone(), name) {
                 failures.push(format!("{name}: `{item}` is defined in {other} too"));
             }
-            // `MomentBias` belongs to `moments`.
+            // `FourMomentsBias` belongs to `moments`.
             let prefix = match kind.as_str() {
                 "fn" => format!("{name}_"),
                 "const" => format!("{}_", name.to_uppercase()),

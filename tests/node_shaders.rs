@@ -59,10 +59,10 @@ fn is_kept(name: &str) -> bool {
     }
     // Other storages change a constant.
     if OTHER_TECHNIQUES.iter().any(|other| name.contains(other)) {
-        let blurred_alike = name.starts_with("blur_moments") && !name.contains("logarithmic");
+        let blurred_alike = name.starts_with("blur") && !name.contains("logarithmic");
         return ends(&["float32", "unorm8", "lloyd_unorm16"]) && !blurred_alike;
     }
-    if name.starts_with("blur_moments") || name.starts_with("downsample_moments") {
+    if name.starts_with("blur") || name.starts_with("downsample") {
         return !name.contains("radius") && ends(&["unorm16", "unorm16_x"]);
     }
     if name.starts_with("debug_moments") {

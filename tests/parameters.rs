@@ -9,15 +9,15 @@
 use std::mem::offset_of;
 
 use moment_shadows::{
-    AreaLight, DepthConversion, EsmFiltering, Finite, Kernel, LARGEST_RADIUS, LayerSplits,
-    LeakReduction, MapRegion, MomentBias, PcfTaps, Pcss, PercentageCloserKernel, Profile,
+    AreaLight, DepthConversion, EsmFiltering, Finite, FourMomentsBias, Kernel, LARGEST_RADIUS,
+    LayerSplits, LeakReduction, MapRegion, PcfTaps, Pcss, PercentageCloserKernel, Profile,
     ReceiverBias, RectifiedFrame, STANDARD_DEVIATIONS, SingleScattering, SixMomentsBias, Source,
     Storage, SummedAreaTable, Technique, TextureFormat, link,
 };
 use moment_shadows_graph::nodes::{
-    BlurMoments, BlurParameters, CompositeScattering, CompositeScatteringParameters,
-    IntegrateScattering, IntegrateScatteringParameters, KernelProperty, RectifyMoments,
-    RectifyMomentsParameters, ResolveMoments, ShadeHard, ShadeHardParameters,
+    Blur, BlurParameters, CompositeScattering, CompositeScatteringParameters, IntegrateScattering,
+    IntegrateScatteringParameters, KernelProperty, RectifyMoments, RectifyMomentsParameters,
+    Resolve, ShadeHard, ViewParameters,
 };
 use moment_shadows_graph::{
     BindingResource, Capabilities, Connected, Node, NodeDesc, ResourceDesc, TextureDesc,
@@ -123,10 +123,10 @@ fn structs_of_the_modules_are_laid_out_alike() {
         }),
     );
     assert_same_layout(
-        &module("moments", "MomentBias"),
-        "MomentBias",
-        size_of::<MomentBias>(),
-        &fields!(MomentBias {
+        &module("map", "FourMomentsBias"),
+        "FourMomentsBias",
+        size_of::<FourMomentsBias>(),
+        &fields!(FourMomentsBias {
             alpha: f32,
             second: f32,
             fourth: f32
@@ -237,7 +237,7 @@ fn described(node: &dyn Node) -> NodeDesc {
     let texture = |format| ResourceDesc::Texture(TextureDesc::new(format, [256, 256]));
     let inputs = [
         ("depth".to_owned(), texture(TextureFormat::Depth32Float)),
-        ("moments".to_owned(), texture(TextureFormat::Rgba16Float)),
+        ("map".to_owned(), texture(TextureFormat::Rgba16Float)),
         ("rectified".to_owned(), texture(TextureFormat::Rgba16Float)),
         ("integrated".to_owned(), texture(TextureFormat::Rgba16Float)),
         (
@@ -252,7 +252,7 @@ fn described(node: &dyn Node) -> NodeDesc {
 }
 
 fn per_frame_blur() -> NodeDesc {
-    described(&BlurMoments {
+    described(&Blur {
         kernel: KernelProperty::gaussian(4, 2.4),
         per_frame: true,
         mip_levels: Default::default(),
@@ -265,9 +265,9 @@ fn structs_of_the_nodes_are_laid_out_alike() {
     let parsed = parse(&shade.passes[0].wgsl);
     assert_same_layout(
         &parsed,
-        "ShadeHardParameters",
-        size_of::<ShadeHardParameters>(),
-        &fields!(ShadeHardParameters {
+        "ViewParameters",
+        size_of::<ViewParameters>(),
+        &fields!(ViewParameters {
             light_from_camera: [[f32; 4]; 4],
             scene_w_from_camera: [f32; 4],
             receiver_bias: ReceiverBias,
@@ -303,7 +303,7 @@ fn structs_of_the_nodes_are_laid_out_alike() {
 #[test]
 fn nodes_declare_the_structs_that_their_shaders_bind() {
     let nodes = [
-        described(&ResolveMoments {
+        described(&Resolve {
             technique: Technique::Hamburger4,
             storage: Storage::Float16,
             mip_levels: Default::default(),
@@ -375,20 +375,20 @@ fn numbers(module: &Module, expression: naga::Handle<Expression>) -> Vec<f64> {
 
 #[test]
 fn storages_have_the_numbers_and_biases_of_the_module() {
-    for storage in Storage::ALL {
+    for storage in Storage::OF_FOUR_MOMENTS {
         let name = storage.name().to_uppercase();
         let index = format!("STORAGE_{name}");
         let found = constant(&module("storage", &index), &index);
         assert_eq!(found, [f64::from(storage.wgsl_index())], "{index}");
-        let bias = format!("MOMENTS_BIAS_{name}");
-        let found = constant(&module("moments", &bias), &bias);
+        let bias = format!("FOUR_MOMENTS_BIAS_{name}");
+        let found = constant(&module("map", &bias), &bias);
         let expected = storage.moment_bias();
         assert_eq!(
             found,
             [expected.alpha, expected.second, expected.fourth].map(f64::from),
             "{bias}"
         );
-        let bias = format!("HAUSDORFF_BIAS_{name}");
+        let bias = format!("HAUSDORFF4_BIAS_{name}");
         let found = constant(&module("hausdorff", &bias), &bias);
         let expected = storage.hausdorff_moment_bias();
         assert_eq!(
@@ -434,7 +434,7 @@ fn tables_are_biased_alike_on_both_sides() {
     let cost = |[per_error, of_f32, smallest]: [f32; 3], error: f32| {
         per_error.mul_add(error, of_f32).max(smallest)
     };
-    for source in Storage::ALL {
+    for source in Storage::OF_FOUR_MOMENTS {
         for side in [1, 9, 27, 65, 256] {
             let table = SummedAreaTable::new(source, [side; 2]).unwrap();
             let bias = table.moment_bias();
@@ -603,7 +603,7 @@ fn the_largest_kernel_fits_its_uniform_struct() {
     let text = link(
         Source {
             name: "user.wgsl",
-            text: "import moment_shadows::gaussian::{gaussian_filter};\n",
+            text: "import moment_shadows::filter::gaussian::{gaussian_filter};\n",
         },
         &[],
     )

@@ -205,7 +205,7 @@ fn the_truncated_gaussian_is_narrower_than_its_sigma() {
 
 #[test]
 fn planes_are_lit_in_every_storage() {
-    for storage in Storage::ALL {
+    for storage in Storage::OF_FOUR_MOMENTS {
         for (radius, sigma) in [(1, 0.6), (2, 1.2), (4, 2.4), (8, 4.8)] {
             let kernel = Kernel::gaussian(radius, sigma).unwrap();
             let bias = f64::from(STANDARD_DEVIATIONS);
@@ -222,7 +222,7 @@ fn planes_are_lit_at_borders_and_edges() {
         .into_iter()
         .flat_map(|end| [Beyond::Border(end), Beyond::Edge(end)])
         .collect();
-    for storage in Storage::ALL {
+    for storage in Storage::OF_FOUR_MOMENTS {
         let bias = f64::from(STANDARD_DEVIATIONS);
         let bound = worst(storage, &kernel, &beyond, bias, 0.0);
         assert!(bound <= LARGEST, "{storage}: {bound}");
@@ -237,7 +237,7 @@ fn fragment_depths_may_be_off_by_their_rounding() {
     // to be shadowed: 6e-5 with single precision, more with the others. Rounding of a 16-bit depth map, 1.5e-5, and
     // of positions in single precision is less than that, so that no constant bias is needed for the shader's bound.
     let kernel = Kernel::gaussian(4, 2.4).unwrap();
-    for storage in Storage::ALL {
+    for storage in Storage::OF_FOUR_MOMENTS {
         let bias = f64::from(STANDARD_DEVIATIONS);
         let bound = worst(storage, &kernel, &[Beyond::Endless], bias, 5e-5);
         assert!(bound <= LARGEST, "{storage}: {bound}");
@@ -249,7 +249,7 @@ fn the_largest_kernel_needs_no_more() {
     let kernel = Kernel::gaussian(64, 38.4).unwrap();
     let depth_per_texel = 2.0 / 1024.0;
     let bias = ReceiverBias::for_kernel(kernel.standard_deviation(), depth_per_texel as f32);
-    for storage in Storage::ALL {
+    for storage in Storage::OF_FOUR_MOMENTS {
         for tilt in [0.0f64, 20.0, 70.0] {
             let gradient = depth_per_texel * tilt.to_radians().tan();
             // The part of the plane under the kernel fills most of the range at 70 degrees.

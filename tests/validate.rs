@@ -8,7 +8,7 @@ use std::process::ExitCode;
 use moment_shadows::{
     Backend, Diagnostic, LARGEST_CONSTANT, LARGEST_VALUE, LONGEST_CHAIN, LONGEST_DEFINITION,
     LONGEST_SHADER, LinkError, MOST_CONSTANTS, MOST_EXPRESSIONS, MOST_VALUES, Outcome, Profile,
-    Source, TextureFormat, ValidateError, ValidationReport, validate, validate_module,
+    Source, TextureFormat, ValidateError, ValidationReport, modules, validate, validate_module,
 };
 use moment_shadows_lab::command::validate::{CheckError, check_file, run};
 
@@ -70,7 +70,7 @@ fn storing(format: &str, access: &str) -> String {
         _ => format!("textureStore(map, vec2u(0), {value});"),
     };
     format!(
-        "import moment_shadows::hankel::{{hankel_factor}};\n\n\
+        "import moment_shadows::maths::hankel::{{hankel_factor}};\n\n\
          @group(0) @binding(0) var map: texture_storage_2d<{format}, {access}>;\n\
          @compute @workgroup_size(1) fn main() {{ {body} }}\n"
     )
@@ -79,13 +79,13 @@ fn storing(format: &str, access: &str) -> String {
 #[test]
 fn a_users_shader_is_written_for_every_backend() {
     let report = core(
-        "import moment_shadows::hamburger::{hamburger_shadow_intensity};\n\
-         import moment_shadows::moments::{MomentBias};\n\
+        "import moment_shadows::bounds::hamburger4::{hamburger4_shadow_intensity};\n\
+         import moment_shadows::moments::four_moments::{FourMomentsBias};\n\
          @group(0) @binding(0) var map: texture_2d<f32>;\n\
          @group(0) @binding(1) var map_sampler: sampler;\n\
          @fragment fn main(@location(0) uv: vec2f) -> @location(0) vec4f {\n\
              let moments = textureSampleLevel(map, map_sampler, uv, 0.0);\n\
-             return vec4f(hamburger_shadow_intensity(moments, 0.0, MomentBias(1e-3, 0.6, 0.6)));\n\
+             return vec4f(hamburger4_shadow_intensity(moments, 0.0, FourMomentsBias(1e-3, 0.6, 0.6)));\n\
          }\n",
     )
     .unwrap();
@@ -94,7 +94,7 @@ fn a_users_shader_is_written_for_every_backend() {
 
 #[test]
 fn parse_errors_point_at_the_line_before_linking() {
-    let import = "import moment_shadows::hankel::{hankel_factor};\n";
+    let import = "import moment_shadows::maths::hankel::{hankel_factor};\n";
     let diagnostic = parse_error(&format!(
         "{import}\r\nfn f() -> f32 {{\r\n\treturn 1.0 + ;\r\n}}\r\n"
     ));
@@ -118,8 +118,9 @@ fn parse_errors_point_at_the_line_before_linking() {
 
 #[test]
 fn several_labels_are_all_mapped_back() {
-    let diagnostic =
-        parse_error("import moment_shadows::hankel::{hankel_factor};\nfn f() {}\n\n  fn f() {}\n");
+    let diagnostic = parse_error(
+        "import moment_shadows::maths::hankel::{hankel_factor};\nfn f() {}\n\n  fn f() {}\n",
+    );
     let places: Vec<_> = diagnostic
         .labels
         .iter()
@@ -137,7 +138,7 @@ fn errors_in_generated_modules_name_them() {
     };
     let source = Source {
         name: "user.wgsl",
-        text: "import moment_shadows::specialization::{A};\nfn f(a: A) {}\n",
+        text: "import node::specialization::{A};\nfn f(a: A) {}\n",
     };
     match validate(source, &[generated], Profile::WebgpuCore).unwrap_err() {
         ValidateError::Parse(diagnostic) => {
@@ -150,7 +151,7 @@ fn errors_in_generated_modules_name_them() {
 #[test]
 fn invalid_shaders_point_at_the_innermost_place() {
     let diagnostic = invalid(
-        "import moment_shadows::hankel::{hankel_factor};\nfn f() -> f32 {\n    return 1u;\n}\n",
+        "import moment_shadows::maths::hankel::{hankel_factor};\nfn f() -> f32 {\n    return 1u;\n}\n",
     );
     assert_eq!(place(&diagnostic), ("user.wgsl", 3, 12, 2));
     assert_eq!(diagnostic.message, "function `f` is not valid");
@@ -164,7 +165,7 @@ fn invalid_shaders_point_at_the_innermost_place() {
 
 #[test]
 fn what_the_core_lacks_is_refused_where_it_stands() {
-    let enable = "import moment_shadows::hankel::{hankel_factor};\nenable f16;\nfn f() {}\n";
+    let enable = "import moment_shadows::maths::hankel::{hankel_factor};\nenable f16;\nfn f() {}\n";
     assert_eq!(place(&parse_error(enable)), ("user.wgsl", 2, 8, 3));
     let subgroups = "enable subgroups;\nfn f() {}\n";
     assert_eq!(place(&parse_error(subgroups)), ("user.wgsl", 1, 8, 9));
@@ -335,14 +336,14 @@ fn overrides_without_default_have_a_value() {
 
 #[test]
 fn link_errors_come_through() {
-    let error = core("import moment_shadows::hankle::{hankel_factor};\n").unwrap_err();
+    let error = core("import moment_shadows::maths::hankle::{hankel_factor};\n").unwrap_err();
     assert!(matches!(
         error,
         ValidateError::Link(LinkError::UnknownModule { .. })
     ));
     let source = Source {
         name: "m.wgsl",
-        text: "import super::hankel::{hankel};\n",
+        text: "import super::super::maths::hankel::{hankel};\n",
     };
     let error = validate_module(source, Profile::WebgpuCore).unwrap_err();
     assert!(matches!(
@@ -496,11 +497,11 @@ fn the_command_checks_files() {
     };
     let good = write(
         "good.wgsl",
-        b"import moment_shadows::hankel::{hankel_factor};\nfn f() {}\n",
+        b"import moment_shadows::maths::hankel::{hankel_factor};\nfn f() {}\n",
     );
     let bad = write(
         "bad.wgsl",
-        b"import moment_shadows::hankel::{hankel_factor};\nfn f( {}\n",
+        b"import moment_shadows::maths::hankel::{hankel_factor};\nfn f( {}\n",
     );
     let norm = write("norm.wgsl", storing("rgba16unorm", "write").as_bytes());
     let binary = write("binary.wgsl", &[0xff, 0xfe, 0x00]);
@@ -529,9 +530,11 @@ fn the_command_checks_files() {
 
 #[test]
 fn the_command_checks_modules_of_the_library() {
-    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("wgsl");
-    for entry in fs::read_dir(folder).unwrap() {
-        let path = entry.unwrap().path();
+    let root = Path::new(env!("CARGO_MANIFEST_DIR")).join("wgsl");
+    for module in modules() {
+        let path = root
+            .join(module.folder)
+            .join(format!("{}.wgsl", module.name));
         check_file(&path, Profile::WebgpuCore).unwrap_or_else(|error| panic!("{error}"));
     }
 }

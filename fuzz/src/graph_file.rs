@@ -26,25 +26,25 @@ const EXAMPLES: [&str; 3] = [
 
 /// More ways to write what the examples do not have.
 const FURTHER: [&str; 3] = [
-    r#"{"version": 1, "imports": [{"name": "d", "texture": {"format": "depth32float", "size": [100, 60], "layers": 4, "samples": 2}}, {"name": "c"}],
- "nodes": [{"name": "r", "type": "resolve_moments", "properties": {"storage": "float16", "mip_levels": "all"}},
-  {"name": "a", "type": "blur_moments", "properties": {"kernel": {"radius": 32, "sigma": 9.0}, "per_frame": true, "mip_levels": "all"}},
-  {"name": "m", "type": "downsample_moments"},
+    r#"{"version": 2, "imports": [{"name": "d", "texture": {"format": "depth32float", "size": [100, 60], "layers": 4, "samples": 2}}, {"name": "c"}],
+ "nodes": [{"name": "r", "type": "resolve", "properties": {"storage": "float16", "mip_levels": "all"}},
+  {"name": "a", "type": "blur", "properties": {"kernel": {"radius": 32, "sigma": 9.0}, "per_frame": true, "mip_levels": "all"}},
+  {"name": "m", "type": "downsample"},
   {"name": "g", "type": "debug_moments", "properties": {"level": 1}},
   {"name": "s", "type": "shade_hard", "properties": {"lights": 3, "views": 5, "anisotropy": 4}}],
- "edges": [{"from": "d", "to": "r.depth"}, {"from": "r.moments", "to": "a.moments"}, {"from": "a.blurred", "to": "m.moments"},
-  {"from": "m.moments", "to": "g.moments"}, {"from": "m.moments", "to": "s.moments"}, {"from": "c", "to": "s.camera_depth"}],
+ "edges": [{"from": "d", "to": "r.depth"}, {"from": "r.map", "to": "a.map"}, {"from": "a.blurred", "to": "m.map"},
+  {"from": "m.map", "to": "g.map"}, {"from": "m.map", "to": "s.map"}, {"from": "c", "to": "s.camera_depth"}],
  "outputs": [{"name": "o", "from": "s.shadow_intensity"}]}"#,
-    r#"{"version": 1, "imports": [{"name": "d", "texture": {"format": "depth16unorm", "size": [64, 48], "layers": 3}}],
- "nodes": [{"name": "r", "type": "resolve_moments", "properties": {"storage": "float32"}},
-  {"name": "a", "type": "blur_moments", "properties": {"kernel": {"weights": [1, 0.5, 0.25]}}},
-  {"name": "b", "type": "blur_moments", "properties": {"kernel": {"radius": 1, "sigma": 0.5}}}],
- "edges": [{"from": "d", "to": "r.depth"}, {"from": "r.moments", "to": "a.moments"}, {"from": "a.blurred", "to": "b.moments"}],
+    r#"{"version": 2, "imports": [{"name": "d", "texture": {"format": "depth16unorm", "size": [64, 48], "layers": 3}}],
+ "nodes": [{"name": "r", "type": "resolve", "properties": {"storage": "float32"}},
+  {"name": "a", "type": "blur", "properties": {"kernel": {"weights": [1, 0.5, 0.25]}}},
+  {"name": "b", "type": "blur", "properties": {"kernel": {"radius": 1, "sigma": 0.5}}}],
+ "edges": [{"from": "d", "to": "r.depth"}, {"from": "r.map", "to": "a.map"}, {"from": "a.blurred", "to": "b.map"}],
  "outputs": [{"name": "m", "from": "b.blurred"}, {"name": "n", "from": "a.blurred"}]}"#,
-    r#"{"version": 1, "imports": [{"name": "d"}, {"name": "c"}],
- "nodes": [{"name": "r", "type": "resolve_moments", "properties": {"storage": "float16"}},
+    r#"{"version": 2, "imports": [{"name": "d"}, {"name": "c"}],
+ "nodes": [{"name": "r", "type": "resolve", "properties": {"storage": "float16"}},
   {"name": "s", "type": "shade_hard", "properties": {"format": "r32float", "technique": "hamburger4"}}],
- "edges": [{"from": "d", "to": "r.depth"}, {"from": "r.moments", "to": "s.moments"}, {"from": "c", "to": "s.camera_depth"}],
+ "edges": [{"from": "d", "to": "r.depth"}, {"from": "r.map", "to": "s.map"}, {"from": "c", "to": "s.camera_depth"}],
  "outputs": [{"name": "o", "from": "s.shadow_intensity"}]}"#,
 ];
 
@@ -140,8 +140,8 @@ fn lengthen(document: &mut Value, random: &mut Random) {
     for number in 0..random.count(3000) {
         let name = format!("blur {number}");
         let sigma = 0.5 + number as f64 / 1000.0;
-        nodes.push(json!({ "name": name, "type": "blur_moments", "properties": { "kernel": { "radius": 1 + number % 9, "sigma": sigma } } }));
-        edges.push(json!({ "from": before, "to": format!("{name}.moments") }));
+        nodes.push(json!({ "name": name, "type": "blur", "properties": { "kernel": { "radius": 1 + number % 9, "sigma": sigma } } }));
+        edges.push(json!({ "from": before, "to": format!("{name}.map") }));
         before = json!(format!("{name}.blurred"));
     }
     if let Some(all) = array(document, "edges") {

@@ -22,8 +22,8 @@ const SHADERS: [&str; 5] = [
     include_str!("../../examples/forward_shading.wgsl"),
     include_str!("../../examples/lab/src/host/shade.wgsl"),
     include_str!("../../examples/lab/src/host/geometry.wgsl"),
-    "import moment_shadows::hankel::{hankel_factor};
-import moment_shadows::weights::{WEIGHTS, weight_of};
+    "import moment_shadows::maths::hankel::{hankel_factor};
+import node::weights::{WEIGHTS, weight_of};
 
 override FACTOR: f32 = 2.0;
 struct Parameters { size: vec2u, scale: array<vec4f, 4>, }
@@ -43,7 +43,7 @@ var<workgroup> shared_sums: array<vec4f, 64>;
     textureStore(map, id.xy, sum + shared_sums[0]);
 }
 //# weights
-import moment_shadows::more::{more_weight};
+import node::more::{more_weight};
 const WEIGHTS: u32 = 9u;
 fn weight_of(index: u32) -> f32 { return more_weight(index) / f32(WEIGHTS); }
 //# more
@@ -149,10 +149,10 @@ static WORDS: LazyLock<Vec<String>> = LazyLock::new(|| {
             "bitcast<vec2<f16>>",
             "subgroupAdd",
             "quadBroadcast",
-            "import moment_shadows::hamburger::{hamburger_shadow_intensity};\n",
-            "import super::hankel::{hankel_factor};\n",
-            "import moment_shadows::more::{more_weight};\n",
-            "import moment_shadows::weights::{weight_of};\n",
+            "import moment_shadows::bounds::hamburger4::{hamburger4_shadow_intensity};\n",
+            "import super::super::maths::hankel::{hankel_factor};\n",
+            "import node::more::{more_weight};\n",
+            "import node::weights::{weight_of};\n",
             "\n//# more\n",
             "\n//# weights\n",
             "/*",

@@ -4,10 +4,11 @@ use moment_shadows::nearest;
 use serde::Deserialize;
 use serde_json::value::RawValue;
 
+use crate::version_1::Renamed;
 use crate::{GraphError, GraphErrorKind, Node, NodeRegistry, Position, ResourceDesc};
 
-/// The version of graph files and plans that this library reads and writes.
-pub const VERSION: u32 = 1;
+/// The version of graph files and plans that this library writes. Graph files of version 1 are read, too.
+pub const VERSION: u32 = 2;
 
 /// A graph file of more bytes than this is refused: names are looked up one by one, so that time grows with the square.
 const LARGEST_FILE: usize = 1 << 20;
@@ -23,6 +24,8 @@ pub struct Graph {
     pub edges: Vec<Edge>,
     /// What the host takes.
     pub outputs: Vec<Output>,
+    /// What to change in the file, a sentence each: names of an older version that it uses.
+    pub notes: Vec<String>,
 }
 
 /// A resource that the host owns.
@@ -156,23 +159,32 @@ impl Graph {
             ));
         }
         let version: FileVersion = read(text, text)?;
-        if version.version != VERSION {
+        if !(1..=VERSION).contains(&version.version) {
             return Err(GraphError::new(
                 GraphErrorKind::Version,
                 format!(
-                    "the file has version {}, this library reads version {VERSION}; use a library of the file's version",
+                    "the file has version {}, this library reads versions 1 to {VERSION}; use a library of the file's version",
                     version.version
                 ),
             ));
         }
         let file: File<'_> = read(text, text)?;
+        let mut renamed = (version.version == 1).then(Renamed::default);
+        let imports = each(text, &file.imports, read_import)?;
+        let nodes = each(text, &file.nodes, |text, raw, position| {
+            read_node(text, raw, position, registry, renamed.as_mut())
+        })?;
+        let mut edges = each(text, &file.edges, read_edge)?;
+        let mut outputs = each(text, &file.outputs, read_output)?;
+        if let Some(renamed) = &mut renamed {
+            renamed.slots(&mut edges, &mut outputs);
+        }
         Ok(Self {
-            imports: each(text, &file.imports, read_import)?,
-            nodes: each(text, &file.nodes, |text, raw, position| {
-                read_node(text, raw, position, registry)
-            })?,
-            edges: each(text, &file.edges, read_edge)?,
-            outputs: each(text, &file.outputs, read_output)?,
+            imports,
+            nodes,
+            edges,
+            outputs,
+            notes: renamed.map(|renamed| renamed.notes).unwrap_or_default(),
         })
     }
 }
@@ -180,7 +192,7 @@ impl Graph {
 fn each<T>(
     text: &str,
     values: &[&RawValue],
-    one: impl Fn(&str, &str, Position) -> Result<T, GraphError>,
+    mut one: impl FnMut(&str, &str, Position) -> Result<T, GraphError>,
 ) -> Result<Vec<T>, GraphError> {
     let (mut position, mut offset) = (Position::START, 0);
     values
@@ -255,15 +267,20 @@ fn read_node(
     raw: &str,
     position: Position,
     registry: &NodeRegistry,
+    renamed: Option<&mut Renamed>,
 ) -> Result<GraphNode, GraphError> {
     let header: FileNode<'_> = read(text, raw).map_err(|error| match name_of(raw) {
         Some(name) => error.at_node(&name),
         None => error,
     })?;
     let properties = header.properties.map_or("{}", RawValue::get);
+    let type_name = match renamed {
+        Some(renamed) => renamed.type_name(&header.name, &header.r#type),
+        None => &header.r#type,
+    };
     let node = registry
-        .create(&header.r#type, properties)
-        .ok_or_else(|| unknown_type(&header.r#type, registry))
+        .create(type_name, properties)
+        .ok_or_else(|| unknown_type(type_name, registry))
         .and_then(|result| {
             result.map_err(|error| match header.properties {
                 Some(_) => syntax(text, properties, &error),

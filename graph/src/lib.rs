@@ -20,6 +20,7 @@ mod plan;
 pub mod record;
 mod registry;
 mod resource;
+mod version_1;
 
 pub use capabilities::Capabilities;
 pub use compile::{Imports, compile};
@@ -36,3 +37,4 @@ pub use plan::{
 };
 pub use registry::NodeRegistry;
 pub use resource::{Access, ResourceDesc, TextureDesc};
+pub use version_1::upgrade;

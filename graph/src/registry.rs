@@ -7,8 +7,8 @@ use serde::de::DeserializeOwned;
 
 use crate::Node;
 use crate::nodes::{
-    BlurMoments, CompositeScattering, DebugMoments, DownsampleMoments, IntegrateScattering,
-    PlaceLayers, RectifyMoments, ResolveMoments, ShadeHard, ShadeSoft, SummedAreaTable,
+    Blur, CompositeScattering, DebugMoments, Downsample, IntegrateScattering, PlaceLayers,
+    RectifyMoments, Resolve, ShadeHard, ShadeSoft, SummedAreaTable,
 };
 
 /// Makes a node of its properties, which are JSON text.
@@ -27,10 +27,10 @@ impl NodeRegistry {
         let mut registry = Self {
             factories: BTreeMap::new(),
         };
-        registry.register::<ResolveMoments>("resolve_moments");
+        registry.register::<Resolve>("resolve");
         registry.register::<PlaceLayers>("place_layers");
-        registry.register::<BlurMoments>("blur_moments");
-        registry.register::<DownsampleMoments>("downsample_moments");
+        registry.register::<Blur>("blur");
+        registry.register::<Downsample>("downsample");
         registry.register::<SummedAreaTable>("summed_area_table");
         registry.register::<DebugMoments>("debug_moments");
         registry.register::<ShadeHard>("shade_hard");

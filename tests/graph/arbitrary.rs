@@ -35,9 +35,9 @@ fn value() -> impl Strategy<Value = Value> {
         ]
         .prop_map(Value::from),
         prop_oneof![
-            Just("resolve.moments"),
+            Just("resolve.map"),
             Just("blur.blurred"),
-            Just("blur.moments"),
+            Just("blur.map"),
             Just("camera_depth"),
             Just("shade"),
             Just("."),
@@ -45,7 +45,7 @@ fn value() -> impl Strategy<Value = Value> {
             Just("a.b.c"),
             Just("float16"),
             Just("rgba32float"),
-            Just("resolve_moments"),
+            Just("resolve"),
             Just("\u{0}")
         ]
         .prop_map(Value::from),

@@ -20,13 +20,13 @@ fn plan(storage: &str) -> Plan {
     )
     .replace("\"sigma\": 2.4 }", "\"sigma\": 2.4 }, \"mip_levels\": 2")
     .replace(
-        "{ \"from\": \"blur.blurred\", \"to\": \"shade.moments\" }",
-        "{ \"from\": \"blur.blurred\", \"to\": \"downsample.moments\" },
-    { \"from\": \"downsample.moments\", \"to\": \"shade.moments\" }",
+        "{ \"from\": \"blur.blurred\", \"to\": \"shade.map\" }",
+        "{ \"from\": \"blur.blurred\", \"to\": \"downsample.map\" },
+    { \"from\": \"downsample.map\", \"to\": \"shade.map\" }",
     )
     .replace(
         "{ \"name\": \"shade\"",
-        "{ \"name\": \"downsample\", \"type\": \"downsample_moments\" },
+        "{ \"name\": \"downsample\", \"type\": \"downsample\" },
     { \"name\": \"shade\"",
     );
     compiled(&text, &Capabilities::of_profile(Profile::WebgpuCore)).unwrap()
@@ -58,8 +58,8 @@ fn ten_bits_are_drawn_plane_by_plane_and_level_by_level() {
     assert_eq!(
         drawn[..8],
         [
-            of("resolve plane 0", "resolve.moments", 0, 0),
-            of("resolve plane 1", "resolve.moments", 0, 1),
+            of("resolve plane 0", "resolve.map", 0, 0),
+            of("resolve plane 1", "resolve.map", 0, 1),
             // The planes take turns with one intermediate map of one plane.
             of("plane 0: blur along x", "blur.half_blurred", 0, 0),
             of("plane 0: blur along y", "blur.blurred", 0, 0),
@@ -147,7 +147,7 @@ fn prefix_sums_are_not_drawn() {
         extent: [64, 64],
     };
     let four = map(Technique::Hamburger4, Storage::Float16);
-    let error = described(&rectify, "moments", four).unwrap_err();
+    let error = described(&rectify, "map", four).unwrap_err();
     assert_eq!(error.kind, GraphErrorKind::Property, "{error}");
     let rectified = map(Technique::Hamburger6, Storage::Unorm10);
     let other = described(&IntegrateScattering::default(), "rectified", rectified).unwrap_err();
@@ -180,14 +180,14 @@ fn nodes_of_four_moments_refuse_six_by_name() {
     let debug = DebugMoments::default();
     for &storage in Technique::Hamburger6.storages() {
         let six = || map(Technique::Hamburger6, storage);
-        let error = described(&debug, "moments", six()).unwrap_err();
+        let error = described(&debug, "map", six()).unwrap_err();
         assert_eq!(error.kind, GraphErrorKind::Format, "{error}");
-        assert_eq!(error.slot.as_deref(), Some("moments"));
+        assert_eq!(error.slot.as_deref(), Some("map"));
         assert!(
             error.message.contains("hamburger6 as") && error.message.contains("'hamburger4'"),
             "{error}"
         );
-        let error = described(&table, "moments", six()).unwrap_err();
+        let error = described(&table, "map", six()).unwrap_err();
         assert_eq!(error.kind, GraphErrorKind::Property, "{error}");
         let why = match storage {
             Storage::Unorm10 => "stored as unorm10",
@@ -201,7 +201,7 @@ fn nodes_of_four_moments_refuse_six_by_name() {
 #[test]
 fn ten_bits_without_an_encoding_are_no_moments() {
     let bare = TextureDesc::new(TextureFormat::Rgb10a2Unorm, [64, 64]);
-    let error = described(&DebugMoments::default(), "moments", bare).unwrap_err();
+    let error = described(&DebugMoments::default(), "map", bare).unwrap_err();
     assert_eq!(error.kind, GraphErrorKind::Format);
     assert!(
         error

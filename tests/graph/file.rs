@@ -3,6 +3,7 @@
 use moment_shadows_graph::GraphErrorKind::{
     MissingInput, Property, Size, Syntax, UnknownName, UnknownNodeType, Version,
 };
+use moment_shadows_graph::{Graph, NodeRegistry};
 
 use crate::example::{TEXT, assert_error, edited, end_of, parse, refused};
 
@@ -31,7 +32,7 @@ fn what_is_no_json_is_told_with_its_place() {
 
 #[test]
 fn a_version_is_needed_and_has_to_be_known() {
-    let missing = edited("\"version\": 1,", "");
+    let missing = edited("\"version\": 2,", "");
     assert_error(
         &refused(&missing),
         Syntax,
@@ -40,17 +41,17 @@ fn a_version_is_needed_and_has_to_be_known() {
         "21:1",
         "missing field `version`",
     );
-    let newer = edited("\"version\": 1,", "\"version\": 2,");
+    let newer = edited("\"version\": 2,", "\"version\": 3,");
     assert_error(
         &refused(&newer),
         Version,
         "",
         "",
         "",
-        "has version 2, this library reads version 1",
+        "has version 3, this library reads versions 1 to 2",
     );
     // A newer file may have other keys: its version is what is said.
-    let changed = edited("\"version\": 1,", "\"version\": 7, \"cameras\": [],");
+    let changed = edited("\"version\": 2,", "\"version\": 7, \"cameras\": [],");
     assert_error(&refused(&changed), Version, "", "", "", "version 7");
 }
 
@@ -64,7 +65,7 @@ fn assert_syntax(from: &str, to: &str, node: &str, at: &str, says: &str) {
 #[test]
 fn unknown_keys_are_refused_where_they_stand() {
     // The place of the first, counted by hand.
-    let file = edited("\"version\": 1,", "\"version\": 1, \"nods\": [],");
+    let file = edited("\"version\": 2,", "\"version\": 2, \"nods\": [],");
     assert_error(
         &refused(&file),
         Syntax,
@@ -202,7 +203,7 @@ fn places_are_counted_in_files_of_one_line_and_of_many_bytes() {
 
 #[test]
 fn unknown_node_types_name_the_nearest() {
-    let text = edited("\"type\": \"blur_moments\"", "\"type\": \"blur_momnets\"");
+    let text = edited("\"type\": \"blur\"", "\"type\": \"blurr\"");
     let error = refused(&text);
     assert_error(
         &error,
@@ -210,12 +211,9 @@ fn unknown_node_types_name_the_nearest() {
         "blur",
         "",
         "9:5",
-        "no node type 'blur_momnets'",
+        "no node type 'blurr'",
     );
-    assert!(
-        error.message.contains("nearest are `blur_moments`"),
-        "{error}"
-    );
+    assert!(error.message.contains("nearest are `blur`"), "{error}");
 }
 
 #[test]
@@ -245,10 +243,7 @@ fn endpoints_name_what_there_is() {
         "13:5",
         "no import 'light_deph'; the nearest are `light_depth`",
     );
-    let node = edited(
-        "\"from\": \"resolve.moments\"",
-        "\"from\": \"resolv.moments\"",
-    );
+    let node = edited("\"from\": \"resolve.map\"", "\"from\": \"resolv.map\"");
     assert_error(
         &refused(&node),
         UnknownName,
@@ -257,32 +252,22 @@ fn endpoints_name_what_there_is() {
         "14:5",
         "no node 'resolv'; the nearest are `resolve`",
     );
-    let output = edited(
-        "\"from\": \"resolve.moments\"",
-        "\"from\": \"resolve.moment\"",
-    );
+    let output = edited("\"from\": \"resolve.map\"", "\"from\": \"resolve.mab\"");
     assert_error(
         &refused(&output),
         UnknownName,
         "resolve",
-        "moment",
+        "mab",
         "14:5",
-        "no output 'moment'; the nearest are `moments`",
+        "no output 'mab'; the nearest are `map`",
     );
     // The node cannot describe itself without its input, so what is connected is said.
-    let input = edited("\"to\": \"shade.moments\"", "\"to\": \"shade.moment\"");
-    let says = "add an edge that leads to it (what is connected is 'camera_depth', 'moment')";
-    assert_error(
-        &refused(&input),
-        MissingInput,
-        "shade",
-        "moments",
-        "10:5",
-        says,
-    );
+    let input = edited("\"to\": \"shade.map\"", "\"to\": \"shade.mab\"");
+    let says = "add an edge that leads to it (what is connected is 'camera_depth', 'mab')";
+    assert_error(&refused(&input), MissingInput, "shade", "map", "10:5", says);
     let further = edited(
-        "\"to\": \"blur.moments\" },",
-        "\"to\": \"blur.moments\" }, { \"from\": \"light_depth\", \"to\": \"blur.depth\" },",
+        "\"to\": \"blur.map\" },",
+        "\"to\": \"blur.map\" }, { \"from\": \"light_depth\", \"to\": \"blur.depth\" },",
     );
     let edge = refused(&further);
     assert_error(
@@ -290,10 +275,10 @@ fn endpoints_name_what_there_is() {
         UnknownName,
         "blur",
         "depth",
-        "14:58",
-        "no input 'depth'; the nearest are `moments` (",
+        "14:50",
+        "no input 'depth'; the nearest are `map` (",
     );
-    let no_slot = edited("\"to\": \"blur.moments\"", "\"to\": \"blur\"");
+    let no_slot = edited("\"to\": \"blur.map\"", "\"to\": \"blur\"");
     assert_error(
         &refused(&no_slot),
         UnknownName,
@@ -302,26 +287,26 @@ fn endpoints_name_what_there_is() {
         "14:5",
         "write 'node.slot'",
     );
-    let backwards = edited("\"to\": \"blur.moments\"", "\"to\": \"blur.blurred\"");
+    let backwards = edited("\"to\": \"blur.map\"", "\"to\": \"blur.blurred\"");
     assert_error(
         &refused(&backwards),
         MissingInput,
         "blur",
-        "moments",
+        "map",
         "9:5",
         "what is connected is 'blurred'",
     );
     let taken = edited(
         "\"from\": \"shade.shadow_intensity\"",
-        "\"from\": \"shade.moments\"",
+        "\"from\": \"shade.map\"",
     );
     assert_error(
         &refused(&taken),
         UnknownName,
         "shade",
-        "moments",
+        "map",
         "19:5",
-        "no output 'moments'",
+        "no output 'map'",
     );
 }
 
@@ -342,7 +327,7 @@ fn files_beyond_the_largest_size_are_refused() {
 fn a_large_file_is_read_in_no_time() {
     let edges = vec!["{\"from\":\"a\",\"to\":\"b.c\"}"; 40_000].join(",\n");
     let text =
-        format!("{{\"version\":1,\"imports\":[],\"nodes\":[],\"edges\":[{edges}],\"outputs\":[]}}");
+        format!("{{\"version\":2,\"imports\":[],\"nodes\":[],\"edges\":[{edges}],\"outputs\":[]}}");
     let graph = parse(&text).unwrap();
     assert_eq!(graph.edges.last().unwrap().position.unwrap().line, 40_000);
 }
@@ -408,5 +393,56 @@ fn shadow_intensity_has_a_channel_per_light() {
         "",
         "10:5",
         "r8unorm, r16float, r32float or rgba8unorm, rgba16float, rgba32float, not rgba16unorm",
+    );
+}
+
+#[test]
+fn names_of_version_1_are_read_with_a_note_each() {
+    let current = TEXT.to_owned();
+    let old = [
+        ("\"version\": 2", "\"version\": 1"),
+        ("\"type\": \"resolve\"", "\"type\": \"resolve_moments\""),
+        ("\"type\": \"blur\"", "\"type\": \"blur_moments\""),
+        (".map\"", ".moments\""),
+    ]
+    .iter()
+    .fold(current.clone(), |text, (now, old)| text.replace(now, old));
+    let graph = |text: &str| Graph::parse(text, &NodeRegistry::new()).unwrap();
+    let (read, expected) = (graph(&old), graph(&current));
+    let ends = |graph: &Graph| -> Vec<_> {
+        let edges = graph.edges.iter();
+        let edges = edges.flat_map(|edge| [edge.from.clone(), edge.to.clone()]);
+        edges
+            .chain(graph.outputs.iter().map(|output| output.from.clone()))
+            .collect()
+    };
+    assert_eq!(ends(&read), ends(&expected));
+    assert_eq!(
+        format!(
+            "{:?}",
+            read.nodes.iter().map(|node| &node.node).collect::<Vec<_>>()
+        ),
+        format!(
+            "{:?}",
+            expected
+                .nodes
+                .iter()
+                .map(|node| &node.node)
+                .collect::<Vec<_>>()
+        )
+    );
+    assert_eq!(read.notes.len(), 5, "{:?}", read.notes);
+    assert!(read.notes[0].contains("'resolve_moments' is called 'resolve'"));
+    assert!(expected.notes.is_empty());
+    // In a file of the current version the old names are unknown.
+    let mixed = current.replace("\"type\": \"blur\"", "\"type\": \"blur_moments\"");
+    let error = Graph::parse(&mixed, &NodeRegistry::new()).unwrap_err();
+    assert_eq!(error.kind, UnknownNodeType);
+    // Tools that change files rewrite them first.
+    let mut value = serde_json::from_str(&old).unwrap();
+    assert_eq!(moment_shadows_graph::upgrade(&mut value), read.notes);
+    assert_eq!(
+        value,
+        serde_json::from_str::<serde_json::Value>(&current).unwrap()
     );
 }

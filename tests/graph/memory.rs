@@ -58,7 +58,7 @@ fn the_examples_moments_give_their_memory_to_the_blurred_ones() {
     assert_eq!(
         homes(&plan),
         [
-            "resolve.moments | blur.blurred",
+            "resolve.map | blur.blurred",
             "blur.half_blurred",
             "shade.shadow_intensity"
         ]
@@ -70,7 +70,7 @@ fn the_examples_moments_give_their_memory_to_the_blurred_ones() {
             .unwrap()
             .home
     };
-    assert_eq!(home("resolve.moments"), Home::Memory(0));
+    assert_eq!(home("resolve.map"), Home::Memory(0));
     assert_eq!(home("blur.blurred"), Home::Memory(0));
     // What a texture has to allow is what any of its residents needs.
     assert_eq!(

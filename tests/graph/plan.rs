@@ -1,7 +1,7 @@
 //! Plans: culling, order, sizes, text and JSON.
 
 use moment_shadows::{Profile, TextureFormat};
-use moment_shadows_graph::nodes::{BlurMoments, KernelProperty, ResolveMoments, ShadeHard};
+use moment_shadows_graph::nodes::{Blur, KernelProperty, Resolve, ShadeHard};
 use moment_shadows_graph::{
     Capabilities, Connected, Imports, Node, ParameterError, Plan, PlanError,
     PlannedBindingResource, ResourceDesc, TextureDesc, compile,
@@ -17,14 +17,14 @@ fn example() -> Plan {
 
 #[test]
 fn nodes_that_nobody_reads_are_left_out() {
-    let unread = "{ \"name\": \"unread\", \"type\": \"blur_moments\", \"properties\": { \"kernel\": { \"radius\": 20 } } }";
+    let unread = "{ \"name\": \"unread\", \"type\": \"blur\", \"properties\": { \"kernel\": { \"radius\": 20 } } }";
     let text = edited(
         "{ \"name\": \"shade\",",
         &format!("{unread},\n    {{ \"name\": \"shade\","),
     );
     let text = text.replace(
         "{ \"from\": \"camera_depth\", \"to\"",
-        "{ \"from\": \"resolve.moments\", \"to\": \"unread.moments\" },\n    { \"from\": \"camera_depth\", \"to\"",
+        "{ \"from\": \"resolve.map\", \"to\": \"unread.map\" },\n    { \"from\": \"camera_depth\", \"to\"",
     );
     let plan = compiled(&text, &native()).unwrap();
     assert_eq!(plan, example(), "nothing of the unread node is left");
@@ -85,24 +85,24 @@ fn compiling_and_describing_are_repeatable() {
     };
     let inputs = [
         ("depth".to_owned(), map(TextureFormat::Depth32Float)),
-        ("moments".to_owned(), map(TextureFormat::Rgba16Float)),
+        ("map".to_owned(), map(TextureFormat::Rgba16Float)),
         ("camera_depth".to_owned(), map(TextureFormat::Depth32Float)),
     ]
     .into();
     let capabilities = native();
     let connected = Connected::new(&inputs, &capabilities);
     let nodes: [Box<dyn Node>; 4] = [
-        Box::new(ResolveMoments {
+        Box::new(Resolve {
             technique: moment_shadows::Technique::Hamburger4,
             storage: moment_shadows::Storage::Float16,
             mip_levels: Default::default(),
         }),
-        Box::new(BlurMoments {
+        Box::new(Blur {
             kernel: KernelProperty::gaussian(3, 1.5),
             per_frame: false,
             mip_levels: Default::default(),
         }),
-        Box::new(BlurMoments {
+        Box::new(Blur {
             kernel: KernelProperty::gaussian(30, 12.0),
             per_frame: true,
             mip_levels: Default::default(),
@@ -294,8 +294,8 @@ fn a_plan_that_does_not_hold_together_is_told() {
         plan.check().unwrap_err()
     };
     assert_eq!(
-        broken(|plan| plan.version = 2),
-        PlanError::Version { version: 2 }
+        broken(|plan| plan.version = 3),
+        PlanError::Version { version: 3 }
     );
     assert!(matches!(
         broken(|plan| plan.outputs[0].resource = 99),
@@ -376,12 +376,12 @@ stage AfterShadowMaps
 stage AfterMainPass
   shade/shade                  fullscreen to shade.shadow_intensity, 11.52 MiB read, 0.88 MiB written
 memory (16.88 MiB resident)
-  resolve.moments | blur.blurred rgba16unorm 1024x1024, 8.00 MiB
+  resolve.map | blur.blurred   rgba16unorm 1024x1024, 8.00 MiB
   blur.half_blurred            rgba16unorm 1024x1024, 8.00 MiB
   shade.shadow_intensity       r8unorm 1280x720, 0.88 MiB
 parameters (768 bytes per view)
   resolve                      DepthConversion at 0, 32 bytes x 1
-  shade                        ShadeHardParameters at 512, 208 bytes x 1
+  shade                        ViewParameters at 512, 208 bytes x 1
   light_depth                  MapRegion at 256, up to 1 regions x 1 layers
 outputs
   shadow_intensity             shade.shadow_intensity

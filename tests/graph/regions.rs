@@ -162,11 +162,11 @@ fn mip_levels_are_counted_and_downsampling_needs_some() {
     let text = TEXT
         .replace(
             "{ \"name\": \"shade\",",
-            "{ \"name\": \"downsample\", \"type\": \"downsample_moments\" },\n    { \"name\": \"shade\",",
+            "{ \"name\": \"downsample\", \"type\": \"downsample\" },\n    { \"name\": \"shade\",",
         )
         .replace(
-            "{ \"from\": \"blur.blurred\", \"to\": \"shade.moments\" }",
-            "{ \"from\": \"blur.blurred\", \"to\": \"downsample.moments\" },\n    { \"from\": \"downsample.moments\", \"to\": \"shade.moments\" }",
+            "{ \"from\": \"blur.blurred\", \"to\": \"shade.map\" }",
+            "{ \"from\": \"blur.blurred\", \"to\": \"downsample.map\" },\n    { \"from\": \"downsample.map\", \"to\": \"shade.map\" }",
         );
     let error = refused(&text);
     assert_eq!(

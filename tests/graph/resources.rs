@@ -78,7 +78,7 @@ fn wrong_formats_and_samples_are_named_at_their_slot() {
         &refused(&depth),
         Format,
         "shade",
-        "moments",
+        "map",
         "10:5",
         "depth32float holds no moments",
     );
@@ -269,7 +269,7 @@ fn more_workgroups_than_the_device_dispatches_are_refused_with_the_largest_map()
         &error,
         Size,
         "resolve",
-        "moments",
+        "map",
         "8:5",
         "takes 128x128 workgroups; the device allows 100, so at most 800x800 texels",
     );
@@ -287,7 +287,7 @@ fn a_kernel_that_is_wider_than_the_map_is_refused_with_the_largest_radius() {
         &refused(&small),
         Size,
         "blur",
-        "moments",
+        "map",
         "9:5",
         "64x8 texels; the largest radius for it is 3",
     );
@@ -303,7 +303,7 @@ fn a_storage_that_the_profile_lacks_names_one_that_works() {
         &error,
         Capability,
         "resolve",
-        "moments",
+        "map",
         "8:5",
         "rgba16unorm cannot be written as a storage texture under the profile webgpu-core; use storage 'float16'",
     );

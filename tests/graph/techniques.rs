@@ -4,9 +4,7 @@ use moment_shadows::{
     DepthRange, Finite, LeakReduction, MapEncoding, MapRegion, Profile, ReceiverBias, Storage,
     Technique, TechniqueError,
 };
-use moment_shadows_graph::nodes::{
-    CameraView, LightDepth, LightView, ShadeHardParameters, ViewError,
-};
+use moment_shadows_graph::nodes::{CameraView, LightDepth, LightView, ViewError, ViewParameters};
 use moment_shadows_graph::{Capabilities, GraphErrorKind};
 use moment_shadows_lab::techniques;
 
@@ -218,7 +216,7 @@ fn reading_depth(technique: &str) -> String {
             &format!("\"type\": \"shade_hard\", \"properties\": {{ \"technique\": {technique} }}"),
         )
         .replace(
-            "{ \"from\": \"blur.blurred\", \"to\": \"shade.moments\" }",
+            "{ \"from\": \"blur.blurred\", \"to\": \"shade.map\" }",
             "{ \"from\": \"light_depth\", \"to\": \"shade.depth\" }",
         )
 }
@@ -344,13 +342,13 @@ fn logarithms_have_no_mip_levels() {
     )
     .replace("\"sigma\": 2.4 }", "\"sigma\": 2.4 }, \"mip_levels\": 4")
     .replace(
-        "{ \"from\": \"blur.blurred\", \"to\": \"shade.moments\" }",
-        "{ \"from\": \"blur.blurred\", \"to\": \"downsample.moments\" },
-    { \"from\": \"downsample.moments\", \"to\": \"shade.moments\" }",
+        "{ \"from\": \"blur.blurred\", \"to\": \"shade.map\" }",
+        "{ \"from\": \"blur.blurred\", \"to\": \"downsample.map\" },
+    { \"from\": \"downsample.map\", \"to\": \"shade.map\" }",
     )
     .replace(
         "{ \"name\": \"shade\"",
-        "{ \"name\": \"downsample\", \"type\": \"downsample_moments\" },
+        "{ \"name\": \"downsample\", \"type\": \"downsample\" },
     { \"name\": \"shade\"",
     );
     let error = compiled(&text, &native()).unwrap_err();
@@ -373,7 +371,7 @@ fn degenerate_views_are_refused() {
     let flat = glam::Mat4::from_scale(glam::Vec3::new(1.0, 1.0, 0.0)).to_cols_array_2d();
     let not_finite = glam::Mat4::from_scale(glam::Vec3::splat(f32::NAN)).to_cols_array_2d();
     let parameters = |camera: [[f32; 4]; 4], light: [[f32; 4]; 4], depth: LightDepth| {
-        ShadeHardParameters::new(
+        ViewParameters::new(
             &CameraView {
                 clip_from_world: camera,
                 far_depth: 1.0,

@@ -101,13 +101,13 @@ fn an_input_that_nothing_leads_to_is_named() {
 
 #[test]
 fn an_input_has_one_writer() {
-    let edge = "{ \"from\": \"resolve.moments\", \"to\": \"blur.moments\" }";
+    let edge = "{ \"from\": \"resolve.map\", \"to\": \"blur.map\" }";
     let text = edited(edge, &format!("{edge},\n      {edge}"));
     assert_error(
         &refused(&text),
         TwoWriters,
         "blur",
-        "moments",
+        "map",
         "15:7",
         "two edges lead to this input",
     );
@@ -115,7 +115,7 @@ fn an_input_has_one_writer() {
 
 #[test]
 fn a_cycle_names_its_nodes_in_the_order_of_the_edges() {
-    let third = "{ \"name\": \"again\", \"type\": \"blur_moments\", \"properties\": { \"kernel\": { \"radius\": 1 } } }";
+    let third = "{ \"name\": \"again\", \"type\": \"blur\", \"properties\": { \"kernel\": { \"radius\": 1 } } }";
     let text = edited(
         "{ \"name\": \"shade\", \"type\": \"shade_hard\" }",
         &format!(
@@ -124,9 +124,9 @@ fn a_cycle_names_its_nodes_in_the_order_of_the_edges() {
         ),
     );
     let text = text.replace(
-        "{ \"from\": \"resolve.moments\", \"to\": \"blur.moments\" }",
-        "{ \"from\": \"more.blurred\", \"to\": \"blur.moments\" }, { \"from\": \"blur.blurred\", \"to\": \"again.moments\" },
-         { \"from\": \"again.blurred\", \"to\": \"more.moments\" }",
+        "{ \"from\": \"resolve.map\", \"to\": \"blur.map\" }",
+        "{ \"from\": \"more.blurred\", \"to\": \"blur.map\" }, { \"from\": \"blur.blurred\", \"to\": \"again.map\" },
+         { \"from\": \"again.blurred\", \"to\": \"more.map\" }",
     );
     let error = refused(&text);
     assert_eq!(error.kind, Cycle);
@@ -142,10 +142,7 @@ fn a_cycle_names_its_nodes_in_the_order_of_the_edges() {
 
 #[test]
 fn a_node_that_waits_for_itself_is_a_cycle() {
-    let text = edited(
-        "\"from\": \"resolve.moments\"",
-        "\"from\": \"blur.blurred\"",
-    );
+    let text = edited("\"from\": \"resolve.map\"", "\"from\": \"blur.blurred\"");
     assert_error(
         &refused(&text),
         Cycle,

@@ -64,20 +64,20 @@ impl StageDesc {
         } = self;
         let text = format!(
             r#"{{
-  "version": 1,
+  "version": 2,
   "imports": [
     {{ "name": "light_depth", "texture": {{ "format": "{format}", "size": [{map}, {map}], "samples": {samples} }} }},
     {{ "name": "camera_depth", "texture": {{ "format": "depth32float", "size": [{width}, {height}] }} }}
   ],
   "nodes": [
-    {{ "name": "resolve", "type": "resolve_moments", "properties": {{ "storage": "{storage}" }} }},
-    {{ "name": "blur", "type": "blur_moments", "properties": {{ "kernel": {{ "radius": {radius}, "sigma": {sigma} }} }} }},
+    {{ "name": "resolve", "type": "resolve", "properties": {{ "storage": "{storage}" }} }},
+    {{ "name": "blur", "type": "blur", "properties": {{ "kernel": {{ "radius": {radius}, "sigma": {sigma} }} }} }},
     {{ "name": "shade", "type": "shade_hard", "properties": {{ "format": "r32float" }} }}
   ],
   "edges": [
     {{ "from": "light_depth", "to": "resolve.depth" }},
-    {{ "from": "resolve.moments", "to": "blur.moments" }},
-    {{ "from": "blur.blurred", "to": "shade.moments" }},
+    {{ "from": "resolve.map", "to": "blur.map" }},
+    {{ "from": "blur.blurred", "to": "shade.map" }},
     {{ "from": "camera_depth", "to": "shade.camera_depth" }}
   ],
   "outputs": [ {{ "name": "shadow_intensity", "from": "shade.shadow_intensity" }} ]

@@ -1,6 +1,6 @@
-import moment_shadows::hamburger::{hamburger_bounds, hamburger_shadow_intensity};
-import moment_shadows::moments::{moments_apply_bias, moments_bias_of, moments_clamp, moments_from_depth, moments_from_texel, moments_to_texel};
-import moment_shadows::storage::{STORAGE_FLOAT16, STORAGE_UNORM16};
+import moment_shadows::bounds::hamburger4::{hamburger4_bounds, hamburger4_shadow_intensity};
+import moment_shadows::moments::four_moments::{four_moments_apply_bias, four_moments_bias_of, four_moments_clamp, four_moments_from_depth, four_moments_from_texel, four_moments_to_texel};
+import moment_shadows::map::storage::{STORAGE_FLOAT16, STORAGE_UNORM16};
 
 // One or two surfaces, encoded, rounded to a storage as a texture would hold them, decoded and evaluated.
 struct BatchInput {
@@ -32,12 +32,12 @@ fn stored(texel: vec4f, storage: u32) -> vec4f {
 }
 
 fn batch(input: BatchInput) -> BatchOutput {
-    let moments = mix(moments_from_depth(input.near), moments_from_depth(input.far), input.far_weight);
-    let texel = stored(moments_to_texel(moments, input.storage), input.storage);
-    let decoded = moments_from_texel(texel, input.storage);
-    let bias = moments_bias_of(input.storage);
-    let biased = moments_apply_bias(moments_clamp(decoded), bias);
-    let bounds = hamburger_bounds(biased, input.fragment_depth, bias.alpha);
-    let intensity = hamburger_shadow_intensity(decoded, input.fragment_depth, bias);
+    let moments = mix(four_moments_from_depth(input.near), four_moments_from_depth(input.far), input.far_weight);
+    let texel = stored(four_moments_to_texel(moments, input.storage), input.storage);
+    let decoded = four_moments_from_texel(texel, input.storage);
+    let bias = four_moments_bias_of(input.storage);
+    let biased = four_moments_apply_bias(four_moments_clamp(decoded), bias);
+    let bounds = hamburger4_bounds(biased, input.fragment_depth, bias.alpha);
+    let intensity = hamburger4_shadow_intensity(decoded, input.fragment_depth, bias);
     return BatchOutput(biased, intensity, bounds.x, bounds.y, 0.0);
 }

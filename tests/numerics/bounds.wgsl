@@ -1,4 +1,4 @@
-import moment_shadows::hamburger::{hamburger_bounds, hamburger_lower_bound};
+import moment_shadows::bounds::hamburger4::{hamburger4_bounds, hamburger4_lower_bound};
 
 struct BatchInput {
     biased: vec4f,
@@ -11,6 +11,6 @@ struct BatchInput {
 alias BatchOutput = vec4f;
 
 fn batch(input: BatchInput) -> BatchOutput {
-    let lower = hamburger_lower_bound(input.biased, input.depth, input.alpha);
-    return vec4f(hamburger_bounds(input.biased, input.depth, input.alpha), lower, 0.0);
+    let lower = hamburger4_lower_bound(input.biased, input.depth, input.alpha);
+    return vec4f(hamburger4_bounds(input.biased, input.depth, input.alpha), lower, 0.0);
 }

@@ -1,6 +1,6 @@
-import moment_shadows::hamburger6::{hamburger6_bounds, hamburger6_lower_bound, hamburger6_shadow_intensity_of_texels};
-import moment_shadows::six_moments::{SixMoments};
-import moment_shadows::storage::{STORAGE_FLOAT32};
+import moment_shadows::bounds::hamburger6::{hamburger6_bounds, hamburger6_lower_bound, hamburger6_shadow_intensity_of_texels};
+import moment_shadows::moments::six_moments::{SixMoments};
+import moment_shadows::map::storage::{STORAGE_FLOAT32};
 
 struct BatchInput {
     odd: vec3f,

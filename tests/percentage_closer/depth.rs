@@ -7,7 +7,7 @@ use crate::brute_force::Convention;
 use crate::device;
 
 const SHADER: &str = "
-import moment_shadows::depth::{DepthConversion, depth_from_moment_depth, depth_of_light, depth_to_moment_depth};
+import moment_shadows::map::depth::{DepthConversion, depth_from_moment_depth, depth_of_light, depth_to_moment_depth};
 
 struct BatchInput {
     depth: f32,

@@ -49,9 +49,9 @@ impl Query {
 
 /// What every shader starts with: its own imports and `alias Extra` come before.
 const DECLARATIONS: &str = "
-import moment_shadows::depth::{DepthConversion};
-import moment_shadows::map_region::{MapRegion};
-import moment_shadows::receiver_plane::{ReceiverPlane, receiver_plane_biased, receiver_plane_through};
+import moment_shadows::map::depth::{DepthConversion};
+import moment_shadows::map::map_region::{MapRegion};
+import moment_shadows::shade::receiver_plane::{ReceiverPlane, receiver_plane_biased, receiver_plane_through};
 
 struct Query {
     uv: vec2f,

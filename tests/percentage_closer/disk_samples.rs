@@ -5,7 +5,7 @@ use moment_shadows_lab::batch::Batch;
 use crate::device;
 
 const SHADER: &str = "
-import moment_shadows::disk_samples::{disk_samples_angle, disk_samples_poisson, disk_samples_rotation, disk_samples_vogel};
+import moment_shadows::maths::disk_samples::{disk_samples_angle, disk_samples_poisson, disk_samples_rotation, disk_samples_vogel};
 
 struct BatchInput {
     index: u32,

@@ -8,8 +8,8 @@ use crate::brute_force::{Convention, random_depths};
 use crate::device::{self, Query, Shader};
 
 const IMPORTS: &str = "
-import moment_shadows::percentage_closer::{percentage_closer_box};
-import moment_shadows::percentage_closer_hardware::{percentage_closer_hardware_box};
+import moment_shadows::techniques::percentage_closer::{percentage_closer_box};
+import moment_shadows::techniques::percentage_closer_hardware::{percentage_closer_hardware_box};
 ";
 
 const BODY: &str = "

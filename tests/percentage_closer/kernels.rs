@@ -8,7 +8,7 @@ use crate::brute_force::{Convention, Layer, intensity, random_depths};
 use crate::device::{self, Query, Shader};
 
 const IMPORTS: &str = "
-import moment_shadows::percentage_closer::{PercentageCloserKernel, percentage_closer_binary, percentage_closer_box, percentage_closer_gaussian, percentage_closer_kernel};
+import moment_shadows::techniques::percentage_closer::{PercentageCloserKernel, percentage_closer_binary, percentage_closer_box, percentage_closer_gaussian, percentage_closer_kernel};
 ";
 
 /// The kernel's number is in `taps`.

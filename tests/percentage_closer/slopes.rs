@@ -7,10 +7,10 @@ use moment_shadows_lab::light::LightView;
 use crate::device::{self, Query, Shader};
 
 pub(crate) const IMPORTS: &str = "
-import moment_shadows::percentage_closer::{percentage_closer_binary, percentage_closer_box, percentage_closer_gaussian, percentage_closer_poisson};
-import moment_shadows::percentage_closer_hardware::{percentage_closer_hardware_box};
-import moment_shadows::area_light::{AreaLight};
-import moment_shadows::percentage_closer_soft::{percentage_closer_soft_intensity};
+import moment_shadows::techniques::percentage_closer::{percentage_closer_binary, percentage_closer_box, percentage_closer_gaussian, percentage_closer_poisson};
+import moment_shadows::techniques::percentage_closer_hardware::{percentage_closer_hardware_box};
+import moment_shadows::shade::area_light::{AreaLight};
+import moment_shadows::techniques::percentage_closer_soft::{percentage_closer_soft_intensity};
 ";
 
 /// The test's number is in `taps`.

@@ -8,8 +8,8 @@ use crate::device::{self, Query, Shader};
 use crate::poisson::segment;
 
 const IMPORTS: &str = "
-import moment_shadows::area_light::{AreaLight};
-import moment_shadows::percentage_closer_soft::{percentage_closer_soft_intensity};
+import moment_shadows::shade::area_light::{AreaLight};
+import moment_shadows::techniques::percentage_closer_soft::{percentage_closer_soft_intensity};
 ";
 
 /// The taps of search and filter are in `taps` and `radius`.

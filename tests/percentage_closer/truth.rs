@@ -22,7 +22,7 @@ const FORGIVEN: f64 = 1.6e-4;
 #[test]
 fn the_gaussian_kernel_equals_the_ground_truth() {
     let gpu = device::open();
-    let imports = "import moment_shadows::percentage_closer::{PercentageCloserKernel, percentage_closer_gaussian, percentage_closer_kernel};\n";
+    let imports = "import moment_shadows::techniques::percentage_closer::{PercentageCloserKernel, percentage_closer_gaussian, percentage_closer_kernel};\n";
     let body = "
 alias Extra = PercentageCloserKernel;
 fn answer(query: Query, plane: ReceiverPlane) -> f32 {

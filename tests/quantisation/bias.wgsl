@@ -1,4 +1,4 @@
-import moment_shadows::moments::{moments_apply_bias, moments_bias_of, moments_biased_from_texel, moments_from_depth, moments_from_texel, moments_to_texel};
+import moment_shadows::moments::four_moments::{four_moments_apply_bias, four_moments_bias_of, four_moments_biased_from_texel, four_moments_from_depth, four_moments_from_texel, four_moments_to_texel};
 
 struct BatchInput {
     moments: vec4f,
@@ -18,17 +18,17 @@ struct BatchOutput {
 }
 
 fn batch(input: BatchInput) -> BatchOutput {
-    let bias = moments_bias_of(input.storage);
+    let bias = four_moments_bias_of(input.storage);
     // Two surfaces: moments in their ranges but for the rounding of the texel.
-    let valid = mix(moments_from_depth(input.moments.x), moments_from_depth(input.moments.z), input.moments.y);
-    let texel = moments_to_texel(valid, input.storage);
+    let valid = mix(four_moments_from_depth(input.moments.x), four_moments_from_depth(input.moments.z), input.moments.y);
+    let texel = four_moments_to_texel(valid, input.storage);
     return BatchOutput(
-        moments_apply_bias(input.moments, bias),
+        four_moments_apply_bias(input.moments, bias),
         bias.alpha,
         bias.second,
         bias.fourth,
         0.0,
-        moments_biased_from_texel(texel, input.storage, bias),
-        moments_apply_bias(moments_from_texel(texel, input.storage), bias),
+        four_moments_biased_from_texel(texel, input.storage, bias),
+        four_moments_apply_bias(four_moments_from_texel(texel, input.storage), bias),
     );
 }

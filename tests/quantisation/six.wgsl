@@ -1,4 +1,4 @@
-import moment_shadows::six_moments::{SixMoments, SIX_MOMENTS_EVEN_BASIS, SIX_MOMENTS_EVEN_OFFSET, SIX_MOMENTS_ODD_BASIS, SIX_MOMENTS_ODD_OFFSET, six_moments_affine, six_moments_apply_bias, six_moments_bias_of, six_moments_from_texels, six_moments_to_texels};
+import moment_shadows::moments::six_moments::{SixMoments, SIX_MOMENTS_EVEN_BASIS, SIX_MOMENTS_EVEN_OFFSET, SIX_MOMENTS_ODD_BASIS, SIX_MOMENTS_ODD_OFFSET, six_moments_affine, six_moments_apply_bias, six_moments_bias_of, six_moments_from_texels, six_moments_to_texels};
 
 // Moments, and the channels of two texels.
 struct BatchInput {

@@ -13,10 +13,10 @@ fn picture(gpu: &Gpu, show: &str, moments: &[[f32; 4]]) -> Vec<[u8; 4]> {
     let size = [moments.len() as u32, 1];
     let text = format!(
         r#"{{
-  "version": 1,
+  "version": 2,
   "imports": [{{ "name": "map" }}],
   "nodes": [{{ "name": "debug", "type": "debug_moments", "properties": {{ "show": "{show}" }} }}],
-  "edges": [{{ "from": "map", "to": "debug.moments" }}],
+  "edges": [{{ "from": "map", "to": "debug.map" }}],
   "outputs": [{{ "name": "picture", "from": "debug.picture" }}]
 }}"#
     );
@@ -122,7 +122,7 @@ fn mean_deviation_and_moments_are_levels_of_grey_and_colour() {
             "{pixel:?} for {expected}"
         );
     }
-    let pixels = picture(&gpu, "moments", &maps);
+    let pixels = picture(&gpu, "map", &maps);
     for (pixel, [b1, b2, b3, _]) in pixels.into_iter().zip(maps) {
         let expected = [0.5 * b1 + 0.5, b2, 0.5 * b3 + 0.5].map(f64::from);
         assert!(
@@ -135,10 +135,10 @@ fn mean_deviation_and_moments_are_levels_of_grey_and_colour() {
 #[test]
 fn a_level_that_is_not_there_is_refused() {
     let text = r#"{
-  "version": 1,
+  "version": 2,
   "imports": [{ "name": "map" }],
   "nodes": [{ "name": "debug", "type": "debug_moments", "properties": { "level": 3 } }],
-  "edges": [{ "from": "map", "to": "debug.moments" }],
+  "edges": [{ "from": "map", "to": "debug.map" }],
   "outputs": [{ "name": "picture", "from": "debug.picture" }]
 }"#;
     let graph = moment_shadows_graph::Graph::parse(text, &Default::default()).unwrap();

@@ -64,7 +64,7 @@ fn a_registered_node_is_read_from_a_file_with_parameters_per_layer() {
     let gpu = gpu();
     let mut registry = NodeRegistry::new();
     registry.register::<Fill>("fill");
-    let text = r#"{ "version": 1, "imports": [], "edges": [],
+    let text = r#"{ "version": 2, "imports": [], "edges": [],
         "nodes": [{ "name": "fill", "type": "fill", "properties": { "value": 3, "layers": 3 } }],
         "outputs": [{ "name": "filled", "from": "fill.filled" }] }"#;
     let graph = Graph::parse(text, &registry).unwrap();

@@ -147,7 +147,7 @@ fn shading_reads_clean_layers_although_their_memory_is_shared() {
         &capabilities(&gpu),
         &[("light_depth", light(1)), ("camera_depth", camera_desc)],
     );
-    assert_eq!(plan.memory[0].label, "resolve.moments | blur.blurred");
+    assert_eq!(plan.memory[0].label, "resolve.map | blur.blurred");
     let map = depth_map::texture(&gpu, wgpu::TextureFormat::Depth32Float, MAP, 3, 1);
     let camera = depth_map::of(&gpu, PICTURE, |_, _| 0.7);
     let imports = [

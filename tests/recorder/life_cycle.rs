@@ -136,9 +136,7 @@ fn stages_are_recorded_apart() {
             .iter()
             .all(|&intensity| intensity >= 254)
     );
-    assert!(
-        bound.pipelines.len() == 4 && format!("{:?}", bound.resources).contains("resolve.moments")
-    );
+    assert!(bound.pipelines.len() == 4 && format!("{:?}", bound.resources).contains("resolve.map"));
 }
 
 #[test]

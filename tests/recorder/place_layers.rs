@@ -19,7 +19,7 @@ const FRAMES: usize = 8;
 fn graph(layers: u32) -> String {
     format!(
         r#"{{
-  "version": 1,
+  "version": 2,
   "imports": [{{ "name": "light_depth" }}],
   "nodes": [{{ "name": "place", "type": "place_layers", "properties": {{ "layers": {layers} }} }}],
   "edges": [{{ "from": "light_depth", "to": "place.depth" }}],
@@ -293,17 +293,17 @@ fn shading(technique: &str, placed: bool) -> String {
     };
     format!(
         r#"{{
-  "version": 1,
+  "version": 2,
   "imports": [{{ "name": "light_depth" }}, {{ "name": "camera_depth" }}],
   "nodes": [ {node}
-    {{ "name": "resolve", "type": "resolve_moments", "properties": {{ "technique": {technique}, "storage": "unorm16" }} }},
-    {{ "name": "blur", "type": "blur_moments", "properties": {{ "kernel": {{ "radius": 2, "sigma": 1.2 }} }} }},
+    {{ "name": "resolve", "type": "resolve", "properties": {{ "technique": {technique}, "storage": "unorm16" }} }},
+    {{ "name": "blur", "type": "blur", "properties": {{ "kernel": {{ "radius": 2, "sigma": 1.2 }} }} }},
     {{ "name": "shade", "type": "shade_hard", "properties": {{ "format": "r32float" }} }}
   ],
   "edges": [ {edges}
     {{ "from": "light_depth", "to": "resolve.depth" }},
-    {{ "from": "resolve.moments", "to": "blur.moments" }},
-    {{ "from": "blur.blurred", "to": "shade.moments" }},
+    {{ "from": "resolve.map", "to": "blur.map" }},
+    {{ "from": "blur.blurred", "to": "shade.map" }},
     {{ "from": "camera_depth", "to": "shade.camera_depth" }}
   ],
   "outputs": [{{ "name": "shadow_intensity", "from": "shade.shadow_intensity" }}]

@@ -18,21 +18,21 @@ fn graph(storage: &str, radius: u32, mip_levels: &str) -> String {
     };
     format!(
         r#"{{
-  "version": 1,
+  "version": 2,
   "imports": [{{ "name": "light_depth" }}],
   "nodes": [
-    {{ "name": "resolve", "type": "resolve_moments",
+    {{ "name": "resolve", "type": "resolve",
        "properties": {{ "technique": "{technique}", "storage": "{storage}" }} }},
-    {{ "name": "blur", "type": "blur_moments",
+    {{ "name": "blur", "type": "blur",
        "properties": {{ "kernel": {{ "radius": {radius} }}, "mip_levels": {mip_levels} }} }},
-    {{ "name": "downsample", "type": "downsample_moments" }}
+    {{ "name": "downsample", "type": "downsample" }}
   ],
   "edges": [
     {{ "from": "light_depth", "to": "resolve.depth" }},
-    {{ "from": "resolve.moments", "to": "blur.moments" }},
-    {{ "from": "blur.blurred", "to": "downsample.moments" }}
+    {{ "from": "resolve.map", "to": "blur.map" }},
+    {{ "from": "blur.blurred", "to": "downsample.map" }}
   ],
-  "outputs": [{{ "name": "map", "from": "downsample.moments" }}]
+  "outputs": [{{ "name": "map", "from": "downsample.map" }}]
 }}"#
     )
 }

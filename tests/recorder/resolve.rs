@@ -1,4 +1,4 @@
-//! `resolve_moments` against moments in f64, for every way in which a host stores depth.
+//! `resolve` against moments in f64, for every way in which a host stores depth.
 
 use moment_shadows::{DepthConversion, DepthRange, Profile, TextureFormat};
 use moment_shadows_graph::TextureDesc;
@@ -10,10 +10,10 @@ use crate::setup::{Bound, bind, capabilities, compiled};
 
 const SIZE: [u32; 2] = [13, 11];
 
-const GRAPH: &str = r#"{ "version": 1, "imports": [{ "name": "depth" }],
-  "nodes": [{ "name": "resolve", "type": "resolve_moments", "properties": { "storage": "float32" } }],
+const GRAPH: &str = r#"{ "version": 2, "imports": [{ "name": "depth" }],
+  "nodes": [{ "name": "resolve", "type": "resolve", "properties": { "storage": "float32" } }],
   "edges": [{ "from": "depth", "to": "resolve.depth" }],
-  "outputs": [{ "name": "moments", "from": "resolve.moments" }] }"#;
+  "outputs": [{ "name": "map", "from": "resolve.map" }] }"#;
 
 fn bound(gpu: &Gpu, map: &wgpu::Texture, conversion: &DepthConversion) -> Bound {
     let format = match map.format() {
@@ -67,7 +67,7 @@ fn assert_moments(
     let map = depth_map::texture(gpu, format, SIZE, 1, samples);
     let stored = depths(samples);
     depth_map::draw(gpu, &map, 0, &stored);
-    let moments = bound(gpu, &map, conversion).read_floats(gpu, "moments", 0);
+    let moments = bound(gpu, &map, conversion).read_floats(gpu, "map", 0);
     for (texel, found) in moments.chunks_exact(4).enumerate() {
         let first = texel * samples as usize;
         for (power, &found) in (1..).zip(found) {
@@ -210,7 +210,7 @@ fn what_no_caster_covers_holds_the_far_end() {
             let format = wgpu::TextureFormat::Depth32Float;
             let map = depth_map::texture(&gpu, format, SIZE, 1, samples);
             depth_map::clear(&gpu, &map, 0, cleared);
-            let moments = bound(&gpu, &map, &conversion).read_floats(&gpu, "moments", 0);
+            let moments = bound(&gpu, &map, &conversion).read_floats(&gpu, "map", 0);
             assert_eq!(moments.len(), (SIZE[0] * SIZE[1] * 4) as usize);
             assert!(
                 moments.iter().all(|&moment| moment == 1.0),

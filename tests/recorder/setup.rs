@@ -1,7 +1,7 @@
 //! A plan, bound and ready.
 
 use moment_shadows::{DepthConversion, LeakReduction, MapRegion, Profile, ReceiverBias};
-use moment_shadows_graph::nodes::{CameraView, LightDepth, LightView, ShadeHardParameters};
+use moment_shadows_graph::nodes::{CameraView, LightDepth, LightView, ViewParameters};
 use moment_shadows_graph::record::{
     Bindings, ImportedResource, PipelineOptions, Pipelines, RecordError, Recording, Resources,
 };
@@ -136,13 +136,13 @@ pub(crate) fn compiled(
 }
 
 /// A camera and a light that look along the same axis, so that pixels are texels: stored depth is the place on it.
-pub(crate) fn aligned_view(layer: u32) -> ShadeHardParameters {
+pub(crate) fn aligned_view(layer: u32) -> ViewParameters {
     view(IDENTITY, IDENTITY, layer)
 }
 
 /// The parameters of an orthographic light without any bias or leak reduction; the camera's far depth is 1.
-pub(crate) fn view(camera: [[f32; 4]; 4], light: [[f32; 4]; 4], layer: u32) -> ShadeHardParameters {
-    ShadeHardParameters::new(
+pub(crate) fn view(camera: [[f32; 4]; 4], light: [[f32; 4]; 4], layer: u32) -> ViewParameters {
+    ViewParameters::new(
         &CameraView {
             clip_from_world: camera,
             far_depth: 1.0,
@@ -161,7 +161,7 @@ pub(crate) fn view(camera: [[f32; 4]; 4], light: [[f32; 4]; 4], layer: u32) -> S
 }
 
 /// A view's block: forward orthographic conversions, and `shade` with the given parameters.
-pub(crate) fn block(plan: &Plan, shade: &ShadeHardParameters) -> Vec<u8> {
+pub(crate) fn block(plan: &Plan, shade: &ViewParameters) -> Vec<u8> {
     let mut bytes = plan.parameters.initial();
     let layers = plan.parameters.blocks[0].count;
     for layer in 0..layers {

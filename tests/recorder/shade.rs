@@ -9,7 +9,7 @@ use crate::depth_map;
 use crate::setup::{
     EXAMPLE, IDENTITY, aligned_view, bind, block, capabilities, compiled, gpu, view,
 };
-use moment_shadows_graph::nodes::ShadeHardParameters;
+use moment_shadows_graph::nodes::ViewParameters;
 
 const MAP: [u32; 2] = [64, 64];
 const PICTURE: [u32; 2] = [48, 32];
@@ -21,7 +21,7 @@ fn shaded(
     storage: &str,
     light: &wgpu::Texture,
     camera: &wgpu::Texture,
-    view: &ShadeHardParameters,
+    view: &ViewParameters,
 ) -> Vec<f32> {
     let text = EXAMPLE
         .replace("\"unorm16\"", &format!("\"{storage}\""))

@@ -4,7 +4,7 @@ use moment_shadows::{
     AreaLight, DepthRange, LeakReduction, MapRegion, Profile, ReceiverBias, SoftRadii,
     TextureFormat,
 };
-use moment_shadows_graph::nodes::{CameraView, LightDepth, LightView, ShadeHardParameters};
+use moment_shadows_graph::nodes::{CameraView, LightDepth, LightView, ViewParameters};
 use moment_shadows_graph::record::{ImportedResource, Layers, RecordError, Recording};
 use moment_shadows_graph::{Capabilities, Stage, TextureDesc};
 use moment_shadows_lab::gpu::Gpu;
@@ -18,8 +18,8 @@ const MAP: [u32; 2] = [128, 96];
 fn graph(storage: &str, mip_levels: u32, shade: &str) -> String {
     let (downsample, edges, from) = if mip_levels > 1 {
         (
-            r#"{ "name": "downsample", "type": "downsample_moments" },"#,
-            r#"{ "from": "resolve.moments", "to": "downsample.moments" },"#,
+            r#"{ "name": "downsample", "type": "downsample" },"#,
+            r#"{ "from": "resolve.map", "to": "downsample.map" },"#,
             "downsample",
         )
     } else {
@@ -27,10 +27,10 @@ fn graph(storage: &str, mip_levels: u32, shade: &str) -> String {
     };
     format!(
         r#"{{
-  "version": 1,
+  "version": 2,
   "imports": [{{ "name": "light_depth" }}, {{ "name": "camera_depth" }}],
   "nodes": [
-    {{ "name": "resolve", "type": "resolve_moments",
+    {{ "name": "resolve", "type": "resolve",
        "properties": {{ "storage": "{storage}", "mip_levels": {mip_levels} }} }},
     {downsample}
     {{ "name": "shade", "type": "shade_hard", "properties": {shade} }}
@@ -38,7 +38,7 @@ fn graph(storage: &str, mip_levels: u32, shade: &str) -> String {
   "edges": [
     {{ "from": "light_depth", "to": "resolve.depth" }},
     {edges}
-    {{ "from": "{from}.moments", "to": "shade.moments" }},
+    {{ "from": "{from}.map", "to": "shade.map" }},
     {{ "from": "camera_depth", "to": "shade.camera_depth" }}
   ],
   "outputs": [{{ "name": "shadow_intensity", "from": "shade.shadow_intensity" }}]
@@ -47,8 +47,8 @@ fn graph(storage: &str, mip_levels: u32, shade: &str) -> String {
 }
 
 /// A view whose clip space the light's matrix maps the scene to; the camera looks along it, over all of the picture.
-fn view(light: [[f32; 4]; 4], layer: u32, region: MapRegion, channel: u32) -> ShadeHardParameters {
-    ShadeHardParameters::new(
+fn view(light: [[f32; 4]; 4], layer: u32, region: MapRegion, channel: u32) -> ViewParameters {
+    ViewParameters::new(
         &CameraView {
             clip_from_world: IDENTITY,
             far_depth: 1.0,
@@ -87,7 +87,7 @@ impl Shading {
         text: &str,
         light: (&wgpu::Texture, TextureDesc),
         camera: (&wgpu::Texture, [u32; 2]),
-        views: &[ShadeHardParameters],
+        views: &[ViewParameters],
         regions: &[MapRegion],
     ) -> Self {
         let desc = TextureDesc::new(TextureFormat::Depth32Float, camera.1);
@@ -216,8 +216,8 @@ fn soft_graph(storage: &str, technique: &str) -> String {
     { "name": "shade", "type": "shade_soft""#,
         )
         .replace(
-            r#"{ "from": "resolve.moments", "to": "shade.moments" }"#,
-            r#"{ "from": "resolve.moments", "to": "sum.moments" }, { "from": "sum.table", "to": "shade.table" }"#,
+            r#"{ "from": "resolve.map", "to": "shade.map" }"#,
+            r#"{ "from": "resolve.map", "to": "sum.map" }, { "from": "sum.table", "to": "shade.table" }"#,
         )
         .replace(r#""mip_levels": 1"#, &format!(r#""technique": "{technique}""#))
 }
@@ -351,7 +351,7 @@ fn views_read_their_layers() {
     }
     let picture = [8, 8];
     let camera = depth_map::of(&gpu, picture, |_, _| 0.8);
-    let views: Vec<ShadeHardParameters> = (0..3)
+    let views: Vec<ViewParameters> = (0..3)
         .map(|layer| view(IDENTITY, layer, MapRegion::WHOLE, layer))
         .collect();
     let text = graph(
@@ -420,14 +420,14 @@ fn a_minified_lookup_is_the_mean_over_the_pixel() {
 fn only_the_dirty_layers_of_the_named_map_are_recorded() {
     let gpu = gpu();
     let text = r#"{
-  "version": 1,
+  "version": 2,
   "imports": [{ "name": "sun" }, { "name": "spots" }],
   "nodes": [
-    { "name": "a", "type": "resolve_moments", "properties": { "storage": "float32" } },
-    { "name": "b", "type": "resolve_moments", "properties": { "storage": "float32" } }
+    { "name": "a", "type": "resolve", "properties": { "storage": "float32" } },
+    { "name": "b", "type": "resolve", "properties": { "storage": "float32" } }
   ],
   "edges": [{ "from": "sun", "to": "a.depth" }, { "from": "spots", "to": "b.depth" }],
-  "outputs": [{ "name": "sun", "from": "a.moments" }, { "name": "spots", "from": "b.moments" }]
+  "outputs": [{ "name": "sun", "from": "a.map" }, { "name": "spots", "from": "b.map" }]
 }"#;
     let plan = compiled(
         text,

@@ -5,7 +5,7 @@ use moment_shadows::{
     DepthConversion, Kernel, LeakReduction, MapRegion, Profile, ReceiverBias, Storage, Technique,
     TextureFormat,
 };
-use moment_shadows_graph::nodes::{CameraView, LightDepth, LightView, ShadeHardParameters};
+use moment_shadows_graph::nodes::{CameraView, LightDepth, LightView, ViewParameters};
 use moment_shadows_graph::record::{ImportedResource, Layers};
 use moment_shadows_graph::{Capabilities, TextureDesc};
 use moment_shadows_lab::basis::{Quantisation, published_quantisations};
@@ -33,20 +33,20 @@ const RADIUS: u32 = 3;
 fn graph(storage: Storage, kernel: &str, output: &str) -> String {
     format!(
         r#"{{
-  "version": 1,
+  "version": 2,
   "imports": [{{ "name": "light_depth" }}],
   "nodes": [
-    {{ "name": "resolve", "type": "resolve_moments",
+    {{ "name": "resolve", "type": "resolve",
        "properties": {{ "technique": "hamburger6", "storage": "{storage}" }} }},
-    {{ "name": "blur", "type": "blur_moments", "properties": {{ {kernel}, "mip_levels": 3 }} }},
-    {{ "name": "downsample", "type": "downsample_moments" }}
+    {{ "name": "blur", "type": "blur", "properties": {{ {kernel}, "mip_levels": 3 }} }},
+    {{ "name": "downsample", "type": "downsample" }}
   ],
   "edges": [
     {{ "from": "light_depth", "to": "resolve.depth" }},
-    {{ "from": "resolve.moments", "to": "blur.moments" }},
-    {{ "from": "blur.blurred", "to": "downsample.moments" }}
+    {{ "from": "resolve.map", "to": "blur.map" }},
+    {{ "from": "blur.blurred", "to": "downsample.map" }}
   ],
-  "outputs": [{{ "name": "resolved", "from": "resolve.moments" }}, {{ "name": "map", "from": "{output}" }}]
+  "outputs": [{{ "name": "resolved", "from": "resolve.map" }}, {{ "name": "map", "from": "{output}" }}]
 }}"#
     )
 }
@@ -199,11 +199,7 @@ fn a_resolved_texel_is_the_nearest_to_the_mean_of_its_samples_in_every_storage()
     let gpu = opened();
     let basis = published();
     for &storage in Technique::Hamburger6.storages() {
-        let text = graph(
-            storage,
-            "\"kernel\": { \"radius\": 1 }",
-            "downsample.moments",
-        );
+        let text = graph(storage, "\"kernel\": { \"radius\": 1 }", "downsample.map");
         for (layers, samples) in [(2, 1), (1, 4)] {
             let map = Map::new(&gpu, &text, layers, samples);
             map.bound.run(&gpu);
@@ -274,7 +270,7 @@ fn a_blur_is_the_filter_of_each_plane_within_each_region_in_every_storage() {
     ] {
         let weights = Kernel::gaussian(radius, 1.3).unwrap();
         for &storage in Technique::Hamburger6.storages() {
-            let text = graph(storage, kernel, "downsample.moments");
+            let text = graph(storage, kernel, "downsample.map");
             let map = Map::new(&gpu, &text, 2, 1);
             map.bound.run(&gpu);
             let mut largest = 0.0_f64;
@@ -306,11 +302,7 @@ fn a_blur_is_the_filter_of_each_plane_within_each_region_in_every_storage() {
 fn a_mip_level_is_the_mean_of_the_finer_one_in_each_plane_and_every_storage() {
     let gpu = opened();
     for &storage in Technique::Hamburger6.storages() {
-        let text = graph(
-            storage,
-            "\"kernel\": { \"radius\": 1 }",
-            "downsample.moments",
-        );
+        let text = graph(storage, "\"kernel\": { \"radius\": 1 }", "downsample.map");
         let map = Map::new(&gpu, &text, 2, 1);
         map.bound.run(&gpu);
         let mut largest = 0.0_f64;
@@ -361,11 +353,7 @@ fn a_mip_level_is_the_mean_of_the_finer_one_in_each_plane_and_every_storage() {
 fn layers_and_texels_that_are_not_asked_for_keep_their_contents() {
     let gpu = opened();
     for &storage in Technique::Hamburger6.storages() {
-        let text = graph(
-            storage,
-            "\"kernel\": { \"radius\": 1 }",
-            "downsample.moments",
-        );
+        let text = graph(storage, "\"kernel\": { \"radius\": 1 }", "downsample.map");
         let map = Map::new(&gpu, &text, 2, 1);
         map.bound.run(&gpu);
         let all = || -> Vec<Vec<u8>> {
@@ -391,18 +379,18 @@ fn layers_and_texels_that_are_not_asked_for_keep_their_contents() {
 fn shade(gpu: &Gpu, capabilities: &Capabilities, storage: Storage) -> Vec<f32> {
     let text = format!(
         r#"{{
-  "version": 1,
+  "version": 2,
   "imports": [{{ "name": "light_depth" }}, {{ "name": "camera_depth" }}],
   "nodes": [
-    {{ "name": "resolve", "type": "resolve_moments",
+    {{ "name": "resolve", "type": "resolve",
        "properties": {{ "technique": "hamburger6", "storage": "{storage}", "mip_levels": 2 }} }},
-    {{ "name": "downsample", "type": "downsample_moments" }},
+    {{ "name": "downsample", "type": "downsample" }},
     {{ "name": "shade", "type": "shade_hard", "properties": {{ "format": "r32float", "anisotropy": 1 }} }}
   ],
   "edges": [
     {{ "from": "light_depth", "to": "resolve.depth" }},
-    {{ "from": "resolve.moments", "to": "downsample.moments" }},
-    {{ "from": "downsample.moments", "to": "shade.moments" }},
+    {{ "from": "resolve.map", "to": "downsample.map" }},
+    {{ "from": "downsample.map", "to": "shade.map" }},
     {{ "from": "camera_depth", "to": "shade.camera_depth" }}
   ],
   "outputs": [{{ "name": "shadow_intensity", "from": "shade.shadow_intensity" }}]
@@ -420,7 +408,7 @@ fn shade(gpu: &Gpu, capabilities: &Capabilities, storage: Storage) -> Vec<f32> {
     let desc = |size| TextureDesc::new(TextureFormat::Depth32Float, size);
     let imports = [("light_depth", desc(size)), ("camera_depth", desc(picture))];
     let plan = compiled(&text, capabilities, &imports);
-    let parameters = ShadeHardParameters::new(
+    let parameters = ViewParameters::new(
         &CameraView {
             clip_from_world: IDENTITY,
             far_depth: 1.0,

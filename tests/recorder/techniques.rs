@@ -3,7 +3,7 @@
 use moment_shadows::{
     LeakReduction, MapEncoding, MapRegion, Profile, ReceiverBias, Technique, TextureFormat,
 };
-use moment_shadows_graph::nodes::{CameraView, LightDepth, LightView, ShadeHardParameters};
+use moment_shadows_graph::nodes::{CameraView, LightDepth, LightView, ViewParameters};
 use moment_shadows_graph::record::ImportedResource;
 use moment_shadows_graph::{Capabilities, TextureDesc};
 use moment_shadows_lab::gpu::Gpu;
@@ -27,18 +27,18 @@ const REACH: u32 = 3;
 fn graph(technique: &str, storage: &str) -> String {
     format!(
         r#"{{
-  "version": 1,
+  "version": 2,
   "imports": [{{ "name": "light_depth" }}, {{ "name": "camera_depth" }}],
   "nodes": [
-    {{ "name": "resolve", "type": "resolve_moments",
+    {{ "name": "resolve", "type": "resolve",
        "properties": {{ "technique": {technique}, "storage": "{storage}" }} }},
-    {{ "name": "blur", "type": "blur_moments", "properties": {{ "kernel": {{ "radius": 1, "sigma": 0.6 }} }} }},
+    {{ "name": "blur", "type": "blur", "properties": {{ "kernel": {{ "radius": 1, "sigma": 0.6 }} }} }},
     {{ "name": "shade", "type": "shade_hard", "properties": {{ "format": "r32float" }} }}
   ],
   "edges": [
     {{ "from": "light_depth", "to": "resolve.depth" }},
-    {{ "from": "resolve.moments", "to": "blur.moments" }},
-    {{ "from": "blur.blurred", "to": "shade.moments" }},
+    {{ "from": "resolve.map", "to": "blur.map" }},
+    {{ "from": "blur.blurred", "to": "shade.map" }},
     {{ "from": "camera_depth", "to": "shade.camera_depth" }}
   ],
   "outputs": [{{ "name": "shadow_intensity", "from": "shade.shadow_intensity" }}]
@@ -49,7 +49,7 @@ fn graph(technique: &str, storage: &str) -> String {
 fn reading_depth(technique: &str) -> String {
     format!(
         r#"{{
-  "version": 1,
+  "version": 2,
   "imports": [{{ "name": "light_depth" }}, {{ "name": "camera_depth" }}],
   "nodes": [
     {{ "name": "shade", "type": "shade_hard", "properties": {{ "format": "r32float", "technique": {technique} }} }}
@@ -83,7 +83,7 @@ fn shade(gpu: &Gpu, capabilities: &Capabilities, text: &str, layer: u32) -> Vec<
         capabilities,
         &[("light_depth", desc), ("camera_depth", picture)],
     );
-    let view = ShadeHardParameters::new(
+    let view = ViewParameters::new(
         &CameraView {
             clip_from_world: IDENTITY,
             far_depth: 1.0,

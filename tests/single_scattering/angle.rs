@@ -10,7 +10,7 @@ use rand_chacha::ChaCha8Rng;
 const ULPS: f64 = 4.0;
 
 const SHADER: &str = "
-import moment_shadows::angle::{angle_atan2, angle_sin_cos};
+import moment_shadows::maths::angle::{angle_atan2, angle_sin_cos};
 
 alias BatchInput = vec2f;
 alias BatchOutput = vec4f;

@@ -45,28 +45,28 @@ fn maps_and_properties_that_do_not_fit_are_named() {
     let cases: [Case; 9] = [
         (
             Box::new(rectify(Technique::Vsm, [64, 64])),
-            "moments",
+            "map",
             four(),
             GraphErrorKind::Property,
             "'technique' is 'vsm'",
         ),
         (
             Box::new(rectify(Technique::Hamburger4, [1, 64])),
-            "moments",
+            "map",
             four(),
             GraphErrorKind::Property,
             "'extent' is 1x64",
         ),
         (
             Box::new(rectify(Technique::Hamburger4, [64, 8193])),
-            "moments",
+            "map",
             four(),
             GraphErrorKind::Property,
             "columns and rows are 2 to 8192",
         ),
         (
             Box::new(rectify(Technique::Hamburger4, [64, 64])),
-            "moments",
+            "map",
             map(Technique::Vsm),
             GraphErrorKind::Format,
             "resamples four moments",
@@ -135,7 +135,7 @@ fn maps_and_properties_that_do_not_fit_are_named() {
 fn six_moments_take_a_pass_per_plane_and_two_lookups() {
     let six = || map(Technique::Hamburger6);
     let rectified = rectify(Technique::Hamburger6, [64, 64]);
-    let rectified = describe(&rectified, "moments", map(Technique::Hamburger4)).unwrap();
+    let rectified = describe(&rectified, "map", map(Technique::Hamburger4)).unwrap();
     assert_eq!(rectified.passes.len(), 2);
     let integrated = describe(&IntegrateScattering::default(), "rectified", six()).unwrap();
     assert_eq!(integrated.passes.len(), 2);

@@ -360,7 +360,7 @@ fn a_camera_that_looks_along_the_light_has_all_azimuths() {
 #[test]
 fn azimuths_outside_of_the_frame_take_its_nearer_end() {
     const SHADER: &str = "
-import moment_shadows::rectified_frame::{RectifiedFrame, rectified_frame_place};
+import moment_shadows::air::rectified_frame::{RectifiedFrame, rectified_frame_place};
 alias BatchInput = vec2f;
 alias BatchOutput = f32;
 fn batch(input: vec2f) -> f32 {

@@ -1,4 +1,4 @@
-import moment_shadows::rectified_frame::{RectifiedFrame, rectified_frame_coordinates, rectified_frame_depth, rectified_frame_inclination, rectified_frame_place, rectified_frame_position, rectified_frame_ray, rectified_frame_surface};
+import moment_shadows::air::rectified_frame::{RectifiedFrame, rectified_frame_coordinates, rectified_frame_depth, rectified_frame_inclination, rectified_frame_place, rectified_frame_position, rectified_frame_ray, rectified_frame_surface};
 
 struct BatchInput {
     frame: RectifiedFrame,

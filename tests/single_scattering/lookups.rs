@@ -8,7 +8,7 @@ use crate::pictures::{FAR, MAP, PICTURE, Scene};
 use crate::stage::{capabilities, gpu, run, sky, upload};
 
 const GRAPH: &str = r#"{
-  "version": 1,
+  "version": 2,
   "imports": [{ "name": "map" }, { "name": "camera_depth" }],
   "nodes": [
     { "name": "composite", "type": "composite_scattering", "properties": { "format": "rgba32float" } }
@@ -21,13 +21,13 @@ const GRAPH: &str = r#"{
 }"#;
 
 const RECTIFY: &str = r#"{
-  "version": 1,
+  "version": 2,
   "imports": [{ "name": "map" }],
   "nodes": [
     { "name": "rectify", "type": "rectify_moments",
       "properties": { "technique": "hamburger4", "storage": "float32", "extent": [6, 5] } }
   ],
-  "edges": [{ "from": "map", "to": "rectify.moments" }],
+  "edges": [{ "from": "map", "to": "rectify.map" }],
   "outputs": [{ "name": "rectified", "from": "rectify.rectified" }]
 }"#;
 

@@ -41,8 +41,8 @@ fn impossible_media_are_refused() {
 
 /// x = optical thickness or cosine, y = anisotropy.
 const SHADER: &str = "
-import moment_shadows::phase_function::{PHASE_FUNCTION_ISOTROPIC, phase_function_henyey_greenstein};
-import moment_shadows::single_scattering::{single_scattering_mean_transmittance};
+import moment_shadows::air::phase_function::{PHASE_FUNCTION_ISOTROPIC, phase_function_henyey_greenstein};
+import moment_shadows::air::single_scattering::{single_scattering_mean_transmittance};
 alias BatchInput = vec2f;
 alias BatchOutput = vec4f;
 fn batch(input: BatchInput) -> BatchOutput {
@@ -109,7 +109,7 @@ fn mean_transmittance_is_exact_from_nothing_to_everything() {
 #[test]
 fn overestimation_turns_from_the_upper_bound_to_the_lower_with_the_light() {
     const SHADER: &str = "
-import moment_shadows::single_scattering::{single_scattering_shadow};
+import moment_shadows::air::single_scattering::{single_scattering_shadow};
 alias BatchInput = vec4f;
 alias BatchOutput = f32;
 fn batch(input: vec4f) -> f32 {
@@ -136,7 +136,7 @@ fn batch(input: vec4f) -> f32 {
 #[test]
 fn view_rays_are_compared_a_little_nearer_to_the_light() {
     const SHADER: &str = "
-import moment_shadows::single_scattering::{SINGLE_SCATTERING_DEPTH_BIAS, single_scattering_fragment_depth};
+import moment_shadows::air::single_scattering::{SINGLE_SCATTERING_DEPTH_BIAS, single_scattering_fragment_depth};
 alias BatchInput = f32;
 alias BatchOutput = vec2f;
 fn batch(depth: f32) -> vec2f {

@@ -62,13 +62,13 @@ fn contrasts(
     let gpu = gpu();
     let graph = format!(
         r#"{{
-  "version": 1,
+  "version": 2,
   "imports": [{{ "name": "map" }}],
   "nodes": [
     {{ "name": "rectify", "type": "rectify_moments",
        "properties": {{ "technique": "hamburger4", "storage": "float32", "extent": [{columns}, {rows}] }} }}
   ],
-  "edges": [{{ "from": "map", "to": "rectify.moments" }}],
+  "edges": [{{ "from": "map", "to": "rectify.map" }}],
   "outputs": [{{ "name": "rectified", "from": "rectify.rectified" }}]
 }}"#
     );

@@ -24,7 +24,7 @@ pub(crate) fn graph(technique: &str, storage: &str) -> String {
 pub(crate) fn graph_of([columns, rows]: [u32; 2], technique: &str, storage: &str) -> String {
     format!(
         r#"{{
-  "version": 1,
+  "version": 2,
   "imports": [{{ "name": "map" }}, {{ "name": "camera_depth" }}],
   "nodes": [
     {{ "name": "rectify", "type": "rectify_moments",
@@ -33,7 +33,7 @@ pub(crate) fn graph_of([columns, rows]: [u32; 2], technique: &str, storage: &str
     {{ "name": "composite", "type": "composite_scattering", "properties": {{ "format": "rgba32float" }} }}
   ],
   "edges": [
-    {{ "from": "map", "to": "rectify.moments" }},
+    {{ "from": "map", "to": "rectify.map" }},
     {{ "from": "rectify.rectified", "to": "integrate.rectified" }},
     {{ "from": "integrate.integrated", "to": "composite.integrated" }},
     {{ "from": "camera_depth", "to": "composite.camera_depth" }}

@@ -13,7 +13,7 @@ use crate::cameras::{Lens, looking, pair};
 use crate::stage::{capabilities, gpu, run, upload};
 
 const GRAPH: &str = r#"{
-  "version": 1,
+  "version": 2,
   "imports": [{ "name": "map" }],
   "nodes": [{ "name": "integrate", "type": "integrate_scattering" }],
   "edges": [{ "from": "map", "to": "integrate.rectified" }],
@@ -47,8 +47,8 @@ fn thicknesses(frame: RectifiedFrame, extinction: f32) -> Vec<f64> {
     let gpu = gpu();
     let shader = format!(
         "
-import moment_shadows::rectified_frame::{{RectifiedFrame, rectified_frame_ray}};
-import moment_shadows::scattering_weights::{{scattering_weights_thickness}};
+import moment_shadows::air::rectified_frame::{{RectifiedFrame, rectified_frame_ray}};
+import moment_shadows::air::scattering_weights::{{scattering_weights_thickness}};
 struct BatchInput {{ frame: RectifiedFrame, row: f32, extinction: f32, padding: vec2f }}
 alias BatchOutput = f32;
 fn batch(input: BatchInput) -> BatchOutput {{

@@ -7,7 +7,7 @@ use rand::{RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
 
 const SHADER: &str = "
-import moment_shadows::two_diracs::{two_diracs_of_moments};
+import moment_shadows::maths::two_diracs::{two_diracs_of_moments};
 
 alias BatchInput = vec4f;
 alias BatchOutput = vec4f;

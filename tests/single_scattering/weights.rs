@@ -10,8 +10,8 @@ use rand_chacha::ChaCha8Rng;
 use crate::cameras::{Pair, random_pair};
 
 const SHADER: &str = "
-import moment_shadows::rectified_frame::{RectifiedFrame, rectified_frame_ray};
-import moment_shadows::scattering_weights::{scattering_weights_inclinations, scattering_weights_reference_sine};
+import moment_shadows::air::rectified_frame::{RectifiedFrame, rectified_frame_ray};
+import moment_shadows::air::scattering_weights::{scattering_weights_inclinations, scattering_weights_reference_sine};
 struct BatchInput { frame: RectifiedFrame, row: f32, padding: f32, more: vec2f }
 alias BatchOutput = vec4f;
 fn batch(input: BatchInput) -> BatchOutput {

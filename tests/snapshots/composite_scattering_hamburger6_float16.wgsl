@@ -15,7 +15,7 @@ fn fullscreen(@builtin(vertex_index) index: u32) -> Covered {
     return Covered(vec4f(corner, 0.0, 1.0), 0.5 + vec2f(0.5, -0.5) * corner);
 }
 
-// moment_shadows/map_region.wgsl
+// moment_shadows/map/map_region.wgsl
 // Regions: rectangles of a layer that share an atlas and know nothing of each other.
 //
 // Mip level k of a region runs from floor(first / 2^k) to floor(end / 2^k). Regions that touch share that edge on every
@@ -56,7 +56,7 @@ fn map_region_place(region_on_level: MapRegion, uv: vec2f) -> vec2f {
     return vec2f(region_on_level.origin) + clamp(uv * extent, vec2f(0.5), max(extent - 0.5, vec2f(0.5)));
 }
 
-// moment_shadows/minification.wgsl
+// moment_shadows/map/minification.wgsl
 // Minification: what part of a map a pixel covers.
 //
 // A pixel maps to a parallelogram of texels. Its singular values are the axes of the ellipse that stands for it
@@ -136,7 +136,7 @@ fn minification_depth_variance(footprint: MinificationFootprint, gradient: vec2f
     return (1.13 / 4.0) * across * across + along * along / 12.0;
 }
 
-// moment_shadows/map_load.wgsl
+// moment_shadows/map/map_load.wgsl
 
 // Lookups in a map that a device cannot filter, and where a sampler would read across the edge of a region: bilinear,
 // trilinear, averaged over a footprint. `uv`, `levels` and regions are those of `map_lookup`.
@@ -180,7 +180,7 @@ fn map_load_footprint(map: texture_2d_array<f32>, layer: u32, region: MapRegion,
     return sum / footprint.probes;
 }
 
-// moment_shadows/map_lookup.wgsl
+// moment_shadows/map/map_lookup.wgsl
 
 // Lookups in a filterable map by a sampler: bilinear, and averaged over a pixel. None reads across the edge of a region.
 //
@@ -245,7 +245,7 @@ fn moments_lookup(layer: u32, region: MapRegion, uv: vec2f, difference_x: vec2f,
     return map_lookup_bilinear(moments_map, moments_sampler, layer, region, uv, 0u);
 }
 
-// moment_shadows/angle.wgsl
+// moment_shadows/maths/angle.wgsl
 // Angles, to 4 units in the last place on every device.
 //
 // WGSL allows its own `atan2`, `sin` and `cos` errors of thousands of units, which is no sound base for coordinates that are
@@ -322,7 +322,7 @@ fn angle_sin_cos(angle: f32) -> vec2f {
     return vec2f(select(sine, -sine, quadrant >= 2), select(cosine, -cosine, quadrant == 1 || quadrant == 2));
 }
 
-// moment_shadows/rectified_frame.wgsl
+// moment_shadows/air/rectified_frame.wgsl
 
 // Rectified coordinates of a camera and a directional light, in which both view rays and light rays are lines along axes.
 //
@@ -430,7 +430,7 @@ fn rectified_frame_prefix(column: f32, columns: f32) -> f32 {
     return column - 1.0 / columns;
 }
 
-// moment_shadows/hankel.wgsl
+// moment_shadows/maths/hankel.wgsl
 // The shared factorisation: LDL^T of the Hankel matrix of four moments.
 //
 //       | 1  b1 b2 |
@@ -487,7 +487,7 @@ fn hankel_christoffel_number(factor: HankelFactor, x: f32, second_polynomial: f3
     return factor.residue / fma(second_polynomial, second_polynomial, x_term);
 }
 
-// moment_shadows/storage.wgsl
+// moment_shadows/map/storage.wgsl
 // Storages: how the channels of a texel lie in memory, whatever they mean.
 //
 // Every technique filters linearly and writes after each filter, so each write is a rounding error that its bound has to
@@ -549,7 +549,7 @@ fn storage_finite_texel(texel: vec4f, storage: u32) -> vec4f {
     return select(texel, vec4f(0.0), exponent == vec4u(0x7f800000u));
 }
 
-// moment_shadows/six_moments.wgsl
+// moment_shadows/moments/six_moments.wgsl
 
 // Six moments of depth: encoding, storage, bias.
 //
@@ -687,7 +687,7 @@ fn six_moments_apply_bias(b: SixMoments, bias: SixMomentsBias) -> SixMoments {
     return SixMoments(fma(-alpha, b.odd, b.odd), fma(alpha, bias.even - b.even, b.even));
 }
 
-// moment_shadows/hamburger6.wgsl
+// moment_shadows/bounds/hamburger6.wgsl
 
 // Hamburger six-moment shadow mapping: the sharpest bounds on shadow intensity that six moments allow.
 //
@@ -843,7 +843,7 @@ fn hamburger6_shadow_intensity_of_texels(texels: array<vec4f, 2>, fragment_depth
     return hamburger6_shadow_intensity(six_moments_from_texels(texels, storage), fragment_depth, six_moments_bias_of(storage));
 }
 
-// moment_shadows/enclosed_moments.wgsl
+// moment_shadows/moments/enclosed_moments.wgsl
 
 // Six moments of the occluders between the ends of a range, and apart from them how much lies before and behind it.
 //
@@ -954,7 +954,7 @@ fn scattering_bounds(uv: vec2f, region: MapRegion, depth: f32) -> vec2f {
     return enclosed_moments_bounds(array<vec4f, 2>(odd, even), depth, STORAGE);
 }
 
-// moment_shadows/phase_function.wgsl
+// moment_shadows/air/phase_function.wgsl
 // Phase functions: which part of the light that a medium scatters goes on per steradian of a direction.
 //
 // `cosine` is that of the angle between the directions of the light before and after; each integrates to 1 over the sphere.
@@ -976,7 +976,7 @@ fn phase_function_henyey_greenstein(cosine: f32, anisotropy: f32) -> f32 {
     return PHASE_FUNCTION_ISOTROPIC * (1.0 - g * g) / (square * sqrt(square));
 }
 
-// moment_shadows/single_scattering.wgsl
+// moment_shadows/air/single_scattering.wgsl
 
 // Light of a directional source that a homogeneous medium scatters once on its way along a view ray.
 //

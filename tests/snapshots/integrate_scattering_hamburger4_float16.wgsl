@@ -1,4 +1,4 @@
-// moment_shadows/angle.wgsl
+// moment_shadows/maths/angle.wgsl
 // Angles, to 4 units in the last place on every device.
 //
 // WGSL allows its own `atan2`, `sin` and `cos` errors of thousands of units, which is no sound base for coordinates that are
@@ -75,7 +75,7 @@ fn angle_sin_cos(angle: f32) -> vec2f {
     return vec2f(select(sine, -sine, quadrant >= 2), select(cosine, -cosine, quadrant == 1 || quadrant == 2));
 }
 
-// moment_shadows/rectified_frame.wgsl
+// moment_shadows/air/rectified_frame.wgsl
 
 // Rectified coordinates of a camera and a directional light, in which both view rays and light rays are lines along axes.
 //
@@ -183,7 +183,7 @@ fn rectified_frame_prefix(column: f32, columns: f32) -> f32 {
     return column - 1.0 / columns;
 }
 
-// moment_shadows/scattering_weights.wgsl
+// moment_shadows/air/scattering_weights.wgsl
 
 // Weights of the columns of a rectified map: the transmittance between the camera and a column.
 //
@@ -284,7 +284,7 @@ fn row_thickness(row: u32) -> f32 {
     return scattering_weights_thickness(parameters.frame, azimuth, parameters.extinction, f32(size.x));
 }
 
-// moment_shadows/storage.wgsl
+// moment_shadows/map/storage.wgsl
 // Storages: how the channels of a texel lie in memory, whatever they mean.
 //
 // Every technique filters linearly and writes after each filter, so each write is a rounding error that its bound has to

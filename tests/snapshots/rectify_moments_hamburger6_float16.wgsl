@@ -1,4 +1,4 @@
-// moment_shadows/angle.wgsl
+// moment_shadows/maths/angle.wgsl
 // Angles, to 4 units in the last place on every device.
 //
 // WGSL allows its own `atan2`, `sin` and `cos` errors of thousands of units, which is no sound base for coordinates that are
@@ -75,7 +75,7 @@ fn angle_sin_cos(angle: f32) -> vec2f {
     return vec2f(select(sine, -sine, quadrant >= 2), select(cosine, -cosine, quadrant == 1 || quadrant == 2));
 }
 
-// moment_shadows/map_region.wgsl
+// moment_shadows/map/map_region.wgsl
 // Regions: rectangles of a layer that share an atlas and know nothing of each other.
 //
 // Mip level k of a region runs from floor(first / 2^k) to floor(end / 2^k). Regions that touch share that edge on every
@@ -116,7 +116,7 @@ fn map_region_place(region_on_level: MapRegion, uv: vec2f) -> vec2f {
     return vec2f(region_on_level.origin) + clamp(uv * extent, vec2f(0.5), max(extent - 0.5, vec2f(0.5)));
 }
 
-// moment_shadows/storage.wgsl
+// moment_shadows/map/storage.wgsl
 // Storages: how the channels of a texel lie in memory, whatever they mean.
 //
 // Every technique filters linearly and writes after each filter, so each write is a rounding error that its bound has to
@@ -178,7 +178,7 @@ fn storage_finite_texel(texel: vec4f, storage: u32) -> vec4f {
     return select(texel, vec4f(0.0), exponent == vec4u(0x7f800000u));
 }
 
-// moment_shadows/moments.wgsl
+// moment_shadows/moments/four_moments.wgsl
 
 // Four moments of depth: encoding, storage, bias.
 //
@@ -190,7 +190,7 @@ fn storage_finite_texel(texel: vec4f, storage: u32) -> vec4f {
 // A moment bias: b is moved by alpha towards (0, second, 0, fourth), which pulls moments that rounding has made
 // impossible back among the possible ones. With one number beta for both these are the moments of occluders at the near
 // end, the middle and the far end with the weights beta/2, 1 - beta and beta/2.
-struct MomentBias {
+struct FourMomentsBias {
     alpha: f32,
     second: f32,
     fourth: f32,
@@ -199,52 +199,52 @@ struct MomentBias {
 // The bias belongs to a storage's rounding error, not to a scene. Each value covers a resolve and a two-pass blur, every
 // stage rounded to the storage, for 99.999 % of filter regions (found by search: `moment-shadows bias`). Sums of many texels
 // in f32 are off by more than the bias of float32 covers, unless they are made as in `split_sum`. The target is optimal for the basis and for distributions on the real line (JCGT 6(1) 2017, section 3).
-const MOMENTS_BIAS_UNORM16: MomentBias = MomentBias(6e-5, 0.628, 0.628);
-const MOMENTS_BIAS_FLOAT16: MomentBias = MomentBias(1e-3, 0.628, 0.628);
-const MOMENTS_BIAS_FLOAT32: MomentBias = MomentBias(1.5e-6, 0.375, 0.375);
+const FOUR_MOMENTS_BIAS_UNORM16: FourMomentsBias = FourMomentsBias(6e-5, 0.628, 0.628);
+const FOUR_MOMENTS_BIAS_FLOAT16: FourMomentsBias = FourMomentsBias(1e-3, 0.628, 0.628);
+const FOUR_MOMENTS_BIAS_FLOAT32: FourMomentsBias = FourMomentsBias(1.5e-6, 0.375, 0.375);
 
 // sqrt(3), which the optimised basis and its inverse are made of.
-const MOMENTS_SQRT_3: f32 = 1.7320508075688772;
+const FOUR_MOMENTS_SQRT_3: f32 = 1.7320508075688772;
 
 // The moments of a single depth z in [-1, 1]: its powers (i3D 2015, equation 2).
-fn moments_from_depth(z: f32) -> vec4f {
+fn four_moments_from_depth(z: f32) -> vec4f {
     let square = z * z;
     return vec4f(z, square, z * square, square * square);
 }
 
 // The optimised basis of JCGT 6(1) 2017 (equation 5, GDC 2016): maps the moments of depths in [-1, 1] into [0, 1]^4.
-fn moments_quantize(b: vec4f) -> vec4f {
+fn four_moments_quantize(b: vec4f) -> vec4f {
     return vec4f(
         fma(1.5, b.x, fma(-2.0, b.z, 0.5)),
         4.0 * (b.y - b.w),
-        fma(0.5 * MOMENTS_SQRT_3, b.x, fma(-2.0 / 9.0 * MOMENTS_SQRT_3, b.z, 0.5)),
+        fma(0.5 * FOUR_MOMENTS_SQRT_3, b.x, fma(-2.0 / 9.0 * FOUR_MOMENTS_SQRT_3, b.z, 0.5)),
         0.5 * (b.y + b.w),
     );
 }
 
-// Inverse of `moments_quantize`. Channels in [0, 1] give |b| <= 2.1, whatever they hold.
-fn moments_dequantize(channels: vec4f) -> vec4f {
+// Inverse of `four_moments_quantize`. Channels in [0, 1] give |b| <= 2.1, whatever they hold.
+fn four_moments_dequantize(channels: vec4f) -> vec4f {
     let odd = channels.xz - 0.5;
     return vec4f(
-        fma(-1.0 / 3.0, odd.x, MOMENTS_SQRT_3 * odd.y),
+        fma(-1.0 / 3.0, odd.x, FOUR_MOMENTS_SQRT_3 * odd.y),
         fma(0.125, channels.y, channels.w),
-        0.75 * fma(MOMENTS_SQRT_3, odd.y, -odd.x),
+        0.75 * fma(FOUR_MOMENTS_SQRT_3, odd.y, -odd.x),
         fma(-0.125, channels.y, channels.w),
     );
 }
 
 // Moments that certainly lie in their ranges: odd ones in [-1, 1], even ones in [0, 1]. Float storage can hold
 // anything, and finite values beyond 1e15 would overflow further on.
-fn moments_clamp(b: vec4f) -> vec4f {
+fn four_moments_clamp(b: vec4f) -> vec4f {
     return clamp(b, vec4f(-1.0, 0.0, -1.0, 0.0), vec4f(1.0));
 }
 
 // What to write to a texel of the storage.
-fn moments_to_texel(b: vec4f, storage: u32) -> vec4f {
+fn four_moments_to_texel(b: vec4f, storage: u32) -> vec4f {
     if storage == STORAGE_FLOAT32 {
         return b;
     }
-    let channels = saturate(moments_quantize(b));
+    let channels = saturate(four_moments_quantize(b));
     if storage == STORAGE_FLOAT16 {
         // Half precision is finest around zero, so the channels are centred there.
         return storage_round_to_float16(channels - 0.5);
@@ -252,56 +252,56 @@ fn moments_to_texel(b: vec4f, storage: u32) -> vec4f {
     return channels;
 }
 
-// The moments in a (filtered) texel of the storage. Float storage can hold anything; `moments_clamp` comes before any
+// The moments in a (filtered) texel of the storage. Float storage can hold anything; `four_moments_clamp` comes before any
 // arithmetic that relies on ranges.
-fn moments_from_texel(texel: vec4f, storage: u32) -> vec4f {
+fn four_moments_from_texel(texel: vec4f, storage: u32) -> vec4f {
     if storage == STORAGE_FLOAT32 {
         return texel;
     }
     if storage == STORAGE_FLOAT16 {
-        return moments_dequantize(texel + 0.5);
+        return four_moments_dequantize(texel + 0.5);
     }
-    return moments_dequantize(texel);
+    return four_moments_dequantize(texel);
 }
 
 // The moment bias of a storage.
-fn moments_bias_of(storage: u32) -> MomentBias {
+fn four_moments_bias_of(storage: u32) -> FourMomentsBias {
     if storage == STORAGE_FLOAT32 {
-        return MOMENTS_BIAS_FLOAT32;
+        return FOUR_MOMENTS_BIAS_FLOAT32;
     }
     if storage == STORAGE_FLOAT16 {
-        return MOMENTS_BIAS_FLOAT16;
+        return FOUR_MOMENTS_BIAS_FLOAT16;
     }
-    return MOMENTS_BIAS_UNORM16;
+    return FOUR_MOMENTS_BIAS_UNORM16;
 }
 
 // Applies the moment bias (i3D 2015, section 3.3). Written as a step towards the target: 1 - alpha would keep only a
 // few bits of alpha.
-fn moments_apply_bias(b: vec4f, bias: MomentBias) -> vec4f {
+fn four_moments_apply_bias(b: vec4f, bias: FourMomentsBias) -> vec4f {
     return fma(vec4f(bias.alpha), vec4f(0.0, bias.second, 0.0, bias.fourth) - b, b);
 }
 
 // The biased moments in a (filtered) texel of the storage, within [-2.1, 2.1]: for unorm storage if the channels are in
 // [0, 1], as no texture can help, and for float storage whatever finite numbers it holds.
-fn moments_biased_from_texel(texel: vec4f, storage: u32, bias: MomentBias) -> vec4f {
+fn four_moments_biased_from_texel(texel: vec4f, storage: u32, bias: FourMomentsBias) -> vec4f {
     if storage == STORAGE_FLOAT32 {
-        return moments_apply_bias(moments_clamp(texel), bias);
+        return four_moments_apply_bias(four_moments_clamp(texel), bias);
     }
     // The inverse of the basis and the bias are both affine, and so one step. These biases are large enough for 1 - alpha.
     let keep = 1.0 - bias.alpha;
     let of_xy = keep * vec4f(-1.0 / 3.0, 0.125, -0.75, -0.125);
-    let of_zw = keep * vec4f(MOMENTS_SQRT_3, 1.0, 0.75 * MOMENTS_SQRT_3, 1.0);
+    let of_zw = keep * vec4f(FOUR_MOMENTS_SQRT_3, 1.0, 0.75 * FOUR_MOMENTS_SQRT_3, 1.0);
     // Odd moments are 0 for channels of one half, and float16 storage holds one half less.
     let middle = select(vec4f(-0.5, 0.0, -0.5, 0.0), vec4f(0.0, 0.5, 0.0, 0.5), storage == STORAGE_FLOAT16);
     let shift = fma(middle, of_xy + of_zw, bias.alpha * vec4f(0.0, bias.second, 0.0, bias.fourth));
     let biased = fma(of_xy, texel.xyxy, fma(of_zw, texel.zwzw, shift));
     if storage == STORAGE_FLOAT16 {
-        return moments_clamp(biased);
+        return four_moments_clamp(biased);
     }
     return biased;
 }
 
-// moment_shadows/minification.wgsl
+// moment_shadows/map/minification.wgsl
 // Minification: what part of a map a pixel covers.
 //
 // A pixel maps to a parallelogram of texels. Its singular values are the axes of the ellipse that stands for it
@@ -381,7 +381,7 @@ fn minification_depth_variance(footprint: MinificationFootprint, gradient: vec2f
     return (1.13 / 4.0) * across * across + along * along / 12.0;
 }
 
-// moment_shadows/map_load.wgsl
+// moment_shadows/map/map_load.wgsl
 
 // Lookups in a map that a device cannot filter, and where a sampler would read across the edge of a region: bilinear,
 // trilinear, averaged over a footprint. `uv`, `levels` and regions are those of `map_lookup`.
@@ -425,7 +425,7 @@ fn map_load_footprint(map: texture_2d_array<f32>, layer: u32, region: MapRegion,
     return sum / footprint.probes;
 }
 
-// moment_shadows/map_lookup.wgsl
+// moment_shadows/map/map_lookup.wgsl
 
 // Lookups in a filterable map by a sampler: bilinear, and averaged over a pixel. None reads across the edge of a region.
 //
@@ -490,7 +490,7 @@ fn moments_lookup(layer: u32, region: MapRegion, uv: vec2f, difference_x: vec2f,
     return map_lookup_bilinear(moments_map, moments_sampler, layer, region, uv, 0u);
 }
 
-// moment_shadows/rectified_frame.wgsl
+// moment_shadows/air/rectified_frame.wgsl
 
 // Rectified coordinates of a camera and a directional light, in which both view rays and light rays are lines along axes.
 //
@@ -598,7 +598,7 @@ fn rectified_frame_prefix(column: f32, columns: f32) -> f32 {
     return column - 1.0 / columns;
 }
 
-// moment_shadows/hankel.wgsl
+// moment_shadows/maths/hankel.wgsl
 // The shared factorisation: LDL^T of the Hankel matrix of four moments.
 //
 //       | 1  b1 b2 |
@@ -655,7 +655,7 @@ fn hankel_christoffel_number(factor: HankelFactor, x: f32, second_polynomial: f3
     return factor.residue / fma(second_polynomial, second_polynomial, x_term);
 }
 
-// moment_shadows/six_moments.wgsl
+// moment_shadows/moments/six_moments.wgsl
 
 // Six moments of depth: encoding, storage, bias.
 //
@@ -793,7 +793,7 @@ fn six_moments_apply_bias(b: SixMoments, bias: SixMomentsBias) -> SixMoments {
     return SixMoments(fma(-alpha, b.odd, b.odd), fma(alpha, bias.even - b.even, b.even));
 }
 
-// moment_shadows/hamburger6.wgsl
+// moment_shadows/bounds/hamburger6.wgsl
 
 // Hamburger six-moment shadow mapping: the sharpest bounds on shadow intensity that six moments allow.
 //
@@ -949,7 +949,7 @@ fn hamburger6_shadow_intensity_of_texels(texels: array<vec4f, 2>, fragment_depth
     return hamburger6_shadow_intensity(six_moments_from_texels(texels, storage), fragment_depth, six_moments_bias_of(storage));
 }
 
-// moment_shadows/enclosed_moments.wgsl
+// moment_shadows/moments/enclosed_moments.wgsl
 
 // Six moments of the occluders between the ends of a range, and apart from them how much lies before and behind it.
 //
@@ -1068,7 +1068,7 @@ fn rectified_texel(depths: vec2f, weights: vec2f) -> vec4f {
     return enclosed_moments_to_even_texel(sums, STORAGE);
 }
 
-// moment_shadows/two_diracs.wgsl
+// moment_shadows/maths/two_diracs.wgsl
 // Two depths with weights that have given first three moments: what a filtered texel of a shadow map is resampled as.
 //
 // There is exactly one such pair (Peters et al., supplement of "Beyond Hard Shadows", i3D 2016, theorem 1). About the mean,
@@ -1162,7 +1162,7 @@ fn rectify(@builtin(global_invocation_id) id: vec3u) {
     let column = parameters.frame.largest_radius / f32(size.x) * texels * outwards;
     let row = ray.x * parameters.frame.azimuth_extent / f32(size.y) * texels * around;
     let texel = moments_lookup(parameters.layer, region, uv, column, row);
-    let moments = moments_from_texel(storage_finite_texel(texel, SOURCE_STORAGE), SOURCE_STORAGE);
+    let moments = four_moments_from_texel(storage_finite_texel(texel, SOURCE_STORAGE), SOURCE_STORAGE);
     let occluders = two_diracs_of_moments(moments.xyz);
     // View rays that end within the first column run along the light: whatever is before the camera shadows all of them.
     let radius = select(ray.x, 0.0, id.x == 0u);

@@ -15,7 +15,7 @@ fn fullscreen(@builtin(vertex_index) index: u32) -> Covered {
     return Covered(vec4f(corner, 0.0, 1.0), 0.5 + vec2f(0.5, -0.5) * corner);
 }
 
-// moment_shadows/depth.wgsl
+// moment_shadows/map/depth.wgsl
 // Moment depth: the one interval that all moment arithmetic uses.
 //
 // Moment depth z is in [-1, 1], -1 at the light's near end and 1 at its far end, linear in distance along the light's
@@ -90,7 +90,7 @@ fn depth_of_light(conversion: DepthConversion) -> f32 {
     return clamp((conversion.numerator.y - conversion.numerator.x) / divisor, DEPTH_INFINITELY_FAR, -1.0);
 }
 
-// moment_shadows/leak_reduction.wgsl
+// moment_shadows/shade/leak_reduction.wgsl
 // Light leaking, reduced after the bound: none of this touches the moments.
 //
 // Multiplying the moments by a constant before solving ("moment scale" in some samples) is not offered: it makes the
@@ -123,7 +123,7 @@ fn leak_reduction_apply(shadow_intensity: f32, reduction: LeakReduction) -> f32 
     return 1.0 - select(curved, remaining, plain);
 }
 
-// moment_shadows/map_region.wgsl
+// moment_shadows/map/map_region.wgsl
 // Regions: rectangles of a layer that share an atlas and know nothing of each other.
 //
 // Mip level k of a region runs from floor(first / 2^k) to floor(end / 2^k). Regions that touch share that edge on every
@@ -164,7 +164,7 @@ fn map_region_place(region_on_level: MapRegion, uv: vec2f) -> vec2f {
     return vec2f(region_on_level.origin) + clamp(uv * extent, vec2f(0.5), max(extent - 0.5, vec2f(0.5)));
 }
 
-// moment_shadows/minification.wgsl
+// moment_shadows/map/minification.wgsl
 // Minification: what part of a map a pixel covers.
 //
 // A pixel maps to a parallelogram of texels. Its singular values are the axes of the ellipse that stands for it
@@ -244,7 +244,7 @@ fn minification_depth_variance(footprint: MinificationFootprint, gradient: vec2f
     return (1.13 / 4.0) * across * across + along * along / 12.0;
 }
 
-// moment_shadows/area_light.wgsl
+// moment_shadows/shade/area_light.wgsl
 // Area lights: how wide a light appears on its map when a receiver sees it through a blocker.
 //
 // The light's outline, projected from the receiver through the blocker onto the map, is what a filter has to average for a
@@ -310,7 +310,7 @@ fn area_light_box(light: AreaLight, blocker_depth: f32, receiver_depth: f32) -> 
     return area_light_limited(light, shape * area_light_half_extent(light, blocker_depth, receiver_depth));
 }
 
-// moment_shadows/receiver_bias.wgsl
+// moment_shadows/shade/receiver_bias.wgsl
 // Receiver bias: how far the fragment depth moves towards the light so that a surface does not shadow itself.
 //
 // Not to be confused with the moment bias, which belongs to storage. A plane tilted against the light fills the filter
@@ -412,7 +412,7 @@ const STORAGE = 3u;
 const TERMS = 8u;
 const LOWER_BOUND = true;
 
-// moment_shadows/storage.wgsl
+// moment_shadows/map/storage.wgsl
 // Storages: how the channels of a texel lie in memory, whatever they mean.
 //
 // Every technique filters linearly and writes after each filter, so each write is a rounding error that its bound has to
@@ -474,7 +474,7 @@ fn storage_finite_texel(texel: vec4f, storage: u32) -> vec4f {
     return select(texel, vec4f(0.0), exponent == vec4u(0x7f800000u));
 }
 
-// moment_shadows/convolution.wgsl
+// moment_shadows/techniques/convolution.wgsl
 
 // Convolution shadow mapping: the binary test as a Fourier series of depth.
 //
@@ -585,7 +585,7 @@ fn convolution_shadow_intensity(sum: f32, terms: u32, lower_bound: bool) -> f32 
     return saturate(0.5 + sum - overshoot);
 }
 
-// moment_shadows/map_load.wgsl
+// moment_shadows/map/map_load.wgsl
 
 // Lookups in a map that a device cannot filter, and where a sampler would read across the edge of a region: bilinear,
 // trilinear, averaged over a footprint. `uv`, `levels` and regions are those of `map_lookup`.
@@ -629,7 +629,7 @@ fn map_load_footprint(map: texture_2d_array<f32>, layer: u32, region: MapRegion,
     return sum / footprint.probes;
 }
 
-// moment_shadows/map_lookup.wgsl
+// moment_shadows/map/map_lookup.wgsl
 
 // Lookups in a filterable map by a sampler: bilinear, and averaged over a pixel. None reads across the edge of a region.
 //
@@ -737,12 +737,12 @@ fn technique_map_size() -> vec2u {
     return textureDimensions(moments_map);
 }
 
-// shade_hard.wgsl
+// shade.wgsl
 
 // Shadow intensity of every pixel, from the camera's depth and a light's map, by the technique of the map. A view of a light is one region of one
 // layer: a sun's cascade, a face of a point light, a spot light. Each light has a channel of the target.
 
-struct ShadeHardParameters {
+struct ViewParameters {
     // From the camera's clip space (x, y, stored depth, 1) to the light: x and y are the place in the map in [0, 1], z its
     // homogeneous coordinate (positive in front of the light) and w the moment depth, all times the factors they are
     // divided by. Camera and light are combined in one matrix so that no large scene coordinates occur.
@@ -765,7 +765,7 @@ struct ShadeHardParameters {
     light: AreaLight,
 }
 
-@group(GROUP) @binding(0) var<uniform> views: array<ShadeHardParameters, VIEWS>;
+@group(GROUP) @binding(0) var<uniform> views: array<ViewParameters, VIEWS>;
 @group(GROUP) @binding(1) var camera_depth: texture_depth_2d;
 
 // A pixel's surface as the light sees it.

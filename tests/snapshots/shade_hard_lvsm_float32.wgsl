@@ -15,7 +15,7 @@ fn fullscreen(@builtin(vertex_index) index: u32) -> Covered {
     return Covered(vec4f(corner, 0.0, 1.0), 0.5 + vec2f(0.5, -0.5) * corner);
 }
 
-// moment_shadows/depth.wgsl
+// moment_shadows/map/depth.wgsl
 // Moment depth: the one interval that all moment arithmetic uses.
 //
 // Moment depth z is in [-1, 1], -1 at the light's near end and 1 at its far end, linear in distance along the light's
@@ -90,7 +90,7 @@ fn depth_of_light(conversion: DepthConversion) -> f32 {
     return clamp((conversion.numerator.y - conversion.numerator.x) / divisor, DEPTH_INFINITELY_FAR, -1.0);
 }
 
-// moment_shadows/leak_reduction.wgsl
+// moment_shadows/shade/leak_reduction.wgsl
 // Light leaking, reduced after the bound: none of this touches the moments.
 //
 // Multiplying the moments by a constant before solving ("moment scale" in some samples) is not offered: it makes the
@@ -123,7 +123,7 @@ fn leak_reduction_apply(shadow_intensity: f32, reduction: LeakReduction) -> f32 
     return 1.0 - select(curved, remaining, plain);
 }
 
-// moment_shadows/map_region.wgsl
+// moment_shadows/map/map_region.wgsl
 // Regions: rectangles of a layer that share an atlas and know nothing of each other.
 //
 // Mip level k of a region runs from floor(first / 2^k) to floor(end / 2^k). Regions that touch share that edge on every
@@ -164,7 +164,7 @@ fn map_region_place(region_on_level: MapRegion, uv: vec2f) -> vec2f {
     return vec2f(region_on_level.origin) + clamp(uv * extent, vec2f(0.5), max(extent - 0.5, vec2f(0.5)));
 }
 
-// moment_shadows/minification.wgsl
+// moment_shadows/map/minification.wgsl
 // Minification: what part of a map a pixel covers.
 //
 // A pixel maps to a parallelogram of texels. Its singular values are the axes of the ellipse that stands for it
@@ -244,7 +244,7 @@ fn minification_depth_variance(footprint: MinificationFootprint, gradient: vec2f
     return (1.13 / 4.0) * across * across + along * along / 12.0;
 }
 
-// moment_shadows/area_light.wgsl
+// moment_shadows/shade/area_light.wgsl
 // Area lights: how wide a light appears on its map when a receiver sees it through a blocker.
 //
 // The light's outline, projected from the receiver through the blocker onto the map, is what a filter has to average for a
@@ -310,7 +310,7 @@ fn area_light_box(light: AreaLight, blocker_depth: f32, receiver_depth: f32) -> 
     return area_light_limited(light, shape * area_light_half_extent(light, blocker_depth, receiver_depth));
 }
 
-// moment_shadows/receiver_bias.wgsl
+// moment_shadows/shade/receiver_bias.wgsl
 // Receiver bias: how far the fragment depth moves towards the light so that a surface does not shadow itself.
 //
 // Not to be confused with the moment bias, which belongs to storage. A plane tilted against the light fills the filter
@@ -414,7 +414,7 @@ const LAYER_OVERLAP = f32(0.02);
 const LAYER_SPLITS_LOW = vec4f(-0.5, 0.0, 0.5, 1.0);
 const LAYER_SPLITS_HIGH = vec4f(1.0, 1.0, 1.0, 1.0);
 
-// moment_shadows/storage.wgsl
+// moment_shadows/map/storage.wgsl
 // Storages: how the channels of a texel lie in memory, whatever they mean.
 //
 // Every technique filters linearly and writes after each filter, so each write is a rounding error that its bound has to
@@ -476,16 +476,12 @@ fn storage_finite_texel(texel: vec4f, storage: u32) -> vec4f {
     return select(texel, vec4f(0.0), exponent == vec4u(0x7f800000u));
 }
 
-// moment_shadows/variance.wgsl
+// moment_shadows/moments/two_moments.wgsl
 
-// Variance shadow mapping: the sharpest bound on shadow intensity that two moments allow.
+// Two moments of depth: encoding, storage, smallest variance.
 //
-// A texel holds the mean b1 of depth and its mean square b2. The share of depth in front of the fragment is at least
-// d^2 / (b2 - b1^2 + d^2) for a fragment at d > 0 behind the mean (Chebyshev's inequality, one-sided; Donnelly &
-// Lauritzen, "Variance Shadow Maps", i3D 2006, equation 5). One plane in front of another is reproduced exactly; behind
-// two occluders light bleeds (Lauritzen, thesis 2008, section 3.4).
-//
-// Channels come in pairs (b1, b2). This technique uses xy alone; one that stores two pairs encodes both at once.
+// A texel holds the mean b1 of depth and its mean square b2. Channels come in pairs (b1, b2): variance shadow mapping uses xy alone;
+// a technique that stores two pairs encodes both at once.
 
 // The smallest variance per storage: what rounding in a resolve and a two-pass blur can take away from b2 - b1^2. With e
 // the error of a channel per rounding it is at most 3 (error of b2 + 2 |b1| error of b1):
@@ -494,19 +490,19 @@ fn storage_finite_texel(texel: vec4f, storage: u32) -> vec4f {
 //   float32: e = 2^-25 for values up to 1:             3 (e + 2 e) = 2.7e-7, and the sums of both passes are in float32
 // That is with all errors on one side. Half of it covers 99.999 % of adversarial kernels in unorm16 and float16; the sums
 // of float32 need a bit more than theirs. A floor as large as the error leaves no variance wrong by more than a factor of 2.
-const VARIANCE_SMALLEST_UNORM16: f32 = 6e-5;
-const VARIANCE_SMALLEST_FLOAT16: f32 = 1e-3;
-const VARIANCE_SMALLEST_FLOAT32: f32 = 5e-7;
+const TWO_MOMENTS_SMALLEST_VARIANCE_UNORM16: f32 = 6e-5;
+const TWO_MOMENTS_SMALLEST_VARIANCE_FLOAT16: f32 = 1e-3;
+const TWO_MOMENTS_SMALLEST_VARIANCE_FLOAT32: f32 = 5e-7;
 
 // What is averaged for a depth z in [-1, 1]: its powers.
-fn variance_channels(z: f32) -> vec4f {
+fn two_moments_from_depth(z: f32) -> vec4f {
     return vec4f(z, z * z, 0.0, 0.0);
 }
 
 // What to write for averaged channels. In unorm16 the optimised basis of two moments (r, g) = (u1, 4 u1 - 4 u2), with u the
 // moments of (z + 1) / 2 (i3D 2015, section 3.2), which fills the unit square and in terms of z is simply
 // ((b1 + 1) / 2, 1 - b2). In float16 the same less one half, around which half precision is finest. In float32 b itself.
-fn variance_to_texel(channels: vec4f, storage: u32) -> vec4f {
+fn two_moments_to_texel(channels: vec4f, storage: u32) -> vec4f {
     if storage == STORAGE_FLOAT32 {
         return channels;
     }
@@ -518,7 +514,7 @@ fn variance_to_texel(channels: vec4f, storage: u32) -> vec4f {
 }
 
 // The moments in a (filtered) texel, both pairs, in their ranges whatever the texel holds.
-fn variance_from_texel(texel: vec4f, storage: u32) -> vec4f {
+fn two_moments_from_texel(texel: vec4f, storage: u32) -> vec4f {
     let finite = storage_finite_texel(texel, storage);
     var channels = finite;
     if storage != STORAGE_FLOAT32 {
@@ -529,20 +525,29 @@ fn variance_from_texel(texel: vec4f, storage: u32) -> vec4f {
 }
 
 // The smallest variance of a storage.
-fn variance_smallest_of(storage: u32) -> f32 {
+fn two_moments_smallest_variance_of(storage: u32) -> f32 {
     if storage == STORAGE_FLOAT32 {
-        return VARIANCE_SMALLEST_FLOAT32;
+        return TWO_MOMENTS_SMALLEST_VARIANCE_FLOAT32;
     }
     if storage == STORAGE_FLOAT16 {
-        return VARIANCE_SMALLEST_FLOAT16;
+        return TWO_MOMENTS_SMALLEST_VARIANCE_FLOAT16;
     }
-    return VARIANCE_SMALLEST_UNORM16;
+    return TWO_MOMENTS_SMALLEST_VARIANCE_UNORM16;
 }
+
+// moment_shadows/bounds/chebyshev.wgsl
+
+// Variance shadow mapping: the sharpest bound on shadow intensity that two moments allow.
+//
+// A texel holds the mean b1 of depth and its mean square b2. The share of depth in front of the fragment is at least
+// d^2 / (b2 - b1^2 + d^2) for a fragment at d > 0 behind the mean (Chebyshev's inequality, one-sided; Donnelly &
+// Lauritzen, "Variance Shadow Maps", i3D 2006, equation 5). One plane in front of another is reproduced exactly; behind
+// two occluders light bleeds (Lauritzen, thesis 2008, section 3.4).
 
 // inf S(z < fragment_depth) over all distributions S with the mean and mean square `moments`; 0 exactly for fragments
 // that are not behind the mean. Any unit of depth will do as long as no square exceeds 2^126; `smallest_variance` > 0 is in
 // the square of that unit.
-fn variance_lower_bound(moments: vec2f, fragment_depth: f32, smallest_variance: f32) -> f32 {
+fn chebyshev_lower_bound(moments: vec2f, fragment_depth: f32, smallest_variance: f32) -> f32 {
     let variance = max(fma(-moments.x, moments.x, moments.y), smallest_variance);
     let distance = max(fragment_depth - moments.x, 0.0);
     let square = distance * distance;
@@ -550,17 +555,17 @@ fn variance_lower_bound(moments: vec2f, fragment_depth: f32, smallest_variance: 
 }
 
 // sup S(z <= fragment_depth) likewise; 1 exactly for fragments that are not in front of the mean.
-fn variance_upper_bound(moments: vec2f, fragment_depth: f32, smallest_variance: f32) -> f32 {
-    return 1.0 - variance_lower_bound(vec2f(-moments.x, moments.y), -fragment_depth, smallest_variance);
+fn chebyshev_upper_bound(moments: vec2f, fragment_depth: f32, smallest_variance: f32) -> f32 {
+    return 1.0 - chebyshev_lower_bound(vec2f(-moments.x, moments.y), -fragment_depth, smallest_variance);
 }
 
 // Shadow intensity in [0, 1] (1 = shadowed) of a fragment at `fragment_depth` under a filtered texel: a lower bound.
-fn variance_shadow_intensity_of_texel(texel: vec4f, fragment_depth: f32, storage: u32) -> f32 {
-    let moments = variance_from_texel(texel, storage).xy;
-    return variance_lower_bound(moments, depth_of_fragment(fragment_depth), variance_smallest_of(storage));
+fn chebyshev_shadow_intensity_of_texel(texel: vec4f, fragment_depth: f32, storage: u32) -> f32 {
+    let moments = two_moments_from_texel(texel, storage).xy;
+    return chebyshev_lower_bound(moments, depth_of_fragment(fragment_depth), two_moments_smallest_variance_of(storage));
 }
 
-// moment_shadows/layered_variance.wgsl
+// moment_shadows/techniques/layered_variance.wgsl
 
 // Layered variance shadow mapping: variance shadow mapping of several ranges of depth.
 //
@@ -630,7 +635,7 @@ fn layered_variance_warp(z: f32, interval: vec2f) -> f32 {
 }
 
 // What is averaged for a depth z in [-1, 1] in a plane, which holds the layers 2 * plane and 2 * plane + 1; to be written
-// with `variance_to_texel`.
+// with `two_moments_to_texel`.
 fn layered_variance_channels(z: f32, layers: LayeredVarianceLayers, plane: u32) -> vec4f {
     let near = layered_variance_warp(z, layered_variance_interval(layers, 2u * plane));
     let far = layered_variance_warp(z, layered_variance_interval(layers, 2u * plane + 1u));
@@ -669,13 +674,13 @@ fn layered_variance_shadow_intensity_of_texel(
     layers: LayeredVarianceLayers,
     layer: u32,
 ) -> f32 {
-    let pairs = variance_from_texel(texel, storage);
+    let pairs = two_moments_from_texel(texel, storage);
     let moments = select(pairs.xy, pairs.zw, layer % 2u == 1u);
     let warped = layered_variance_warp(depth_of_fragment(fragment_depth), layered_variance_interval(layers, layer));
-    return variance_lower_bound(moments, warped, variance_smallest_of(storage));
+    return chebyshev_lower_bound(moments, warped, two_moments_smallest_variance_of(storage));
 }
 
-// moment_shadows/map_load.wgsl
+// moment_shadows/map/map_load.wgsl
 
 // Lookups in a map that a device cannot filter, and where a sampler would read across the edge of a region: bilinear,
 // trilinear, averaged over a footprint. `uv`, `levels` and regions are those of `map_lookup`.
@@ -799,12 +804,12 @@ fn technique_map_size() -> vec2u {
     return textureDimensions(moments_map);
 }
 
-// shade_hard.wgsl
+// shade.wgsl
 
 // Shadow intensity of every pixel, from the camera's depth and a light's map, by the technique of the map. A view of a light is one region of one
 // layer: a sun's cascade, a face of a point light, a spot light. Each light has a channel of the target.
 
-struct ShadeHardParameters {
+struct ViewParameters {
     // From the camera's clip space (x, y, stored depth, 1) to the light: x and y are the place in the map in [0, 1], z its
     // homogeneous coordinate (positive in front of the light) and w the moment depth, all times the factors they are
     // divided by. Camera and light are combined in one matrix so that no large scene coordinates occur.
@@ -827,7 +832,7 @@ struct ShadeHardParameters {
     light: AreaLight,
 }
 
-@group(GROUP) @binding(0) var<uniform> views: array<ShadeHardParameters, VIEWS>;
+@group(GROUP) @binding(0) var<uniform> views: array<ViewParameters, VIEWS>;
 @group(GROUP) @binding(1) var camera_depth: texture_depth_2d;
 
 // A pixel's surface as the light sees it.

@@ -15,7 +15,7 @@ fn fullscreen(@builtin(vertex_index) index: u32) -> Covered {
     return Covered(vec4f(corner, 0.0, 1.0), 0.5 + vec2f(0.5, -0.5) * corner);
 }
 
-// moment_shadows/depth.wgsl
+// moment_shadows/map/depth.wgsl
 // Moment depth: the one interval that all moment arithmetic uses.
 //
 // Moment depth z is in [-1, 1], -1 at the light's near end and 1 at its far end, linear in distance along the light's
@@ -90,7 +90,7 @@ fn depth_of_light(conversion: DepthConversion) -> f32 {
     return clamp((conversion.numerator.y - conversion.numerator.x) / divisor, DEPTH_INFINITELY_FAR, -1.0);
 }
 
-// moment_shadows/leak_reduction.wgsl
+// moment_shadows/shade/leak_reduction.wgsl
 // Light leaking, reduced after the bound: none of this touches the moments.
 //
 // Multiplying the moments by a constant before solving ("moment scale" in some samples) is not offered: it makes the
@@ -123,7 +123,7 @@ fn leak_reduction_apply(shadow_intensity: f32, reduction: LeakReduction) -> f32 
     return 1.0 - select(curved, remaining, plain);
 }
 
-// moment_shadows/map_region.wgsl
+// moment_shadows/map/map_region.wgsl
 // Regions: rectangles of a layer that share an atlas and know nothing of each other.
 //
 // Mip level k of a region runs from floor(first / 2^k) to floor(end / 2^k). Regions that touch share that edge on every
@@ -164,7 +164,7 @@ fn map_region_place(region_on_level: MapRegion, uv: vec2f) -> vec2f {
     return vec2f(region_on_level.origin) + clamp(uv * extent, vec2f(0.5), max(extent - 0.5, vec2f(0.5)));
 }
 
-// moment_shadows/minification.wgsl
+// moment_shadows/map/minification.wgsl
 // Minification: what part of a map a pixel covers.
 //
 // A pixel maps to a parallelogram of texels. Its singular values are the axes of the ellipse that stands for it
@@ -244,7 +244,7 @@ fn minification_depth_variance(footprint: MinificationFootprint, gradient: vec2f
     return (1.13 / 4.0) * across * across + along * along / 12.0;
 }
 
-// moment_shadows/area_light.wgsl
+// moment_shadows/shade/area_light.wgsl
 // Area lights: how wide a light appears on its map when a receiver sees it through a blocker.
 //
 // The light's outline, projected from the receiver through the blocker onto the map, is what a filter has to average for a
@@ -310,7 +310,7 @@ fn area_light_box(light: AreaLight, blocker_depth: f32, receiver_depth: f32) -> 
     return area_light_limited(light, shape * area_light_half_extent(light, blocker_depth, receiver_depth));
 }
 
-// moment_shadows/receiver_bias.wgsl
+// moment_shadows/shade/receiver_bias.wgsl
 // Receiver bias: how far the fragment depth moves towards the light so that a surface does not shadow itself.
 //
 // Not to be confused with the moment bias, which belongs to storage. A plane tilted against the light fills the filter
@@ -411,7 +411,7 @@ const PLANES = 1u;
 const SEARCH_TAPS = 16u;
 const FILTER_TAPS = 32u;
 
-// moment_shadows/disk_samples.wgsl
+// moment_shadows/maths/disk_samples.wgsl
 // Samples that are spread over the unit disk, and the rotation by which each pixel turns them.
 //
 // With few samples a filter makes bands; turned by another angle in each pixel it makes noise, which the eye and temporal
@@ -479,7 +479,7 @@ fn disk_samples_vogel(index: u32, count: u32, rotation: vec2f) -> vec2f {
     return disk_samples_rotate(vec2f(radius, 0.0), disk_samples_rotate(disk_samples_rotation(f32(index) * DISK_SAMPLES_GOLDEN_ANGLE), rotation));
 }
 
-// moment_shadows/gaussian.wgsl
+// moment_shadows/filter/gaussian.wgsl
 // Gaussian filter weights, and the plain form of the separable filter.
 //
 // Filters of moments need weights that are not negative and sum to one; the Gaussian, cut off at a radius and
@@ -509,7 +509,7 @@ fn gaussian_filter(map: texture_2d<f32>, texel: vec2i, direction: vec2i, radius:
     return sum / total;
 }
 
-// moment_shadows/receiver_plane.wgsl
+// moment_shadows/shade/receiver_plane.wgsl
 
 // The plane of a receiver over a depth map: what each tap of a filter is compared with.
 //
@@ -565,7 +565,7 @@ fn receiver_plane_depth(plane: ReceiverPlane, offset: vec2f) -> f32 {
     return select(clamp(z, -1.0, 1.0), 1.0, divisor <= 0.0);
 }
 
-// moment_shadows/percentage_closer.wgsl
+// moment_shadows/techniques/percentage_closer.wgsl
 
 // Percentage closer filtering: tests against the plain depth map, whose results are filtered (Reeves, Salesin and Cook,
 // "Rendering Antialiased Shadows with Depth Maps", SIGGRAPH 1987).
@@ -723,7 +723,7 @@ fn percentage_closer_poisson(map: texture_depth_2d_array, layer: u32, region: Ma
     return sum / f32(DISK_SAMPLES_POISSON_COUNT);
 }
 
-// moment_shadows/percentage_closer_soft.wgsl
+// moment_shadows/techniques/percentage_closer_soft.wgsl
 
 // Percentage closer soft shadows: penumbrae that widen with the distance from the occluder (Fernando, "Percentage-Closer
 // Soft Shadows", SIGGRAPH 2005 sketches).
@@ -834,12 +834,12 @@ fn technique_shadow_intensity(receiver: TechniqueReceiver) -> f32 {
     return percentage_closer_soft_intensity(depth_map, receiver.layer, receiver.region, plane, receiver.conversion, receiver.light, SEARCH_TAPS, FILTER_TAPS, disk_samples_angle(receiver.pixel));
 }
 
-// shade_hard.wgsl
+// shade.wgsl
 
 // Shadow intensity of every pixel, from the camera's depth and a light's map, by the technique of the map. A view of a light is one region of one
 // layer: a sun's cascade, a face of a point light, a spot light. Each light has a channel of the target.
 
-struct ShadeHardParameters {
+struct ViewParameters {
     // From the camera's clip space (x, y, stored depth, 1) to the light: x and y are the place in the map in [0, 1], z its
     // homogeneous coordinate (positive in front of the light) and w the moment depth, all times the factors they are
     // divided by. Camera and light are combined in one matrix so that no large scene coordinates occur.
@@ -862,7 +862,7 @@ struct ShadeHardParameters {
     light: AreaLight,
 }
 
-@group(GROUP) @binding(0) var<uniform> views: array<ShadeHardParameters, VIEWS>;
+@group(GROUP) @binding(0) var<uniform> views: array<ViewParameters, VIEWS>;
 @group(GROUP) @binding(1) var camera_depth: texture_depth_2d;
 
 // A pixel's surface as the light sees it.

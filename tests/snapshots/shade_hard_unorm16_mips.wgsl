@@ -15,7 +15,7 @@ fn fullscreen(@builtin(vertex_index) index: u32) -> Covered {
     return Covered(vec4f(corner, 0.0, 1.0), 0.5 + vec2f(0.5, -0.5) * corner);
 }
 
-// moment_shadows/depth.wgsl
+// moment_shadows/map/depth.wgsl
 // Moment depth: the one interval that all moment arithmetic uses.
 //
 // Moment depth z is in [-1, 1], -1 at the light's near end and 1 at its far end, linear in distance along the light's
@@ -90,7 +90,7 @@ fn depth_of_light(conversion: DepthConversion) -> f32 {
     return clamp((conversion.numerator.y - conversion.numerator.x) / divisor, DEPTH_INFINITELY_FAR, -1.0);
 }
 
-// moment_shadows/leak_reduction.wgsl
+// moment_shadows/shade/leak_reduction.wgsl
 // Light leaking, reduced after the bound: none of this touches the moments.
 //
 // Multiplying the moments by a constant before solving ("moment scale" in some samples) is not offered: it makes the
@@ -123,7 +123,7 @@ fn leak_reduction_apply(shadow_intensity: f32, reduction: LeakReduction) -> f32 
     return 1.0 - select(curved, remaining, plain);
 }
 
-// moment_shadows/map_region.wgsl
+// moment_shadows/map/map_region.wgsl
 // Regions: rectangles of a layer that share an atlas and know nothing of each other.
 //
 // Mip level k of a region runs from floor(first / 2^k) to floor(end / 2^k). Regions that touch share that edge on every
@@ -164,7 +164,7 @@ fn map_region_place(region_on_level: MapRegion, uv: vec2f) -> vec2f {
     return vec2f(region_on_level.origin) + clamp(uv * extent, vec2f(0.5), max(extent - 0.5, vec2f(0.5)));
 }
 
-// moment_shadows/minification.wgsl
+// moment_shadows/map/minification.wgsl
 // Minification: what part of a map a pixel covers.
 //
 // A pixel maps to a parallelogram of texels. Its singular values are the axes of the ellipse that stands for it
@@ -244,7 +244,7 @@ fn minification_depth_variance(footprint: MinificationFootprint, gradient: vec2f
     return (1.13 / 4.0) * across * across + along * along / 12.0;
 }
 
-// moment_shadows/area_light.wgsl
+// moment_shadows/shade/area_light.wgsl
 // Area lights: how wide a light appears on its map when a receiver sees it through a blocker.
 //
 // The light's outline, projected from the receiver through the blocker onto the map, is what a filter has to average for a
@@ -310,7 +310,7 @@ fn area_light_box(light: AreaLight, blocker_depth: f32, receiver_depth: f32) -> 
     return area_light_limited(light, shape * area_light_half_extent(light, blocker_depth, receiver_depth));
 }
 
-// moment_shadows/receiver_bias.wgsl
+// moment_shadows/shade/receiver_bias.wgsl
 // Receiver bias: how far the fragment depth moves towards the light so that a surface does not shadow itself.
 //
 // Not to be confused with the moment bias, which belongs to storage. A plane tilted against the light fills the filter
@@ -410,7 +410,7 @@ const ANISOTROPY = 8.0;
 const PLANES = 1u;
 const STORAGE = 0u;
 
-// moment_shadows/hankel.wgsl
+// moment_shadows/maths/hankel.wgsl
 // The shared factorisation: LDL^T of the Hankel matrix of four moments.
 //
 //       | 1  b1 b2 |
@@ -467,7 +467,7 @@ fn hankel_christoffel_number(factor: HankelFactor, x: f32, second_polynomial: f3
     return factor.residue / fma(second_polynomial, second_polynomial, x_term);
 }
 
-// moment_shadows/storage.wgsl
+// moment_shadows/map/storage.wgsl
 // Storages: how the channels of a texel lie in memory, whatever they mean.
 //
 // Every technique filters linearly and writes after each filter, so each write is a rounding error that its bound has to
@@ -529,7 +529,7 @@ fn storage_finite_texel(texel: vec4f, storage: u32) -> vec4f {
     return select(texel, vec4f(0.0), exponent == vec4u(0x7f800000u));
 }
 
-// moment_shadows/moments.wgsl
+// moment_shadows/moments/four_moments.wgsl
 
 // Four moments of depth: encoding, storage, bias.
 //
@@ -541,7 +541,7 @@ fn storage_finite_texel(texel: vec4f, storage: u32) -> vec4f {
 // A moment bias: b is moved by alpha towards (0, second, 0, fourth), which pulls moments that rounding has made
 // impossible back among the possible ones. With one number beta for both these are the moments of occluders at the near
 // end, the middle and the far end with the weights beta/2, 1 - beta and beta/2.
-struct MomentBias {
+struct FourMomentsBias {
     alpha: f32,
     second: f32,
     fourth: f32,
@@ -550,52 +550,52 @@ struct MomentBias {
 // The bias belongs to a storage's rounding error, not to a scene. Each value covers a resolve and a two-pass blur, every
 // stage rounded to the storage, for 99.999 % of filter regions (found by search: `moment-shadows bias`). Sums of many texels
 // in f32 are off by more than the bias of float32 covers, unless they are made as in `split_sum`. The target is optimal for the basis and for distributions on the real line (JCGT 6(1) 2017, section 3).
-const MOMENTS_BIAS_UNORM16: MomentBias = MomentBias(6e-5, 0.628, 0.628);
-const MOMENTS_BIAS_FLOAT16: MomentBias = MomentBias(1e-3, 0.628, 0.628);
-const MOMENTS_BIAS_FLOAT32: MomentBias = MomentBias(1.5e-6, 0.375, 0.375);
+const FOUR_MOMENTS_BIAS_UNORM16: FourMomentsBias = FourMomentsBias(6e-5, 0.628, 0.628);
+const FOUR_MOMENTS_BIAS_FLOAT16: FourMomentsBias = FourMomentsBias(1e-3, 0.628, 0.628);
+const FOUR_MOMENTS_BIAS_FLOAT32: FourMomentsBias = FourMomentsBias(1.5e-6, 0.375, 0.375);
 
 // sqrt(3), which the optimised basis and its inverse are made of.
-const MOMENTS_SQRT_3: f32 = 1.7320508075688772;
+const FOUR_MOMENTS_SQRT_3: f32 = 1.7320508075688772;
 
 // The moments of a single depth z in [-1, 1]: its powers (i3D 2015, equation 2).
-fn moments_from_depth(z: f32) -> vec4f {
+fn four_moments_from_depth(z: f32) -> vec4f {
     let square = z * z;
     return vec4f(z, square, z * square, square * square);
 }
 
 // The optimised basis of JCGT 6(1) 2017 (equation 5, GDC 2016): maps the moments of depths in [-1, 1] into [0, 1]^4.
-fn moments_quantize(b: vec4f) -> vec4f {
+fn four_moments_quantize(b: vec4f) -> vec4f {
     return vec4f(
         fma(1.5, b.x, fma(-2.0, b.z, 0.5)),
         4.0 * (b.y - b.w),
-        fma(0.5 * MOMENTS_SQRT_3, b.x, fma(-2.0 / 9.0 * MOMENTS_SQRT_3, b.z, 0.5)),
+        fma(0.5 * FOUR_MOMENTS_SQRT_3, b.x, fma(-2.0 / 9.0 * FOUR_MOMENTS_SQRT_3, b.z, 0.5)),
         0.5 * (b.y + b.w),
     );
 }
 
-// Inverse of `moments_quantize`. Channels in [0, 1] give |b| <= 2.1, whatever they hold.
-fn moments_dequantize(channels: vec4f) -> vec4f {
+// Inverse of `four_moments_quantize`. Channels in [0, 1] give |b| <= 2.1, whatever they hold.
+fn four_moments_dequantize(channels: vec4f) -> vec4f {
     let odd = channels.xz - 0.5;
     return vec4f(
-        fma(-1.0 / 3.0, odd.x, MOMENTS_SQRT_3 * odd.y),
+        fma(-1.0 / 3.0, odd.x, FOUR_MOMENTS_SQRT_3 * odd.y),
         fma(0.125, channels.y, channels.w),
-        0.75 * fma(MOMENTS_SQRT_3, odd.y, -odd.x),
+        0.75 * fma(FOUR_MOMENTS_SQRT_3, odd.y, -odd.x),
         fma(-0.125, channels.y, channels.w),
     );
 }
 
 // Moments that certainly lie in their ranges: odd ones in [-1, 1], even ones in [0, 1]. Float storage can hold
 // anything, and finite values beyond 1e15 would overflow further on.
-fn moments_clamp(b: vec4f) -> vec4f {
+fn four_moments_clamp(b: vec4f) -> vec4f {
     return clamp(b, vec4f(-1.0, 0.0, -1.0, 0.0), vec4f(1.0));
 }
 
 // What to write to a texel of the storage.
-fn moments_to_texel(b: vec4f, storage: u32) -> vec4f {
+fn four_moments_to_texel(b: vec4f, storage: u32) -> vec4f {
     if storage == STORAGE_FLOAT32 {
         return b;
     }
-    let channels = saturate(moments_quantize(b));
+    let channels = saturate(four_moments_quantize(b));
     if storage == STORAGE_FLOAT16 {
         // Half precision is finest around zero, so the channels are centred there.
         return storage_round_to_float16(channels - 0.5);
@@ -603,56 +603,56 @@ fn moments_to_texel(b: vec4f, storage: u32) -> vec4f {
     return channels;
 }
 
-// The moments in a (filtered) texel of the storage. Float storage can hold anything; `moments_clamp` comes before any
+// The moments in a (filtered) texel of the storage. Float storage can hold anything; `four_moments_clamp` comes before any
 // arithmetic that relies on ranges.
-fn moments_from_texel(texel: vec4f, storage: u32) -> vec4f {
+fn four_moments_from_texel(texel: vec4f, storage: u32) -> vec4f {
     if storage == STORAGE_FLOAT32 {
         return texel;
     }
     if storage == STORAGE_FLOAT16 {
-        return moments_dequantize(texel + 0.5);
+        return four_moments_dequantize(texel + 0.5);
     }
-    return moments_dequantize(texel);
+    return four_moments_dequantize(texel);
 }
 
 // The moment bias of a storage.
-fn moments_bias_of(storage: u32) -> MomentBias {
+fn four_moments_bias_of(storage: u32) -> FourMomentsBias {
     if storage == STORAGE_FLOAT32 {
-        return MOMENTS_BIAS_FLOAT32;
+        return FOUR_MOMENTS_BIAS_FLOAT32;
     }
     if storage == STORAGE_FLOAT16 {
-        return MOMENTS_BIAS_FLOAT16;
+        return FOUR_MOMENTS_BIAS_FLOAT16;
     }
-    return MOMENTS_BIAS_UNORM16;
+    return FOUR_MOMENTS_BIAS_UNORM16;
 }
 
 // Applies the moment bias (i3D 2015, section 3.3). Written as a step towards the target: 1 - alpha would keep only a
 // few bits of alpha.
-fn moments_apply_bias(b: vec4f, bias: MomentBias) -> vec4f {
+fn four_moments_apply_bias(b: vec4f, bias: FourMomentsBias) -> vec4f {
     return fma(vec4f(bias.alpha), vec4f(0.0, bias.second, 0.0, bias.fourth) - b, b);
 }
 
 // The biased moments in a (filtered) texel of the storage, within [-2.1, 2.1]: for unorm storage if the channels are in
 // [0, 1], as no texture can help, and for float storage whatever finite numbers it holds.
-fn moments_biased_from_texel(texel: vec4f, storage: u32, bias: MomentBias) -> vec4f {
+fn four_moments_biased_from_texel(texel: vec4f, storage: u32, bias: FourMomentsBias) -> vec4f {
     if storage == STORAGE_FLOAT32 {
-        return moments_apply_bias(moments_clamp(texel), bias);
+        return four_moments_apply_bias(four_moments_clamp(texel), bias);
     }
     // The inverse of the basis and the bias are both affine, and so one step. These biases are large enough for 1 - alpha.
     let keep = 1.0 - bias.alpha;
     let of_xy = keep * vec4f(-1.0 / 3.0, 0.125, -0.75, -0.125);
-    let of_zw = keep * vec4f(MOMENTS_SQRT_3, 1.0, 0.75 * MOMENTS_SQRT_3, 1.0);
+    let of_zw = keep * vec4f(FOUR_MOMENTS_SQRT_3, 1.0, 0.75 * FOUR_MOMENTS_SQRT_3, 1.0);
     // Odd moments are 0 for channels of one half, and float16 storage holds one half less.
     let middle = select(vec4f(-0.5, 0.0, -0.5, 0.0), vec4f(0.0, 0.5, 0.0, 0.5), storage == STORAGE_FLOAT16);
     let shift = fma(middle, of_xy + of_zw, bias.alpha * vec4f(0.0, bias.second, 0.0, bias.fourth));
     let biased = fma(of_xy, texel.xyxy, fma(of_zw, texel.zwzw, shift));
     if storage == STORAGE_FLOAT16 {
-        return moments_clamp(biased);
+        return four_moments_clamp(biased);
     }
     return biased;
 }
 
-// moment_shadows/hamburger.wgsl
+// moment_shadows/bounds/hamburger4.wgsl
 
 // Hamburger four-moment shadow mapping: the sharpest bounds on shadow intensity that four moments allow.
 //
@@ -666,13 +666,13 @@ fn moments_biased_from_texel(texel: vec4f, storage: u32, bias: MomentBias) -> ve
 //   - where both sides have one, the discriminant of their quadratic is a sum of positive terms.
 
 // Support points farther than this from the mean have a weight below 1e-8, and squaring them must not overflow.
-const HAMBURGER_FARTHEST_SUPPORT: f32 = 1e4;
+const HAMBURGER4_FARTHEST_SUPPORT: f32 = 1e4;
 
 // The leading coefficient stays above this, so that dividing by it is defined when the fragment is at a Gauss node.
-const HAMBURGER_SMALLEST_LEADING_COEFFICIENT: f32 = 1e-20;
+const HAMBURGER4_SMALLEST_LEADING_COEFFICIENT: f32 = 1e-20;
 
 // The two support points besides the fragment, relative to the mean, for a fragment at x = z - b1.
-struct HamburgerSupport {
+struct Hamburger4Support {
     // x_1 < x < x_2 if the fragment is between the Gauss nodes. Elsewhere finite; x_1 is then the farthest point where
     // x < 0, and without meaning where x > 0.
     points: vec2f,
@@ -681,9 +681,9 @@ struct HamburgerSupport {
 }
 
 // The support of the extremal distribution through the fragment at x, where P2(x) is `second_polynomial`.
-fn hamburger_support(factor: HankelFactor, x: f32, second_polynomial: f32) -> HamburgerSupport {
+fn hamburger4_support(factor: HankelFactor, x: f32, second_polynomial: f32) -> Hamburger4Support {
     // -a y^2 + b y + c / 4 = 0 with a, c > 0, so both roots are real and 0 lies between them.
-    let a = max(-second_polynomial, HAMBURGER_SMALLEST_LEADING_COEFFICIENT);
+    let a = max(-second_polynomial, HAMBURGER4_SMALLEST_LEADING_COEFFICIENT);
     let b = fma(factor.ratio, x, factor.shift * a);
     let c = 4.0 * fma(factor.variance, a, factor.residue);
     // The roots' magnitudes are sum / (2 a) and c / (2 sum); the greater one has the sign of b. No term cancels.
@@ -692,28 +692,28 @@ fn hamburger_support(factor: HankelFactor, x: f32, second_polynomial: f32) -> Ha
     let lower = select(sum, c, above) / select(a, sum, above);
     let upper = select(c, sum, above) / select(sum, a, above);
     let doubled = vec2f(
-        max(-lower, -2.0 * HAMBURGER_FARTHEST_SUPPORT),
-        min(upper, 2.0 * HAMBURGER_FARTHEST_SUPPORT),
+        max(-lower, -2.0 * HAMBURGER4_FARTHEST_SUPPORT),
+        min(upper, 2.0 * HAMBURGER4_FARTHEST_SUPPORT),
     );
-    return HamburgerSupport(0.5 * doubled, above);
+    return Hamburger4Support(0.5 * doubled, above);
 }
 
 // Both bounds for a fragment at x = z - b1, where P2(x) is `polynomial`.
-fn hamburger_bounds_at(factor: HankelFactor, x: f32, polynomial: f32) -> vec2f {
+fn hamburger4_bounds_at(factor: HankelFactor, x: f32, polynomial: f32) -> vec2f {
     if polynomial >= 0.0 {
         // Outside the Gauss nodes no support point lies beyond the fragment: no root is needed.
         let weight = saturate(hankel_christoffel_number(factor, x, polynomial));
         return select(vec2f(0.0, weight), vec2f(1.0 - weight, 1.0), x > 0.0);
     }
-    let support = hamburger_support(factor, x, polynomial).points;
+    let support = hamburger4_support(factor, x, polynomial).points;
     let below = hankel_christoffel_number(factor, support.x, hankel_second_polynomial(factor, support.x));
     let above = hankel_christoffel_number(factor, support.y, hankel_second_polynomial(factor, support.y));
     return saturate(vec2f(below, 1.0 - above));
 }
 
 // The lower one of them; where it is 0 the result is below 1e-8.
-fn hamburger_lower_bound_at(factor: HankelFactor, x: f32, polynomial: f32) -> f32 {
-    let support = hamburger_support(factor, x, polynomial);
+fn hamburger4_lower_bound_at(factor: HankelFactor, x: f32, polynomial: f32) -> f32 {
+    let support = hamburger4_support(factor, x, polynomial);
     // One Christoffel number serves all cases: at the fragment itself where it is above the Gauss nodes, or else at the
     // support point below it. Where the fragment is below the Gauss nodes that one is at infinity, without weight.
     let beyond = polynomial >= 0.0 && support.above;
@@ -726,35 +726,35 @@ fn hamburger_lower_bound_at(factor: HankelFactor, x: f32, polynomial: f32) -> f3
 // distributions S with the moments `biased`, which are already biased by `alpha` >= 1e-7 and lie within [-2, 2].
 // Both are in [0, 1] for all such moments, valid or not, and every finite fragment depth; farther out than 1e4 the
 // fragment depth counts as 1e4. Error: |error| <= 8 * 2^-24 * (1 + sensitivity) where fma is fused.
-fn hamburger_bounds(biased: vec4f, fragment_depth: f32, alpha: f32) -> vec2f {
+fn hamburger4_bounds(biased: vec4f, fragment_depth: f32, alpha: f32) -> vec2f {
     let factor = hankel_factor(biased, alpha);
-    let x = clamp(fragment_depth, -HAMBURGER_FARTHEST_SUPPORT, HAMBURGER_FARTHEST_SUPPORT) - biased.x;
-    return hamburger_bounds_at(factor, x, hankel_second_polynomial(factor, x));
+    let x = clamp(fragment_depth, -HAMBURGER4_FARTHEST_SUPPORT, HAMBURGER4_FARTHEST_SUPPORT) - biased.x;
+    return hamburger4_bounds_at(factor, x, hankel_second_polynomial(factor, x));
 }
 
-// The lower one of `hamburger_bounds`, with fragment depths beyond the light's range counting as its ends; where the
+// The lower one of `hamburger4_bounds`, with fragment depths beyond the light's range counting as its ends; where the
 // bound is 0 the result is below 1e-8.
-fn hamburger_lower_bound(biased: vec4f, fragment_depth: f32, alpha: f32) -> f32 {
+fn hamburger4_lower_bound(biased: vec4f, fragment_depth: f32, alpha: f32) -> f32 {
     let factor = hankel_factor(biased, alpha);
     let x = clamp(fragment_depth, -1.0, 1.0) - biased.x;
-    return hamburger_lower_bound_at(factor, x, hankel_second_polynomial(factor, x));
+    return hamburger4_lower_bound_at(factor, x, hankel_second_polynomial(factor, x));
 }
 
 // Shadow intensity in [0, 1] (1 = shadowed) of a fragment at `fragment_depth` (moment depth) under the filtered moments
 // of its map: the lower bound, never darker than the truth but for the bias. Moments may be anything finite; fragment
 // depths beyond the light's range count as its ends.
-fn hamburger_shadow_intensity(moments: vec4f, fragment_depth: f32, bias: MomentBias) -> f32 {
-    return hamburger_lower_bound(moments_apply_bias(moments_clamp(moments), bias), fragment_depth, bias.alpha);
+fn hamburger4_shadow_intensity(moments: vec4f, fragment_depth: f32, bias: FourMomentsBias) -> f32 {
+    return hamburger4_lower_bound(four_moments_apply_bias(four_moments_clamp(moments), bias), fragment_depth, bias.alpha);
 }
 
 // The same for a filtered texel of a storage, with the bias of the storage. Cheaper, since decoding and bias are one step
 // and a texel of unorm storage needs no clamping.
-fn hamburger_shadow_intensity_of_texel(texel: vec4f, fragment_depth: f32, storage: u32) -> f32 {
-    let bias = moments_bias_of(storage);
-    return hamburger_lower_bound(moments_biased_from_texel(texel, storage, bias), fragment_depth, bias.alpha);
+fn hamburger4_shadow_intensity_of_texel(texel: vec4f, fragment_depth: f32, storage: u32) -> f32 {
+    let bias = four_moments_bias_of(storage);
+    return hamburger4_lower_bound(four_moments_biased_from_texel(texel, storage, bias), fragment_depth, bias.alpha);
 }
 
-// moment_shadows/map_load.wgsl
+// moment_shadows/map/map_load.wgsl
 
 // Lookups in a map that a device cannot filter, and where a sampler would read across the edge of a region: bilinear,
 // trilinear, averaged over a footprint. `uv`, `levels` and regions are those of `map_lookup`.
@@ -798,7 +798,7 @@ fn map_load_footprint(map: texture_2d_array<f32>, layer: u32, region: MapRegion,
     return sum / footprint.probes;
 }
 
-// moment_shadows/map_lookup.wgsl
+// moment_shadows/map/map_lookup.wgsl
 
 // Lookups in a filterable map by a sampler: bilinear, and averaged over a pixel. None reads across the edge of a region.
 //
@@ -891,7 +891,7 @@ fn map_texel(receiver: TechniqueReceiver, plane: u32) -> vec4f {
 // technique
 
 fn technique_shadow_intensity(receiver: TechniqueReceiver) -> f32 {
-    return hamburger_shadow_intensity_of_texel(map_texel(receiver, 0u), receiver.fragment_depth, STORAGE);
+    return hamburger4_shadow_intensity_of_texel(map_texel(receiver, 0u), receiver.fragment_depth, STORAGE);
 }
 
 // technique_map
@@ -901,12 +901,12 @@ fn technique_map_size() -> vec2u {
     return textureDimensions(moments_map);
 }
 
-// shade_hard.wgsl
+// shade.wgsl
 
 // Shadow intensity of every pixel, from the camera's depth and a light's map, by the technique of the map. A view of a light is one region of one
 // layer: a sun's cascade, a face of a point light, a spot light. Each light has a channel of the target.
 
-struct ShadeHardParameters {
+struct ViewParameters {
     // From the camera's clip space (x, y, stored depth, 1) to the light: x and y are the place in the map in [0, 1], z its
     // homogeneous coordinate (positive in front of the light) and w the moment depth, all times the factors they are
     // divided by. Camera and light are combined in one matrix so that no large scene coordinates occur.
@@ -929,7 +929,7 @@ struct ShadeHardParameters {
     light: AreaLight,
 }
 
-@group(GROUP) @binding(0) var<uniform> views: array<ShadeHardParameters, VIEWS>;
+@group(GROUP) @binding(0) var<uniform> views: array<ViewParameters, VIEWS>;
 @group(GROUP) @binding(1) var camera_depth: texture_depth_2d;
 
 // A pixel's surface as the light sees it.

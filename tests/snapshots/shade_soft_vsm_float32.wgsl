@@ -15,7 +15,7 @@ fn fullscreen(@builtin(vertex_index) index: u32) -> Covered {
     return Covered(vec4f(corner, 0.0, 1.0), 0.5 + vec2f(0.5, -0.5) * corner);
 }
 
-// moment_shadows/depth.wgsl
+// moment_shadows/map/depth.wgsl
 // Moment depth: the one interval that all moment arithmetic uses.
 //
 // Moment depth z is in [-1, 1], -1 at the light's near end and 1 at its far end, linear in distance along the light's
@@ -90,7 +90,7 @@ fn depth_of_light(conversion: DepthConversion) -> f32 {
     return clamp((conversion.numerator.y - conversion.numerator.x) / divisor, DEPTH_INFINITELY_FAR, -1.0);
 }
 
-// moment_shadows/leak_reduction.wgsl
+// moment_shadows/shade/leak_reduction.wgsl
 // Light leaking, reduced after the bound: none of this touches the moments.
 //
 // Multiplying the moments by a constant before solving ("moment scale" in some samples) is not offered: it makes the
@@ -123,7 +123,7 @@ fn leak_reduction_apply(shadow_intensity: f32, reduction: LeakReduction) -> f32 
     return 1.0 - select(curved, remaining, plain);
 }
 
-// moment_shadows/map_region.wgsl
+// moment_shadows/map/map_region.wgsl
 // Regions: rectangles of a layer that share an atlas and know nothing of each other.
 //
 // Mip level k of a region runs from floor(first / 2^k) to floor(end / 2^k). Regions that touch share that edge on every
@@ -164,7 +164,7 @@ fn map_region_place(region_on_level: MapRegion, uv: vec2f) -> vec2f {
     return vec2f(region_on_level.origin) + clamp(uv * extent, vec2f(0.5), max(extent - 0.5, vec2f(0.5)));
 }
 
-// moment_shadows/minification.wgsl
+// moment_shadows/map/minification.wgsl
 // Minification: what part of a map a pixel covers.
 //
 // A pixel maps to a parallelogram of texels. Its singular values are the axes of the ellipse that stands for it
@@ -244,7 +244,7 @@ fn minification_depth_variance(footprint: MinificationFootprint, gradient: vec2f
     return (1.13 / 4.0) * across * across + along * along / 12.0;
 }
 
-// moment_shadows/area_light.wgsl
+// moment_shadows/shade/area_light.wgsl
 // Area lights: how wide a light appears on its map when a receiver sees it through a blocker.
 //
 // The light's outline, projected from the receiver through the blocker onto the map, is what a filter has to average for a
@@ -310,7 +310,7 @@ fn area_light_box(light: AreaLight, blocker_depth: f32, receiver_depth: f32) -> 
     return area_light_limited(light, shape * area_light_half_extent(light, blocker_depth, receiver_depth));
 }
 
-// moment_shadows/receiver_bias.wgsl
+// moment_shadows/shade/receiver_bias.wgsl
 // Receiver bias: how far the fragment depth moves towards the light so that a surface does not shadow itself.
 //
 // Not to be confused with the moment bias, which belongs to storage. A plane tilted against the light fills the filter
@@ -413,7 +413,7 @@ const TABLE_ERROR = f32(4.918549e-7);
 const SEARCH_INTERPOLATED = false;
 const FILTER_INTERPOLATED = true;
 
-// moment_shadows/hankel.wgsl
+// moment_shadows/maths/hankel.wgsl
 // The shared factorisation: LDL^T of the Hankel matrix of four moments.
 //
 //       | 1  b1 b2 |
@@ -470,7 +470,7 @@ fn hankel_christoffel_number(factor: HankelFactor, x: f32, second_polynomial: f3
     return factor.residue / fma(second_polynomial, second_polynomial, x_term);
 }
 
-// moment_shadows/storage.wgsl
+// moment_shadows/map/storage.wgsl
 // Storages: how the channels of a texel lie in memory, whatever they mean.
 //
 // Every technique filters linearly and writes after each filter, so each write is a rounding error that its bound has to
@@ -532,7 +532,7 @@ fn storage_finite_texel(texel: vec4f, storage: u32) -> vec4f {
     return select(texel, vec4f(0.0), exponent == vec4u(0x7f800000u));
 }
 
-// moment_shadows/moments.wgsl
+// moment_shadows/moments/four_moments.wgsl
 
 // Four moments of depth: encoding, storage, bias.
 //
@@ -544,7 +544,7 @@ fn storage_finite_texel(texel: vec4f, storage: u32) -> vec4f {
 // A moment bias: b is moved by alpha towards (0, second, 0, fourth), which pulls moments that rounding has made
 // impossible back among the possible ones. With one number beta for both these are the moments of occluders at the near
 // end, the middle and the far end with the weights beta/2, 1 - beta and beta/2.
-struct MomentBias {
+struct FourMomentsBias {
     alpha: f32,
     second: f32,
     fourth: f32,
@@ -553,52 +553,52 @@ struct MomentBias {
 // The bias belongs to a storage's rounding error, not to a scene. Each value covers a resolve and a two-pass blur, every
 // stage rounded to the storage, for 99.999 % of filter regions (found by search: `moment-shadows bias`). Sums of many texels
 // in f32 are off by more than the bias of float32 covers, unless they are made as in `split_sum`. The target is optimal for the basis and for distributions on the real line (JCGT 6(1) 2017, section 3).
-const MOMENTS_BIAS_UNORM16: MomentBias = MomentBias(6e-5, 0.628, 0.628);
-const MOMENTS_BIAS_FLOAT16: MomentBias = MomentBias(1e-3, 0.628, 0.628);
-const MOMENTS_BIAS_FLOAT32: MomentBias = MomentBias(1.5e-6, 0.375, 0.375);
+const FOUR_MOMENTS_BIAS_UNORM16: FourMomentsBias = FourMomentsBias(6e-5, 0.628, 0.628);
+const FOUR_MOMENTS_BIAS_FLOAT16: FourMomentsBias = FourMomentsBias(1e-3, 0.628, 0.628);
+const FOUR_MOMENTS_BIAS_FLOAT32: FourMomentsBias = FourMomentsBias(1.5e-6, 0.375, 0.375);
 
 // sqrt(3), which the optimised basis and its inverse are made of.
-const MOMENTS_SQRT_3: f32 = 1.7320508075688772;
+const FOUR_MOMENTS_SQRT_3: f32 = 1.7320508075688772;
 
 // The moments of a single depth z in [-1, 1]: its powers (i3D 2015, equation 2).
-fn moments_from_depth(z: f32) -> vec4f {
+fn four_moments_from_depth(z: f32) -> vec4f {
     let square = z * z;
     return vec4f(z, square, z * square, square * square);
 }
 
 // The optimised basis of JCGT 6(1) 2017 (equation 5, GDC 2016): maps the moments of depths in [-1, 1] into [0, 1]^4.
-fn moments_quantize(b: vec4f) -> vec4f {
+fn four_moments_quantize(b: vec4f) -> vec4f {
     return vec4f(
         fma(1.5, b.x, fma(-2.0, b.z, 0.5)),
         4.0 * (b.y - b.w),
-        fma(0.5 * MOMENTS_SQRT_3, b.x, fma(-2.0 / 9.0 * MOMENTS_SQRT_3, b.z, 0.5)),
+        fma(0.5 * FOUR_MOMENTS_SQRT_3, b.x, fma(-2.0 / 9.0 * FOUR_MOMENTS_SQRT_3, b.z, 0.5)),
         0.5 * (b.y + b.w),
     );
 }
 
-// Inverse of `moments_quantize`. Channels in [0, 1] give |b| <= 2.1, whatever they hold.
-fn moments_dequantize(channels: vec4f) -> vec4f {
+// Inverse of `four_moments_quantize`. Channels in [0, 1] give |b| <= 2.1, whatever they hold.
+fn four_moments_dequantize(channels: vec4f) -> vec4f {
     let odd = channels.xz - 0.5;
     return vec4f(
-        fma(-1.0 / 3.0, odd.x, MOMENTS_SQRT_3 * odd.y),
+        fma(-1.0 / 3.0, odd.x, FOUR_MOMENTS_SQRT_3 * odd.y),
         fma(0.125, channels.y, channels.w),
-        0.75 * fma(MOMENTS_SQRT_3, odd.y, -odd.x),
+        0.75 * fma(FOUR_MOMENTS_SQRT_3, odd.y, -odd.x),
         fma(-0.125, channels.y, channels.w),
     );
 }
 
 // Moments that certainly lie in their ranges: odd ones in [-1, 1], even ones in [0, 1]. Float storage can hold
 // anything, and finite values beyond 1e15 would overflow further on.
-fn moments_clamp(b: vec4f) -> vec4f {
+fn four_moments_clamp(b: vec4f) -> vec4f {
     return clamp(b, vec4f(-1.0, 0.0, -1.0, 0.0), vec4f(1.0));
 }
 
 // What to write to a texel of the storage.
-fn moments_to_texel(b: vec4f, storage: u32) -> vec4f {
+fn four_moments_to_texel(b: vec4f, storage: u32) -> vec4f {
     if storage == STORAGE_FLOAT32 {
         return b;
     }
-    let channels = saturate(moments_quantize(b));
+    let channels = saturate(four_moments_quantize(b));
     if storage == STORAGE_FLOAT16 {
         // Half precision is finest around zero, so the channels are centred there.
         return storage_round_to_float16(channels - 0.5);
@@ -606,56 +606,56 @@ fn moments_to_texel(b: vec4f, storage: u32) -> vec4f {
     return channels;
 }
 
-// The moments in a (filtered) texel of the storage. Float storage can hold anything; `moments_clamp` comes before any
+// The moments in a (filtered) texel of the storage. Float storage can hold anything; `four_moments_clamp` comes before any
 // arithmetic that relies on ranges.
-fn moments_from_texel(texel: vec4f, storage: u32) -> vec4f {
+fn four_moments_from_texel(texel: vec4f, storage: u32) -> vec4f {
     if storage == STORAGE_FLOAT32 {
         return texel;
     }
     if storage == STORAGE_FLOAT16 {
-        return moments_dequantize(texel + 0.5);
+        return four_moments_dequantize(texel + 0.5);
     }
-    return moments_dequantize(texel);
+    return four_moments_dequantize(texel);
 }
 
 // The moment bias of a storage.
-fn moments_bias_of(storage: u32) -> MomentBias {
+fn four_moments_bias_of(storage: u32) -> FourMomentsBias {
     if storage == STORAGE_FLOAT32 {
-        return MOMENTS_BIAS_FLOAT32;
+        return FOUR_MOMENTS_BIAS_FLOAT32;
     }
     if storage == STORAGE_FLOAT16 {
-        return MOMENTS_BIAS_FLOAT16;
+        return FOUR_MOMENTS_BIAS_FLOAT16;
     }
-    return MOMENTS_BIAS_UNORM16;
+    return FOUR_MOMENTS_BIAS_UNORM16;
 }
 
 // Applies the moment bias (i3D 2015, section 3.3). Written as a step towards the target: 1 - alpha would keep only a
 // few bits of alpha.
-fn moments_apply_bias(b: vec4f, bias: MomentBias) -> vec4f {
+fn four_moments_apply_bias(b: vec4f, bias: FourMomentsBias) -> vec4f {
     return fma(vec4f(bias.alpha), vec4f(0.0, bias.second, 0.0, bias.fourth) - b, b);
 }
 
 // The biased moments in a (filtered) texel of the storage, within [-2.1, 2.1]: for unorm storage if the channels are in
 // [0, 1], as no texture can help, and for float storage whatever finite numbers it holds.
-fn moments_biased_from_texel(texel: vec4f, storage: u32, bias: MomentBias) -> vec4f {
+fn four_moments_biased_from_texel(texel: vec4f, storage: u32, bias: FourMomentsBias) -> vec4f {
     if storage == STORAGE_FLOAT32 {
-        return moments_apply_bias(moments_clamp(texel), bias);
+        return four_moments_apply_bias(four_moments_clamp(texel), bias);
     }
     // The inverse of the basis and the bias are both affine, and so one step. These biases are large enough for 1 - alpha.
     let keep = 1.0 - bias.alpha;
     let of_xy = keep * vec4f(-1.0 / 3.0, 0.125, -0.75, -0.125);
-    let of_zw = keep * vec4f(MOMENTS_SQRT_3, 1.0, 0.75 * MOMENTS_SQRT_3, 1.0);
+    let of_zw = keep * vec4f(FOUR_MOMENTS_SQRT_3, 1.0, 0.75 * FOUR_MOMENTS_SQRT_3, 1.0);
     // Odd moments are 0 for channels of one half, and float16 storage holds one half less.
     let middle = select(vec4f(-0.5, 0.0, -0.5, 0.0), vec4f(0.0, 0.5, 0.0, 0.5), storage == STORAGE_FLOAT16);
     let shift = fma(middle, of_xy + of_zw, bias.alpha * vec4f(0.0, bias.second, 0.0, bias.fourth));
     let biased = fma(of_xy, texel.xyxy, fma(of_zw, texel.zwzw, shift));
     if storage == STORAGE_FLOAT16 {
-        return moments_clamp(biased);
+        return four_moments_clamp(biased);
     }
     return biased;
 }
 
-// moment_shadows/hamburger.wgsl
+// moment_shadows/bounds/hamburger4.wgsl
 
 // Hamburger four-moment shadow mapping: the sharpest bounds on shadow intensity that four moments allow.
 //
@@ -669,13 +669,13 @@ fn moments_biased_from_texel(texel: vec4f, storage: u32, bias: MomentBias) -> ve
 //   - where both sides have one, the discriminant of their quadratic is a sum of positive terms.
 
 // Support points farther than this from the mean have a weight below 1e-8, and squaring them must not overflow.
-const HAMBURGER_FARTHEST_SUPPORT: f32 = 1e4;
+const HAMBURGER4_FARTHEST_SUPPORT: f32 = 1e4;
 
 // The leading coefficient stays above this, so that dividing by it is defined when the fragment is at a Gauss node.
-const HAMBURGER_SMALLEST_LEADING_COEFFICIENT: f32 = 1e-20;
+const HAMBURGER4_SMALLEST_LEADING_COEFFICIENT: f32 = 1e-20;
 
 // The two support points besides the fragment, relative to the mean, for a fragment at x = z - b1.
-struct HamburgerSupport {
+struct Hamburger4Support {
     // x_1 < x < x_2 if the fragment is between the Gauss nodes. Elsewhere finite; x_1 is then the farthest point where
     // x < 0, and without meaning where x > 0.
     points: vec2f,
@@ -684,9 +684,9 @@ struct HamburgerSupport {
 }
 
 // The support of the extremal distribution through the fragment at x, where P2(x) is `second_polynomial`.
-fn hamburger_support(factor: HankelFactor, x: f32, second_polynomial: f32) -> HamburgerSupport {
+fn hamburger4_support(factor: HankelFactor, x: f32, second_polynomial: f32) -> Hamburger4Support {
     // -a y^2 + b y + c / 4 = 0 with a, c > 0, so both roots are real and 0 lies between them.
-    let a = max(-second_polynomial, HAMBURGER_SMALLEST_LEADING_COEFFICIENT);
+    let a = max(-second_polynomial, HAMBURGER4_SMALLEST_LEADING_COEFFICIENT);
     let b = fma(factor.ratio, x, factor.shift * a);
     let c = 4.0 * fma(factor.variance, a, factor.residue);
     // The roots' magnitudes are sum / (2 a) and c / (2 sum); the greater one has the sign of b. No term cancels.
@@ -695,28 +695,28 @@ fn hamburger_support(factor: HankelFactor, x: f32, second_polynomial: f32) -> Ha
     let lower = select(sum, c, above) / select(a, sum, above);
     let upper = select(c, sum, above) / select(sum, a, above);
     let doubled = vec2f(
-        max(-lower, -2.0 * HAMBURGER_FARTHEST_SUPPORT),
-        min(upper, 2.0 * HAMBURGER_FARTHEST_SUPPORT),
+        max(-lower, -2.0 * HAMBURGER4_FARTHEST_SUPPORT),
+        min(upper, 2.0 * HAMBURGER4_FARTHEST_SUPPORT),
     );
-    return HamburgerSupport(0.5 * doubled, above);
+    return Hamburger4Support(0.5 * doubled, above);
 }
 
 // Both bounds for a fragment at x = z - b1, where P2(x) is `polynomial`.
-fn hamburger_bounds_at(factor: HankelFactor, x: f32, polynomial: f32) -> vec2f {
+fn hamburger4_bounds_at(factor: HankelFactor, x: f32, polynomial: f32) -> vec2f {
     if polynomial >= 0.0 {
         // Outside the Gauss nodes no support point lies beyond the fragment: no root is needed.
         let weight = saturate(hankel_christoffel_number(factor, x, polynomial));
         return select(vec2f(0.0, weight), vec2f(1.0 - weight, 1.0), x > 0.0);
     }
-    let support = hamburger_support(factor, x, polynomial).points;
+    let support = hamburger4_support(factor, x, polynomial).points;
     let below = hankel_christoffel_number(factor, support.x, hankel_second_polynomial(factor, support.x));
     let above = hankel_christoffel_number(factor, support.y, hankel_second_polynomial(factor, support.y));
     return saturate(vec2f(below, 1.0 - above));
 }
 
 // The lower one of them; where it is 0 the result is below 1e-8.
-fn hamburger_lower_bound_at(factor: HankelFactor, x: f32, polynomial: f32) -> f32 {
-    let support = hamburger_support(factor, x, polynomial);
+fn hamburger4_lower_bound_at(factor: HankelFactor, x: f32, polynomial: f32) -> f32 {
+    let support = hamburger4_support(factor, x, polynomial);
     // One Christoffel number serves all cases: at the fragment itself where it is above the Gauss nodes, or else at the
     // support point below it. Where the fragment is below the Gauss nodes that one is at infinity, without weight.
     let beyond = polynomial >= 0.0 && support.above;
@@ -729,35 +729,35 @@ fn hamburger_lower_bound_at(factor: HankelFactor, x: f32, polynomial: f32) -> f3
 // distributions S with the moments `biased`, which are already biased by `alpha` >= 1e-7 and lie within [-2, 2].
 // Both are in [0, 1] for all such moments, valid or not, and every finite fragment depth; farther out than 1e4 the
 // fragment depth counts as 1e4. Error: |error| <= 8 * 2^-24 * (1 + sensitivity) where fma is fused.
-fn hamburger_bounds(biased: vec4f, fragment_depth: f32, alpha: f32) -> vec2f {
+fn hamburger4_bounds(biased: vec4f, fragment_depth: f32, alpha: f32) -> vec2f {
     let factor = hankel_factor(biased, alpha);
-    let x = clamp(fragment_depth, -HAMBURGER_FARTHEST_SUPPORT, HAMBURGER_FARTHEST_SUPPORT) - biased.x;
-    return hamburger_bounds_at(factor, x, hankel_second_polynomial(factor, x));
+    let x = clamp(fragment_depth, -HAMBURGER4_FARTHEST_SUPPORT, HAMBURGER4_FARTHEST_SUPPORT) - biased.x;
+    return hamburger4_bounds_at(factor, x, hankel_second_polynomial(factor, x));
 }
 
-// The lower one of `hamburger_bounds`, with fragment depths beyond the light's range counting as its ends; where the
+// The lower one of `hamburger4_bounds`, with fragment depths beyond the light's range counting as its ends; where the
 // bound is 0 the result is below 1e-8.
-fn hamburger_lower_bound(biased: vec4f, fragment_depth: f32, alpha: f32) -> f32 {
+fn hamburger4_lower_bound(biased: vec4f, fragment_depth: f32, alpha: f32) -> f32 {
     let factor = hankel_factor(biased, alpha);
     let x = clamp(fragment_depth, -1.0, 1.0) - biased.x;
-    return hamburger_lower_bound_at(factor, x, hankel_second_polynomial(factor, x));
+    return hamburger4_lower_bound_at(factor, x, hankel_second_polynomial(factor, x));
 }
 
 // Shadow intensity in [0, 1] (1 = shadowed) of a fragment at `fragment_depth` (moment depth) under the filtered moments
 // of its map: the lower bound, never darker than the truth but for the bias. Moments may be anything finite; fragment
 // depths beyond the light's range count as its ends.
-fn hamburger_shadow_intensity(moments: vec4f, fragment_depth: f32, bias: MomentBias) -> f32 {
-    return hamburger_lower_bound(moments_apply_bias(moments_clamp(moments), bias), fragment_depth, bias.alpha);
+fn hamburger4_shadow_intensity(moments: vec4f, fragment_depth: f32, bias: FourMomentsBias) -> f32 {
+    return hamburger4_lower_bound(four_moments_apply_bias(four_moments_clamp(moments), bias), fragment_depth, bias.alpha);
 }
 
 // The same for a filtered texel of a storage, with the bias of the storage. Cheaper, since decoding and bias are one step
 // and a texel of unorm storage needs no clamping.
-fn hamburger_shadow_intensity_of_texel(texel: vec4f, fragment_depth: f32, storage: u32) -> f32 {
-    let bias = moments_bias_of(storage);
-    return hamburger_lower_bound(moments_biased_from_texel(texel, storage, bias), fragment_depth, bias.alpha);
+fn hamburger4_shadow_intensity_of_texel(texel: vec4f, fragment_depth: f32, storage: u32) -> f32 {
+    let bias = four_moments_bias_of(storage);
+    return hamburger4_lower_bound(four_moments_biased_from_texel(texel, storage, bias), fragment_depth, bias.alpha);
 }
 
-// moment_shadows/soft_blockers.wgsl
+// moment_shadows/shade/soft_blockers.wgsl
 
 // Blocker search in filtered moments: how deep the blockers of a receiver are on average, in constant time.
 //
@@ -794,7 +794,7 @@ fn soft_blockers_of_four_moments(biased: vec4f, fragment_depth: f32, alpha: f32)
     let factor = hankel_factor(biased, alpha);
     let x = z - biased.x;
     let polynomial = hankel_second_polynomial(factor, x);
-    let support = hamburger_support(factor, x, polynomial);
+    let support = hamburger4_support(factor, x, polynomial);
     let outside = polynomial >= 0.0;
     // The weight of the fragment itself, or of the support point in front of it. The farthest one is at infinity where
     // the fragment is in front of the Gauss nodes, without weight.
@@ -824,7 +824,7 @@ fn soft_blockers_of_two_moments(moments: vec2f, fragment_depth: f32, smallest_va
     return soft_blockers_from(z, square / (variance + square), x + variance / max(x, 1e-6));
 }
 
-// moment_shadows/summed_area_table.wgsl
+// moment_shadows/filter/summed_area_table.wgsl
 
 // Summed-area tables: the mean over any rectangle of a map, at a cost that does not depend on its size.
 //
@@ -944,16 +944,12 @@ fn summed_area_table_mean_plain(table: texture_2d_array<u32>, layer: u32, region
     return saturate(vec4f(sum) * (1.0 / (unit * extent.x * extent.y)));
 }
 
-// moment_shadows/variance.wgsl
+// moment_shadows/moments/two_moments.wgsl
 
-// Variance shadow mapping: the sharpest bound on shadow intensity that two moments allow.
+// Two moments of depth: encoding, storage, smallest variance.
 //
-// A texel holds the mean b1 of depth and its mean square b2. The share of depth in front of the fragment is at least
-// d^2 / (b2 - b1^2 + d^2) for a fragment at d > 0 behind the mean (Chebyshev's inequality, one-sided; Donnelly &
-// Lauritzen, "Variance Shadow Maps", i3D 2006, equation 5). One plane in front of another is reproduced exactly; behind
-// two occluders light bleeds (Lauritzen, thesis 2008, section 3.4).
-//
-// Channels come in pairs (b1, b2). This technique uses xy alone; one that stores two pairs encodes both at once.
+// A texel holds the mean b1 of depth and its mean square b2. Channels come in pairs (b1, b2): variance shadow mapping uses xy alone;
+// a technique that stores two pairs encodes both at once.
 
 // The smallest variance per storage: what rounding in a resolve and a two-pass blur can take away from b2 - b1^2. With e
 // the error of a channel per rounding it is at most 3 (error of b2 + 2 |b1| error of b1):
@@ -962,19 +958,19 @@ fn summed_area_table_mean_plain(table: texture_2d_array<u32>, layer: u32, region
 //   float32: e = 2^-25 for values up to 1:             3 (e + 2 e) = 2.7e-7, and the sums of both passes are in float32
 // That is with all errors on one side. Half of it covers 99.999 % of adversarial kernels in unorm16 and float16; the sums
 // of float32 need a bit more than theirs. A floor as large as the error leaves no variance wrong by more than a factor of 2.
-const VARIANCE_SMALLEST_UNORM16: f32 = 6e-5;
-const VARIANCE_SMALLEST_FLOAT16: f32 = 1e-3;
-const VARIANCE_SMALLEST_FLOAT32: f32 = 5e-7;
+const TWO_MOMENTS_SMALLEST_VARIANCE_UNORM16: f32 = 6e-5;
+const TWO_MOMENTS_SMALLEST_VARIANCE_FLOAT16: f32 = 1e-3;
+const TWO_MOMENTS_SMALLEST_VARIANCE_FLOAT32: f32 = 5e-7;
 
 // What is averaged for a depth z in [-1, 1]: its powers.
-fn variance_channels(z: f32) -> vec4f {
+fn two_moments_from_depth(z: f32) -> vec4f {
     return vec4f(z, z * z, 0.0, 0.0);
 }
 
 // What to write for averaged channels. In unorm16 the optimised basis of two moments (r, g) = (u1, 4 u1 - 4 u2), with u the
 // moments of (z + 1) / 2 (i3D 2015, section 3.2), which fills the unit square and in terms of z is simply
 // ((b1 + 1) / 2, 1 - b2). In float16 the same less one half, around which half precision is finest. In float32 b itself.
-fn variance_to_texel(channels: vec4f, storage: u32) -> vec4f {
+fn two_moments_to_texel(channels: vec4f, storage: u32) -> vec4f {
     if storage == STORAGE_FLOAT32 {
         return channels;
     }
@@ -986,7 +982,7 @@ fn variance_to_texel(channels: vec4f, storage: u32) -> vec4f {
 }
 
 // The moments in a (filtered) texel, both pairs, in their ranges whatever the texel holds.
-fn variance_from_texel(texel: vec4f, storage: u32) -> vec4f {
+fn two_moments_from_texel(texel: vec4f, storage: u32) -> vec4f {
     let finite = storage_finite_texel(texel, storage);
     var channels = finite;
     if storage != STORAGE_FLOAT32 {
@@ -997,20 +993,29 @@ fn variance_from_texel(texel: vec4f, storage: u32) -> vec4f {
 }
 
 // The smallest variance of a storage.
-fn variance_smallest_of(storage: u32) -> f32 {
+fn two_moments_smallest_variance_of(storage: u32) -> f32 {
     if storage == STORAGE_FLOAT32 {
-        return VARIANCE_SMALLEST_FLOAT32;
+        return TWO_MOMENTS_SMALLEST_VARIANCE_FLOAT32;
     }
     if storage == STORAGE_FLOAT16 {
-        return VARIANCE_SMALLEST_FLOAT16;
+        return TWO_MOMENTS_SMALLEST_VARIANCE_FLOAT16;
     }
-    return VARIANCE_SMALLEST_UNORM16;
+    return TWO_MOMENTS_SMALLEST_VARIANCE_UNORM16;
 }
+
+// moment_shadows/bounds/chebyshev.wgsl
+
+// Variance shadow mapping: the sharpest bound on shadow intensity that two moments allow.
+//
+// A texel holds the mean b1 of depth and its mean square b2. The share of depth in front of the fragment is at least
+// d^2 / (b2 - b1^2 + d^2) for a fragment at d > 0 behind the mean (Chebyshev's inequality, one-sided; Donnelly &
+// Lauritzen, "Variance Shadow Maps", i3D 2006, equation 5). One plane in front of another is reproduced exactly; behind
+// two occluders light bleeds (Lauritzen, thesis 2008, section 3.4).
 
 // inf S(z < fragment_depth) over all distributions S with the mean and mean square `moments`; 0 exactly for fragments
 // that are not behind the mean. Any unit of depth will do as long as no square exceeds 2^126; `smallest_variance` > 0 is in
 // the square of that unit.
-fn variance_lower_bound(moments: vec2f, fragment_depth: f32, smallest_variance: f32) -> f32 {
+fn chebyshev_lower_bound(moments: vec2f, fragment_depth: f32, smallest_variance: f32) -> f32 {
     let variance = max(fma(-moments.x, moments.x, moments.y), smallest_variance);
     let distance = max(fragment_depth - moments.x, 0.0);
     let square = distance * distance;
@@ -1018,17 +1023,17 @@ fn variance_lower_bound(moments: vec2f, fragment_depth: f32, smallest_variance: 
 }
 
 // sup S(z <= fragment_depth) likewise; 1 exactly for fragments that are not in front of the mean.
-fn variance_upper_bound(moments: vec2f, fragment_depth: f32, smallest_variance: f32) -> f32 {
-    return 1.0 - variance_lower_bound(vec2f(-moments.x, moments.y), -fragment_depth, smallest_variance);
+fn chebyshev_upper_bound(moments: vec2f, fragment_depth: f32, smallest_variance: f32) -> f32 {
+    return 1.0 - chebyshev_lower_bound(vec2f(-moments.x, moments.y), -fragment_depth, smallest_variance);
 }
 
 // Shadow intensity in [0, 1] (1 = shadowed) of a fragment at `fragment_depth` under a filtered texel: a lower bound.
-fn variance_shadow_intensity_of_texel(texel: vec4f, fragment_depth: f32, storage: u32) -> f32 {
-    let moments = variance_from_texel(texel, storage).xy;
-    return variance_lower_bound(moments, depth_of_fragment(fragment_depth), variance_smallest_of(storage));
+fn chebyshev_shadow_intensity_of_texel(texel: vec4f, fragment_depth: f32, storage: u32) -> f32 {
+    let moments = two_moments_from_texel(texel, storage).xy;
+    return chebyshev_lower_bound(moments, depth_of_fragment(fragment_depth), two_moments_smallest_variance_of(storage));
 }
 
-// moment_shadows/moment_soft_shadows.wgsl
+// moment_shadows/shade/moment_soft_shadows.wgsl
 
 // Moment soft shadows: penumbrae of area lights from a summed-area table, in constant time.
 //
@@ -1100,27 +1105,27 @@ fn moment_soft_shadows_fragment_depth(receiver: MomentSoftShadowReceiver, rectan
 
 // Shadow intensity in [0, 1] (1 = shadowed) of a receiver, from a table of four moments. `bias` is the table's
 // (`summed_area_encoding_moment_bias`). 8 loads, or 16 for a query that interpolates in place of 4.
-fn moment_soft_shadows_intensity(sums: texture_2d_array<u32>, table: MomentSoftShadowTable, bias: MomentBias, receiver: MomentSoftShadowReceiver, light: AreaLight) -> f32 {
+fn moment_soft_shadows_intensity(sums: texture_2d_array<u32>, table: MomentSoftShadowTable, bias: FourMomentsBias, receiver: MomentSoftShadowReceiver, light: AreaLight) -> f32 {
     let search = moment_soft_shadows_search(table, receiver, light);
-    let searched = moments_dequantize(moment_soft_shadows_mean(sums, table, search, table.search_interpolated));
-    let blockers = soft_blockers_of_four_moments(moments_apply_bias(searched, bias), receiver.depth, bias.alpha);
+    let searched = four_moments_dequantize(moment_soft_shadows_mean(sums, table, search, table.search_interpolated));
+    let blockers = soft_blockers_of_four_moments(four_moments_apply_bias(searched, bias), receiver.depth, bias.alpha);
     let rectangle = moment_soft_shadows_filter(table, receiver, light, blockers.depth);
-    let filtered = moments_dequantize(moment_soft_shadows_mean(sums, table, rectangle, table.filter_interpolated));
+    let filtered = four_moments_dequantize(moment_soft_shadows_mean(sums, table, rectangle, table.filter_interpolated));
     let depth = moment_soft_shadows_fragment_depth(receiver, rectangle);
-    return hamburger_lower_bound(moments_apply_bias(filtered, bias), depth, bias.alpha);
+    return hamburger4_lower_bound(four_moments_apply_bias(filtered, bias), depth, bias.alpha);
 }
 
 // The same from a table of two moments; `smallest_variance` is the table's (`summed_area_encoding_smallest_variance`).
 fn moment_soft_shadows_variance_intensity(sums: texture_2d_array<u32>, table: MomentSoftShadowTable, smallest_variance: f32, receiver: MomentSoftShadowReceiver, light: AreaLight) -> f32 {
     let search = moment_soft_shadows_search(table, receiver, light);
-    let searched = variance_from_texel(moment_soft_shadows_mean(sums, table, search, table.search_interpolated), STORAGE_UNORM16).xy;
+    let searched = two_moments_from_texel(moment_soft_shadows_mean(sums, table, search, table.search_interpolated), STORAGE_UNORM16).xy;
     let blockers = soft_blockers_of_two_moments(searched, receiver.depth, smallest_variance);
     let rectangle = moment_soft_shadows_filter(table, receiver, light, blockers.depth);
-    let filtered = variance_from_texel(moment_soft_shadows_mean(sums, table, rectangle, table.filter_interpolated), STORAGE_UNORM16).xy;
-    return variance_lower_bound(filtered, moment_soft_shadows_fragment_depth(receiver, rectangle), smallest_variance);
+    let filtered = two_moments_from_texel(moment_soft_shadows_mean(sums, table, rectangle, table.filter_interpolated), STORAGE_UNORM16).xy;
+    return chebyshev_lower_bound(filtered, moment_soft_shadows_fragment_depth(receiver, rectangle), smallest_variance);
 }
 
-// moment_shadows/summed_area_encoding.wgsl
+// moment_shadows/filter/summed_area_encoding.wgsl
 
 // The integers that a summed-area table sums up, and how exact the means are that come back.
 //
@@ -1180,9 +1185,9 @@ fn summed_area_encoding_error(unit: f32, source_error: f32) -> f32 {
 }
 
 // The moment bias for four moments from a table whose channels are off by up to `error`, on the real line.
-fn summed_area_encoding_moment_bias(error: f32) -> MomentBias {
+fn summed_area_encoding_moment_bias(error: f32) -> FourMomentsBias {
     let alpha = fma(SUMMED_AREA_ENCODING_BIAS_PER_ERROR, error, SUMMED_AREA_ENCODING_BIAS_OF_F32);
-    return MomentBias(max(alpha, SUMMED_AREA_ENCODING_SMALLEST_BIAS), 0.628, 0.628);
+    return FourMomentsBias(max(alpha, SUMMED_AREA_ENCODING_SMALLEST_BIAS), 0.628, 0.628);
 }
 
 // The smallest variance of two moments from such a table.
@@ -1249,12 +1254,12 @@ fn technique_shadow_intensity(receiver: TechniqueReceiver) -> f32 {
     return moment_soft_shadows_variance_intensity(table_sums, soft_table(receiver), variance, soft_receiver(receiver), receiver.light);
 }
 
-// shade_hard.wgsl
+// shade.wgsl
 
 // Shadow intensity of every pixel, from the camera's depth and a light's map, by the technique of the map. A view of a light is one region of one
 // layer: a sun's cascade, a face of a point light, a spot light. Each light has a channel of the target.
 
-struct ShadeHardParameters {
+struct ViewParameters {
     // From the camera's clip space (x, y, stored depth, 1) to the light: x and y are the place in the map in [0, 1], z its
     // homogeneous coordinate (positive in front of the light) and w the moment depth, all times the factors they are
     // divided by. Camera and light are combined in one matrix so that no large scene coordinates occur.
@@ -1277,7 +1282,7 @@ struct ShadeHardParameters {
     light: AreaLight,
 }
 
-@group(GROUP) @binding(0) var<uniform> views: array<ShadeHardParameters, VIEWS>;
+@group(GROUP) @binding(0) var<uniform> views: array<ViewParameters, VIEWS>;
 @group(GROUP) @binding(1) var camera_depth: texture_depth_2d;
 
 // A pixel's surface as the light sees it.

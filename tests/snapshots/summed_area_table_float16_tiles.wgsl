@@ -1,4 +1,4 @@
-// moment_shadows/map_region.wgsl
+// moment_shadows/map/map_region.wgsl
 // Regions: rectangles of a layer that share an atlas and know nothing of each other.
 //
 // Mip level k of a region runs from floor(first / 2^k) to floor(end / 2^k). Regions that touch share that edge on every
@@ -97,7 +97,7 @@ fn sums_texel(sums: Sums) -> vec4u {
     return sums;
 }
 
-// moment_shadows/storage.wgsl
+// moment_shadows/map/storage.wgsl
 // Storages: how the channels of a texel lie in memory, whatever they mean.
 //
 // Every technique filters linearly and writes after each filter, so each write is a rounding error that its bound has to
@@ -159,7 +159,7 @@ fn storage_finite_texel(texel: vec4f, storage: u32) -> vec4f {
     return select(texel, vec4f(0.0), exponent == vec4u(0x7f800000u));
 }
 
-// moment_shadows/moments.wgsl
+// moment_shadows/moments/four_moments.wgsl
 
 // Four moments of depth: encoding, storage, bias.
 //
@@ -171,7 +171,7 @@ fn storage_finite_texel(texel: vec4f, storage: u32) -> vec4f {
 // A moment bias: b is moved by alpha towards (0, second, 0, fourth), which pulls moments that rounding has made
 // impossible back among the possible ones. With one number beta for both these are the moments of occluders at the near
 // end, the middle and the far end with the weights beta/2, 1 - beta and beta/2.
-struct MomentBias {
+struct FourMomentsBias {
     alpha: f32,
     second: f32,
     fourth: f32,
@@ -180,52 +180,52 @@ struct MomentBias {
 // The bias belongs to a storage's rounding error, not to a scene. Each value covers a resolve and a two-pass blur, every
 // stage rounded to the storage, for 99.999 % of filter regions (found by search: `moment-shadows bias`). Sums of many texels
 // in f32 are off by more than the bias of float32 covers, unless they are made as in `split_sum`. The target is optimal for the basis and for distributions on the real line (JCGT 6(1) 2017, section 3).
-const MOMENTS_BIAS_UNORM16: MomentBias = MomentBias(6e-5, 0.628, 0.628);
-const MOMENTS_BIAS_FLOAT16: MomentBias = MomentBias(1e-3, 0.628, 0.628);
-const MOMENTS_BIAS_FLOAT32: MomentBias = MomentBias(1.5e-6, 0.375, 0.375);
+const FOUR_MOMENTS_BIAS_UNORM16: FourMomentsBias = FourMomentsBias(6e-5, 0.628, 0.628);
+const FOUR_MOMENTS_BIAS_FLOAT16: FourMomentsBias = FourMomentsBias(1e-3, 0.628, 0.628);
+const FOUR_MOMENTS_BIAS_FLOAT32: FourMomentsBias = FourMomentsBias(1.5e-6, 0.375, 0.375);
 
 // sqrt(3), which the optimised basis and its inverse are made of.
-const MOMENTS_SQRT_3: f32 = 1.7320508075688772;
+const FOUR_MOMENTS_SQRT_3: f32 = 1.7320508075688772;
 
 // The moments of a single depth z in [-1, 1]: its powers (i3D 2015, equation 2).
-fn moments_from_depth(z: f32) -> vec4f {
+fn four_moments_from_depth(z: f32) -> vec4f {
     let square = z * z;
     return vec4f(z, square, z * square, square * square);
 }
 
 // The optimised basis of JCGT 6(1) 2017 (equation 5, GDC 2016): maps the moments of depths in [-1, 1] into [0, 1]^4.
-fn moments_quantize(b: vec4f) -> vec4f {
+fn four_moments_quantize(b: vec4f) -> vec4f {
     return vec4f(
         fma(1.5, b.x, fma(-2.0, b.z, 0.5)),
         4.0 * (b.y - b.w),
-        fma(0.5 * MOMENTS_SQRT_3, b.x, fma(-2.0 / 9.0 * MOMENTS_SQRT_3, b.z, 0.5)),
+        fma(0.5 * FOUR_MOMENTS_SQRT_3, b.x, fma(-2.0 / 9.0 * FOUR_MOMENTS_SQRT_3, b.z, 0.5)),
         0.5 * (b.y + b.w),
     );
 }
 
-// Inverse of `moments_quantize`. Channels in [0, 1] give |b| <= 2.1, whatever they hold.
-fn moments_dequantize(channels: vec4f) -> vec4f {
+// Inverse of `four_moments_quantize`. Channels in [0, 1] give |b| <= 2.1, whatever they hold.
+fn four_moments_dequantize(channels: vec4f) -> vec4f {
     let odd = channels.xz - 0.5;
     return vec4f(
-        fma(-1.0 / 3.0, odd.x, MOMENTS_SQRT_3 * odd.y),
+        fma(-1.0 / 3.0, odd.x, FOUR_MOMENTS_SQRT_3 * odd.y),
         fma(0.125, channels.y, channels.w),
-        0.75 * fma(MOMENTS_SQRT_3, odd.y, -odd.x),
+        0.75 * fma(FOUR_MOMENTS_SQRT_3, odd.y, -odd.x),
         fma(-0.125, channels.y, channels.w),
     );
 }
 
 // Moments that certainly lie in their ranges: odd ones in [-1, 1], even ones in [0, 1]. Float storage can hold
 // anything, and finite values beyond 1e15 would overflow further on.
-fn moments_clamp(b: vec4f) -> vec4f {
+fn four_moments_clamp(b: vec4f) -> vec4f {
     return clamp(b, vec4f(-1.0, 0.0, -1.0, 0.0), vec4f(1.0));
 }
 
 // What to write to a texel of the storage.
-fn moments_to_texel(b: vec4f, storage: u32) -> vec4f {
+fn four_moments_to_texel(b: vec4f, storage: u32) -> vec4f {
     if storage == STORAGE_FLOAT32 {
         return b;
     }
-    let channels = saturate(moments_quantize(b));
+    let channels = saturate(four_moments_quantize(b));
     if storage == STORAGE_FLOAT16 {
         // Half precision is finest around zero, so the channels are centred there.
         return storage_round_to_float16(channels - 0.5);
@@ -233,56 +233,56 @@ fn moments_to_texel(b: vec4f, storage: u32) -> vec4f {
     return channels;
 }
 
-// The moments in a (filtered) texel of the storage. Float storage can hold anything; `moments_clamp` comes before any
+// The moments in a (filtered) texel of the storage. Float storage can hold anything; `four_moments_clamp` comes before any
 // arithmetic that relies on ranges.
-fn moments_from_texel(texel: vec4f, storage: u32) -> vec4f {
+fn four_moments_from_texel(texel: vec4f, storage: u32) -> vec4f {
     if storage == STORAGE_FLOAT32 {
         return texel;
     }
     if storage == STORAGE_FLOAT16 {
-        return moments_dequantize(texel + 0.5);
+        return four_moments_dequantize(texel + 0.5);
     }
-    return moments_dequantize(texel);
+    return four_moments_dequantize(texel);
 }
 
 // The moment bias of a storage.
-fn moments_bias_of(storage: u32) -> MomentBias {
+fn four_moments_bias_of(storage: u32) -> FourMomentsBias {
     if storage == STORAGE_FLOAT32 {
-        return MOMENTS_BIAS_FLOAT32;
+        return FOUR_MOMENTS_BIAS_FLOAT32;
     }
     if storage == STORAGE_FLOAT16 {
-        return MOMENTS_BIAS_FLOAT16;
+        return FOUR_MOMENTS_BIAS_FLOAT16;
     }
-    return MOMENTS_BIAS_UNORM16;
+    return FOUR_MOMENTS_BIAS_UNORM16;
 }
 
 // Applies the moment bias (i3D 2015, section 3.3). Written as a step towards the target: 1 - alpha would keep only a
 // few bits of alpha.
-fn moments_apply_bias(b: vec4f, bias: MomentBias) -> vec4f {
+fn four_moments_apply_bias(b: vec4f, bias: FourMomentsBias) -> vec4f {
     return fma(vec4f(bias.alpha), vec4f(0.0, bias.second, 0.0, bias.fourth) - b, b);
 }
 
 // The biased moments in a (filtered) texel of the storage, within [-2.1, 2.1]: for unorm storage if the channels are in
 // [0, 1], as no texture can help, and for float storage whatever finite numbers it holds.
-fn moments_biased_from_texel(texel: vec4f, storage: u32, bias: MomentBias) -> vec4f {
+fn four_moments_biased_from_texel(texel: vec4f, storage: u32, bias: FourMomentsBias) -> vec4f {
     if storage == STORAGE_FLOAT32 {
-        return moments_apply_bias(moments_clamp(texel), bias);
+        return four_moments_apply_bias(four_moments_clamp(texel), bias);
     }
     // The inverse of the basis and the bias are both affine, and so one step. These biases are large enough for 1 - alpha.
     let keep = 1.0 - bias.alpha;
     let of_xy = keep * vec4f(-1.0 / 3.0, 0.125, -0.75, -0.125);
-    let of_zw = keep * vec4f(MOMENTS_SQRT_3, 1.0, 0.75 * MOMENTS_SQRT_3, 1.0);
+    let of_zw = keep * vec4f(FOUR_MOMENTS_SQRT_3, 1.0, 0.75 * FOUR_MOMENTS_SQRT_3, 1.0);
     // Odd moments are 0 for channels of one half, and float16 storage holds one half less.
     let middle = select(vec4f(-0.5, 0.0, -0.5, 0.0), vec4f(0.0, 0.5, 0.0, 0.5), storage == STORAGE_FLOAT16);
     let shift = fma(middle, of_xy + of_zw, bias.alpha * vec4f(0.0, bias.second, 0.0, bias.fourth));
     let biased = fma(of_xy, texel.xyxy, fma(of_zw, texel.zwzw, shift));
     if storage == STORAGE_FLOAT16 {
-        return moments_clamp(biased);
+        return four_moments_clamp(biased);
     }
     return biased;
 }
 
-// moment_shadows/summed_area_encoding.wgsl
+// moment_shadows/filter/summed_area_encoding.wgsl
 
 // The integers that a summed-area table sums up, and how exact the means are that come back.
 //
@@ -342,9 +342,9 @@ fn summed_area_encoding_error(unit: f32, source_error: f32) -> f32 {
 }
 
 // The moment bias for four moments from a table whose channels are off by up to `error`, on the real line.
-fn summed_area_encoding_moment_bias(error: f32) -> MomentBias {
+fn summed_area_encoding_moment_bias(error: f32) -> FourMomentsBias {
     let alpha = fma(SUMMED_AREA_ENCODING_BIAS_PER_ERROR, error, SUMMED_AREA_ENCODING_BIAS_OF_F32);
-    return MomentBias(max(alpha, SUMMED_AREA_ENCODING_SMALLEST_BIAS), 0.628, 0.628);
+    return FourMomentsBias(max(alpha, SUMMED_AREA_ENCODING_SMALLEST_BIAS), 0.628, 0.628);
 }
 
 // The smallest variance of two moments from such a table.
@@ -359,11 +359,11 @@ fn summed_area_encoding_smallest_variance(error: f32) -> f32 {
 
 fn source_integers(texel: vec4f) -> vec4u {
     let finite = all(bitcast<vec4u>(storage_finite_texel(texel, STORAGE)) == bitcast<vec4u>(texel));
-    let far = moments_to_texel(vec4f(1.0), STORAGE_UNORM16);
+    let far = four_moments_to_texel(vec4f(1.0), STORAGE_UNORM16);
     // Channels of float16 are the optimised basis less one half, those of float32 moments.
     var channels = texel + 0.5;
     if STORAGE != STORAGE_FLOAT16 {
-        channels = moments_to_texel(moments_clamp(texel), STORAGE_UNORM16);
+        channels = four_moments_to_texel(four_moments_clamp(texel), STORAGE_UNORM16);
     }
     return summed_area_encoding_of_channels(select(far, channels, finite), UNIT);
 }

@@ -1,4 +1,4 @@
-// moment_shadows/map_region.wgsl
+// moment_shadows/map/map_region.wgsl
 // Regions: rectangles of a layer that share an atlas and know nothing of each other.
 //
 // Mip level k of a region runs from floor(first / 2^k) to floor(end / 2^k). Regions that touch share that edge on every
@@ -97,7 +97,7 @@ fn sums_texel(sums: Sums) -> vec4u {
     return vec4u(sums, 0u, 0u);
 }
 
-// moment_shadows/storage.wgsl
+// moment_shadows/map/storage.wgsl
 // Storages: how the channels of a texel lie in memory, whatever they mean.
 //
 // Every technique filters linearly and writes after each filter, so each write is a rounding error that its bound has to
@@ -159,7 +159,7 @@ fn storage_finite_texel(texel: vec4f, storage: u32) -> vec4f {
     return select(texel, vec4f(0.0), exponent == vec4u(0x7f800000u));
 }
 
-// moment_shadows/moments.wgsl
+// moment_shadows/moments/four_moments.wgsl
 
 // Four moments of depth: encoding, storage, bias.
 //
@@ -171,7 +171,7 @@ fn storage_finite_texel(texel: vec4f, storage: u32) -> vec4f {
 // A moment bias: b is moved by alpha towards (0, second, 0, fourth), which pulls moments that rounding has made
 // impossible back among the possible ones. With one number beta for both these are the moments of occluders at the near
 // end, the middle and the far end with the weights beta/2, 1 - beta and beta/2.
-struct MomentBias {
+struct FourMomentsBias {
     alpha: f32,
     second: f32,
     fourth: f32,
@@ -180,52 +180,52 @@ struct MomentBias {
 // The bias belongs to a storage's rounding error, not to a scene. Each value covers a resolve and a two-pass blur, every
 // stage rounded to the storage, for 99.999 % of filter regions (found by search: `moment-shadows bias`). Sums of many texels
 // in f32 are off by more than the bias of float32 covers, unless they are made as in `split_sum`. The target is optimal for the basis and for distributions on the real line (JCGT 6(1) 2017, section 3).
-const MOMENTS_BIAS_UNORM16: MomentBias = MomentBias(6e-5, 0.628, 0.628);
-const MOMENTS_BIAS_FLOAT16: MomentBias = MomentBias(1e-3, 0.628, 0.628);
-const MOMENTS_BIAS_FLOAT32: MomentBias = MomentBias(1.5e-6, 0.375, 0.375);
+const FOUR_MOMENTS_BIAS_UNORM16: FourMomentsBias = FourMomentsBias(6e-5, 0.628, 0.628);
+const FOUR_MOMENTS_BIAS_FLOAT16: FourMomentsBias = FourMomentsBias(1e-3, 0.628, 0.628);
+const FOUR_MOMENTS_BIAS_FLOAT32: FourMomentsBias = FourMomentsBias(1.5e-6, 0.375, 0.375);
 
 // sqrt(3), which the optimised basis and its inverse are made of.
-const MOMENTS_SQRT_3: f32 = 1.7320508075688772;
+const FOUR_MOMENTS_SQRT_3: f32 = 1.7320508075688772;
 
 // The moments of a single depth z in [-1, 1]: its powers (i3D 2015, equation 2).
-fn moments_from_depth(z: f32) -> vec4f {
+fn four_moments_from_depth(z: f32) -> vec4f {
     let square = z * z;
     return vec4f(z, square, z * square, square * square);
 }
 
 // The optimised basis of JCGT 6(1) 2017 (equation 5, GDC 2016): maps the moments of depths in [-1, 1] into [0, 1]^4.
-fn moments_quantize(b: vec4f) -> vec4f {
+fn four_moments_quantize(b: vec4f) -> vec4f {
     return vec4f(
         fma(1.5, b.x, fma(-2.0, b.z, 0.5)),
         4.0 * (b.y - b.w),
-        fma(0.5 * MOMENTS_SQRT_3, b.x, fma(-2.0 / 9.0 * MOMENTS_SQRT_3, b.z, 0.5)),
+        fma(0.5 * FOUR_MOMENTS_SQRT_3, b.x, fma(-2.0 / 9.0 * FOUR_MOMENTS_SQRT_3, b.z, 0.5)),
         0.5 * (b.y + b.w),
     );
 }
 
-// Inverse of `moments_quantize`. Channels in [0, 1] give |b| <= 2.1, whatever they hold.
-fn moments_dequantize(channels: vec4f) -> vec4f {
+// Inverse of `four_moments_quantize`. Channels in [0, 1] give |b| <= 2.1, whatever they hold.
+fn four_moments_dequantize(channels: vec4f) -> vec4f {
     let odd = channels.xz - 0.5;
     return vec4f(
-        fma(-1.0 / 3.0, odd.x, MOMENTS_SQRT_3 * odd.y),
+        fma(-1.0 / 3.0, odd.x, FOUR_MOMENTS_SQRT_3 * odd.y),
         fma(0.125, channels.y, channels.w),
-        0.75 * fma(MOMENTS_SQRT_3, odd.y, -odd.x),
+        0.75 * fma(FOUR_MOMENTS_SQRT_3, odd.y, -odd.x),
         fma(-0.125, channels.y, channels.w),
     );
 }
 
 // Moments that certainly lie in their ranges: odd ones in [-1, 1], even ones in [0, 1]. Float storage can hold
 // anything, and finite values beyond 1e15 would overflow further on.
-fn moments_clamp(b: vec4f) -> vec4f {
+fn four_moments_clamp(b: vec4f) -> vec4f {
     return clamp(b, vec4f(-1.0, 0.0, -1.0, 0.0), vec4f(1.0));
 }
 
 // What to write to a texel of the storage.
-fn moments_to_texel(b: vec4f, storage: u32) -> vec4f {
+fn four_moments_to_texel(b: vec4f, storage: u32) -> vec4f {
     if storage == STORAGE_FLOAT32 {
         return b;
     }
-    let channels = saturate(moments_quantize(b));
+    let channels = saturate(four_moments_quantize(b));
     if storage == STORAGE_FLOAT16 {
         // Half precision is finest around zero, so the channels are centred there.
         return storage_round_to_float16(channels - 0.5);
@@ -233,56 +233,56 @@ fn moments_to_texel(b: vec4f, storage: u32) -> vec4f {
     return channels;
 }
 
-// The moments in a (filtered) texel of the storage. Float storage can hold anything; `moments_clamp` comes before any
+// The moments in a (filtered) texel of the storage. Float storage can hold anything; `four_moments_clamp` comes before any
 // arithmetic that relies on ranges.
-fn moments_from_texel(texel: vec4f, storage: u32) -> vec4f {
+fn four_moments_from_texel(texel: vec4f, storage: u32) -> vec4f {
     if storage == STORAGE_FLOAT32 {
         return texel;
     }
     if storage == STORAGE_FLOAT16 {
-        return moments_dequantize(texel + 0.5);
+        return four_moments_dequantize(texel + 0.5);
     }
-    return moments_dequantize(texel);
+    return four_moments_dequantize(texel);
 }
 
 // The moment bias of a storage.
-fn moments_bias_of(storage: u32) -> MomentBias {
+fn four_moments_bias_of(storage: u32) -> FourMomentsBias {
     if storage == STORAGE_FLOAT32 {
-        return MOMENTS_BIAS_FLOAT32;
+        return FOUR_MOMENTS_BIAS_FLOAT32;
     }
     if storage == STORAGE_FLOAT16 {
-        return MOMENTS_BIAS_FLOAT16;
+        return FOUR_MOMENTS_BIAS_FLOAT16;
     }
-    return MOMENTS_BIAS_UNORM16;
+    return FOUR_MOMENTS_BIAS_UNORM16;
 }
 
 // Applies the moment bias (i3D 2015, section 3.3). Written as a step towards the target: 1 - alpha would keep only a
 // few bits of alpha.
-fn moments_apply_bias(b: vec4f, bias: MomentBias) -> vec4f {
+fn four_moments_apply_bias(b: vec4f, bias: FourMomentsBias) -> vec4f {
     return fma(vec4f(bias.alpha), vec4f(0.0, bias.second, 0.0, bias.fourth) - b, b);
 }
 
 // The biased moments in a (filtered) texel of the storage, within [-2.1, 2.1]: for unorm storage if the channels are in
 // [0, 1], as no texture can help, and for float storage whatever finite numbers it holds.
-fn moments_biased_from_texel(texel: vec4f, storage: u32, bias: MomentBias) -> vec4f {
+fn four_moments_biased_from_texel(texel: vec4f, storage: u32, bias: FourMomentsBias) -> vec4f {
     if storage == STORAGE_FLOAT32 {
-        return moments_apply_bias(moments_clamp(texel), bias);
+        return four_moments_apply_bias(four_moments_clamp(texel), bias);
     }
     // The inverse of the basis and the bias are both affine, and so one step. These biases are large enough for 1 - alpha.
     let keep = 1.0 - bias.alpha;
     let of_xy = keep * vec4f(-1.0 / 3.0, 0.125, -0.75, -0.125);
-    let of_zw = keep * vec4f(MOMENTS_SQRT_3, 1.0, 0.75 * MOMENTS_SQRT_3, 1.0);
+    let of_zw = keep * vec4f(FOUR_MOMENTS_SQRT_3, 1.0, 0.75 * FOUR_MOMENTS_SQRT_3, 1.0);
     // Odd moments are 0 for channels of one half, and float16 storage holds one half less.
     let middle = select(vec4f(-0.5, 0.0, -0.5, 0.0), vec4f(0.0, 0.5, 0.0, 0.5), storage == STORAGE_FLOAT16);
     let shift = fma(middle, of_xy + of_zw, bias.alpha * vec4f(0.0, bias.second, 0.0, bias.fourth));
     let biased = fma(of_xy, texel.xyxy, fma(of_zw, texel.zwzw, shift));
     if storage == STORAGE_FLOAT16 {
-        return moments_clamp(biased);
+        return four_moments_clamp(biased);
     }
     return biased;
 }
 
-// moment_shadows/summed_area_encoding.wgsl
+// moment_shadows/filter/summed_area_encoding.wgsl
 
 // The integers that a summed-area table sums up, and how exact the means are that come back.
 //
@@ -342,9 +342,9 @@ fn summed_area_encoding_error(unit: f32, source_error: f32) -> f32 {
 }
 
 // The moment bias for four moments from a table whose channels are off by up to `error`, on the real line.
-fn summed_area_encoding_moment_bias(error: f32) -> MomentBias {
+fn summed_area_encoding_moment_bias(error: f32) -> FourMomentsBias {
     let alpha = fma(SUMMED_AREA_ENCODING_BIAS_PER_ERROR, error, SUMMED_AREA_ENCODING_BIAS_OF_F32);
-    return MomentBias(max(alpha, SUMMED_AREA_ENCODING_SMALLEST_BIAS), 0.628, 0.628);
+    return FourMomentsBias(max(alpha, SUMMED_AREA_ENCODING_SMALLEST_BIAS), 0.628, 0.628);
 }
 
 // The smallest variance of two moments from such a table.
@@ -353,91 +353,12 @@ fn summed_area_encoding_smallest_variance(error: f32) -> f32 {
     return max(variance, SUMMED_AREA_ENCODING_SMALLEST_VARIANCE);
 }
 
-// moment_shadows/depth.wgsl
-// Moment depth: the one interval that all moment arithmetic uses.
+// moment_shadows/moments/two_moments.wgsl
+
+// Two moments of depth: encoding, storage, smallest variance.
 //
-// Moment depth z is in [-1, 1], -1 at the light's near end and 1 at its far end, linear in distance along the light's
-// axis. Signed depth needs a far smaller moment bias than depth in [0, 1] (Peters et al., JCGT 6(1) 2017, section 3).
-// Every way in which a host stores depth (forward or reversed, orthographic or perspective, finite or infinite far
-// plane, linear distance) is a ratio of two functions that are linear in the stored value, so one conversion serves all.
-
-// How stored depth becomes moment depth. Filled by the host-side `DepthConversion`.
-//
-// With d = clamp(scale * stored + offset, 0, 1) the moment depth is
-//   ((1 - d) * numerator.x + d * numerator.y) / ((1 - d) * denominator.x + d * denominator.y).
-// Weighting the ends by 1 - d and d keeps both sums free of cancellation: a light with a near/far ratio of 1e5 in
-// reversed float depth keeps its precision. The denominators are not negative, and not both zero.
-struct DepthConversion {
-    numerator: vec2f,
-    denominator: vec2f,
-    scale: f32,
-    offset: f32,
-    // Keeps the size a multiple of 16, as uniform buffers ask for arrays of it.
-    padding: vec2f,
-}
-
-// The smallest denominator: the far end of an infinite projection divides by zero.
-const DEPTH_SMALLEST_DENOMINATOR: f32 = 1e-30;
-
-// The moment depth of a light with parallel rays.
-const DEPTH_INFINITELY_FAR: f32 = -1e30;
-
-// Whether `value` is NaN, by its bits: WGSL lets a compiler assume that no NaN occurs, so `value != value` may be folded.
-fn depth_is_nan(value: f32) -> bool {
-    return (bitcast<u32>(value) & 0x7fffffffu) > 0x7f800000u;
-}
-
-// Moment depth in [-1, 1] of a stored depth. NaN counts as the far end (no caster), infinities and values out of
-// range as the nearer end of the interval.
-fn depth_to_moment_depth(stored: f32, conversion: DepthConversion) -> f32 {
-    let d = clamp(fma(clamp(stored, -3e38, 3e38), conversion.scale, conversion.offset), 0.0, 1.0);
-    let ends = vec2f(1.0 - d, d);
-    let ratio = dot(ends, conversion.numerator) / max(dot(ends, conversion.denominator), DEPTH_SMALLEST_DENOMINATOR);
-    return select(clamp(ratio, -1.0, 1.0), 1.0, depth_is_nan(stored));
-}
-
-// The depth of a fragment in [-1, 1]: beyond the light's range it counts as the nearer end, and NaN as the near end, where
-// every lower bound is 0.
-fn depth_of_fragment(fragment_depth: f32) -> f32 {
-    return select(clamp(fragment_depth, -1.0, 1.0), -1.0, depth_is_nan(fragment_depth));
-}
-
-// The stored depth of a moment depth: the inverse of the above, as the reference value of a comparison sampler. Moment
-// depths that the stored interval does not reach count as its nearer end, NaN as the far end.
-fn depth_from_moment_depth(moment_depth: f32, conversion: DepthConversion) -> f32 {
-    let z = select(clamp(moment_depth, -1.0, 1.0), 1.0, depth_is_nan(moment_depth));
-    let numerator = conversion.numerator;
-    let denominator = conversion.denominator;
-    // The weights d and 1 - d of the two ends, up to a factor that is positive where depth is stored from near to far.
-    let weights = vec2f(fma(z, denominator.x, -numerator.x), fma(-z, denominator.y, numerator.y));
-    let reversed = numerator.y * denominator.x < numerator.x * denominator.y;
-    let positive = max(select(weights, -weights, reversed), vec2f(0.0));
-    let d = positive.x / max(positive.x + positive.y, DEPTH_SMALLEST_DENOMINATOR);
-    let scale = select(max(conversion.scale, DEPTH_SMALLEST_DENOMINATOR), min(conversion.scale, -DEPTH_SMALLEST_DENOMINATOR), conversion.scale < 0.0);
-    return clamp((d - conversion.offset) / scale, -3e38, 3e38);
-}
-
-// The moment depth of a light's own place, below -1; DEPTH_INFINITELY_FAR where the stored depth is linear, as parallel rays
-// have it.
-fn depth_of_light(conversion: DepthConversion) -> f32 {
-    // A perspective conversion tends to it where d grows without bounds.
-    let divisor = conversion.denominator.y - conversion.denominator.x;
-    if abs(divisor) < DEPTH_SMALLEST_DENOMINATOR {
-        return DEPTH_INFINITELY_FAR;
-    }
-    return clamp((conversion.numerator.y - conversion.numerator.x) / divisor, DEPTH_INFINITELY_FAR, -1.0);
-}
-
-// moment_shadows/variance.wgsl
-
-// Variance shadow mapping: the sharpest bound on shadow intensity that two moments allow.
-//
-// A texel holds the mean b1 of depth and its mean square b2. The share of depth in front of the fragment is at least
-// d^2 / (b2 - b1^2 + d^2) for a fragment at d > 0 behind the mean (Chebyshev's inequality, one-sided; Donnelly &
-// Lauritzen, "Variance Shadow Maps", i3D 2006, equation 5). One plane in front of another is reproduced exactly; behind
-// two occluders light bleeds (Lauritzen, thesis 2008, section 3.4).
-//
-// Channels come in pairs (b1, b2). This technique uses xy alone; one that stores two pairs encodes both at once.
+// A texel holds the mean b1 of depth and its mean square b2. Channels come in pairs (b1, b2): variance shadow mapping uses xy alone;
+// a technique that stores two pairs encodes both at once.
 
 // The smallest variance per storage: what rounding in a resolve and a two-pass blur can take away from b2 - b1^2. With e
 // the error of a channel per rounding it is at most 3 (error of b2 + 2 |b1| error of b1):
@@ -446,19 +367,19 @@ fn depth_of_light(conversion: DepthConversion) -> f32 {
 //   float32: e = 2^-25 for values up to 1:             3 (e + 2 e) = 2.7e-7, and the sums of both passes are in float32
 // That is with all errors on one side. Half of it covers 99.999 % of adversarial kernels in unorm16 and float16; the sums
 // of float32 need a bit more than theirs. A floor as large as the error leaves no variance wrong by more than a factor of 2.
-const VARIANCE_SMALLEST_UNORM16: f32 = 6e-5;
-const VARIANCE_SMALLEST_FLOAT16: f32 = 1e-3;
-const VARIANCE_SMALLEST_FLOAT32: f32 = 5e-7;
+const TWO_MOMENTS_SMALLEST_VARIANCE_UNORM16: f32 = 6e-5;
+const TWO_MOMENTS_SMALLEST_VARIANCE_FLOAT16: f32 = 1e-3;
+const TWO_MOMENTS_SMALLEST_VARIANCE_FLOAT32: f32 = 5e-7;
 
 // What is averaged for a depth z in [-1, 1]: its powers.
-fn variance_channels(z: f32) -> vec4f {
+fn two_moments_from_depth(z: f32) -> vec4f {
     return vec4f(z, z * z, 0.0, 0.0);
 }
 
 // What to write for averaged channels. In unorm16 the optimised basis of two moments (r, g) = (u1, 4 u1 - 4 u2), with u the
 // moments of (z + 1) / 2 (i3D 2015, section 3.2), which fills the unit square and in terms of z is simply
 // ((b1 + 1) / 2, 1 - b2). In float16 the same less one half, around which half precision is finest. In float32 b itself.
-fn variance_to_texel(channels: vec4f, storage: u32) -> vec4f {
+fn two_moments_to_texel(channels: vec4f, storage: u32) -> vec4f {
     if storage == STORAGE_FLOAT32 {
         return channels;
     }
@@ -470,7 +391,7 @@ fn variance_to_texel(channels: vec4f, storage: u32) -> vec4f {
 }
 
 // The moments in a (filtered) texel, both pairs, in their ranges whatever the texel holds.
-fn variance_from_texel(texel: vec4f, storage: u32) -> vec4f {
+fn two_moments_from_texel(texel: vec4f, storage: u32) -> vec4f {
     let finite = storage_finite_texel(texel, storage);
     var channels = finite;
     if storage != STORAGE_FLOAT32 {
@@ -481,35 +402,14 @@ fn variance_from_texel(texel: vec4f, storage: u32) -> vec4f {
 }
 
 // The smallest variance of a storage.
-fn variance_smallest_of(storage: u32) -> f32 {
+fn two_moments_smallest_variance_of(storage: u32) -> f32 {
     if storage == STORAGE_FLOAT32 {
-        return VARIANCE_SMALLEST_FLOAT32;
+        return TWO_MOMENTS_SMALLEST_VARIANCE_FLOAT32;
     }
     if storage == STORAGE_FLOAT16 {
-        return VARIANCE_SMALLEST_FLOAT16;
+        return TWO_MOMENTS_SMALLEST_VARIANCE_FLOAT16;
     }
-    return VARIANCE_SMALLEST_UNORM16;
-}
-
-// inf S(z < fragment_depth) over all distributions S with the mean and mean square `moments`; 0 exactly for fragments
-// that are not behind the mean. Any unit of depth will do as long as no square exceeds 2^126; `smallest_variance` > 0 is in
-// the square of that unit.
-fn variance_lower_bound(moments: vec2f, fragment_depth: f32, smallest_variance: f32) -> f32 {
-    let variance = max(fma(-moments.x, moments.x, moments.y), smallest_variance);
-    let distance = max(fragment_depth - moments.x, 0.0);
-    let square = distance * distance;
-    return square / (variance + square);
-}
-
-// sup S(z <= fragment_depth) likewise; 1 exactly for fragments that are not in front of the mean.
-fn variance_upper_bound(moments: vec2f, fragment_depth: f32, smallest_variance: f32) -> f32 {
-    return 1.0 - variance_lower_bound(vec2f(-moments.x, moments.y), -fragment_depth, smallest_variance);
-}
-
-// Shadow intensity in [0, 1] (1 = shadowed) of a fragment at `fragment_depth` under a filtered texel: a lower bound.
-fn variance_shadow_intensity_of_texel(texel: vec4f, fragment_depth: f32, storage: u32) -> f32 {
-    let moments = variance_from_texel(texel, storage).xy;
-    return variance_lower_bound(moments, depth_of_fragment(fragment_depth), variance_smallest_of(storage));
+    return TWO_MOMENTS_SMALLEST_VARIANCE_UNORM16;
 }
 
 // source
@@ -518,11 +418,11 @@ fn variance_shadow_intensity_of_texel(texel: vec4f, fragment_depth: f32, storage
 
 fn source_integers(texel: vec4f) -> vec4u {
     let finite = all(bitcast<vec2u>(storage_finite_texel(texel, STORAGE).xy) == bitcast<vec2u>(texel.xy));
-    let far = variance_to_texel(vec4f(1.0), STORAGE_UNORM16);
+    let far = two_moments_to_texel(vec4f(1.0), STORAGE_UNORM16);
     // Channels of float16 are the optimised basis less one half, those of float32 moments.
     var channels = texel + 0.5;
     if STORAGE != STORAGE_FLOAT16 {
-        channels = variance_to_texel(clamp(texel, vec4f(-1.0), vec4f(1.0)), STORAGE_UNORM16);
+        channels = two_moments_to_texel(clamp(texel, vec4f(-1.0), vec4f(1.0)), STORAGE_UNORM16);
     }
     return summed_area_encoding_of_channels(select(far, channels, finite), UNIT);
 }

@@ -1,4 +1,4 @@
-import moment_shadows::soft_blockers::{SoftBlockers, soft_blockers_of_four_moments, soft_blockers_of_two_moments};
+import moment_shadows::shade::soft_blockers::{SoftBlockers, soft_blockers_of_four_moments, soft_blockers_of_two_moments};
 
 struct BatchInput {
     biased: vec4f,

@@ -26,7 +26,7 @@ fn the_example_compiles_under_core_webgpu() {
 fn a_map_that_is_no_table_is_named() {
     let text = TEXT.replace(
         r#"{ "from": "sum.table", "to": "shade.table" }"#,
-        r#"{ "from": "resolve.moments", "to": "shade.table" }"#,
+        r#"{ "from": "resolve.map", "to": "shade.table" }"#,
     );
     let error = error(&text);
     assert_eq!(error.kind, GraphErrorKind::Format);
@@ -41,7 +41,7 @@ fn a_map_that_is_no_table_is_named() {
 fn a_table_is_no_filterable_map() {
     let text = TEXT
         .replace(r#""type": "shade_soft""#, r#""type": "shade_hard""#)
-        .replace(r#""to": "shade.table""#, r#""to": "shade.moments""#);
+        .replace(r#""to": "shade.table""#, r#""to": "shade.map""#);
     let error = error(&text);
     assert_eq!(error.kind, GraphErrorKind::Format);
     assert!(error.to_string().contains("summed-area table"), "{error}");

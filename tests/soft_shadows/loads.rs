@@ -40,7 +40,7 @@ fn calls(block: &Block) -> Vec<naga::Handle<naga::Function>> {
 fn they_are_as_many_as_documented() {
     let shader = Source {
         name: "loads.wgsl",
-        text: "import moment_shadows::moment_soft_shadows::{moment_soft_shadows_intensity, moment_soft_shadows_variance_intensity};\n",
+        text: "import moment_shadows::shade::moment_soft_shadows::{moment_soft_shadows_intensity, moment_soft_shadows_variance_intensity};\n",
     };
     let text = link(shader, &[]).unwrap().into_wgsl();
     let module = naga::front::wgsl::parse_str(&text).unwrap();

@@ -82,18 +82,18 @@ fn a_light_of_no_size_gives_hard_shadows() {
     // The table from the map that hard shadows read, which is not blurred.
     let soft = with_properties("shade_soft", serde_json::json!({}));
     let hard = r#"{
-        "version": 1,
+        "version": 2,
         "imports": [
             { "name": "light_depth", "texture": { "format": "depth32float", "size": [1024, 1024], "samples": 4 } },
             { "name": "camera_depth", "texture": { "format": "depth32float", "size": [1280, 720] } }
         ],
         "nodes": [
-            { "name": "resolve", "type": "resolve_moments", "properties": { "storage": "float32" } },
+            { "name": "resolve", "type": "resolve", "properties": { "storage": "float32" } },
             { "name": "shade", "type": "shade_hard" }
         ],
         "edges": [
             { "from": "light_depth", "to": "resolve.depth" },
-            { "from": "resolve.moments", "to": "shade.moments" },
+            { "from": "resolve.map", "to": "shade.map" },
             { "from": "camera_depth", "to": "shade.camera_depth" }
         ],
         "outputs": [{ "name": "shadow_intensity", "from": "shade.shadow_intensity" }]

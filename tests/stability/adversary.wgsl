@@ -1,7 +1,7 @@
-import moment_shadows::depth::{DepthConversion, depth_to_moment_depth};
-import moment_shadows::moments::{MOMENTS_BIAS_FLOAT32, moments_apply_bias, moments_bias_of, moments_clamp, moments_from_depth, moments_from_texel, moments_to_texel};
-import moment_shadows::storage::{STORAGE_FLOAT16, STORAGE_FLOAT32, STORAGE_UNORM16};
-import moment_shadows::hamburger::{hamburger_bounds, hamburger_shadow_intensity, hamburger_shadow_intensity_of_texel};
+import moment_shadows::map::depth::{DepthConversion, depth_to_moment_depth};
+import moment_shadows::moments::four_moments::{FOUR_MOMENTS_BIAS_FLOAT32, four_moments_apply_bias, four_moments_bias_of, four_moments_clamp, four_moments_from_depth, four_moments_from_texel, four_moments_to_texel};
+import moment_shadows::map::storage::{STORAGE_FLOAT16, STORAGE_FLOAT32, STORAGE_UNORM16};
+import moment_shadows::bounds::hamburger4::{hamburger4_bounds, hamburger4_shadow_intensity, hamburger4_shadow_intensity_of_texel};
 
 // Random and hostile inputs, made on the device: one invocation tries `count` of them and keeps the first that fails.
 struct BatchInput {
@@ -86,13 +86,13 @@ fn random_moments(kind: u32) -> vec4f {
         }
         case 2u: {
             // Two surfaces, the share of the second down to 2^-24.
-            let near = moments_from_depth(random_signed());
-            let far = moments_from_depth(random_signed());
+            let near = four_moments_from_depth(random_signed());
+            let far = four_moments_from_depth(random_signed());
             return mix(near, far, exp2(-24.0 * random_unit()));
         }
         case 3u: {
             // One surface within a few roundings: the boundary of what is possible, from both sides.
-            let b = moments_from_depth(random_signed());
+            let b = four_moments_from_depth(random_signed());
             return vec4f(nudge(b.x), nudge(b.y), nudge(b.z), nudge(b.w));
         }
         case 4u: {
@@ -144,21 +144,21 @@ fn batch(input: BatchInput) -> BatchOutput {
         let depth = random_depth(texel);
         var results: array<f32, 15>;
         for (var storage = 0u; storage < 3u; storage++) {
-            let bias = moments_bias_of(storage);
+            let bias = four_moments_bias_of(storage);
             // Moments as the solver may get them: out of any storage, or given by a host.
-            let decoded = moments_from_texel(texel, storage);
-            results[storage] = hamburger_shadow_intensity(decoded, depth, bias);
-            let biased = moments_apply_bias(moments_clamp(texel), bias);
-            let bounds = hamburger_bounds(biased, depth, bias.alpha);
+            let decoded = four_moments_from_texel(texel, storage);
+            results[storage] = hamburger4_shadow_intensity(decoded, depth, bias);
+            let biased = four_moments_apply_bias(four_moments_clamp(texel), bias);
+            let bounds = hamburger4_bounds(biased, depth, bias.alpha);
             results[3u + 2u * storage] = bounds.x;
             results[4u + 2u * storage] = bounds.y;
         }
         // Texels as textures can hold them: unorm channels are in [0, 1].
-        results[12] = hamburger_shadow_intensity_of_texel(saturate(texel), depth, STORAGE_UNORM16);
-        results[13] = hamburger_shadow_intensity_of_texel(texel, depth, STORAGE_FLOAT16);
-        results[14] = hamburger_shadow_intensity_of_texel(texel, depth, STORAGE_FLOAT32);
+        results[12] = hamburger4_shadow_intensity_of_texel(saturate(texel), depth, STORAGE_UNORM16);
+        results[13] = hamburger4_shadow_intensity_of_texel(texel, depth, STORAGE_FLOAT16);
+        results[14] = hamburger4_shadow_intensity_of_texel(texel, depth, STORAGE_FLOAT32);
         // Moments that no bias has pulled back.
-        results[9] = hamburger_bounds(moments_clamp(texel), depth, MOMENTS_BIAS_FLOAT32.alpha).x;
+        results[9] = hamburger4_bounds(four_moments_clamp(texel), depth, FOUR_MOMENTS_BIAS_FLOAT32.alpha).x;
         // Depth of any bits on its way into a map.
         var stored = random_unit();
         if kind < 2u {
@@ -169,7 +169,7 @@ fn batch(input: BatchInput) -> BatchOutput {
         let conversion = DepthConversion(vec2f(-1.0, 1.0), vec2f(1.0), 1.0, 0.0, vec2f(0.0));
         let moment_depth = depth_to_moment_depth(stored, conversion);
         results[10] = 0.5 * (moment_depth + 1.0);
-        let channels = moments_to_texel(moments_from_depth(moment_depth), random_bits() % 2u);
+        let channels = four_moments_to_texel(four_moments_from_depth(moment_depth), random_bits() % 2u);
         results[11] = select(channels.x, abs(channels.x) * 2.0, channels.x < 0.0);
         for (var result = 0u; result < 15u; result++) {
             if is_fault(results[result]) {

@@ -259,5 +259,6 @@ pub(crate) fn graph(
                 position: None,
             })
             .collect(),
+        notes: Vec::new(),
     }
 }

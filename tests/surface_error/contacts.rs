@@ -101,7 +101,7 @@ fn four_moments_leak_at_contacts_as_little_as_their_bound_allows() {
         .collect();
     let full_shadow = parameters.leak_reduction.full_shadow;
     let mut leaks = Vec::new();
-    for storage in Storage::ALL {
+    for storage in Storage::OF_FOUR_MOMENTS {
         let (depths, taps) = (&contacts.unfiltered.depths, &contacts.unfiltered.taps);
         let bound = biased_bound(depths, taps, &lookups, storage.moment_bias());
         let leaking: f64 = bound

@@ -1,7 +1,7 @@
 //! Whether the figures move as theory says when something is made better or worse.
 
 use glam::DVec3;
-use moment_shadows::{MomentBias, Storage};
+use moment_shadows::{FourMomentsBias, Storage};
 use moment_shadows_lab::gpu::Gpu;
 use moment_shadows_lab::graph_frame::GraphFrame;
 use moment_shadows_lab::judgement::{PictureTruth, Unfiltered};
@@ -43,12 +43,12 @@ fn the_moment_bias_keeps_shadows_from_being_too_dark_and_leaks() {
     for name in scene::PROCEDURAL {
         let scene = scene::load(name).unwrap();
         let subject = subject(&gpu, &scene, &options(256, 4), 4);
-        for storage in Storage::ALL {
+        for storage in Storage::OF_FOUR_MOMENTS {
             let own = storage.moment_bias();
             // As good as none, the storage's own, and ten times that. 0 itself is no bias that the shader takes: its guards
             // against moments that belong to no distribution are multiples of it.
             let [removed, recommended, tenfold] = [1e-7, 1.0, 10.0].map(|factor| {
-                let bias = MomentBias {
+                let bias = FourMomentsBias {
                     alpha: own.alpha * factor,
                     ..own
                 };
@@ -87,7 +87,7 @@ fn the_moment_bias_keeps_shadows_from_being_too_dark_and_leaks() {
             }
         }
         // The smaller a storage's bias, the less it leaks.
-        let [unorm16, float16, float32] = Storage::ALL.map(|storage| {
+        let [unorm16, float16, float32] = Storage::OF_FOUR_MOMENTS.map(|storage| {
             let errors = subject.judge(&gpu, &graph(storage, 4), None).unwrap();
             errors.surfaces.shading.leaking
         });

@@ -12,7 +12,7 @@ use crate::HALF_ULP;
 use crate::mixture::{self, Input, UNORM8};
 
 const TABLE: &str = "
-import moment_shadows::convolution::{CONVOLUTION_DAMPING, convolution_bound};
+import moment_shadows::techniques::convolution::{CONVOLUTION_DAMPING, convolution_bound};
 
 alias BatchInput = vec4u;
 alias BatchOutput = vec4f;

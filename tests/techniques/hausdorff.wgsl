@@ -1,5 +1,5 @@
-import moment_shadows::hamburger::{hamburger_bounds};
-import moment_shadows::hausdorff::{hausdorff_bounds, hausdorff_lower_bound};
+import moment_shadows::bounds::hamburger4::{hamburger4_bounds};
+import moment_shadows::bounds::hausdorff4::{hausdorff4_bounds, hausdorff4_lower_bound};
 
 struct BatchInput {
     biased: vec4f,
@@ -18,9 +18,9 @@ struct BatchOutput {
 
 fn batch(input: BatchInput) -> BatchOutput {
     return BatchOutput(
-        hausdorff_bounds(input.biased, input.depth, input.alpha),
-        hamburger_bounds(input.biased, clamp(input.depth, -1.0, 1.0), input.alpha),
-        hausdorff_lower_bound(input.biased, input.depth, input.alpha),
+        hausdorff4_bounds(input.biased, input.depth, input.alpha),
+        hamburger4_bounds(input.biased, clamp(input.depth, -1.0, 1.0), input.alpha),
+        hausdorff4_lower_bound(input.biased, input.depth, input.alpha),
         0.0,
     );
 }

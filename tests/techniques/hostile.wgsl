@@ -1,10 +1,11 @@
-import moment_shadows::convolution::{convolution_plane, convolution_receiver, convolution_shadow_intensity};
-import moment_shadows::exponential::{exponential_shadow_intensity_of_texel};
-import moment_shadows::exponential_variance::{exponential_variance_shadow_intensity_of_texel};
-import moment_shadows::hausdorff::{hausdorff_shadow_intensity_of_texel};
-import moment_shadows::layered_variance::{LayeredVarianceLayers, layered_variance_choice, layered_variance_shadow_intensity_of_texel};
-import moment_shadows::storage::{storage_is_float};
-import moment_shadows::variance::{variance_from_texel, variance_shadow_intensity_of_texel, variance_smallest_of, variance_upper_bound};
+import moment_shadows::techniques::convolution::{convolution_plane, convolution_receiver, convolution_shadow_intensity};
+import moment_shadows::techniques::exponential::{exponential_shadow_intensity_of_texel};
+import moment_shadows::techniques::exponential_variance::{exponential_variance_shadow_intensity_of_texel};
+import moment_shadows::bounds::hausdorff4::{hausdorff4_shadow_intensity_of_texel};
+import moment_shadows::techniques::layered_variance::{LayeredVarianceLayers, layered_variance_choice, layered_variance_shadow_intensity_of_texel};
+import moment_shadows::map::storage::{storage_is_float};
+import moment_shadows::bounds::chebyshev::{chebyshev_shadow_intensity_of_texel, chebyshev_upper_bound};
+import moment_shadows::moments::two_moments::{two_moments_from_texel, two_moments_smallest_variance_of};
 
 // Any bits for texel and depth, evaluated by every technique.
 struct BatchInput {
@@ -43,11 +44,11 @@ fn batch(input: BatchInput) -> BatchOutput {
             convolution_plane(texel, storage, plane, input.terms, series, input.damping),
         );
     }
-    let moments = variance_from_texel(texel, storage).xy;
+    let moments = two_moments_from_texel(texel, storage).xy;
     return BatchOutput(array<vec4f, 3>(
         vec4f(
-            variance_shadow_intensity_of_texel(texel, depth, storage),
-            variance_upper_bound(moments, clamp(depth, -1.0, 1.0), variance_smallest_of(storage)),
+            chebyshev_shadow_intensity_of_texel(texel, depth, storage),
+            chebyshev_upper_bound(moments, clamp(depth, -1.0, 1.0), two_moments_smallest_variance_of(storage)),
             layered_variance_shadow_intensity_of_texel(texel, depth, storage, layers, choice.layer),
             layered_variance_shadow_intensity_of_texel(texel, depth, storage, layers, choice.neighbor),
         ),
@@ -61,7 +62,7 @@ fn batch(input: BatchInput) -> BatchOutput {
             exponential_variance_shadow_intensity_of_texel(texel, depth, storage, exponents, true),
             convolution_shadow_intensity(sums.x, input.terms, true),
             convolution_shadow_intensity(sums.y, input.terms, false),
-            hausdorff_shadow_intensity_of_texel(texel, depth, storage),
+            hausdorff4_shadow_intensity_of_texel(texel, depth, storage),
         ),
     ));
 }

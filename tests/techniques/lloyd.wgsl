@@ -1,5 +1,5 @@
-import moment_shadows::layered_variance::{LayeredVarianceLayers, layered_variance_count};
-import moment_shadows::lloyd::{LloydState, lloyd_contribution, lloyd_step};
+import moment_shadows::techniques::layered_variance::{LayeredVarianceLayers, layered_variance_count};
+import moment_shadows::techniques::lloyd::{LloydState, lloyd_contribution, lloyd_step};
 
 // Relaxation of the splits of a map of one or two straight edges between planes.
 

@@ -74,8 +74,8 @@ pub(crate) fn run(inputs: &[Input]) -> Vec<Output> {
 }
 
 const LIMITS: &str = "
-import moment_shadows::exponential::{exponential_largest_exponent};
-import moment_shadows::exponential_variance::{exponential_variance_largest_exponent};
+import moment_shadows::techniques::exponential::{exponential_largest_exponent};
+import moment_shadows::techniques::exponential_variance::{exponential_variance_largest_exponent};
 
 alias BatchInput = vec4u;
 alias BatchOutput = vec3f;

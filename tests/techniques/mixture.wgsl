@@ -1,12 +1,13 @@
-import moment_shadows::convolution::{CONVOLUTION_DAMPING, convolution_channels, convolution_plane, convolution_receiver, convolution_shadow_intensity, convolution_to_texel};
-import moment_shadows::exponential::{exponential_channels, exponential_mean_of_texel, exponential_shadow_intensity_of_texel, exponential_to_texel};
-import moment_shadows::exponential_variance::{exponential_variance_channels, exponential_variance_shadow_intensity_of_texel, exponential_variance_to_texel};
-import moment_shadows::hamburger::{hamburger_shadow_intensity_of_texel};
-import moment_shadows::hausdorff::{hausdorff_shadow_intensity_of_texel};
-import moment_shadows::layered_variance::{LayeredVarianceLayers, layered_variance_channels, layered_variance_choice, layered_variance_shadow_intensity_of_texel};
-import moment_shadows::moments::{moments_from_depth, moments_to_texel};
-import moment_shadows::storage::{STORAGE_FLOAT16, STORAGE_FLOAT32, STORAGE_UNORM16};
-import moment_shadows::variance::{variance_channels, variance_from_texel, variance_shadow_intensity_of_texel, variance_smallest_of, variance_to_texel, variance_upper_bound};
+import moment_shadows::techniques::convolution::{CONVOLUTION_DAMPING, convolution_channels, convolution_plane, convolution_receiver, convolution_shadow_intensity, convolution_to_texel};
+import moment_shadows::techniques::exponential::{exponential_channels, exponential_mean_of_texel, exponential_shadow_intensity_of_texel, exponential_to_texel};
+import moment_shadows::techniques::exponential_variance::{exponential_variance_channels, exponential_variance_shadow_intensity_of_texel, exponential_variance_to_texel};
+import moment_shadows::bounds::hamburger4::{hamburger4_shadow_intensity_of_texel};
+import moment_shadows::bounds::hausdorff4::{hausdorff4_shadow_intensity_of_texel};
+import moment_shadows::techniques::layered_variance::{LayeredVarianceLayers, layered_variance_channels, layered_variance_choice, layered_variance_shadow_intensity_of_texel};
+import moment_shadows::moments::four_moments::{four_moments_from_depth, four_moments_to_texel};
+import moment_shadows::map::storage::{STORAGE_FLOAT16, STORAGE_FLOAT32, STORAGE_UNORM16};
+import moment_shadows::bounds::chebyshev::{chebyshev_shadow_intensity_of_texel, chebyshev_upper_bound};
+import moment_shadows::moments::two_moments::{two_moments_from_depth, two_moments_from_texel, two_moments_smallest_variance_of, two_moments_to_texel};
 
 // A mixture of surfaces: encoded, averaged, rounded once to a storage as a texture would hold it, and evaluated by every
 // technique.
@@ -65,7 +66,7 @@ fn layer_intensity(input: BatchInput, layer: u32) -> f32 {
         let weight = weights[index / 4u][index % 4u];
         channels += weight * layered_variance_channels(depths[index / 4u][index % 4u], input.layers, plane);
     }
-    let texel = stored(variance_to_texel(channels, input.storage), input.storage);
+    let texel = stored(two_moments_to_texel(channels, input.storage), input.storage);
     return layered_variance_shadow_intensity_of_texel(texel, input.fragment_depth, input.storage, input.layers, layer);
 }
 
@@ -83,20 +84,20 @@ fn batch(input: BatchInput) -> BatchOutput {
     for (var index = 0u; index < 8u; index++) {
         let z = depths[index / 4u][index % 4u];
         let weight = weights[index / 4u][index % 4u];
-        variance += weight * variance_channels(z);
+        variance += weight * two_moments_from_depth(z);
         plain += weight * exponential_channels(z, input.exponents.x);
         let channels = exponential_channels(z, input.exponents.y);
         logarithmic += weight * channels;
         let tap = stored(exponential_to_texel(channels, storage, input.exponents.y, true), storage);
         filtered.x += weight * exponential_mean_of_texel(tap, storage, input.exponents.y, true);
         exponential_variance += weight * exponential_variance_channels(z, input.exponents.zw);
-        moments += weight * moments_from_depth(z);
+        moments += weight * four_moments_from_depth(z);
     }
     var output = BatchOutput();
-    let variance_texel = stored(variance_to_texel(variance, storage), storage);
-    output.variance = variance_shadow_intensity_of_texel(variance_texel, depth, storage);
-    let decoded = variance_from_texel(variance_texel, storage).xy;
-    output.variance_upper = variance_upper_bound(decoded, depth, variance_smallest_of(storage));
+    let variance_texel = stored(two_moments_to_texel(variance, storage), storage);
+    output.variance = chebyshev_shadow_intensity_of_texel(variance_texel, depth, storage);
+    let decoded = two_moments_from_texel(variance_texel, storage).xy;
+    output.variance_upper = chebyshev_upper_bound(decoded, depth, two_moments_smallest_variance_of(storage));
 
     let choice = layered_variance_choice(input.layers, depth);
     output.layered = layer_intensity(input, choice.layer);
@@ -135,8 +136,8 @@ fn batch(input: BatchInput) -> BatchOutput {
     output.convolution = convolution_shadow_intensity(lower, input.terms, true);
     output.convolution_series = convolution_shadow_intensity(series, input.terms, false);
 
-    let moments_texel = stored(moments_to_texel(moments, storage), storage);
-    output.hamburger = hamburger_shadow_intensity_of_texel(moments_texel, depth, storage);
-    output.hausdorff = hausdorff_shadow_intensity_of_texel(moments_texel, depth, storage);
+    let moments_texel = stored(four_moments_to_texel(moments, storage), storage);
+    output.hamburger = hamburger4_shadow_intensity_of_texel(moments_texel, depth, storage);
+    output.hausdorff = hausdorff4_shadow_intensity_of_texel(moments_texel, depth, storage);
     return output;
 }

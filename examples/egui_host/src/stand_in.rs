@@ -7,7 +7,7 @@ use eframe::egui_wgpu::RenderState;
 use eframe::{egui, wgpu};
 use moment_shadows::{Kernel, LeakReduction, MapRegion, ReceiverBias};
 use moment_shadows_graph::Plan;
-use moment_shadows_graph::nodes::{CameraView, LightDepth, LightView, ShadeHardParameters};
+use moment_shadows_graph::nodes::{CameraView, LightDepth, LightView, ViewParameters};
 use moment_shadows_graph::record::ImportedResource;
 use moment_shadows_lab::command::render::RenderOptions;
 use moment_shadows_lab::{frame::Frame, gpu::Gpu, scene};
@@ -68,7 +68,7 @@ impl StandIn {
             far_depth: 0.0,
         };
         let bias = ReceiverBias::for_kernel(kernel.standard_deviation(), depth_per_texel as f32);
-        let shade = ShadeHardParameters::new(&camera, &light, bias, LeakReduction::DEFAULT)?;
+        let shade = ViewParameters::new(&camera, &light, bias, LeakReduction::DEFAULT)?;
         let mut block = plan.parameters.initial();
         let layout = &plan.parameters;
         layout.write(&mut block, "resolve", 0, &light.depth.conversion()?)?;

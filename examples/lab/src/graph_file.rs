@@ -23,14 +23,18 @@ pub struct GraphFile {
 }
 
 impl GraphFile {
-    /// Reads a file. With a storage, every `resolve_moments` node uses that instead of its own.
+    /// Reads a file. With a storage, every `resolve` node uses that instead of its own.
     pub fn read(path: &Path, storage: Option<Storage>) -> Result<Self, LabError> {
         let name = path.display().to_string();
         let text = std::fs::read_to_string(path).map_err(|error| LabError::Read {
             path: name.clone(),
             reason: error.to_string(),
         })?;
-        Self::parse(&name, text, storage)
+        let file = Self::parse(&name, text, storage)?;
+        for note in &file.graph.notes {
+            eprintln!("note: {name} is of version 1: {note} now");
+        }
+        Ok(file)
     }
 
     /// The graph of a text that errors name by `name`.
@@ -44,9 +48,14 @@ impl GraphFile {
         // The text as given is parsed first, so that errors have its positions.
         let mut graph = parsed(&text)?;
         let mut text = text;
+        if !graph.notes.is_empty() {
+            let mut file: Value = serde_json::from_str(&text).unwrap_or_default();
+            moment_shadows_graph::upgrade(&mut file);
+            text = file.to_string();
+        }
         if let Some(storage) = storage {
-            text = with_property(&text, "resolve_moments", "storage", storage.name().into());
-            graph = parsed(&text)?;
+            text = with_property(&text, "resolve", "storage", storage.name().into());
+            graph.nodes = parsed(&text)?.nodes;
         }
         Ok(Self {
             name: name.to_owned(),
@@ -78,8 +87,8 @@ impl GraphFile {
         let mut sources = std::collections::BTreeMap::new();
         for node in nodes(&self.text) {
             let name = node["name"].as_str().unwrap_or_default();
-            if node["type"] == "downsample_moments" {
-                sources.insert(format!("{name}.moments"), String::new());
+            if node["type"] == "downsample" {
+                sources.insert(format!("{name}.map"), String::new());
             }
         }
         if let Some(edges) = file["edges"].as_array_mut() {
@@ -104,7 +113,7 @@ impl GraphFile {
             }
         }
         if let Some(nodes) = file["nodes"].as_array_mut() {
-            nodes.retain(|node| node["type"] != "downsample_moments");
+            nodes.retain(|node| node["type"] != "downsample");
             for node in nodes {
                 if let Some(properties) = node["properties"].as_object_mut() {
                     properties.remove("mip_levels");
@@ -119,12 +128,11 @@ impl GraphFile {
         if self.kernel()?.is_none() {
             return Err(LabError::Unsuitable {
                 file: self.name.clone(),
-                reason: "it has no blur_moments node whose radius could be another; add one"
-                    .to_owned(),
+                reason: "it has no blur node whose radius could be another; add one".to_owned(),
             });
         }
         let kernel = serde_json::json!({ "radius": radius });
-        let text = with_property(&self.text, "blur_moments", "kernel", kernel);
+        let text = with_property(&self.text, "blur", "kernel", kernel);
         let file = Self::parse(&self.name, text, None)?;
         file.kernel()?;
         Ok(file)
@@ -137,7 +145,7 @@ impl GraphFile {
             .into_iter()
             .find(|node| node["type"] == "shade_hard")
             .ok_or_else(|| unsuitable("it has no shade_hard node whose map could be judged"))?;
-        let slot = format!("{}.moments", shade["name"].as_str().unwrap_or_default());
+        let slot = format!("{}.map", shade["name"].as_str().unwrap_or_default());
         let mut file: Value = serde_json::from_str(&self.text).unwrap_or_default();
         let edges = file["edges"].as_array().cloned().unwrap_or_default();
         let source = edges
@@ -170,7 +178,7 @@ impl GraphFile {
     pub fn kernel(&self) -> Result<Option<Kernel>, LabError> {
         let kernels: Vec<KernelProperty> = nodes(&self.text)
             .iter()
-            .filter(|node| node["type"] == "blur_moments")
+            .filter(|node| node["type"] == "blur")
             .filter_map(|node| serde_json::from_value(node["properties"]["kernel"].clone()).ok())
             .collect();
         match kernels.as_slice() {
@@ -185,7 +193,7 @@ impl GraphFile {
             _ => Err(LabError::Unsuitable {
                 file: self.name.clone(),
                 reason: format!(
-                    "it has {} blur_moments nodes; the receiver bias and the truth are derived from one kernel",
+                    "it has {} blur nodes; the receiver bias and the truth are derived from one kernel",
                     kernels.len()
                 ),
             }),

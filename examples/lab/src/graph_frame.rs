@@ -5,7 +5,7 @@ use moment_shadows::{
     TextureFormat,
 };
 use moment_shadows_graph::nodes::{
-    CameraView, LightDepth, LightView, ScatteringParameters, ShadeHardParameters,
+    CameraView, LightDepth, LightView, ScatteringParameters, ViewParameters,
 };
 use moment_shadows_graph::record::{
     Bindings, ImportedResource, PipelineOptions, Pipelines, Recording, Resources,
@@ -196,7 +196,7 @@ pub fn parameter_bytes(
                 plan.parameters
                     .write(&mut bytes, &block.node, 0, &conversion)?;
             }
-            "ShadeHardParameters" => {
+            "ViewParameters" => {
                 let parameters = shade_parameters(desc, file)?;
                 plan.parameters
                     .write(&mut bytes, &block.node, 0, &parameters)?;
@@ -251,11 +251,8 @@ fn camera_view(desc: &FrameDesc) -> Result<CameraView, LabError> {
 }
 
 /// What `shade_hard` is given for a frame.
-pub fn shade_parameters(
-    desc: &FrameDesc,
-    file: &GraphFile,
-) -> Result<ShadeHardParameters, LabError> {
-    let mut parameters = ShadeHardParameters::new(
+pub fn shade_parameters(desc: &FrameDesc, file: &GraphFile) -> Result<ViewParameters, LabError> {
+    let mut parameters = ViewParameters::new(
         &camera_view(desc)?,
         &light_view(desc),
         receiver_bias(desc, file)?,

@@ -113,7 +113,7 @@ enum Command {
         /// A glTF or GLB file, or a procedural scene: fence-and-foliage, hall.
         #[arg(long, default_value = "fence-and-foliage")]
         scene: String,
-        /// The graph file, with a downsample_moments node.
+        /// The graph file, with a downsample node.
         #[arg(long)]
         graph: PathBuf,
         /// The camera's distance, as a multiple of the viewpoint's.
@@ -571,7 +571,7 @@ impl TableArguments {
     /// What is measured: all techniques, those that are named, or the graph's own in all of its storages.
     fn candidates(&self, storage: Option<Storage>) -> Result<Vec<Candidate>, TechniqueError> {
         if !self.all && self.technique.is_empty() {
-            let own = storage.map_or(Storage::ALL.to_vec(), |storage| vec![storage]);
+            let own = storage.map_or(Storage::OF_FOUR_MOMENTS.to_vec(), |storage| vec![storage]);
             return Ok(own.into_iter().map(Candidate::Storage).collect());
         }
         candidates(&self.technique, storage)

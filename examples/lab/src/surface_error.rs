@@ -34,7 +34,7 @@ mod map_point;
 use std::sync::Arc;
 
 use glam::DVec2;
-use moment_shadows::{LeakReduction, MomentBias, ReceiverBias};
+use moment_shadows::{FourMomentsBias, LeakReduction, ReceiverBias};
 use serde::Serialize;
 
 pub use evaluate::{Evaluation, MapEvaluator};
@@ -211,7 +211,7 @@ impl SurfaceTruth {
         gpu: &Gpu,
         map: &JudgedMap<'_>,
         shading: Evaluation,
-        moment_bias: Option<MomentBias>,
+        moment_bias: Option<FourMomentsBias>,
     ) -> Result<SurfaceErrors, LabError> {
         let lit = &self.lit;
         let evaluator = MapEvaluator::new(gpu, map, moment_bias)?;

@@ -96,11 +96,11 @@ struct Case<'a> {
     truth: Truth,
 }
 
-/// Evaluates all Hamburger records of four and six moments in a file with `hamburger_bounds` and `hamburger6_bounds` on the best
+/// Evaluates all Hamburger records of four and six moments in a file with `hamburger4_bounds` and `hamburger6_bounds` on the best
 /// adapter.
 ///
 /// A biased record is fed bit for bit and compared with the file's bounds. An unbiased one is no input for the solver, which
-/// takes moments after the moment bias: its f32 moments go through `moments_apply_bias` or `six_moments_apply_bias` with the bias of each storage on the
+/// takes moments after the moment bias: its f32 moments go through `four_moments_apply_bias` or `six_moments_apply_bias` with the bias of each storage on the
 /// device, and the result is compared with the oracle's bounds for exactly the biased moments that the device made.
 ///
 /// The oracle itself is compared with all bounds of the file, those that no shader evaluates too.
@@ -151,7 +151,7 @@ fn collect<'a>(vector: &'a file::Vector, cases: &mut Vec<Case<'a>>, report: &mut
         records,
     );
     let rounded: Vec<f32> = vector.moments_f32.iter().map(|&b| b as f32).collect();
-    for storage in Storage::ALL {
+    for storage in Storage::OF_FOUR_MOMENTS {
         let four = storage.moment_bias();
         let (alpha, target) = match storage.six_moments_bias().filter(|_| m == 6) {
             Some(bias) => (bias.alpha, bias.even),

@@ -1,4 +1,4 @@
-import moment_shadows::specialization::{GROUP};
+import node::specialization::{GROUP};
 
 // Weights of a blur that a host can change per frame.
 

@@ -1,5 +1,5 @@
-import moment_shadows::map_filtering::{filtering_texel};
-import moment_shadows::specialization::{GROUP, MomentsStorage};
+import node::map_filtering::{filtering_texel};
+import node::specialization::{GROUP, MomentsStorage};
 
 // Where a direction of the blur reads and writes: one layer each.
 

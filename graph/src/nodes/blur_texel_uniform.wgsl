@@ -1,6 +1,6 @@
-import moment_shadows::blur_parameters::{parameters};
-import moment_shadows::map_filtering::{filtering_value};
-import moment_shadows::specialization::{AXIS};
+import node::blur_parameters::{parameters};
+import node::map_filtering::{filtering_value};
+import node::specialization::{AXIS};
 
 // One texel of a blur along AXIS with weights that a host can change per frame. Beyond `low` and `last`, the corners of the
 // region, its texels repeat.

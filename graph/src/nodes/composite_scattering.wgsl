@@ -1,10 +1,10 @@
-import moment_shadows::fullscreen::{Covered};
-import moment_shadows::map_region::{MapRegion};
-import moment_shadows::moments_lookup::{moments_map};
-import moment_shadows::rectified_frame::{RectifiedFrame, rectified_frame_coordinates, rectified_frame_depth, rectified_frame_place, rectified_frame_prefix, rectified_frame_row, rectified_frame_surface};
-import moment_shadows::scattering_bounds::{scattering_bounds};
-import moment_shadows::single_scattering::{SingleScattering, single_scattering_fragment_depth, single_scattering_pixel, single_scattering_radiance, single_scattering_shadow, single_scattering_transmittance};
-import moment_shadows::specialization::{GROUP, OVERESTIMATION};
+import node::fullscreen::{Covered};
+import moment_shadows::map::map_region::{MapRegion};
+import node::moments_lookup::{moments_map};
+import moment_shadows::air::rectified_frame::{RectifiedFrame, rectified_frame_coordinates, rectified_frame_depth, rectified_frame_place, rectified_frame_prefix, rectified_frame_row, rectified_frame_surface};
+import node::scattering_bounds::{scattering_bounds};
+import moment_shadows::air::single_scattering::{SingleScattering, single_scattering_fragment_depth, single_scattering_pixel, single_scattering_radiance, single_scattering_shadow, single_scattering_transmittance};
+import node::specialization::{GROUP, OVERESTIMATION};
 
 // In-scattered radiance of every pixel from the camera's depth and the integrated map, to be added to the picture behind the
 // medium, which is first multiplied by the transmittance.

@@ -53,7 +53,7 @@ impl Node for DebugMoments {
                      'hamburger4'"
                 ),
             )
-            .at_slot("moments"));
+            .at_slot("map"));
         }
         if self.level >= moments.mips {
             return Err(GraphError::new(
@@ -87,10 +87,10 @@ impl Node for DebugMoments {
             stage: Stage::AfterShadowMaps,
             slots: vec![
                 texture(
-                    "moments",
+                    "map",
                     Direction::In,
                     Access::READ,
-                    FormatRule::OneOf(Storage::ALL.map(Storage::format).to_vec()),
+                    FormatRule::OneOf(Storage::OF_FOUR_MOMENTS.map(Storage::format).to_vec()),
                     ExtentRule::Any,
                     CountRule::Any,
                     CountRule::Any,
@@ -100,8 +100,8 @@ impl Node for DebugMoments {
                     Direction::Out,
                     Access::RENDER_TARGET,
                     FormatRule::Exact(TextureFormat::Rgba8Unorm),
-                    ExtentRule::SameAs("moments".to_owned()),
-                    CountRule::SameAs("moments".to_owned()),
+                    ExtentRule::SameAs("map".to_owned()),
+                    CountRule::SameAs("map".to_owned()),
                     CountRule::Exact(1),
                 ),
             ],
@@ -112,7 +112,7 @@ impl Node for DebugMoments {
                 bindings: vec![Binding {
                     binding: 0,
                     resource: BindingResource::Level(MipLevel {
-                        slot: "moments".to_owned(),
+                        slot: "map".to_owned(),
                         level: self.level,
                     }),
                 }],

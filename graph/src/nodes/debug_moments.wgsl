@@ -1,6 +1,6 @@
-import moment_shadows::fullscreen::{Covered};
-import moment_shadows::moments::{moments_apply_bias, moments_bias_of, moments_from_texel};
-import moment_shadows::specialization::{GROUP, SHOW, STORAGE};
+import node::fullscreen::{Covered};
+import moment_shadows::moments::four_moments::{four_moments_apply_bias, four_moments_bias_of, four_moments_from_texel};
+import node::specialization::{GROUP, SHOW, STORAGE};
 
 // A map of moments as a picture, for the day on which a shadow is black or missing.
 
@@ -40,7 +40,7 @@ fn validity(b: vec4f) -> vec4f {
         return POSSIBLE;
     }
     // Rounding to the storage makes moments of few surfaces impossible; that is what the moment bias is for.
-    return select(IMPOSSIBLE, REPAIRED, possible(moments_apply_bias(b, moments_bias_of(STORAGE))));
+    return select(IMPOSSIBLE, REPAIRED, possible(four_moments_apply_bias(b, four_moments_bias_of(STORAGE))));
 }
 
 @fragment
@@ -51,7 +51,7 @@ fn debug(covered: Covered) -> @location(0) vec4f {
     if is_not_finite(texel) {
         return NOT_FINITE;
     }
-    let b = clamp(moments_from_texel(texel, STORAGE), vec4f(-4.0), vec4f(4.0));
+    let b = clamp(four_moments_from_texel(texel, STORAGE), vec4f(-4.0), vec4f(4.0));
     if SHOW == SHOW_MOMENTS {
         return vec4f(fma(b.xyz, vec3f(0.5, 1.0, 0.5), vec3f(0.5, 0.0, 0.5)), 1.0);
     }

@@ -1,6 +1,6 @@
-import moment_shadows::map_filtering::{filtering_texel};
-import moment_shadows::map_region::{MapRegion};
-import moment_shadows::specialization::{GROUP};
+import node::map_filtering::{filtering_texel};
+import moment_shadows::map::map_region::{MapRegion};
+import node::specialization::{GROUP};
 
 // What a texel of a mip level holds, from one layer of the finer level.
 //

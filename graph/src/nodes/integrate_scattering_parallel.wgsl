@@ -1,6 +1,6 @@
-import moment_shadows::integrate_target::{integrated_map, rectified_map, row_thickness};
-import moment_shadows::map_filtering::{filtering_texel};
-import moment_shadows::scattering_weights::{scattering_weights_of_column};
+import node::integrate_target::{integrated_map, rectified_map, row_thickness};
+import node::map_filtering::{filtering_texel};
+import moment_shadows::air::scattering_weights::{scattering_weights_of_column};
 
 // Normalised prefix sums along rows, on a GPU: a workgroup per row, 8 texels per invocation, the sums of invocations by the
 // scan of Hillis and Steele (1986). Sums are f32 and are rounded once, to the storage.

@@ -1,6 +1,6 @@
-import moment_shadows::rectified_frame::{RectifiedFrame, rectified_frame_ray};
-import moment_shadows::scattering_weights::{scattering_weights_thickness};
-import moment_shadows::specialization::{GROUP, MomentsStorage};
+import moment_shadows::air::rectified_frame::{RectifiedFrame, rectified_frame_ray};
+import moment_shadows::air::scattering_weights::{scattering_weights_thickness};
+import node::specialization::{GROUP, MomentsStorage};
 
 // What both ways to sum up rows share.
 

@@ -4,7 +4,7 @@ use serde::{Deserialize, Serialize};
 
 use crate::{GraphError, GraphErrorKind, TextureDesc};
 
-/// How many mip levels a map has room for; `downsample_moments` fills all but the first.
+/// How many mip levels a map has room for; `downsample` fills all but the first.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(untagged)]
 pub enum MipLevels {

@@ -1,9 +1,9 @@
 //! The library's nodes. Each is a pair: a declaration here, and thin WGSL entry points beside it.
 
-mod blur_moments;
+mod blur;
 mod composite_scattering;
 mod debug_moments;
-mod downsample_moments;
+mod downsample;
 mod drawn_map;
 mod integrate_scattering;
 mod kernel_property;
@@ -13,7 +13,7 @@ mod moments_lookup;
 mod place_layers;
 mod rectify_moments;
 mod region_tiles;
-mod resolve_moments;
+mod resolve;
 mod scattering;
 mod shade_hard;
 mod shade_soft;
@@ -23,22 +23,22 @@ mod summed_area_table;
 mod techniques;
 mod unrolled;
 
-pub use blur_moments::{BlurMoments, BlurParameters};
+pub use blur::{Blur, BlurParameters};
 pub use composite_scattering::{CompositeScattering, Overestimation};
 pub use debug_moments::{DebugMoments, Show};
-pub use downsample_moments::DownsampleMoments;
+pub use downsample::Downsample;
 pub use integrate_scattering::{IntegrateScattering, Medium};
 pub use kernel_property::KernelProperty;
 pub use mip_levels::{AllLevels, MipLevels};
 pub use place_layers::PlaceLayers;
 pub use rectify_moments::RectifyMoments;
-pub use resolve_moments::ResolveMoments;
+pub use resolve::Resolve;
 pub use scattering::{
     CompositeScatteringParameters, IntegrateScatteringParameters, RectifyMomentsParameters,
     ScatteringParameters, ScatteringViewError,
 };
 pub use shade_hard::{
-    CameraView, LightDepth, LightView, ShadeHard, ShadeHardParameters, TechniqueShader, ViewError,
+    CameraView, LightDepth, LightView, ShadeHard, TechniqueShader, ViewError, ViewParameters,
 };
 pub use shade_soft::{Interpolation, ShadeSoft};
 pub use summed_area_table::{LargestKernel, SummedAreaTable};

@@ -8,7 +8,7 @@ use crate::{Connected, GraphError, GraphErrorKind, TextureDesc};
 pub(super) fn moments_input<'a>(
     upstream: &Connected<'a>,
 ) -> Result<(&'a TextureDesc, MapEncoding), GraphError> {
-    let moments = upstream.texture("moments")?;
+    let moments = upstream.texture("map")?;
     Ok((moments, encoding_of(moments)?))
 }
 
@@ -22,7 +22,7 @@ pub(super) fn encoding_of(moments: &TextureDesc) -> Result<MapEncoding, GraphErr
                 moments.format
             ),
         )
-        .at_slot("moments"));
+        .at_slot("map"));
     }
     let encoding = moments
         .encoding
@@ -36,7 +36,7 @@ pub(super) fn encoding_of(moments: &TextureDesc) -> Result<MapEncoding, GraphErr
                 moments.format
             ),
         )
-        .at_slot("moments")
+        .at_slot("map")
     })
 }
 

@@ -1,7 +1,7 @@
-import moment_shadows::map_load::{map_load_bilinear, map_load_footprint};
-import moment_shadows::map_region::{MapRegion};
-import moment_shadows::minification::{minification_footprint};
-import moment_shadows::specialization::{ANISOTROPY, GROUP, LEVELS};
+import moment_shadows::map::map_load::{map_load_bilinear, map_load_footprint};
+import moment_shadows::map::map_region::{MapRegion};
+import moment_shadows::map::minification::{minification_footprint};
+import node::specialization::{ANISOTROPY, GROUP, LEVELS};
 
 // The lookup in a map that the device cannot filter, or not as well over a pixel.
 

@@ -1,6 +1,6 @@
-import moment_shadows::map_lookup::{map_lookup_gradient};
-import moment_shadows::map_region::{MapRegion};
-import moment_shadows::specialization::{ANISOTROPY, GROUP, LEVELS};
+import moment_shadows::map::map_lookup::{map_lookup_gradient};
+import moment_shadows::map::map_region::{MapRegion};
+import node::specialization::{ANISOTROPY, GROUP, LEVELS};
 
 // The lookup in a map with mip levels that the device can filter.
 

@@ -1,6 +1,6 @@
-import moment_shadows::map_lookup::{map_lookup_bilinear};
-import moment_shadows::map_region::{MapRegion};
-import moment_shadows::specialization::{GROUP};
+import moment_shadows::map::map_lookup::{map_lookup_bilinear};
+import moment_shadows::map::map_region::{MapRegion};
+import node::specialization::{GROUP};
 
 // The lookup in a map that the device can filter, without mip levels.
 

@@ -18,14 +18,14 @@ const TILE: u32 = 32;
 /// Texels of the state (see the shader).
 const STATE: [u32; 2] = [5, 1];
 
-/// Node `place_layers`: `depth` (as `resolve_moments` takes it) to `splits`, for nodes that make or read a map of the
+/// Node `place_layers`: `depth` (as `resolve` takes it) to `splits`, for nodes that make or read a map of the
 /// technique `lvsm` whose splits are `lloyd`. The regions of a layer of the map share its splits.
 ///
 /// Each time a layer is dirty, Lloyd relaxation moves two of its splits towards the surfaces behind which light would bleed
 /// (Lauritzen & McCool, "Layered Variance Shadow Maps", GI 2008, section 5). It starts from layers of equal depth and goes on
 /// from where it was: `splits` and its state are persistent, and all zeros at first. Edges against the far end, where no caster
 /// is, do not count. Parameters: a [`DepthConversion`] per
-/// layer and region, the same as those of `resolve_moments`.
+/// layer and region, the same as those of `resolve`.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct PlaceLayers {

@@ -1,8 +1,8 @@
-import moment_shadows::depth::{DepthConversion, depth_to_moment_depth};
-import moment_shadows::layered_variance::{LayeredVarianceLayers};
-import moment_shadows::lloyd::{LloydState, lloyd_contribution, lloyd_step};
-import moment_shadows::map_region::{MapRegion, map_region_within};
-import moment_shadows::specialization::{DepthTexture, GROUP, LAYERS, REGIONS};
+import moment_shadows::map::depth::{DepthConversion, depth_to_moment_depth};
+import moment_shadows::techniques::layered_variance::{LayeredVarianceLayers};
+import moment_shadows::techniques::lloyd::{LloydState, lloyd_contribution, lloyd_step};
+import moment_shadows::map::map_region::{MapRegion, map_region_within};
+import node::specialization::{DepthTexture, GROUP, LAYERS, REGIONS};
 
 // One step of Lloyd relaxation per frame for the splits of one layer of a map, in three passes: sums over the footprints
 // of tiles; the sum of these sums, which moves two splits; a copy, since no pass may read what it writes.

@@ -51,7 +51,7 @@ impl Node for RectifyMoments {
                      'hamburger4'"
                 ),
             )
-            .at_slot("moments"));
+            .at_slot("map"));
         }
         let encoding = self.encoding()?;
         let texel = match self.technique {
@@ -76,7 +76,7 @@ impl Node for RectifyMoments {
         let mut bindings = vec![
             BindingResource::Parameters,
             BindingResource::StorageLayer("rectified".to_owned()),
-            BindingResource::Layers("moments".to_owned()),
+            BindingResource::Layers("map".to_owned()),
         ];
         bindings.extend(sampler);
         let bindings: Vec<Binding> = (0..)
@@ -165,7 +165,7 @@ impl RectifyMoments {
         };
         vec![
             slot(
-                "moments",
+                "map",
                 Direction::In,
                 Access::READ,
                 FormatRule::OneOf(map_formats()),

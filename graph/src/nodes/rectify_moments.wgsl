@@ -1,12 +1,12 @@
-import moment_shadows::angle::{angle_atan2, angle_sin_cos};
-import moment_shadows::map_region::{MapRegion, map_region_within};
-import moment_shadows::moments::{moments_from_texel};
-import moment_shadows::moments_lookup::{moments_lookup, moments_map};
-import moment_shadows::rectified_frame::{RectifiedFrame, rectified_frame_depth, rectified_frame_ray};
-import moment_shadows::rectified_texel::{rectified_texel};
-import moment_shadows::specialization::{GROUP, MomentsStorage, SOURCE_STORAGE};
-import moment_shadows::storage::{storage_finite_texel};
-import moment_shadows::two_diracs::{two_diracs_of_moments};
+import moment_shadows::maths::angle::{angle_atan2, angle_sin_cos};
+import moment_shadows::map::map_region::{MapRegion, map_region_within};
+import moment_shadows::moments::four_moments::{four_moments_from_texel};
+import node::moments_lookup::{moments_lookup, moments_map};
+import moment_shadows::air::rectified_frame::{RectifiedFrame, rectified_frame_depth, rectified_frame_ray};
+import node::rectified_texel::{rectified_texel};
+import node::specialization::{GROUP, MomentsStorage, SOURCE_STORAGE};
+import moment_shadows::map::storage::{storage_finite_texel};
+import moment_shadows::maths::two_diracs::{two_diracs_of_moments};
 
 // Resamples a filtered map of four moments in rectified coordinates: one texel, which is one light ray, per invocation.
 //
@@ -66,7 +66,7 @@ fn rectify(@builtin(global_invocation_id) id: vec3u) {
     let column = parameters.frame.largest_radius / f32(size.x) * texels * outwards;
     let row = ray.x * parameters.frame.azimuth_extent / f32(size.y) * texels * around;
     let texel = moments_lookup(parameters.layer, region, uv, column, row);
-    let moments = moments_from_texel(storage_finite_texel(texel, SOURCE_STORAGE), SOURCE_STORAGE);
+    let moments = four_moments_from_texel(storage_finite_texel(texel, SOURCE_STORAGE), SOURCE_STORAGE);
     let occluders = two_diracs_of_moments(moments.xyz);
     // View rays that end within the first column run along the light: whatever is before the camera shadows all of them.
     let radius = select(ray.x, 0.0, id.x == 0u);

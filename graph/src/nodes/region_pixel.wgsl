@@ -1,5 +1,5 @@
-import moment_shadows::map_region::{MapRegion, map_region_at_level, map_region_within};
-import moment_shadows::specialization::{GROUP, REGIONS};
+import moment_shadows::map::map_region::{MapRegion, map_region_at_level, map_region_within};
+import node::specialization::{GROUP, REGIONS};
 
 // Which region a pixel of a drawn map lies in. Regions change per frame; what is drawn, the whole layer, does not.
 

@@ -1,5 +1,5 @@
-import moment_shadows::map_region::{MapRegion, map_region_at_level, map_region_within};
-import moment_shadows::specialization::{GROUP, REGIONS};
+import moment_shadows::map::map_region::{MapRegion, map_region_at_level, map_region_within};
+import node::specialization::{GROUP, REGIONS};
 
 // Which part of which region a workgroup makes. Regions change per frame; the number of workgroups does not, and suffices
 // for all of them.

@@ -1,6 +1,6 @@
-import moment_shadows::depth::{DepthConversion, depth_to_moment_depth};
-import moment_shadows::map_encoding::{encoding_channels, encoding_texel};
-import moment_shadows::specialization::{DepthTexture, GROUP, REGIONS, SAMPLES};
+import moment_shadows::map::depth::{DepthConversion, depth_to_moment_depth};
+import node::map_encoding::{encoding_channels, encoding_texel};
+import node::specialization::{DepthTexture, GROUP, REGIONS, SAMPLES};
 
 // What a texel of one plane of a filterable map holds, from one layer of a depth map.
 //

@@ -28,7 +28,7 @@ pub use parameters::{CameraView, LightDepth, LightView, ViewError};
 /// take it as the input `depth` instead of `moments`; layers that are placed on the device come from the input `splits`.
 ///
 /// It shades up to four lights, one in each channel of its output (a single one is in all of them), through any number of
-/// views: cascades, faces and spots, each a region of a layer. Parameters: an array of [`ShadeHardParameters`], one per view. Where the map has mip
+/// views: cascades, faces and spots, each a region of a layer. Parameters: an array of [`ViewParameters`], one per view. Where the map has mip
 /// levels, lookups average the texels that a pixel covers.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
@@ -80,10 +80,10 @@ impl Default for ShadeHard {
 
 /// What a [`ShadeHard`] node needs to know of a view of a light: the uniform struct of its shader.
 ///
-/// Made by [`ShadeHardParameters::new`] from a camera and a light.
+/// Made by [`ViewParameters::new`] from a camera and a light.
 #[derive(Clone, Copy, Debug, PartialEq, Pod, Zeroable)]
 #[repr(C)]
-pub struct ShadeHardParameters {
+pub struct ViewParameters {
     /// From the camera's clip space to the light, by columns.
     pub light_from_camera: [[f32; 4]; 4],
     /// The homogeneous coordinate of the scene position.
@@ -115,7 +115,7 @@ impl Node for ShadeHard {
         let (technique, map) = self.technique_and_map(capabilities, || moments_input(upstream))?;
         let (specialization, mut modules) = self.evaluation(&technique, &map, capabilities);
         modules.push(FULLSCREEN);
-        let wgsl = specialization.link("shade_hard.wgsl", shading::SHADER, &modules)?;
+        let wgsl = specialization.link("shade.wgsl", shading::SHADER, &modules)?;
         let mut bindings = vec![
             Binding {
                 binding: 0,
@@ -215,7 +215,7 @@ impl ShadeHard {
                      makes it the same 'technique', or leave it out here"
                 ),
             )
-            .at_slot("moments"));
+            .at_slot("map"));
         }
         let logarithmic = techniques::is_logarithmic(technique);
         let (lookup, sampler) = moments_lookup(
@@ -226,7 +226,7 @@ impl ShadeHard {
             capabilities,
         );
         let map = Map {
-            slot: "moments",
+            slot: "map",
             formats: map_formats(),
             storage: Some(encoding.storage().wgsl_index()),
             // Logarithms have no mip levels.

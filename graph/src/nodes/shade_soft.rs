@@ -12,7 +12,7 @@ use crate::{Binding, BindingResource, Connected, GraphError, GraphErrorKind, Nod
 /// area lights, hard at contacts and softer with distance, with a number of loads per pixel that does not depend on their
 /// width. A fullscreen pass: it can also be drawn into a render pass that the host has open.
 ///
-/// Lights, views and parameters are those of [`super::ShadeHard`]: an array of [`super::ShadeHardParameters`], one per
+/// Lights, views and parameters are those of [`super::ShadeHard`]: an array of [`super::ViewParameters`], one per
 /// view, whose `light` says how large the light is ([`moment_shadows::AreaLight`]). Of the receiver bias the constant counts
 /// and the steepest slope, which [`moment_shadows::ReceiverBias::for_kernel`] with a standard deviation of 0 gives; the rest
 /// follows from each pixel's own filter. No filter is larger than the table's largest kernel.
@@ -77,7 +77,7 @@ impl Node for ShadeSoft {
         let format = shading::target_format(self.format, self.lights, self.views)?;
         let (encoding, table) = table_input(upstream)?;
         let wgsl = self.specialization(upstream, table).link(
-            "shade_hard.wgsl",
+            "shade.wgsl",
             shading::SHADER,
             &modules(encoding.technique()),
         )?;

@@ -2,7 +2,7 @@
 
 use moment_shadows::TextureFormat;
 
-use super::ShadeHardParameters;
+use super::ViewParameters;
 use crate::{
     Access, Binding, CountRule, Direction, ExtentRule, FormatRule, GraphError, GraphErrorKind,
     Lifetime, NodeDesc, ParameterBlock, Pass, Slot, SlotResource, Stage, Work,
@@ -10,7 +10,7 @@ use crate::{
 
 /// The shader: it finds what a pixel's surface is to each view of a light, and leaves the rest to the virtual module
 /// `technique`.
-pub(super) const SHADER: &str = include_str!("shade_hard.wgsl");
+pub(super) const SHADER: &str = include_str!("shade.wgsl");
 
 /// The map that is shaded with.
 pub(super) struct ShadedMap {
@@ -150,8 +150,8 @@ pub(super) fn describe(
             },
         }],
         parameters: Some(ParameterBlock {
-            name: "ShadeHardParameters".to_owned(),
-            size: size_of::<ShadeHardParameters>() as u32,
+            name: "ViewParameters".to_owned(),
+            size: size_of::<ViewParameters>() as u32,
             elements: views,
             each_layer_of: None,
             initial: Vec::new(),

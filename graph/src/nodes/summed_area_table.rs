@@ -88,7 +88,7 @@ impl Node for SummedAreaTable {
         let table = TableEncoding::new(source.storage(), self.largest_kernel.sides())
             .map_err(techniques::property)?;
         let encoding = MapEncoding::of_table(source.technique().clone(), table)
-            .map_err(|error| techniques::property(error).at_slot("moments"))?;
+            .map_err(|error| techniques::property(error).at_slot("map"))?;
         let tiles = if upstream.capabilities().software_adapter {
             OF_SOFTWARE
         } else {
@@ -103,7 +103,7 @@ impl Node for SummedAreaTable {
             stage: Stage::AfterShadowMaps,
             slots: vec![
                 slot(
-                    "moments",
+                    "map",
                     Direction::In,
                     Access::READ,
                     FormatRule::OneOf(map_formats()),
@@ -118,7 +118,7 @@ impl Node for SummedAreaTable {
                     Direction::Out,
                     Access::STORAGE_WRITE,
                     FormatRule::Encoded(encoding.clone()),
-                    ExtentRule::SameAs("moments".to_owned()),
+                    ExtentRule::SameAs("map".to_owned()),
                 ),
             ],
             passes: tiles.passes(&specialization, &source, &encoding)?,
@@ -194,7 +194,7 @@ impl Tiles {
                 include_str!("summed_area_table/tile_sums.wgsl"),
                 "sum_tiles",
                 tile,
-                vec![read("moments"), write("column_sums"), write("row_sums")],
+                vec![read("map"), write("column_sums"), write("row_sums")],
             )?,
             pass(
                 "sum rows",
@@ -223,7 +223,7 @@ impl Tiles {
                 "make_table",
                 tile,
                 vec![
-                    read("moments"),
+                    read("map"),
                     write("table"),
                     read("row_prefixes"),
                     read("column_prefixes"),
@@ -271,7 +271,7 @@ fn slot(
     let (layers, mips) = match direction {
         // Of a map with mip levels the first is summed up.
         Direction::In => (CountRule::Any, CountRule::Any),
-        _ => (CountRule::SameAs("moments".to_owned()), CountRule::Exact(1)),
+        _ => (CountRule::SameAs("map".to_owned()), CountRule::Exact(1)),
     };
     Slot {
         name: name.to_owned(),

@@ -28,11 +28,11 @@ impl Sums {
     fn imports(self) -> String {
         let split = match self {
             Sums::Plain => "",
-            Sums::Split => "import moment_shadows::split_sum::{split_sum_coarse};\n",
+            Sums::Split => "import moment_shadows::maths::split_sum::{split_sum_coarse};\n",
         };
         format!(
-            "import moment_shadows::map_filtering::{{filtering_value}};\n\
-             import moment_shadows::specialization::{{AXIS}};\n{split}\n"
+            "import node::map_filtering::{{filtering_value}};\n\
+             import node::specialization::{{AXIS}};\n{split}\n"
         )
     }
 

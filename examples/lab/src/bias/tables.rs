@@ -58,7 +58,7 @@ pub fn search_tables(
     step: impl Fn() + Sync,
 ) -> Result<TableBiases, SummedAreaTableError> {
     let mut rows = Vec::new();
-    for source in Storage::ALL {
+    for source in Storage::OF_FOUR_MOMENTS {
         for repeats in REPEATS {
             let side = (SIDE * repeats) as u32;
             let table = SummedAreaTable::new(source, [side; 2])?;
@@ -75,7 +75,7 @@ pub fn search_tables(
 /// How often [`search_tables`] calls its `step`.
 #[must_use]
 pub fn table_steps(samples: usize) -> usize {
-    Storage::ALL.len() * REPEATS.len() * samples.max(1).div_ceil(PER_STREAM)
+    Storage::OF_FOUR_MOMENTS.len() * REPEATS.len() * samples.max(1).div_ceil(PER_STREAM)
 }
 
 fn measure(
@@ -216,7 +216,7 @@ fn mean(texels: &[[u32; 4]], [across, down]: &[Axis; 2], table: &SummedAreaTable
     })
 }
 
-/// `moments_dequantize` in f32.
+/// `four_moments_dequantize` in f32.
 fn moments(channels: &[f32; 4]) -> [f64; 4] {
     let root = 3.0_f32.sqrt();
     let [x, z] = [channels[0] - 0.5, channels[2] - 0.5];
@@ -229,7 +229,7 @@ fn moments(channels: &[f32; 4]) -> [f64; 4] {
     .map(f64::from)
 }
 
-/// The two moments of `variance_from_texel` for unorm16.
+/// The two moments of `two_moments_from_texel` for unorm16.
 fn variance(channels: &[f32; 4]) -> [f64; 2] {
     [2.0_f32.mul_add(channels[0], -1.0), 1.0 - channels[1]].map(f64::from)
 }

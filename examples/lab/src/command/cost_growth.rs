@@ -40,12 +40,7 @@ struct Setting {
 }
 
 /// All nodes depend on the size of the map: shading by the caches.
-const ALL: &[&str] = &[
-    "resolve_moments",
-    "blur_moments",
-    "downsample_moments",
-    "shade_hard",
-];
+const ALL: &[&str] = &["resolve", "blur", "downsample", "shade_hard"];
 
 /// Measures the graph along all axes and plots each into the folder `out` as soon as it is done. All values of an axis
 /// are timed in the same rounds, after what they give has been found right.
@@ -150,7 +145,7 @@ fn radii(graph: &Path, options: &GrowthOptions) -> Result<Vec<Setting>, CostErro
             value: value(f64::from(radius), radius.to_string()),
             file: GraphFile::read(graph, None)?.with_radius(radius)?,
             options: RenderOptions::default(),
-            nodes: &["blur_moments"],
+            nodes: &["blur"],
         })
     };
     options.radii.iter().map(setting).collect()

@@ -4,7 +4,7 @@ use core::fmt;
 use std::path::Path;
 use std::sync::Arc;
 
-use moment_shadows::{MomentBias, Storage, Technique};
+use moment_shadows::{FourMomentsBias, Storage, Technique};
 use serde::Serialize;
 
 use super::render::{LightChoice, RenderOptions, profile_for};
@@ -167,7 +167,7 @@ impl ErrorSubject {
         &self,
         gpu: &Gpu,
         file: &GraphFile,
-        moment_bias: Option<MomentBias>,
+        moment_bias: Option<FourMomentsBias>,
     ) -> Result<GraphErrors, LabError> {
         self.judge_on(gpu, &self.frame, file, moment_bias)
     }
@@ -178,7 +178,7 @@ impl ErrorSubject {
         gpu: &Gpu,
         frame: &Frame,
         file: &GraphFile,
-        moment_bias: Option<MomentBias>,
+        moment_bias: Option<FourMomentsBias>,
     ) -> Result<GraphErrors, LabError> {
         let run = MapRun::new(gpu, frame, file)?;
         let map = run.map(frame)?;

@@ -7,7 +7,7 @@
 
 use core::fmt;
 
-use moment_shadows::{MomentBias, Storage};
+use moment_shadows::{FourMomentsBias, Storage};
 use rand::{RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
 use rayon::prelude::*;
@@ -62,7 +62,7 @@ pub fn run(samples: usize, seed: u64) -> Orderings {
             bias: None,
         },
     )];
-    for storage in Storage::ALL {
+    for storage in Storage::OF_FOUR_MOMENTS {
         let bias = storage.moment_bias();
         let subject = Subject {
             technique: Ideal::Hamburger4,
@@ -149,7 +149,7 @@ fn sample(random: &mut ChaCha8Rng) -> Sample {
 
 struct Subject {
     technique: Ideal,
-    bias: Option<MomentBias>,
+    bias: Option<FourMomentsBias>,
 }
 
 impl Subject {

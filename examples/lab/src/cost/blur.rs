@@ -76,19 +76,19 @@ impl BlurredMap {
     ) -> Result<Self, CostError> {
         let desc = TextureDesc::new(storage.format(), size);
         let text = serde_json::json!({
-            "version": 1,
-            "imports": [{ "name": "moments" }],
+            "version": 2,
+            "imports": [{ "name": "map" }],
             "nodes": [{
                 "name": "blur",
-                "type": "blur_moments",
+                "type": "blur",
                 "properties": { "kernel": kernel, "per_frame": per_frame }
             }],
-            "edges": [{ "from": "moments", "to": "blur.moments" }],
+            "edges": [{ "from": "map", "to": "blur.map" }],
             "outputs": [{ "name": "blurred", "from": "blur.blurred" }]
         });
         let graph = Graph::parse(&text.to_string(), &NodeRegistry::new())?;
         let capabilities = Capabilities::of_device(&gpu.adapter, &gpu.device);
-        let imports = Imports::from([("moments".to_owned(), ResourceDesc::Texture(desc.clone()))]);
+        let imports = Imports::from([("map".to_owned(), ResourceDesc::Texture(desc.clone()))]);
         let plan = compile(&graph, &capabilities, &imports)?;
         let device = &gpu.device;
         let pipelines = block_on(Pipelines::create(device, &plan, PipelineOptions::default()))?;
@@ -104,7 +104,7 @@ impl BlurredMap {
             &plan,
             &pipelines,
             &resources,
-            &[("moments", ImportedResource::Texture(&moments))],
+            &[("map", ImportedResource::Texture(&moments))],
             Some(&parameters),
         ))?;
         Ok(Self {

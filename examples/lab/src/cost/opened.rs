@@ -63,9 +63,9 @@ impl OpenedGraph {
         node: &str,
     ) -> Result<Option<f64>, CostError> {
         match self.file.node_entry(node, "type").as_str() {
-            Some("resolve_moments") => self.check_resolve(gpu, frame, node),
-            Some("blur_moments") => self.check_blur(gpu, node),
-            Some("downsample_moments") => self.check_downsample(gpu, node),
+            Some("resolve") => self.check_resolve(gpu, frame, node),
+            Some("blur") => self.check_blur(gpu, node),
+            Some("downsample") => self.check_downsample(gpu, node),
             Some("shade_hard") => self.check_shade(gpu, frame, node),
             _ => Ok(None),
         }
@@ -77,7 +77,7 @@ impl OpenedGraph {
         frame: &Frame,
         node: &str,
     ) -> Result<Option<f64>, CostError> {
-        let Some((storage, moments)) = self.moments(gpu, &self.held(node, "moments"))? else {
+        let Some((storage, moments)) = self.moments(gpu, &self.held(node, "map"))? else {
             return Ok(None);
         };
         if self.source(node, "depth") != Some(LIGHT_DEPTH.to_owned()) {
@@ -93,7 +93,7 @@ impl OpenedGraph {
     }
 
     fn check_blur(&self, gpu: &Gpu, node: &str) -> Result<Option<f64>, CostError> {
-        let Some(source) = self.source(node, "moments") else {
+        let Some(source) = self.source(node, "map") else {
             return Ok(None);
         };
         let (Some((storage, moments)), Some((_, blurred))) = (
@@ -142,7 +142,7 @@ impl OpenedGraph {
 
     /// Only a map without mip levels: the reference looks up the finest.
     fn check_shade(&self, gpu: &Gpu, frame: &Frame, node: &str) -> Result<Option<f64>, CostError> {
-        let map = self.source(node, "moments");
+        let map = self.source(node, "map");
         let map = map.and_then(|map| self.frame.plan.output_texture(&map));
         let intensity = self
             .frame
@@ -210,7 +210,7 @@ impl OpenedGraph {
 
 /// The output of the node that an edge leads to, if it is the same texture as this input.
 fn changes_in_place(file: &GraphFile, to: &Endpoint) -> Option<String> {
-    (file.node_entry(&to.owner, "type") == "downsample_moments").then(|| output_name(to))
+    (file.node_entry(&to.owner, "type") == "downsample").then(|| output_name(to))
 }
 
 /// The name of the output that a connection is made: `node slot`. An import keeps its name.

@@ -32,7 +32,7 @@ impl GraphFile {
         technique: &Technique,
         storage: Option<Storage>,
     ) -> Result<Self, LabError> {
-        let resolve = self.name_of("resolve_moments")?;
+        let resolve = self.name_of("resolve")?;
         // Only hard shadows can do without a filterable map.
         let shade = match self.name_of("shade_soft") {
             Ok(shade) if !technique.reads_depth() => shade,
@@ -79,7 +79,7 @@ impl GraphFile {
         if technique.reads_depth() {
             added.push(json!({ "from": depth, "to": format!("{shade}.depth") }));
             if let Some(edges) = text["edges"].as_array_mut() {
-                edges.retain(|edge| edge["to"] != format!("{shade}.moments").as_str());
+                edges.retain(|edge| edge["to"] != format!("{shade}.map").as_str());
             }
         }
         if let Technique::Lvsm {
@@ -107,7 +107,7 @@ impl GraphFile {
     /// How the graph's map is encoded; none where no node makes one.
     #[must_use]
     pub fn encoding(&self) -> Option<MapEncoding> {
-        let node = self.node_of("resolve_moments")?;
+        let node = self.node_of("resolve")?;
         let mut properties = node["properties"].clone();
         if let Some(properties) = properties.as_object_mut() {
             properties.retain(|key, _| key == "technique" || key == "storage");

@@ -6,9 +6,9 @@ use moment_shadows::{
     LinkError, MapEncoding, PcfTaps, Profile, Source, Storage, Technique, TextureFormat, link,
 };
 use moment_shadows_graph::nodes::{
-    BlurMoments, BlurParameters, CompositeScattering, DebugMoments, DownsampleMoments,
-    IntegrateScattering, Interpolation, KernelProperty, MipLevels, PlaceLayers, RectifyMoments,
-    ResolveMoments, ShadeHard, ShadeSoft, Show, SummedAreaTable,
+    Blur, BlurParameters, CompositeScattering, DebugMoments, Downsample, IntegrateScattering,
+    Interpolation, KernelProperty, MipLevels, PlaceLayers, RectifyMoments, Resolve, ShadeHard,
+    ShadeSoft, Show, SummedAreaTable,
 };
 use moment_shadows_graph::{Capabilities, Node, ResourceDesc, TextureDesc};
 
@@ -116,7 +116,7 @@ pub fn subjects() -> Result<Vec<Subject>, IsaError> {
 /// The settings of every node, for every storage, and of what loops over regions and views for one.
 pub(super) fn nodes() -> Result<Vec<Entry>, IsaError> {
     let mut entries = Vec::new();
-    for storage in Storage::ALL {
+    for storage in Storage::OF_FOUR_MOMENTS {
         for samples in [1, 4] {
             entries.push(resolve(storage, samples));
         }
@@ -127,7 +127,7 @@ pub(super) fn nodes() -> Result<Vec<Entry>, IsaError> {
         entries.push(shade(storage, 1, 1, false));
         entries.push(shade(storage, MIPS, 1, false));
     }
-    for storage in Storage::ALL {
+    for storage in Storage::OF_FOUR_MOMENTS {
         entries.push(table(storage, false));
     }
     entries.push(table(Storage::Unorm16, true));
@@ -191,7 +191,7 @@ fn resolve(storage: Storage, samples: u32) -> Entry {
     let mip_levels = MipLevels::default();
     Entry {
         settings: format!("{storage}, {samples} samples"),
-        node: Box::new(ResolveMoments {
+        node: Box::new(Resolve {
             technique: Technique::Hamburger4,
             storage,
             mip_levels,
@@ -228,12 +228,12 @@ fn blur(storage: Storage, radius: u32, regions: u32) -> Result<Entry, IsaError> 
     };
     Ok(Entry {
         settings,
-        node: Box::new(BlurMoments {
+        node: Box::new(Blur {
             kernel,
             per_frame: false,
             mip_levels: MipLevels::default(),
         }),
-        inputs: inputs([("moments", moments)]),
+        inputs: inputs([("map", moments)]),
         capabilities: native(),
         trips,
         pass_trips: BTreeMap::new(),
@@ -251,8 +251,8 @@ fn downsample(storage: Storage) -> Entry {
     };
     Entry {
         settings: storage.to_string(),
-        node: Box::new(DownsampleMoments {}),
-        inputs: inputs([("moments", moments)]),
+        node: Box::new(Downsample {}),
+        inputs: inputs([("map", moments)]),
         capabilities: native(),
         trips: Vec::new(),
         pass_trips: BTreeMap::new(),
@@ -266,7 +266,7 @@ fn table(storage: Storage, software_adapter: bool) -> Entry {
     Entry {
         settings: format!("{storage}, tiles of {}x{}", tile[0], tile[1]),
         node: Box::new(SummedAreaTable::default()),
-        inputs: inputs([("moments", texture(storage.format()))]),
+        inputs: inputs([("map", texture(storage.format()))]),
         capabilities: Capabilities {
             software_adapter,
             ..native()
@@ -305,7 +305,7 @@ fn debug(storage: Storage) -> Entry {
             show: Show::Validity,
             level: 0,
         }),
-        inputs: inputs([("moments", texture(storage.format()))]),
+        inputs: inputs([("map", texture(storage.format()))]),
         capabilities: native(),
         trips: Vec::new(),
         pass_trips: BTreeMap::new(),
@@ -338,7 +338,7 @@ fn shade(storage: Storage, mips: u32, views: u32, float32_filterable: bool) -> E
         settings,
         node: Box::new(node),
         inputs: inputs([
-            ("moments", moments),
+            ("map", moments),
             ("camera_depth", texture(TextureFormat::Depth32Float)),
         ]),
         capabilities: Capabilities {
@@ -419,7 +419,7 @@ fn scattering(technique: Technique) -> Result<Vec<Entry>, IsaError> {
     // Shared memory that is cleared; 512 columns at a time, with six steps of the scan.
     let parallel = vec![64, SIZE[0] / 512, 6];
     Ok(vec![
-        entry("", Box::new(rectify), "moments", source, false, Vec::new()),
+        entry("", Box::new(rectify), "map", source, false, Vec::new()),
         entry("", integrate(), "rectified", map.clone(), false, parallel),
         entry(
             ", row by row",
@@ -451,7 +451,7 @@ fn of_technique(encoding: &MapEncoding) -> Entry {
         ),
         node: Box::new(ShadeHard::default()),
         inputs: inputs([
-            ("moments", TextureDesc::of_map(encoding.clone(), SIZE)),
+            ("map", TextureDesc::of_map(encoding.clone(), SIZE)),
             ("camera_depth", texture(TextureFormat::Depth32Float)),
         ]),
         capabilities: Capabilities {
@@ -485,12 +485,12 @@ fn drawn() -> Result<Vec<Entry>, IsaError> {
             trips,
             pass_trips: BTreeMap::new(),
         };
-    let resolve = ResolveMoments {
+    let resolve = Resolve {
         technique,
         storage,
         mip_levels: MipLevels::default(),
     };
-    let blur = |radius| BlurMoments {
+    let blur = |radius| Blur {
         kernel: KernelProperty {
             radius: Some(radius),
             ..KernelProperty::default()
@@ -502,22 +502,10 @@ fn drawn() -> Result<Vec<Entry>, IsaError> {
     Ok(vec![
         // One region, which is looked for.
         entry("", Box::new(resolve), "depth", depth, vec![1]),
-        entry(
-            ", radius 4",
-            Box::new(blur(4)),
-            "moments",
-            map.clone(),
-            vec![1],
-        ),
+        entry(", radius 4", Box::new(blur(4)), "map", map.clone(), vec![1]),
         // A loop over all taps.
-        entry(", radius 32", Box::new(blur(32)), "moments", map, vec![65]),
-        entry(
-            "",
-            Box::new(DownsampleMoments {}),
-            "moments",
-            levels,
-            vec![1],
-        ),
+        entry(", radius 32", Box::new(blur(32)), "map", map, vec![65]),
+        entry("", Box::new(Downsample {}), "map", levels, vec![1]),
         of_technique(&encoding),
     ])
 }
@@ -609,7 +597,7 @@ mod tests {
     fn a_subject_knows_its_outputs_its_texels_and_its_loops() -> Result<(), IsaError> {
         let subjects = subjects()?;
         let find = |name: &str| subjects.iter().find(|subject| subject.name == name);
-        let blur = find("blur_moments, float32, radius 64: blur along x");
+        let blur = find("blur, float32, radius 64: blur along x");
         let blur = blur.map(|blur| (&blur.work, blur.texel_bytes, &blur.trips));
         let expected = SubjectWork::Compute {
             // 64 invocations of 16 texels.

@@ -124,11 +124,11 @@ fn graph(
     let overestimation = serde_json::to_value(overestimation).unwrap_or_default();
     let text = format!(
         r#"{{
-  "version": 1,
+  "version": 2,
   "imports": [{{ "name": "light_depth" }}, {{ "name": "camera_depth" }}],
   "nodes": [
-    {{ "name": "resolve", "type": "resolve_moments", "properties": {{ "storage": "{storage}" }} }},
-    {{ "name": "blur", "type": "blur_moments", "properties": {{ "kernel": {{ "radius": {radius} }} }} }},
+    {{ "name": "resolve", "type": "resolve", "properties": {{ "storage": "{storage}" }} }},
+    {{ "name": "blur", "type": "blur", "properties": {{ "kernel": {{ "radius": {radius} }} }} }},
     {{ "name": "rectify", "type": "rectify_moments",
        "properties": {{ "technique": {technique}, "storage": "{storage}", "extent": [{columns}, {rows}] }} }},
     {{ "name": "integrate", "type": "integrate_scattering" }},
@@ -136,8 +136,8 @@ fn graph(
   ],
   "edges": [
     {{ "from": "light_depth", "to": "resolve.depth" }},
-    {{ "from": "resolve.moments", "to": "blur.moments" }},
-    {{ "from": "blur.blurred", "to": "rectify.moments" }},
+    {{ "from": "resolve.map", "to": "blur.map" }},
+    {{ "from": "blur.blurred", "to": "rectify.map" }},
     {{ "from": "rectify.rectified", "to": "integrate.rectified" }},
     {{ "from": "integrate.integrated", "to": "composite.integrated" }},
     {{ "from": "camera_depth", "to": "composite.camera_depth" }}
@@ -152,17 +152,17 @@ fn graph(
 fn filtered(storage: Storage, radius: u32) -> Result<GraphFile, LabError> {
     let text = format!(
         r#"{{
-  "version": 1,
+  "version": 2,
   "imports": [{{ "name": "light_depth" }}, {{ "name": "camera_depth" }}],
   "nodes": [
-    {{ "name": "resolve", "type": "resolve_moments", "properties": {{ "storage": "{storage}" }} }},
-    {{ "name": "blur", "type": "blur_moments", "properties": {{ "kernel": {{ "radius": {radius} }} }} }}
+    {{ "name": "resolve", "type": "resolve", "properties": {{ "storage": "{storage}" }} }},
+    {{ "name": "blur", "type": "blur", "properties": {{ "kernel": {{ "radius": {radius} }} }} }}
   ],
   "edges": [
     {{ "from": "light_depth", "to": "resolve.depth" }},
-    {{ "from": "resolve.moments", "to": "blur.moments" }}
+    {{ "from": "resolve.map", "to": "blur.map" }}
   ],
-  "outputs": [{{ "name": "moments", "from": "blur.blurred" }}]
+  "outputs": [{{ "name": "map", "from": "blur.blurred" }}]
 }}"#
     );
     GraphFile::parse("filtered.json", text, None)

@@ -1,8 +1,8 @@
-import moment_shadows::convolution::{CONVOLUTION_DAMPING, convolution_plane, convolution_receiver, convolution_shadow_intensity};
-import moment_shadows::rectified_frame::{rectified_frame_coordinates, rectified_frame_depth, rectified_frame_place, rectified_frame_prefix, rectified_frame_row};
-import moment_shadows::scattering_view::{view, view_cosine, view_dimming, view_surface};
-import moment_shadows::single_scattering::{single_scattering_radiance, single_scattering_transmittance};
-import moment_shadows::storage::{STORAGE_FLOAT16};
+import moment_shadows::techniques::convolution::{CONVOLUTION_DAMPING, convolution_plane, convolution_receiver, convolution_shadow_intensity};
+import moment_shadows::air::rectified_frame::{rectified_frame_coordinates, rectified_frame_depth, rectified_frame_place, rectified_frame_prefix, rectified_frame_row};
+import node::scattering_view::{view, view_cosine, view_dimming, view_surface};
+import moment_shadows::air::single_scattering::{single_scattering_radiance, single_scattering_transmittance};
+import moment_shadows::map::storage::{STORAGE_FLOAT16};
 
 // In-scattered radiance from the rows of a convolution shadow map: four fetches per pixel.
 

@@ -1,9 +1,9 @@
-import moment_shadows::angle::{angle_atan2, angle_sin_cos};
-import moment_shadows::convolution::{convolution_channels, convolution_to_texel};
-import moment_shadows::rectified_frame::{rectified_frame_depth, rectified_frame_ray};
-import moment_shadows::scattering_view::{view};
-import moment_shadows::scattering_weights::{scattering_weights_of_column, scattering_weights_thickness};
-import moment_shadows::storage::{STORAGE_FLOAT16};
+import moment_shadows::maths::angle::{angle_atan2, angle_sin_cos};
+import moment_shadows::techniques::convolution::{convolution_channels, convolution_to_texel};
+import moment_shadows::air::rectified_frame::{rectified_frame_depth, rectified_frame_ray};
+import node::scattering_view::{view};
+import moment_shadows::air::scattering_weights::{scattering_weights_of_column, scattering_weights_thickness};
+import moment_shadows::map::storage::{STORAGE_FLOAT16};
 
 // Klehm et al., "Prefiltered single scattering", i3D 2014: the plain depth map in rectified coordinates, as convolution shadow
 // map, summed up along rows. A row per invocation; four planes of four channels.

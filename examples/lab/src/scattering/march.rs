@@ -92,7 +92,7 @@ impl Marcher {
         // Read by bindings that outlive this call; its contents are made whenever it is recorded.
         let map = graph
             .bindings
-            .output("moments")
+            .output("map")
             .ok_or_else(|| LabError::Unsuitable {
                 file: file.name.clone(),
                 reason: "it has no output 'moments'".to_owned(),

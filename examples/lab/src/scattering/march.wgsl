@@ -1,6 +1,6 @@
-import moment_shadows::scattering_view::{view, view_cosine, view_dimming, view_surface};
-import moment_shadows::scattering_visibility::{visibility_shadow};
-import moment_shadows::single_scattering::{single_scattering_radiance, single_scattering_transmittance};
+import node::scattering_view::{view, view_cosine, view_dimming, view_surface};
+import node::scattering_visibility::{visibility_shadow};
+import moment_shadows::air::single_scattering::{single_scattering_radiance, single_scattering_transmittance};
 
 // In-scattered radiance by marching: visibility at the middle of each step, everything else in closed form. Pixels of the
 // target are every so many pixels of the picture.

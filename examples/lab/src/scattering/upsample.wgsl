@@ -1,4 +1,4 @@
-import moment_shadows::scattering_view::{view_surface};
+import node::scattering_view::{view_surface};
 
 // Bilateral upsampling of radiance at half of the resolution: the four nearest texels, by place and by how far away what they
 // saw is (Kopf et al., "Joint bilateral upsampling", SIGGRAPH 2007).

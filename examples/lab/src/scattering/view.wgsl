@@ -1,5 +1,5 @@
-import moment_shadows::rectified_frame::{RectifiedFrame, rectified_frame_surface};
-import moment_shadows::single_scattering::{SingleScattering};
+import moment_shadows::air::rectified_frame::{RectifiedFrame, rectified_frame_surface};
+import moment_shadows::air::single_scattering::{SingleScattering};
 
 // What every competitor is told: camera, light and medium, all in the axes of the rectified frame, whose origin is the camera.
 

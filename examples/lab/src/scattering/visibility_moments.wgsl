@@ -1,6 +1,6 @@
-import moment_shadows::hamburger::{hamburger_shadow_intensity};
-import moment_shadows::moments::{moments_bias_of, moments_from_texel};
-import moment_shadows::scattering_storage::{STORAGE};
+import moment_shadows::bounds::hamburger4::{hamburger4_shadow_intensity};
+import moment_shadows::moments::four_moments::{four_moments_bias_of, four_moments_from_texel};
+import node::scattering_storage::{STORAGE};
 
 // Visibility by the filtered map of four moments.
 
@@ -10,6 +10,6 @@ import moment_shadows::scattering_storage::{STORAGE};
 // The shadow of a moment depth at a place of the map; outside of it there is none.
 fn visibility_shadow(uv: vec2f, depth: f32) -> f32 {
     let inside = all(uv >= vec2f(0.0)) && all(uv <= vec2f(1.0));
-    let moments = moments_from_texel(textureSampleLevel(moments_map, moments_sampler, uv, 0u, 0.0), STORAGE);
-    return select(0.0, hamburger_shadow_intensity(moments, depth, moments_bias_of(STORAGE)), inside);
+    let moments = four_moments_from_texel(textureSampleLevel(moments_map, moments_sampler, uv, 0u, 0.0), STORAGE);
+    return select(0.0, hamburger4_shadow_intensity(moments, depth, four_moments_bias_of(STORAGE)), inside);
 }

@@ -4,9 +4,9 @@ use std::collections::BTreeMap;
 
 use moment_shadows::{LayerSplits, MapEncoding, Profile, Storage, Technique, TextureFormat};
 use moment_shadows_graph::nodes::{
-    BlurMoments, CompositeScattering, DebugMoments, DownsampleMoments, IntegrateScattering,
-    Interpolation, KernelProperty, MipLevels, PlaceLayers, RectifyMoments, ResolveMoments,
-    ShadeHard, ShadeSoft, Show, SummedAreaTable,
+    Blur, CompositeScattering, DebugMoments, Downsample, IntegrateScattering, Interpolation,
+    KernelProperty, MipLevels, PlaceLayers, RectifyMoments, Resolve, ShadeHard, ShadeSoft, Show,
+    SummedAreaTable,
 };
 use moment_shadows_graph::{Capabilities, Connected, Node, Pass, ResourceDesc, TextureDesc};
 
@@ -57,12 +57,12 @@ impl Variant {
 fn variants(storage: Storage, capabilities: &Capabilities) -> Vec<Variant> {
     let mut variants = Vec::new();
     for (samples, regions) in [(1, 1), (2, 1), (4, 1), (8, 1), (4, 16)] {
-        let node = ResolveMoments {
+        let node = Resolve {
             technique: Technique::Hamburger4,
             storage,
             mip_levels: MipLevels::default(),
         };
-        let name = format!("resolve_moments_{storage}_{samples}{}", suffix(regions));
+        let name = format!("resolve_{storage}_{samples}{}", suffix(regions));
         variants.push(Variant {
             samples,
             regions,
@@ -78,23 +78,23 @@ fn variants(storage: Storage, capabilities: &Capabilities) -> Vec<Variant> {
         ("uniform", 1, true, 1),
         ("uniform", 1, true, 16),
     ] {
-        let node = BlurMoments {
+        let node = Blur {
             kernel: KernelProperty::gaussian(radius, 0.6 * radius as f32),
             per_frame,
             mip_levels: MipLevels::default(),
         };
-        let name = format!("blur_moments_{kind}_{storage}{}", suffix(regions));
+        let name = format!("blur_{kind}_{storage}{}", suffix(regions));
         variants.push(Variant {
             regions,
             ..Variant::new(name, node, capabilities)
         });
     }
     for regions in [1, 16] {
-        let name = format!("downsample_moments_{storage}{}", suffix(regions));
+        let name = format!("downsample_{storage}{}", suffix(regions));
         variants.push(Variant {
             mips: 4,
             regions,
-            ..Variant::new(name, DownsampleMoments::default(), capabilities)
+            ..Variant::new(name, Downsample::default(), capabilities)
         });
     }
     for (name, show) in [
@@ -277,23 +277,23 @@ fn of_technique(encoding: &MapEncoding, capabilities: &Capabilities) -> Vec<Vari
         })
     };
     let mut variants = vec![with_map("shade_hard", shade(None), 1)];
-    let resolve = ResolveMoments {
+    let resolve = Resolve {
         technique: technique.clone(),
         storage,
         mip_levels: MipLevels::default(),
     };
     // Four moments are made and filtered alike for all that read them.
     if *technique != Technique::Hausdorff4 {
-        variants.push(with_map("resolve_moments", Box::new(resolve), 1));
+        variants.push(with_map("resolve", Box::new(resolve), 1));
     }
-    let blur = BlurMoments {
+    let blur = Blur {
         kernel: KernelProperty::gaussian(1, 0.6),
         per_frame: false,
         mip_levels: MipLevels::default(),
     };
     // Only logarithms are filtered otherwise.
     if techniques::label(technique).contains("logarithmic") {
-        variants.push(with_map("blur_moments", Box::new(blur), 1));
+        variants.push(with_map("blur", Box::new(blur), 1));
     }
     if storage.is_drawn() {
         variants.extend(drawn(encoding, capabilities));
@@ -326,28 +326,28 @@ fn drawn(encoding: &MapEncoding, capabilities: &Capabilities) -> Vec<Variant> {
         encoding: Some(encoding.clone()),
         capabilities: capabilities.clone(),
     };
-    let resolve = || ResolveMoments {
+    let resolve = || Resolve {
         technique: encoding.technique().clone(),
         storage: encoding.storage(),
         mip_levels: MipLevels::default(),
     };
     let mut variants = vec![
-        with_map("resolve_moments_single", Box::new(resolve()), 1, 1, 1),
-        with_map("resolve_moments", Box::new(resolve()), 4, 1, 16),
+        with_map("resolve_single", Box::new(resolve()), 1, 1, 1),
+        with_map("resolve", Box::new(resolve()), 4, 1, 16),
         with_map("shade_hard_mips", Box::<ShadeHard>::default(), 1, 4, 1),
     ];
     for regions in [1, 16] {
         for (kind, per_frame) in [("unrolled", false), ("uniform", true)] {
-            let node = BlurMoments {
+            let node = Blur {
                 kernel: KernelProperty::gaussian(1, 0.6),
                 per_frame,
                 mip_levels: MipLevels::default(),
             };
-            let name = format!("blur_moments_{kind}");
+            let name = format!("blur_{kind}");
             variants.push(with_map(&name, Box::new(node), 1, 1, regions));
         }
-        let node = Box::new(DownsampleMoments::default());
-        variants.push(with_map("downsample_moments", node, 1, 4, regions));
+        let node = Box::new(Downsample::default());
+        variants.push(with_map("downsample", node, 1, 4, regions));
     }
     variants
 }
@@ -408,7 +408,7 @@ fn profile(format: TextureFormat, storage: Storage) -> Profile {
 /// The shader of each pass of every variant of every node.
 pub fn nodes() -> Result<Vec<NodeShader>, ShadersError> {
     let mut all = Vec::new();
-    for storage in Storage::ALL {
+    for storage in Storage::OF_FOUR_MOMENTS {
         let profile = profile(storage.format(), storage);
         for variant in variants(storage, &Capabilities::of_profile(profile)) {
             describe(&variant, storage, profile, &mut all)?;
@@ -504,7 +504,7 @@ fn inputs(variant: &Variant, storage: Storage) -> BTreeMap<String, ResourceDesc>
         ("table", moments.clone()),
         ("rectified", moments.clone()),
         ("integrated", moments.clone()),
-        ("moments", moments),
+        ("map", moments),
         ("splits", splits),
         ("camera_depth", camera),
     ]

@@ -1,12 +1,12 @@
-import moment_shadows::depth::{DepthConversion, depth_to_moment_depth};
-import moment_shadows::map_encoding::{PLANE, encoding_channels, encoding_texel};
-import moment_shadows::map_filtering::{filtering_texel, filtering_value};
-import moment_shadows::map_texel::{filtered_texels};
-import moment_shadows::specialization::{PLANES, SPLIT_SUMS, STORAGE};
-import moment_shadows::split_sum::{split_sum_coarse};
-import moment_shadows::storage::{STORAGE_FLOAT16, STORAGE_FLOAT32, STORAGE_UNORM10, STORAGE_UNORM16};
-import moment_shadows::technique::{technique_shadow_intensity};
-import moment_shadows::technique_receiver::{TechniqueReceiver};
+import moment_shadows::map::depth::{DepthConversion, depth_to_moment_depth};
+import node::map_encoding::{PLANE, encoding_channels, encoding_texel};
+import node::map_filtering::{filtering_texel, filtering_value};
+import node::map_texel::{filtered_texels};
+import node::specialization::{PLANES, SPLIT_SUMS, STORAGE};
+import moment_shadows::maths::split_sum::{split_sum_coarse};
+import moment_shadows::map::storage::{STORAGE_FLOAT16, STORAGE_FLOAT32, STORAGE_UNORM10, STORAGE_UNORM16};
+import node::technique::{technique_shadow_intensity};
+import node::technique_receiver::{TechniqueReceiver};
 
 // One input of the stability report: a map's texel is made of surfaces, every stage rounded to the storage, and evaluated
 // with the adapters that the nodes link.

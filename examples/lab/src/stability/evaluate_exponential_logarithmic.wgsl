@@ -1,7 +1,7 @@
-import moment_shadows::exponential::{exponential_mean_of_texel, exponential_shadow_intensity};
-import moment_shadows::map_texel::{map_texel};
-import moment_shadows::specialization::{EXPONENT, STORAGE};
-import moment_shadows::technique_receiver::{TechniqueReceiver};
+import moment_shadows::techniques::exponential::{exponential_mean_of_texel, exponential_shadow_intensity};
+import node::map_texel::{map_texel};
+import node::specialization::{EXPONENT, STORAGE};
+import node::technique_receiver::{TechniqueReceiver};
 
 // Texels hold logarithms, which the node decodes before it blends four of them; here there is one.
 fn technique_shadow_intensity(receiver: TechniqueReceiver) -> f32 {

@@ -25,7 +25,7 @@ fn at(random: &mut ChaCha8Rng, mut input: Input, node: f64) -> Input {
 
 /// A Gauss node of two points for the moments of the mixture, with one of the biases.
 pub(super) fn of_four_moments(input: Input, random: &mut ChaCha8Rng) -> Input {
-    let storage = Storage::ALL[random.random_range(0..3)];
+    let storage = Storage::OF_FOUR_MOMENTS[random.random_range(0..3)];
     let bias = if random.random() {
         storage.moment_bias()
     } else {

@@ -1,5 +1,5 @@
-import moment_shadows::specialization::{PLANES};
-import moment_shadows::technique_receiver::{TechniqueReceiver};
+import node::specialization::{PLANES};
+import node::technique_receiver::{TechniqueReceiver};
 
 // The filtered texels of all planes of a map, in place of a texture.
 var<private> filtered_texels: array<vec4f, PLANES>;

@@ -76,7 +76,7 @@ impl SummedMap {
             &plan,
             &pipelines,
             &resources,
-            &[("moments", ImportedResource::Texture(&moments))],
+            &[("map", ImportedResource::Texture(&moments))],
             Some(&parameters),
         ))?;
         Ok(Self {
@@ -93,18 +93,18 @@ impl SummedMap {
         largest_kernel: LargestKernel,
     ) -> Result<Plan, GraphError> {
         let text = serde_json::json!({
-            "version": 1,
-            "imports": [{ "name": "moments" }],
+            "version": 2,
+            "imports": [{ "name": "map" }],
             "nodes": [{
                 "name": "sum",
                 "type": "summed_area_table",
                 "properties": { "largest_kernel": largest_kernel }
             }],
-            "edges": [{ "from": "moments", "to": "sum.moments" }],
+            "edges": [{ "from": "map", "to": "sum.map" }],
             "outputs": [{ "name": "table", "from": "sum.table" }]
         });
         let graph = Graph::parse(&text.to_string(), &NodeRegistry::new())?;
-        let imports = Imports::from([("moments".to_owned(), ResourceDesc::Texture(desc.clone()))]);
+        let imports = Imports::from([("map".to_owned(), ResourceDesc::Texture(desc.clone()))]);
         compile(&graph, capabilities, &imports)
     }
 
@@ -136,7 +136,7 @@ impl SummedMap {
         let mut block = self.plan.parameters.initial();
         self.plan
             .parameters
-            .write_regions(&mut block, "moments", layer, regions)?;
+            .write_regions(&mut block, "map", layer, regions)?;
         gpu.queue.write_buffer(&self.parameters, 0, &block);
         Ok(())
     }

@@ -1,5 +1,5 @@
-import moment_shadows::map_region::{MapRegion};
-import moment_shadows::summed_area_table::{SummedAreaTableRectangle, summed_area_table_mean_interpolated, summed_area_table_mean_plain, summed_area_table_rectangle};
+import moment_shadows::map::map_region::{MapRegion};
+import moment_shadows::filter::summed_area_table::{SummedAreaTableRectangle, summed_area_table_mean_interpolated, summed_area_table_mean_plain, summed_area_table_rectangle};
 
 // Means of rectangles of a table, one per invocation.
 

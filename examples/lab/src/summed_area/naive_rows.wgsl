@@ -1,4 +1,4 @@
-import moment_shadows::summed_area_encoding::{summed_area_encoding_of_unorm16};
+import moment_shadows::filter::summed_area_encoding::{summed_area_encoding_of_unorm16};
 
 // The usual way, first half: prefix sums of the rows of a unorm16 map, one row per invocation.
 

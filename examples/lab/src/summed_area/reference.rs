@@ -60,7 +60,7 @@ pub fn fixed_point(channel: f32, unit: u32) -> u32 {
     ((fraction * u64::from(unit) + (1 << 30)) >> 31) as u32
 }
 
-/// The optimised basis of float32 moments, as `moments_quantize` and `variance_to_texel` have it.
+/// The optimised basis of float32 moments, as `four_moments_quantize` and `two_moments_to_texel` have it.
 fn encoded(technique: &Technique, texel: &[f32]) -> [f32; 4] {
     if *technique == Technique::Vsm {
         let [x, y] = [texel[0], texel[1]].map(|moment| moment.clamp(-1.0, 1.0));
@@ -71,7 +71,7 @@ fn encoded(technique: &Technique, texel: &[f32]) -> [f32; 4] {
     optimised([odd(texel[0]), even(texel[1]), odd(texel[2]), even(texel[3])])
 }
 
-/// `moments_quantize` with fused products.
+/// `four_moments_quantize` with fused products.
 #[must_use]
 pub fn optimised([x, y, z, w]: [f32; 4]) -> [f32; 4] {
     let root = 3.0_f32.sqrt();

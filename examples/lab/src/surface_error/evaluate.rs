@@ -1,7 +1,7 @@
 //! The technique at points of its map, on the device.
 
 use bytemuck::{Pod, Zeroable};
-use moment_shadows::{AreaLight, DepthConversion, LeakReduction, MomentBias, ReceiverBias};
+use moment_shadows::{AreaLight, DepthConversion, FourMomentsBias, LeakReduction, ReceiverBias};
 use moment_shadows_graph::nodes::{ShadeHard, TechniqueShader};
 use moment_shadows_graph::{BindingResource, Capabilities};
 use wgpu::util::DeviceExt;
@@ -42,7 +42,7 @@ pub struct Evaluation {
 struct Uniform {
     receiver_bias: ReceiverBias,
     leak_reduction: LeakReduction,
-    moment_bias: MomentBias,
+    moment_bias: FourMomentsBias,
     padding: f32,
     conversion: DepthConversion,
     light: AreaLight,
@@ -51,7 +51,7 @@ struct Uniform {
 /// Evaluates a map at any points, by the functions that `shade_hard` calls on this device.
 pub struct MapEvaluator<'a> {
     gpu: &'a Gpu,
-    moment_bias: MomentBias,
+    moment_bias: FourMomentsBias,
     own: wgpu::BindGroupLayout,
     map: wgpu::BindGroup,
     pipeline: wgpu::ComputePipeline,
@@ -63,7 +63,7 @@ impl<'a> MapEvaluator<'a> {
     pub fn new(
         gpu: &'a Gpu,
         map: &JudgedMap<'_>,
-        moment_bias: Option<MomentBias>,
+        moment_bias: Option<FourMomentsBias>,
     ) -> Result<Self, LabError> {
         let device = &gpu.device;
         let capabilities = Capabilities {
@@ -111,7 +111,7 @@ impl<'a> MapEvaluator<'a> {
         gpu.check()?;
         Ok(Self {
             gpu,
-            moment_bias: moment_bias.unwrap_or(MomentBias {
+            moment_bias: moment_bias.unwrap_or(FourMomentsBias {
                 alpha: 0.0,
                 second: 0.0,
                 fourth: 0.0,

@@ -1,12 +1,12 @@
-import moment_shadows::depth::{DepthConversion};
-import moment_shadows::leak_reduction::{LeakReduction, leak_reduction_apply};
-import moment_shadows::map_region::{MapRegion};
-import moment_shadows::moments::{MomentBias};
-import moment_shadows::area_light::{AreaLight};
-import moment_shadows::point_intensity::{point_intensity};
-import moment_shadows::receiver_bias::{ReceiverBias, receiver_bias_depth};
-import moment_shadows::technique_map::{technique_map_size};
-import moment_shadows::technique_receiver::{TechniqueReceiver};
+import moment_shadows::map::depth::{DepthConversion};
+import moment_shadows::shade::leak_reduction::{LeakReduction, leak_reduction_apply};
+import moment_shadows::map::map_region::{MapRegion};
+import moment_shadows::moments::four_moments::{FourMomentsBias};
+import moment_shadows::shade::area_light::{AreaLight};
+import node::point_intensity::{point_intensity};
+import moment_shadows::shade::receiver_bias::{ReceiverBias, receiver_bias_depth};
+import node::technique_map::{technique_map_size};
+import node::technique_receiver::{TechniqueReceiver};
 
 // Shadow intensity of given points of surfaces, step by step as in the node `shade_hard`.
 
@@ -14,7 +14,7 @@ struct Parameters {
     receiver_bias: ReceiverBias,
     leak_reduction: LeakReduction,
     // In place of that of the storage, where the shader is linked for it.
-    moment_bias: MomentBias,
+    moment_bias: FourMomentsBias,
     conversion: DepthConversion,
     light: AreaLight,
 }

@@ -9,7 +9,7 @@
 //! a point of it moves to infinity. The bound is that of Peters and Klein, "Moment Shadow Mapping", i3D 2015,
 //! section 3: the least share of a distribution in front of the fragment that its first four moments allow.
 
-use moment_shadows::MomentBias;
+use moment_shadows::FourMomentsBias;
 use rayon::prelude::*;
 
 use super::kernel::{AxisTaps, TapPattern};
@@ -48,7 +48,7 @@ pub fn biased_bound(
     depths: &MomentDepths,
     taps: &TapPattern,
     lookups: &[Option<Lookup>],
-    bias: MomentBias,
+    bias: FourMomentsBias,
 ) -> Vec<f32> {
     let [alpha, second, fourth] = [bias.alpha, bias.second, bias.fourth].map(f64::from);
     lookups

@@ -5,7 +5,7 @@
 //! the two is due to how moments are stored, and to nothing else.
 
 use glam::{DVec2, DVec3, DVec4};
-use moment_shadows_graph::nodes::ShadeHardParameters;
+use moment_shadows_graph::nodes::ViewParameters;
 use rayon::prelude::*;
 
 use super::exact_bound::Lookup;
@@ -14,7 +14,7 @@ use crate::host::DepthSamples;
 /// The lookups of `shade_hard` with `parameters` on the camera's depth (one sample per pixel) for a map of `map`
 /// texels; `None` where a pixel shows nothing or lies outside of the map.
 pub fn fragments(
-    parameters: &ShadeHardParameters,
+    parameters: &ViewParameters,
     camera_depth: &DepthSamples,
     map: [u32; 2],
 ) -> Vec<Option<Lookup>> {
@@ -37,7 +37,7 @@ pub fn fragments(
 }
 
 struct Camera<'a> {
-    parameters: &'a ShadeHardParameters,
+    parameters: &'a ViewParameters,
     depth: &'a DepthSamples,
     size: [i64; 2],
     map: DVec2,

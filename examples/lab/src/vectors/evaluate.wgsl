@@ -1,7 +1,7 @@
-import moment_shadows::hamburger::{hamburger_bounds};
-import moment_shadows::hamburger6::{hamburger6_bounds};
-import moment_shadows::moments::{MomentBias, moments_apply_bias};
-import moment_shadows::six_moments::{SixMoments, SixMomentsBias, six_moments_apply_bias};
+import moment_shadows::bounds::hamburger4::{hamburger4_bounds};
+import moment_shadows::bounds::hamburger6::{hamburger6_bounds};
+import moment_shadows::moments::four_moments::{FourMomentsBias, four_moments_apply_bias};
+import moment_shadows::moments::six_moments::{SixMoments, SixMomentsBias, six_moments_apply_bias};
 
 // One case of a vector file: the bounds for moments that are biased already, or after applying the bias here.
 struct BatchInput {
@@ -33,10 +33,10 @@ fn batch(input: BatchInput) -> BatchOutput {
     if input.count == 4u {
         var b = vec4f(input.odd.x, input.even.x, input.odd.y, input.even.y);
         if input.is_biased == 0u {
-            b = moments_apply_bias(b, MomentBias(input.alpha, input.target_even.x, input.target_even.y));
+            b = four_moments_apply_bias(b, FourMomentsBias(input.alpha, input.target_even.x, input.target_even.y));
         }
         biased = SixMoments(vec3f(b.xz, 0.0), vec3f(b.yw, 0.0));
-        bounds = hamburger_bounds(b, input.depth, input.alpha);
+        bounds = hamburger4_bounds(b, input.depth, input.alpha);
     } else {
         if input.is_biased == 0u {
             biased = six_moments_apply_bias(biased, SixMomentsBias(input.target_even, input.alpha));

@@ -1,7 +1,7 @@
-import moment_shadows::enclosed_moments::{enclosed_moments_bounds};
-import moment_shadows::map_region::{MapRegion};
-import moment_shadows::moments_lookup::{moments_lookup};
-import moment_shadows::specialization::{STORAGE};
+import moment_shadows::moments::enclosed_moments::{enclosed_moments_bounds};
+import moment_shadows::map::map_region::{MapRegion};
+import node::moments_lookup::{moments_lookup};
+import node::specialization::{STORAGE};
 
 // Both bounds of the shadow of a depth at a place of the integrated map, from a texel of each of its planes.
 fn scattering_bounds(uv: vec2f, region: MapRegion, depth: f32) -> vec2f {

@@ -1,5 +1,5 @@
-import moment_shadows::enclosed_moments::{enclosed_moments_of_occluder, enclosed_moments_sum, enclosed_moments_to_even_texel, enclosed_moments_to_odd_texel};
-import moment_shadows::specialization::{STORAGE};
+import moment_shadows::moments::enclosed_moments::{enclosed_moments_of_occluder, enclosed_moments_sum, enclosed_moments_to_even_texel, enclosed_moments_to_odd_texel};
+import node::specialization::{STORAGE};
 
 // Three of six moments of two occluders in rectified coordinates.
 

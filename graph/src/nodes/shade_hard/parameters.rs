@@ -5,7 +5,7 @@ use moment_shadows::{
 };
 use serde::{Deserialize, Serialize};
 
-use super::ShadeHardParameters;
+use super::ViewParameters;
 
 /// A matrix by columns, in f64: products of f32 matrices with large translations keep their precision.
 pub(in crate::nodes) type Matrix = [[f64; 4]; 4];
@@ -57,7 +57,7 @@ pub enum LightDepth {
 }
 
 impl LightDepth {
-    /// The conversion that `resolve_moments` applies to the map.
+    /// The conversion that `resolve` applies to the map.
     pub fn conversion(&self) -> Result<DepthConversion, DepthError> {
         match *self {
             LightDepth::Orthographic { reversed: false } => Ok(DepthConversion::orthographic()),
@@ -128,7 +128,7 @@ pub enum ViewError {
     Depth(#[from] DepthError),
 }
 
-impl ShadeHardParameters {
+impl ViewParameters {
     /// The parameters of a camera that looks at receivers of a light's shadow.
     ///
     /// The matrices are combined in f64. [`ReceiverBias::for_kernel`] gives a bias that follows from the map's filter.

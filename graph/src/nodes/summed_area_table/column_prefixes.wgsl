@@ -1,6 +1,6 @@
-import moment_shadows::region_tile::{region_tile};
-import moment_shadows::specialization::{GROUP, SumsStorage, TILE};
-import moment_shadows::sums::{Sums, sums_of, sums_texel};
+import node::region_tile::{region_tile};
+import node::specialization::{GROUP, SumsStorage, TILE};
+import node::sums::{Sums, sums_of, sums_texel};
 
 // Third pass: the rows of the table at the lower edges of tiles, one column of a region per invocation. To a tile's own sums
 // up to the column those of the tiles to its left are added: the last of their row prefixes.

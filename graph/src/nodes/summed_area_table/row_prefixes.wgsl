@@ -1,6 +1,6 @@
-import moment_shadows::region_tile::{region_tile};
-import moment_shadows::specialization::{GROUP, SumsStorage, TILE};
-import moment_shadows::sums::{Sums, sums_of, sums_texel};
+import node::region_tile::{region_tile};
+import node::specialization::{GROUP, SumsStorage, TILE};
+import node::sums::{Sums, sums_of, sums_texel};
 
 // Second pass: prefix sums of the tiles' row sums, one row of a region per invocation. A prefix lies where the last tile lies
 // that it contains.

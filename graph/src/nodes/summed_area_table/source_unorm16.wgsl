@@ -1,4 +1,4 @@
-import moment_shadows::summed_area_encoding::{summed_area_encoding_of_unorm16};
+import moment_shadows::filter::summed_area_encoding::{summed_area_encoding_of_unorm16};
 
 // Maps of unorm16: their own integers.
 

@@ -1,17 +1,17 @@
-import moment_shadows::specialization::{STORAGE, UNIT};
-import moment_shadows::storage::{STORAGE_FLOAT16, STORAGE_UNORM16, storage_finite_texel};
-import moment_shadows::summed_area_encoding::{summed_area_encoding_of_channels};
-import moment_shadows::variance::{variance_to_texel};
+import node::specialization::{STORAGE, UNIT};
+import moment_shadows::map::storage::{STORAGE_FLOAT16, STORAGE_UNORM16, storage_finite_texel};
+import moment_shadows::filter::summed_area_encoding::{summed_area_encoding_of_channels};
+import moment_shadows::moments::two_moments::{two_moments_to_texel};
 
 // Float maps of two moments. A texel with a channel that is not finite counts as the far end: no caster.
 
 fn source_integers(texel: vec4f) -> vec4u {
     let finite = all(bitcast<vec2u>(storage_finite_texel(texel, STORAGE).xy) == bitcast<vec2u>(texel.xy));
-    let far = variance_to_texel(vec4f(1.0), STORAGE_UNORM16);
+    let far = two_moments_to_texel(vec4f(1.0), STORAGE_UNORM16);
     // Channels of float16 are the optimised basis less one half, those of float32 moments.
     var channels = texel + 0.5;
     if STORAGE != STORAGE_FLOAT16 {
-        channels = variance_to_texel(clamp(texel, vec4f(-1.0), vec4f(1.0)), STORAGE_UNORM16);
+        channels = two_moments_to_texel(clamp(texel, vec4f(-1.0), vec4f(1.0)), STORAGE_UNORM16);
     }
     return summed_area_encoding_of_channels(select(far, channels, finite), UNIT);
 }

@@ -1,4 +1,4 @@
-import moment_shadows::specialization::{GROUP, SumsStorage};
+import node::specialization::{GROUP, SumsStorage};
 
 // What the columns of a tile are written to: one layer.
 

@@ -1,8 +1,8 @@
-import moment_shadows::region_tile::{region_tile};
-import moment_shadows::specialization::{GROUP, TILE, WORKGROUP};
-import moment_shadows::sums::{Sums, sums_of};
-import moment_shadows::sums_target::{target_map};
-import moment_shadows::tile_columns::{TileColumns, add_row, load_columns, store_columns};
+import node::region_tile::{region_tile};
+import node::specialization::{GROUP, TILE, WORKGROUP};
+import node::sums::{Sums, sums_of};
+import node::sums_target::{target_map};
+import node::tile_columns::{TileColumns, add_row, load_columns, store_columns};
 
 // Last pass: the table, one tile per invocation. It begins with the row of the table above the tile; each row adds its own
 // texels, and for what lies to the left the row prefix.

@@ -9,10 +9,10 @@ pub(super) const MODULE: &str = "tile_columns";
 
 /// What it imports, and the map that is summed up.
 const HEAD: &str = "\
-import moment_shadows::source::{source_integers};
-import moment_shadows::specialization::{GROUP};
-import moment_shadows::sums::{Sums, sums_of, sums_texel};
-import moment_shadows::sums_target::{target_map};
+import node::source::{source_integers};
+import node::specialization::{GROUP};
+import node::sums::{Sums, sums_of, sums_texel};
+import node::sums_target::{target_map};
 
 @group(GROUP) @binding(0) var moments_map: texture_2d<f32>;
 

@@ -1,7 +1,7 @@
-import moment_shadows::region_tile::{region_tile};
-import moment_shadows::specialization::{GROUP, SumsStorage, TILE, WORKGROUP};
-import moment_shadows::sums::{Sums, sums_texel};
-import moment_shadows::tile_columns::{TileColumns, last_column, add_row, moments_map, store_columns};
+import node::region_tile::{region_tile};
+import node::specialization::{GROUP, SumsStorage, TILE, WORKGROUP};
+import node::sums::{Sums, sums_texel};
+import node::tile_columns::{TileColumns, last_column, add_row, moments_map, store_columns};
 
 // First pass: the sums of tiles, one tile per invocation.
 //

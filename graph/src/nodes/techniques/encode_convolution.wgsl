@@ -1,5 +1,5 @@
-import moment_shadows::convolution::{convolution_channels, convolution_to_texel};
-import moment_shadows::specialization::{STORAGE, TERMS};
+import moment_shadows::techniques::convolution::{convolution_channels, convolution_to_texel};
+import node::specialization::{STORAGE, TERMS};
 
 // Two terms of the Fourier series: what is averaged for a moment depth, and the texel for the mean.
 

@@ -1,5 +1,5 @@
-import moment_shadows::exponential::{exponential_channels, exponential_to_texel};
-import moment_shadows::specialization::{EXPONENT, LOGARITHMIC, STORAGE};
+import moment_shadows::techniques::exponential::{exponential_channels, exponential_to_texel};
+import node::specialization::{EXPONENT, LOGARITHMIC, STORAGE};
 
 // The exponential of depth: what is averaged for a moment depth, and the texel for the mean.
 

@@ -1,5 +1,5 @@
-import moment_shadows::exponential_variance::{exponential_variance_channels, exponential_variance_to_texel};
-import moment_shadows::specialization::{EXPONENTS, STORAGE};
+import moment_shadows::techniques::exponential_variance::{exponential_variance_channels, exponential_variance_to_texel};
+import node::specialization::{EXPONENTS, STORAGE};
 
 // Two moments of each exponential warp: what is averaged for a moment depth, and the texel for the mean.
 

@@ -1,7 +1,7 @@
-import moment_shadows::layered_variance::{layered_variance_channels};
-import moment_shadows::specialization::{STORAGE};
-import moment_shadows::technique_layers::{technique_layers};
-import moment_shadows::variance::{variance_to_texel};
+import moment_shadows::techniques::layered_variance::{layered_variance_channels};
+import node::specialization::{STORAGE};
+import node::technique_layers::{technique_layers};
+import moment_shadows::moments::two_moments::{two_moments_to_texel};
 
 // Two moments of each of two layers: what is averaged for a moment depth, and the texel for the mean.
 
@@ -13,5 +13,5 @@ fn encoding_channels(z: f32) -> vec4f {
 }
 
 fn encoding_texel(mean: vec4f) -> vec4f {
-    return variance_to_texel(mean, STORAGE);
+    return two_moments_to_texel(mean, STORAGE);
 }

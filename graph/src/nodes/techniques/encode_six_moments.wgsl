@@ -1,5 +1,5 @@
-import moment_shadows::six_moments::{six_moments_from_depth, six_moments_to_even_texel, six_moments_to_odd_texel};
-import moment_shadows::specialization::{STORAGE};
+import moment_shadows::moments::six_moments::{six_moments_from_depth, six_moments_to_even_texel, six_moments_to_odd_texel};
+import node::specialization::{STORAGE};
 
 // Three of six moments: what is averaged for a moment depth, and the texel for the mean.
 

@@ -1,7 +1,7 @@
-import moment_shadows::convolution::{CONVOLUTION_DAMPING, convolution_plane, convolution_receiver, convolution_shadow_intensity};
-import moment_shadows::map_texel::{map_texel};
-import moment_shadows::specialization::{LOWER_BOUND, PLANES, STORAGE, TERMS};
-import moment_shadows::technique_receiver::{TechniqueReceiver};
+import moment_shadows::techniques::convolution::{CONVOLUTION_DAMPING, convolution_plane, convolution_receiver, convolution_shadow_intensity};
+import node::map_texel::{map_texel};
+import node::specialization::{LOWER_BOUND, PLANES, STORAGE, TERMS};
+import node::technique_receiver::{TechniqueReceiver};
 
 fn technique_shadow_intensity(receiver: TechniqueReceiver) -> f32 {
     let place = convolution_receiver(receiver.fragment_depth, TERMS, LOWER_BOUND);

@@ -1,8 +1,8 @@
-import moment_shadows::exponential::{exponential_mean_of_texel, exponential_shadow_intensity};
-import moment_shadows::map_region::{map_region_place};
-import moment_shadows::moments_lookup::{moments_map};
-import moment_shadows::specialization::{EXPONENT, STORAGE};
-import moment_shadows::technique_receiver::{TechniqueReceiver};
+import moment_shadows::techniques::exponential::{exponential_mean_of_texel, exponential_shadow_intensity};
+import moment_shadows::map::map_region::{map_region_place};
+import node::moments_lookup::{moments_map};
+import node::specialization::{EXPONENT, STORAGE};
+import node::technique_receiver::{TechniqueReceiver};
 
 // Texels hold logarithms: they are decoded before they are blended.
 

@@ -1,8 +1,8 @@
-import moment_shadows::hausdorff::{hausdorff_shadow_intensity_of_texel};
-import moment_shadows::map_texel::{map_texel};
-import moment_shadows::specialization::{STORAGE};
-import moment_shadows::technique_receiver::{TechniqueReceiver};
+import moment_shadows::bounds::hausdorff4::{hausdorff4_shadow_intensity_of_texel};
+import node::map_texel::{map_texel};
+import node::specialization::{STORAGE};
+import node::technique_receiver::{TechniqueReceiver};
 
 fn technique_shadow_intensity(receiver: TechniqueReceiver) -> f32 {
-    return hausdorff_shadow_intensity_of_texel(map_texel(receiver, 0u), receiver.fragment_depth, STORAGE);
+    return hausdorff4_shadow_intensity_of_texel(map_texel(receiver, 0u), receiver.fragment_depth, STORAGE);
 }

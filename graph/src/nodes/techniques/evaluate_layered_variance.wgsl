@@ -1,8 +1,8 @@
-import moment_shadows::layered_variance::{LayeredVarianceLayers, layered_variance_choice, layered_variance_shadow_intensity_of_texel};
-import moment_shadows::map_texel::{map_texel};
-import moment_shadows::specialization::{STORAGE};
-import moment_shadows::technique_layers::{technique_layers};
-import moment_shadows::technique_receiver::{TechniqueReceiver};
+import moment_shadows::techniques::layered_variance::{LayeredVarianceLayers, layered_variance_choice, layered_variance_shadow_intensity_of_texel};
+import node::map_texel::{map_texel};
+import node::specialization::{STORAGE};
+import node::technique_layers::{technique_layers};
+import node::technique_receiver::{TechniqueReceiver};
 
 fn intensity_of_layer(receiver: TechniqueReceiver, layers: LayeredVarianceLayers, layer: u32) -> f32 {
     let texel = map_texel(receiver, layer / 2u);

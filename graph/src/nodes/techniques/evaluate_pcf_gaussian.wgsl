@@ -1,9 +1,9 @@
-import moment_shadows::depth::{depth_of_light};
-import moment_shadows::percentage_closer::{percentage_closer_gaussian};
-import moment_shadows::receiver_plane::{receiver_plane_through};
-import moment_shadows::specialization::{RADIUS, SIGMA};
-import moment_shadows::technique_map::{depth_map};
-import moment_shadows::technique_receiver::{TechniqueReceiver};
+import moment_shadows::map::depth::{depth_of_light};
+import moment_shadows::techniques::percentage_closer::{percentage_closer_gaussian};
+import moment_shadows::shade::receiver_plane::{receiver_plane_through};
+import node::specialization::{RADIUS, SIGMA};
+import node::technique_map::{depth_map};
+import node::technique_receiver::{TechniqueReceiver};
 
 fn technique_shadow_intensity(receiver: TechniqueReceiver) -> f32 {
     let plane = receiver_plane_through(receiver.uv, receiver.depth, receiver.gradient, receiver.steepest, depth_of_light(receiver.conversion));

@@ -1,5 +1,5 @@
-import moment_shadows::specialization::{STORAGE};
-import moment_shadows::storage::{storage_round_texel};
+import node::specialization::{STORAGE};
+import moment_shadows::map::storage::{storage_round_texel};
 
 // Texels that any filter averages.
 

@@ -1,5 +1,5 @@
-import moment_shadows::exponential::{exponential_mean_of_texel, exponential_to_texel};
-import moment_shadows::specialization::{EXPONENT, STORAGE};
+import moment_shadows::techniques::exponential::{exponential_mean_of_texel, exponential_to_texel};
+import node::specialization::{EXPONENT, STORAGE};
 
 // Logarithms of means: a filter averages the means.
 

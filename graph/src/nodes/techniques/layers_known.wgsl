@@ -1,5 +1,5 @@
-import moment_shadows::layered_variance::{LayeredVarianceLayers};
-import moment_shadows::specialization::{LAYERS, LAYER_OVERLAP, LAYER_SPLITS_HIGH, LAYER_SPLITS_LOW};
+import moment_shadows::techniques::layered_variance::{LayeredVarianceLayers};
+import node::specialization::{LAYERS, LAYER_OVERLAP, LAYER_SPLITS_HIGH, LAYER_SPLITS_LOW};
 
 // Layers that are known when the graph is compiled: the same for all layers of the map.
 

@@ -1,5 +1,5 @@
-import moment_shadows::layered_variance::{LayeredVarianceLayers};
-import moment_shadows::specialization::{GROUP, LAYERS, LAYER_OVERLAP};
+import moment_shadows::techniques::layered_variance::{LayeredVarianceLayers};
+import node::specialization::{GROUP, LAYERS, LAYER_OVERLAP};
 
 // Layers that are placed on the device: the splits are two texels in each layer of a texture of their own.
 

@@ -1,4 +1,4 @@
-import moment_shadows::specialization::{GROUP};
+import node::specialization::{GROUP};
 
 // A plain depth map with a comparison sampler.
 

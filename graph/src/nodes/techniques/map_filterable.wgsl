@@ -1,4 +1,4 @@
-import moment_shadows::moments_lookup::{moments_map};
+import node::moments_lookup::{moments_map};
 
 // Width and height of the map in texels.
 fn technique_map_size() -> vec2u {

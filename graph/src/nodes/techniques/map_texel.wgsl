@@ -1,6 +1,6 @@
-import moment_shadows::moments_lookup::{moments_lookup};
-import moment_shadows::specialization::{PLANES};
-import moment_shadows::technique_receiver::{TechniqueReceiver};
+import node::moments_lookup::{moments_lookup};
+import node::specialization::{PLANES};
+import node::technique_receiver::{TechniqueReceiver};
 
 // The filtered texel of a plane of the map at a receiver.
 fn map_texel(receiver: TechniqueReceiver, plane: u32) -> vec4f {

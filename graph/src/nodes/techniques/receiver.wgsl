@@ -1,6 +1,6 @@
-import moment_shadows::depth::{DepthConversion};
-import moment_shadows::map_region::{MapRegion};
-import moment_shadows::area_light::{AreaLight};
+import moment_shadows::map::depth::{DepthConversion};
+import moment_shadows::map::map_region::{MapRegion};
+import moment_shadows::shade::area_light::{AreaLight};
 
 // What a technique is told about a surface that a view of a light contains.
 

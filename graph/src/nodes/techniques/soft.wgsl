@@ -1,6 +1,6 @@
-import moment_shadows::moment_soft_shadows::{MomentSoftShadowReceiver, MomentSoftShadowTable};
-import moment_shadows::specialization::{FILTER_INTERPOLATED, LARGEST_KERNEL, SEARCH_INTERPOLATED, TABLE_UNIT};
-import moment_shadows::technique_receiver::{TechniqueReceiver};
+import moment_shadows::shade::moment_soft_shadows::{MomentSoftShadowReceiver, MomentSoftShadowTable};
+import node::specialization::{FILTER_INTERPOLATED, LARGEST_KERNEL, SEARCH_INTERPOLATED, TABLE_UNIT};
+import node::technique_receiver::{TechniqueReceiver};
 
 // A receiver of a view as soft shadows take it, and the table.
 

@@ -79,7 +79,7 @@ fn rectified(
     let text = NodeText {
         node_type: "rectify_moments",
         properties: json!({ "technique": "hamburger6", "storage": "float16", "extent": [size, size] }),
-        input: "moments",
+        input: "map",
         output: "rectified",
     };
     let node = NodeOnMap::new(

@@ -41,7 +41,7 @@ impl NodeOnMap {
         parameters: &P,
     ) -> Result<Self, CostError> {
         let json = serde_json::json!({
-            "version": 1,
+            "version": 2,
             "imports": [{ "name": "map" }],
             "nodes": [{ "name": "node", "type": text.node_type, "properties": text.properties }],
             "edges": [{ "from": "map", "to": format!("node.{}", text.input) }],

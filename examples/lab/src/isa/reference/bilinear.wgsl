@@ -1,4 +1,4 @@
-import moment_shadows::fullscreen::{Interpolated};
+import node::fullscreen::{Interpolated};
 
 // What every filterable shadow costs at least: one bilinear fetch.
 

@@ -1,7 +1,7 @@
-import moment_shadows::fullscreen::{Interpolated};
-import moment_shadows::hamburger::{hamburger_shadow_intensity_of_texel};
-import moment_shadows::leak_reduction::{leak_reduction_full_shadow};
-import moment_shadows::storage::{STORAGE_UNORM16};
+import node::fullscreen::{Interpolated};
+import moment_shadows::bounds::hamburger4::{hamburger4_shadow_intensity_of_texel};
+import moment_shadows::shade::leak_reduction::{leak_reduction_full_shadow};
+import moment_shadows::map::storage::{STORAGE_UNORM16};
 
 // Hamburger four-moment shadow mapping as a forward shader evaluates it: one fetch, dequantisation, moment bias, bound and
 // leak reduction, with nothing around it.
@@ -12,6 +12,6 @@ import moment_shadows::storage::{STORAGE_UNORM16};
 @fragment
 fn shade(input: Interpolated) -> @location(0) vec4f {
     let texel = textureSample(map, map_sampler, input.place.xy);
-    let intensity = hamburger_shadow_intensity_of_texel(texel, input.place.z, STORAGE_UNORM16);
+    let intensity = hamburger4_shadow_intensity_of_texel(texel, input.place.z, STORAGE_UNORM16);
     return vec4f(leak_reduction_full_shadow(intensity, 0.98), 0.0, 0.0, 1.0);
 }

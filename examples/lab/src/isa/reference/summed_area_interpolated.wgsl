@@ -1,6 +1,6 @@
-import moment_shadows::fullscreen::{Interpolated};
-import moment_shadows::map_region::{MapRegion};
-import moment_shadows::summed_area_table::{summed_area_table_mean_interpolated, summed_area_table_rectangle};
+import node::fullscreen::{Interpolated};
+import moment_shadows::map::map_region::{MapRegion};
+import moment_shadows::filter::summed_area_table::{summed_area_table_mean_interpolated, summed_area_table_rectangle};
 
 // What filtering with a summed-area table costs: the mean over a rectangle of any size, interpolated.
 

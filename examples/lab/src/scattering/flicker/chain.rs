@@ -58,10 +58,10 @@ impl Chain {
                     node["type"] = json!("rectify_nearest");
                 }
             }
-            Some("blur_moments") if self == Chain::MipLevels => {
+            Some("blur") if self == Chain::MipLevels => {
                 node["properties"]["mip_levels"] = json!("all");
             }
-            Some("resolve_moments") if self.is_plain() => {
+            Some("resolve") if self.is_plain() => {
                 node["properties"]["storage"] = json!("float32");
             }
             _ => {}
@@ -89,17 +89,17 @@ impl Chain {
         match self {
             Chain::Filtered => {}
             Chain::MipLevels => {
-                redirect(&mut file, "blur.blurred", "mips.moments");
+                redirect(&mut file, "blur.blurred", "mips.map");
                 edit(&mut file, "nodes", |nodes| {
-                    nodes.push(json!({ "name": "mips", "type": "downsample_moments" }));
+                    nodes.push(json!({ "name": "mips", "type": "downsample" }));
                 });
                 edit(&mut file, "edges", |edges| {
-                    edges.push(json!({ "from": "blur.blurred", "to": "mips.moments" }));
+                    edges.push(json!({ "from": "blur.blurred", "to": "mips.map" }));
                 });
             }
             Chain::Bilinear | Chain::Unfiltered => {
                 remove(&mut file, "blur");
-                redirect(&mut file, "blur.blurred", "resolve.moments");
+                redirect(&mut file, "blur.blurred", "resolve.map");
             }
         }
         let mut registry = NodeRegistry::new();

@@ -22,16 +22,16 @@ const NEAREST: &str =
 
 impl Node for RectifyNearest {
     fn describe(&self, upstream: &Connected<'_>) -> Result<NodeDesc, GraphError> {
-        let moments = upstream.texture("moments")?;
+        let moments = upstream.texture("map")?;
         let refused = || {
             let reason =
                 "only maps of rgba32float without mip levels are resampled without a filter";
-            GraphError::new(GraphErrorKind::Format, reason).at_slot("moments")
+            GraphError::new(GraphErrorKind::Format, reason).at_slot("map")
         };
         if moments.format != TextureFormat::Rgba32Float || moments.mips != 1 {
             return Err(refused());
         }
-        let inputs = [("moments".to_owned(), ResourceDesc::Texture(moments.clone()))].into();
+        let inputs = [("map".to_owned(), ResourceDesc::Texture(moments.clone()))].into();
         // No sampler then.
         let capabilities = Capabilities {
             float32_filterable: false,

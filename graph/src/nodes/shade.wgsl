@@ -1,0 +1,171 @@
+import node::fullscreen::{Covered};
+import moment_shadows::map::depth::{DepthConversion};
+import moment_shadows::shade::leak_reduction::{LeakReduction, leak_reduction_apply};
+import moment_shadows::map::map_region::{MapRegion, map_region_within};
+import moment_shadows::map::minification::{minification_depth_variance, minification_footprint};
+import moment_shadows::shade::area_light::{AreaLight};
+import moment_shadows::shade::receiver_bias::{ReceiverBias, receiver_bias_depth, receiver_bias_depth_minified, receiver_bias_plane};
+import node::specialization::{ANISOTROPY, GROUP, LEVELS, LIGHTS, VIEWS};
+import node::technique::{technique_shadow_intensity};
+import node::technique_map::{technique_map_size};
+import node::technique_receiver::{TechniqueReceiver};
+
+// Shadow intensity of every pixel, from the camera's depth and a light's map, by the technique of the map. A view of a light is one region of one
+// layer: a sun's cascade, a face of a point light, a spot light. Each light has a channel of the target.
+
+struct ViewParameters {
+    // From the camera's clip space (x, y, stored depth, 1) to the light: x and y are the place in the map in [0, 1], z its
+    // homogeneous coordinate (positive in front of the light) and w the moment depth, all times the factors they are
+    // divided by. Camera and light are combined in one matrix so that no large scene coordinates occur.
+    light_from_camera: mat4x4f,
+    // The homogeneous coordinate of the scene position, which divides the moment depth.
+    scene_w_from_camera: vec4f,
+    receiver_bias: ReceiverBias,
+    leak_reduction: LeakReduction,
+    // Where the view lies in its layer; without texels there is no such view.
+    region: MapRegion,
+    // The stored depth of pixels that show no surface; the same for all views.
+    far_depth: f32,
+    // The map's layer.
+    layer: u32,
+    // The target's channel, 0 to 3. Of the views of one channel the first that contains a pixel shades it.
+    channel: u32,
+    padding: f32,
+    // How the light's map stores depth, and how large the light is: for tests on the plain depth map.
+    conversion: DepthConversion,
+    light: AreaLight,
+}
+
+@group(GROUP) @binding(0) var<uniform> views: array<ViewParameters, VIEWS>;
+@group(GROUP) @binding(1) var camera_depth: texture_depth_2d;
+
+// A pixel's surface as the light sees it.
+struct Receiver {
+    // x and y in the map from 0 to 1, z in moment depth.
+    place: vec3f,
+    // What x and y were divided by; positive in front of the light.
+    light_w: f32,
+    // What z was divided by; positive in front of the camera.
+    scene_w: f32,
+}
+
+fn receiver_at(view: u32, pixel: vec2i, stored_depth: f32) -> Receiver {
+    let uv = (vec2f(pixel) + 0.5) / vec2f(textureDimensions(camera_depth));
+    let clip = vec4f(2.0 * uv.x - 1.0, 1.0 - 2.0 * uv.y, stored_depth, 1.0);
+    let light = views[view].light_from_camera * clip;
+    // Results behind the camera or the light are not used.
+    let scene_w = max(dot(views[view].scene_w_from_camera, clip), 1e-30);
+    return Receiver(vec3f(light.xy / max(light.z, 1e-30), light.w / scene_w), light.z, scene_w);
+}
+
+fn camera_depth_at(pixel: vec2i) -> f32 {
+    return textureLoad(camera_depth, clamp(pixel, vec2i(0), vec2i(textureDimensions(camera_depth)) - 1), 0);
+}
+
+// By how much the two pixels next to `pixel` along `step`, extrapolated, miss its stored depth; huge if the first one
+// shows no surface or lies outside of the picture.
+fn extrapolation_error(pixel: vec2i, step: vec2i, stored_depth: f32) -> f32 {
+    let neighbour = pixel + step;
+    let outside = any(neighbour < vec2i(0)) || any(neighbour >= vec2i(textureDimensions(camera_depth)));
+    let depth = camera_depth_at(neighbour);
+    let error = abs(2.0 * depth - camera_depth_at(neighbour + step) - stored_depth);
+    return select(error, UNUSABLE, outside || depth == views[0].far_depth);
+}
+
+// Above every difference of stored depths.
+const UNUSABLE: f32 = 1e30;
+
+// No place in the map is that many texels away. Products of two differences must not overflow.
+const LARGEST_DIFFERENCE: f32 = 1e9;
+
+// The neighbour of a pixel along `axis` on the side that continues its surface: xy is the step to it and z the change of
+// stored depth. Stored depth is linear on the screen where a surface is plane, so that is the side which extrapolates to
+// the pixel best; the other one may lie beyond a silhouette or an edge. Zero if there is no neighbour.
+fn neighbour_of(pixel: vec2i, axis: vec2i, stored_depth: f32) -> vec3f {
+    let error_before = extrapolation_error(pixel, -axis, stored_depth);
+    let error_after = extrapolation_error(pixel, axis, stored_depth);
+    if min(error_before, error_after) == UNUSABLE {
+        return vec3f(0.0);
+    }
+    let direction = select(axis, -axis, error_before < error_after);
+    return vec3f(vec2f(direction), camera_depth_at(pixel + direction) - stored_depth);
+}
+
+// How the place in the map (in texels) and the moment depth change from a pixel to its neighbour; zero if there is none,
+// as on a surface that is edge-on to the light.
+fn receiver_difference(view: u32, neighbour: vec3f, receiver: Receiver, texels: vec2f) -> vec3f {
+    if all(neighbour.xy == vec2f(0.0)) {
+        return vec3f(0.0);
+    }
+    let across_screen = vec2f(2.0, -2.0) * neighbour.xy / vec2f(textureDimensions(camera_depth));
+    let step = vec4f(across_screen, neighbour.z, 0.0);
+    // With numerators n and divisors w, n1 / w1 - n0 / w0 = (dn - (n0 / w0) dw) / w1. Other than the difference of two
+    // places, this keeps its digits where a pixel covers a small part of a texel.
+    let light = views[view].light_from_camera * step;
+    let scene_w = dot(views[view].scene_w_from_camera, step);
+    let across = (light.xy - receiver.place.xy * light.z) / max(receiver.light_w + light.z, 1e-30);
+    let along = (light.w - receiver.place.z * scene_w) / max(receiver.scene_w + scene_w, 1e-30);
+    return clamp(vec3f(across * texels, along), vec3f(-LARGEST_DIFFERENCE), vec3f(LARGEST_DIFFERENCE));
+}
+
+// Shadow intensity of a receiver that a view contains.
+fn view_shadow_intensity(view: u32, pixel: vec2i, receiver: Receiver, neighbour_x: vec3f, neighbour_y: vec3f, region: MapRegion) -> f32 {
+    let texels = vec2f(region.extent);
+    let difference_x = receiver_difference(view, neighbour_x, receiver, texels);
+    let difference_y = receiver_difference(view, neighbour_y, receiver, texels);
+    let gradient = receiver_bias_plane(difference_x, difference_y);
+    let settings = views[view].receiver_bias;
+    var bias = receiver_bias_depth(settings, length(gradient));
+    if LEVELS > 1u {
+        let footprint = minification_footprint(difference_x.xy, difference_y.xy, ANISOTROPY);
+        let variance = minification_depth_variance(footprint, gradient);
+        bias = receiver_bias_depth_minified(settings, length(gradient), variance);
+    }
+    // The map holds a surface that leaves the light's range at the far end. The bias counts from there, since some of the
+    // kernel may still see the surface within the range.
+    let depth = min(receiver.place.z, 1.0);
+    let intensity = technique_shadow_intensity(TechniqueReceiver(
+        views[view].layer,
+        region,
+        receiver.place.xy,
+        difference_x.xy,
+        difference_y.xy,
+        gradient,
+        depth - bias,
+        depth - settings.constant,
+        (settings.maximum - settings.constant) / max(settings.slope_scale, 1e-30),
+        views[view].conversion,
+        views[view].light,
+        vec2f(pixel),
+    ));
+    return leak_reduction_apply(intensity, views[view].leak_reduction);
+}
+
+@fragment
+fn shade(covered: Covered) -> @location(0) vec4f {
+    let size = vec2i(textureDimensions(camera_depth));
+    let pixel = clamp(vec2i(covered.uv * vec2f(size)), vec2i(0), size - 1);
+    let stored_depth = textureLoad(camera_depth, pixel, 0);
+    // Outside its map a light casts no shadow, and where there is no surface, either.
+    var intensities = vec4f(0.0);
+    if stored_depth == views[0].far_depth {
+        return intensities;
+    }
+    let neighbour_x = neighbour_of(pixel, vec2i(1, 0), stored_depth);
+    let neighbour_y = neighbour_of(pixel, vec2i(0, 1), stored_depth);
+    var open_channels = vec4<bool>(true);
+    for (var view = 0u; view < VIEWS; view++) {
+        let channel = vec4<bool>(vec4u(views[view].channel) == vec4u(0u, 1u, 2u, 3u));
+        let region = map_region_within(views[view].region, technique_map_size());
+        let receiver = receiver_at(view, pixel, stored_depth);
+        let uv = receiver.place.xy;
+        let inside = receiver.light_w > 0.0 && all(uv >= vec2f(0.0)) && all(uv <= vec2f(1.0));
+        if inside && all(region.extent > vec2u(0u)) && any(channel & open_channels) {
+            let intensity = view_shadow_intensity(view, pixel, receiver, neighbour_x, neighbour_y, region);
+            intensities = select(intensities, vec4f(intensity), channel);
+            open_channels = open_channels & !channel;
+        }
+    }
+    // A single light is in all channels, so that a host can blend with it or show it.
+    return select(intensities, intensities.xxxx, LIGHTS == 1u);
+}

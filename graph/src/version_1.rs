@@ -1,0 +1,119 @@
+//! Graph files of version 1: names that have changed since.
+
+use std::collections::BTreeMap;
+
+use serde_json::Value;
+
+use crate::{Edge, Endpoint, Output};
+
+/// Node types of version 1 that have another name now.
+const TYPES: [(&str, &str); 3] = [
+    ("resolve_moments", "resolve"),
+    ("blur_moments", "blur"),
+    ("downsample_moments", "downsample"),
+];
+
+/// Types whose slot `moments` is called `map` now.
+const MAP_SLOTS: [&str; 7] = [
+    "resolve",
+    "blur",
+    "downsample",
+    "summed_area_table",
+    "debug_moments",
+    "shade_hard",
+    "rectify_moments",
+];
+
+/// Names that have changed, and a note for each one that a file uses.
+#[derive(Default)]
+pub(crate) struct Renamed {
+    /// The nodes that have a slot `map`.
+    with_map: BTreeMap<String, &'static str>,
+    /// What to change in the file.
+    pub(crate) notes: Vec<String>,
+}
+
+impl Renamed {
+    /// The type's name now.
+    pub(crate) fn type_name<'a>(&mut self, node: &str, type_name: &'a str) -> &'a str {
+        let renamed = TYPES.iter().find(|(old, _)| *old == type_name);
+        let now = renamed.map_or(type_name, |(_, now)| now);
+        if now != type_name {
+            self.note(format!("the node type '{type_name}' is called '{now}'"));
+        }
+        if let Some(with_map) = MAP_SLOTS.iter().find(|name| **name == now) {
+            self.with_map.insert(node.to_owned(), with_map);
+        }
+        now
+    }
+
+    fn note(&mut self, note: String) {
+        if !self.notes.contains(&note) {
+            self.notes.push(note);
+        }
+    }
+
+    /// The slot's name now, where it has changed.
+    fn slot(&mut self, node: &str, slot: &str) -> Option<String> {
+        let type_name = *self.with_map.get(node).filter(|_| slot == "moments")?;
+        self.note(format!(
+            "the slot 'moments' of nodes '{type_name}' is called 'map'"
+        ));
+        Some("map".to_owned())
+    }
+
+    fn endpoint(&mut self, endpoint: &mut Endpoint) {
+        let Some(slot) = &endpoint.slot else { return };
+        if let Some(now) = self.slot(&endpoint.owner, slot) {
+            endpoint.slot = Some(now);
+        }
+    }
+
+    /// Gives the slots of edges and outputs their names of now, once all nodes are known.
+    pub(crate) fn slots(&mut self, edges: &mut [Edge], outputs: &mut [Output]) {
+        for edge in edges {
+            self.endpoint(&mut edge.from);
+            self.endpoint(&mut edge.to);
+        }
+        for output in outputs {
+            self.endpoint(&mut output.from);
+        }
+    }
+}
+
+/// Rewrites a graph file of version 1 to the current one, for tools that change files before they parse them; returns what has
+/// changed. Anything that is no graph file of version 1 stays as it is, for [`crate::Graph::parse`] to judge.
+pub fn upgrade(file: &mut Value) -> Vec<String> {
+    let mut renamed = Renamed::default();
+    if file["version"] != 1 {
+        return renamed.notes;
+    }
+    file["version"] = crate::VERSION.into();
+    for node in array(file, "nodes") {
+        let (Some(name), Some(old)) = (node["name"].as_str(), node["type"].as_str()) else {
+            continue;
+        };
+        let now = renamed.type_name(name, old).to_owned();
+        node["type"] = now.into();
+    }
+    for (list, ends) in [("edges", ["from", "to"].as_slice()), ("outputs", &["from"])] {
+        for connection in array(file, list) {
+            for end in ends {
+                let Some((node, slot)) = connection[*end].as_str().and_then(|s| s.split_once('.'))
+                else {
+                    continue;
+                };
+                if let Some(now) = renamed.slot(node, slot) {
+                    connection[*end] = format!("{node}.{now}").into();
+                }
+            }
+        }
+    }
+    renamed.notes
+}
+
+/// The objects of a list of the file.
+fn array<'a>(file: &'a mut Value, name: &str) -> impl Iterator<Item = &'a mut Value> {
+    let list = file.get_mut(name).and_then(Value::as_array_mut);
+    list.into_iter().flatten().filter(|value| value.is_object())
+}

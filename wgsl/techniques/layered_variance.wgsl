@@ -1,0 +1,116 @@
+import super::super::map::depth::{depth_of_fragment};
+import super::super::bounds::chebyshev::{chebyshev_lower_bound};
+import super::super::moments::two_moments::{two_moments_from_texel, two_moments_smallest_variance_of};
+
+// Layered variance shadow mapping: variance shadow mapping of several ranges of depth.
+//
+// Layer [p, q] warps depth by t -> clamp((t - p) / (q - p), 0, 1) before its two moments are taken, so that occluders in
+// front of it all coincide: light bleeds only between occluders within the layer that contains the fragment (Lauritzen &
+// McCool, "Layered Variance Shadow Maps", GI 2008, section 4; Lauritzen, thesis 2008, section 4.1). The warp here goes to
+// [-1, 1] instead of [0, 1], so that encoding, smallest variance and bound are those of `variance`; one layer is the same
+// technique, to the bit. A texel holds two layers, so n of them take (n + 1) / 2 planes.
+
+// Up to this many layers.
+const LAYERED_VARIANCE_LARGEST_COUNT: u32 = 8u;
+
+// No layer is narrower.
+const LAYERED_VARIANCE_SMALLEST_HALF_WIDTH: f32 = 1e-4;
+
+// The layers, front to back.
+struct LayeredVarianceLayers {
+    // The splits behind layers 0 to count - 2, ascending in [-1, 1]; four to a vector. What follows them is not read.
+    splits: array<vec4f, 2>,
+    // From 1 to 8.
+    count: u32,
+    // Both layers at a split reach this far beyond it, and fragments that close to it blend both.
+    overlap: f32,
+    padding: vec2f,
+}
+
+// Where to look a fragment up.
+struct LayeredVarianceChoice {
+    // The layer that contains the fragment.
+    layer: u32,
+    // The layer at the other side of the nearest split, and its share in [0, 0.5]; where that is 0 it need not be read.
+    neighbor: u32,
+    neighbor_share: f32,
+}
+
+// The split behind a layer.
+fn layered_variance_split(layers: LayeredVarianceLayers, layer: u32) -> f32 {
+    var splits = layers.splits;
+    let index = min(layer, LAYERED_VARIANCE_LARGEST_COUNT - 1u);
+    return clamp(splits[index / 4u][index % 4u], -1.0, 1.0);
+}
+
+// The number of layers, from 1 to 8.
+fn layered_variance_count(layers: LayeredVarianceLayers) -> u32 {
+    return clamp(layers.count, 1u, LAYERED_VARIANCE_LARGEST_COUNT);
+}
+
+// The interval [p, q] of a layer with its overlaps; the first begins at -1, the last ends at 1. Indices beyond the last
+// count as the last, which fills the second half of the last texel of an odd number of layers.
+fn layered_variance_interval(layers: LayeredVarianceLayers, layer: u32) -> vec2f {
+    let last = layered_variance_count(layers) - 1u;
+    let index = min(layer, last);
+    var interval = vec2f(-1.0, 1.0);
+    if index > 0u {
+        interval.x = max(layered_variance_split(layers, index - 1u) - layers.overlap, -1.0);
+    }
+    if index < last {
+        interval.y = min(layered_variance_split(layers, index) + layers.overlap, 1.0);
+    }
+    return interval;
+}
+
+// Depth as a layer sees it: -1 at its front and before, 1 at its back and beyond. The identity for [-1, 1].
+fn layered_variance_warp(z: f32, interval: vec2f) -> f32 {
+    let half_width = max(0.5 * (interval.y - interval.x), LAYERED_VARIANCE_SMALLEST_HALF_WIDTH);
+    return clamp((z - 0.5 * (interval.x + interval.y)) / half_width, -1.0, 1.0);
+}
+
+// What is averaged for a depth z in [-1, 1] in a plane, which holds the layers 2 * plane and 2 * plane + 1; to be written
+// with `two_moments_to_texel`.
+fn layered_variance_channels(z: f32, layers: LayeredVarianceLayers, plane: u32) -> vec4f {
+    let near = layered_variance_warp(z, layered_variance_interval(layers, 2u * plane));
+    let far = layered_variance_warp(z, layered_variance_interval(layers, 2u * plane + 1u));
+    return vec4f(near, near * near, far, far * far);
+}
+
+// The layer of a fragment and how it blends with a neighbor: linearly over the overlap, half of each at the split.
+fn layered_variance_choice(layers: LayeredVarianceLayers, fragment_depth: f32) -> LayeredVarianceChoice {
+    let depth = depth_of_fragment(fragment_depth);
+    let last = layered_variance_count(layers) - 1u;
+    var layer = 0u;
+    while layer < last && layered_variance_split(layers, layer) < depth {
+        layer++;
+    }
+    let overlap = max(layers.overlap, 1e-30);
+    var choice = LayeredVarianceChoice(layer, layer, 0.0);
+    if layer > 0u {
+        let share = 0.5 - 0.5 * min((depth - layered_variance_split(layers, layer - 1u)) / overlap, 1.0);
+        choice = LayeredVarianceChoice(layer, layer - 1u, share);
+    }
+    if layer < last {
+        let share = 0.5 - 0.5 * min((layered_variance_split(layers, layer) - depth) / overlap, 1.0);
+        if share > choice.neighbor_share {
+            choice = LayeredVarianceChoice(layer, layer + 1u, share);
+        }
+    }
+    return choice;
+}
+
+// Shadow intensity in [0, 1] (1 = shadowed) of a fragment by one layer, for the filtered texel of the plane `layer / 2`: a
+// lower bound. Fragments out of the layer count as its ends.
+fn layered_variance_shadow_intensity_of_texel(
+    texel: vec4f,
+    fragment_depth: f32,
+    storage: u32,
+    layers: LayeredVarianceLayers,
+    layer: u32,
+) -> f32 {
+    let pairs = two_moments_from_texel(texel, storage);
+    let moments = select(pairs.xy, pairs.zw, layer % 2u == 1u);
+    let warped = layered_variance_warp(depth_of_fragment(fragment_depth), layered_variance_interval(layers, layer));
+    return chebyshev_lower_bound(moments, warped, two_moments_smallest_variance_of(storage));
+}
