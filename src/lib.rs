@@ -26,6 +26,7 @@
 //! default) checks a shader under a [`Profile`] and writes it for every backend; its errors point at the lines before linking.
 
 mod area_light;
+mod constant;
 mod depth;
 mod file;
 mod format;
@@ -48,7 +49,7 @@ mod single_scattering;
 mod six_moments;
 mod storage;
 mod summed_area_table;
-mod technique;
+mod techniques;
 mod token;
 #[cfg(feature = "validate")]
 mod validate;
@@ -74,9 +75,9 @@ pub use single_scattering::{SingleScattering, SingleScatteringError};
 pub use six_moments::SixMomentsBias;
 pub use storage::{FourMomentsBias, Storage, UnsupportedStorage};
 pub use summed_area_table::{SummedAreaTable, SummedAreaTableError};
-pub use technique::{
-    EsmFiltering, Finite, LayerSplits, MapEncoding, NotFinite, PcfTaps, Pcss, Technique,
-    TechniqueError,
+pub use techniques::{
+    Constant, Contents, Encoding, EsmFiltering, Finite, LayerSplits, MapEncoding, NotFinite,
+    PcfTaps, Pcss, Row, Snippet, Technique, TechniqueError,
 };
 #[cfg(feature = "validate")]
 pub use validate::{

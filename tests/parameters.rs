@@ -12,7 +12,7 @@ use moment_shadows::{
     AreaLight, DepthConversion, EsmFiltering, Finite, FourMomentsBias, Kernel, LARGEST_RADIUS,
     LayerSplits, LeakReduction, MapRegion, PcfTaps, Pcss, PercentageCloserKernel, Profile,
     ReceiverBias, RectifiedFrame, STANDARD_DEVIATIONS, SingleScattering, SixMomentsBias, Source,
-    Storage, SummedAreaTable, Technique, TextureFormat, link,
+    Storage, SummedAreaTable, Technique, TextureFormat, link, modules,
 };
 use moment_shadows_graph::nodes::{
     Blur, BlurParameters, CompositeScattering, CompositeScatteringParameters, IntegrateScattering,
@@ -41,7 +41,8 @@ fn parse(wgsl: &str) -> Module {
 
 /// The closure of one item of a library module.
 fn module(name: &str, item: &str) -> Module {
-    let text = format!("import moment_shadows::{name}::{{{item}}};\n");
+    let folder = modules().iter().find(|it| it.name == name).unwrap().folder;
+    let text = format!("import moment_shadows::{folder}::{name}::{{{item}}};\n");
     let source = Source {
         name: "user.wgsl",
         text: &text,
@@ -381,7 +382,7 @@ fn storages_have_the_numbers_and_biases_of_the_module() {
         let found = constant(&module("storage", &index), &index);
         assert_eq!(found, [f64::from(storage.wgsl_index())], "{index}");
         let bias = format!("FOUR_MOMENTS_BIAS_{name}");
-        let found = constant(&module("map", &bias), &bias);
+        let found = constant(&module("four_moments", &bias), &bias);
         let expected = storage.moment_bias();
         assert_eq!(
             found,
@@ -389,7 +390,7 @@ fn storages_have_the_numbers_and_biases_of_the_module() {
             "{bias}"
         );
         let bias = format!("HAUSDORFF4_BIAS_{name}");
-        let found = constant(&module("hausdorff", &bias), &bias);
+        let found = constant(&module("hausdorff4", &bias), &bias);
         let expected = storage.hausdorff_moment_bias();
         assert_eq!(
             found,
