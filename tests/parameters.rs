@@ -124,7 +124,7 @@ fn structs_of_the_modules_are_laid_out_alike() {
         }),
     );
     assert_same_layout(
-        &module("map", "FourMomentsBias"),
+        &module("four_moments", "FourMomentsBias"),
         "FourMomentsBias",
         size_of::<FourMomentsBias>(),
         &fields!(FourMomentsBias {
