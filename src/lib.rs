@@ -38,13 +38,11 @@ mod link_error;
 mod linked;
 mod location;
 mod map_region;
-mod matrix;
 mod module;
 mod nearest;
 mod percentage_closer;
 mod profile;
 mod receiver_bias;
-mod rectified_frame;
 mod single_scattering;
 mod six_moments;
 mod storage;
@@ -53,6 +51,7 @@ mod techniques;
 mod token;
 #[cfg(feature = "validate")]
 mod validate;
+mod view;
 
 pub use area_light::{AreaLight, AreaLightError, SoftRadii};
 pub use depth::{DepthConversion, DepthError, DepthRange};
@@ -70,7 +69,6 @@ pub use nearest::nearest;
 pub use percentage_closer::PercentageCloserKernel;
 pub use profile::Profile;
 pub use receiver_bias::{ReceiverBias, STANDARD_DEVIATIONS};
-pub use rectified_frame::{RectifiedFrame, RectifiedFrameError, RectifiedView};
 pub use single_scattering::{SingleScattering, SingleScatteringError};
 pub use six_moments::SixMomentsBias;
 pub use storage::{FourMomentsBias, Storage, UnsupportedStorage};
@@ -84,6 +82,12 @@ pub use validate::{
     Backend, Diagnostic, LARGEST_CONSTANT, LARGEST_VALUE, LONGEST_CHAIN, LONGEST_DEFINITION,
     LONGEST_SHADER, Label, MOST_CONSTANTS, MOST_EXPRESSIONS, MOST_VALUES, Outcome, ValidateError,
     ValidationReport, validate, validate_module,
+};
+
+pub use view::{
+    CameraView, CompositeScatteringParameters, IntegrateScatteringParameters, LightDepth,
+    LightView, RectifiedFrame, RectifiedFrameError, RectifiedView, RectifyMomentsParameters,
+    ScatteringParameters, ScatteringViewError, ViewError, ViewParameters,
 };
 
 #[cfg(doctest)]

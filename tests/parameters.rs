@@ -9,15 +9,16 @@
 use std::mem::offset_of;
 
 use moment_shadows::{
-    AreaLight, DepthConversion, EsmFiltering, Finite, FourMomentsBias, Kernel, LARGEST_RADIUS,
-    LayerSplits, LeakReduction, MapRegion, PcfTaps, Pcss, PercentageCloserKernel, Profile,
-    ReceiverBias, RectifiedFrame, STANDARD_DEVIATIONS, SingleScattering, SixMomentsBias, Source,
-    Storage, SummedAreaTable, Technique, TextureFormat, link, modules,
+    AreaLight, CompositeScatteringParameters, DepthConversion, EsmFiltering, Finite,
+    FourMomentsBias, IntegrateScatteringParameters, Kernel, LARGEST_RADIUS, LayerSplits,
+    LeakReduction, MapRegion, PcfTaps, Pcss, PercentageCloserKernel, Profile, ReceiverBias,
+    RectifiedFrame, RectifyMomentsParameters, STANDARD_DEVIATIONS, SingleScattering,
+    SixMomentsBias, Source, Storage, SummedAreaTable, Technique, TextureFormat, ViewParameters,
+    link, modules,
 };
 use moment_shadows_graph::nodes::{
-    Blur, BlurParameters, CompositeScattering, CompositeScatteringParameters, IntegrateScattering,
-    IntegrateScatteringParameters, KernelProperty, RectifyMoments, RectifyMomentsParameters,
-    Resolve, ShadeHard, ViewParameters,
+    Blur, BlurParameters, CompositeScattering, IntegrateScattering, KernelProperty, RectifyMoments,
+    Resolve, ShadeHard,
 };
 use moment_shadows_graph::{
     BindingResource, Capabilities, Connected, Node, NodeDesc, ResourceDesc, TextureDesc,

@@ -1,12 +1,12 @@
 //! Light that a medium scatters into each pixel's view ray.
 
-use moment_shadows::{Technique, TextureFormat};
+use moment_shadows::{CompositeScatteringParameters, Technique, TextureFormat};
 use serde::{Deserialize, Serialize};
 
 use super::moments_input::{encoding_of, map_formats};
 use super::moments_lookup::moments_lookup;
 use super::specialization::{FULLSCREEN, Specialization};
-use super::{CompositeScatteringParameters, drawn_map, techniques};
+use super::{drawn_map, techniques};
 use crate::{
     Access, Binding, BindingResource, Connected, CountRule, Direction, ExtentRule, FormatRule,
     GraphError, GraphErrorKind, Lifetime, Node, NodeDesc, ParameterBlock, Pass, Slot, SlotResource,

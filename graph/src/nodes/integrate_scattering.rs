@@ -4,12 +4,13 @@ use serde::{Deserialize, Serialize};
 
 use super::moments_input::{encoding_of, map_formats};
 use super::specialization::Specialization;
-use super::{IntegrateScatteringParameters, drawn_map, techniques};
+use super::{drawn_map, techniques};
 use crate::{
     Access, Binding, BindingResource, Connected, CountRule, Direction, ExtentRule, FormatRule,
     GraphError, GraphErrorKind, Lifetime, Node, NodeDesc, ParameterBlock, Pass, Slot, SlotResource,
     Stage, Work,
 };
+use moment_shadows::IntegrateScatteringParameters;
 
 /// Node `integrate_scattering`: `rectified` (from [`super::RectifyMoments`]) to `integrated`, of the same size, encoding and
 /// storage: each texel is the mean of the texels of its row up to itself, weighted with the transmittance of the medium

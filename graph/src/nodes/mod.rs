@@ -14,7 +14,6 @@ mod place_layers;
 mod rectify_moments;
 mod region_tiles;
 mod resolve;
-mod scattering;
 mod shade_hard;
 mod shade_soft;
 mod shading;
@@ -33,12 +32,6 @@ pub use mip_levels::{AllLevels, MipLevels};
 pub use place_layers::PlaceLayers;
 pub use rectify_moments::RectifyMoments;
 pub use resolve::Resolve;
-pub use scattering::{
-    CompositeScatteringParameters, IntegrateScatteringParameters, RectifyMomentsParameters,
-    ScatteringParameters, ScatteringViewError,
-};
-pub use shade_hard::{
-    CameraView, LightDepth, LightView, ShadeHard, TechniqueShader, ViewError, ViewParameters,
-};
+pub use shade_hard::{ShadeHard, TechniqueShader};
 pub use shade_soft::{Interpolation, ShadeSoft};
 pub use summed_area_table::{LargestKernel, SummedAreaTable};

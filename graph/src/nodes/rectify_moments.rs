@@ -1,12 +1,12 @@
 //! Resamples a light's map in the rectified coordinates of a camera.
 
-use moment_shadows::{MapEncoding, Storage, Technique};
+use moment_shadows::{MapEncoding, RectifyMomentsParameters, Storage, Technique};
 use serde::{Deserialize, Serialize};
 
 use super::moments_input::{map_formats, moments_input};
 use super::moments_lookup::moments_lookup;
 use super::specialization::Specialization;
-use super::{RectifyMomentsParameters, drawn_map, techniques};
+use super::{drawn_map, techniques};
 use crate::{
     Access, Binding, BindingResource, Connected, CountRule, Direction, ExtentRule, FormatRule,
     GraphError, GraphErrorKind, Lifetime, Node, NodeDesc, ParameterBlock, Pass, Slot, SlotResource,

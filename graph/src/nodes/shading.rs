@@ -1,8 +1,7 @@
 //! What the nodes that shade a picture have in common: their shader, their target and their slots.
 
-use moment_shadows::TextureFormat;
+use moment_shadows::{TextureFormat, ViewParameters};
 
-use super::ViewParameters;
 use crate::{
     Access, Binding, CountRule, Direction, ExtentRule, FormatRule, GraphError, GraphErrorKind,
     Lifetime, NodeDesc, ParameterBlock, Pass, Slot, SlotResource, Stage, Work,
