@@ -2,12 +2,37 @@
 
 /// The value of `const <name>: <type> = <number>;` in the text of a module. Does not compile where there is none.
 pub(crate) const fn number(text: &str, name: &str) -> f64 {
-    let mut at = after(text.as_bytes(), 0, b"const ", name.as_bytes());
+    let [value] = numbers(text, name);
+    value
+}
+
+/// The first numbers in the value of a constant, names left out: of `Bias(TARGET, 1e-4)` it is 1e-4. Does not compile where there
+/// are fewer.
+pub(crate) const fn numbers<const N: usize>(text: &str, name: &str) -> [f64; N] {
     let bytes = text.as_bytes();
+    let mut at = after(bytes, 0, b"const ", name.as_bytes());
     while bytes[at] != b'=' {
         at += 1;
     }
-    literal(bytes, at + 2)
+    let mut values = [0.0; N];
+    let mut found = 0;
+    while found < N {
+        at += 1;
+        assert!(bytes[at] != b';', "the constant has fewer numbers");
+        let starts = !is_word(bytes[at - 1]) && bytes[at].is_ascii_digit();
+        if starts {
+            values[found] = literal(bytes, at);
+            found += 1;
+            while bytes[at + 1] == b'.' || bytes[at + 1] == b'-' || is_word(bytes[at + 1]) {
+                at += 1;
+            }
+        }
+    }
+    values
+}
+
+const fn is_word(byte: u8) -> bool {
+    byte == b'_' || byte.is_ascii_alphanumeric()
 }
 
 /// The first place after `keyword` and `name` with a colon behind them.
@@ -57,7 +82,7 @@ const fn literal(bytes: &[u8], start: usize) -> f64 {
                 exponent += if negative { -power } else { power };
                 break;
             }
-            b'u' | b'i' | b'f' | b'h' | b';' => break,
+            b'u' | b'i' | b'f' | b'h' | b';' | b',' | b')' | b' ' => break,
             _ => panic!("the constant is no decimal number"),
         }
         at += 1;
@@ -78,7 +103,7 @@ const fn literal(bytes: &[u8], start: usize) -> f64 {
 
 #[cfg(test)]
 mod tests {
-    use super::number;
+    use super::{number, numbers};
 
     #[test]
     fn decimal_numbers_are_read_as_the_compiler_reads_them() {
@@ -86,5 +111,7 @@ mod tests {
         assert_eq!(number(text, "A"), 4.1e-7);
         assert_eq!(number(text, "A_B"), 7.0);
         assert_eq!(number(text, "B"), 64.0);
+        let text = "const X_1: Bias2 = Bias2(6e-5, 0.628,\n    Y_3, 0.5);";
+        assert_eq!(numbers::<3>(text, "X_1"), [6e-5, 0.628, 0.5]);
     }
 }

@@ -101,7 +101,7 @@ fn structs_of_the_modules_are_laid_out_alike() {
             constant: f32,
             slope_scale: f32,
             maximum: f32,
-            normal_offset: f32
+            padding: f32
         }),
     );
     assert_same_layout(
