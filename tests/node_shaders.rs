@@ -12,74 +12,12 @@ use std::collections::{BTreeMap, BTreeSet};
 use std::path::PathBuf;
 
 use moment_shadows::{Backend, Profile, Source, validate};
-use moment_shadows_graph::NodeRegistry;
 use moment_shadows_lab::shaders::{self, Shader};
 
 fn variants() -> Vec<Shader> {
     let nodes = shaders::nodes().unwrap();
     nodes.into_iter().map(|node| node.shader).collect()
 }
-
-#[test]
-fn every_node_of_the_registry_is_in_the_list_of_shaders() {
-    let listed: BTreeSet<String> = shaders::nodes()
-        .unwrap()
-        .into_iter()
-        .map(|node| node.node)
-        .collect();
-    let registry = NodeRegistry::new();
-    let registered: BTreeSet<String> = registry.type_names().map(str::to_owned).collect();
-    assert_eq!(
-        listed, registered,
-        "a node's variants are listed in examples/lab/src/shaders/nodes.rs"
-    );
-}
-
-/// Variants whose text is kept. The others change a constant each, or repeat lines.
-fn is_kept(name: &str) -> bool {
-    let ends = |suffixes: &[&str]| suffixes.iter().any(|suffix| name.ends_with(suffix));
-    if name.starts_with("summed_area_table") {
-        // The tiles of software adapters repeat lines, and so do those of several regions.
-        let texels = ends(&["float32_tiles", "float16_tiles"]);
-        let plain = !name.contains("software") && !name.contains("regions");
-        return plain && (texels || name.starts_with("summed_area_table_unorm16"));
-    }
-    if name.starts_with("rectify_moments") || name.contains("scattering") {
-        // Storages are constants.
-        return ends(&["float16"]);
-    }
-    if name.starts_with("shade_soft") {
-        // Storages and ways to look the table up are constants.
-        return ["shade_soft_float32", "shade_soft_vsm_float32"].contains(&name);
-    }
-    if name.contains("unorm10") {
-        // What draws a map; shading with it differs by a constant from shading with other six moments.
-        let drawn = !name.starts_with("shade") && !name.contains("single");
-        return drawn && ends(&["unorm10", "unorm10_x"]);
-    }
-    // Other storages change a constant.
-    if OTHER_TECHNIQUES.iter().any(|other| name.contains(other)) {
-        let blurred_alike = name.starts_with("blur") && !name.contains("logarithmic");
-        return ends(&["float32", "unorm8", "lloyd_unorm16"]) && !blurred_alike;
-    }
-    if name.starts_with("blur") || name.starts_with("downsample") {
-        return !name.contains("radius") && ends(&["unorm16", "unorm16_x"]);
-    }
-    if name.starts_with("debug_moments") {
-        return name == "debug_moments_unorm16_validity";
-    }
-    name == "shade_hard_unorm16_mips" || !ends(&["_2", "_8", "_regions", "_mips", "_views"])
-}
-
-/// Techniques whose maps hold something else than four moments, or are read by other means.
-const OTHER_TECHNIQUES: [&str; 6] = [
-    "esm",
-    "vsm",
-    "convolution",
-    "hausdorff4",
-    "hamburger6",
-    "pcf",
-];
 
 fn snapshot(name: &str) -> PathBuf {
     [
@@ -96,10 +34,8 @@ fn snapshot(name: &str) -> PathBuf {
 fn every_linked_shader_equals_its_snapshot() {
     let update = std::env::var_os("UPDATE_SNAPSHOTS").is_some();
     let mut names = BTreeSet::new();
-    for variant in variants()
-        .into_iter()
-        .filter(|variant| is_kept(&variant.name))
-    {
+    let nodes = shaders::nodes().unwrap().into_iter();
+    for variant in nodes.filter(|node| node.is_kept).map(|node| node.shader) {
         let path = snapshot(&variant.name);
         names.insert(path.file_name().unwrap().to_owned());
         if update {

@@ -137,11 +137,7 @@ enum Command {
         only: Option<String>,
     },
     /// Writes every linked shader of the library, as WGSL and SPIR-V with an index, for other compilers.
-    Shaders {
-        /// The folder to make.
-        #[arg(long)]
-        out: PathBuf,
-    },
+    Shaders(shaders::Options),
     /// Prints the error of a graph over all surfaces that the light's rays meet, and over a picture.
     Error {
         #[command(flatten)]
@@ -289,7 +285,7 @@ enum Command {
     /// infinite, outside of 0 to 1 or farther above the truth than is documented.
     Stability(StabilityArguments),
     /// Compiles every shader for chips that need not be there, and counts what the code does (Linux, Mesa's RADV).
-    Isa(IsaArguments),
+    Isa(isa::Options),
     /// The process that compiles for one chip, which its environment names.
     #[command(name = child::COMMAND, hide = true)]
     IsaChip {
@@ -579,45 +575,6 @@ impl TableArguments {
 }
 
 #[derive(clap::Args)]
-struct IsaArguments {
-    /// The chip.
-    #[arg(long, value_enum, default_value = "all")]
-    chip: ChipArgument,
-    /// Prints the table as JSON.
-    #[arg(long, conflicts_with_all = ["check", "update", "shader"])]
-    json: bool,
-    /// Compares with the table that is kept, and fails where a figure is over 5 % higher.
-    #[arg(long, conflicts_with_all = ["update", "shader"])]
-    check: bool,
-    /// Replaces the table that is kept.
-    #[arg(long, conflicts_with_all = ["chip", "shader"])]
-    update: bool,
-    /// Prints the code of one shader, by its name in the table.
-    #[arg(long)]
-    shader: Option<String>,
-    /// The table that is kept.
-    #[arg(long, default_value = isa::TABLE)]
-    table: PathBuf,
-}
-
-#[derive(Clone, Copy, ValueEnum)]
-enum ChipArgument {
-    Navi21,
-    Vega10,
-    All,
-}
-
-impl ChipArgument {
-    fn chips(self) -> &'static [Chip] {
-        match self {
-            ChipArgument::Navi21 => &[Chip::Navi21],
-            ChipArgument::Vega10 => &[Chip::Vega10],
-            ChipArgument::All => &Chip::ALL,
-        }
-    }
-}
-
-#[derive(clap::Args)]
 #[group(required = true, multiple = false)]
 struct CostSubject {
     /// A graph file: each of its passes, and all together.
@@ -872,9 +829,7 @@ fn run(command: Command) -> Result<ExitCode, Box<dyn std::error::Error>> {
             let made = technique_pictures::run(&out, &scene, only.as_deref())?;
             print!("{}", technique_pictures::table(&made));
         }
-        Command::Shaders { out } => {
-            println!("{} shaders in {}", shaders::run(&out)?, out.display());
-        }
+        Command::Shaders(options) => shaders::run(&options)?,
         Command::Bias {
             technique,
             storage,
@@ -911,7 +866,7 @@ fn run(command: Command) -> Result<ExitCode, Box<dyn std::error::Error>> {
             json,
         } => print(&orderings::run(samples, seed), json)?,
         Command::Stability(arguments) => return run_stability(&arguments),
-        Command::Isa(arguments) => return run_isa(&arguments),
+        Command::Isa(options) => return Ok(isa::run(&options)?),
         Command::IsaChip { chip, shader } => {
             print!("{}", child::compile(chip, shader.as_deref())?);
         }
@@ -1115,27 +1070,6 @@ fn run_stability(arguments: &StabilityArguments) -> Result<ExitCode, Box<dyn std
     } else {
         ExitCode::from(stability::FAULT_CODE)
     })
-}
-
-fn run_isa(arguments: &IsaArguments) -> Result<ExitCode, Box<dyn std::error::Error>> {
-    let chips = arguments.chip.chips();
-    if arguments.update {
-        isa::update(&arguments.table)?;
-        println!("{} is up to date", arguments.table.display());
-    } else if arguments.check {
-        let checked = isa::check(chips, &arguments.table)?;
-        print!("{checked}");
-        if !checked.passed() {
-            return Ok(ExitCode::FAILURE);
-        }
-    } else if let Some(shader) = &arguments.shader {
-        for &chip in chips {
-            println!("{chip}\n{}", child::disassembly(chip, shader)?);
-        }
-    } else {
-        print(&isa::table(chips)?, arguments.json)?;
-    }
-    Ok(ExitCode::SUCCESS)
 }
 
 fn print<T: serde::Serialize + std::fmt::Display>(
