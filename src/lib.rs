@@ -27,18 +27,12 @@
 
 mod area_light;
 mod depth;
-mod file;
 mod format;
-mod import;
 mod kernel;
 mod leak_reduction;
 mod link;
-mod link_error;
-mod linked;
-mod location;
 mod map_region;
 mod matrix;
-mod module;
 mod nearest;
 mod percentage_closer;
 mod profile;
@@ -49,22 +43,18 @@ mod six_moments;
 mod storage;
 mod summed_area_table;
 mod technique;
-mod token;
 #[cfg(feature = "validate")]
 mod validate;
 
 pub use area_light::{AreaLight, AreaLightError, SoftRadii};
 pub use depth::{DepthConversion, DepthError, DepthRange};
 pub use format::{FormatSupport, TextureFormat};
-pub use import::imports_super;
 pub use kernel::{Kernel, KernelError, LARGEST_RADIUS};
 pub use leak_reduction::{LeakReduction, LeakReductionError};
-pub use link::{Source, link, link_module};
-pub use link_error::LinkError;
-pub use linked::{Linked, Origin};
-pub use location::Location;
+pub use link::{
+    LinkError, Linked, Location, Module, Origin, Source, imports_super, link, link_module, modules,
+};
 pub use map_region::MapRegion;
-pub use module::{Module, modules};
 pub use nearest::nearest;
 pub use percentage_closer::PercentageCloserKernel;
 pub use profile::Profile;

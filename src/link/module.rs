@@ -16,7 +16,7 @@ macro_rules! modules {
         &[$($(Module {
             folder: $folder,
             name: $name,
-            source: include_str!(concat!("../wgsl/", $folder, "/", $name, ".wgsl")),
+            source: include_str!(concat!("../../wgsl/", $folder, "/", $name, ".wgsl")),
         }),*),*]
     };
 }

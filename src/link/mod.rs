@@ -1,12 +1,24 @@
 //! The linker: a file and the modules that it needs become one WGSL text.
 
+mod error;
+mod file;
+mod import;
+mod linked;
+mod location;
+mod module;
+pub(crate) mod tokens;
+
 use std::collections::{BTreeMap, BTreeSet};
 
-use crate::file::File;
-use crate::import::{Form, Import};
-use crate::linked::Linked;
+pub use self::error::LinkError;
+use self::file::File;
+pub(crate) use self::file::definitions;
+pub use self::import::imports_super;
+use self::import::{Form, Import};
+pub use self::linked::{Linked, Origin};
+pub use self::location::Location;
+pub use self::module::{Module, modules};
 use crate::nearest::nearest;
-use crate::{LinkError, Location, modules};
 
 /// A WGSL text with the name that errors show for it.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

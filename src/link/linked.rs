@@ -3,8 +3,8 @@
 use core::ops::Range;
 use std::collections::BTreeSet;
 
+use super::file::File;
 use crate::Location;
-use crate::file::File;
 
 /// A linked WGSL text that knows where each of its lines comes from.
 #[derive(Clone, Debug, PartialEq, Eq)]

@@ -1,9 +1,9 @@
 //! An import line: the only forms are `import node::x::{a, b};` within the library and
 //! `import node::x::{a, b};` outside it. Both are WESL as it stands.
 
+use super::file::File;
+use super::tokens::{Kind, Token, tokens};
 use crate::LinkError;
-use crate::file::File;
-use crate::token::{Kind, Token, tokens};
 
 /// Which of the two forms a file uses.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

@@ -3,9 +3,9 @@
 use core::ops::Range;
 use std::collections::BTreeSet;
 
-use crate::import::{self, Form, Import};
-use crate::location::line_ends;
-use crate::token::{Kind, Token, UnterminatedComment, tokens};
+use super::import::{self, Form, Import};
+use super::location::line_ends;
+use super::tokens::{Kind, Token, UnterminatedComment, tokens};
 use crate::{LinkError, Location};
 
 /// A file whose text follows the import rules.
