@@ -51,9 +51,7 @@ pub use depth::{DepthConversion, DepthError, DepthRange};
 pub use format::{FormatSupport, TextureFormat};
 pub use kernel::{Kernel, KernelError, LARGEST_RADIUS};
 pub use leak_reduction::{LeakReduction, LeakReductionError};
-pub use link::{
-    LinkError, Linked, Location, Module, Origin, Source, imports_super, link, link_module, modules,
-};
+pub use link::{LinkError, Linked, Location, Module, Origin, Source, link, link_module, modules};
 pub use map_region::MapRegion;
 pub use nearest::nearest;
 pub use percentage_closer::PercentageCloserKernel;

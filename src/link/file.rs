@@ -14,6 +14,8 @@ pub(crate) struct File<'a> {
     pub(crate) name: String,
     /// The text without a byte order mark.
     pub(crate) text: &'a str,
+    /// How its imports are written.
+    pub(crate) form: Form,
     pub(crate) imports: Vec<Import<'a>>,
     /// The directives (`enable`, `requires`, `diagnostic`), as bytes of the text: they stay first when files are joined.
     pub(crate) directives: Vec<Range<usize>>,
@@ -30,6 +32,7 @@ impl<'a> File<'a> {
         let mut file = Self {
             name,
             text,
+            form,
             imports: Vec::new(),
             directives: Vec::new(),
             definitions: Vec::new(),
@@ -43,8 +46,12 @@ impl<'a> File<'a> {
         let (mut line, mut counted) = (1, 0);
         while code.first().is_some_and(|token| token.is_word("import")) {
             let (mut import, rest) = import::parse(&file, code, form)?;
-            line += line_ends(text.get(counted..import.start).unwrap_or_default());
-            (import.line, counted) = (line, import.start);
+            let mut line_of = |byte: usize| {
+                line += line_ends(text.get(counted..byte).unwrap_or_default());
+                counted = byte;
+                line
+            };
+            import.lines = line_of(import.range.start)..=line_of(import.range.end);
             file.imports.push(import);
             code = rest;
         }

@@ -18,7 +18,7 @@ pub struct Linked {
 /// Where a line of a linked text comes from.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Origin<'a> {
-    /// The file's name, as it was given; `moment_shadows/<module>.wgsl` for modules of the library.
+    /// The file's name, as it was given; `moment_shadows/<folder>/<file>.wgsl` for modules of the library.
     pub file: &'a str,
     /// The line in that file, from 1.
     pub line: u32,
@@ -92,7 +92,11 @@ impl Linked {
 
         let hoisted: &[_] = if is_root { &file.directives } else { &[] };
         let text = mask(file.text, hoisted, Keep::Outside);
-        let imports: BTreeSet<u32> = file.imports.iter().map(|import| import.line).collect();
+        let imports: BTreeSet<u32> = file
+            .imports
+            .iter()
+            .flat_map(|import| import.lines.clone())
+            .collect();
         // Of several blank lines, which removed imports leave, one is kept.
         let mut blank = false;
         for (line, text) in (1..).zip(text.lines()) {
