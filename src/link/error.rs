@@ -1,5 +1,7 @@
 //! What can be wrong with the imports of a file.
 
+use std::path::PathBuf;
+
 use crate::Location;
 
 /// An import that does not follow the rules of [`link`](crate::link()), with the place where it stands.
@@ -113,6 +115,16 @@ pub enum LinkError {
     GeneratedName {
         /// The name.
         module: String,
+    },
+    /// A variable that names a folder of edited modules which does not exist.
+    #[error(
+        "the environment variable {variable} names {}, which is no folder; name one, or unset it", folder.display()
+    )]
+    NoFolder {
+        /// The environment variable.
+        variable: &'static str,
+        /// What it names.
+        folder: PathBuf,
     },
     /// A block comment without its end.
     #[error("this comment does not end; close it with `*/`\n{at}")]

@@ -84,6 +84,7 @@ struct Library<'a> {
 
 impl<'a> Library<'a> {
     fn new(generated: &[Source<'a>]) -> Result<Self, LinkError> {
+        module::check_edited_folder()?;
         let library = modules().iter().map(|module| {
             let path = format!("moment_shadows::{}::{}", module.folder, module.name);
             (path, (Form::Inside, module.source))
