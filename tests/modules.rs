@@ -225,7 +225,7 @@ fn functions_may_be_called_from_non_uniform_control_flow() {
 
 #[test]
 fn what_is_used_is_imported_and_what_is_imported_is_used() {
-    // Our linker joins whole modules, so a missing import would only show in other tools.
+    // The linker refuses what is not imported only where a file is linked with the one that defines it.
     let mut failures = Vec::new();
     let mut owner = BTreeMap::new();
     for module in modules() {

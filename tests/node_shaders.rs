@@ -172,11 +172,28 @@ fn a_storage_beyond_the_core_is_refused_there() {
     }
 }
 
+/// A variant's name without what its text does not depend on: row and column prefixes are sums of `u32` whatever the map
+/// stores.
+fn distinct(name: &str) -> String {
+    let prefixes = name.ends_with("_rows") || name.ends_with("_columns");
+    if !(name.starts_with("summed_area_table") && prefixes) {
+        return name.to_owned();
+    }
+    let storages = ["_unorm16", "_float16", "_float32"];
+    storages
+        .iter()
+        .fold(name.to_owned(), |name, storage| name.replace(storage, ""))
+}
+
 #[test]
 fn the_texts_of_variants_differ() {
     let mut texts: BTreeMap<String, String> = BTreeMap::new();
+    let mut names = BTreeSet::new();
     for variant in variants() {
-        let before = texts.insert(variant.wgsl, variant.name.clone());
-        assert_eq!(before, None, "{} repeats it", variant.name);
+        let name = distinct(&variant.name);
+        assert!(names.insert(variant.name.clone()), "{}", variant.name);
+        if let Some(before) = texts.insert(variant.wgsl, name.clone()) {
+            assert_eq!(before, name, "{} repeats it", variant.name);
+        }
     }
 }

@@ -5,6 +5,7 @@ use std::collections::BTreeSet;
 
 use super::import::{self, Form, Import};
 use super::location::line_ends;
+use super::prune::{Declaration, declarations};
 use super::tokens::{Kind, Token, UnterminatedComment, tokens};
 use crate::{LinkError, Location};
 
@@ -23,6 +24,11 @@ pub(crate) struct File<'a> {
     pub(crate) definitions: Vec<Token<'a>>,
     /// The names that its code refers to, without those that it declares itself.
     pub(crate) uses: Vec<Token<'a>>,
+    pub(crate) declarations: Vec<Declaration<'a>>,
+    /// The declarations that are left out when files are joined, as bytes of the text.
+    pub(crate) unreached: Vec<Range<usize>>,
+    /// Whether anything of the file is linked.
+    pub(crate) is_reached: bool,
 }
 
 impl<'a> File<'a> {
@@ -37,6 +43,9 @@ impl<'a> File<'a> {
             directives: Vec::new(),
             definitions: Vec::new(),
             uses: Vec::new(),
+            declarations: Vec::new(),
+            unreached: Vec::new(),
+            is_reached: true,
         };
         let tokens = tokens(text).map_err(|UnterminatedComment(start)| {
             let at = file.at(start..start + 2);
@@ -59,6 +68,8 @@ impl<'a> File<'a> {
         file.directives = directives(code);
         file.definitions = definitions(code);
         file.uses = uses(code);
+        let start = file.imports.last().map_or(0, |last| last.range.end);
+        file.declarations = declarations(text, start, code);
         Ok(file)
     }
 

@@ -37,7 +37,7 @@ impl Linked {
         self.wgsl
     }
 
-    /// The files that were linked, in the order of the text; the file given to the linker is the last.
+    /// The files of which anything was linked, in the order of the text; the file given to the linker is the last.
     pub fn files(&self) -> impl ExactSizeIterator<Item = &str> {
         self.files.iter().map(String::as_str)
     }
@@ -90,14 +90,18 @@ impl Linked {
         let name: String = file.name.chars().filter(|c| !is_break(*c)).collect();
         self.push_line(&format!("// {name}"), None);
 
-        let hoisted: &[_] = if is_root { &file.directives } else { &[] };
-        let text = mask(file.text, hoisted, Keep::Outside);
+        let elsewhere = if is_root {
+            &file.directives
+        } else {
+            &file.unreached
+        };
+        let text = mask(file.text, elsewhere, Keep::Outside);
         let imports: BTreeSet<u32> = file
             .imports
             .iter()
             .flat_map(|import| import.lines.clone())
             .collect();
-        // Of several blank lines, which removed imports leave, one is kept.
+        // Of several blank lines, which removed text leaves, one is kept.
         let mut blank = false;
         for (line, text) in (1..).zip(text.lines()) {
             let was_blank = core::mem::replace(&mut blank, text.trim().is_empty());

@@ -6,6 +6,7 @@ mod import;
 mod linked;
 mod location;
 mod module;
+mod prune;
 pub(crate) mod tokens;
 
 use std::collections::{BTreeMap, BTreeSet};
@@ -49,8 +50,10 @@ impl Source<'_> {
 ///   with any number of items over any number of lines. No `as`, no `public`, no path within code, no conditional attribute.
 /// - Every item is defined at top level by its module, and imported once; a file imports every item that it uses.
 ///
-/// The result holds every file once, each after those that it imports, headed by a comment that names it; `source` comes
-/// last, but its directives come first. Names are not changed, so no two of the files may define the same name.
+/// The result holds `source` whole, and of each module what `source` reaches: the declarations whose names stand in what is linked,
+/// and entry points, with the comments above them. Files come once, each after those that it imports, headed by a comment
+/// that names it; `source` comes last, but its directives come first. Names are not changed, so no two of the files may define
+/// the same name, linked or not.
 /// The same input always gives the same text.
 ///
 /// # Errors
@@ -71,9 +74,11 @@ pub fn link_module(source: Source<'_>) -> Result<Linked, LinkError> {
 fn link_as(form: Form, source: Source<'_>, generated: &[Source<'_>]) -> Result<Linked, LinkError> {
     let library = Library::new(generated)?;
     let root = File::parse(source.name.to_owned(), source.text, form)?;
-    let files = library.closure(root)?;
+    let mut files = library.closure(root)?;
     refuse_collisions(&files)?;
     refuse_unimported(&files)?;
+    prune::prune(&mut files);
+    files.retain(|file| file.is_reached);
     Ok(Linked::join(&files))
 }
 

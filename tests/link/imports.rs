@@ -49,7 +49,8 @@ fn an_import_may_take_several_lines() {
 
 #[test]
 fn a_module_of_the_library_imports_its_siblings() {
-    let text = "import super::super::maths::hankel::{hankel_factor};\nfn mine() {}\n";
+    let text =
+        "import super::super::maths::hankel::{hankel_factor};\nfn mine() { _ = hankel_factor; }\n";
     let source = Source {
         name: "mine.wgsl",
         text,

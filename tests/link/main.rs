@@ -5,6 +5,7 @@ mod edited;
 mod imports;
 mod joined;
 mod names;
+mod pruned;
 
 use moment_shadows::{LinkError, Linked, Location, Source, link, link_module};
 use proptest::prelude::*;

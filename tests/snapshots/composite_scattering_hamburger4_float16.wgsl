@@ -28,25 +28,10 @@ struct MapRegion {
     extent: vec2u,
 }
 
-// The part of a region that lies in a map of `size` texels.
-fn map_region_within(region: MapRegion, size: vec2u) -> MapRegion {
-    let origin = min(region.origin, size);
-    return MapRegion(origin, min(region.extent, size - origin));
-}
-
 // A region of a map (within it) on mip level `level`, below 32.
 fn map_region_at_level(region: MapRegion, level: u32) -> MapRegion {
     let origin = region.origin >> vec2u(level);
     return MapRegion(origin, ((region.origin + region.extent) >> vec2u(level)) - origin);
-}
-
-// The coarsest of `levels` mip levels on which a region still has texels.
-fn map_region_last_level(region: MapRegion, levels: u32) -> u32 {
-    var level = max(levels, 1u) - 1u;
-    while level > 0u && any(map_region_at_level(region, level).extent == vec2u(0u)) {
-        level--;
-    }
-    return level;
 }
 
 // The place of `uv` (from 0 to 1 across the region) in texels of a region's mip level, kept half a texel away from its
@@ -54,130 +39,6 @@ fn map_region_last_level(region: MapRegion, levels: u32) -> u32 {
 fn map_region_place(region_on_level: MapRegion, uv: vec2f) -> vec2f {
     let extent = vec2f(region_on_level.extent);
     return vec2f(region_on_level.origin) + clamp(uv * extent, vec2f(0.5), max(extent - 0.5, vec2f(0.5)));
-}
-
-// moment_shadows/map/minification.wgsl
-// Minification: what part of a map a pixel covers.
-//
-// A pixel maps to a parallelogram of texels. Its singular values are the axes of the ellipse that stands for it
-// (Heckbert, "Fundamentals of Texture Mapping and Image Warping", 1989, section 3.5): a lookup takes probes along the
-// major axis, each on a mip level that fits the minor axis. Averages of moments are moments, which is what filterable
-// shadow maps exist for (Donnelly & Lauritzen, "Variance Shadow Maps", i3D 2006, section 3).
-//
-// A pixel averages a box: over w texels its variance is w^2 / 12. A trilinear lookup on a mip level whose texels are t wide
-// averages boxes of t and blends neighbours that are t apart: (1/12 + 1/6) t^2. Lookups are as wide as pixels if their
-// variances are equal, t = w / sqrt(3); a level with t = w, as colour textures take it, would filter three times as much.
-
-// Probes along the major axis, at most.
-const MINIFICATION_LARGEST_ANISOTROPY: f32 = 16.0;
-
-// The width of a mip level's texels that makes trilinear lookups as wide as a box: 1 / sqrt(3).
-const MINIFICATION_TEXEL_PER_WIDTH: f32 = 0.57735026;
-
-struct MinificationFootprint {
-    // The line on which the probes lie, along the major axis and from end to end, in texels of mip level 0.
-    major: vec2f,
-    // Probes along it, a whole number from 1 to 16.
-    probes: f32,
-    // The mip level of each probe, at least 0.
-    level: f32,
-}
-
-// The footprint of a pixel from the differences of place, in texels, to its neighbours in x and y; each component at
-// most 1e9 in magnitude. `anisotropy`, from 1 to 16, is the largest number of probes; where more were needed, the minor
-// axis is taken for longer than it is.
-fn minification_footprint(difference_x: vec2f, difference_y: vec2f, anisotropy: f32) -> MinificationFootprint {
-    let xx = difference_x.x * difference_x.x + difference_y.x * difference_y.x;
-    let xy = difference_x.x * difference_x.y + difference_y.x * difference_y.y;
-    let yy = difference_x.y * difference_x.y + difference_y.y * difference_y.y;
-    // The squares of the axes are the eigenvalues of the symmetric matrix (xx xy, xy yy).
-    let half_difference = 0.5 * (xx - yy);
-    let root = sqrt(half_difference * half_difference + xy * xy);
-    let major_length = sqrt(0.5 * (xx + yy) + root);
-    // The product of the axes is the parallelogram's area; a difference of eigenvalues would cancel.
-    let area = abs(difference_x.x * difference_y.y - difference_x.y * difference_y.x);
-    let minor_length = area / max(major_length, 1e-20);
-    // Both rows of the matrix less its smaller eigenvalue point along the major axis; this is the one that does not cancel.
-    let along = select(vec2f(xy, root - half_difference), vec2f(root + half_difference, xy), half_difference >= 0.0);
-    // A circle has no direction; its probes number one.
-    let direction = along / max(max(abs(along.x), abs(along.y)), 1e-30);
-    let unit = direction / max(length(direction), 1e-6);
-    let largest = clamp(anisotropy, 1.0, MINIFICATION_LARGEST_ANISOTROPY);
-    // With so many probes a texel apart the major axis is filled: w^2 = 3 major_length^2 / (largest^2 + 2).
-    let filled = major_length * sqrt(3.0 / fma(largest, largest, 2.0));
-    let width = max(max(minor_length, filled), 1.0);
-    // A probe has the variance of the width along the major axis, too: the line of probes is shorter by that.
-    let line = sqrt(max(fma(-width, width, major_length * major_length), 0.0));
-    let texel = max(width * MINIFICATION_TEXEL_PER_WIDTH, 1.0);
-    return MinificationFootprint(unit * line, clamp(ceil(line / texel - 1e-3), 1.0, largest), log2(texel));
-}
-
-// Where probe `index` lies on the major axis: the offset, in texels, from the footprint's centre.
-fn minification_probe(footprint: MinificationFootprint, index: f32) -> vec2f {
-    return ((index + 0.5) / footprint.probes - 0.5) * footprint.major;
-}
-
-// The two axes of a footprint as the differences of place, in texels, that make a sampler with anisotropy take just these
-// probes: x is the column of the line, at least as long as the other one.
-fn minification_gradients(footprint: MinificationFootprint) -> mat2x2f {
-    let texel = exp2(footprint.level);
-    let line = length(footprint.major);
-    let unit = select(vec2f(1.0, 0.0), footprint.major / max(line, 1e-6), line >= 1e-3);
-    return mat2x2f(unit * max(line, texel), vec2f(-unit.y, unit.x) * texel);
-}
-
-// The variance that minification adds to the moment depths of a plane, whose moment depth changes by `gradient` per texel:
-// that of the probes' trilinear lookups, and that of the line they lie on. Between two levels the mixture of both has at
-// most 1.13 times the variance of the level between them.
-fn minification_depth_variance(footprint: MinificationFootprint, gradient: vec2f) -> f32 {
-    let texel = select(0.0, exp2(footprint.level), footprint.level > 0.0);
-    let across = texel * length(gradient);
-    let along = select(0.0, dot(footprint.major, gradient), footprint.probes > 1.0);
-    return (1.13 / 4.0) * across * across + along * along / 12.0;
-}
-
-// moment_shadows/map/map_load.wgsl
-
-// Lookups in a map that a device cannot filter, and where a sampler would read across the edge of a region: bilinear,
-// trilinear, averaged over a footprint. `uv`, `levels` and regions are those of `map_lookup`.
-//
-// Texels are loaded and blended here, in f32, while hardware may use weights of as few as 8 bits. Blending texels of moments
-// is a convex combination, so it keeps moments valid.
-
-// The bilinearly filtered texel on one mip level. `uv` is finite; values outside [0, 1] count as the nearer edge.
-fn map_load_bilinear(map: texture_2d_array<f32>, layer: u32, region: MapRegion, uv: vec2f, level: u32) -> vec4f {
-    let rectangle = map_region_at_level(region, level);
-    let place = map_region_place(rectangle, uv) - 0.5;
-    let base = floor(place);
-    let weight = place - base;
-    let low = vec2i(base);
-    let high = min(low + 1, vec2i(rectangle.origin + rectangle.extent) - 1);
-    let top = mix(textureLoad(map, low, layer, level), textureLoad(map, vec2i(high.x, low.y), layer, level), weight.x);
-    let bottom = mix(textureLoad(map, vec2i(low.x, high.y), layer, level), textureLoad(map, high, layer, level), weight.x);
-    return mix(top, bottom, weight.y);
-}
-
-// The same, blended between the two mip levels next to `level` >= 0, as far as the region has texels there.
-fn map_load_trilinear(map: texture_2d_array<f32>, layer: u32, region: MapRegion, levels: u32, uv: vec2f, level: f32) -> vec4f {
-    let last = map_region_last_level(region, levels);
-    let fine = min(u32(clamp(level, 0.0, 31.0)), last);
-    let texel = map_load_bilinear(map, layer, region, uv, fine);
-    let blend = level - f32(fine);
-    if fine == last || blend <= 0.0 {
-        return texel;
-    }
-    return mix(texel, map_load_bilinear(map, layer, region, uv, fine + 1u), blend);
-}
-
-// The average over a footprint around `uv`: trilinear probes along its major axis.
-fn map_load_footprint(map: texture_2d_array<f32>, layer: u32, region: MapRegion, levels: u32, uv: vec2f, footprint: MinificationFootprint) -> vec4f {
-    let per_texel = 1.0 / max(vec2f(region.extent), vec2f(1.0));
-    var sum = vec4f(0.0);
-    for (var probe = 0.0; probe < footprint.probes; probe += 1.0) {
-        let probe_uv = uv + minification_probe(footprint, probe) * per_texel;
-        sum += map_load_trilinear(map, layer, region, levels, probe_uv, footprint.level);
-    }
-    return sum / footprint.probes;
 }
 
 // moment_shadows/map/map_lookup.wgsl
@@ -195,42 +56,12 @@ fn map_lookup_bilinear(map: texture_2d_array<f32>, linear: sampler, layer: u32, 
     return textureSampleLevel(map, linear, place / vec2f(textureDimensions(map, level)), layer, f32(level));
 }
 
-// The average over a pixel, from the differences of place to its neighbours in x and y, in texels, each component at
-// most 1e9 in magnitude. Where the pixel's footprint lies well within a region that hardware would divide into the same
-// mip levels, hardware takes the probes, at most as many as the clamp of the sampler `anisotropic`; elsewhere at most
-// `anisotropy` are taken here, from loaded texels. Regions are read by hardware for the most part if their edges and the
-// size of the map are multiples of a texel of the coarsest level.
-fn map_lookup_gradient(map: texture_2d_array<f32>, anisotropic: sampler, layer: u32, region: MapRegion, levels: u32, uv: vec2f, difference_x: vec2f, difference_y: vec2f, anisotropy: f32) -> vec4f {
-    let footprint = minification_footprint(difference_x, difference_y, anisotropy);
-    let size = textureDimensions(map);
-    let place = vec2f(region.origin) + uv * vec2f(region.extent);
-    let whole = all(region.origin == vec2u(0u)) && all(region.extent == size);
-    if whole || map_lookup_is_inner(region, size, levels, place, abs(difference_x) + abs(difference_y)) {
-        let per_texel = 1.0 / vec2f(size);
-        let gradients = minification_gradients(footprint);
-        return textureSampleGrad(map, anisotropic, place * per_texel, layer, gradients[0] * per_texel, gradients[1] * per_texel);
-    }
-    return map_load_footprint(map, layer, region, levels, uv, footprint);
-}
-
-// Whether hardware that filters around `place` over a box of `reach` texels reads no texel of another region, and divides
-// the map into mip levels just as regions are divided: edges and size are multiples of a texel of the coarsest level.
-fn map_lookup_is_inner(region: MapRegion, size: vec2u, levels: u32, place: vec2f, reach: vec2f) -> bool {
-    let part_of_texel = vec2u((1u << min(max(levels, 1u) - 1u, 31u)) - 1u);
-    let aligned = all(((region.origin | region.extent | size) & part_of_texel) == vec2u(0u));
-    // Half of the box, and two texels of a mip level whose texels may be twice as wide as the box is long.
-    let margin = vec2f(2.0) + 0.5 * reach + 4.0 * max(reach.x, reach.y);
-    let low = vec2f(region.origin) + margin;
-    let high = vec2f(region.origin + region.extent) - margin;
-    return aligned && all(place >= low) && all(place <= high);
-}
 
 // specialization
 const GROUP = 0;
-const LEVELS = 1u;
-const ANISOTROPY = 1.0;
+
 const OVERESTIMATION = vec2f(0.2, 0.35);
-alias MomentsStorage = texture_storage_2d<rgba16float, write>;
+
 const STORAGE = 1u;
 
 // moments_lookup
@@ -261,14 +92,6 @@ const ANGLE_QUARTER_PI_REST: f32 = -2.1855695e-8;
 
 // tan(pi / 8): up to here the polynomial of the arc tangent holds.
 const ANGLE_TAN_EIGHTH_PI: f32 = 0.41421357;
-
-// pi / 2 in three parts, the first two with so few digits that their products with small integers are exact.
-const ANGLE_HALF_PI_FIRST: f32 = 1.5703125;
-const ANGLE_HALF_PI_SECOND: f32 = 4.837512969970703125e-4;
-const ANGLE_HALF_PI_THIRD: f32 = 7.54978995489188216e-8;
-
-// Angles beyond this, about 1,500 turns, count as this.
-const ANGLE_LARGEST: f32 = 1e4;
 
 // A number, or 0 in place of NaN and infinities. By its bits: a compiler may assume that there are none.
 fn angle_finite(value: f32) -> f32 {
@@ -305,22 +128,6 @@ fn angle_atan2(y: f32, x: f32) -> f32 {
     return select(angle, -angle, finite.y < 0.0);
 }
 
-// Sine and cosine of an angle in radians, |angle| <= 1e4. Near their zeros the error is 2^-24 times that of an angle of the
-// same size, not times the angle.
-fn angle_sin_cos(angle: f32) -> vec2f {
-    let bounded = clamp(angle_finite(angle), -ANGLE_LARGEST, ANGLE_LARGEST);
-    let quarters = round(bounded * 0.63661977);
-    let first = fma(-quarters, ANGLE_HALF_PI_FIRST, bounded);
-    let x = fma(-quarters, ANGLE_HALF_PI_THIRD, fma(-quarters, ANGLE_HALF_PI_SECOND, first));
-    let square = x * x;
-    let odd = fma(fma(fma(-1.9515295891e-4, square, 8.3321608736e-3), square, -1.6666654611e-1) * square, x, x);
-    let even = fma(fma(fma(2.443315711809948e-5, square, -1.388731625493765e-3), square, 4.166664568298827e-2), square * square, fma(-0.5, square, 1.0));
-    let quadrant = i32(quarters) & 3;
-    let swapped = (quadrant & 1) == 1;
-    let sine = select(odd, even, swapped);
-    let cosine = select(even, odd, swapped);
-    return vec2f(select(sine, -sine, quadrant >= 2), select(cosine, -cosine, quadrant == 1 || quadrant == 2));
-}
 
 // moment_shadows/air/rectified_frame.wgsl
 
@@ -372,17 +179,6 @@ fn rectified_frame_coordinates(position: vec3f) -> vec3f {
     return vec3f(radius, angle_atan2(y, x), angle_atan2(radius, z));
 }
 
-// The position of coordinates. On the light ray through the camera (inclination 0 or pi) the distance is unknown; the camera's
-// own position stands for all of it.
-fn rectified_frame_position(coordinates: vec3f) -> vec3f {
-    let around = angle_sin_cos(coordinates.y);
-    let inclined = angle_sin_cos(clamp(angle_finite(coordinates.z), 0.0, ANGLE_PI));
-    let radius = rectified_frame_component(coordinates.x);
-    // sin(theta) of the nearest f32 to pi is -9e-8; below that there is no such inclination.
-    let along = select(0.0, radius * inclined.y / inclined.x, inclined.x > 1e-7);
-    return vec3f(radius * around.y, radius * around.x, along);
-}
-
 // How far across the map's columns and rows coordinates lie, from 0 to 1. Azimuths outside of the frame take its nearer end.
 fn rectified_frame_place(frame: RectifiedFrame, coordinates: vec3f) -> vec2f {
     let turn = 2.0 * ANGLE_PI;
@@ -395,20 +191,10 @@ fn rectified_frame_place(frame: RectifiedFrame, coordinates: vec3f) -> vec2f {
     return saturate(vec2f(coordinates.x / frame.largest_radius, row));
 }
 
-// Radius and azimuth at a place.
-fn rectified_frame_ray(frame: RectifiedFrame, place: vec2f) -> vec2f {
-    return vec2f(place.x * frame.largest_radius, fma(place.y, frame.azimuth_extent, frame.first_azimuth));
-}
-
 // The depth along the light in [-1, 1] of an inclination.
 fn rectified_frame_depth(frame: RectifiedFrame, inclination: f32) -> f32 {
     let extent = frame.largest_inclination - frame.smallest_inclination;
     return clamp(fma(2.0 / extent, frame.largest_inclination - inclination, -1.0), -1.0, 1.0);
-}
-
-// The inclination of a depth in [-1, 1].
-fn rectified_frame_inclination(frame: RectifiedFrame, depth: f32) -> f32 {
-    return mix(frame.largest_inclination, frame.smallest_inclination, 0.5 * depth + 0.5);
 }
 
 // The position of a pixel's surface, or where its view ray ends at the far end. `device` are normalised device coordinates.
@@ -493,61 +279,9 @@ fn hankel_christoffel_number(factor: HankelFactor, x: f32, second_polynomial: f3
 // Every technique filters linearly and writes after each filter, so each write is a rounding error that its bound has to
 // cover. Nothing here depends on a technique: how one spreads its quantities over the range of a storage is its own.
 
-// Storages, as a shader's specialisation names them.
-const STORAGE_UNORM16: u32 = 0u;
 const STORAGE_FLOAT16: u32 = 1u;
 const STORAGE_FLOAT32: u32 = 2u;
-const STORAGE_UNORM8: u32 = 3u;
-// Sums of channels as unorm16 has them; see `summed_area_encoding`.
-const STORAGE_FIXED32: u32 = 4u;
-// Three channels to a texel, in maps that are drawn.
-const STORAGE_UNORM10: u32 = 5u;
 
-// The largest finite float16.
-const STORAGE_LARGEST_FLOAT16: f32 = 65504.0;
-
-// Whether the channels of the storage are floats, which can be anything, rather than numbers in [0, 1].
-fn storage_is_float(storage: u32) -> bool {
-    return storage == STORAGE_FLOAT16 || storage == STORAGE_FLOAT32;
-}
-
-// The nearest float16 of each component, ties to even, for |value| <= 65504. A driver may truncate when it stores to a
-// float16 texture, which would double the rounding error that a bound has to cover.
-fn storage_round_to_float16(value: vec4f) -> vec4f {
-    let bits = bitcast<vec4u>(value);
-    // 13 of 23 mantissa bits go; adding just under half a unit, plus the last kept bit, rounds ties to even.
-    let rounded = bitcast<vec4f>((bits + 0xfffu + ((bits >> vec4u(13u)) & vec4u(1u))) & vec4u(0xffffe000u));
-    // Below 2^-14 float16 is a fixed-point format with a step of 2^-24.
-    let small = round(value * 0x1p24) * 0x1p-24;
-    return select(rounded, small, abs(value) < vec4f(0x1p-14));
-}
-
-// What to draw so that a target of 10 bits per channel holds the nearest number to each component, for any finite value. A driver
-// may round down, or round to 16 bits and drop the last six (lavapipe does): a little above that number they give it all the same.
-fn storage_round_to_unorm10(value: vec4f) -> vec4f {
-    return (round(saturate(value) * 1023.0) + 0x1p-8) / 1023.0;
-}
-
-// A filtered combination of texels, as it has to be written back to the same storage.
-fn storage_round_texel(texel: vec4f, storage: u32) -> vec4f {
-    if storage == STORAGE_FLOAT16 {
-        return storage_round_to_float16(texel);
-    }
-    if storage == STORAGE_UNORM10 {
-        return storage_round_to_unorm10(texel);
-    }
-    return texel;
-}
-
-// A texel in which channels that are NaN or infinite count as 0, found by their bits since a compiler may assume that
-// there is neither. Unorm texels pass as they are.
-fn storage_finite_texel(texel: vec4f, storage: u32) -> vec4f {
-    if !storage_is_float(storage) {
-        return texel;
-    }
-    let exponent = bitcast<vec4u>(texel) & vec4u(0x7f800000u);
-    return select(texel, vec4f(0.0), exponent == vec4u(0x7f800000u));
-}
 
 // moment_shadows/moments/four_moments.wgsl
 
@@ -577,62 +311,10 @@ const FOUR_MOMENTS_BIAS_FLOAT32: FourMomentsBias = FourMomentsBias(1.5e-6, 0.375
 // sqrt(3), which the optimised basis and its inverse are made of.
 const FOUR_MOMENTS_SQRT_3: f32 = 1.7320508075688772;
 
-// The moments of a single depth z in [-1, 1]: its powers (i3D 2015, equation 2).
-fn four_moments_from_depth(z: f32) -> vec4f {
-    let square = z * z;
-    return vec4f(z, square, z * square, square * square);
-}
-
-// The optimised basis of JCGT 6(1) 2017 (equation 5, GDC 2016): maps the moments of depths in [-1, 1] into [0, 1]^4.
-fn four_moments_quantize(b: vec4f) -> vec4f {
-    return vec4f(
-        fma(1.5, b.x, fma(-2.0, b.z, 0.5)),
-        4.0 * (b.y - b.w),
-        fma(0.5 * FOUR_MOMENTS_SQRT_3, b.x, fma(-2.0 / 9.0 * FOUR_MOMENTS_SQRT_3, b.z, 0.5)),
-        0.5 * (b.y + b.w),
-    );
-}
-
-// Inverse of `four_moments_quantize`. Channels in [0, 1] give |b| <= 2.1, whatever they hold.
-fn four_moments_dequantize(channels: vec4f) -> vec4f {
-    let odd = channels.xz - 0.5;
-    return vec4f(
-        fma(-1.0 / 3.0, odd.x, FOUR_MOMENTS_SQRT_3 * odd.y),
-        fma(0.125, channels.y, channels.w),
-        0.75 * fma(FOUR_MOMENTS_SQRT_3, odd.y, -odd.x),
-        fma(-0.125, channels.y, channels.w),
-    );
-}
-
 // Moments that certainly lie in their ranges: odd ones in [-1, 1], even ones in [0, 1]. Float storage can hold
 // anything, and finite values beyond 1e15 would overflow further on.
 fn four_moments_clamp(b: vec4f) -> vec4f {
     return clamp(b, vec4f(-1.0, 0.0, -1.0, 0.0), vec4f(1.0));
-}
-
-// What to write to a texel of the storage.
-fn four_moments_to_texel(b: vec4f, storage: u32) -> vec4f {
-    if storage == STORAGE_FLOAT32 {
-        return b;
-    }
-    let channels = saturate(four_moments_quantize(b));
-    if storage == STORAGE_FLOAT16 {
-        // Half precision is finest around zero, so the channels are centred there.
-        return storage_round_to_float16(channels - 0.5);
-    }
-    return channels;
-}
-
-// The moments in a (filtered) texel of the storage. Float storage can hold anything; `four_moments_clamp` comes before any
-// arithmetic that relies on ranges.
-fn four_moments_from_texel(texel: vec4f, storage: u32) -> vec4f {
-    if storage == STORAGE_FLOAT32 {
-        return texel;
-    }
-    if storage == STORAGE_FLOAT16 {
-        return four_moments_dequantize(texel + 0.5);
-    }
-    return four_moments_dequantize(texel);
 }
 
 // The moment bias of a storage.
@@ -731,17 +413,6 @@ fn hamburger4_bounds_at(factor: HankelFactor, x: f32, polynomial: f32) -> vec2f 
     return saturate(vec2f(below, 1.0 - above));
 }
 
-// The lower one of them; where it is 0 the result is below 1e-8.
-fn hamburger4_lower_bound_at(factor: HankelFactor, x: f32, polynomial: f32) -> f32 {
-    let support = hamburger4_support(factor, x, polynomial);
-    // One Christoffel number serves all cases: at the fragment itself where it is above the Gauss nodes, or else at the
-    // support point below it. Where the fragment is below the Gauss nodes that one is at infinity, without weight.
-    let beyond = polynomial >= 0.0 && support.above;
-    let t = select(support.points.x, x, beyond);
-    let weight = saturate(hankel_christoffel_number(factor, t, hankel_second_polynomial(factor, t)));
-    return select(weight, 1.0 - weight, beyond);
-}
-
 // The sharp bounds of shadow intensity: x = inf S(z < fragment_depth), y = sup S(z <= fragment_depth) over all
 // distributions S with the moments `biased`, which are already biased by `alpha` >= 1e-7 and lie within [-2, 2].
 // Both are in [0, 1] for all such moments, valid or not, and every finite fragment depth; farther out than 1e4 the
@@ -752,27 +423,6 @@ fn hamburger4_bounds(biased: vec4f, fragment_depth: f32, alpha: f32) -> vec2f {
     return hamburger4_bounds_at(factor, x, hankel_second_polynomial(factor, x));
 }
 
-// The lower one of `hamburger4_bounds`, with fragment depths beyond the light's range counting as its ends; where the
-// bound is 0 the result is below 1e-8.
-fn hamburger4_lower_bound(biased: vec4f, fragment_depth: f32, alpha: f32) -> f32 {
-    let factor = hankel_factor(biased, alpha);
-    let x = clamp(fragment_depth, -1.0, 1.0) - biased.x;
-    return hamburger4_lower_bound_at(factor, x, hankel_second_polynomial(factor, x));
-}
-
-// Shadow intensity in [0, 1] (1 = shadowed) of a fragment at `fragment_depth` (moment depth) under the filtered moments
-// of its map: the lower bound, never darker than the truth but for the bias. Moments may be anything finite; fragment
-// depths beyond the light's range count as its ends.
-fn hamburger4_shadow_intensity(moments: vec4f, fragment_depth: f32, bias: FourMomentsBias) -> f32 {
-    return hamburger4_lower_bound(four_moments_apply_bias(four_moments_clamp(moments), bias), fragment_depth, bias.alpha);
-}
-
-// The same for a filtered texel of a storage, with the bias of the storage. Cheaper, since decoding and bias are one step
-// and a texel of unorm storage needs no clamping.
-fn hamburger4_shadow_intensity_of_texel(texel: vec4f, fragment_depth: f32, storage: u32) -> f32 {
-    let bias = four_moments_bias_of(storage);
-    return hamburger4_lower_bound(four_moments_biased_from_texel(texel, storage, bias), fragment_depth, bias.alpha);
-}
 
 // scattering_bounds
 

@@ -28,25 +28,10 @@ struct MapRegion {
     extent: vec2u,
 }
 
-// The part of a region that lies in a map of `size` texels.
-fn map_region_within(region: MapRegion, size: vec2u) -> MapRegion {
-    let origin = min(region.origin, size);
-    return MapRegion(origin, min(region.extent, size - origin));
-}
-
 // A region of a map (within it) on mip level `level`, below 32.
 fn map_region_at_level(region: MapRegion, level: u32) -> MapRegion {
     let origin = region.origin >> vec2u(level);
     return MapRegion(origin, ((region.origin + region.extent) >> vec2u(level)) - origin);
-}
-
-// The coarsest of `levels` mip levels on which a region still has texels.
-fn map_region_last_level(region: MapRegion, levels: u32) -> u32 {
-    var level = max(levels, 1u) - 1u;
-    while level > 0u && any(map_region_at_level(region, level).extent == vec2u(0u)) {
-        level--;
-    }
-    return level;
 }
 
 // The place of `uv` (from 0 to 1 across the region) in texels of a region's mip level, kept half a texel away from its
@@ -54,130 +39,6 @@ fn map_region_last_level(region: MapRegion, levels: u32) -> u32 {
 fn map_region_place(region_on_level: MapRegion, uv: vec2f) -> vec2f {
     let extent = vec2f(region_on_level.extent);
     return vec2f(region_on_level.origin) + clamp(uv * extent, vec2f(0.5), max(extent - 0.5, vec2f(0.5)));
-}
-
-// moment_shadows/map/minification.wgsl
-// Minification: what part of a map a pixel covers.
-//
-// A pixel maps to a parallelogram of texels. Its singular values are the axes of the ellipse that stands for it
-// (Heckbert, "Fundamentals of Texture Mapping and Image Warping", 1989, section 3.5): a lookup takes probes along the
-// major axis, each on a mip level that fits the minor axis. Averages of moments are moments, which is what filterable
-// shadow maps exist for (Donnelly & Lauritzen, "Variance Shadow Maps", i3D 2006, section 3).
-//
-// A pixel averages a box: over w texels its variance is w^2 / 12. A trilinear lookup on a mip level whose texels are t wide
-// averages boxes of t and blends neighbours that are t apart: (1/12 + 1/6) t^2. Lookups are as wide as pixels if their
-// variances are equal, t = w / sqrt(3); a level with t = w, as colour textures take it, would filter three times as much.
-
-// Probes along the major axis, at most.
-const MINIFICATION_LARGEST_ANISOTROPY: f32 = 16.0;
-
-// The width of a mip level's texels that makes trilinear lookups as wide as a box: 1 / sqrt(3).
-const MINIFICATION_TEXEL_PER_WIDTH: f32 = 0.57735026;
-
-struct MinificationFootprint {
-    // The line on which the probes lie, along the major axis and from end to end, in texels of mip level 0.
-    major: vec2f,
-    // Probes along it, a whole number from 1 to 16.
-    probes: f32,
-    // The mip level of each probe, at least 0.
-    level: f32,
-}
-
-// The footprint of a pixel from the differences of place, in texels, to its neighbours in x and y; each component at
-// most 1e9 in magnitude. `anisotropy`, from 1 to 16, is the largest number of probes; where more were needed, the minor
-// axis is taken for longer than it is.
-fn minification_footprint(difference_x: vec2f, difference_y: vec2f, anisotropy: f32) -> MinificationFootprint {
-    let xx = difference_x.x * difference_x.x + difference_y.x * difference_y.x;
-    let xy = difference_x.x * difference_x.y + difference_y.x * difference_y.y;
-    let yy = difference_x.y * difference_x.y + difference_y.y * difference_y.y;
-    // The squares of the axes are the eigenvalues of the symmetric matrix (xx xy, xy yy).
-    let half_difference = 0.5 * (xx - yy);
-    let root = sqrt(half_difference * half_difference + xy * xy);
-    let major_length = sqrt(0.5 * (xx + yy) + root);
-    // The product of the axes is the parallelogram's area; a difference of eigenvalues would cancel.
-    let area = abs(difference_x.x * difference_y.y - difference_x.y * difference_y.x);
-    let minor_length = area / max(major_length, 1e-20);
-    // Both rows of the matrix less its smaller eigenvalue point along the major axis; this is the one that does not cancel.
-    let along = select(vec2f(xy, root - half_difference), vec2f(root + half_difference, xy), half_difference >= 0.0);
-    // A circle has no direction; its probes number one.
-    let direction = along / max(max(abs(along.x), abs(along.y)), 1e-30);
-    let unit = direction / max(length(direction), 1e-6);
-    let largest = clamp(anisotropy, 1.0, MINIFICATION_LARGEST_ANISOTROPY);
-    // With so many probes a texel apart the major axis is filled: w^2 = 3 major_length^2 / (largest^2 + 2).
-    let filled = major_length * sqrt(3.0 / fma(largest, largest, 2.0));
-    let width = max(max(minor_length, filled), 1.0);
-    // A probe has the variance of the width along the major axis, too: the line of probes is shorter by that.
-    let line = sqrt(max(fma(-width, width, major_length * major_length), 0.0));
-    let texel = max(width * MINIFICATION_TEXEL_PER_WIDTH, 1.0);
-    return MinificationFootprint(unit * line, clamp(ceil(line / texel - 1e-3), 1.0, largest), log2(texel));
-}
-
-// Where probe `index` lies on the major axis: the offset, in texels, from the footprint's centre.
-fn minification_probe(footprint: MinificationFootprint, index: f32) -> vec2f {
-    return ((index + 0.5) / footprint.probes - 0.5) * footprint.major;
-}
-
-// The two axes of a footprint as the differences of place, in texels, that make a sampler with anisotropy take just these
-// probes: x is the column of the line, at least as long as the other one.
-fn minification_gradients(footprint: MinificationFootprint) -> mat2x2f {
-    let texel = exp2(footprint.level);
-    let line = length(footprint.major);
-    let unit = select(vec2f(1.0, 0.0), footprint.major / max(line, 1e-6), line >= 1e-3);
-    return mat2x2f(unit * max(line, texel), vec2f(-unit.y, unit.x) * texel);
-}
-
-// The variance that minification adds to the moment depths of a plane, whose moment depth changes by `gradient` per texel:
-// that of the probes' trilinear lookups, and that of the line they lie on. Between two levels the mixture of both has at
-// most 1.13 times the variance of the level between them.
-fn minification_depth_variance(footprint: MinificationFootprint, gradient: vec2f) -> f32 {
-    let texel = select(0.0, exp2(footprint.level), footprint.level > 0.0);
-    let across = texel * length(gradient);
-    let along = select(0.0, dot(footprint.major, gradient), footprint.probes > 1.0);
-    return (1.13 / 4.0) * across * across + along * along / 12.0;
-}
-
-// moment_shadows/map/map_load.wgsl
-
-// Lookups in a map that a device cannot filter, and where a sampler would read across the edge of a region: bilinear,
-// trilinear, averaged over a footprint. `uv`, `levels` and regions are those of `map_lookup`.
-//
-// Texels are loaded and blended here, in f32, while hardware may use weights of as few as 8 bits. Blending texels of moments
-// is a convex combination, so it keeps moments valid.
-
-// The bilinearly filtered texel on one mip level. `uv` is finite; values outside [0, 1] count as the nearer edge.
-fn map_load_bilinear(map: texture_2d_array<f32>, layer: u32, region: MapRegion, uv: vec2f, level: u32) -> vec4f {
-    let rectangle = map_region_at_level(region, level);
-    let place = map_region_place(rectangle, uv) - 0.5;
-    let base = floor(place);
-    let weight = place - base;
-    let low = vec2i(base);
-    let high = min(low + 1, vec2i(rectangle.origin + rectangle.extent) - 1);
-    let top = mix(textureLoad(map, low, layer, level), textureLoad(map, vec2i(high.x, low.y), layer, level), weight.x);
-    let bottom = mix(textureLoad(map, vec2i(low.x, high.y), layer, level), textureLoad(map, high, layer, level), weight.x);
-    return mix(top, bottom, weight.y);
-}
-
-// The same, blended between the two mip levels next to `level` >= 0, as far as the region has texels there.
-fn map_load_trilinear(map: texture_2d_array<f32>, layer: u32, region: MapRegion, levels: u32, uv: vec2f, level: f32) -> vec4f {
-    let last = map_region_last_level(region, levels);
-    let fine = min(u32(clamp(level, 0.0, 31.0)), last);
-    let texel = map_load_bilinear(map, layer, region, uv, fine);
-    let blend = level - f32(fine);
-    if fine == last || blend <= 0.0 {
-        return texel;
-    }
-    return mix(texel, map_load_bilinear(map, layer, region, uv, fine + 1u), blend);
-}
-
-// The average over a footprint around `uv`: trilinear probes along its major axis.
-fn map_load_footprint(map: texture_2d_array<f32>, layer: u32, region: MapRegion, levels: u32, uv: vec2f, footprint: MinificationFootprint) -> vec4f {
-    let per_texel = 1.0 / max(vec2f(region.extent), vec2f(1.0));
-    var sum = vec4f(0.0);
-    for (var probe = 0.0; probe < footprint.probes; probe += 1.0) {
-        let probe_uv = uv + minification_probe(footprint, probe) * per_texel;
-        sum += map_load_trilinear(map, layer, region, levels, probe_uv, footprint.level);
-    }
-    return sum / footprint.probes;
 }
 
 // moment_shadows/map/map_lookup.wgsl
@@ -195,42 +56,12 @@ fn map_lookup_bilinear(map: texture_2d_array<f32>, linear: sampler, layer: u32, 
     return textureSampleLevel(map, linear, place / vec2f(textureDimensions(map, level)), layer, f32(level));
 }
 
-// The average over a pixel, from the differences of place to its neighbours in x and y, in texels, each component at
-// most 1e9 in magnitude. Where the pixel's footprint lies well within a region that hardware would divide into the same
-// mip levels, hardware takes the probes, at most as many as the clamp of the sampler `anisotropic`; elsewhere at most
-// `anisotropy` are taken here, from loaded texels. Regions are read by hardware for the most part if their edges and the
-// size of the map are multiples of a texel of the coarsest level.
-fn map_lookup_gradient(map: texture_2d_array<f32>, anisotropic: sampler, layer: u32, region: MapRegion, levels: u32, uv: vec2f, difference_x: vec2f, difference_y: vec2f, anisotropy: f32) -> vec4f {
-    let footprint = minification_footprint(difference_x, difference_y, anisotropy);
-    let size = textureDimensions(map);
-    let place = vec2f(region.origin) + uv * vec2f(region.extent);
-    let whole = all(region.origin == vec2u(0u)) && all(region.extent == size);
-    if whole || map_lookup_is_inner(region, size, levels, place, abs(difference_x) + abs(difference_y)) {
-        let per_texel = 1.0 / vec2f(size);
-        let gradients = minification_gradients(footprint);
-        return textureSampleGrad(map, anisotropic, place * per_texel, layer, gradients[0] * per_texel, gradients[1] * per_texel);
-    }
-    return map_load_footprint(map, layer, region, levels, uv, footprint);
-}
-
-// Whether hardware that filters around `place` over a box of `reach` texels reads no texel of another region, and divides
-// the map into mip levels just as regions are divided: edges and size are multiples of a texel of the coarsest level.
-fn map_lookup_is_inner(region: MapRegion, size: vec2u, levels: u32, place: vec2f, reach: vec2f) -> bool {
-    let part_of_texel = vec2u((1u << min(max(levels, 1u) - 1u, 31u)) - 1u);
-    let aligned = all(((region.origin | region.extent | size) & part_of_texel) == vec2u(0u));
-    // Half of the box, and two texels of a mip level whose texels may be twice as wide as the box is long.
-    let margin = vec2f(2.0) + 0.5 * reach + 4.0 * max(reach.x, reach.y);
-    let low = vec2f(region.origin) + margin;
-    let high = vec2f(region.origin + region.extent) - margin;
-    return aligned && all(place >= low) && all(place <= high);
-}
 
 // specialization
 const GROUP = 0;
-const LEVELS = 1u;
-const ANISOTROPY = 1.0;
+
 const OVERESTIMATION = vec2f(0.2, 0.35);
-alias MomentsStorage = texture_storage_2d<rgba16float, write>;
+
 const STORAGE = 1u;
 
 // moments_lookup
@@ -261,14 +92,6 @@ const ANGLE_QUARTER_PI_REST: f32 = -2.1855695e-8;
 
 // tan(pi / 8): up to here the polynomial of the arc tangent holds.
 const ANGLE_TAN_EIGHTH_PI: f32 = 0.41421357;
-
-// pi / 2 in three parts, the first two with so few digits that their products with small integers are exact.
-const ANGLE_HALF_PI_FIRST: f32 = 1.5703125;
-const ANGLE_HALF_PI_SECOND: f32 = 4.837512969970703125e-4;
-const ANGLE_HALF_PI_THIRD: f32 = 7.54978995489188216e-8;
-
-// Angles beyond this, about 1,500 turns, count as this.
-const ANGLE_LARGEST: f32 = 1e4;
 
 // A number, or 0 in place of NaN and infinities. By its bits: a compiler may assume that there are none.
 fn angle_finite(value: f32) -> f32 {
@@ -305,22 +128,6 @@ fn angle_atan2(y: f32, x: f32) -> f32 {
     return select(angle, -angle, finite.y < 0.0);
 }
 
-// Sine and cosine of an angle in radians, |angle| <= 1e4. Near their zeros the error is 2^-24 times that of an angle of the
-// same size, not times the angle.
-fn angle_sin_cos(angle: f32) -> vec2f {
-    let bounded = clamp(angle_finite(angle), -ANGLE_LARGEST, ANGLE_LARGEST);
-    let quarters = round(bounded * 0.63661977);
-    let first = fma(-quarters, ANGLE_HALF_PI_FIRST, bounded);
-    let x = fma(-quarters, ANGLE_HALF_PI_THIRD, fma(-quarters, ANGLE_HALF_PI_SECOND, first));
-    let square = x * x;
-    let odd = fma(fma(fma(-1.9515295891e-4, square, 8.3321608736e-3), square, -1.6666654611e-1) * square, x, x);
-    let even = fma(fma(fma(2.443315711809948e-5, square, -1.388731625493765e-3), square, 4.166664568298827e-2), square * square, fma(-0.5, square, 1.0));
-    let quadrant = i32(quarters) & 3;
-    let swapped = (quadrant & 1) == 1;
-    let sine = select(odd, even, swapped);
-    let cosine = select(even, odd, swapped);
-    return vec2f(select(sine, -sine, quadrant >= 2), select(cosine, -cosine, quadrant == 1 || quadrant == 2));
-}
 
 // moment_shadows/air/rectified_frame.wgsl
 
@@ -372,17 +179,6 @@ fn rectified_frame_coordinates(position: vec3f) -> vec3f {
     return vec3f(radius, angle_atan2(y, x), angle_atan2(radius, z));
 }
 
-// The position of coordinates. On the light ray through the camera (inclination 0 or pi) the distance is unknown; the camera's
-// own position stands for all of it.
-fn rectified_frame_position(coordinates: vec3f) -> vec3f {
-    let around = angle_sin_cos(coordinates.y);
-    let inclined = angle_sin_cos(clamp(angle_finite(coordinates.z), 0.0, ANGLE_PI));
-    let radius = rectified_frame_component(coordinates.x);
-    // sin(theta) of the nearest f32 to pi is -9e-8; below that there is no such inclination.
-    let along = select(0.0, radius * inclined.y / inclined.x, inclined.x > 1e-7);
-    return vec3f(radius * around.y, radius * around.x, along);
-}
-
 // How far across the map's columns and rows coordinates lie, from 0 to 1. Azimuths outside of the frame take its nearer end.
 fn rectified_frame_place(frame: RectifiedFrame, coordinates: vec3f) -> vec2f {
     let turn = 2.0 * ANGLE_PI;
@@ -395,20 +191,10 @@ fn rectified_frame_place(frame: RectifiedFrame, coordinates: vec3f) -> vec2f {
     return saturate(vec2f(coordinates.x / frame.largest_radius, row));
 }
 
-// Radius and azimuth at a place.
-fn rectified_frame_ray(frame: RectifiedFrame, place: vec2f) -> vec2f {
-    return vec2f(place.x * frame.largest_radius, fma(place.y, frame.azimuth_extent, frame.first_azimuth));
-}
-
 // The depth along the light in [-1, 1] of an inclination.
 fn rectified_frame_depth(frame: RectifiedFrame, inclination: f32) -> f32 {
     let extent = frame.largest_inclination - frame.smallest_inclination;
     return clamp(fma(2.0 / extent, frame.largest_inclination - inclination, -1.0), -1.0, 1.0);
-}
-
-// The inclination of a depth in [-1, 1].
-fn rectified_frame_inclination(frame: RectifiedFrame, depth: f32) -> f32 {
-    return mix(frame.largest_inclination, frame.smallest_inclination, 0.5 * depth + 0.5);
 }
 
 // The position of a pixel's surface, or where its view ray ends at the far end. `device` are normalised device coordinates.
@@ -479,13 +265,6 @@ fn hankel_second_polynomial(factor: HankelFactor, x: f32) -> f32 {
     return fma(x, x - factor.shift, -factor.variance);
 }
 
-// The Christoffel number of x = z - b1, 1 / (1 + x^2 / variance + P2^2 / residue): the largest weight that a distribution
-// with these moments can have at z, which is the weight that the extremal distribution through z has there. A sum of
-// positive terms, here times the residue: nothing cancels.
-fn hankel_christoffel_number(factor: HankelFactor, x: f32, second_polynomial: f32) -> f32 {
-    let x_term = fma(x * factor.ratio, x, factor.residue);
-    return factor.residue / fma(second_polynomial, second_polynomial, x_term);
-}
 
 // moment_shadows/map/storage.wgsl
 // Storages: how the channels of a texel lie in memory, whatever they mean.
@@ -493,50 +272,15 @@ fn hankel_christoffel_number(factor: HankelFactor, x: f32, second_polynomial: f3
 // Every technique filters linearly and writes after each filter, so each write is a rounding error that its bound has to
 // cover. Nothing here depends on a technique: how one spreads its quantities over the range of a storage is its own.
 
-// Storages, as a shader's specialisation names them.
-const STORAGE_UNORM16: u32 = 0u;
 const STORAGE_FLOAT16: u32 = 1u;
 const STORAGE_FLOAT32: u32 = 2u;
-const STORAGE_UNORM8: u32 = 3u;
-// Sums of channels as unorm16 has them; see `summed_area_encoding`.
-const STORAGE_FIXED32: u32 = 4u;
+
 // Three channels to a texel, in maps that are drawn.
 const STORAGE_UNORM10: u32 = 5u;
-
-// The largest finite float16.
-const STORAGE_LARGEST_FLOAT16: f32 = 65504.0;
 
 // Whether the channels of the storage are floats, which can be anything, rather than numbers in [0, 1].
 fn storage_is_float(storage: u32) -> bool {
     return storage == STORAGE_FLOAT16 || storage == STORAGE_FLOAT32;
-}
-
-// The nearest float16 of each component, ties to even, for |value| <= 65504. A driver may truncate when it stores to a
-// float16 texture, which would double the rounding error that a bound has to cover.
-fn storage_round_to_float16(value: vec4f) -> vec4f {
-    let bits = bitcast<vec4u>(value);
-    // 13 of 23 mantissa bits go; adding just under half a unit, plus the last kept bit, rounds ties to even.
-    let rounded = bitcast<vec4f>((bits + 0xfffu + ((bits >> vec4u(13u)) & vec4u(1u))) & vec4u(0xffffe000u));
-    // Below 2^-14 float16 is a fixed-point format with a step of 2^-24.
-    let small = round(value * 0x1p24) * 0x1p-24;
-    return select(rounded, small, abs(value) < vec4f(0x1p-14));
-}
-
-// What to draw so that a target of 10 bits per channel holds the nearest number to each component, for any finite value. A driver
-// may round down, or round to 16 bits and drop the last six (lavapipe does): a little above that number they give it all the same.
-fn storage_round_to_unorm10(value: vec4f) -> vec4f {
-    return (round(saturate(value) * 1023.0) + 0x1p-8) / 1023.0;
-}
-
-// A filtered combination of texels, as it has to be written back to the same storage.
-fn storage_round_texel(texel: vec4f, storage: u32) -> vec4f {
-    if storage == STORAGE_FLOAT16 {
-        return storage_round_to_float16(texel);
-    }
-    if storage == STORAGE_UNORM10 {
-        return storage_round_to_unorm10(texel);
-    }
-    return texel;
 }
 
 // A texel in which channels that are NaN or infinite count as 0, found by their bits since a compiler may assume that
@@ -584,18 +328,6 @@ const SIX_MOMENTS_BIAS_FLOAT16: SixMomentsBias = SixMomentsBias(SIX_MOMENTS_BIAS
 const SIX_MOMENTS_BIAS_FLOAT32: SixMomentsBias = SixMomentsBias(SIX_MOMENTS_BIAS_TARGET, 1e-5);
 const SIX_MOMENTS_BIAS_UNORM10: SixMomentsBias = SixMomentsBias(SIX_MOMENTS_BIAS_TARGET, 6.5e-3);
 
-// The optimised basis, by columns: these products plus the offsets map the odd and the even moments of depths in [-1, 1]
-// into [0, 1]^3 each.
-const SIX_MOMENTS_ODD_BASIS: mat3x3f = mat3x3f(
-    2.5, -1.8749986445, 1.26583039016,
-    -10.0, 4.20757543111, -1.47644882902,
-    8.0, -1.83257678661, 0.71061660238,
-);
-const SIX_MOMENTS_EVEN_BASIS: mat3x3f = mat3x3f(
-    4.0, 9.0, -0.57759806484,
-    -4.0, -24.0, 4.61936647543,
-    0.0, 16.0, -3.07953906655,
-);
 const SIX_MOMENTS_ODD_OFFSET: vec3f = vec3f(0.5);
 const SIX_MOMENTS_EVEN_OFFSET: vec3f = vec3f(0.0, 0.0, 0.018888946);
 
@@ -617,53 +349,9 @@ fn six_moments_affine(matrix: mat3x3f, vector: vec3f, offset: vec3f) -> vec3f {
     return fma(matrix[0], vector.xxx, fma(matrix[1], vector.yyy, last));
 }
 
-// The moments of a single depth z in [-1, 1]: its powers.
-fn six_moments_from_depth(z: f32) -> SixMoments {
-    let square = z * z;
-    let powers = vec3f(1.0, square, square * square);
-    return SixMoments(z * powers, square * powers);
-}
-
 // What is subtracted from channels before they are stored: floats are finest around zero.
 fn six_moments_middle(storage: u32) -> f32 {
     return select(0.0, 0.5, storage_is_float(storage));
-}
-
-// A texel of three channels, with 1 in the fourth.
-fn six_moments_texel(channels: vec3f, storage: u32) -> vec4f {
-    return storage_round_texel(vec4f(saturate(channels) - six_moments_middle(storage), 1.0), storage);
-}
-
-// What to write to the first texel of the storage: the odd moments.
-fn six_moments_to_odd_texel(odd: vec3f, storage: u32) -> vec4f {
-    return six_moments_texel(six_moments_affine(SIX_MOMENTS_ODD_BASIS, odd, SIX_MOMENTS_ODD_OFFSET), storage);
-}
-
-// What to write to the second one: the even moments.
-fn six_moments_to_even_texel(even: vec3f, storage: u32) -> vec4f {
-    return six_moments_texel(six_moments_affine(SIX_MOMENTS_EVEN_BASIS, even, SIX_MOMENTS_EVEN_OFFSET), storage);
-}
-
-// Both texels.
-fn six_moments_to_texels(b: SixMoments, storage: u32) -> array<vec4f, 2> {
-    return array<vec4f, 2>(six_moments_to_odd_texel(b.odd, storage), six_moments_to_even_texel(b.even, storage));
-}
-
-// The moments in the two (filtered) texels of the storage, |b| < 1.05. Float storage can hold anything: channels beyond their
-// range count as its ends. Channels and not moments are clamped, since the bias covers errors of channels; moments at the ends
-// of their ranges, of which rounding has moved one inwards, would need one ten times as large if the others were clamped.
-fn six_moments_from_texels(texels: array<vec4f, 2>, storage: u32) -> SixMoments {
-    let middle = six_moments_middle(storage);
-    var odd = texels[0].xyz;
-    var even = texels[1].xyz;
-    if storage_is_float(storage) {
-        odd = clamp(odd, vec3f(-0.5), vec3f(0.5));
-        even = clamp(even, vec3f(-0.5), vec3f(0.5));
-    }
-    return SixMoments(
-        six_moments_affine(SIX_MOMENTS_ODD_INVERSE, odd - (SIX_MOMENTS_ODD_OFFSET - middle), vec3f(0.0)),
-        six_moments_affine(SIX_MOMENTS_EVEN_INVERSE, even - (SIX_MOMENTS_EVEN_OFFSET - middle), vec3f(0.0)),
-    );
 }
 
 // The moment bias of a storage.
@@ -826,22 +514,6 @@ fn hamburger6_bounds(biased: SixMoments, fragment_depth: f32, alpha: f32) -> vec
     return saturate(select(vec2f(1.0 - sum, 1.0 - weight), vec2f(weight, sum), below == 1u));
 }
 
-// The lower one of `hamburger6_bounds`, with fragment depths beyond the light's range counting as its ends.
-fn hamburger6_lower_bound(biased: SixMoments, fragment_depth: f32, alpha: f32) -> f32 {
-    return hamburger6_bounds(biased, clamp(fragment_depth, -1.0, 1.0), alpha).x;
-}
-
-// Shadow intensity in [0, 1] (1 = shadowed) of a fragment at `fragment_depth` (moment depth) under the filtered moments
-// of its map: the lower bound, never darker than the truth but for the bias. Moments lie within [-2, 2], as those from
-// `six_moments_from_texels` do, valid or not; fragment depths beyond the light's range count as its ends.
-fn hamburger6_shadow_intensity(moments: SixMoments, fragment_depth: f32, bias: SixMomentsBias) -> f32 {
-    return hamburger6_lower_bound(six_moments_apply_bias(moments, bias), fragment_depth, bias.alpha);
-}
-
-// The same for the two filtered texels of a storage, with the bias of the storage.
-fn hamburger6_shadow_intensity_of_texels(texels: array<vec4f, 2>, fragment_depth: f32, storage: u32) -> f32 {
-    return hamburger6_shadow_intensity(six_moments_from_texels(texels, storage), fragment_depth, six_moments_bias_of(storage));
-}
 
 // moment_shadows/moments/enclosed_moments.wgsl
 
@@ -852,64 +524,11 @@ fn hamburger6_shadow_intensity_of_texels(texels: array<vec4f, 2>, fragment_depth
 // bounds of everything else become looser by it. Six moments leave the fourth channel of both texels free, which is room for
 // both weights. What is stored is linear in all of it and commutes with filtering and prefix sums.
 
-// Sums over the occluders of a texel, each times its weight; all weights together are one.
-struct EnclosedMoments {
-    // Of those at depths between -1 and 1.
-    moments: SixMoments,
-    // Their weight.
-    weight: f32,
-    // The weight of those at -1 and before. What is left of one is behind the range: no occluder.
-    front: f32,
-}
-
 // With less weight than this between the ends, where in between does not matter, and float16 has few digits left for it.
 const ENCLOSED_MOMENTS_SMALLEST_WEIGHT: f32 = 0.001953125;
 
 // Beyond this a moment bias leaves nothing of the moments.
 const ENCLOSED_MOMENTS_LARGEST_ALPHA: f32 = 0.5;
-
-// One occluder.
-fn enclosed_moments_of_occluder(depth: f32, weight: f32) -> EnclosedMoments {
-    let inner = select(0.0, weight, depth > -1.0 && depth < 1.0);
-    let powers = six_moments_from_depth(clamp(depth, -1.0, 1.0));
-    return EnclosedMoments(
-        SixMoments(inner * powers.odd, inner * powers.even),
-        inner,
-        select(0.0, weight, depth <= -1.0),
-    );
-}
-
-// Two occluders together.
-fn enclosed_moments_sum(a: EnclosedMoments, b: EnclosedMoments) -> EnclosedMoments {
-    let moments = SixMoments(a.moments.odd + b.moments.odd, a.moments.even + b.moments.even);
-    return EnclosedMoments(moments, a.weight + b.weight, a.front + b.front);
-}
-
-// Three channels of the optimised basis times the weight, and one more.
-fn enclosed_moments_texel(channels: vec3f, last: f32, weight: f32, storage: u32) -> vec4f {
-    let middle = six_moments_middle(storage);
-    let inside = saturate(weight);
-    let texel = vec4f(clamp(channels, vec3f(-middle * inside), vec3f((1.0 - middle) * inside)), saturate(last));
-    if storage == STORAGE_FLOAT16 {
-        return storage_round_to_float16(texel);
-    }
-    return texel;
-}
-
-// What to write to the first texel of the storage: the odd moments, and what does not lie in front of the range. Moments of
-// whole distributions, as `six_moments_to_odd_texel` has them, look the same.
-fn enclosed_moments_to_odd_texel(sums: EnclosedMoments, storage: u32) -> vec4f {
-    let offset = sums.weight * (SIX_MOMENTS_ODD_OFFSET - six_moments_middle(storage));
-    let channels = six_moments_affine(SIX_MOMENTS_ODD_BASIS, sums.moments.odd, offset);
-    return enclosed_moments_texel(channels, 1.0 - sums.front, sums.weight, storage);
-}
-
-// What to write to the second one: the even moments, and the weight between the ends.
-fn enclosed_moments_to_even_texel(sums: EnclosedMoments, storage: u32) -> vec4f {
-    let offset = sums.weight * (SIX_MOMENTS_EVEN_OFFSET - six_moments_middle(storage));
-    let channels = six_moments_affine(SIX_MOMENTS_EVEN_BASIS, sums.moments.even, offset);
-    return enclosed_moments_texel(channels, sums.weight, sums.weight, storage);
-}
 
 // The moments of a filtered texel's occluders between the ends, as means over them alone. Weights below
 // `ENCLOSED_MOMENTS_SMALLEST_WEIGHT` count as that.

@@ -21,61 +21,9 @@ fn fullscreen(@builtin(vertex_index) index: u32) -> Covered {
 // Every technique filters linearly and writes after each filter, so each write is a rounding error that its bound has to
 // cover. Nothing here depends on a technique: how one spreads its quantities over the range of a storage is its own.
 
-// Storages, as a shader's specialisation names them.
-const STORAGE_UNORM16: u32 = 0u;
 const STORAGE_FLOAT16: u32 = 1u;
 const STORAGE_FLOAT32: u32 = 2u;
-const STORAGE_UNORM8: u32 = 3u;
-// Sums of channels as unorm16 has them; see `summed_area_encoding`.
-const STORAGE_FIXED32: u32 = 4u;
-// Three channels to a texel, in maps that are drawn.
-const STORAGE_UNORM10: u32 = 5u;
 
-// The largest finite float16.
-const STORAGE_LARGEST_FLOAT16: f32 = 65504.0;
-
-// Whether the channels of the storage are floats, which can be anything, rather than numbers in [0, 1].
-fn storage_is_float(storage: u32) -> bool {
-    return storage == STORAGE_FLOAT16 || storage == STORAGE_FLOAT32;
-}
-
-// The nearest float16 of each component, ties to even, for |value| <= 65504. A driver may truncate when it stores to a
-// float16 texture, which would double the rounding error that a bound has to cover.
-fn storage_round_to_float16(value: vec4f) -> vec4f {
-    let bits = bitcast<vec4u>(value);
-    // 13 of 23 mantissa bits go; adding just under half a unit, plus the last kept bit, rounds ties to even.
-    let rounded = bitcast<vec4f>((bits + 0xfffu + ((bits >> vec4u(13u)) & vec4u(1u))) & vec4u(0xffffe000u));
-    // Below 2^-14 float16 is a fixed-point format with a step of 2^-24.
-    let small = round(value * 0x1p24) * 0x1p-24;
-    return select(rounded, small, abs(value) < vec4f(0x1p-14));
-}
-
-// What to draw so that a target of 10 bits per channel holds the nearest number to each component, for any finite value. A driver
-// may round down, or round to 16 bits and drop the last six (lavapipe does): a little above that number they give it all the same.
-fn storage_round_to_unorm10(value: vec4f) -> vec4f {
-    return (round(saturate(value) * 1023.0) + 0x1p-8) / 1023.0;
-}
-
-// A filtered combination of texels, as it has to be written back to the same storage.
-fn storage_round_texel(texel: vec4f, storage: u32) -> vec4f {
-    if storage == STORAGE_FLOAT16 {
-        return storage_round_to_float16(texel);
-    }
-    if storage == STORAGE_UNORM10 {
-        return storage_round_to_unorm10(texel);
-    }
-    return texel;
-}
-
-// A texel in which channels that are NaN or infinite count as 0, found by their bits since a compiler may assume that
-// there is neither. Unorm texels pass as they are.
-fn storage_finite_texel(texel: vec4f, storage: u32) -> vec4f {
-    if !storage_is_float(storage) {
-        return texel;
-    }
-    let exponent = bitcast<vec4u>(texel) & vec4u(0x7f800000u);
-    return select(texel, vec4f(0.0), exponent == vec4u(0x7f800000u));
-}
 
 // moment_shadows/moments/four_moments.wgsl
 
@@ -105,22 +53,6 @@ const FOUR_MOMENTS_BIAS_FLOAT32: FourMomentsBias = FourMomentsBias(1.5e-6, 0.375
 // sqrt(3), which the optimised basis and its inverse are made of.
 const FOUR_MOMENTS_SQRT_3: f32 = 1.7320508075688772;
 
-// The moments of a single depth z in [-1, 1]: its powers (i3D 2015, equation 2).
-fn four_moments_from_depth(z: f32) -> vec4f {
-    let square = z * z;
-    return vec4f(z, square, z * square, square * square);
-}
-
-// The optimised basis of JCGT 6(1) 2017 (equation 5, GDC 2016): maps the moments of depths in [-1, 1] into [0, 1]^4.
-fn four_moments_quantize(b: vec4f) -> vec4f {
-    return vec4f(
-        fma(1.5, b.x, fma(-2.0, b.z, 0.5)),
-        4.0 * (b.y - b.w),
-        fma(0.5 * FOUR_MOMENTS_SQRT_3, b.x, fma(-2.0 / 9.0 * FOUR_MOMENTS_SQRT_3, b.z, 0.5)),
-        0.5 * (b.y + b.w),
-    );
-}
-
 // Inverse of `four_moments_quantize`. Channels in [0, 1] give |b| <= 2.1, whatever they hold.
 fn four_moments_dequantize(channels: vec4f) -> vec4f {
     let odd = channels.xz - 0.5;
@@ -130,25 +62,6 @@ fn four_moments_dequantize(channels: vec4f) -> vec4f {
         0.75 * fma(FOUR_MOMENTS_SQRT_3, odd.y, -odd.x),
         fma(-0.125, channels.y, channels.w),
     );
-}
-
-// Moments that certainly lie in their ranges: odd ones in [-1, 1], even ones in [0, 1]. Float storage can hold
-// anything, and finite values beyond 1e15 would overflow further on.
-fn four_moments_clamp(b: vec4f) -> vec4f {
-    return clamp(b, vec4f(-1.0, 0.0, -1.0, 0.0), vec4f(1.0));
-}
-
-// What to write to a texel of the storage.
-fn four_moments_to_texel(b: vec4f, storage: u32) -> vec4f {
-    if storage == STORAGE_FLOAT32 {
-        return b;
-    }
-    let channels = saturate(four_moments_quantize(b));
-    if storage == STORAGE_FLOAT16 {
-        // Half precision is finest around zero, so the channels are centred there.
-        return storage_round_to_float16(channels - 0.5);
-    }
-    return channels;
 }
 
 // The moments in a (filtered) texel of the storage. Float storage can hold anything; `four_moments_clamp` comes before any
@@ -180,25 +93,6 @@ fn four_moments_apply_bias(b: vec4f, bias: FourMomentsBias) -> vec4f {
     return fma(vec4f(bias.alpha), vec4f(0.0, bias.second, 0.0, bias.fourth) - b, b);
 }
 
-// The biased moments in a (filtered) texel of the storage, within [-2.1, 2.1]: for unorm storage if the channels are in
-// [0, 1], as no texture can help, and for float storage whatever finite numbers it holds.
-fn four_moments_biased_from_texel(texel: vec4f, storage: u32, bias: FourMomentsBias) -> vec4f {
-    if storage == STORAGE_FLOAT32 {
-        return four_moments_apply_bias(four_moments_clamp(texel), bias);
-    }
-    // The inverse of the basis and the bias are both affine, and so one step. These biases are large enough for 1 - alpha.
-    let keep = 1.0 - bias.alpha;
-    let of_xy = keep * vec4f(-1.0 / 3.0, 0.125, -0.75, -0.125);
-    let of_zw = keep * vec4f(FOUR_MOMENTS_SQRT_3, 1.0, 0.75 * FOUR_MOMENTS_SQRT_3, 1.0);
-    // Odd moments are 0 for channels of one half, and float16 storage holds one half less.
-    let middle = select(vec4f(-0.5, 0.0, -0.5, 0.0), vec4f(0.0, 0.5, 0.0, 0.5), storage == STORAGE_FLOAT16);
-    let shift = fma(middle, of_xy + of_zw, bias.alpha * vec4f(0.0, bias.second, 0.0, bias.fourth));
-    let biased = fma(of_xy, texel.xyxy, fma(of_zw, texel.zwzw, shift));
-    if storage == STORAGE_FLOAT16 {
-        return four_moments_clamp(biased);
-    }
-    return biased;
-}
 
 // specialization
 const GROUP = 0;

@@ -107,81 +107,11 @@ struct RectifiedFrame {
     padding: f32,
 }
 
-// A component of a position, finite and not so large that squares overflow.
-fn rectified_frame_component(value: f32) -> f32 {
-    return clamp(angle_finite(value), -1e18, 1e18);
-}
-
-// Radius, azimuth in [-pi, pi] and inclination in [0, pi] of a position. The camera itself and components that are no finite
-// numbers count as 0.
-fn rectified_frame_coordinates(position: vec3f) -> vec3f {
-    let x = rectified_frame_component(position.x);
-    let y = rectified_frame_component(position.y);
-    let z = rectified_frame_component(position.z);
-    // Scaled, so that squares of small components do not vanish.
-    let most = max(abs(x), abs(y));
-    let scaled = vec2f(x, y) / max(most, 1e-30);
-    let radius = most * sqrt(dot(scaled, scaled));
-    return vec3f(radius, angle_atan2(y, x), angle_atan2(radius, z));
-}
-
-// The position of coordinates. On the light ray through the camera (inclination 0 or pi) the distance is unknown; the camera's
-// own position stands for all of it.
-fn rectified_frame_position(coordinates: vec3f) -> vec3f {
-    let around = angle_sin_cos(coordinates.y);
-    let inclined = angle_sin_cos(clamp(angle_finite(coordinates.z), 0.0, ANGLE_PI));
-    let radius = rectified_frame_component(coordinates.x);
-    // sin(theta) of the nearest f32 to pi is -9e-8; below that there is no such inclination.
-    let along = select(0.0, radius * inclined.y / inclined.x, inclined.x > 1e-7);
-    return vec3f(radius * around.y, radius * around.x, along);
-}
-
-// How far across the map's columns and rows coordinates lie, from 0 to 1. Azimuths outside of the frame take its nearer end.
-fn rectified_frame_place(frame: RectifiedFrame, coordinates: vec3f) -> vec2f {
-    let turn = 2.0 * ANGLE_PI;
-    let turned = coordinates.y - frame.first_azimuth;
-    let offset = turned - turn * floor(turned / turn);
-    let beyond = offset - frame.azimuth_extent;
-    // Of what the frame leaves of a turn, the second half is nearer to its beginning.
-    let before = beyond > 0.5 * (turn - frame.azimuth_extent);
-    let row = select(offset / frame.azimuth_extent, 0.0, before);
-    return saturate(vec2f(coordinates.x / frame.largest_radius, row));
-}
-
 // Radius and azimuth at a place.
 fn rectified_frame_ray(frame: RectifiedFrame, place: vec2f) -> vec2f {
     return vec2f(place.x * frame.largest_radius, fma(place.y, frame.azimuth_extent, frame.first_azimuth));
 }
 
-// The depth along the light in [-1, 1] of an inclination.
-fn rectified_frame_depth(frame: RectifiedFrame, inclination: f32) -> f32 {
-    let extent = frame.largest_inclination - frame.smallest_inclination;
-    return clamp(fma(2.0 / extent, frame.largest_inclination - inclination, -1.0), -1.0, 1.0);
-}
-
-// The inclination of a depth in [-1, 1].
-fn rectified_frame_inclination(frame: RectifiedFrame, depth: f32) -> f32 {
-    return mix(frame.largest_inclination, frame.smallest_inclination, 0.5 * depth + 0.5);
-}
-
-// The position of a pixel's surface, or where its view ray ends at the far end. `device` are normalised device coordinates.
-fn rectified_frame_surface(frame: RectifiedFrame, device: vec2f, stored_depth: f32) -> vec3f {
-    let direction = fma(vec3f(device.x), frame.along_x, fma(vec3f(device.y), frame.along_y, frame.along_middle));
-    let scene_w = angle_finite(dot(frame.scene_w, vec4f(device, stored_depth, 1.0)));
-    return direction / max(scene_w, frame.farthest_w);
-}
-
-// Where in a map of so many rows a row lies, from 0 to 1: the first and last rows are the ends of the frame.
-fn rectified_frame_row(row: f32, rows: f32) -> f32 {
-    return fma(row, rows - 1.0, 0.5) / rows;
-}
-
-// Where in a map of so many columns the prefix sums up to one lie, from 0 to 1: a texel holds the sum up to its far edge, and is
-// right for view rays that end at the next column's middle. So no column is counted whose middle lies beyond a ray's end, where
-// what the ray ends at no longer shadows it.
-fn rectified_frame_prefix(column: f32, columns: f32) -> f32 {
-    return column - 1.0 / columns;
-}
 
 // moment_shadows/air/scattering_weights.wgsl
 
@@ -290,23 +220,10 @@ fn row_thickness(row: u32) -> f32 {
 // Every technique filters linearly and writes after each filter, so each write is a rounding error that its bound has to
 // cover. Nothing here depends on a technique: how one spreads its quantities over the range of a storage is its own.
 
-// Storages, as a shader's specialisation names them.
-const STORAGE_UNORM16: u32 = 0u;
 const STORAGE_FLOAT16: u32 = 1u;
-const STORAGE_FLOAT32: u32 = 2u;
-const STORAGE_UNORM8: u32 = 3u;
-// Sums of channels as unorm16 has them; see `summed_area_encoding`.
-const STORAGE_FIXED32: u32 = 4u;
+
 // Three channels to a texel, in maps that are drawn.
 const STORAGE_UNORM10: u32 = 5u;
-
-// The largest finite float16.
-const STORAGE_LARGEST_FLOAT16: f32 = 65504.0;
-
-// Whether the channels of the storage are floats, which can be anything, rather than numbers in [0, 1].
-fn storage_is_float(storage: u32) -> bool {
-    return storage == STORAGE_FLOAT16 || storage == STORAGE_FLOAT32;
-}
 
 // The nearest float16 of each component, ties to even, for |value| <= 65504. A driver may truncate when it stores to a
 // float16 texture, which would double the rounding error that a bound has to cover.
@@ -336,23 +253,10 @@ fn storage_round_texel(texel: vec4f, storage: u32) -> vec4f {
     return texel;
 }
 
-// A texel in which channels that are NaN or infinite count as 0, found by their bits since a compiler may assume that
-// there is neither. Unorm texels pass as they are.
-fn storage_finite_texel(texel: vec4f, storage: u32) -> vec4f {
-    if !storage_is_float(storage) {
-        return texel;
-    }
-    let exponent = bitcast<vec4u>(texel) & vec4u(0x7f800000u);
-    return select(texel, vec4f(0.0), exponent == vec4u(0x7f800000u));
-}
 
 // map_filtering
 
 // Texels that any filter averages.
-
-fn filtering_value(texel: vec4f) -> vec4f {
-    return texel;
-}
 
 fn filtering_texel(value: vec4f) -> vec4f {
     return storage_round_texel(value, STORAGE);

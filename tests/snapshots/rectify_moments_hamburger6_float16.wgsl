@@ -100,15 +100,6 @@ fn map_region_at_level(region: MapRegion, level: u32) -> MapRegion {
     return MapRegion(origin, ((region.origin + region.extent) >> vec2u(level)) - origin);
 }
 
-// The coarsest of `levels` mip levels on which a region still has texels.
-fn map_region_last_level(region: MapRegion, levels: u32) -> u32 {
-    var level = max(levels, 1u) - 1u;
-    while level > 0u && any(map_region_at_level(region, level).extent == vec2u(0u)) {
-        level--;
-    }
-    return level;
-}
-
 // The place of `uv` (from 0 to 1 across the region) in texels of a region's mip level, kept half a texel away from its
 // edge: a bilinear filter there reads no other region.
 fn map_region_place(region_on_level: MapRegion, uv: vec2f) -> vec2f {
@@ -122,18 +113,8 @@ fn map_region_place(region_on_level: MapRegion, uv: vec2f) -> vec2f {
 // Every technique filters linearly and writes after each filter, so each write is a rounding error that its bound has to
 // cover. Nothing here depends on a technique: how one spreads its quantities over the range of a storage is its own.
 
-// Storages, as a shader's specialisation names them.
-const STORAGE_UNORM16: u32 = 0u;
 const STORAGE_FLOAT16: u32 = 1u;
 const STORAGE_FLOAT32: u32 = 2u;
-const STORAGE_UNORM8: u32 = 3u;
-// Sums of channels as unorm16 has them; see `summed_area_encoding`.
-const STORAGE_FIXED32: u32 = 4u;
-// Three channels to a texel, in maps that are drawn.
-const STORAGE_UNORM10: u32 = 5u;
-
-// The largest finite float16.
-const STORAGE_LARGEST_FLOAT16: f32 = 65504.0;
 
 // Whether the channels of the storage are floats, which can be anything, rather than numbers in [0, 1].
 fn storage_is_float(storage: u32) -> bool {
@@ -149,23 +130,6 @@ fn storage_round_to_float16(value: vec4f) -> vec4f {
     // Below 2^-14 float16 is a fixed-point format with a step of 2^-24.
     let small = round(value * 0x1p24) * 0x1p-24;
     return select(rounded, small, abs(value) < vec4f(0x1p-14));
-}
-
-// What to draw so that a target of 10 bits per channel holds the nearest number to each component, for any finite value. A driver
-// may round down, or round to 16 bits and drop the last six (lavapipe does): a little above that number they give it all the same.
-fn storage_round_to_unorm10(value: vec4f) -> vec4f {
-    return (round(saturate(value) * 1023.0) + 0x1p-8) / 1023.0;
-}
-
-// A filtered combination of texels, as it has to be written back to the same storage.
-fn storage_round_texel(texel: vec4f, storage: u32) -> vec4f {
-    if storage == STORAGE_FLOAT16 {
-        return storage_round_to_float16(texel);
-    }
-    if storage == STORAGE_UNORM10 {
-        return storage_round_to_unorm10(texel);
-    }
-    return texel;
 }
 
 // A texel in which channels that are NaN or infinite count as 0, found by their bits since a compiler may assume that
@@ -187,40 +151,8 @@ fn storage_finite_texel(texel: vec4f, storage: u32) -> vec4f {
 // negative and sum to one. Storage with few bits holds an affine image of the moments that spreads them over the range
 // of every channel (Peters, GDC 2016; JCGT 6(1) 2017, section 3); affine maps commute with filtering.
 
-// A moment bias: b is moved by alpha towards (0, second, 0, fourth), which pulls moments that rounding has made
-// impossible back among the possible ones. With one number beta for both these are the moments of occluders at the near
-// end, the middle and the far end with the weights beta/2, 1 - beta and beta/2.
-struct FourMomentsBias {
-    alpha: f32,
-    second: f32,
-    fourth: f32,
-}
-
-// The bias belongs to a storage's rounding error, not to a scene. Each value covers a resolve and a two-pass blur, every
-// stage rounded to the storage, for 99.999 % of filter regions (found by search: `moment-shadows bias`). Sums of many texels
-// in f32 are off by more than the bias of float32 covers, unless they are made as in `split_sum`. The target is optimal for the basis and for distributions on the real line (JCGT 6(1) 2017, section 3).
-const FOUR_MOMENTS_BIAS_UNORM16: FourMomentsBias = FourMomentsBias(6e-5, 0.628, 0.628);
-const FOUR_MOMENTS_BIAS_FLOAT16: FourMomentsBias = FourMomentsBias(1e-3, 0.628, 0.628);
-const FOUR_MOMENTS_BIAS_FLOAT32: FourMomentsBias = FourMomentsBias(1.5e-6, 0.375, 0.375);
-
 // sqrt(3), which the optimised basis and its inverse are made of.
 const FOUR_MOMENTS_SQRT_3: f32 = 1.7320508075688772;
-
-// The moments of a single depth z in [-1, 1]: its powers (i3D 2015, equation 2).
-fn four_moments_from_depth(z: f32) -> vec4f {
-    let square = z * z;
-    return vec4f(z, square, z * square, square * square);
-}
-
-// The optimised basis of JCGT 6(1) 2017 (equation 5, GDC 2016): maps the moments of depths in [-1, 1] into [0, 1]^4.
-fn four_moments_quantize(b: vec4f) -> vec4f {
-    return vec4f(
-        fma(1.5, b.x, fma(-2.0, b.z, 0.5)),
-        4.0 * (b.y - b.w),
-        fma(0.5 * FOUR_MOMENTS_SQRT_3, b.x, fma(-2.0 / 9.0 * FOUR_MOMENTS_SQRT_3, b.z, 0.5)),
-        0.5 * (b.y + b.w),
-    );
-}
 
 // Inverse of `four_moments_quantize`. Channels in [0, 1] give |b| <= 2.1, whatever they hold.
 fn four_moments_dequantize(channels: vec4f) -> vec4f {
@@ -231,25 +163,6 @@ fn four_moments_dequantize(channels: vec4f) -> vec4f {
         0.75 * fma(FOUR_MOMENTS_SQRT_3, odd.y, -odd.x),
         fma(-0.125, channels.y, channels.w),
     );
-}
-
-// Moments that certainly lie in their ranges: odd ones in [-1, 1], even ones in [0, 1]. Float storage can hold
-// anything, and finite values beyond 1e15 would overflow further on.
-fn four_moments_clamp(b: vec4f) -> vec4f {
-    return clamp(b, vec4f(-1.0, 0.0, -1.0, 0.0), vec4f(1.0));
-}
-
-// What to write to a texel of the storage.
-fn four_moments_to_texel(b: vec4f, storage: u32) -> vec4f {
-    if storage == STORAGE_FLOAT32 {
-        return b;
-    }
-    let channels = saturate(four_moments_quantize(b));
-    if storage == STORAGE_FLOAT16 {
-        // Half precision is finest around zero, so the channels are centred there.
-        return storage_round_to_float16(channels - 0.5);
-    }
-    return channels;
 }
 
 // The moments in a (filtered) texel of the storage. Float storage can hold anything; `four_moments_clamp` comes before any
@@ -264,166 +177,6 @@ fn four_moments_from_texel(texel: vec4f, storage: u32) -> vec4f {
     return four_moments_dequantize(texel);
 }
 
-// The moment bias of a storage.
-fn four_moments_bias_of(storage: u32) -> FourMomentsBias {
-    if storage == STORAGE_FLOAT32 {
-        return FOUR_MOMENTS_BIAS_FLOAT32;
-    }
-    if storage == STORAGE_FLOAT16 {
-        return FOUR_MOMENTS_BIAS_FLOAT16;
-    }
-    return FOUR_MOMENTS_BIAS_UNORM16;
-}
-
-// Applies the moment bias (i3D 2015, section 3.3). Written as a step towards the target: 1 - alpha would keep only a
-// few bits of alpha.
-fn four_moments_apply_bias(b: vec4f, bias: FourMomentsBias) -> vec4f {
-    return fma(vec4f(bias.alpha), vec4f(0.0, bias.second, 0.0, bias.fourth) - b, b);
-}
-
-// The biased moments in a (filtered) texel of the storage, within [-2.1, 2.1]: for unorm storage if the channels are in
-// [0, 1], as no texture can help, and for float storage whatever finite numbers it holds.
-fn four_moments_biased_from_texel(texel: vec4f, storage: u32, bias: FourMomentsBias) -> vec4f {
-    if storage == STORAGE_FLOAT32 {
-        return four_moments_apply_bias(four_moments_clamp(texel), bias);
-    }
-    // The inverse of the basis and the bias are both affine, and so one step. These biases are large enough for 1 - alpha.
-    let keep = 1.0 - bias.alpha;
-    let of_xy = keep * vec4f(-1.0 / 3.0, 0.125, -0.75, -0.125);
-    let of_zw = keep * vec4f(FOUR_MOMENTS_SQRT_3, 1.0, 0.75 * FOUR_MOMENTS_SQRT_3, 1.0);
-    // Odd moments are 0 for channels of one half, and float16 storage holds one half less.
-    let middle = select(vec4f(-0.5, 0.0, -0.5, 0.0), vec4f(0.0, 0.5, 0.0, 0.5), storage == STORAGE_FLOAT16);
-    let shift = fma(middle, of_xy + of_zw, bias.alpha * vec4f(0.0, bias.second, 0.0, bias.fourth));
-    let biased = fma(of_xy, texel.xyxy, fma(of_zw, texel.zwzw, shift));
-    if storage == STORAGE_FLOAT16 {
-        return four_moments_clamp(biased);
-    }
-    return biased;
-}
-
-// moment_shadows/map/minification.wgsl
-// Minification: what part of a map a pixel covers.
-//
-// A pixel maps to a parallelogram of texels. Its singular values are the axes of the ellipse that stands for it
-// (Heckbert, "Fundamentals of Texture Mapping and Image Warping", 1989, section 3.5): a lookup takes probes along the
-// major axis, each on a mip level that fits the minor axis. Averages of moments are moments, which is what filterable
-// shadow maps exist for (Donnelly & Lauritzen, "Variance Shadow Maps", i3D 2006, section 3).
-//
-// A pixel averages a box: over w texels its variance is w^2 / 12. A trilinear lookup on a mip level whose texels are t wide
-// averages boxes of t and blends neighbours that are t apart: (1/12 + 1/6) t^2. Lookups are as wide as pixels if their
-// variances are equal, t = w / sqrt(3); a level with t = w, as colour textures take it, would filter three times as much.
-
-// Probes along the major axis, at most.
-const MINIFICATION_LARGEST_ANISOTROPY: f32 = 16.0;
-
-// The width of a mip level's texels that makes trilinear lookups as wide as a box: 1 / sqrt(3).
-const MINIFICATION_TEXEL_PER_WIDTH: f32 = 0.57735026;
-
-struct MinificationFootprint {
-    // The line on which the probes lie, along the major axis and from end to end, in texels of mip level 0.
-    major: vec2f,
-    // Probes along it, a whole number from 1 to 16.
-    probes: f32,
-    // The mip level of each probe, at least 0.
-    level: f32,
-}
-
-// The footprint of a pixel from the differences of place, in texels, to its neighbours in x and y; each component at
-// most 1e9 in magnitude. `anisotropy`, from 1 to 16, is the largest number of probes; where more were needed, the minor
-// axis is taken for longer than it is.
-fn minification_footprint(difference_x: vec2f, difference_y: vec2f, anisotropy: f32) -> MinificationFootprint {
-    let xx = difference_x.x * difference_x.x + difference_y.x * difference_y.x;
-    let xy = difference_x.x * difference_x.y + difference_y.x * difference_y.y;
-    let yy = difference_x.y * difference_x.y + difference_y.y * difference_y.y;
-    // The squares of the axes are the eigenvalues of the symmetric matrix (xx xy, xy yy).
-    let half_difference = 0.5 * (xx - yy);
-    let root = sqrt(half_difference * half_difference + xy * xy);
-    let major_length = sqrt(0.5 * (xx + yy) + root);
-    // The product of the axes is the parallelogram's area; a difference of eigenvalues would cancel.
-    let area = abs(difference_x.x * difference_y.y - difference_x.y * difference_y.x);
-    let minor_length = area / max(major_length, 1e-20);
-    // Both rows of the matrix less its smaller eigenvalue point along the major axis; this is the one that does not cancel.
-    let along = select(vec2f(xy, root - half_difference), vec2f(root + half_difference, xy), half_difference >= 0.0);
-    // A circle has no direction; its probes number one.
-    let direction = along / max(max(abs(along.x), abs(along.y)), 1e-30);
-    let unit = direction / max(length(direction), 1e-6);
-    let largest = clamp(anisotropy, 1.0, MINIFICATION_LARGEST_ANISOTROPY);
-    // With so many probes a texel apart the major axis is filled: w^2 = 3 major_length^2 / (largest^2 + 2).
-    let filled = major_length * sqrt(3.0 / fma(largest, largest, 2.0));
-    let width = max(max(minor_length, filled), 1.0);
-    // A probe has the variance of the width along the major axis, too: the line of probes is shorter by that.
-    let line = sqrt(max(fma(-width, width, major_length * major_length), 0.0));
-    let texel = max(width * MINIFICATION_TEXEL_PER_WIDTH, 1.0);
-    return MinificationFootprint(unit * line, clamp(ceil(line / texel - 1e-3), 1.0, largest), log2(texel));
-}
-
-// Where probe `index` lies on the major axis: the offset, in texels, from the footprint's centre.
-fn minification_probe(footprint: MinificationFootprint, index: f32) -> vec2f {
-    return ((index + 0.5) / footprint.probes - 0.5) * footprint.major;
-}
-
-// The two axes of a footprint as the differences of place, in texels, that make a sampler with anisotropy take just these
-// probes: x is the column of the line, at least as long as the other one.
-fn minification_gradients(footprint: MinificationFootprint) -> mat2x2f {
-    let texel = exp2(footprint.level);
-    let line = length(footprint.major);
-    let unit = select(vec2f(1.0, 0.0), footprint.major / max(line, 1e-6), line >= 1e-3);
-    return mat2x2f(unit * max(line, texel), vec2f(-unit.y, unit.x) * texel);
-}
-
-// The variance that minification adds to the moment depths of a plane, whose moment depth changes by `gradient` per texel:
-// that of the probes' trilinear lookups, and that of the line they lie on. Between two levels the mixture of both has at
-// most 1.13 times the variance of the level between them.
-fn minification_depth_variance(footprint: MinificationFootprint, gradient: vec2f) -> f32 {
-    let texel = select(0.0, exp2(footprint.level), footprint.level > 0.0);
-    let across = texel * length(gradient);
-    let along = select(0.0, dot(footprint.major, gradient), footprint.probes > 1.0);
-    return (1.13 / 4.0) * across * across + along * along / 12.0;
-}
-
-// moment_shadows/map/map_load.wgsl
-
-// Lookups in a map that a device cannot filter, and where a sampler would read across the edge of a region: bilinear,
-// trilinear, averaged over a footprint. `uv`, `levels` and regions are those of `map_lookup`.
-//
-// Texels are loaded and blended here, in f32, while hardware may use weights of as few as 8 bits. Blending texels of moments
-// is a convex combination, so it keeps moments valid.
-
-// The bilinearly filtered texel on one mip level. `uv` is finite; values outside [0, 1] count as the nearer edge.
-fn map_load_bilinear(map: texture_2d_array<f32>, layer: u32, region: MapRegion, uv: vec2f, level: u32) -> vec4f {
-    let rectangle = map_region_at_level(region, level);
-    let place = map_region_place(rectangle, uv) - 0.5;
-    let base = floor(place);
-    let weight = place - base;
-    let low = vec2i(base);
-    let high = min(low + 1, vec2i(rectangle.origin + rectangle.extent) - 1);
-    let top = mix(textureLoad(map, low, layer, level), textureLoad(map, vec2i(high.x, low.y), layer, level), weight.x);
-    let bottom = mix(textureLoad(map, vec2i(low.x, high.y), layer, level), textureLoad(map, high, layer, level), weight.x);
-    return mix(top, bottom, weight.y);
-}
-
-// The same, blended between the two mip levels next to `level` >= 0, as far as the region has texels there.
-fn map_load_trilinear(map: texture_2d_array<f32>, layer: u32, region: MapRegion, levels: u32, uv: vec2f, level: f32) -> vec4f {
-    let last = map_region_last_level(region, levels);
-    let fine = min(u32(clamp(level, 0.0, 31.0)), last);
-    let texel = map_load_bilinear(map, layer, region, uv, fine);
-    let blend = level - f32(fine);
-    if fine == last || blend <= 0.0 {
-        return texel;
-    }
-    return mix(texel, map_load_bilinear(map, layer, region, uv, fine + 1u), blend);
-}
-
-// The average over a footprint around `uv`: trilinear probes along its major axis.
-fn map_load_footprint(map: texture_2d_array<f32>, layer: u32, region: MapRegion, levels: u32, uv: vec2f, footprint: MinificationFootprint) -> vec4f {
-    let per_texel = 1.0 / max(vec2f(region.extent), vec2f(1.0));
-    var sum = vec4f(0.0);
-    for (var probe = 0.0; probe < footprint.probes; probe += 1.0) {
-        let probe_uv = uv + minification_probe(footprint, probe) * per_texel;
-        sum += map_load_trilinear(map, layer, region, levels, probe_uv, footprint.level);
-    }
-    return sum / footprint.probes;
-}
 
 // moment_shadows/map/map_lookup.wgsl
 
@@ -440,41 +193,11 @@ fn map_lookup_bilinear(map: texture_2d_array<f32>, linear: sampler, layer: u32, 
     return textureSampleLevel(map, linear, place / vec2f(textureDimensions(map, level)), layer, f32(level));
 }
 
-// The average over a pixel, from the differences of place to its neighbours in x and y, in texels, each component at
-// most 1e9 in magnitude. Where the pixel's footprint lies well within a region that hardware would divide into the same
-// mip levels, hardware takes the probes, at most as many as the clamp of the sampler `anisotropic`; elsewhere at most
-// `anisotropy` are taken here, from loaded texels. Regions are read by hardware for the most part if their edges and the
-// size of the map are multiples of a texel of the coarsest level.
-fn map_lookup_gradient(map: texture_2d_array<f32>, anisotropic: sampler, layer: u32, region: MapRegion, levels: u32, uv: vec2f, difference_x: vec2f, difference_y: vec2f, anisotropy: f32) -> vec4f {
-    let footprint = minification_footprint(difference_x, difference_y, anisotropy);
-    let size = textureDimensions(map);
-    let place = vec2f(region.origin) + uv * vec2f(region.extent);
-    let whole = all(region.origin == vec2u(0u)) && all(region.extent == size);
-    if whole || map_lookup_is_inner(region, size, levels, place, abs(difference_x) + abs(difference_y)) {
-        let per_texel = 1.0 / vec2f(size);
-        let gradients = minification_gradients(footprint);
-        return textureSampleGrad(map, anisotropic, place * per_texel, layer, gradients[0] * per_texel, gradients[1] * per_texel);
-    }
-    return map_load_footprint(map, layer, region, levels, uv, footprint);
-}
-
-// Whether hardware that filters around `place` over a box of `reach` texels reads no texel of another region, and divides
-// the map into mip levels just as regions are divided: edges and size are multiples of a texel of the coarsest level.
-fn map_lookup_is_inner(region: MapRegion, size: vec2u, levels: u32, place: vec2f, reach: vec2f) -> bool {
-    let part_of_texel = vec2u((1u << min(max(levels, 1u) - 1u, 31u)) - 1u);
-    let aligned = all(((region.origin | region.extent | size) & part_of_texel) == vec2u(0u));
-    // Half of the box, and two texels of a mip level whose texels may be twice as wide as the box is long.
-    let margin = vec2f(2.0) + 0.5 * reach + 4.0 * max(reach.x, reach.y);
-    let low = vec2f(region.origin) + margin;
-    let high = vec2f(region.origin + region.extent) - margin;
-    return aligned && all(place >= low) && all(place <= high);
-}
 
 // specialization
 const GROUP = 0;
 const SOURCE_STORAGE = 1u;
-const LEVELS = 1u;
-const ANISOTROPY = 8.0;
+
 alias MomentsStorage = texture_storage_2d<rgba16float, write>;
 const STORAGE = 1u;
 
@@ -522,47 +245,6 @@ struct RectifiedFrame {
     padding: f32,
 }
 
-// A component of a position, finite and not so large that squares overflow.
-fn rectified_frame_component(value: f32) -> f32 {
-    return clamp(angle_finite(value), -1e18, 1e18);
-}
-
-// Radius, azimuth in [-pi, pi] and inclination in [0, pi] of a position. The camera itself and components that are no finite
-// numbers count as 0.
-fn rectified_frame_coordinates(position: vec3f) -> vec3f {
-    let x = rectified_frame_component(position.x);
-    let y = rectified_frame_component(position.y);
-    let z = rectified_frame_component(position.z);
-    // Scaled, so that squares of small components do not vanish.
-    let most = max(abs(x), abs(y));
-    let scaled = vec2f(x, y) / max(most, 1e-30);
-    let radius = most * sqrt(dot(scaled, scaled));
-    return vec3f(radius, angle_atan2(y, x), angle_atan2(radius, z));
-}
-
-// The position of coordinates. On the light ray through the camera (inclination 0 or pi) the distance is unknown; the camera's
-// own position stands for all of it.
-fn rectified_frame_position(coordinates: vec3f) -> vec3f {
-    let around = angle_sin_cos(coordinates.y);
-    let inclined = angle_sin_cos(clamp(angle_finite(coordinates.z), 0.0, ANGLE_PI));
-    let radius = rectified_frame_component(coordinates.x);
-    // sin(theta) of the nearest f32 to pi is -9e-8; below that there is no such inclination.
-    let along = select(0.0, radius * inclined.y / inclined.x, inclined.x > 1e-7);
-    return vec3f(radius * around.y, radius * around.x, along);
-}
-
-// How far across the map's columns and rows coordinates lie, from 0 to 1. Azimuths outside of the frame take its nearer end.
-fn rectified_frame_place(frame: RectifiedFrame, coordinates: vec3f) -> vec2f {
-    let turn = 2.0 * ANGLE_PI;
-    let turned = coordinates.y - frame.first_azimuth;
-    let offset = turned - turn * floor(turned / turn);
-    let beyond = offset - frame.azimuth_extent;
-    // Of what the frame leaves of a turn, the second half is nearer to its beginning.
-    let before = beyond > 0.5 * (turn - frame.azimuth_extent);
-    let row = select(offset / frame.azimuth_extent, 0.0, before);
-    return saturate(vec2f(coordinates.x / frame.largest_radius, row));
-}
-
 // Radius and azimuth at a place.
 fn rectified_frame_ray(frame: RectifiedFrame, place: vec2f) -> vec2f {
     return vec2f(place.x * frame.largest_radius, fma(place.y, frame.azimuth_extent, frame.first_azimuth));
@@ -574,86 +256,6 @@ fn rectified_frame_depth(frame: RectifiedFrame, inclination: f32) -> f32 {
     return clamp(fma(2.0 / extent, frame.largest_inclination - inclination, -1.0), -1.0, 1.0);
 }
 
-// The inclination of a depth in [-1, 1].
-fn rectified_frame_inclination(frame: RectifiedFrame, depth: f32) -> f32 {
-    return mix(frame.largest_inclination, frame.smallest_inclination, 0.5 * depth + 0.5);
-}
-
-// The position of a pixel's surface, or where its view ray ends at the far end. `device` are normalised device coordinates.
-fn rectified_frame_surface(frame: RectifiedFrame, device: vec2f, stored_depth: f32) -> vec3f {
-    let direction = fma(vec3f(device.x), frame.along_x, fma(vec3f(device.y), frame.along_y, frame.along_middle));
-    let scene_w = angle_finite(dot(frame.scene_w, vec4f(device, stored_depth, 1.0)));
-    return direction / max(scene_w, frame.farthest_w);
-}
-
-// Where in a map of so many rows a row lies, from 0 to 1: the first and last rows are the ends of the frame.
-fn rectified_frame_row(row: f32, rows: f32) -> f32 {
-    return fma(row, rows - 1.0, 0.5) / rows;
-}
-
-// Where in a map of so many columns the prefix sums up to one lie, from 0 to 1: a texel holds the sum up to its far edge, and is
-// right for view rays that end at the next column's middle. So no column is counted whose middle lies beyond a ray's end, where
-// what the ray ends at no longer shadows it.
-fn rectified_frame_prefix(column: f32, columns: f32) -> f32 {
-    return column - 1.0 / columns;
-}
-
-// moment_shadows/maths/hankel.wgsl
-// The shared factorisation: LDL^T of the Hankel matrix of four moments.
-//
-//       | 1  b1 b2 |
-//   B = | b1 b2 b3 |     B is positive semi-definite exactly if some distribution on the real line has these moments
-//       | b2 b3 b4 |     (Hamburger moment problem; Peters & Klein, i3D 2015, section 2.2 and Algorithm 3).
-//
-// Its pivots define the monic orthogonal polynomials of the distribution, with x = z - b1:
-//   P0 = 1,  P1(x) = x,  P2(x) = x (x - shift) - variance,
-// with squared norms 1, variance and residue. The roots of P2 are the two Gauss nodes.
-
-// The pivots of B and what the orthogonal polynomials need.
-struct HankelFactor {
-    // b2 - b1^2, the variance of z; positive.
-    variance: f32,
-    // The Schur complement of b4, the variance of z^2 that z does not explain; positive.
-    residue: f32,
-    // residue / variance.
-    ratio: f32,
-    // L32 - 2 b1, with L32 the slope of the regression of z^2 on z.
-    shift: f32,
-}
-
-// Pivots of valid moments stay above these multiples of the moment bias alpha, so the guards bind only where rounding
-// has left the pivots without a correct digit (or the moments are none). They also bound all that is divided by a pivot:
-// with alpha >= 1e-7 nothing below overflows on the way to a weight, whatever the moments.
-const HANKEL_SMALLEST_VARIANCE: f32 = 0.03;
-const HANKEL_SMALLEST_RESIDUE: f32 = 0.02;
-
-// Factorises the Hankel matrix of moments biased by `alpha` >= 1e-7. Moments must lie within [-2.1, 2.1].
-// The differences of products lose almost all digits near a single surface; `fma` keeps them where it is fused.
-fn hankel_factor(biased: vec4f, alpha: f32) -> HankelFactor {
-    let variance = max(fma(-biased.x, biased.x, biased.y), HANKEL_SMALLEST_VARIANCE * alpha);
-    // One division for all quotients.
-    let inverse = 1.0 / variance;
-    let covariance = fma(-biased.x, biased.y, biased.z);
-    let slope = covariance * inverse;
-    let residue = max(
-        fma(-covariance, slope, fma(-biased.y, biased.y, biased.w)),
-        HANKEL_SMALLEST_RESIDUE * alpha,
-    );
-    return HankelFactor(variance, residue, residue * inverse, fma(-2.0, biased.x, slope));
-}
-
-// P2 at x = z - b1. Negative exactly between the Gauss nodes.
-fn hankel_second_polynomial(factor: HankelFactor, x: f32) -> f32 {
-    return fma(x, x - factor.shift, -factor.variance);
-}
-
-// The Christoffel number of x = z - b1, 1 / (1 + x^2 / variance + P2^2 / residue): the largest weight that a distribution
-// with these moments can have at z, which is the weight that the extremal distribution through z has there. A sum of
-// positive terms, here times the residue: nothing cancels.
-fn hankel_christoffel_number(factor: HankelFactor, x: f32, second_polynomial: f32) -> f32 {
-    let x_term = fma(x * factor.ratio, x, factor.residue);
-    return factor.residue / fma(second_polynomial, second_polynomial, x_term);
-}
 
 // moment_shadows/moments/six_moments.wgsl
 
@@ -672,24 +274,6 @@ struct SixMoments {
     even: vec3f,
 }
 
-// A moment bias: b is moved by alpha towards moments whose odd ones are 0.
-struct SixMomentsBias {
-    // The target's E[z^2], E[z^4], E[z^6].
-    even: vec3f,
-    alpha: f32,
-}
-
-// The bias belongs to a storage's rounding error, not to a scene. Each value covers a resolve and a two-pass blur, every
-// stage rounded to the storage, for 99.999 % of filter regions. 3e-6 would do so for float32, but below 8e-6 what is left of
-// the last pivot of `hamburger6` in f32 can be nothing but rounding. 5e-3 would do so for unorm10, but a search for the worst regions
-// finds some that need up to 6.5e-3, and with 5.5e-3 the bound exceeds the truth of one of them by 2.7e-2. The target is the
-// one published for moment-based transparency (Muenstermann et al., "Moment-Based Order-Independent Transparency", i3D 2018).
-const SIX_MOMENTS_BIAS_TARGET: vec3f = vec3f(0.5566, 0.489, 0.47869382);
-const SIX_MOMENTS_BIAS_UNORM16: SixMomentsBias = SixMomentsBias(SIX_MOMENTS_BIAS_TARGET, 1e-4);
-const SIX_MOMENTS_BIAS_FLOAT16: SixMomentsBias = SixMomentsBias(SIX_MOMENTS_BIAS_TARGET, 1.5e-3);
-const SIX_MOMENTS_BIAS_FLOAT32: SixMomentsBias = SixMomentsBias(SIX_MOMENTS_BIAS_TARGET, 1e-5);
-const SIX_MOMENTS_BIAS_UNORM10: SixMomentsBias = SixMomentsBias(SIX_MOMENTS_BIAS_TARGET, 6.5e-3);
-
 // The optimised basis, by columns: these products plus the offsets map the odd and the even moments of depths in [-1, 1]
 // into [0, 1]^3 each.
 const SIX_MOMENTS_ODD_BASIS: mat3x3f = mat3x3f(
@@ -704,18 +288,6 @@ const SIX_MOMENTS_EVEN_BASIS: mat3x3f = mat3x3f(
 );
 const SIX_MOMENTS_ODD_OFFSET: vec3f = vec3f(0.5);
 const SIX_MOMENTS_EVEN_OFFSET: vec3f = vec3f(0.0, 0.0, 0.018888946);
-
-// Their inverses, by columns.
-const SIX_MOMENTS_ODD_INVERSE: mat3x3f = mat3x3f(
-    -0.02877789191977914, 0.09995235706024454, 0.25893353755023666,
-    0.4763555042123262, 0.8453258093069343, 0.907796166567316,
-    1.5524280897137293, 1.0547257075981561, 0.8332733564621547,
-);
-const SIX_MOMENTS_EVEN_INVERSE: mat3x3f = mat3x3f(
-    1.2530436076429571e-5, -0.24998746956392357, -0.37498825271617835,
-    0.16668494186053159, 0.16668494186053159, 0.21876713299424836,
-    0.866025405794346, 0.866025405794346, 0.8118988179321994,
-);
 
 // matrix * vector + offset, every step fused where the hardware does.
 fn six_moments_affine(matrix: mat3x3f, vector: vec3f, offset: vec3f) -> vec3f {
@@ -735,219 +307,6 @@ fn six_moments_middle(storage: u32) -> f32 {
     return select(0.0, 0.5, storage_is_float(storage));
 }
 
-// A texel of three channels, with 1 in the fourth.
-fn six_moments_texel(channels: vec3f, storage: u32) -> vec4f {
-    return storage_round_texel(vec4f(saturate(channels) - six_moments_middle(storage), 1.0), storage);
-}
-
-// What to write to the first texel of the storage: the odd moments.
-fn six_moments_to_odd_texel(odd: vec3f, storage: u32) -> vec4f {
-    return six_moments_texel(six_moments_affine(SIX_MOMENTS_ODD_BASIS, odd, SIX_MOMENTS_ODD_OFFSET), storage);
-}
-
-// What to write to the second one: the even moments.
-fn six_moments_to_even_texel(even: vec3f, storage: u32) -> vec4f {
-    return six_moments_texel(six_moments_affine(SIX_MOMENTS_EVEN_BASIS, even, SIX_MOMENTS_EVEN_OFFSET), storage);
-}
-
-// Both texels.
-fn six_moments_to_texels(b: SixMoments, storage: u32) -> array<vec4f, 2> {
-    return array<vec4f, 2>(six_moments_to_odd_texel(b.odd, storage), six_moments_to_even_texel(b.even, storage));
-}
-
-// The moments in the two (filtered) texels of the storage, |b| < 1.05. Float storage can hold anything: channels beyond their
-// range count as its ends. Channels and not moments are clamped, since the bias covers errors of channels; moments at the ends
-// of their ranges, of which rounding has moved one inwards, would need one ten times as large if the others were clamped.
-fn six_moments_from_texels(texels: array<vec4f, 2>, storage: u32) -> SixMoments {
-    let middle = six_moments_middle(storage);
-    var odd = texels[0].xyz;
-    var even = texels[1].xyz;
-    if storage_is_float(storage) {
-        odd = clamp(odd, vec3f(-0.5), vec3f(0.5));
-        even = clamp(even, vec3f(-0.5), vec3f(0.5));
-    }
-    return SixMoments(
-        six_moments_affine(SIX_MOMENTS_ODD_INVERSE, odd - (SIX_MOMENTS_ODD_OFFSET - middle), vec3f(0.0)),
-        six_moments_affine(SIX_MOMENTS_EVEN_INVERSE, even - (SIX_MOMENTS_EVEN_OFFSET - middle), vec3f(0.0)),
-    );
-}
-
-// The moment bias of a storage.
-fn six_moments_bias_of(storage: u32) -> SixMomentsBias {
-    if storage == STORAGE_FLOAT32 {
-        return SIX_MOMENTS_BIAS_FLOAT32;
-    }
-    if storage == STORAGE_FLOAT16 {
-        return SIX_MOMENTS_BIAS_FLOAT16;
-    }
-    if storage == STORAGE_UNORM10 {
-        return SIX_MOMENTS_BIAS_UNORM10;
-    }
-    return SIX_MOMENTS_BIAS_UNORM16;
-}
-
-// Applies the moment bias (i3D 2015, section 3.3). Written as a step towards the target: 1 - alpha would keep only a
-// few bits of alpha.
-fn six_moments_apply_bias(b: SixMoments, bias: SixMomentsBias) -> SixMoments {
-    let alpha = vec3f(bias.alpha);
-    return SixMoments(fma(-alpha, b.odd, b.odd), fma(alpha, bias.even - b.even, b.even));
-}
-
-// moment_shadows/bounds/hamburger6.wgsl
-
-// Hamburger six-moment shadow mapping: the sharpest bounds on shadow intensity that six moments allow.
-//
-// As with four moments the extremal distribution has the fragment depth in its support, and now three more points (Peters &
-// Klein, i3D 2015, Proposition 3; six moments in Peters et al., JCGT 6(1) 2017). The published evaluation takes the three
-// roots of a cubic by arc tangents and divides by its leading coefficient, which vanishes when the fragment is at a Gauss
-// node. This one gives the same values without either:
-//   - the weight of a support point is its Christoffel number, a sum of positive terms;
-//   - how many support points lie in front of the fragment follows from the signs of the orthogonal polynomials (Sturm);
-//   - since all weights add up to one, only the one point that is alone on its side is needed. In y = 1 / (z - fragment)
-//     it is an extreme root of a cubic that never degenerates, and Laguerre's method finds it from outside.
-//
-// With x = z - b1 the monic orthogonal polynomials are P0 to P2 of `hankel`, and P3(x) = (x - offset) P2(x) - ratio x.
-
-// The Hankel matrix of six moments, factorised.
-struct Hamburger6Factor {
-    // That of the first four moments.
-    four: HankelFactor,
-    // By how much x is shifted in the recurrence that makes P3.
-    offset: f32,
-    // One over the squared norms of P1, P2 and P3.
-    inverse_norms: vec3f,
-}
-
-// P1, P2 and P3 at one place, and these over their squared norms.
-struct Hamburger6Polynomials {
-    values: vec3f,
-    coefficients: vec3f,
-    // The Christoffel number 1 / (1 + P1^2 / D1 + P2^2 / D2 + P3^2 / D3).
-    weight: f32,
-}
-
-// The last pivot of valid moments stays above this multiple of the moment bias alpha, that of the bias' target being 0.049.
-const HAMBURGER6_SMALLEST_PIVOT: f32 = 0.004;
-
-// Coefficients of the recurrence are those of a distribution on [-1, 1] and below these, but for moments that are none or
-// have lost all digits. They keep what follows from overflowing: with coefficients in these ranges and positive norms the
-// polynomials are orthogonal for some distribution, so that everything below holds for them too.
-const HAMBURGER6_LARGEST_SHIFT: f32 = 8.0;
-const HAMBURGER6_LARGEST_RATIO: f32 = 4.0;
-
-// Support points and fragments farther out than this have a weight below 1e-8 or count as being there.
-const HAMBURGER6_FARTHEST_SUPPORT: f32 = 1e4;
-
-// Steps of Laguerre's method; without enough of them errors of 0.1 remain in one of 10^4 cases.
-const HAMBURGER6_STEPS: u32 = 6u;
-
-// With a moment bias of at least this so many steps do.
-const HAMBURGER6_LARGE_ALPHA: f32 = 1e-3;
-const HAMBURGER6_STEPS_OF_LARGE_ALPHA: u32 = 4u;
-
-// Factorises the Hankel matrix of moments biased by `alpha` >= 1e-7. Moments must lie within [-2, 2].
-fn hamburger6_factor(biased: SixMoments, alpha: f32) -> Hamburger6Factor {
-    let b = vec4f(biased.odd.x, biased.even.x, biased.odd.y, biased.even.y);
-    var four = hankel_factor(b, alpha);
-    four.shift = clamp(four.shift, -HAMBURGER6_LARGEST_SHIFT, HAMBURGER6_LARGEST_SHIFT);
-    four.ratio = min(four.ratio, HAMBURGER6_LARGEST_RATIO);
-    four.residue = min(four.residue, HAMBURGER6_LARGEST_RATIO * four.variance);
-    let inverse = 1.0 / vec2f(four.variance, four.residue);
-    // What the regressions of z^3 on 1 and z, and on z^2 besides, leave.
-    let third = fma(-b.x, b.z, b.w);
-    let third_slope = third * inverse.x;
-    let fourth = fma(-fma(-b.x, b.y, b.z), third_slope, fma(-b.y, b.z, biased.odd.z));
-    let fourth_slope = fourth * inverse.y;
-    let pivot = fma(-fourth, fourth_slope, fma(-third, third_slope, fma(-b.z, b.z, biased.even.z)));
-    let offset = fma(-3.0, b.x, fourth_slope - four.shift);
-    return Hamburger6Factor(
-        four,
-        clamp(offset, -HAMBURGER6_LARGEST_SHIFT, HAMBURGER6_LARGEST_SHIFT),
-        vec3f(inverse, 1.0 / max(pivot, HAMBURGER6_SMALLEST_PIVOT * alpha)),
-    );
-}
-
-// The orthogonal polynomials and the Christoffel number at x.
-fn hamburger6_polynomials(factor: Hamburger6Factor, x: f32) -> Hamburger6Polynomials {
-    let second = hankel_second_polynomial(factor.four, x);
-    let values = vec3f(x, second, fma(x - factor.offset, second, -factor.four.ratio * x));
-    let coefficients = values * factor.inverse_norms;
-    return Hamburger6Polynomials(values, coefficients, 1.0 / (1.0 + dot(values, coefficients)));
-}
-
-// How many Gauss nodes, the roots of P3, are below the place of the polynomials: agreements of neighbours' signs.
-fn hamburger6_nodes_below(polynomials: Hamburger6Polynomials) -> u32 {
-    let positive = vec4<bool>(true, polynomials.values >= vec3f(0.0));
-    let agree = positive.xyz == positive.yzw;
-    return u32(agree.x) + u32(agree.y) + u32(agree.z);
-}
-
-// The weight of the support point that is alone on its side of a fragment at x: below it if one Gauss node is (`side` 1),
-// above it if two are (`side` -1).
-fn hamburger6_lone_weight(factor: Hamburger6Factor, x: f32, fragment: Hamburger6Polynomials, side: f32, alpha: f32) -> f32 {
-    // The kernel sum_k P_k(x) P_k(t) / D_k, which vanishes at the support points, as a polynomial in t - x, by powers of y:
-    // y^3 + e2 y^2 + e1 y + e0 with only positive terms in what it was divided by.
-    let k = fragment.coefficients;
-    let shift = factor.four.shift;
-    let second = fma(-k.z, shift + factor.offset, k.y);
-    let product = fma(factor.offset, shift, -factor.four.variance - factor.four.ratio);
-    let first = fma(-k.y, shift, fma(k.z, product, k.x));
-    let e2 = side * fragment.weight * fma(x, fma(3.0 * k.z, x, 2.0 * second), first);
-    let e1 = fragment.weight * fma(3.0 * k.z, x, second);
-    let e0 = side * fragment.weight * k.z;
-    // The only negative root, from a place that is left of all roots. Steps only lead towards it.
-    const nearest_to_zero: f32 = -1.0 / HAMBURGER6_FARTHEST_SUPPORT;
-    var y = min(-(e2 + 2.0 * sqrt(max(fma(e2, e2, -3.0 * e1), 0.0))) / 3.0, nearest_to_zero);
-    let steps = select(HAMBURGER6_STEPS, HAMBURGER6_STEPS_OF_LARGE_ALPHA, alpha >= HAMBURGER6_LARGE_ALPHA);
-    for (var step = 0u; step < steps; step++) {
-        let value = fma(fma(y + e2, y, e1), y, e0);
-        let slope = fma(fma(3.0, y, 2.0 * e2), y, e1);
-        let curvature = fma(6.0, y, 2.0 * e2);
-        let root = sqrt(max(fma(4.0 * slope, slope, -6.0 * value * curvature), 0.0));
-        // Left of the root the sum is at least y^2, which stays above 1e-8.
-        y = min(y - 3.0 * value / max(slope + root, 1e-9), nearest_to_zero);
-    }
-    return hamburger6_polynomials(factor, fma(side, 1.0 / y, x)).weight;
-}
-
-// The sharp bounds of shadow intensity: x = inf S(z < fragment_depth), y = sup S(z <= fragment_depth) over all
-// distributions S with the moments `biased`, which are already biased by `alpha` >= 1e-7 and lie within [-2, 2].
-// Both are in [0, 1] for all such moments, valid or not, and every finite fragment depth; farther out than 1e4 the
-// fragment depth counts as 1e4. Error: |error| <= C * 2^-24 * (1 + sensitivity) where fma is fused, with C = 32 for alpha
-// of 1e-4 and more and C = 128 for alpha about 5e-6.
-fn hamburger6_bounds(biased: SixMoments, fragment_depth: f32, alpha: f32) -> vec2f {
-    let factor = hamburger6_factor(biased, alpha);
-    let x = clamp(fragment_depth, -HAMBURGER6_FARTHEST_SUPPORT, HAMBURGER6_FARTHEST_SUPPORT) - biased.odd.x;
-    let fragment = hamburger6_polynomials(factor, x);
-    let below = hamburger6_nodes_below(fragment);
-    if below == 0u {
-        return vec2f(0.0, fragment.weight);
-    }
-    if below == 3u {
-        return vec2f(1.0 - fragment.weight, 1.0);
-    }
-    let side = select(-1.0, 1.0, below == 1u);
-    let weight = hamburger6_lone_weight(factor, x, fragment, side, alpha);
-    let sum = weight + fragment.weight;
-    return saturate(select(vec2f(1.0 - sum, 1.0 - weight), vec2f(weight, sum), below == 1u));
-}
-
-// The lower one of `hamburger6_bounds`, with fragment depths beyond the light's range counting as its ends.
-fn hamburger6_lower_bound(biased: SixMoments, fragment_depth: f32, alpha: f32) -> f32 {
-    return hamburger6_bounds(biased, clamp(fragment_depth, -1.0, 1.0), alpha).x;
-}
-
-// Shadow intensity in [0, 1] (1 = shadowed) of a fragment at `fragment_depth` (moment depth) under the filtered moments
-// of its map: the lower bound, never darker than the truth but for the bias. Moments lie within [-2, 2], as those from
-// `six_moments_from_texels` do, valid or not; fragment depths beyond the light's range count as its ends.
-fn hamburger6_shadow_intensity(moments: SixMoments, fragment_depth: f32, bias: SixMomentsBias) -> f32 {
-    return hamburger6_lower_bound(six_moments_apply_bias(moments, bias), fragment_depth, bias.alpha);
-}
-
-// The same for the two filtered texels of a storage, with the bias of the storage.
-fn hamburger6_shadow_intensity_of_texels(texels: array<vec4f, 2>, fragment_depth: f32, storage: u32) -> f32 {
-    return hamburger6_shadow_intensity(six_moments_from_texels(texels, storage), fragment_depth, six_moments_bias_of(storage));
-}
 
 // moment_shadows/moments/enclosed_moments.wgsl
 
@@ -967,12 +326,6 @@ struct EnclosedMoments {
     // The weight of those at -1 and before. What is left of one is behind the range: no occluder.
     front: f32,
 }
-
-// With less weight than this between the ends, where in between does not matter, and float16 has few digits left for it.
-const ENCLOSED_MOMENTS_SMALLEST_WEIGHT: f32 = 0.001953125;
-
-// Beyond this a moment bias leaves nothing of the moments.
-const ENCLOSED_MOMENTS_LARGEST_ALPHA: f32 = 0.5;
 
 // One occluder.
 fn enclosed_moments_of_occluder(depth: f32, weight: f32) -> EnclosedMoments {
@@ -1017,39 +370,6 @@ fn enclosed_moments_to_even_texel(sums: EnclosedMoments, storage: u32) -> vec4f 
     return enclosed_moments_texel(channels, sums.weight, sums.weight, storage);
 }
 
-// The moments of a filtered texel's occluders between the ends, as means over them alone. Weights below
-// `ENCLOSED_MOMENTS_SMALLEST_WEIGHT` count as that.
-fn enclosed_moments_means(texels: array<vec4f, 2>, weight: f32, storage: u32) -> SixMoments {
-    let middle = six_moments_middle(storage);
-    let scale = 1.0 / max(weight, ENCLOSED_MOMENTS_SMALLEST_WEIGHT);
-    let odd = clamp(scale * texels[0].xyz, vec3f(-middle), vec3f(1.0 - middle));
-    let even = clamp(scale * texels[1].xyz, vec3f(-middle), vec3f(1.0 - middle));
-    return SixMoments(
-        six_moments_affine(SIX_MOMENTS_ODD_INVERSE, odd - (SIX_MOMENTS_ODD_OFFSET - middle), vec3f(0.0)),
-        six_moments_affine(SIX_MOMENTS_EVEN_INVERSE, even - (SIX_MOMENTS_EVEN_OFFSET - middle), vec3f(0.0)),
-    );
-}
-
-// The moment bias of means: that of the storage, which floats keep whatever the weight is, as they are finest around zero; the
-// step of others is the same for small weights.
-fn enclosed_moments_bias(weight: f32, storage: u32) -> SixMomentsBias {
-    let bias = six_moments_bias_of(storage);
-    let scale = select(1.0 / max(weight, ENCLOSED_MOMENTS_SMALLEST_WEIGHT), 1.0, storage_is_float(storage));
-    return SixMomentsBias(bias.even, min(bias.alpha * scale, ENCLOSED_MOMENTS_LARGEST_ALPHA));
-}
-
-// Bounds of the shadow at a depth: x = how much of the weight is certainly before it, y = how much may be. Both in [0, 1] for all
-// texels, filtered or broken; depths in [-1, 1].
-fn enclosed_moments_bounds(filtered: array<vec4f, 2>, depth: f32, storage: u32) -> vec2f {
-    let texels = array<vec4f, 2>(storage_finite_texel(filtered[0], storage), storage_finite_texel(filtered[1], storage));
-    let weight = saturate(texels[1].w);
-    let front = clamp(1.0 - texels[0].w, 0.0, 1.0 - weight);
-    let bias = enclosed_moments_bias(weight, storage);
-    let means = enclosed_moments_means(texels, weight, storage);
-    let bounds = hamburger6_bounds(six_moments_apply_bias(means, bias), depth, bias.alpha);
-    let known = weight >= ENCLOSED_MOMENTS_SMALLEST_WEIGHT;
-    return fma(select(vec2f(0.0, 1.0), bounds, known), vec2f(weight), vec2f(front));
-}
 
 // rectified_texel
 

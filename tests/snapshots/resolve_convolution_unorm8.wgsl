@@ -23,21 +23,6 @@ fn map_region_at_level(region: MapRegion, level: u32) -> MapRegion {
     return MapRegion(origin, ((region.origin + region.extent) >> vec2u(level)) - origin);
 }
 
-// The coarsest of `levels` mip levels on which a region still has texels.
-fn map_region_last_level(region: MapRegion, levels: u32) -> u32 {
-    var level = max(levels, 1u) - 1u;
-    while level > 0u && any(map_region_at_level(region, level).extent == vec2u(0u)) {
-        level--;
-    }
-    return level;
-}
-
-// The place of `uv` (from 0 to 1 across the region) in texels of a region's mip level, kept half a texel away from its
-// edge: a bilinear filter there reads no other region.
-fn map_region_place(region_on_level: MapRegion, uv: vec2f) -> vec2f {
-    let extent = vec2f(region_on_level.extent);
-    return vec2f(region_on_level.origin) + clamp(uv * extent, vec2f(0.5), max(extent - 0.5, vec2f(0.5)));
-}
 
 // specialization
 const GROUP = 0;
@@ -46,7 +31,7 @@ const SAMPLES = 4;
 alias MomentsStorage = texture_storage_2d<rgba8unorm, write>;
 const STORAGE = 3u;
 const TERMS = 8u;
-const LOWER_BOUND = true;
+
 const REGIONS = 1u;
 
 // region_tile
@@ -111,9 +96,6 @@ struct DepthConversion {
 // The smallest denominator: the far end of an infinite projection divides by zero.
 const DEPTH_SMALLEST_DENOMINATOR: f32 = 1e-30;
 
-// The moment depth of a light with parallel rays.
-const DEPTH_INFINITELY_FAR: f32 = -1e30;
-
 // Whether `value` is NaN, by its bits: WGSL lets a compiler assume that no NaN occurs, so `value != value` may be folded.
 fn depth_is_nan(value: f32) -> bool {
     return (bitcast<u32>(value) & 0x7fffffffu) > 0x7f800000u;
@@ -128,37 +110,6 @@ fn depth_to_moment_depth(stored: f32, conversion: DepthConversion) -> f32 {
     return select(clamp(ratio, -1.0, 1.0), 1.0, depth_is_nan(stored));
 }
 
-// The depth of a fragment in [-1, 1]: beyond the light's range it counts as the nearer end, and NaN as the near end, where
-// every lower bound is 0.
-fn depth_of_fragment(fragment_depth: f32) -> f32 {
-    return select(clamp(fragment_depth, -1.0, 1.0), -1.0, depth_is_nan(fragment_depth));
-}
-
-// The stored depth of a moment depth: the inverse of the above, as the reference value of a comparison sampler. Moment
-// depths that the stored interval does not reach count as its nearer end, NaN as the far end.
-fn depth_from_moment_depth(moment_depth: f32, conversion: DepthConversion) -> f32 {
-    let z = select(clamp(moment_depth, -1.0, 1.0), 1.0, depth_is_nan(moment_depth));
-    let numerator = conversion.numerator;
-    let denominator = conversion.denominator;
-    // The weights d and 1 - d of the two ends, up to a factor that is positive where depth is stored from near to far.
-    let weights = vec2f(fma(z, denominator.x, -numerator.x), fma(-z, denominator.y, numerator.y));
-    let reversed = numerator.y * denominator.x < numerator.x * denominator.y;
-    let positive = max(select(weights, -weights, reversed), vec2f(0.0));
-    let d = positive.x / max(positive.x + positive.y, DEPTH_SMALLEST_DENOMINATOR);
-    let scale = select(max(conversion.scale, DEPTH_SMALLEST_DENOMINATOR), min(conversion.scale, -DEPTH_SMALLEST_DENOMINATOR), conversion.scale < 0.0);
-    return clamp((d - conversion.offset) / scale, -3e38, 3e38);
-}
-
-// The moment depth of a light's own place, below -1; DEPTH_INFINITELY_FAR where the stored depth is linear, as parallel rays
-// have it.
-fn depth_of_light(conversion: DepthConversion) -> f32 {
-    // A perspective conversion tends to it where d grows without bounds.
-    let divisor = conversion.denominator.y - conversion.denominator.x;
-    if abs(divisor) < DEPTH_SMALLEST_DENOMINATOR {
-        return DEPTH_INFINITELY_FAR;
-    }
-    return clamp((conversion.numerator.y - conversion.numerator.x) / divisor, DEPTH_INFINITELY_FAR, -1.0);
-}
 
 // moment_shadows/map/storage.wgsl
 // Storages: how the channels of a texel lie in memory, whatever they mean.
@@ -166,18 +117,8 @@ fn depth_of_light(conversion: DepthConversion) -> f32 {
 // Every technique filters linearly and writes after each filter, so each write is a rounding error that its bound has to
 // cover. Nothing here depends on a technique: how one spreads its quantities over the range of a storage is its own.
 
-// Storages, as a shader's specialisation names them.
-const STORAGE_UNORM16: u32 = 0u;
 const STORAGE_FLOAT16: u32 = 1u;
 const STORAGE_FLOAT32: u32 = 2u;
-const STORAGE_UNORM8: u32 = 3u;
-// Sums of channels as unorm16 has them; see `summed_area_encoding`.
-const STORAGE_FIXED32: u32 = 4u;
-// Three channels to a texel, in maps that are drawn.
-const STORAGE_UNORM10: u32 = 5u;
-
-// The largest finite float16.
-const STORAGE_LARGEST_FLOAT16: f32 = 65504.0;
 
 // Whether the channels of the storage are floats, which can be anything, rather than numbers in [0, 1].
 fn storage_is_float(storage: u32) -> bool {
@@ -195,32 +136,6 @@ fn storage_round_to_float16(value: vec4f) -> vec4f {
     return select(rounded, small, abs(value) < vec4f(0x1p-14));
 }
 
-// What to draw so that a target of 10 bits per channel holds the nearest number to each component, for any finite value. A driver
-// may round down, or round to 16 bits and drop the last six (lavapipe does): a little above that number they give it all the same.
-fn storage_round_to_unorm10(value: vec4f) -> vec4f {
-    return (round(saturate(value) * 1023.0) + 0x1p-8) / 1023.0;
-}
-
-// A filtered combination of texels, as it has to be written back to the same storage.
-fn storage_round_texel(texel: vec4f, storage: u32) -> vec4f {
-    if storage == STORAGE_FLOAT16 {
-        return storage_round_to_float16(texel);
-    }
-    if storage == STORAGE_UNORM10 {
-        return storage_round_to_unorm10(texel);
-    }
-    return texel;
-}
-
-// A texel in which channels that are NaN or infinite count as 0, found by their bits since a compiler may assume that
-// there is neither. Unorm texels pass as they are.
-fn storage_finite_texel(texel: vec4f, storage: u32) -> vec4f {
-    if !storage_is_float(storage) {
-        return texel;
-    }
-    let exponent = bitcast<vec4u>(texel) & vec4u(0x7f800000u);
-    return select(texel, vec4f(0.0), exponent == vec4u(0x7f800000u));
-}
 
 // moment_shadows/techniques/convolution.wgsl
 
@@ -238,9 +153,6 @@ fn storage_finite_texel(texel: vec4f, storage: u32) -> vec4f {
 
 // Up to this many terms.
 const CONVOLUTION_LARGEST_TERMS: u32 = 16u;
-
-// The damping a that the lower bound is made for.
-const CONVOLUTION_DAMPING: f32 = 1.0;
 
 // For M = 1 to 16 terms: a shift x and an overshoot y so that f(t) <= y for t from x - 1 to -x, and f <= 1 + y everywhere.
 // Found numerically, rounded up; a shorter shift would make the overshoot grow faster than it saves.
@@ -304,34 +216,6 @@ fn convolution_to_texel(channels: vec4f, storage: u32) -> vec4f {
     return channels;
 }
 
-// The receiver's place for `convolution_plane`, in [-1, 1].
-fn convolution_receiver(fragment_depth: f32, terms: u32, lower_bound: bool) -> f32 {
-    let shift = select(0.0, convolution_bound(terms).x, lower_bound);
-    return convolution_place(depth_of_fragment(fragment_depth), terms) - shift;
-}
-
-// What the (filtered) texel of a plane adds to the series. Lower bounds need the damping `CONVOLUTION_DAMPING`.
-fn convolution_plane(texel: vec4f, storage: u32, plane: u32, terms: u32, receiver: f32, damping: f32) -> f32 {
-    let finite = storage_finite_texel(texel, storage);
-    let decoded = select(fma(vec4f(2.0), finite, vec4f(-1.0)), finite, storage_is_float(storage));
-    let waves = clamp(decoded, vec4f(-1.0), vec4f(1.0));
-    let at_receiver = convolution_waves(receiver, plane);
-    // sin(c_k (d - z)) for both terms.
-    let sines = at_receiver.xz * waves.yw - at_receiver.yw * waves.xz;
-    let k = vec2f(2.0 * f32(plane)) + vec2f(1.0, 2.0);
-    let count = f32(convolution_terms(terms));
-    let share = k / count;
-    let damped = exp(-clamp(damping, 0.0, 80.0) * min(share * share, vec2f(1.0)));
-    let amplitudes = select(vec2f(0.0), damped * 2.0 / (3.141592653589793 * (2.0 * k - 1.0)), k <= vec2f(count));
-    return dot(amplitudes, sines);
-}
-
-// Shadow intensity in [0, 1] (1 = shadowed) for the sum of `convolution_plane` over all planes: a lower bound, or the
-// series itself.
-fn convolution_shadow_intensity(sum: f32, terms: u32, lower_bound: bool) -> f32 {
-    let overshoot = select(0.0, convolution_bound(terms).y, lower_bound);
-    return saturate(0.5 + sum - overshoot);
-}
 
 // map_encoding
 

@@ -23,21 +23,6 @@ fn map_region_at_level(region: MapRegion, level: u32) -> MapRegion {
     return MapRegion(origin, ((region.origin + region.extent) >> vec2u(level)) - origin);
 }
 
-// The coarsest of `levels` mip levels on which a region still has texels.
-fn map_region_last_level(region: MapRegion, levels: u32) -> u32 {
-    var level = max(levels, 1u) - 1u;
-    while level > 0u && any(map_region_at_level(region, level).extent == vec2u(0u)) {
-        level--;
-    }
-    return level;
-}
-
-// The place of `uv` (from 0 to 1 across the region) in texels of a region's mip level, kept half a texel away from its
-// edge: a bilinear filter there reads no other region.
-fn map_region_place(region_on_level: MapRegion, uv: vec2f) -> vec2f {
-    let extent = vec2f(region_on_level.extent);
-    return vec2f(region_on_level.origin) + clamp(uv * extent, vec2f(0.5), max(extent - 0.5, vec2f(0.5)));
-}
 
 // specialization
 const GROUP = 0;
@@ -111,9 +96,6 @@ struct DepthConversion {
 // The smallest denominator: the far end of an infinite projection divides by zero.
 const DEPTH_SMALLEST_DENOMINATOR: f32 = 1e-30;
 
-// The moment depth of a light with parallel rays.
-const DEPTH_INFINITELY_FAR: f32 = -1e30;
-
 // Whether `value` is NaN, by its bits: WGSL lets a compiler assume that no NaN occurs, so `value != value` may be folded.
 fn depth_is_nan(value: f32) -> bool {
     return (bitcast<u32>(value) & 0x7fffffffu) > 0x7f800000u;
@@ -128,37 +110,6 @@ fn depth_to_moment_depth(stored: f32, conversion: DepthConversion) -> f32 {
     return select(clamp(ratio, -1.0, 1.0), 1.0, depth_is_nan(stored));
 }
 
-// The depth of a fragment in [-1, 1]: beyond the light's range it counts as the nearer end, and NaN as the near end, where
-// every lower bound is 0.
-fn depth_of_fragment(fragment_depth: f32) -> f32 {
-    return select(clamp(fragment_depth, -1.0, 1.0), -1.0, depth_is_nan(fragment_depth));
-}
-
-// The stored depth of a moment depth: the inverse of the above, as the reference value of a comparison sampler. Moment
-// depths that the stored interval does not reach count as its nearer end, NaN as the far end.
-fn depth_from_moment_depth(moment_depth: f32, conversion: DepthConversion) -> f32 {
-    let z = select(clamp(moment_depth, -1.0, 1.0), 1.0, depth_is_nan(moment_depth));
-    let numerator = conversion.numerator;
-    let denominator = conversion.denominator;
-    // The weights d and 1 - d of the two ends, up to a factor that is positive where depth is stored from near to far.
-    let weights = vec2f(fma(z, denominator.x, -numerator.x), fma(-z, denominator.y, numerator.y));
-    let reversed = numerator.y * denominator.x < numerator.x * denominator.y;
-    let positive = max(select(weights, -weights, reversed), vec2f(0.0));
-    let d = positive.x / max(positive.x + positive.y, DEPTH_SMALLEST_DENOMINATOR);
-    let scale = select(max(conversion.scale, DEPTH_SMALLEST_DENOMINATOR), min(conversion.scale, -DEPTH_SMALLEST_DENOMINATOR), conversion.scale < 0.0);
-    return clamp((d - conversion.offset) / scale, -3e38, 3e38);
-}
-
-// The moment depth of a light's own place, below -1; DEPTH_INFINITELY_FAR where the stored depth is linear, as parallel rays
-// have it.
-fn depth_of_light(conversion: DepthConversion) -> f32 {
-    // A perspective conversion tends to it where d grows without bounds.
-    let divisor = conversion.denominator.y - conversion.denominator.x;
-    if abs(divisor) < DEPTH_SMALLEST_DENOMINATOR {
-        return DEPTH_INFINITELY_FAR;
-    }
-    return clamp((conversion.numerator.y - conversion.numerator.x) / divisor, DEPTH_INFINITELY_FAR, -1.0);
-}
 
 // moment_shadows/map/storage.wgsl
 // Storages: how the channels of a texel lie in memory, whatever they mean.
@@ -166,15 +117,8 @@ fn depth_of_light(conversion: DepthConversion) -> f32 {
 // Every technique filters linearly and writes after each filter, so each write is a rounding error that its bound has to
 // cover. Nothing here depends on a technique: how one spreads its quantities over the range of a storage is its own.
 
-// Storages, as a shader's specialisation names them.
-const STORAGE_UNORM16: u32 = 0u;
 const STORAGE_FLOAT16: u32 = 1u;
 const STORAGE_FLOAT32: u32 = 2u;
-const STORAGE_UNORM8: u32 = 3u;
-// Sums of channels as unorm16 has them; see `summed_area_encoding`.
-const STORAGE_FIXED32: u32 = 4u;
-// Three channels to a texel, in maps that are drawn.
-const STORAGE_UNORM10: u32 = 5u;
 
 // The largest finite float16.
 const STORAGE_LARGEST_FLOAT16: f32 = 65504.0;
@@ -195,32 +139,6 @@ fn storage_round_to_float16(value: vec4f) -> vec4f {
     return select(rounded, small, abs(value) < vec4f(0x1p-14));
 }
 
-// What to draw so that a target of 10 bits per channel holds the nearest number to each component, for any finite value. A driver
-// may round down, or round to 16 bits and drop the last six (lavapipe does): a little above that number they give it all the same.
-fn storage_round_to_unorm10(value: vec4f) -> vec4f {
-    return (round(saturate(value) * 1023.0) + 0x1p-8) / 1023.0;
-}
-
-// A filtered combination of texels, as it has to be written back to the same storage.
-fn storage_round_texel(texel: vec4f, storage: u32) -> vec4f {
-    if storage == STORAGE_FLOAT16 {
-        return storage_round_to_float16(texel);
-    }
-    if storage == STORAGE_UNORM10 {
-        return storage_round_to_unorm10(texel);
-    }
-    return texel;
-}
-
-// A texel in which channels that are NaN or infinite count as 0, found by their bits since a compiler may assume that
-// there is neither. Unorm texels pass as they are.
-fn storage_finite_texel(texel: vec4f, storage: u32) -> vec4f {
-    if !storage_is_float(storage) {
-        return texel;
-    }
-    let exponent = bitcast<vec4u>(texel) & vec4u(0x7f800000u);
-    return select(texel, vec4f(0.0), exponent == vec4u(0x7f800000u));
-}
 
 // moment_shadows/techniques/exponential.wgsl
 
@@ -244,24 +162,12 @@ fn storage_finite_texel(texel: vec4f, storage: u32) -> vec4f {
 //   float16, logarithmic: v is off by 3 / 2^12, so c <= 0.01 2^12 / 3 = 13.65
 //   unorm16, logarithmic: v is off by 3 / 2^16; the range of float32 asks for more
 const EXPONENTIAL_LARGEST_EXPONENT: f32 = 87.0;
-const EXPONENTIAL_LARGEST_EXPONENT_FLOAT16: f32 = 9.7;
-const EXPONENTIAL_LARGEST_EXPONENT_UNORM16: f32 = 3.0;
-const EXPONENTIAL_LARGEST_EXPONENT_FLOAT16_LOGARITHMIC: f32 = 13.6;
 
 // Below this exponent log(mean) / c loses digits, and there is hardly a shadow.
 const EXPONENTIAL_SMALLEST_EXPONENT: f32 = 1.0;
 
 // A normal number below e^-87.
 const EXPONENTIAL_SMALLEST_MEAN: f32 = 1.2e-38;
-
-// The largest exponent of a storage.
-fn exponential_largest_exponent(storage: u32, logarithmic: bool) -> f32 {
-    if storage == STORAGE_FLOAT16 {
-        return select(EXPONENTIAL_LARGEST_EXPONENT_FLOAT16, EXPONENTIAL_LARGEST_EXPONENT_FLOAT16_LOGARITHMIC, logarithmic);
-    }
-    let plain_unorm = !logarithmic && storage != STORAGE_FLOAT32;
-    return select(EXPONENTIAL_LARGEST_EXPONENT, EXPONENTIAL_LARGEST_EXPONENT_UNORM16, plain_unorm);
-}
 
 // The exponent as all functions here take it: everything stays finite.
 fn exponential_exponent(exponent: f32) -> f32 {
@@ -290,45 +196,6 @@ fn exponential_to_texel(channels: vec4f, storage: u32, exponent: f32, logarithmi
     return vec4f(value, 0.0, 0.0, 0.0);
 }
 
-// v in [-1, 1] of a logarithmic texel.
-fn exponential_logarithm_of_texel(texel: vec4f, storage: u32) -> f32 {
-    let value = storage_finite_texel(texel, storage).x;
-    return clamp(select(fma(2.0, value, -1.0), value, storage_is_float(storage)), -1.0, 1.0);
-}
-
-// E[e^(c z)] of a texel, in [0, 3e38] whatever it holds.
-fn exponential_mean_of_texel(texel: vec4f, storage: u32, exponent: f32, logarithmic: bool) -> f32 {
-    let c = exponential_exponent(exponent);
-    if logarithmic {
-        return exp(c * exponential_logarithm_of_texel(texel, storage));
-    }
-    let value = clamp(storage_finite_texel(texel, storage).x, 0.0, 3e38);
-    return select(value * exp(c), value, storage_is_float(storage));
-}
-
-// Shadow intensity in [0, 1] of a fragment for the mean E[e^(c (z - shift))], which may be any finite number.
-fn exponential_shadow_intensity(mean: f32, fragment_depth: f32, exponent: f32, shift: f32) -> f32 {
-    let c = exponential_exponent(exponent);
-    let own = max(exp(c * (depth_of_fragment(fragment_depth) - shift)), EXPONENTIAL_SMALLEST_MEAN);
-    // The lesser of both comes first, so the quotient neither overflows nor exceeds 1.
-    return saturate(1.0 - clamp(mean, 0.0, own) / own);
-}
-
-// Shadow intensity in [0, 1] (1 = shadowed) of a fragment at `fragment_depth` under a filtered texel: a lower bound.
-fn exponential_shadow_intensity_of_texel(
-    texel: vec4f,
-    fragment_depth: f32,
-    storage: u32,
-    exponent: f32,
-    logarithmic: bool,
-) -> f32 {
-    if logarithmic {
-        let distance = exponential_logarithm_of_texel(texel, storage) - depth_of_fragment(fragment_depth);
-        return saturate(1.0 - exp(exponential_exponent(exponent) * min(distance, 0.0)));
-    }
-    let shift = select(1.0, 0.0, storage_is_float(storage));
-    return exponential_shadow_intensity(storage_finite_texel(texel, storage).x, fragment_depth, exponent, shift);
-}
 
 // map_encoding
 

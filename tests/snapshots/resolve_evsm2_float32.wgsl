@@ -23,21 +23,6 @@ fn map_region_at_level(region: MapRegion, level: u32) -> MapRegion {
     return MapRegion(origin, ((region.origin + region.extent) >> vec2u(level)) - origin);
 }
 
-// The coarsest of `levels` mip levels on which a region still has texels.
-fn map_region_last_level(region: MapRegion, levels: u32) -> u32 {
-    var level = max(levels, 1u) - 1u;
-    while level > 0u && any(map_region_at_level(region, level).extent == vec2u(0u)) {
-        level--;
-    }
-    return level;
-}
-
-// The place of `uv` (from 0 to 1 across the region) in texels of a region's mip level, kept half a texel away from its
-// edge: a bilinear filter there reads no other region.
-fn map_region_place(region_on_level: MapRegion, uv: vec2f) -> vec2f {
-    let extent = vec2f(region_on_level.extent);
-    return vec2f(region_on_level.origin) + clamp(uv * extent, vec2f(0.5), max(extent - 0.5, vec2f(0.5)));
-}
 
 // specialization
 const GROUP = 0;
@@ -46,7 +31,7 @@ const SAMPLES = 4;
 alias MomentsStorage = texture_storage_2d<rg32float, write>;
 const STORAGE = 2u;
 const EXPONENTS = vec2f(40.0, 0.0);
-const BOTH_WARPS = false;
+
 const REGIONS = 1u;
 
 // region_tile
@@ -111,9 +96,6 @@ struct DepthConversion {
 // The smallest denominator: the far end of an infinite projection divides by zero.
 const DEPTH_SMALLEST_DENOMINATOR: f32 = 1e-30;
 
-// The moment depth of a light with parallel rays.
-const DEPTH_INFINITELY_FAR: f32 = -1e30;
-
 // Whether `value` is NaN, by its bits: WGSL lets a compiler assume that no NaN occurs, so `value != value` may be folded.
 fn depth_is_nan(value: f32) -> bool {
     return (bitcast<u32>(value) & 0x7fffffffu) > 0x7f800000u;
@@ -128,37 +110,6 @@ fn depth_to_moment_depth(stored: f32, conversion: DepthConversion) -> f32 {
     return select(clamp(ratio, -1.0, 1.0), 1.0, depth_is_nan(stored));
 }
 
-// The depth of a fragment in [-1, 1]: beyond the light's range it counts as the nearer end, and NaN as the near end, where
-// every lower bound is 0.
-fn depth_of_fragment(fragment_depth: f32) -> f32 {
-    return select(clamp(fragment_depth, -1.0, 1.0), -1.0, depth_is_nan(fragment_depth));
-}
-
-// The stored depth of a moment depth: the inverse of the above, as the reference value of a comparison sampler. Moment
-// depths that the stored interval does not reach count as its nearer end, NaN as the far end.
-fn depth_from_moment_depth(moment_depth: f32, conversion: DepthConversion) -> f32 {
-    let z = select(clamp(moment_depth, -1.0, 1.0), 1.0, depth_is_nan(moment_depth));
-    let numerator = conversion.numerator;
-    let denominator = conversion.denominator;
-    // The weights d and 1 - d of the two ends, up to a factor that is positive where depth is stored from near to far.
-    let weights = vec2f(fma(z, denominator.x, -numerator.x), fma(-z, denominator.y, numerator.y));
-    let reversed = numerator.y * denominator.x < numerator.x * denominator.y;
-    let positive = max(select(weights, -weights, reversed), vec2f(0.0));
-    let d = positive.x / max(positive.x + positive.y, DEPTH_SMALLEST_DENOMINATOR);
-    let scale = select(max(conversion.scale, DEPTH_SMALLEST_DENOMINATOR), min(conversion.scale, -DEPTH_SMALLEST_DENOMINATOR), conversion.scale < 0.0);
-    return clamp((d - conversion.offset) / scale, -3e38, 3e38);
-}
-
-// The moment depth of a light's own place, below -1; DEPTH_INFINITELY_FAR where the stored depth is linear, as parallel rays
-// have it.
-fn depth_of_light(conversion: DepthConversion) -> f32 {
-    // A perspective conversion tends to it where d grows without bounds.
-    let divisor = conversion.denominator.y - conversion.denominator.x;
-    if abs(divisor) < DEPTH_SMALLEST_DENOMINATOR {
-        return DEPTH_INFINITELY_FAR;
-    }
-    return clamp((conversion.numerator.y - conversion.numerator.x) / divisor, DEPTH_INFINITELY_FAR, -1.0);
-}
 
 // moment_shadows/map/storage.wgsl
 // Storages: how the channels of a texel lie in memory, whatever they mean.
@@ -166,23 +117,10 @@ fn depth_of_light(conversion: DepthConversion) -> f32 {
 // Every technique filters linearly and writes after each filter, so each write is a rounding error that its bound has to
 // cover. Nothing here depends on a technique: how one spreads its quantities over the range of a storage is its own.
 
-// Storages, as a shader's specialisation names them.
-const STORAGE_UNORM16: u32 = 0u;
 const STORAGE_FLOAT16: u32 = 1u;
-const STORAGE_FLOAT32: u32 = 2u;
-const STORAGE_UNORM8: u32 = 3u;
-// Sums of channels as unorm16 has them; see `summed_area_encoding`.
-const STORAGE_FIXED32: u32 = 4u;
-// Three channels to a texel, in maps that are drawn.
-const STORAGE_UNORM10: u32 = 5u;
 
 // The largest finite float16.
 const STORAGE_LARGEST_FLOAT16: f32 = 65504.0;
-
-// Whether the channels of the storage are floats, which can be anything, rather than numbers in [0, 1].
-fn storage_is_float(storage: u32) -> bool {
-    return storage == STORAGE_FLOAT16 || storage == STORAGE_FLOAT32;
-}
 
 // The nearest float16 of each component, ties to even, for |value| <= 65504. A driver may truncate when it stores to a
 // float16 texture, which would double the rounding error that a bound has to cover.
@@ -195,121 +133,6 @@ fn storage_round_to_float16(value: vec4f) -> vec4f {
     return select(rounded, small, abs(value) < vec4f(0x1p-14));
 }
 
-// What to draw so that a target of 10 bits per channel holds the nearest number to each component, for any finite value. A driver
-// may round down, or round to 16 bits and drop the last six (lavapipe does): a little above that number they give it all the same.
-fn storage_round_to_unorm10(value: vec4f) -> vec4f {
-    return (round(saturate(value) * 1023.0) + 0x1p-8) / 1023.0;
-}
-
-// A filtered combination of texels, as it has to be written back to the same storage.
-fn storage_round_texel(texel: vec4f, storage: u32) -> vec4f {
-    if storage == STORAGE_FLOAT16 {
-        return storage_round_to_float16(texel);
-    }
-    if storage == STORAGE_UNORM10 {
-        return storage_round_to_unorm10(texel);
-    }
-    return texel;
-}
-
-// A texel in which channels that are NaN or infinite count as 0, found by their bits since a compiler may assume that
-// there is neither. Unorm texels pass as they are.
-fn storage_finite_texel(texel: vec4f, storage: u32) -> vec4f {
-    if !storage_is_float(storage) {
-        return texel;
-    }
-    let exponent = bitcast<vec4u>(texel) & vec4u(0x7f800000u);
-    return select(texel, vec4f(0.0), exponent == vec4u(0x7f800000u));
-}
-
-// moment_shadows/moments/two_moments.wgsl
-
-// Two moments of depth: encoding, storage, smallest variance.
-//
-// A texel holds the mean b1 of depth and its mean square b2. Channels come in pairs (b1, b2): variance shadow mapping uses xy alone;
-// a technique that stores two pairs encodes both at once.
-
-// The smallest variance per storage: what rounding in a resolve and a two-pass blur can take away from b2 - b1^2. With e
-// the error of a channel per rounding it is at most 3 (error of b2 + 2 |b1| error of b1):
-//   unorm16: e = 2^-17, b1 = 2 r - 1 and b2 = 1 - g:   3 (e + 4 e) = 1.2e-4
-//   float16: e = 2^-13 for channels within one half:   3 (e + 4 e) = 1.9e-3
-//   float32: e = 2^-25 for values up to 1:             3 (e + 2 e) = 2.7e-7, and the sums of both passes are in float32
-// That is with all errors on one side. Half of it covers 99.999 % of adversarial kernels in unorm16 and float16; the sums
-// of float32 need a bit more than theirs. A floor as large as the error leaves no variance wrong by more than a factor of 2.
-const TWO_MOMENTS_SMALLEST_VARIANCE_UNORM16: f32 = 6e-5;
-const TWO_MOMENTS_SMALLEST_VARIANCE_FLOAT16: f32 = 1e-3;
-const TWO_MOMENTS_SMALLEST_VARIANCE_FLOAT32: f32 = 5e-7;
-
-// What is averaged for a depth z in [-1, 1]: its powers.
-fn two_moments_from_depth(z: f32) -> vec4f {
-    return vec4f(z, z * z, 0.0, 0.0);
-}
-
-// What to write for averaged channels. In unorm16 the optimised basis of two moments (r, g) = (u1, 4 u1 - 4 u2), with u the
-// moments of (z + 1) / 2 (i3D 2015, section 3.2), which fills the unit square and in terms of z is simply
-// ((b1 + 1) / 2, 1 - b2). In float16 the same less one half, around which half precision is finest. In float32 b itself.
-fn two_moments_to_texel(channels: vec4f, storage: u32) -> vec4f {
-    if storage == STORAGE_FLOAT32 {
-        return channels;
-    }
-    let optimised = saturate(fma(vec4f(0.5, -1.0, 0.5, -1.0), channels, vec4f(0.5, 1.0, 0.5, 1.0)));
-    if storage == STORAGE_FLOAT16 {
-        return storage_round_to_float16(optimised - 0.5);
-    }
-    return optimised;
-}
-
-// The moments in a (filtered) texel, both pairs, in their ranges whatever the texel holds.
-fn two_moments_from_texel(texel: vec4f, storage: u32) -> vec4f {
-    let finite = storage_finite_texel(texel, storage);
-    var channels = finite;
-    if storage != STORAGE_FLOAT32 {
-        let offset = select(vec4f(-1.0, 1.0, -1.0, 1.0), vec4f(0.0, 0.5, 0.0, 0.5), storage == STORAGE_FLOAT16);
-        channels = fma(vec4f(2.0, -1.0, 2.0, -1.0), finite, offset);
-    }
-    return clamp(channels, vec4f(-1.0, 0.0, -1.0, 0.0), vec4f(1.0));
-}
-
-// The smallest variance of a storage.
-fn two_moments_smallest_variance_of(storage: u32) -> f32 {
-    if storage == STORAGE_FLOAT32 {
-        return TWO_MOMENTS_SMALLEST_VARIANCE_FLOAT32;
-    }
-    if storage == STORAGE_FLOAT16 {
-        return TWO_MOMENTS_SMALLEST_VARIANCE_FLOAT16;
-    }
-    return TWO_MOMENTS_SMALLEST_VARIANCE_UNORM16;
-}
-
-// moment_shadows/bounds/chebyshev.wgsl
-
-// Variance shadow mapping: the sharpest bound on shadow intensity that two moments allow.
-//
-// A texel holds the mean b1 of depth and its mean square b2. The share of depth in front of the fragment is at least
-// d^2 / (b2 - b1^2 + d^2) for a fragment at d > 0 behind the mean (Chebyshev's inequality, one-sided; Donnelly &
-// Lauritzen, "Variance Shadow Maps", i3D 2006, equation 5). One plane in front of another is reproduced exactly; behind
-// two occluders light bleeds (Lauritzen, thesis 2008, section 3.4).
-
-// inf S(z < fragment_depth) over all distributions S with the mean and mean square `moments`; 0 exactly for fragments
-// that are not behind the mean. Any unit of depth will do as long as no square exceeds 2^126; `smallest_variance` > 0 is in
-// the square of that unit.
-fn chebyshev_lower_bound(moments: vec2f, fragment_depth: f32, smallest_variance: f32) -> f32 {
-    let variance = max(fma(-moments.x, moments.x, moments.y), smallest_variance);
-    let distance = max(fragment_depth - moments.x, 0.0);
-    let square = distance * distance;
-    return square / (variance + square);
-}
-
-// sup S(z <= fragment_depth) likewise; 1 exactly for fragments that are not in front of the mean.
-fn chebyshev_upper_bound(moments: vec2f, fragment_depth: f32, smallest_variance: f32) -> f32 {
-    return 1.0 - chebyshev_lower_bound(vec2f(-moments.x, moments.y), -fragment_depth, smallest_variance);
-}
-
-// Shadow intensity in [0, 1] (1 = shadowed) of a fragment at `fragment_depth` under a filtered texel: a lower bound.
-fn chebyshev_shadow_intensity_of_texel(texel: vec4f, fragment_depth: f32, storage: u32) -> f32 {
-    let moments = two_moments_from_texel(texel, storage).xy;
-    return chebyshev_lower_bound(moments, depth_of_fragment(fragment_depth), two_moments_smallest_variance_of(storage));
-}
 
 // moment_shadows/techniques/exponential_variance.wgsl
 
@@ -323,33 +146,7 @@ fn chebyshev_shadow_intensity_of_texel(texel: vec4f, fragment_depth: f32, storag
 // Warps are not normalised: e^(c z) for signed z spends the exponent range of a float evenly on both sides of 1, while
 // e^(c (z - 1)) would leave the upper half of it unused.
 
-// The largest exponents, so that w and w^2 fit the storage.
-//   float32: both stay normal numbers, e^(2 c) <= 2^126, so c <= 63 log 2 = 43.67. Two such squares may be added, which
-//            those of 44.36 = log(largest float32) / 2 may not.
-//   float16: w^2 <= 65504, so c <= 5.54. Far squares then are subnormal, which the smallest variance covers.
-// Larger exponents make no NaN, but what they give is no bound.
-const EXPONENTIAL_VARIANCE_LARGEST_EXPONENT_FLOAT16: f32 = 5.54;
 const EXPONENTIAL_VARIANCE_LARGEST_EXPONENT_FLOAT32: f32 = 43.6;
-
-// 2^63, above e^43.6.
-const EXPONENTIAL_VARIANCE_LARGEST_WARP: f32 = 0x1p63;
-
-// The smallest variance is x * E[w^2] + y. It is the error that rounding in a resolve and a two-pass blur leaves in
-// E[w^2] - E[w]^2: with the relative error u = 2^-11 or 2^-24 of a rounding at most 3 (u + 2 u) E[w^2] = 4.4e-3 or 5.4e-7
-// times E[w^2]. In depth, where w has the slope c w, that is a variance of x / c^2. As in `variance` half of it covers
-// 99.999 % of kernels in float16. y covers numbers below the normal ones: 3 steps of 2^-25, or what float32 flushes to zero.
-const EXPONENTIAL_VARIANCE_SMALLEST_FLOAT16: vec2f = vec2f(2.2e-3, 9e-8);
-const EXPONENTIAL_VARIANCE_SMALLEST_FLOAT32: vec2f = vec2f(6e-7, 1e-37);
-
-// The largest exponent of a storage, for either warp.
-fn exponential_variance_largest_exponent(storage: u32) -> f32 {
-    let is_half = storage == STORAGE_FLOAT16;
-    return select(
-        EXPONENTIAL_VARIANCE_LARGEST_EXPONENT_FLOAT32,
-        EXPONENTIAL_VARIANCE_LARGEST_EXPONENT_FLOAT16,
-        is_half,
-    );
-}
 
 // The warps (w+, w-) of a depth in [-1, 1] with the exponents (c+, c-).
 fn exponential_variance_warp(z: f32, exponents: vec2f) -> vec2f {
@@ -372,34 +169,6 @@ fn exponential_variance_to_texel(channels: vec4f, storage: u32) -> vec4f {
     return channels;
 }
 
-// The lower bound for a warped fragment and the first two moments of the same warp, which may be any finite numbers. The
-// fragment's warp is within 2^63.
-fn exponential_variance_lower_bound(moments: vec2f, warped: f32, storage: u32) -> f32 {
-    let largest = EXPONENTIAL_VARIANCE_LARGEST_WARP;
-    let clamped = clamp(moments, vec2f(-largest, 0.0), vec2f(largest, largest * largest));
-    let is_half = storage == STORAGE_FLOAT16;
-    let smallest = select(EXPONENTIAL_VARIANCE_SMALLEST_FLOAT32, EXPONENTIAL_VARIANCE_SMALLEST_FLOAT16, is_half);
-    return chebyshev_lower_bound(clamped, warped, fma(smallest.x, clamped.y, smallest.y));
-}
-
-// Shadow intensity in [0, 1] (1 = shadowed) of a fragment at `fragment_depth` under a filtered texel: a lower bound, from
-// both warps or from w+ alone.
-fn exponential_variance_shadow_intensity_of_texel(
-    texel: vec4f,
-    fragment_depth: f32,
-    storage: u32,
-    exponents: vec2f,
-    both: bool,
-) -> f32 {
-    let warped = exponential_variance_warp(depth_of_fragment(fragment_depth), exponents);
-    let moments = storage_finite_texel(texel, storage);
-    let positive = exponential_variance_lower_bound(moments.xy, warped.x, storage);
-    if !both {
-        return positive;
-    }
-    // A mean of w- is negative; positive garbage would put the mean behind every fragment, which is no harm.
-    return max(positive, exponential_variance_lower_bound(moments.zw, warped.y, storage));
-}
 
 // map_encoding
 

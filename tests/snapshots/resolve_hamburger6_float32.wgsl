@@ -23,21 +23,6 @@ fn map_region_at_level(region: MapRegion, level: u32) -> MapRegion {
     return MapRegion(origin, ((region.origin + region.extent) >> vec2u(level)) - origin);
 }
 
-// The coarsest of `levels` mip levels on which a region still has texels.
-fn map_region_last_level(region: MapRegion, levels: u32) -> u32 {
-    var level = max(levels, 1u) - 1u;
-    while level > 0u && any(map_region_at_level(region, level).extent == vec2u(0u)) {
-        level--;
-    }
-    return level;
-}
-
-// The place of `uv` (from 0 to 1 across the region) in texels of a region's mip level, kept half a texel away from its
-// edge: a bilinear filter there reads no other region.
-fn map_region_place(region_on_level: MapRegion, uv: vec2f) -> vec2f {
-    let extent = vec2f(region_on_level.extent);
-    return vec2f(region_on_level.origin) + clamp(uv * extent, vec2f(0.5), max(extent - 0.5, vec2f(0.5)));
-}
 
 // specialization
 const GROUP = 0;
@@ -109,9 +94,6 @@ struct DepthConversion {
 // The smallest denominator: the far end of an infinite projection divides by zero.
 const DEPTH_SMALLEST_DENOMINATOR: f32 = 1e-30;
 
-// The moment depth of a light with parallel rays.
-const DEPTH_INFINITELY_FAR: f32 = -1e30;
-
 // Whether `value` is NaN, by its bits: WGSL lets a compiler assume that no NaN occurs, so `value != value` may be folded.
 fn depth_is_nan(value: f32) -> bool {
     return (bitcast<u32>(value) & 0x7fffffffu) > 0x7f800000u;
@@ -126,37 +108,6 @@ fn depth_to_moment_depth(stored: f32, conversion: DepthConversion) -> f32 {
     return select(clamp(ratio, -1.0, 1.0), 1.0, depth_is_nan(stored));
 }
 
-// The depth of a fragment in [-1, 1]: beyond the light's range it counts as the nearer end, and NaN as the near end, where
-// every lower bound is 0.
-fn depth_of_fragment(fragment_depth: f32) -> f32 {
-    return select(clamp(fragment_depth, -1.0, 1.0), -1.0, depth_is_nan(fragment_depth));
-}
-
-// The stored depth of a moment depth: the inverse of the above, as the reference value of a comparison sampler. Moment
-// depths that the stored interval does not reach count as its nearer end, NaN as the far end.
-fn depth_from_moment_depth(moment_depth: f32, conversion: DepthConversion) -> f32 {
-    let z = select(clamp(moment_depth, -1.0, 1.0), 1.0, depth_is_nan(moment_depth));
-    let numerator = conversion.numerator;
-    let denominator = conversion.denominator;
-    // The weights d and 1 - d of the two ends, up to a factor that is positive where depth is stored from near to far.
-    let weights = vec2f(fma(z, denominator.x, -numerator.x), fma(-z, denominator.y, numerator.y));
-    let reversed = numerator.y * denominator.x < numerator.x * denominator.y;
-    let positive = max(select(weights, -weights, reversed), vec2f(0.0));
-    let d = positive.x / max(positive.x + positive.y, DEPTH_SMALLEST_DENOMINATOR);
-    let scale = select(max(conversion.scale, DEPTH_SMALLEST_DENOMINATOR), min(conversion.scale, -DEPTH_SMALLEST_DENOMINATOR), conversion.scale < 0.0);
-    return clamp((d - conversion.offset) / scale, -3e38, 3e38);
-}
-
-// The moment depth of a light's own place, below -1; DEPTH_INFINITELY_FAR where the stored depth is linear, as parallel rays
-// have it.
-fn depth_of_light(conversion: DepthConversion) -> f32 {
-    // A perspective conversion tends to it where d grows without bounds.
-    let divisor = conversion.denominator.y - conversion.denominator.x;
-    if abs(divisor) < DEPTH_SMALLEST_DENOMINATOR {
-        return DEPTH_INFINITELY_FAR;
-    }
-    return clamp((conversion.numerator.y - conversion.numerator.x) / divisor, DEPTH_INFINITELY_FAR, -1.0);
-}
 
 // moment_shadows/map/storage.wgsl
 // Storages: how the channels of a texel lie in memory, whatever they mean.
@@ -164,18 +115,11 @@ fn depth_of_light(conversion: DepthConversion) -> f32 {
 // Every technique filters linearly and writes after each filter, so each write is a rounding error that its bound has to
 // cover. Nothing here depends on a technique: how one spreads its quantities over the range of a storage is its own.
 
-// Storages, as a shader's specialisation names them.
-const STORAGE_UNORM16: u32 = 0u;
 const STORAGE_FLOAT16: u32 = 1u;
 const STORAGE_FLOAT32: u32 = 2u;
-const STORAGE_UNORM8: u32 = 3u;
-// Sums of channels as unorm16 has them; see `summed_area_encoding`.
-const STORAGE_FIXED32: u32 = 4u;
+
 // Three channels to a texel, in maps that are drawn.
 const STORAGE_UNORM10: u32 = 5u;
-
-// The largest finite float16.
-const STORAGE_LARGEST_FLOAT16: f32 = 65504.0;
 
 // Whether the channels of the storage are floats, which can be anything, rather than numbers in [0, 1].
 fn storage_is_float(storage: u32) -> bool {
@@ -210,15 +154,6 @@ fn storage_round_texel(texel: vec4f, storage: u32) -> vec4f {
     return texel;
 }
 
-// A texel in which channels that are NaN or infinite count as 0, found by their bits since a compiler may assume that
-// there is neither. Unorm texels pass as they are.
-fn storage_finite_texel(texel: vec4f, storage: u32) -> vec4f {
-    if !storage_is_float(storage) {
-        return texel;
-    }
-    let exponent = bitcast<vec4u>(texel) & vec4u(0x7f800000u);
-    return select(texel, vec4f(0.0), exponent == vec4u(0x7f800000u));
-}
 
 // moment_shadows/moments/six_moments.wgsl
 
@@ -237,24 +172,6 @@ struct SixMoments {
     even: vec3f,
 }
 
-// A moment bias: b is moved by alpha towards moments whose odd ones are 0.
-struct SixMomentsBias {
-    // The target's E[z^2], E[z^4], E[z^6].
-    even: vec3f,
-    alpha: f32,
-}
-
-// The bias belongs to a storage's rounding error, not to a scene. Each value covers a resolve and a two-pass blur, every
-// stage rounded to the storage, for 99.999 % of filter regions. 3e-6 would do so for float32, but below 8e-6 what is left of
-// the last pivot of `hamburger6` in f32 can be nothing but rounding. 5e-3 would do so for unorm10, but a search for the worst regions
-// finds some that need up to 6.5e-3, and with 5.5e-3 the bound exceeds the truth of one of them by 2.7e-2. The target is the
-// one published for moment-based transparency (Muenstermann et al., "Moment-Based Order-Independent Transparency", i3D 2018).
-const SIX_MOMENTS_BIAS_TARGET: vec3f = vec3f(0.5566, 0.489, 0.47869382);
-const SIX_MOMENTS_BIAS_UNORM16: SixMomentsBias = SixMomentsBias(SIX_MOMENTS_BIAS_TARGET, 1e-4);
-const SIX_MOMENTS_BIAS_FLOAT16: SixMomentsBias = SixMomentsBias(SIX_MOMENTS_BIAS_TARGET, 1.5e-3);
-const SIX_MOMENTS_BIAS_FLOAT32: SixMomentsBias = SixMomentsBias(SIX_MOMENTS_BIAS_TARGET, 1e-5);
-const SIX_MOMENTS_BIAS_UNORM10: SixMomentsBias = SixMomentsBias(SIX_MOMENTS_BIAS_TARGET, 6.5e-3);
-
 // The optimised basis, by columns: these products plus the offsets map the odd and the even moments of depths in [-1, 1]
 // into [0, 1]^3 each.
 const SIX_MOMENTS_ODD_BASIS: mat3x3f = mat3x3f(
@@ -269,18 +186,6 @@ const SIX_MOMENTS_EVEN_BASIS: mat3x3f = mat3x3f(
 );
 const SIX_MOMENTS_ODD_OFFSET: vec3f = vec3f(0.5);
 const SIX_MOMENTS_EVEN_OFFSET: vec3f = vec3f(0.0, 0.0, 0.018888946);
-
-// Their inverses, by columns.
-const SIX_MOMENTS_ODD_INVERSE: mat3x3f = mat3x3f(
-    -0.02877789191977914, 0.09995235706024454, 0.25893353755023666,
-    0.4763555042123262, 0.8453258093069343, 0.907796166567316,
-    1.5524280897137293, 1.0547257075981561, 0.8332733564621547,
-);
-const SIX_MOMENTS_EVEN_INVERSE: mat3x3f = mat3x3f(
-    1.2530436076429571e-5, -0.24998746956392357, -0.37498825271617835,
-    0.16668494186053159, 0.16668494186053159, 0.21876713299424836,
-    0.866025405794346, 0.866025405794346, 0.8118988179321994,
-);
 
 // matrix * vector + offset, every step fused where the hardware does.
 fn six_moments_affine(matrix: mat3x3f, vector: vec3f, offset: vec3f) -> vec3f {
@@ -315,48 +220,6 @@ fn six_moments_to_even_texel(even: vec3f, storage: u32) -> vec4f {
     return six_moments_texel(six_moments_affine(SIX_MOMENTS_EVEN_BASIS, even, SIX_MOMENTS_EVEN_OFFSET), storage);
 }
 
-// Both texels.
-fn six_moments_to_texels(b: SixMoments, storage: u32) -> array<vec4f, 2> {
-    return array<vec4f, 2>(six_moments_to_odd_texel(b.odd, storage), six_moments_to_even_texel(b.even, storage));
-}
-
-// The moments in the two (filtered) texels of the storage, |b| < 1.05. Float storage can hold anything: channels beyond their
-// range count as its ends. Channels and not moments are clamped, since the bias covers errors of channels; moments at the ends
-// of their ranges, of which rounding has moved one inwards, would need one ten times as large if the others were clamped.
-fn six_moments_from_texels(texels: array<vec4f, 2>, storage: u32) -> SixMoments {
-    let middle = six_moments_middle(storage);
-    var odd = texels[0].xyz;
-    var even = texels[1].xyz;
-    if storage_is_float(storage) {
-        odd = clamp(odd, vec3f(-0.5), vec3f(0.5));
-        even = clamp(even, vec3f(-0.5), vec3f(0.5));
-    }
-    return SixMoments(
-        six_moments_affine(SIX_MOMENTS_ODD_INVERSE, odd - (SIX_MOMENTS_ODD_OFFSET - middle), vec3f(0.0)),
-        six_moments_affine(SIX_MOMENTS_EVEN_INVERSE, even - (SIX_MOMENTS_EVEN_OFFSET - middle), vec3f(0.0)),
-    );
-}
-
-// The moment bias of a storage.
-fn six_moments_bias_of(storage: u32) -> SixMomentsBias {
-    if storage == STORAGE_FLOAT32 {
-        return SIX_MOMENTS_BIAS_FLOAT32;
-    }
-    if storage == STORAGE_FLOAT16 {
-        return SIX_MOMENTS_BIAS_FLOAT16;
-    }
-    if storage == STORAGE_UNORM10 {
-        return SIX_MOMENTS_BIAS_UNORM10;
-    }
-    return SIX_MOMENTS_BIAS_UNORM16;
-}
-
-// Applies the moment bias (i3D 2015, section 3.3). Written as a step towards the target: 1 - alpha would keep only a
-// few bits of alpha.
-fn six_moments_apply_bias(b: SixMoments, bias: SixMomentsBias) -> SixMoments {
-    let alpha = vec3f(bias.alpha);
-    return SixMoments(fma(-alpha, b.odd, b.odd), fma(alpha, bias.even - b.even, b.even));
-}
 
 // map_encoding
 

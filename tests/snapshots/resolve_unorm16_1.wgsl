@@ -23,21 +23,6 @@ fn map_region_at_level(region: MapRegion, level: u32) -> MapRegion {
     return MapRegion(origin, ((region.origin + region.extent) >> vec2u(level)) - origin);
 }
 
-// The coarsest of `levels` mip levels on which a region still has texels.
-fn map_region_last_level(region: MapRegion, levels: u32) -> u32 {
-    var level = max(levels, 1u) - 1u;
-    while level > 0u && any(map_region_at_level(region, level).extent == vec2u(0u)) {
-        level--;
-    }
-    return level;
-}
-
-// The place of `uv` (from 0 to 1 across the region) in texels of a region's mip level, kept half a texel away from its
-// edge: a bilinear filter there reads no other region.
-fn map_region_place(region_on_level: MapRegion, uv: vec2f) -> vec2f {
-    let extent = vec2f(region_on_level.extent);
-    return vec2f(region_on_level.origin) + clamp(uv * extent, vec2f(0.5), max(extent - 0.5, vec2f(0.5)));
-}
 
 // specialization
 const GROUP = 0;
@@ -109,9 +94,6 @@ struct DepthConversion {
 // The smallest denominator: the far end of an infinite projection divides by zero.
 const DEPTH_SMALLEST_DENOMINATOR: f32 = 1e-30;
 
-// The moment depth of a light with parallel rays.
-const DEPTH_INFINITELY_FAR: f32 = -1e30;
-
 // Whether `value` is NaN, by its bits: WGSL lets a compiler assume that no NaN occurs, so `value != value` may be folded.
 fn depth_is_nan(value: f32) -> bool {
     return (bitcast<u32>(value) & 0x7fffffffu) > 0x7f800000u;
@@ -126,37 +108,6 @@ fn depth_to_moment_depth(stored: f32, conversion: DepthConversion) -> f32 {
     return select(clamp(ratio, -1.0, 1.0), 1.0, depth_is_nan(stored));
 }
 
-// The depth of a fragment in [-1, 1]: beyond the light's range it counts as the nearer end, and NaN as the near end, where
-// every lower bound is 0.
-fn depth_of_fragment(fragment_depth: f32) -> f32 {
-    return select(clamp(fragment_depth, -1.0, 1.0), -1.0, depth_is_nan(fragment_depth));
-}
-
-// The stored depth of a moment depth: the inverse of the above, as the reference value of a comparison sampler. Moment
-// depths that the stored interval does not reach count as its nearer end, NaN as the far end.
-fn depth_from_moment_depth(moment_depth: f32, conversion: DepthConversion) -> f32 {
-    let z = select(clamp(moment_depth, -1.0, 1.0), 1.0, depth_is_nan(moment_depth));
-    let numerator = conversion.numerator;
-    let denominator = conversion.denominator;
-    // The weights d and 1 - d of the two ends, up to a factor that is positive where depth is stored from near to far.
-    let weights = vec2f(fma(z, denominator.x, -numerator.x), fma(-z, denominator.y, numerator.y));
-    let reversed = numerator.y * denominator.x < numerator.x * denominator.y;
-    let positive = max(select(weights, -weights, reversed), vec2f(0.0));
-    let d = positive.x / max(positive.x + positive.y, DEPTH_SMALLEST_DENOMINATOR);
-    let scale = select(max(conversion.scale, DEPTH_SMALLEST_DENOMINATOR), min(conversion.scale, -DEPTH_SMALLEST_DENOMINATOR), conversion.scale < 0.0);
-    return clamp((d - conversion.offset) / scale, -3e38, 3e38);
-}
-
-// The moment depth of a light's own place, below -1; DEPTH_INFINITELY_FAR where the stored depth is linear, as parallel rays
-// have it.
-fn depth_of_light(conversion: DepthConversion) -> f32 {
-    // A perspective conversion tends to it where d grows without bounds.
-    let divisor = conversion.denominator.y - conversion.denominator.x;
-    if abs(divisor) < DEPTH_SMALLEST_DENOMINATOR {
-        return DEPTH_INFINITELY_FAR;
-    }
-    return clamp((conversion.numerator.y - conversion.numerator.x) / divisor, DEPTH_INFINITELY_FAR, -1.0);
-}
 
 // moment_shadows/map/storage.wgsl
 // Storages: how the channels of a texel lie in memory, whatever they mean.
@@ -164,23 +115,8 @@ fn depth_of_light(conversion: DepthConversion) -> f32 {
 // Every technique filters linearly and writes after each filter, so each write is a rounding error that its bound has to
 // cover. Nothing here depends on a technique: how one spreads its quantities over the range of a storage is its own.
 
-// Storages, as a shader's specialisation names them.
-const STORAGE_UNORM16: u32 = 0u;
 const STORAGE_FLOAT16: u32 = 1u;
 const STORAGE_FLOAT32: u32 = 2u;
-const STORAGE_UNORM8: u32 = 3u;
-// Sums of channels as unorm16 has them; see `summed_area_encoding`.
-const STORAGE_FIXED32: u32 = 4u;
-// Three channels to a texel, in maps that are drawn.
-const STORAGE_UNORM10: u32 = 5u;
-
-// The largest finite float16.
-const STORAGE_LARGEST_FLOAT16: f32 = 65504.0;
-
-// Whether the channels of the storage are floats, which can be anything, rather than numbers in [0, 1].
-fn storage_is_float(storage: u32) -> bool {
-    return storage == STORAGE_FLOAT16 || storage == STORAGE_FLOAT32;
-}
 
 // The nearest float16 of each component, ties to even, for |value| <= 65504. A driver may truncate when it stores to a
 // float16 texture, which would double the rounding error that a bound has to cover.
@@ -193,32 +129,6 @@ fn storage_round_to_float16(value: vec4f) -> vec4f {
     return select(rounded, small, abs(value) < vec4f(0x1p-14));
 }
 
-// What to draw so that a target of 10 bits per channel holds the nearest number to each component, for any finite value. A driver
-// may round down, or round to 16 bits and drop the last six (lavapipe does): a little above that number they give it all the same.
-fn storage_round_to_unorm10(value: vec4f) -> vec4f {
-    return (round(saturate(value) * 1023.0) + 0x1p-8) / 1023.0;
-}
-
-// A filtered combination of texels, as it has to be written back to the same storage.
-fn storage_round_texel(texel: vec4f, storage: u32) -> vec4f {
-    if storage == STORAGE_FLOAT16 {
-        return storage_round_to_float16(texel);
-    }
-    if storage == STORAGE_UNORM10 {
-        return storage_round_to_unorm10(texel);
-    }
-    return texel;
-}
-
-// A texel in which channels that are NaN or infinite count as 0, found by their bits since a compiler may assume that
-// there is neither. Unorm texels pass as they are.
-fn storage_finite_texel(texel: vec4f, storage: u32) -> vec4f {
-    if !storage_is_float(storage) {
-        return texel;
-    }
-    let exponent = bitcast<vec4u>(texel) & vec4u(0x7f800000u);
-    return select(texel, vec4f(0.0), exponent == vec4u(0x7f800000u));
-}
 
 // moment_shadows/moments/four_moments.wgsl
 
@@ -228,22 +138,6 @@ fn storage_finite_texel(texel: vec4f, storage: u32) -> vec4f {
 // "Moment Shadow Mapping", i3D 2015, section 2). Linear filters keep moments valid as long as their weights are not
 // negative and sum to one. Storage with few bits holds an affine image of the moments that spreads them over the range
 // of every channel (Peters, GDC 2016; JCGT 6(1) 2017, section 3); affine maps commute with filtering.
-
-// A moment bias: b is moved by alpha towards (0, second, 0, fourth), which pulls moments that rounding has made
-// impossible back among the possible ones. With one number beta for both these are the moments of occluders at the near
-// end, the middle and the far end with the weights beta/2, 1 - beta and beta/2.
-struct FourMomentsBias {
-    alpha: f32,
-    second: f32,
-    fourth: f32,
-}
-
-// The bias belongs to a storage's rounding error, not to a scene. Each value covers a resolve and a two-pass blur, every
-// stage rounded to the storage, for 99.999 % of filter regions (found by search: `moment-shadows bias`). Sums of many texels
-// in f32 are off by more than the bias of float32 covers, unless they are made as in `split_sum`. The target is optimal for the basis and for distributions on the real line (JCGT 6(1) 2017, section 3).
-const FOUR_MOMENTS_BIAS_UNORM16: FourMomentsBias = FourMomentsBias(6e-5, 0.628, 0.628);
-const FOUR_MOMENTS_BIAS_FLOAT16: FourMomentsBias = FourMomentsBias(1e-3, 0.628, 0.628);
-const FOUR_MOMENTS_BIAS_FLOAT32: FourMomentsBias = FourMomentsBias(1.5e-6, 0.375, 0.375);
 
 // sqrt(3), which the optimised basis and its inverse are made of.
 const FOUR_MOMENTS_SQRT_3: f32 = 1.7320508075688772;
@@ -264,23 +158,6 @@ fn four_moments_quantize(b: vec4f) -> vec4f {
     );
 }
 
-// Inverse of `four_moments_quantize`. Channels in [0, 1] give |b| <= 2.1, whatever they hold.
-fn four_moments_dequantize(channels: vec4f) -> vec4f {
-    let odd = channels.xz - 0.5;
-    return vec4f(
-        fma(-1.0 / 3.0, odd.x, FOUR_MOMENTS_SQRT_3 * odd.y),
-        fma(0.125, channels.y, channels.w),
-        0.75 * fma(FOUR_MOMENTS_SQRT_3, odd.y, -odd.x),
-        fma(-0.125, channels.y, channels.w),
-    );
-}
-
-// Moments that certainly lie in their ranges: odd ones in [-1, 1], even ones in [0, 1]. Float storage can hold
-// anything, and finite values beyond 1e15 would overflow further on.
-fn four_moments_clamp(b: vec4f) -> vec4f {
-    return clamp(b, vec4f(-1.0, 0.0, -1.0, 0.0), vec4f(1.0));
-}
-
 // What to write to a texel of the storage.
 fn four_moments_to_texel(b: vec4f, storage: u32) -> vec4f {
     if storage == STORAGE_FLOAT32 {
@@ -294,54 +171,6 @@ fn four_moments_to_texel(b: vec4f, storage: u32) -> vec4f {
     return channels;
 }
 
-// The moments in a (filtered) texel of the storage. Float storage can hold anything; `four_moments_clamp` comes before any
-// arithmetic that relies on ranges.
-fn four_moments_from_texel(texel: vec4f, storage: u32) -> vec4f {
-    if storage == STORAGE_FLOAT32 {
-        return texel;
-    }
-    if storage == STORAGE_FLOAT16 {
-        return four_moments_dequantize(texel + 0.5);
-    }
-    return four_moments_dequantize(texel);
-}
-
-// The moment bias of a storage.
-fn four_moments_bias_of(storage: u32) -> FourMomentsBias {
-    if storage == STORAGE_FLOAT32 {
-        return FOUR_MOMENTS_BIAS_FLOAT32;
-    }
-    if storage == STORAGE_FLOAT16 {
-        return FOUR_MOMENTS_BIAS_FLOAT16;
-    }
-    return FOUR_MOMENTS_BIAS_UNORM16;
-}
-
-// Applies the moment bias (i3D 2015, section 3.3). Written as a step towards the target: 1 - alpha would keep only a
-// few bits of alpha.
-fn four_moments_apply_bias(b: vec4f, bias: FourMomentsBias) -> vec4f {
-    return fma(vec4f(bias.alpha), vec4f(0.0, bias.second, 0.0, bias.fourth) - b, b);
-}
-
-// The biased moments in a (filtered) texel of the storage, within [-2.1, 2.1]: for unorm storage if the channels are in
-// [0, 1], as no texture can help, and for float storage whatever finite numbers it holds.
-fn four_moments_biased_from_texel(texel: vec4f, storage: u32, bias: FourMomentsBias) -> vec4f {
-    if storage == STORAGE_FLOAT32 {
-        return four_moments_apply_bias(four_moments_clamp(texel), bias);
-    }
-    // The inverse of the basis and the bias are both affine, and so one step. These biases are large enough for 1 - alpha.
-    let keep = 1.0 - bias.alpha;
-    let of_xy = keep * vec4f(-1.0 / 3.0, 0.125, -0.75, -0.125);
-    let of_zw = keep * vec4f(FOUR_MOMENTS_SQRT_3, 1.0, 0.75 * FOUR_MOMENTS_SQRT_3, 1.0);
-    // Odd moments are 0 for channels of one half, and float16 storage holds one half less.
-    let middle = select(vec4f(-0.5, 0.0, -0.5, 0.0), vec4f(0.0, 0.5, 0.0, 0.5), storage == STORAGE_FLOAT16);
-    let shift = fma(middle, of_xy + of_zw, bias.alpha * vec4f(0.0, bias.second, 0.0, bias.fourth));
-    let biased = fma(of_xy, texel.xyxy, fma(of_zw, texel.zwzw, shift));
-    if storage == STORAGE_FLOAT16 {
-        return four_moments_clamp(biased);
-    }
-    return biased;
-}
 
 // map_encoding
 

@@ -58,27 +58,6 @@ fn depth_to_moment_depth(stored: f32, conversion: DepthConversion) -> f32 {
     return select(clamp(ratio, -1.0, 1.0), 1.0, depth_is_nan(stored));
 }
 
-// The depth of a fragment in [-1, 1]: beyond the light's range it counts as the nearer end, and NaN as the near end, where
-// every lower bound is 0.
-fn depth_of_fragment(fragment_depth: f32) -> f32 {
-    return select(clamp(fragment_depth, -1.0, 1.0), -1.0, depth_is_nan(fragment_depth));
-}
-
-// The stored depth of a moment depth: the inverse of the above, as the reference value of a comparison sampler. Moment
-// depths that the stored interval does not reach count as its nearer end, NaN as the far end.
-fn depth_from_moment_depth(moment_depth: f32, conversion: DepthConversion) -> f32 {
-    let z = select(clamp(moment_depth, -1.0, 1.0), 1.0, depth_is_nan(moment_depth));
-    let numerator = conversion.numerator;
-    let denominator = conversion.denominator;
-    // The weights d and 1 - d of the two ends, up to a factor that is positive where depth is stored from near to far.
-    let weights = vec2f(fma(z, denominator.x, -numerator.x), fma(-z, denominator.y, numerator.y));
-    let reversed = numerator.y * denominator.x < numerator.x * denominator.y;
-    let positive = max(select(weights, -weights, reversed), vec2f(0.0));
-    let d = positive.x / max(positive.x + positive.y, DEPTH_SMALLEST_DENOMINATOR);
-    let scale = select(max(conversion.scale, DEPTH_SMALLEST_DENOMINATOR), min(conversion.scale, -DEPTH_SMALLEST_DENOMINATOR), conversion.scale < 0.0);
-    return clamp((d - conversion.offset) / scale, -3e38, 3e38);
-}
-
 // The moment depth of a light's own place, below -1; DEPTH_INFINITELY_FAR where the stored depth is linear, as parallel rays
 // have it.
 fn depth_of_light(conversion: DepthConversion) -> f32 {
@@ -142,27 +121,6 @@ fn map_region_within(region: MapRegion, size: vec2u) -> MapRegion {
     return MapRegion(origin, min(region.extent, size - origin));
 }
 
-// A region of a map (within it) on mip level `level`, below 32.
-fn map_region_at_level(region: MapRegion, level: u32) -> MapRegion {
-    let origin = region.origin >> vec2u(level);
-    return MapRegion(origin, ((region.origin + region.extent) >> vec2u(level)) - origin);
-}
-
-// The coarsest of `levels` mip levels on which a region still has texels.
-fn map_region_last_level(region: MapRegion, levels: u32) -> u32 {
-    var level = max(levels, 1u) - 1u;
-    while level > 0u && any(map_region_at_level(region, level).extent == vec2u(0u)) {
-        level--;
-    }
-    return level;
-}
-
-// The place of `uv` (from 0 to 1 across the region) in texels of a region's mip level, kept half a texel away from its
-// edge: a bilinear filter there reads no other region.
-fn map_region_place(region_on_level: MapRegion, uv: vec2f) -> vec2f {
-    let extent = vec2f(region_on_level.extent);
-    return vec2f(region_on_level.origin) + clamp(uv * extent, vec2f(0.5), max(extent - 0.5, vec2f(0.5)));
-}
 
 // moment_shadows/map/minification.wgsl
 // Minification: what part of a map a pixel covers.
@@ -220,20 +178,6 @@ fn minification_footprint(difference_x: vec2f, difference_y: vec2f, anisotropy: 
     return MinificationFootprint(unit * line, clamp(ceil(line / texel - 1e-3), 1.0, largest), log2(texel));
 }
 
-// Where probe `index` lies on the major axis: the offset, in texels, from the footprint's centre.
-fn minification_probe(footprint: MinificationFootprint, index: f32) -> vec2f {
-    return ((index + 0.5) / footprint.probes - 0.5) * footprint.major;
-}
-
-// The two axes of a footprint as the differences of place, in texels, that make a sampler with anisotropy take just these
-// probes: x is the column of the line, at least as long as the other one.
-fn minification_gradients(footprint: MinificationFootprint) -> mat2x2f {
-    let texel = exp2(footprint.level);
-    let line = length(footprint.major);
-    let unit = select(vec2f(1.0, 0.0), footprint.major / max(line, 1e-6), line >= 1e-3);
-    return mat2x2f(unit * max(line, texel), vec2f(-unit.y, unit.x) * texel);
-}
-
 // The variance that minification adds to the moment depths of a plane, whose moment depth changes by `gradient` per texel:
 // that of the probes' trilinear lookups, and that of the line they lie on. Between two levels the mixture of both has at
 // most 1.13 times the variance of the level between them.
@@ -269,46 +213,6 @@ struct AreaLight {
     rectangular: u32,
 }
 
-// The largest half width in texels.
-const AREA_LIGHT_LARGEST_RADIUS: f32 = 4096.0;
-
-// A box of half width h has the variance h^2 / 3 along an axis, a disk of radius r r^2 / 4: half widths of a box, of which
-// the disk's radius is 1, and the reverse.
-const AREA_LIGHT_BOX_OF_DISK: f32 = 0.8660254;
-const AREA_LIGHT_DISK_OF_BOX: f32 = 1.1547005;
-
-// Half the light's width and height in texels as a receiver sees it through a blocker, projected onto the map. Both depths
-// are moment depths; 0 for a blocker that is not in front.
-fn area_light_half_extent(light: AreaLight, blocker_depth: f32, receiver_depth: f32) -> vec2f {
-    let ends = clamp(vec2f(blocker_depth, receiver_depth), vec2f(-1.0), vec2f(1.0));
-    let distances = clamp(mix(vec2f(light.near), vec2f(light.far), 0.5 * ends + 0.5), vec2f(-1e15), vec2f(1e15));
-    var apart = distances.y - distances.x;
-    if light.perspective != 0u {
-        // 1 / near - 1 / far as one quotient keeps its digits.
-        let positive = max(distances, vec2f(1e-9));
-        apart = apart / (positive.x * positive.y);
-    }
-    return 0.5 * clamp(light.size, vec2f(0.0), vec2f(1e15)) * clamp(apart, 0.0, 1e18);
-}
-
-// Half widths in texels between the light's smallest and largest one.
-fn area_light_limited(light: AreaLight, half_extent: vec2f) -> vec2f {
-    let smallest = vec2f(clamp(light.smallest_radius, 0.0, AREA_LIGHT_LARGEST_RADIUS));
-    let largest = vec2f(clamp(light.largest_radius, 0.0, AREA_LIGHT_LARGEST_RADIUS));
-    return min(max(half_extent, smallest), largest);
-}
-
-// The radii in texels of an elliptic filter that stands for the light.
-fn area_light_disk(light: AreaLight, blocker_depth: f32, receiver_depth: f32) -> vec2f {
-    let shape = select(1.0, AREA_LIGHT_DISK_OF_BOX, light.rectangular != 0u);
-    return area_light_limited(light, shape * area_light_half_extent(light, blocker_depth, receiver_depth));
-}
-
-// The half widths in texels of a box filter that stands for the light.
-fn area_light_box(light: AreaLight, blocker_depth: f32, receiver_depth: f32) -> vec2f {
-    let shape = select(AREA_LIGHT_BOX_OF_DISK, 1.0, light.rectangular != 0u);
-    return area_light_limited(light, shape * area_light_half_extent(light, blocker_depth, receiver_depth));
-}
 
 // moment_shadows/shade/receiver_bias.wgsl
 // Receiver bias: how far the fragment depth moves towards the light so that a surface does not shadow itself.
@@ -356,19 +260,6 @@ fn receiver_bias_plane(difference_x: vec3f, difference_y: vec3f) -> vec2f {
     return clamp(scaled / determinant, vec2f(-RECEIVER_BIAS_EDGE_ON), vec2f(RECEIVER_BIAS_EDGE_ON));
 }
 
-// The length of that gradient.
-fn receiver_bias_gradient(difference_x: vec3f, difference_y: vec3f) -> f32 {
-    return length(receiver_bias_plane(difference_x, difference_y));
-}
-
-// The same from the cosine between surface normal and direction to the light: `depth_per_texel` is the moment depth
-// of one texel's width, along the light's axis.
-fn receiver_bias_gradient_from_cosine(cosine: f32, depth_per_texel: f32) -> f32 {
-    let c = clamp(cosine, 0.0, 1.0);
-    let sine = sqrt(max(1.0 - c * c, 0.0));
-    return depth_per_texel * sine / max(c, 1e-6);
-}
-
 // The receiver bias in moment depth, to be subtracted from the fragment depth.
 fn receiver_bias_depth(bias: ReceiverBias, gradient: f32) -> f32 {
     return clamp(fma(bias.slope_scale, gradient, bias.constant), 0.0, bias.maximum);
@@ -385,21 +276,6 @@ fn receiver_bias_depth_minified(bias: ReceiverBias, gradient: f32, variance: f32
     return max(bias.constant + min(deviation, max(limit, 0.0)), 0.0);
 }
 
-// The part of the bias that grows with the slope, under a kernel with the standard deviation `deviation` in texels along x
-// and y, on a plane with the gradient of moment depth per texel; that counts up to the length `steepest`.
-fn receiver_bias_depth_of_kernel(gradient: vec2f, deviation: vec2f, steepest: f32) -> f32 {
-    let full = clamp(gradient, vec2f(-RECEIVER_BIAS_EDGE_ON), vec2f(RECEIVER_BIAS_EDGE_ON));
-    let steepness = length(full);
-    let limited = full * min(max(steepest, 0.0) / max(steepness, 1e-30), 1.0);
-    return RECEIVER_BIAS_STANDARD_DEVIATIONS * length(limited * deviation);
-}
-
-// The position, in scene units, at which to look the map up when the receiver moves along its normal: the offset
-// grows with the sine of the angle between normal and light (`cosine` > 0 faces the light).
-fn receiver_bias_offset_position(bias: ReceiverBias, position: vec3f, normal: vec3f, cosine: f32) -> vec3f {
-    let c = clamp(cosine, -1.0, 1.0);
-    return fma(vec3f(bias.normal_offset * sqrt(max(1.0 - c * c, 0.0))), normal, position);
-}
 
 // specialization
 const GROUP = 0;
@@ -407,105 +283,7 @@ const LEVELS = 1u;
 const VIEWS = 1u;
 const LIGHTS = 1u;
 const ANISOTROPY = 8.0;
-const PLANES = 1u;
 
-// moment_shadows/maths/disk_samples.wgsl
-// Samples that are spread over the unit disk, and the rotation by which each pixel turns them.
-//
-// With few samples a filter makes bands; turned by another angle in each pixel it makes noise, which the eye and temporal
-// filters forgive.
-
-// How many samples the Poisson disk has.
-const DISK_SAMPLES_POISSON_COUNT: u32 = 16u;
-
-// A Poisson disk: no two samples are closer than 0.455. Sample i lies at radius sqrt((i + 0.5) / 16), in the middle of one
-// of 16 rings of equal area, so that turned by every angle they cover the disk evenly. Their angles were found by best
-// candidates and random relaxation of the smallest distance.
-const DISK_SAMPLES_POISSON = array<vec2f, 16>(
-    vec2f(0.027483, -0.174627),
-    vec2f(0.059710, 0.300308),
-    vec2f(-0.383554, 0.095584),
-    vec2f(0.465980, 0.040162),
-    vec2f(-0.389073, -0.360378),
-    vec2f(0.415935, -0.413217),
-    vec2f(-0.321242, 0.550503),
-    vec2f(0.471743, 0.496194),
-    vec2f(0.000066, -0.728869),
-    vec2f(0.083704, 0.765992),
-    vec2f(-0.806214, -0.079181),
-    vec2f(-0.750352, 0.394616),
-    vec2f(0.858217, -0.211455),
-    vec2f(0.876628, 0.274358),
-    vec2f(-0.520274, -0.797223),
-    vec2f(0.435590, -0.882616),
-);
-
-// A full turn in radians.
-const DISK_SAMPLES_TURN: f32 = 6.2831853;
-
-// The angle between two neighbours of a sunflower's seeds: a full turn times (3 - sqrt(5)) / 2.
-const DISK_SAMPLES_GOLDEN_ANGLE: f32 = 2.3999632;
-
-// The angle in radians, from 0 to a full turn, by which a pixel turns its samples: interleaved gradient noise of its
-// coordinates (Jimenez, "Next Generation Post Processing in Call of Duty: Advanced Warfare", SIGGRAPH 2014). `pixel` from
-// 0 to 65536.
-fn disk_samples_angle(pixel: vec2f) -> f32 {
-    return DISK_SAMPLES_TURN * fract(52.9829189 * fract(dot(pixel, vec2f(0.06711056, 0.00583715))));
-}
-
-// Cosine and sine of an angle in radians, which `disk_samples_rotate` takes.
-fn disk_samples_rotation(angle: f32) -> vec2f {
-    // Devices need not know sines beyond a turn.
-    let turned = DISK_SAMPLES_TURN * fract(angle / DISK_SAMPLES_TURN);
-    return vec2f(cos(turned), sin(turned));
-}
-
-// A sample turned by a rotation.
-fn disk_samples_rotate(sample: vec2f, rotation: vec2f) -> vec2f {
-    return vec2f(dot(sample, vec2f(rotation.x, -rotation.y)), dot(sample, rotation.yx));
-}
-
-// Sample `index` of the Poisson disk, 0 to 15, turned.
-fn disk_samples_poisson(index: u32, rotation: vec2f) -> vec2f {
-    return disk_samples_rotate(DISK_SAMPLES_POISSON[min(index, DISK_SAMPLES_POISSON_COUNT - 1u)], rotation);
-}
-
-// Sample `index` of a disk of any number of samples, which cover it evenly (Vogel, "A better way to construct the
-// sunflower head", Mathematical Biosciences 44, 1979), turned. `count` at least 1.
-fn disk_samples_vogel(index: u32, count: u32, rotation: vec2f) -> vec2f {
-    let radius = sqrt((f32(index) + 0.5) / f32(max(count, 1u)));
-    return disk_samples_rotate(vec2f(radius, 0.0), disk_samples_rotate(disk_samples_rotation(f32(index) * DISK_SAMPLES_GOLDEN_ANGLE), rotation));
-}
-
-// moment_shadows/filter/gaussian.wgsl
-// Gaussian filter weights, and the plain form of the separable filter.
-//
-// Filters of moments need weights that are not negative and sum to one; the Gaussian, cut off at a radius and
-// normalised, is the one that the moment shadow mapping papers use (9 x 9 texels with sigma 2.4; i3D 2015, section 4).
-// Render-graph nodes filter with blocks of texels held in registers; this form is for shaders of one's own, and is what
-// those are compared with.
-
-// Gaussian at `offset` texels from the centre, not normalised. `sigma` > 0 in texels; smaller values count as 1e-3.
-fn gaussian_weight(offset: f32, sigma: f32) -> f32 {
-    let ratio = offset / max(sigma, 1e-3);
-    return exp(-0.5 * ratio * ratio);
-}
-
-// One direction of the separable filter at `texel`: 2 radius + 1 texels of mip 0 along `direction` ((1, 0) or (0, 1)),
-// weighted and normalised. Beyond the border the last texel repeats. `radius` from 0 to 64.
-fn gaussian_filter(map: texture_2d<f32>, texel: vec2i, direction: vec2i, radius: i32, sigma: f32) -> vec4f {
-    let last = vec2i(textureDimensions(map)) - 1;
-    let reach = clamp(radius, 0, 64);
-    var sum = vec4f(0.0);
-    var total = 0.0;
-    for (var offset = -reach; offset <= reach; offset++) {
-        let weight = gaussian_weight(f32(offset), sigma);
-        sum = fma(vec4f(weight), textureLoad(map, clamp(texel + offset * direction, vec2i(0), last), 0), sum);
-        total += weight;
-    }
-    // The centre's weight is 1, so the total is at least 1.
-    return sum / total;
-}
 
 // moment_shadows/shade/receiver_plane.wgsl
 
@@ -544,15 +322,6 @@ fn receiver_plane_through(uv: vec2f, depth: f32, gradient: vec2f, steepest: f32,
     return ReceiverPlane(clamp(uv, vec2f(0.0), vec2f(1.0)), limited, z, 1.0 / max(z - light_depth, 1e-6));
 }
 
-// A plane moved by `bias` in moment depth towards the light, as a whole: its distances from a light with rays from a point
-// all shrink by the same factor. One through the biased depth with the unbiased gradient would be too steep, and cross the
-// receiver's own where that recedes. `bias` is less than the distance from the light.
-fn receiver_plane_biased(plane: ReceiverPlane, bias: f32) -> ReceiverPlane {
-    let towards = clamp(bias, -4.0, 4.0);
-    let shrunk = clamp(1.0 - towards * plane.inverse_reach, 1e-6, 1e7);
-    return ReceiverPlane(plane.uv, plane.gradient * shrunk, plane.depth - towards, plane.inverse_reach / shrunk);
-}
-
 // The moment depth in [-1, 1] of the plane at `offset` texels from the receiver. It ends at the far end, which texels without a
 // caster hold: they never shadow.
 fn receiver_plane_depth(plane: ReceiverPlane, offset: vec2f) -> f32 {
@@ -572,29 +341,6 @@ fn receiver_plane_depth(plane: ReceiverPlane, offset: vec2f) -> f32 {
 // nearer to the light, 0 where it is not or equal. A receiver without gradient is compared with its own depth. Beyond the
 // edge of its region (within the map, see `map_region_within`) the last texel repeats; a region without texels does not
 // shadow. All intensities are in [0, 1]. The cost grows with the square of the kernel; filterable maps are there to avoid that.
-
-// The largest radius of a kernel in texels.
-const PERCENTAGE_CLOSER_LARGEST_RADIUS: i32 = 64;
-
-// The largest radius of a disk in texels.
-const PERCENTAGE_CLOSER_LARGEST_DISK: f32 = 4096.0;
-
-// Any separable kernel. Filled by the host-side `PercentageCloserKernel`.
-struct PercentageCloserKernel {
-    // Texels on either side of the centre, at most 64.
-    radius: u32,
-    // 2 radius + 1 weights, not negative, the same along both axes; they need not sum to 1. A kernel of an even number of
-    // texels has a 0 at one end.
-    weights: array<vec4f, 33>,
-}
-
-// Where the taps of a kernel are centred.
-struct PercentageCloserPlace {
-    // A texel, counted from the region's origin.
-    base: vec2i,
-    // The share of the kernel around the next texel in x and y, in [0, 1).
-    fraction: vec2f,
-}
 
 // The texel of the region that stands for `texel` (counted from its origin): itself or the nearest one.
 fn percentage_closer_texel(region: MapRegion, texel: vec2i) -> vec2i {
@@ -623,103 +369,6 @@ fn percentage_closer_binary(map: texture_depth_2d_array, layer: u32, region: Map
     return percentage_closer_tap(map, layer, region, plane, conversion, vec2i(plane.uv * vec2f(region.extent)));
 }
 
-// Where a kernel is centred: at the nearest texel, or, interpolated as in a bilinear lookup, between the four next ones.
-fn percentage_closer_place(region: MapRegion, plane: ReceiverPlane, interpolated: bool) -> PercentageCloserPlace {
-    let extent = max(vec2f(region.extent), vec2f(1.0));
-    let place = clamp(plane.uv * extent, vec2f(0.5), extent - 0.5);
-    let low = floor(place - 0.5);
-    if interpolated {
-        return PercentageCloserPlace(vec2i(low), place - 0.5 - low);
-    }
-    return PercentageCloserPlace(vec2i(place), vec2f(0.0));
-}
-
-// The weight of an offset along one axis: the Gaussian, or 1 for a sigma of 0, up to the radius `reach`.
-fn percentage_closer_weight(offset: i32, reach: i32, sigma: f32) -> f32 {
-    if abs(offset) > reach {
-        return 0.0;
-    }
-    if sigma == 0.0 {
-        return 1.0;
-    }
-    return gaussian_weight(f32(offset), sigma);
-}
-
-// Shadow intensity with equal weights: n x n texels with n = 2 radius + 1. `radius` from 0 to 64. Interpolated, results are
-// blended as a bilinear lookup in a filtered map does, with n + 1 taps along each axis.
-fn percentage_closer_box(map: texture_depth_2d_array, layer: u32, region: MapRegion, plane: ReceiverPlane, conversion: DepthConversion, radius: i32, interpolated: bool) -> f32 {
-    return percentage_closer_filter(map, layer, region, plane, conversion, radius, 0.0, interpolated);
-}
-
-// The same with the weights of a Gaussian of standard deviation `sigma` > 0 texels, cut off at `radius`; a smaller sigma
-// counts as 1e-3.
-fn percentage_closer_gaussian(map: texture_depth_2d_array, layer: u32, region: MapRegion, plane: ReceiverPlane, conversion: DepthConversion, radius: i32, sigma: f32, interpolated: bool) -> f32 {
-    return percentage_closer_filter(map, layer, region, plane, conversion, radius, max(sigma, 1e-3), interpolated);
-}
-
-// Both of them: a sigma of 0 stands for equal weights.
-fn percentage_closer_filter(map: texture_depth_2d_array, layer: u32, region: MapRegion, plane: ReceiverPlane, conversion: DepthConversion, radius: i32, sigma: f32, interpolated: bool) -> f32 {
-    let reach = clamp(radius, 0, PERCENTAGE_CLOSER_LARGEST_RADIUS);
-    let place = percentage_closer_place(region, plane, interpolated);
-    let end = reach + select(0, 1, interpolated);
-    var sum = 0.0;
-    var total = 0.0;
-    for (var y = -reach; y <= end; y++) {
-        let row = mix(percentage_closer_weight(y, reach, sigma), percentage_closer_weight(y - 1, reach, sigma), place.fraction.y);
-        for (var x = -reach; x <= end; x++) {
-            let column = mix(percentage_closer_weight(x, reach, sigma), percentage_closer_weight(x - 1, reach, sigma), place.fraction.x);
-            sum = fma(row * column, percentage_closer_tap(map, layer, region, plane, conversion, place.base + vec2i(x, y)), sum);
-            total = fma(row, column, total);
-        }
-    }
-    // The centre's weight is 1, so the total is not much below 1.
-    return clamp(sum / total, 0.0, 1.0);
-}
-
-// The weight of an offset along one axis in a kernel of that radius. A copy of all weights per tap would cost more than the tap.
-fn percentage_closer_kernel_weight(weights: ptr<function, array<vec4f, 33>>, offset: i32, reach: i32) -> f32 {
-    if abs(offset) > reach {
-        return 0.0;
-    }
-    let index = u32(offset + reach);
-    return clamp((*weights)[index / 4u][index % 4u], 0.0, 1e9);
-}
-
-// The same with any separable kernel. Without a positive weight nothing is shadowed.
-fn percentage_closer_kernel(map: texture_depth_2d_array, layer: u32, region: MapRegion, plane: ReceiverPlane, conversion: DepthConversion, kernel: PercentageCloserKernel, interpolated: bool) -> f32 {
-    let reach = i32(min(kernel.radius, u32(PERCENTAGE_CLOSER_LARGEST_RADIUS)));
-    var weights = kernel.weights;
-    let place = percentage_closer_place(region, plane, interpolated);
-    let end = reach + select(0, 1, interpolated);
-    var sum = 0.0;
-    var total = 0.0;
-    for (var y = -reach; y <= end; y++) {
-        let row = mix(percentage_closer_kernel_weight(&weights, y, reach), percentage_closer_kernel_weight(&weights, y - 1, reach), place.fraction.y);
-        for (var x = -reach; x <= end; x++) {
-            let column = mix(percentage_closer_kernel_weight(&weights, x, reach), percentage_closer_kernel_weight(&weights, x - 1, reach), place.fraction.x);
-            sum = fma(row * column, percentage_closer_tap(map, layer, region, plane, conversion, place.base + vec2i(x, y)), sum);
-            total = fma(row, column, total);
-        }
-    }
-    return clamp(sum / max(total, 1e-30), 0.0, 1.0);
-}
-
-// The texel, counted from the region's origin, that lies `offset` texels from the receiver, which may be outside.
-fn percentage_closer_texel_at(region: MapRegion, plane: ReceiverPlane, offset: vec2f) -> vec2i {
-    return vec2i(floor(plane.uv * vec2f(region.extent) + offset));
-}
-
-// Shadow intensity with a Poisson disk of 16 taps: `radius` in texels, 0 to 4096, turned by `angle` in radians, another
-// one in each pixel (`disk_samples_angle`).
-fn percentage_closer_poisson(map: texture_depth_2d_array, layer: u32, region: MapRegion, plane: ReceiverPlane, conversion: DepthConversion, radius: f32, angle: f32) -> f32 {
-    let rotation = disk_samples_rotation(angle) * clamp(radius, 0.0, PERCENTAGE_CLOSER_LARGEST_DISK);
-    var sum = 0.0;
-    for (var tap = 0u; tap < DISK_SAMPLES_POISSON_COUNT; tap++) {
-        let texel = percentage_closer_texel_at(region, plane, disk_samples_poisson(tap, rotation));
-        sum += percentage_closer_tap(map, layer, region, plane, conversion, texel);
-    }
-    return sum / f32(DISK_SAMPLES_POISSON_COUNT);
-}
 
 // technique_map
 

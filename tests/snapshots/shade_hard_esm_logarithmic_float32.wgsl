@@ -38,24 +38,9 @@ struct DepthConversion {
     padding: vec2f,
 }
 
-// The smallest denominator: the far end of an infinite projection divides by zero.
-const DEPTH_SMALLEST_DENOMINATOR: f32 = 1e-30;
-
-// The moment depth of a light with parallel rays.
-const DEPTH_INFINITELY_FAR: f32 = -1e30;
-
 // Whether `value` is NaN, by its bits: WGSL lets a compiler assume that no NaN occurs, so `value != value` may be folded.
 fn depth_is_nan(value: f32) -> bool {
     return (bitcast<u32>(value) & 0x7fffffffu) > 0x7f800000u;
-}
-
-// Moment depth in [-1, 1] of a stored depth. NaN counts as the far end (no caster), infinities and values out of
-// range as the nearer end of the interval.
-fn depth_to_moment_depth(stored: f32, conversion: DepthConversion) -> f32 {
-    let d = clamp(fma(clamp(stored, -3e38, 3e38), conversion.scale, conversion.offset), 0.0, 1.0);
-    let ends = vec2f(1.0 - d, d);
-    let ratio = dot(ends, conversion.numerator) / max(dot(ends, conversion.denominator), DEPTH_SMALLEST_DENOMINATOR);
-    return select(clamp(ratio, -1.0, 1.0), 1.0, depth_is_nan(stored));
 }
 
 // The depth of a fragment in [-1, 1]: beyond the light's range it counts as the nearer end, and NaN as the near end, where
@@ -64,31 +49,6 @@ fn depth_of_fragment(fragment_depth: f32) -> f32 {
     return select(clamp(fragment_depth, -1.0, 1.0), -1.0, depth_is_nan(fragment_depth));
 }
 
-// The stored depth of a moment depth: the inverse of the above, as the reference value of a comparison sampler. Moment
-// depths that the stored interval does not reach count as its nearer end, NaN as the far end.
-fn depth_from_moment_depth(moment_depth: f32, conversion: DepthConversion) -> f32 {
-    let z = select(clamp(moment_depth, -1.0, 1.0), 1.0, depth_is_nan(moment_depth));
-    let numerator = conversion.numerator;
-    let denominator = conversion.denominator;
-    // The weights d and 1 - d of the two ends, up to a factor that is positive where depth is stored from near to far.
-    let weights = vec2f(fma(z, denominator.x, -numerator.x), fma(-z, denominator.y, numerator.y));
-    let reversed = numerator.y * denominator.x < numerator.x * denominator.y;
-    let positive = max(select(weights, -weights, reversed), vec2f(0.0));
-    let d = positive.x / max(positive.x + positive.y, DEPTH_SMALLEST_DENOMINATOR);
-    let scale = select(max(conversion.scale, DEPTH_SMALLEST_DENOMINATOR), min(conversion.scale, -DEPTH_SMALLEST_DENOMINATOR), conversion.scale < 0.0);
-    return clamp((d - conversion.offset) / scale, -3e38, 3e38);
-}
-
-// The moment depth of a light's own place, below -1; DEPTH_INFINITELY_FAR where the stored depth is linear, as parallel rays
-// have it.
-fn depth_of_light(conversion: DepthConversion) -> f32 {
-    // A perspective conversion tends to it where d grows without bounds.
-    let divisor = conversion.denominator.y - conversion.denominator.x;
-    if abs(divisor) < DEPTH_SMALLEST_DENOMINATOR {
-        return DEPTH_INFINITELY_FAR;
-    }
-    return clamp((conversion.numerator.y - conversion.numerator.x) / divisor, DEPTH_INFINITELY_FAR, -1.0);
-}
 
 // moment_shadows/shade/leak_reduction.wgsl
 // Light leaking, reduced after the bound: none of this touches the moments.
@@ -140,21 +100,6 @@ struct MapRegion {
 fn map_region_within(region: MapRegion, size: vec2u) -> MapRegion {
     let origin = min(region.origin, size);
     return MapRegion(origin, min(region.extent, size - origin));
-}
-
-// A region of a map (within it) on mip level `level`, below 32.
-fn map_region_at_level(region: MapRegion, level: u32) -> MapRegion {
-    let origin = region.origin >> vec2u(level);
-    return MapRegion(origin, ((region.origin + region.extent) >> vec2u(level)) - origin);
-}
-
-// The coarsest of `levels` mip levels on which a region still has texels.
-fn map_region_last_level(region: MapRegion, levels: u32) -> u32 {
-    var level = max(levels, 1u) - 1u;
-    while level > 0u && any(map_region_at_level(region, level).extent == vec2u(0u)) {
-        level--;
-    }
-    return level;
 }
 
 // The place of `uv` (from 0 to 1 across the region) in texels of a region's mip level, kept half a texel away from its
@@ -220,20 +165,6 @@ fn minification_footprint(difference_x: vec2f, difference_y: vec2f, anisotropy: 
     return MinificationFootprint(unit * line, clamp(ceil(line / texel - 1e-3), 1.0, largest), log2(texel));
 }
 
-// Where probe `index` lies on the major axis: the offset, in texels, from the footprint's centre.
-fn minification_probe(footprint: MinificationFootprint, index: f32) -> vec2f {
-    return ((index + 0.5) / footprint.probes - 0.5) * footprint.major;
-}
-
-// The two axes of a footprint as the differences of place, in texels, that make a sampler with anisotropy take just these
-// probes: x is the column of the line, at least as long as the other one.
-fn minification_gradients(footprint: MinificationFootprint) -> mat2x2f {
-    let texel = exp2(footprint.level);
-    let line = length(footprint.major);
-    let unit = select(vec2f(1.0, 0.0), footprint.major / max(line, 1e-6), line >= 1e-3);
-    return mat2x2f(unit * max(line, texel), vec2f(-unit.y, unit.x) * texel);
-}
-
 // The variance that minification adds to the moment depths of a plane, whose moment depth changes by `gradient` per texel:
 // that of the probes' trilinear lookups, and that of the line they lie on. Between two levels the mixture of both has at
 // most 1.13 times the variance of the level between them.
@@ -269,46 +200,6 @@ struct AreaLight {
     rectangular: u32,
 }
 
-// The largest half width in texels.
-const AREA_LIGHT_LARGEST_RADIUS: f32 = 4096.0;
-
-// A box of half width h has the variance h^2 / 3 along an axis, a disk of radius r r^2 / 4: half widths of a box, of which
-// the disk's radius is 1, and the reverse.
-const AREA_LIGHT_BOX_OF_DISK: f32 = 0.8660254;
-const AREA_LIGHT_DISK_OF_BOX: f32 = 1.1547005;
-
-// Half the light's width and height in texels as a receiver sees it through a blocker, projected onto the map. Both depths
-// are moment depths; 0 for a blocker that is not in front.
-fn area_light_half_extent(light: AreaLight, blocker_depth: f32, receiver_depth: f32) -> vec2f {
-    let ends = clamp(vec2f(blocker_depth, receiver_depth), vec2f(-1.0), vec2f(1.0));
-    let distances = clamp(mix(vec2f(light.near), vec2f(light.far), 0.5 * ends + 0.5), vec2f(-1e15), vec2f(1e15));
-    var apart = distances.y - distances.x;
-    if light.perspective != 0u {
-        // 1 / near - 1 / far as one quotient keeps its digits.
-        let positive = max(distances, vec2f(1e-9));
-        apart = apart / (positive.x * positive.y);
-    }
-    return 0.5 * clamp(light.size, vec2f(0.0), vec2f(1e15)) * clamp(apart, 0.0, 1e18);
-}
-
-// Half widths in texels between the light's smallest and largest one.
-fn area_light_limited(light: AreaLight, half_extent: vec2f) -> vec2f {
-    let smallest = vec2f(clamp(light.smallest_radius, 0.0, AREA_LIGHT_LARGEST_RADIUS));
-    let largest = vec2f(clamp(light.largest_radius, 0.0, AREA_LIGHT_LARGEST_RADIUS));
-    return min(max(half_extent, smallest), largest);
-}
-
-// The radii in texels of an elliptic filter that stands for the light.
-fn area_light_disk(light: AreaLight, blocker_depth: f32, receiver_depth: f32) -> vec2f {
-    let shape = select(1.0, AREA_LIGHT_DISK_OF_BOX, light.rectangular != 0u);
-    return area_light_limited(light, shape * area_light_half_extent(light, blocker_depth, receiver_depth));
-}
-
-// The half widths in texels of a box filter that stands for the light.
-fn area_light_box(light: AreaLight, blocker_depth: f32, receiver_depth: f32) -> vec2f {
-    let shape = select(AREA_LIGHT_BOX_OF_DISK, 1.0, light.rectangular != 0u);
-    return area_light_limited(light, shape * area_light_half_extent(light, blocker_depth, receiver_depth));
-}
 
 // moment_shadows/shade/receiver_bias.wgsl
 // Receiver bias: how far the fragment depth moves towards the light so that a surface does not shadow itself.
@@ -356,19 +247,6 @@ fn receiver_bias_plane(difference_x: vec3f, difference_y: vec3f) -> vec2f {
     return clamp(scaled / determinant, vec2f(-RECEIVER_BIAS_EDGE_ON), vec2f(RECEIVER_BIAS_EDGE_ON));
 }
 
-// The length of that gradient.
-fn receiver_bias_gradient(difference_x: vec3f, difference_y: vec3f) -> f32 {
-    return length(receiver_bias_plane(difference_x, difference_y));
-}
-
-// The same from the cosine between surface normal and direction to the light: `depth_per_texel` is the moment depth
-// of one texel's width, along the light's axis.
-fn receiver_bias_gradient_from_cosine(cosine: f32, depth_per_texel: f32) -> f32 {
-    let c = clamp(cosine, 0.0, 1.0);
-    let sine = sqrt(max(1.0 - c * c, 0.0));
-    return depth_per_texel * sine / max(c, 1e-6);
-}
-
 // The receiver bias in moment depth, to be subtracted from the fragment depth.
 fn receiver_bias_depth(bias: ReceiverBias, gradient: f32) -> f32 {
     return clamp(fma(bias.slope_scale, gradient, bias.constant), 0.0, bias.maximum);
@@ -385,21 +263,6 @@ fn receiver_bias_depth_minified(bias: ReceiverBias, gradient: f32, variance: f32
     return max(bias.constant + min(deviation, max(limit, 0.0)), 0.0);
 }
 
-// The part of the bias that grows with the slope, under a kernel with the standard deviation `deviation` in texels along x
-// and y, on a plane with the gradient of moment depth per texel; that counts up to the length `steepest`.
-fn receiver_bias_depth_of_kernel(gradient: vec2f, deviation: vec2f, steepest: f32) -> f32 {
-    let full = clamp(gradient, vec2f(-RECEIVER_BIAS_EDGE_ON), vec2f(RECEIVER_BIAS_EDGE_ON));
-    let steepness = length(full);
-    let limited = full * min(max(steepest, 0.0) / max(steepness, 1e-30), 1.0);
-    return RECEIVER_BIAS_STANDARD_DEVIATIONS * length(limited * deviation);
-}
-
-// The position, in scene units, at which to look the map up when the receiver moves along its normal: the offset
-// grows with the sine of the angle between normal and light (`cosine` > 0 faces the light).
-fn receiver_bias_offset_position(bias: ReceiverBias, position: vec3f, normal: vec3f, cosine: f32) -> vec3f {
-    let c = clamp(cosine, -1.0, 1.0);
-    return fma(vec3f(bias.normal_offset * sqrt(max(1.0 - c * c, 0.0))), normal, position);
-}
 
 // specialization
 const GROUP = 0;
@@ -407,10 +270,10 @@ const LEVELS = 1u;
 const VIEWS = 1u;
 const LIGHTS = 1u;
 const ANISOTROPY = 8.0;
-const PLANES = 1u;
+
 const STORAGE = 2u;
 const EXPONENT = f32(80.0);
-const LOGARITHMIC = true;
+
 
 // moment_shadows/map/storage.wgsl
 // Storages: how the channels of a texel lie in memory, whatever they mean.
@@ -418,50 +281,12 @@ const LOGARITHMIC = true;
 // Every technique filters linearly and writes after each filter, so each write is a rounding error that its bound has to
 // cover. Nothing here depends on a technique: how one spreads its quantities over the range of a storage is its own.
 
-// Storages, as a shader's specialisation names them.
-const STORAGE_UNORM16: u32 = 0u;
 const STORAGE_FLOAT16: u32 = 1u;
 const STORAGE_FLOAT32: u32 = 2u;
-const STORAGE_UNORM8: u32 = 3u;
-// Sums of channels as unorm16 has them; see `summed_area_encoding`.
-const STORAGE_FIXED32: u32 = 4u;
-// Three channels to a texel, in maps that are drawn.
-const STORAGE_UNORM10: u32 = 5u;
-
-// The largest finite float16.
-const STORAGE_LARGEST_FLOAT16: f32 = 65504.0;
 
 // Whether the channels of the storage are floats, which can be anything, rather than numbers in [0, 1].
 fn storage_is_float(storage: u32) -> bool {
     return storage == STORAGE_FLOAT16 || storage == STORAGE_FLOAT32;
-}
-
-// The nearest float16 of each component, ties to even, for |value| <= 65504. A driver may truncate when it stores to a
-// float16 texture, which would double the rounding error that a bound has to cover.
-fn storage_round_to_float16(value: vec4f) -> vec4f {
-    let bits = bitcast<vec4u>(value);
-    // 13 of 23 mantissa bits go; adding just under half a unit, plus the last kept bit, rounds ties to even.
-    let rounded = bitcast<vec4f>((bits + 0xfffu + ((bits >> vec4u(13u)) & vec4u(1u))) & vec4u(0xffffe000u));
-    // Below 2^-14 float16 is a fixed-point format with a step of 2^-24.
-    let small = round(value * 0x1p24) * 0x1p-24;
-    return select(rounded, small, abs(value) < vec4f(0x1p-14));
-}
-
-// What to draw so that a target of 10 bits per channel holds the nearest number to each component, for any finite value. A driver
-// may round down, or round to 16 bits and drop the last six (lavapipe does): a little above that number they give it all the same.
-fn storage_round_to_unorm10(value: vec4f) -> vec4f {
-    return (round(saturate(value) * 1023.0) + 0x1p-8) / 1023.0;
-}
-
-// A filtered combination of texels, as it has to be written back to the same storage.
-fn storage_round_texel(texel: vec4f, storage: u32) -> vec4f {
-    if storage == STORAGE_FLOAT16 {
-        return storage_round_to_float16(texel);
-    }
-    if storage == STORAGE_UNORM10 {
-        return storage_round_to_unorm10(texel);
-    }
-    return texel;
 }
 
 // A texel in which channels that are NaN or infinite count as 0, found by their bits since a compiler may assume that
@@ -496,9 +321,6 @@ fn storage_finite_texel(texel: vec4f, storage: u32) -> vec4f {
 //   float16, logarithmic: v is off by 3 / 2^12, so c <= 0.01 2^12 / 3 = 13.65
 //   unorm16, logarithmic: v is off by 3 / 2^16; the range of float32 asks for more
 const EXPONENTIAL_LARGEST_EXPONENT: f32 = 87.0;
-const EXPONENTIAL_LARGEST_EXPONENT_FLOAT16: f32 = 9.7;
-const EXPONENTIAL_LARGEST_EXPONENT_UNORM16: f32 = 3.0;
-const EXPONENTIAL_LARGEST_EXPONENT_FLOAT16_LOGARITHMIC: f32 = 13.6;
 
 // Below this exponent log(mean) / c loses digits, and there is hardly a shadow.
 const EXPONENTIAL_SMALLEST_EXPONENT: f32 = 1.0;
@@ -506,40 +328,9 @@ const EXPONENTIAL_SMALLEST_EXPONENT: f32 = 1.0;
 // A normal number below e^-87.
 const EXPONENTIAL_SMALLEST_MEAN: f32 = 1.2e-38;
 
-// The largest exponent of a storage.
-fn exponential_largest_exponent(storage: u32, logarithmic: bool) -> f32 {
-    if storage == STORAGE_FLOAT16 {
-        return select(EXPONENTIAL_LARGEST_EXPONENT_FLOAT16, EXPONENTIAL_LARGEST_EXPONENT_FLOAT16_LOGARITHMIC, logarithmic);
-    }
-    let plain_unorm = !logarithmic && storage != STORAGE_FLOAT32;
-    return select(EXPONENTIAL_LARGEST_EXPONENT, EXPONENTIAL_LARGEST_EXPONENT_UNORM16, plain_unorm);
-}
-
 // The exponent as all functions here take it: everything stays finite.
 fn exponential_exponent(exponent: f32) -> f32 {
     return clamp(exponent, EXPONENTIAL_SMALLEST_EXPONENT, EXPONENTIAL_LARGEST_EXPONENT);
-}
-
-// What is averaged for a depth z in [-1, 1], in x.
-fn exponential_channels(z: f32, exponent: f32) -> vec4f {
-    return vec4f(exp(exponential_exponent(exponent) * z), 0.0, 0.0, 0.0);
-}
-
-// What to write for averaged channels, in x. Unorm storage holds e^(c (z - 1)), or (v + 1) / 2.
-fn exponential_to_texel(channels: vec4f, storage: u32, exponent: f32, logarithmic: bool) -> vec4f {
-    let c = exponential_exponent(exponent);
-    let mean = max(channels.x, EXPONENTIAL_SMALLEST_MEAN);
-    var value = mean;
-    if logarithmic {
-        value = clamp(log(mean) / c, -1.0, 1.0);
-        value = select(fma(0.5, value, 0.5), value, storage_is_float(storage));
-    } else if !storage_is_float(storage) {
-        value = saturate(mean * exp(-c));
-    }
-    if storage == STORAGE_FLOAT16 {
-        value = storage_round_to_float16(vec4f(min(value, STORAGE_LARGEST_FLOAT16))).x;
-    }
-    return vec4f(value, 0.0, 0.0, 0.0);
 }
 
 // v in [-1, 1] of a logarithmic texel.
@@ -566,65 +357,6 @@ fn exponential_shadow_intensity(mean: f32, fragment_depth: f32, exponent: f32, s
     return saturate(1.0 - clamp(mean, 0.0, own) / own);
 }
 
-// Shadow intensity in [0, 1] (1 = shadowed) of a fragment at `fragment_depth` under a filtered texel: a lower bound.
-fn exponential_shadow_intensity_of_texel(
-    texel: vec4f,
-    fragment_depth: f32,
-    storage: u32,
-    exponent: f32,
-    logarithmic: bool,
-) -> f32 {
-    if logarithmic {
-        let distance = exponential_logarithm_of_texel(texel, storage) - depth_of_fragment(fragment_depth);
-        return saturate(1.0 - exp(exponential_exponent(exponent) * min(distance, 0.0)));
-    }
-    let shift = select(1.0, 0.0, storage_is_float(storage));
-    return exponential_shadow_intensity(storage_finite_texel(texel, storage).x, fragment_depth, exponent, shift);
-}
-
-// moment_shadows/map/map_load.wgsl
-
-// Lookups in a map that a device cannot filter, and where a sampler would read across the edge of a region: bilinear,
-// trilinear, averaged over a footprint. `uv`, `levels` and regions are those of `map_lookup`.
-//
-// Texels are loaded and blended here, in f32, while hardware may use weights of as few as 8 bits. Blending texels of moments
-// is a convex combination, so it keeps moments valid.
-
-// The bilinearly filtered texel on one mip level. `uv` is finite; values outside [0, 1] count as the nearer edge.
-fn map_load_bilinear(map: texture_2d_array<f32>, layer: u32, region: MapRegion, uv: vec2f, level: u32) -> vec4f {
-    let rectangle = map_region_at_level(region, level);
-    let place = map_region_place(rectangle, uv) - 0.5;
-    let base = floor(place);
-    let weight = place - base;
-    let low = vec2i(base);
-    let high = min(low + 1, vec2i(rectangle.origin + rectangle.extent) - 1);
-    let top = mix(textureLoad(map, low, layer, level), textureLoad(map, vec2i(high.x, low.y), layer, level), weight.x);
-    let bottom = mix(textureLoad(map, vec2i(low.x, high.y), layer, level), textureLoad(map, high, layer, level), weight.x);
-    return mix(top, bottom, weight.y);
-}
-
-// The same, blended between the two mip levels next to `level` >= 0, as far as the region has texels there.
-fn map_load_trilinear(map: texture_2d_array<f32>, layer: u32, region: MapRegion, levels: u32, uv: vec2f, level: f32) -> vec4f {
-    let last = map_region_last_level(region, levels);
-    let fine = min(u32(clamp(level, 0.0, 31.0)), last);
-    let texel = map_load_bilinear(map, layer, region, uv, fine);
-    let blend = level - f32(fine);
-    if fine == last || blend <= 0.0 {
-        return texel;
-    }
-    return mix(texel, map_load_bilinear(map, layer, region, uv, fine + 1u), blend);
-}
-
-// The average over a footprint around `uv`: trilinear probes along its major axis.
-fn map_load_footprint(map: texture_2d_array<f32>, layer: u32, region: MapRegion, levels: u32, uv: vec2f, footprint: MinificationFootprint) -> vec4f {
-    let per_texel = 1.0 / max(vec2f(region.extent), vec2f(1.0));
-    var sum = vec4f(0.0);
-    for (var probe = 0.0; probe < footprint.probes; probe += 1.0) {
-        let probe_uv = uv + minification_probe(footprint, probe) * per_texel;
-        sum += map_load_trilinear(map, layer, region, levels, probe_uv, footprint.level);
-    }
-    return sum / footprint.probes;
-}
 
 // moments_lookup
 
@@ -632,14 +364,6 @@ fn map_load_footprint(map: texture_2d_array<f32>, layer: u32, region: MapRegion,
 
 @group(GROUP) @binding(2) var moments_map: texture_2d_array<f32>;
 
-// The texel at `uv` in [0, 1] across a region, filtered over a pixel with these differences of place to its neighbours.
-fn moments_lookup(layer: u32, region: MapRegion, uv: vec2f, difference_x: vec2f, difference_y: vec2f) -> vec4f {
-    if LEVELS == 1u {
-        return map_load_bilinear(moments_map, layer, region, uv, 0u);
-    }
-    let footprint = minification_footprint(difference_x, difference_y, ANISOTROPY);
-    return map_load_footprint(moments_map, layer, region, LEVELS, uv, footprint);
-}
 
 // technique_receiver
 

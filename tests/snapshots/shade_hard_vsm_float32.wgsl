@@ -38,24 +38,9 @@ struct DepthConversion {
     padding: vec2f,
 }
 
-// The smallest denominator: the far end of an infinite projection divides by zero.
-const DEPTH_SMALLEST_DENOMINATOR: f32 = 1e-30;
-
-// The moment depth of a light with parallel rays.
-const DEPTH_INFINITELY_FAR: f32 = -1e30;
-
 // Whether `value` is NaN, by its bits: WGSL lets a compiler assume that no NaN occurs, so `value != value` may be folded.
 fn depth_is_nan(value: f32) -> bool {
     return (bitcast<u32>(value) & 0x7fffffffu) > 0x7f800000u;
-}
-
-// Moment depth in [-1, 1] of a stored depth. NaN counts as the far end (no caster), infinities and values out of
-// range as the nearer end of the interval.
-fn depth_to_moment_depth(stored: f32, conversion: DepthConversion) -> f32 {
-    let d = clamp(fma(clamp(stored, -3e38, 3e38), conversion.scale, conversion.offset), 0.0, 1.0);
-    let ends = vec2f(1.0 - d, d);
-    let ratio = dot(ends, conversion.numerator) / max(dot(ends, conversion.denominator), DEPTH_SMALLEST_DENOMINATOR);
-    return select(clamp(ratio, -1.0, 1.0), 1.0, depth_is_nan(stored));
 }
 
 // The depth of a fragment in [-1, 1]: beyond the light's range it counts as the nearer end, and NaN as the near end, where
@@ -64,31 +49,6 @@ fn depth_of_fragment(fragment_depth: f32) -> f32 {
     return select(clamp(fragment_depth, -1.0, 1.0), -1.0, depth_is_nan(fragment_depth));
 }
 
-// The stored depth of a moment depth: the inverse of the above, as the reference value of a comparison sampler. Moment
-// depths that the stored interval does not reach count as its nearer end, NaN as the far end.
-fn depth_from_moment_depth(moment_depth: f32, conversion: DepthConversion) -> f32 {
-    let z = select(clamp(moment_depth, -1.0, 1.0), 1.0, depth_is_nan(moment_depth));
-    let numerator = conversion.numerator;
-    let denominator = conversion.denominator;
-    // The weights d and 1 - d of the two ends, up to a factor that is positive where depth is stored from near to far.
-    let weights = vec2f(fma(z, denominator.x, -numerator.x), fma(-z, denominator.y, numerator.y));
-    let reversed = numerator.y * denominator.x < numerator.x * denominator.y;
-    let positive = max(select(weights, -weights, reversed), vec2f(0.0));
-    let d = positive.x / max(positive.x + positive.y, DEPTH_SMALLEST_DENOMINATOR);
-    let scale = select(max(conversion.scale, DEPTH_SMALLEST_DENOMINATOR), min(conversion.scale, -DEPTH_SMALLEST_DENOMINATOR), conversion.scale < 0.0);
-    return clamp((d - conversion.offset) / scale, -3e38, 3e38);
-}
-
-// The moment depth of a light's own place, below -1; DEPTH_INFINITELY_FAR where the stored depth is linear, as parallel rays
-// have it.
-fn depth_of_light(conversion: DepthConversion) -> f32 {
-    // A perspective conversion tends to it where d grows without bounds.
-    let divisor = conversion.denominator.y - conversion.denominator.x;
-    if abs(divisor) < DEPTH_SMALLEST_DENOMINATOR {
-        return DEPTH_INFINITELY_FAR;
-    }
-    return clamp((conversion.numerator.y - conversion.numerator.x) / divisor, DEPTH_INFINITELY_FAR, -1.0);
-}
 
 // moment_shadows/shade/leak_reduction.wgsl
 // Light leaking, reduced after the bound: none of this touches the moments.
@@ -225,15 +185,6 @@ fn minification_probe(footprint: MinificationFootprint, index: f32) -> vec2f {
     return ((index + 0.5) / footprint.probes - 0.5) * footprint.major;
 }
 
-// The two axes of a footprint as the differences of place, in texels, that make a sampler with anisotropy take just these
-// probes: x is the column of the line, at least as long as the other one.
-fn minification_gradients(footprint: MinificationFootprint) -> mat2x2f {
-    let texel = exp2(footprint.level);
-    let line = length(footprint.major);
-    let unit = select(vec2f(1.0, 0.0), footprint.major / max(line, 1e-6), line >= 1e-3);
-    return mat2x2f(unit * max(line, texel), vec2f(-unit.y, unit.x) * texel);
-}
-
 // The variance that minification adds to the moment depths of a plane, whose moment depth changes by `gradient` per texel:
 // that of the probes' trilinear lookups, and that of the line they lie on. Between two levels the mixture of both has at
 // most 1.13 times the variance of the level between them.
@@ -269,46 +220,6 @@ struct AreaLight {
     rectangular: u32,
 }
 
-// The largest half width in texels.
-const AREA_LIGHT_LARGEST_RADIUS: f32 = 4096.0;
-
-// A box of half width h has the variance h^2 / 3 along an axis, a disk of radius r r^2 / 4: half widths of a box, of which
-// the disk's radius is 1, and the reverse.
-const AREA_LIGHT_BOX_OF_DISK: f32 = 0.8660254;
-const AREA_LIGHT_DISK_OF_BOX: f32 = 1.1547005;
-
-// Half the light's width and height in texels as a receiver sees it through a blocker, projected onto the map. Both depths
-// are moment depths; 0 for a blocker that is not in front.
-fn area_light_half_extent(light: AreaLight, blocker_depth: f32, receiver_depth: f32) -> vec2f {
-    let ends = clamp(vec2f(blocker_depth, receiver_depth), vec2f(-1.0), vec2f(1.0));
-    let distances = clamp(mix(vec2f(light.near), vec2f(light.far), 0.5 * ends + 0.5), vec2f(-1e15), vec2f(1e15));
-    var apart = distances.y - distances.x;
-    if light.perspective != 0u {
-        // 1 / near - 1 / far as one quotient keeps its digits.
-        let positive = max(distances, vec2f(1e-9));
-        apart = apart / (positive.x * positive.y);
-    }
-    return 0.5 * clamp(light.size, vec2f(0.0), vec2f(1e15)) * clamp(apart, 0.0, 1e18);
-}
-
-// Half widths in texels between the light's smallest and largest one.
-fn area_light_limited(light: AreaLight, half_extent: vec2f) -> vec2f {
-    let smallest = vec2f(clamp(light.smallest_radius, 0.0, AREA_LIGHT_LARGEST_RADIUS));
-    let largest = vec2f(clamp(light.largest_radius, 0.0, AREA_LIGHT_LARGEST_RADIUS));
-    return min(max(half_extent, smallest), largest);
-}
-
-// The radii in texels of an elliptic filter that stands for the light.
-fn area_light_disk(light: AreaLight, blocker_depth: f32, receiver_depth: f32) -> vec2f {
-    let shape = select(1.0, AREA_LIGHT_DISK_OF_BOX, light.rectangular != 0u);
-    return area_light_limited(light, shape * area_light_half_extent(light, blocker_depth, receiver_depth));
-}
-
-// The half widths in texels of a box filter that stands for the light.
-fn area_light_box(light: AreaLight, blocker_depth: f32, receiver_depth: f32) -> vec2f {
-    let shape = select(AREA_LIGHT_BOX_OF_DISK, 1.0, light.rectangular != 0u);
-    return area_light_limited(light, shape * area_light_half_extent(light, blocker_depth, receiver_depth));
-}
 
 // moment_shadows/shade/receiver_bias.wgsl
 // Receiver bias: how far the fragment depth moves towards the light so that a surface does not shadow itself.
@@ -356,19 +267,6 @@ fn receiver_bias_plane(difference_x: vec3f, difference_y: vec3f) -> vec2f {
     return clamp(scaled / determinant, vec2f(-RECEIVER_BIAS_EDGE_ON), vec2f(RECEIVER_BIAS_EDGE_ON));
 }
 
-// The length of that gradient.
-fn receiver_bias_gradient(difference_x: vec3f, difference_y: vec3f) -> f32 {
-    return length(receiver_bias_plane(difference_x, difference_y));
-}
-
-// The same from the cosine between surface normal and direction to the light: `depth_per_texel` is the moment depth
-// of one texel's width, along the light's axis.
-fn receiver_bias_gradient_from_cosine(cosine: f32, depth_per_texel: f32) -> f32 {
-    let c = clamp(cosine, 0.0, 1.0);
-    let sine = sqrt(max(1.0 - c * c, 0.0));
-    return depth_per_texel * sine / max(c, 1e-6);
-}
-
 // The receiver bias in moment depth, to be subtracted from the fragment depth.
 fn receiver_bias_depth(bias: ReceiverBias, gradient: f32) -> f32 {
     return clamp(fma(bias.slope_scale, gradient, bias.constant), 0.0, bias.maximum);
@@ -385,21 +283,6 @@ fn receiver_bias_depth_minified(bias: ReceiverBias, gradient: f32, variance: f32
     return max(bias.constant + min(deviation, max(limit, 0.0)), 0.0);
 }
 
-// The part of the bias that grows with the slope, under a kernel with the standard deviation `deviation` in texels along x
-// and y, on a plane with the gradient of moment depth per texel; that counts up to the length `steepest`.
-fn receiver_bias_depth_of_kernel(gradient: vec2f, deviation: vec2f, steepest: f32) -> f32 {
-    let full = clamp(gradient, vec2f(-RECEIVER_BIAS_EDGE_ON), vec2f(RECEIVER_BIAS_EDGE_ON));
-    let steepness = length(full);
-    let limited = full * min(max(steepest, 0.0) / max(steepness, 1e-30), 1.0);
-    return RECEIVER_BIAS_STANDARD_DEVIATIONS * length(limited * deviation);
-}
-
-// The position, in scene units, at which to look the map up when the receiver moves along its normal: the offset
-// grows with the sine of the angle between normal and light (`cosine` > 0 faces the light).
-fn receiver_bias_offset_position(bias: ReceiverBias, position: vec3f, normal: vec3f, cosine: f32) -> vec3f {
-    let c = clamp(cosine, -1.0, 1.0);
-    return fma(vec3f(bias.normal_offset * sqrt(max(1.0 - c * c, 0.0))), normal, position);
-}
 
 // specialization
 const GROUP = 0;
@@ -508,50 +391,12 @@ fn map_texel(receiver: TechniqueReceiver, plane: u32) -> vec4f {
 // Every technique filters linearly and writes after each filter, so each write is a rounding error that its bound has to
 // cover. Nothing here depends on a technique: how one spreads its quantities over the range of a storage is its own.
 
-// Storages, as a shader's specialisation names them.
-const STORAGE_UNORM16: u32 = 0u;
 const STORAGE_FLOAT16: u32 = 1u;
 const STORAGE_FLOAT32: u32 = 2u;
-const STORAGE_UNORM8: u32 = 3u;
-// Sums of channels as unorm16 has them; see `summed_area_encoding`.
-const STORAGE_FIXED32: u32 = 4u;
-// Three channels to a texel, in maps that are drawn.
-const STORAGE_UNORM10: u32 = 5u;
-
-// The largest finite float16.
-const STORAGE_LARGEST_FLOAT16: f32 = 65504.0;
 
 // Whether the channels of the storage are floats, which can be anything, rather than numbers in [0, 1].
 fn storage_is_float(storage: u32) -> bool {
     return storage == STORAGE_FLOAT16 || storage == STORAGE_FLOAT32;
-}
-
-// The nearest float16 of each component, ties to even, for |value| <= 65504. A driver may truncate when it stores to a
-// float16 texture, which would double the rounding error that a bound has to cover.
-fn storage_round_to_float16(value: vec4f) -> vec4f {
-    let bits = bitcast<vec4u>(value);
-    // 13 of 23 mantissa bits go; adding just under half a unit, plus the last kept bit, rounds ties to even.
-    let rounded = bitcast<vec4f>((bits + 0xfffu + ((bits >> vec4u(13u)) & vec4u(1u))) & vec4u(0xffffe000u));
-    // Below 2^-14 float16 is a fixed-point format with a step of 2^-24.
-    let small = round(value * 0x1p24) * 0x1p-24;
-    return select(rounded, small, abs(value) < vec4f(0x1p-14));
-}
-
-// What to draw so that a target of 10 bits per channel holds the nearest number to each component, for any finite value. A driver
-// may round down, or round to 16 bits and drop the last six (lavapipe does): a little above that number they give it all the same.
-fn storage_round_to_unorm10(value: vec4f) -> vec4f {
-    return (round(saturate(value) * 1023.0) + 0x1p-8) / 1023.0;
-}
-
-// A filtered combination of texels, as it has to be written back to the same storage.
-fn storage_round_texel(texel: vec4f, storage: u32) -> vec4f {
-    if storage == STORAGE_FLOAT16 {
-        return storage_round_to_float16(texel);
-    }
-    if storage == STORAGE_UNORM10 {
-        return storage_round_to_unorm10(texel);
-    }
-    return texel;
 }
 
 // A texel in which channels that are NaN or infinite count as 0, found by their bits since a compiler may assume that
@@ -581,25 +426,6 @@ fn storage_finite_texel(texel: vec4f, storage: u32) -> vec4f {
 const TWO_MOMENTS_SMALLEST_VARIANCE_UNORM16: f32 = 6e-5;
 const TWO_MOMENTS_SMALLEST_VARIANCE_FLOAT16: f32 = 1e-3;
 const TWO_MOMENTS_SMALLEST_VARIANCE_FLOAT32: f32 = 5e-7;
-
-// What is averaged for a depth z in [-1, 1]: its powers.
-fn two_moments_from_depth(z: f32) -> vec4f {
-    return vec4f(z, z * z, 0.0, 0.0);
-}
-
-// What to write for averaged channels. In unorm16 the optimised basis of two moments (r, g) = (u1, 4 u1 - 4 u2), with u the
-// moments of (z + 1) / 2 (i3D 2015, section 3.2), which fills the unit square and in terms of z is simply
-// ((b1 + 1) / 2, 1 - b2). In float16 the same less one half, around which half precision is finest. In float32 b itself.
-fn two_moments_to_texel(channels: vec4f, storage: u32) -> vec4f {
-    if storage == STORAGE_FLOAT32 {
-        return channels;
-    }
-    let optimised = saturate(fma(vec4f(0.5, -1.0, 0.5, -1.0), channels, vec4f(0.5, 1.0, 0.5, 1.0)));
-    if storage == STORAGE_FLOAT16 {
-        return storage_round_to_float16(optimised - 0.5);
-    }
-    return optimised;
-}
 
 // The moments in a (filtered) texel, both pairs, in their ranges whatever the texel holds.
 fn two_moments_from_texel(texel: vec4f, storage: u32) -> vec4f {
@@ -640,11 +466,6 @@ fn chebyshev_lower_bound(moments: vec2f, fragment_depth: f32, smallest_variance:
     let distance = max(fragment_depth - moments.x, 0.0);
     let square = distance * distance;
     return square / (variance + square);
-}
-
-// sup S(z <= fragment_depth) likewise; 1 exactly for fragments that are not in front of the mean.
-fn chebyshev_upper_bound(moments: vec2f, fragment_depth: f32, smallest_variance: f32) -> f32 {
-    return 1.0 - chebyshev_lower_bound(vec2f(-moments.x, moments.y), -fragment_depth, smallest_variance);
 }
 
 // Shadow intensity in [0, 1] (1 = shadowed) of a fragment at `fragment_depth` under a filtered texel: a lower bound.

@@ -38,57 +38,6 @@ struct DepthConversion {
     padding: vec2f,
 }
 
-// The smallest denominator: the far end of an infinite projection divides by zero.
-const DEPTH_SMALLEST_DENOMINATOR: f32 = 1e-30;
-
-// The moment depth of a light with parallel rays.
-const DEPTH_INFINITELY_FAR: f32 = -1e30;
-
-// Whether `value` is NaN, by its bits: WGSL lets a compiler assume that no NaN occurs, so `value != value` may be folded.
-fn depth_is_nan(value: f32) -> bool {
-    return (bitcast<u32>(value) & 0x7fffffffu) > 0x7f800000u;
-}
-
-// Moment depth in [-1, 1] of a stored depth. NaN counts as the far end (no caster), infinities and values out of
-// range as the nearer end of the interval.
-fn depth_to_moment_depth(stored: f32, conversion: DepthConversion) -> f32 {
-    let d = clamp(fma(clamp(stored, -3e38, 3e38), conversion.scale, conversion.offset), 0.0, 1.0);
-    let ends = vec2f(1.0 - d, d);
-    let ratio = dot(ends, conversion.numerator) / max(dot(ends, conversion.denominator), DEPTH_SMALLEST_DENOMINATOR);
-    return select(clamp(ratio, -1.0, 1.0), 1.0, depth_is_nan(stored));
-}
-
-// The depth of a fragment in [-1, 1]: beyond the light's range it counts as the nearer end, and NaN as the near end, where
-// every lower bound is 0.
-fn depth_of_fragment(fragment_depth: f32) -> f32 {
-    return select(clamp(fragment_depth, -1.0, 1.0), -1.0, depth_is_nan(fragment_depth));
-}
-
-// The stored depth of a moment depth: the inverse of the above, as the reference value of a comparison sampler. Moment
-// depths that the stored interval does not reach count as its nearer end, NaN as the far end.
-fn depth_from_moment_depth(moment_depth: f32, conversion: DepthConversion) -> f32 {
-    let z = select(clamp(moment_depth, -1.0, 1.0), 1.0, depth_is_nan(moment_depth));
-    let numerator = conversion.numerator;
-    let denominator = conversion.denominator;
-    // The weights d and 1 - d of the two ends, up to a factor that is positive where depth is stored from near to far.
-    let weights = vec2f(fma(z, denominator.x, -numerator.x), fma(-z, denominator.y, numerator.y));
-    let reversed = numerator.y * denominator.x < numerator.x * denominator.y;
-    let positive = max(select(weights, -weights, reversed), vec2f(0.0));
-    let d = positive.x / max(positive.x + positive.y, DEPTH_SMALLEST_DENOMINATOR);
-    let scale = select(max(conversion.scale, DEPTH_SMALLEST_DENOMINATOR), min(conversion.scale, -DEPTH_SMALLEST_DENOMINATOR), conversion.scale < 0.0);
-    return clamp((d - conversion.offset) / scale, -3e38, 3e38);
-}
-
-// The moment depth of a light's own place, below -1; DEPTH_INFINITELY_FAR where the stored depth is linear, as parallel rays
-// have it.
-fn depth_of_light(conversion: DepthConversion) -> f32 {
-    // A perspective conversion tends to it where d grows without bounds.
-    let divisor = conversion.denominator.y - conversion.denominator.x;
-    if abs(divisor) < DEPTH_SMALLEST_DENOMINATOR {
-        return DEPTH_INFINITELY_FAR;
-    }
-    return clamp((conversion.numerator.y - conversion.numerator.x) / divisor, DEPTH_INFINITELY_FAR, -1.0);
-}
 
 // moment_shadows/shade/leak_reduction.wgsl
 // Light leaking, reduced after the bound: none of this touches the moments.
@@ -142,27 +91,6 @@ fn map_region_within(region: MapRegion, size: vec2u) -> MapRegion {
     return MapRegion(origin, min(region.extent, size - origin));
 }
 
-// A region of a map (within it) on mip level `level`, below 32.
-fn map_region_at_level(region: MapRegion, level: u32) -> MapRegion {
-    let origin = region.origin >> vec2u(level);
-    return MapRegion(origin, ((region.origin + region.extent) >> vec2u(level)) - origin);
-}
-
-// The coarsest of `levels` mip levels on which a region still has texels.
-fn map_region_last_level(region: MapRegion, levels: u32) -> u32 {
-    var level = max(levels, 1u) - 1u;
-    while level > 0u && any(map_region_at_level(region, level).extent == vec2u(0u)) {
-        level--;
-    }
-    return level;
-}
-
-// The place of `uv` (from 0 to 1 across the region) in texels of a region's mip level, kept half a texel away from its
-// edge: a bilinear filter there reads no other region.
-fn map_region_place(region_on_level: MapRegion, uv: vec2f) -> vec2f {
-    let extent = vec2f(region_on_level.extent);
-    return vec2f(region_on_level.origin) + clamp(uv * extent, vec2f(0.5), max(extent - 0.5, vec2f(0.5)));
-}
 
 // moment_shadows/map/minification.wgsl
 // Minification: what part of a map a pixel covers.
@@ -220,20 +148,6 @@ fn minification_footprint(difference_x: vec2f, difference_y: vec2f, anisotropy: 
     return MinificationFootprint(unit * line, clamp(ceil(line / texel - 1e-3), 1.0, largest), log2(texel));
 }
 
-// Where probe `index` lies on the major axis: the offset, in texels, from the footprint's centre.
-fn minification_probe(footprint: MinificationFootprint, index: f32) -> vec2f {
-    return ((index + 0.5) / footprint.probes - 0.5) * footprint.major;
-}
-
-// The two axes of a footprint as the differences of place, in texels, that make a sampler with anisotropy take just these
-// probes: x is the column of the line, at least as long as the other one.
-fn minification_gradients(footprint: MinificationFootprint) -> mat2x2f {
-    let texel = exp2(footprint.level);
-    let line = length(footprint.major);
-    let unit = select(vec2f(1.0, 0.0), footprint.major / max(line, 1e-6), line >= 1e-3);
-    return mat2x2f(unit * max(line, texel), vec2f(-unit.y, unit.x) * texel);
-}
-
 // The variance that minification adds to the moment depths of a plane, whose moment depth changes by `gradient` per texel:
 // that of the probes' trilinear lookups, and that of the line they lie on. Between two levels the mixture of both has at
 // most 1.13 times the variance of the level between them.
@@ -275,7 +189,6 @@ const AREA_LIGHT_LARGEST_RADIUS: f32 = 4096.0;
 // A box of half width h has the variance h^2 / 3 along an axis, a disk of radius r r^2 / 4: half widths of a box, of which
 // the disk's radius is 1, and the reverse.
 const AREA_LIGHT_BOX_OF_DISK: f32 = 0.8660254;
-const AREA_LIGHT_DISK_OF_BOX: f32 = 1.1547005;
 
 // Half the light's width and height in texels as a receiver sees it through a blocker, projected onto the map. Both depths
 // are moment depths; 0 for a blocker that is not in front.
@@ -296,12 +209,6 @@ fn area_light_limited(light: AreaLight, half_extent: vec2f) -> vec2f {
     let smallest = vec2f(clamp(light.smallest_radius, 0.0, AREA_LIGHT_LARGEST_RADIUS));
     let largest = vec2f(clamp(light.largest_radius, 0.0, AREA_LIGHT_LARGEST_RADIUS));
     return min(max(half_extent, smallest), largest);
-}
-
-// The radii in texels of an elliptic filter that stands for the light.
-fn area_light_disk(light: AreaLight, blocker_depth: f32, receiver_depth: f32) -> vec2f {
-    let shape = select(1.0, AREA_LIGHT_DISK_OF_BOX, light.rectangular != 0u);
-    return area_light_limited(light, shape * area_light_half_extent(light, blocker_depth, receiver_depth));
 }
 
 // The half widths in texels of a box filter that stands for the light.
@@ -356,19 +263,6 @@ fn receiver_bias_plane(difference_x: vec3f, difference_y: vec3f) -> vec2f {
     return clamp(scaled / determinant, vec2f(-RECEIVER_BIAS_EDGE_ON), vec2f(RECEIVER_BIAS_EDGE_ON));
 }
 
-// The length of that gradient.
-fn receiver_bias_gradient(difference_x: vec3f, difference_y: vec3f) -> f32 {
-    return length(receiver_bias_plane(difference_x, difference_y));
-}
-
-// The same from the cosine between surface normal and direction to the light: `depth_per_texel` is the moment depth
-// of one texel's width, along the light's axis.
-fn receiver_bias_gradient_from_cosine(cosine: f32, depth_per_texel: f32) -> f32 {
-    let c = clamp(cosine, 0.0, 1.0);
-    let sine = sqrt(max(1.0 - c * c, 0.0));
-    return depth_per_texel * sine / max(c, 1e-6);
-}
-
 // The receiver bias in moment depth, to be subtracted from the fragment depth.
 fn receiver_bias_depth(bias: ReceiverBias, gradient: f32) -> f32 {
     return clamp(fma(bias.slope_scale, gradient, bias.constant), 0.0, bias.maximum);
@@ -394,12 +288,6 @@ fn receiver_bias_depth_of_kernel(gradient: vec2f, deviation: vec2f, steepest: f3
     return RECEIVER_BIAS_STANDARD_DEVIATIONS * length(limited * deviation);
 }
 
-// The position, in scene units, at which to look the map up when the receiver moves along its normal: the offset
-// grows with the sine of the angle between normal and light (`cosine` > 0 faces the light).
-fn receiver_bias_offset_position(bias: ReceiverBias, position: vec3f, normal: vec3f, cosine: f32) -> vec3f {
-    let c = clamp(cosine, -1.0, 1.0);
-    return fma(vec3f(bias.normal_offset * sqrt(max(1.0 - c * c, 0.0))), normal, position);
-}
 
 // specialization
 const GROUP = 0;
@@ -413,63 +301,6 @@ const TABLE_ERROR = f32(4.918549e-7);
 const SEARCH_INTERPOLATED = false;
 const FILTER_INTERPOLATED = true;
 
-// moment_shadows/maths/hankel.wgsl
-// The shared factorisation: LDL^T of the Hankel matrix of four moments.
-//
-//       | 1  b1 b2 |
-//   B = | b1 b2 b3 |     B is positive semi-definite exactly if some distribution on the real line has these moments
-//       | b2 b3 b4 |     (Hamburger moment problem; Peters & Klein, i3D 2015, section 2.2 and Algorithm 3).
-//
-// Its pivots define the monic orthogonal polynomials of the distribution, with x = z - b1:
-//   P0 = 1,  P1(x) = x,  P2(x) = x (x - shift) - variance,
-// with squared norms 1, variance and residue. The roots of P2 are the two Gauss nodes.
-
-// The pivots of B and what the orthogonal polynomials need.
-struct HankelFactor {
-    // b2 - b1^2, the variance of z; positive.
-    variance: f32,
-    // The Schur complement of b4, the variance of z^2 that z does not explain; positive.
-    residue: f32,
-    // residue / variance.
-    ratio: f32,
-    // L32 - 2 b1, with L32 the slope of the regression of z^2 on z.
-    shift: f32,
-}
-
-// Pivots of valid moments stay above these multiples of the moment bias alpha, so the guards bind only where rounding
-// has left the pivots without a correct digit (or the moments are none). They also bound all that is divided by a pivot:
-// with alpha >= 1e-7 nothing below overflows on the way to a weight, whatever the moments.
-const HANKEL_SMALLEST_VARIANCE: f32 = 0.03;
-const HANKEL_SMALLEST_RESIDUE: f32 = 0.02;
-
-// Factorises the Hankel matrix of moments biased by `alpha` >= 1e-7. Moments must lie within [-2.1, 2.1].
-// The differences of products lose almost all digits near a single surface; `fma` keeps them where it is fused.
-fn hankel_factor(biased: vec4f, alpha: f32) -> HankelFactor {
-    let variance = max(fma(-biased.x, biased.x, biased.y), HANKEL_SMALLEST_VARIANCE * alpha);
-    // One division for all quotients.
-    let inverse = 1.0 / variance;
-    let covariance = fma(-biased.x, biased.y, biased.z);
-    let slope = covariance * inverse;
-    let residue = max(
-        fma(-covariance, slope, fma(-biased.y, biased.y, biased.w)),
-        HANKEL_SMALLEST_RESIDUE * alpha,
-    );
-    return HankelFactor(variance, residue, residue * inverse, fma(-2.0, biased.x, slope));
-}
-
-// P2 at x = z - b1. Negative exactly between the Gauss nodes.
-fn hankel_second_polynomial(factor: HankelFactor, x: f32) -> f32 {
-    return fma(x, x - factor.shift, -factor.variance);
-}
-
-// The Christoffel number of x = z - b1, 1 / (1 + x^2 / variance + P2^2 / residue): the largest weight that a distribution
-// with these moments can have at z, which is the weight that the extremal distribution through z has there. A sum of
-// positive terms, here times the residue: nothing cancels.
-fn hankel_christoffel_number(factor: HankelFactor, x: f32, second_polynomial: f32) -> f32 {
-    let x_term = fma(x * factor.ratio, x, factor.residue);
-    return factor.residue / fma(second_polynomial, second_polynomial, x_term);
-}
-
 // moment_shadows/map/storage.wgsl
 // Storages: how the channels of a texel lie in memory, whatever they mean.
 //
@@ -480,46 +311,10 @@ fn hankel_christoffel_number(factor: HankelFactor, x: f32, second_polynomial: f3
 const STORAGE_UNORM16: u32 = 0u;
 const STORAGE_FLOAT16: u32 = 1u;
 const STORAGE_FLOAT32: u32 = 2u;
-const STORAGE_UNORM8: u32 = 3u;
-// Sums of channels as unorm16 has them; see `summed_area_encoding`.
-const STORAGE_FIXED32: u32 = 4u;
-// Three channels to a texel, in maps that are drawn.
-const STORAGE_UNORM10: u32 = 5u;
-
-// The largest finite float16.
-const STORAGE_LARGEST_FLOAT16: f32 = 65504.0;
 
 // Whether the channels of the storage are floats, which can be anything, rather than numbers in [0, 1].
 fn storage_is_float(storage: u32) -> bool {
     return storage == STORAGE_FLOAT16 || storage == STORAGE_FLOAT32;
-}
-
-// The nearest float16 of each component, ties to even, for |value| <= 65504. A driver may truncate when it stores to a
-// float16 texture, which would double the rounding error that a bound has to cover.
-fn storage_round_to_float16(value: vec4f) -> vec4f {
-    let bits = bitcast<vec4u>(value);
-    // 13 of 23 mantissa bits go; adding just under half a unit, plus the last kept bit, rounds ties to even.
-    let rounded = bitcast<vec4f>((bits + 0xfffu + ((bits >> vec4u(13u)) & vec4u(1u))) & vec4u(0xffffe000u));
-    // Below 2^-14 float16 is a fixed-point format with a step of 2^-24.
-    let small = round(value * 0x1p24) * 0x1p-24;
-    return select(rounded, small, abs(value) < vec4f(0x1p-14));
-}
-
-// What to draw so that a target of 10 bits per channel holds the nearest number to each component, for any finite value. A driver
-// may round down, or round to 16 bits and drop the last six (lavapipe does): a little above that number they give it all the same.
-fn storage_round_to_unorm10(value: vec4f) -> vec4f {
-    return (round(saturate(value) * 1023.0) + 0x1p-8) / 1023.0;
-}
-
-// A filtered combination of texels, as it has to be written back to the same storage.
-fn storage_round_texel(texel: vec4f, storage: u32) -> vec4f {
-    if storage == STORAGE_FLOAT16 {
-        return storage_round_to_float16(texel);
-    }
-    if storage == STORAGE_UNORM10 {
-        return storage_round_to_unorm10(texel);
-    }
-    return texel;
 }
 
 // A texel in which channels that are NaN or infinite count as 0, found by their bits since a compiler may assume that
@@ -530,231 +325,6 @@ fn storage_finite_texel(texel: vec4f, storage: u32) -> vec4f {
     }
     let exponent = bitcast<vec4u>(texel) & vec4u(0x7f800000u);
     return select(texel, vec4f(0.0), exponent == vec4u(0x7f800000u));
-}
-
-// moment_shadows/moments/four_moments.wgsl
-
-// Four moments of depth: encoding, storage, bias.
-//
-// A texel holds b = (E[z], E[z^2], E[z^3], E[z^4]) of the moment depths z in [-1, 1] that it covers (Peters & Klein,
-// "Moment Shadow Mapping", i3D 2015, section 2). Linear filters keep moments valid as long as their weights are not
-// negative and sum to one. Storage with few bits holds an affine image of the moments that spreads them over the range
-// of every channel (Peters, GDC 2016; JCGT 6(1) 2017, section 3); affine maps commute with filtering.
-
-// A moment bias: b is moved by alpha towards (0, second, 0, fourth), which pulls moments that rounding has made
-// impossible back among the possible ones. With one number beta for both these are the moments of occluders at the near
-// end, the middle and the far end with the weights beta/2, 1 - beta and beta/2.
-struct FourMomentsBias {
-    alpha: f32,
-    second: f32,
-    fourth: f32,
-}
-
-// The bias belongs to a storage's rounding error, not to a scene. Each value covers a resolve and a two-pass blur, every
-// stage rounded to the storage, for 99.999 % of filter regions (found by search: `moment-shadows bias`). Sums of many texels
-// in f32 are off by more than the bias of float32 covers, unless they are made as in `split_sum`. The target is optimal for the basis and for distributions on the real line (JCGT 6(1) 2017, section 3).
-const FOUR_MOMENTS_BIAS_UNORM16: FourMomentsBias = FourMomentsBias(6e-5, 0.628, 0.628);
-const FOUR_MOMENTS_BIAS_FLOAT16: FourMomentsBias = FourMomentsBias(1e-3, 0.628, 0.628);
-const FOUR_MOMENTS_BIAS_FLOAT32: FourMomentsBias = FourMomentsBias(1.5e-6, 0.375, 0.375);
-
-// sqrt(3), which the optimised basis and its inverse are made of.
-const FOUR_MOMENTS_SQRT_3: f32 = 1.7320508075688772;
-
-// The moments of a single depth z in [-1, 1]: its powers (i3D 2015, equation 2).
-fn four_moments_from_depth(z: f32) -> vec4f {
-    let square = z * z;
-    return vec4f(z, square, z * square, square * square);
-}
-
-// The optimised basis of JCGT 6(1) 2017 (equation 5, GDC 2016): maps the moments of depths in [-1, 1] into [0, 1]^4.
-fn four_moments_quantize(b: vec4f) -> vec4f {
-    return vec4f(
-        fma(1.5, b.x, fma(-2.0, b.z, 0.5)),
-        4.0 * (b.y - b.w),
-        fma(0.5 * FOUR_MOMENTS_SQRT_3, b.x, fma(-2.0 / 9.0 * FOUR_MOMENTS_SQRT_3, b.z, 0.5)),
-        0.5 * (b.y + b.w),
-    );
-}
-
-// Inverse of `four_moments_quantize`. Channels in [0, 1] give |b| <= 2.1, whatever they hold.
-fn four_moments_dequantize(channels: vec4f) -> vec4f {
-    let odd = channels.xz - 0.5;
-    return vec4f(
-        fma(-1.0 / 3.0, odd.x, FOUR_MOMENTS_SQRT_3 * odd.y),
-        fma(0.125, channels.y, channels.w),
-        0.75 * fma(FOUR_MOMENTS_SQRT_3, odd.y, -odd.x),
-        fma(-0.125, channels.y, channels.w),
-    );
-}
-
-// Moments that certainly lie in their ranges: odd ones in [-1, 1], even ones in [0, 1]. Float storage can hold
-// anything, and finite values beyond 1e15 would overflow further on.
-fn four_moments_clamp(b: vec4f) -> vec4f {
-    return clamp(b, vec4f(-1.0, 0.0, -1.0, 0.0), vec4f(1.0));
-}
-
-// What to write to a texel of the storage.
-fn four_moments_to_texel(b: vec4f, storage: u32) -> vec4f {
-    if storage == STORAGE_FLOAT32 {
-        return b;
-    }
-    let channels = saturate(four_moments_quantize(b));
-    if storage == STORAGE_FLOAT16 {
-        // Half precision is finest around zero, so the channels are centred there.
-        return storage_round_to_float16(channels - 0.5);
-    }
-    return channels;
-}
-
-// The moments in a (filtered) texel of the storage. Float storage can hold anything; `four_moments_clamp` comes before any
-// arithmetic that relies on ranges.
-fn four_moments_from_texel(texel: vec4f, storage: u32) -> vec4f {
-    if storage == STORAGE_FLOAT32 {
-        return texel;
-    }
-    if storage == STORAGE_FLOAT16 {
-        return four_moments_dequantize(texel + 0.5);
-    }
-    return four_moments_dequantize(texel);
-}
-
-// The moment bias of a storage.
-fn four_moments_bias_of(storage: u32) -> FourMomentsBias {
-    if storage == STORAGE_FLOAT32 {
-        return FOUR_MOMENTS_BIAS_FLOAT32;
-    }
-    if storage == STORAGE_FLOAT16 {
-        return FOUR_MOMENTS_BIAS_FLOAT16;
-    }
-    return FOUR_MOMENTS_BIAS_UNORM16;
-}
-
-// Applies the moment bias (i3D 2015, section 3.3). Written as a step towards the target: 1 - alpha would keep only a
-// few bits of alpha.
-fn four_moments_apply_bias(b: vec4f, bias: FourMomentsBias) -> vec4f {
-    return fma(vec4f(bias.alpha), vec4f(0.0, bias.second, 0.0, bias.fourth) - b, b);
-}
-
-// The biased moments in a (filtered) texel of the storage, within [-2.1, 2.1]: for unorm storage if the channels are in
-// [0, 1], as no texture can help, and for float storage whatever finite numbers it holds.
-fn four_moments_biased_from_texel(texel: vec4f, storage: u32, bias: FourMomentsBias) -> vec4f {
-    if storage == STORAGE_FLOAT32 {
-        return four_moments_apply_bias(four_moments_clamp(texel), bias);
-    }
-    // The inverse of the basis and the bias are both affine, and so one step. These biases are large enough for 1 - alpha.
-    let keep = 1.0 - bias.alpha;
-    let of_xy = keep * vec4f(-1.0 / 3.0, 0.125, -0.75, -0.125);
-    let of_zw = keep * vec4f(FOUR_MOMENTS_SQRT_3, 1.0, 0.75 * FOUR_MOMENTS_SQRT_3, 1.0);
-    // Odd moments are 0 for channels of one half, and float16 storage holds one half less.
-    let middle = select(vec4f(-0.5, 0.0, -0.5, 0.0), vec4f(0.0, 0.5, 0.0, 0.5), storage == STORAGE_FLOAT16);
-    let shift = fma(middle, of_xy + of_zw, bias.alpha * vec4f(0.0, bias.second, 0.0, bias.fourth));
-    let biased = fma(of_xy, texel.xyxy, fma(of_zw, texel.zwzw, shift));
-    if storage == STORAGE_FLOAT16 {
-        return four_moments_clamp(biased);
-    }
-    return biased;
-}
-
-// moment_shadows/bounds/hamburger4.wgsl
-
-// Hamburger four-moment shadow mapping: the sharpest bounds on shadow intensity that four moments allow.
-//
-// Among all distributions on the real line with the given moments, the share of depth in front of the fragment is
-// smallest and largest for the canonical distribution that has the fragment depth and two more points as its support
-// (Peters & Klein, i3D 2015, Proposition 3 and Algorithm 3). The published evaluation divides by a coefficient that
-// vanishes when the fragment is at a Gauss node and takes the root of a difference that rounds below zero. This one
-// gives the same values without either:
-//   - the weight of a support point is its Christoffel number, a sum of positive terms;
-//   - support points interlace with the Gauss nodes, so the sign of P2 tells on which side of the fragment they lie;
-//   - where both sides have one, the discriminant of their quadratic is a sum of positive terms.
-
-// Support points farther than this from the mean have a weight below 1e-8, and squaring them must not overflow.
-const HAMBURGER4_FARTHEST_SUPPORT: f32 = 1e4;
-
-// The leading coefficient stays above this, so that dividing by it is defined when the fragment is at a Gauss node.
-const HAMBURGER4_SMALLEST_LEADING_COEFFICIENT: f32 = 1e-20;
-
-// The two support points besides the fragment, relative to the mean, for a fragment at x = z - b1.
-struct Hamburger4Support {
-    // x_1 < x < x_2 if the fragment is between the Gauss nodes. Elsewhere finite; x_1 is then the farthest point where
-    // x < 0, and without meaning where x > 0.
-    points: vec2f,
-    // Outside the Gauss nodes: whether x > 0.
-    above: bool,
-}
-
-// The support of the extremal distribution through the fragment at x, where P2(x) is `second_polynomial`.
-fn hamburger4_support(factor: HankelFactor, x: f32, second_polynomial: f32) -> Hamburger4Support {
-    // -a y^2 + b y + c / 4 = 0 with a, c > 0, so both roots are real and 0 lies between them.
-    let a = max(-second_polynomial, HAMBURGER4_SMALLEST_LEADING_COEFFICIENT);
-    let b = fma(factor.ratio, x, factor.shift * a);
-    let c = 4.0 * fma(factor.variance, a, factor.residue);
-    // The roots' magnitudes are sum / (2 a) and c / (2 sum); the greater one has the sign of b. No term cancels.
-    let sum = abs(b) + sqrt(fma(a, c, b * b));
-    let above = b >= 0.0;
-    let lower = select(sum, c, above) / select(a, sum, above);
-    let upper = select(c, sum, above) / select(sum, a, above);
-    let doubled = vec2f(
-        max(-lower, -2.0 * HAMBURGER4_FARTHEST_SUPPORT),
-        min(upper, 2.0 * HAMBURGER4_FARTHEST_SUPPORT),
-    );
-    return Hamburger4Support(0.5 * doubled, above);
-}
-
-// Both bounds for a fragment at x = z - b1, where P2(x) is `polynomial`.
-fn hamburger4_bounds_at(factor: HankelFactor, x: f32, polynomial: f32) -> vec2f {
-    if polynomial >= 0.0 {
-        // Outside the Gauss nodes no support point lies beyond the fragment: no root is needed.
-        let weight = saturate(hankel_christoffel_number(factor, x, polynomial));
-        return select(vec2f(0.0, weight), vec2f(1.0 - weight, 1.0), x > 0.0);
-    }
-    let support = hamburger4_support(factor, x, polynomial).points;
-    let below = hankel_christoffel_number(factor, support.x, hankel_second_polynomial(factor, support.x));
-    let above = hankel_christoffel_number(factor, support.y, hankel_second_polynomial(factor, support.y));
-    return saturate(vec2f(below, 1.0 - above));
-}
-
-// The lower one of them; where it is 0 the result is below 1e-8.
-fn hamburger4_lower_bound_at(factor: HankelFactor, x: f32, polynomial: f32) -> f32 {
-    let support = hamburger4_support(factor, x, polynomial);
-    // One Christoffel number serves all cases: at the fragment itself where it is above the Gauss nodes, or else at the
-    // support point below it. Where the fragment is below the Gauss nodes that one is at infinity, without weight.
-    let beyond = polynomial >= 0.0 && support.above;
-    let t = select(support.points.x, x, beyond);
-    let weight = saturate(hankel_christoffel_number(factor, t, hankel_second_polynomial(factor, t)));
-    return select(weight, 1.0 - weight, beyond);
-}
-
-// The sharp bounds of shadow intensity: x = inf S(z < fragment_depth), y = sup S(z <= fragment_depth) over all
-// distributions S with the moments `biased`, which are already biased by `alpha` >= 1e-7 and lie within [-2, 2].
-// Both are in [0, 1] for all such moments, valid or not, and every finite fragment depth; farther out than 1e4 the
-// fragment depth counts as 1e4. Error: |error| <= 8 * 2^-24 * (1 + sensitivity) where fma is fused.
-fn hamburger4_bounds(biased: vec4f, fragment_depth: f32, alpha: f32) -> vec2f {
-    let factor = hankel_factor(biased, alpha);
-    let x = clamp(fragment_depth, -HAMBURGER4_FARTHEST_SUPPORT, HAMBURGER4_FARTHEST_SUPPORT) - biased.x;
-    return hamburger4_bounds_at(factor, x, hankel_second_polynomial(factor, x));
-}
-
-// The lower one of `hamburger4_bounds`, with fragment depths beyond the light's range counting as its ends; where the
-// bound is 0 the result is below 1e-8.
-fn hamburger4_lower_bound(biased: vec4f, fragment_depth: f32, alpha: f32) -> f32 {
-    let factor = hankel_factor(biased, alpha);
-    let x = clamp(fragment_depth, -1.0, 1.0) - biased.x;
-    return hamburger4_lower_bound_at(factor, x, hankel_second_polynomial(factor, x));
-}
-
-// Shadow intensity in [0, 1] (1 = shadowed) of a fragment at `fragment_depth` (moment depth) under the filtered moments
-// of its map: the lower bound, never darker than the truth but for the bias. Moments may be anything finite; fragment
-// depths beyond the light's range count as its ends.
-fn hamburger4_shadow_intensity(moments: vec4f, fragment_depth: f32, bias: FourMomentsBias) -> f32 {
-    return hamburger4_lower_bound(four_moments_apply_bias(four_moments_clamp(moments), bias), fragment_depth, bias.alpha);
-}
-
-// The same for a filtered texel of a storage, with the bias of the storage. Cheaper, since decoding and bias are one step
-// and a texel of unorm storage needs no clamping.
-fn hamburger4_shadow_intensity_of_texel(texel: vec4f, fragment_depth: f32, storage: u32) -> f32 {
-    let bias = four_moments_bias_of(storage);
-    return hamburger4_lower_bound(four_moments_biased_from_texel(texel, storage, bias), fragment_depth, bias.alpha);
 }
 
 // moment_shadows/shade/soft_blockers.wgsl
@@ -786,29 +356,6 @@ fn soft_blockers_from(z: f32, share: f32, distance: f32) -> SoftBlockers {
     // (share * mean + smallest * z) / (share + smallest), relative to z.
     let mean = z - max(distance, 0.0) * (weight / (weight + SOFT_BLOCKERS_SMALLEST_SHARE));
     return SoftBlockers(weight, clamp(mean, -1.0, 1.0));
-}
-
-// From four moments that are already biased by `alpha` >= 1e-7 and lie within [-2.1, 2.1].
-fn soft_blockers_of_four_moments(biased: vec4f, fragment_depth: f32, alpha: f32) -> SoftBlockers {
-    let z = clamp(fragment_depth, -1.0, 1.0);
-    let factor = hankel_factor(biased, alpha);
-    let x = z - biased.x;
-    let polynomial = hankel_second_polynomial(factor, x);
-    let support = hamburger4_support(factor, x, polynomial);
-    let outside = polynomial >= 0.0;
-    // The weight of the fragment itself, or of the support point in front of it. The farthest one is at infinity where
-    // the fragment is in front of the Gauss nodes, without weight.
-    let t = select(support.points.x, x, outside);
-    let weight = saturate(hankel_christoffel_number(factor, t, hankel_second_polynomial(factor, t)));
-    if !outside {
-        return soft_blockers_from(z, weight, x - support.points.x);
-    }
-    if x < 0.0 {
-        return SoftBlockers(0.0, z);
-    }
-    // All the rest is in front: sum of weights 1 - w, and the mean of (point - mean) is -w x / (1 - w).
-    let share = 1.0 - weight;
-    return soft_blockers_from(z, share, x / max(share, 1e-6));
 }
 
 // From two moments with a variance of at least `smallest_variance`: the canonical distribution has one more point.
@@ -951,36 +498,6 @@ fn summed_area_table_mean_plain(table: texture_2d_array<u32>, layer: u32, region
 // A texel holds the mean b1 of depth and its mean square b2. Channels come in pairs (b1, b2): variance shadow mapping uses xy alone;
 // a technique that stores two pairs encodes both at once.
 
-// The smallest variance per storage: what rounding in a resolve and a two-pass blur can take away from b2 - b1^2. With e
-// the error of a channel per rounding it is at most 3 (error of b2 + 2 |b1| error of b1):
-//   unorm16: e = 2^-17, b1 = 2 r - 1 and b2 = 1 - g:   3 (e + 4 e) = 1.2e-4
-//   float16: e = 2^-13 for channels within one half:   3 (e + 4 e) = 1.9e-3
-//   float32: e = 2^-25 for values up to 1:             3 (e + 2 e) = 2.7e-7, and the sums of both passes are in float32
-// That is with all errors on one side. Half of it covers 99.999 % of adversarial kernels in unorm16 and float16; the sums
-// of float32 need a bit more than theirs. A floor as large as the error leaves no variance wrong by more than a factor of 2.
-const TWO_MOMENTS_SMALLEST_VARIANCE_UNORM16: f32 = 6e-5;
-const TWO_MOMENTS_SMALLEST_VARIANCE_FLOAT16: f32 = 1e-3;
-const TWO_MOMENTS_SMALLEST_VARIANCE_FLOAT32: f32 = 5e-7;
-
-// What is averaged for a depth z in [-1, 1]: its powers.
-fn two_moments_from_depth(z: f32) -> vec4f {
-    return vec4f(z, z * z, 0.0, 0.0);
-}
-
-// What to write for averaged channels. In unorm16 the optimised basis of two moments (r, g) = (u1, 4 u1 - 4 u2), with u the
-// moments of (z + 1) / 2 (i3D 2015, section 3.2), which fills the unit square and in terms of z is simply
-// ((b1 + 1) / 2, 1 - b2). In float16 the same less one half, around which half precision is finest. In float32 b itself.
-fn two_moments_to_texel(channels: vec4f, storage: u32) -> vec4f {
-    if storage == STORAGE_FLOAT32 {
-        return channels;
-    }
-    let optimised = saturate(fma(vec4f(0.5, -1.0, 0.5, -1.0), channels, vec4f(0.5, 1.0, 0.5, 1.0)));
-    if storage == STORAGE_FLOAT16 {
-        return storage_round_to_float16(optimised - 0.5);
-    }
-    return optimised;
-}
-
 // The moments in a (filtered) texel, both pairs, in their ranges whatever the texel holds.
 fn two_moments_from_texel(texel: vec4f, storage: u32) -> vec4f {
     let finite = storage_finite_texel(texel, storage);
@@ -992,16 +509,6 @@ fn two_moments_from_texel(texel: vec4f, storage: u32) -> vec4f {
     return clamp(channels, vec4f(-1.0, 0.0, -1.0, 0.0), vec4f(1.0));
 }
 
-// The smallest variance of a storage.
-fn two_moments_smallest_variance_of(storage: u32) -> f32 {
-    if storage == STORAGE_FLOAT32 {
-        return TWO_MOMENTS_SMALLEST_VARIANCE_FLOAT32;
-    }
-    if storage == STORAGE_FLOAT16 {
-        return TWO_MOMENTS_SMALLEST_VARIANCE_FLOAT16;
-    }
-    return TWO_MOMENTS_SMALLEST_VARIANCE_UNORM16;
-}
 
 // moment_shadows/bounds/chebyshev.wgsl
 
@@ -1022,16 +529,6 @@ fn chebyshev_lower_bound(moments: vec2f, fragment_depth: f32, smallest_variance:
     return square / (variance + square);
 }
 
-// sup S(z <= fragment_depth) likewise; 1 exactly for fragments that are not in front of the mean.
-fn chebyshev_upper_bound(moments: vec2f, fragment_depth: f32, smallest_variance: f32) -> f32 {
-    return 1.0 - chebyshev_lower_bound(vec2f(-moments.x, moments.y), -fragment_depth, smallest_variance);
-}
-
-// Shadow intensity in [0, 1] (1 = shadowed) of a fragment at `fragment_depth` under a filtered texel: a lower bound.
-fn chebyshev_shadow_intensity_of_texel(texel: vec4f, fragment_depth: f32, storage: u32) -> f32 {
-    let moments = two_moments_from_texel(texel, storage).xy;
-    return chebyshev_lower_bound(moments, depth_of_fragment(fragment_depth), two_moments_smallest_variance_of(storage));
-}
 
 // moment_shadows/shade/moment_soft_shadows.wgsl
 
@@ -1103,18 +600,6 @@ fn moment_soft_shadows_fragment_depth(receiver: MomentSoftShadowReceiver, rectan
     return clamp(receiver.depth, -1.0, 1.0) - bias;
 }
 
-// Shadow intensity in [0, 1] (1 = shadowed) of a receiver, from a table of four moments. `bias` is the table's
-// (`summed_area_encoding_moment_bias`). 8 loads, or 16 for a query that interpolates in place of 4.
-fn moment_soft_shadows_intensity(sums: texture_2d_array<u32>, table: MomentSoftShadowTable, bias: FourMomentsBias, receiver: MomentSoftShadowReceiver, light: AreaLight) -> f32 {
-    let search = moment_soft_shadows_search(table, receiver, light);
-    let searched = four_moments_dequantize(moment_soft_shadows_mean(sums, table, search, table.search_interpolated));
-    let blockers = soft_blockers_of_four_moments(four_moments_apply_bias(searched, bias), receiver.depth, bias.alpha);
-    let rectangle = moment_soft_shadows_filter(table, receiver, light, blockers.depth);
-    let filtered = four_moments_dequantize(moment_soft_shadows_mean(sums, table, rectangle, table.filter_interpolated));
-    let depth = moment_soft_shadows_fragment_depth(receiver, rectangle);
-    return hamburger4_lower_bound(four_moments_apply_bias(filtered, bias), depth, bias.alpha);
-}
-
 // The same from a table of two moments; `smallest_variance` is the table's (`summed_area_encoding_smallest_variance`).
 fn moment_soft_shadows_variance_intensity(sums: texture_2d_array<u32>, table: MomentSoftShadowTable, smallest_variance: f32, receiver: MomentSoftShadowReceiver, light: AreaLight) -> f32 {
     let search = moment_soft_shadows_search(table, receiver, light);
@@ -1135,60 +620,10 @@ fn moment_soft_shadows_variance_intensity(sums: texture_2d_array<u32>, table: Mo
 // since n channels of exactly 1, as every region without a caster has, would then wrap around to 0 (Peters et al.,
 // JCGT 6(1) 2017, section 4).
 
-// The most texels of a kernel: n * 65535 < 2^32. Other maps keep to it, too, so that no table is less exact than 16 bits.
-const SUMMED_AREA_ENCODING_LARGEST_AREA: u32 = 65537u;
-
-// What the unit of a unorm16 map's table is.
-const SUMMED_AREA_ENCODING_UNIT_UNORM16: f32 = 65535.0;
-
-// The moment bias per error of a channel, for Hamburger's target and the optimised basis (found by maximisation over the
-// boundary of the moment space: `moment-shadows bias`).
-const SUMMED_AREA_ENCODING_BIAS_PER_ERROR: f32 = 4.88;
-
-// What f32 adds to it, in the query, the basis and its inverse; and how much it takes at least, however small the error is
-// (found by search: `moment-shadows bias --tables`).
-const SUMMED_AREA_ENCODING_BIAS_OF_F32: f32 = 4e-7;
-const SUMMED_AREA_ENCODING_SMALLEST_BIAS: f32 = 1e-6;
-
 // The same for the smallest variance of two moments: 5 e for b2 - b1^2 with b1 = 2 r - 1 and b2 = 1 - g.
 const SUMMED_AREA_ENCODING_VARIANCE_PER_ERROR: f32 = 5.0;
 const SUMMED_AREA_ENCODING_VARIANCE_OF_F32: f32 = 4e-7;
 const SUMMED_AREA_ENCODING_SMALLEST_VARIANCE: f32 = 1.2e-6;
-
-// The 16-bit integers of a texel of unorm16.
-fn summed_area_encoding_of_unorm16(texel: vec4f) -> vec4u {
-    // At 2^23 the last bit of the mantissa is 1: adding that rounds, and leaves the integer in the low bits.
-    return bitcast<vec4u>(fma(texel, vec4f(65535.0), vec4f(0x1p23))) & vec4u(0xffffu);
-}
-
-// Channels in [0, 1] in units: channel * unit to the nearest integer, up to 2^-31 of the channel and never above `unit`.
-// f32 would be 8 bits short of it.
-fn summed_area_encoding_of_channels(channels: vec4f, unit: u32) -> vec4u {
-    let fraction = vec4u(round(saturate(channels) * 0x1p31));
-    // The upper half of a product of 64 bits, by products of 16.
-    let high = fraction >> vec4u(16u);
-    let low = fraction & vec4u(0xffffu);
-    let unit_high = unit >> 16u;
-    let unit_low = unit & 0xffffu;
-    let high_low = high * unit_low;
-    let low_high = low * unit_high;
-    // 0x4000 is one half of a unit: the product is divided by 2^31.
-    let middle = ((low * unit_low) >> vec4u(16u)) + (high_low & vec4u(0xffffu)) + (low_high & vec4u(0xffffu)) + 0x4000u;
-    let upper = high * unit_high + (high_low >> vec4u(16u)) + (low_high >> vec4u(16u)) + (middle >> vec4u(16u));
-    return (upper << vec4u(1u)) | ((middle >> vec4u(15u)) & vec4u(1u));
-}
-
-// The largest error of a mean's channels before f32: half a unit, and what the map's own storage had rounded before
-// (2^-13 for float16, otherwise 0: float32 is finer, and the unit of unorm16 is that of the map).
-fn summed_area_encoding_error(unit: f32, source_error: f32) -> f32 {
-    return 0.5 / unit + source_error;
-}
-
-// The moment bias for four moments from a table whose channels are off by up to `error`, on the real line.
-fn summed_area_encoding_moment_bias(error: f32) -> FourMomentsBias {
-    let alpha = fma(SUMMED_AREA_ENCODING_BIAS_PER_ERROR, error, SUMMED_AREA_ENCODING_BIAS_OF_F32);
-    return FourMomentsBias(max(alpha, SUMMED_AREA_ENCODING_SMALLEST_BIAS), 0.628, 0.628);
-}
 
 // The smallest variance of two moments from such a table.
 fn summed_area_encoding_smallest_variance(error: f32) -> f32 {

@@ -23,29 +23,13 @@ fn map_region_at_level(region: MapRegion, level: u32) -> MapRegion {
     return MapRegion(origin, ((region.origin + region.extent) >> vec2u(level)) - origin);
 }
 
-// The coarsest of `levels` mip levels on which a region still has texels.
-fn map_region_last_level(region: MapRegion, levels: u32) -> u32 {
-    var level = max(levels, 1u) - 1u;
-    while level > 0u && any(map_region_at_level(region, level).extent == vec2u(0u)) {
-        level--;
-    }
-    return level;
-}
-
-// The place of `uv` (from 0 to 1 across the region) in texels of a region's mip level, kept half a texel away from its
-// edge: a bilinear filter there reads no other region.
-fn map_region_place(region_on_level: MapRegion, uv: vec2f) -> vec2f {
-    let extent = vec2f(region_on_level.extent);
-    return vec2f(region_on_level.origin) + clamp(uv * extent, vec2f(0.5), max(extent - 0.5, vec2f(0.5)));
-}
 
 // specialization
 const GROUP = 0;
 alias SumsStorage = texture_storage_2d<rgba32uint, write>;
-const STORAGE = 0u;
-const UNIT = 65535u;
+
 const TILE = vec2u(8u, 16u);
-const WORKGROUP = vec2u(8u, 8u);
+
 const REGIONS = 1u;
 
 // region_tile
