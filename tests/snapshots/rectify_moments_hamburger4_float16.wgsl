@@ -1,710 +1,77 @@
+// Files and what is linked of them.
+
 // moment_shadows/maths/angle.wgsl
-// Angles, to 4 units in the last place on every device.
-//
-// WGSL allows its own `atan2`, `sin` and `cos` errors of thousands of units, which is no sound base for coordinates that are
-// made of angles. These are polynomials on reduced ranges (Moshier, Cephes mathematical library, single precision).
-
-// pi, and what its f32 lacks of it.
-const ANGLE_PI: f32 = 3.1415927;
-const ANGLE_PI_REST: f32 = -8.742278e-8;
-const ANGLE_HALF_PI: f32 = 1.5707964;
-const ANGLE_HALF_PI_REST: f32 = -4.371139e-8;
-const ANGLE_QUARTER_PI: f32 = 0.7853982;
-const ANGLE_QUARTER_PI_REST: f32 = -2.1855695e-8;
-
-// tan(pi / 8): up to here the polynomial of the arc tangent holds.
-const ANGLE_TAN_EIGHTH_PI: f32 = 0.41421357;
-
-// pi / 2 in three parts, the first two with so few digits that their products with small integers are exact.
-const ANGLE_HALF_PI_FIRST: f32 = 1.5703125;
-const ANGLE_HALF_PI_SECOND: f32 = 4.837512969970703125e-4;
-const ANGLE_HALF_PI_THIRD: f32 = 7.54978995489188216e-8;
-
-// Angles beyond this, about 1,500 turns, count as this.
-const ANGLE_LARGEST: f32 = 1e4;
-
-// A number, or 0 in place of NaN and infinities. By its bits: a compiler may assume that there are none.
-fn angle_finite(value: f32) -> f32 {
-    let exponent = bitcast<u32>(value) & 0x7f800000u;
-    return select(value, 0.0, exponent == 0x7f800000u);
-}
-
-// The angle in [-pi, pi] from the x-axis to (x, y). 0 for the zero vector and for components that are no finite numbers;
-// pi for x < 0 and y = 0, whatever the sign of y.
-fn angle_atan2(y: f32, x: f32) -> f32 {
-    let finite = vec2f(angle_finite(x), angle_finite(y));
-    let magnitudes = abs(finite);
-    let most = max(magnitudes.x, magnitudes.y);
-    // Sums and quotients stay among normal numbers.
-    let scale = select(select(1.0, 5.421010862427522e-20, most > 1.8446744073709552e19), 1.8446744073709552e19, most < 9.094947017729282e-13);
-    let large = most * scale;
-    let small = min(magnitudes.x, magnitudes.y) * scale;
-    if large < 8.673617379884035e-19 {
-        return 0.0;
-    }
-    // atan(t) = pi / 4 + atan((t - 1) / (t + 1)).
-    let steep = small > ANGLE_TAN_EIGHTH_PI * large;
-    let quotient = select(small, small - large, steep) / select(large, small + large, steep);
-    let square = quotient * quotient;
-    let series = fma(fma(fma(8.05374449538e-2, square, -1.38776856032e-1), square, 1.99777106478e-1), square, -3.33329491539e-1);
-    let rest = select(0.0, ANGLE_QUARTER_PI_REST, steep);
-    var angle = select(0.0, ANGLE_QUARTER_PI, steep) + (fma(series * square, quotient, quotient) + rest);
-    if magnitudes.y > magnitudes.x {
-        angle = ANGLE_HALF_PI - (angle - ANGLE_HALF_PI_REST);
-    }
-    if finite.x < 0.0 {
-        angle = ANGLE_PI - (angle - ANGLE_PI_REST);
-    }
-    return select(angle, -angle, finite.y < 0.0);
-}
-
-// Sine and cosine of an angle in radians, |angle| <= 1e4. Near their zeros the error is 2^-24 times that of an angle of the
-// same size, not times the angle.
-fn angle_sin_cos(angle: f32) -> vec2f {
-    let bounded = clamp(angle_finite(angle), -ANGLE_LARGEST, ANGLE_LARGEST);
-    let quarters = round(bounded * 0.63661977);
-    let first = fma(-quarters, ANGLE_HALF_PI_FIRST, bounded);
-    let x = fma(-quarters, ANGLE_HALF_PI_THIRD, fma(-quarters, ANGLE_HALF_PI_SECOND, first));
-    let square = x * x;
-    let odd = fma(fma(fma(-1.9515295891e-4, square, 8.3321608736e-3), square, -1.6666654611e-1) * square, x, x);
-    let even = fma(fma(fma(2.443315711809948e-5, square, -1.388731625493765e-3), square, 4.166664568298827e-2), square * square, fma(-0.5, square, 1.0));
-    let quadrant = i32(quarters) & 3;
-    let swapped = (quadrant & 1) == 1;
-    let sine = select(odd, even, swapped);
-    let cosine = select(even, odd, swapped);
-    return vec2f(select(sine, -sine, quadrant >= 2), select(cosine, -cosine, quadrant == 1 || quadrant == 2));
-}
+//     ANGLE_PI
+//     ANGLE_PI_REST
+//     ANGLE_HALF_PI
+//     ANGLE_HALF_PI_REST
+//     ANGLE_QUARTER_PI
+//     ANGLE_QUARTER_PI_REST
+//     ANGLE_TAN_EIGHTH_PI
+//     ANGLE_HALF_PI_FIRST
+//     ANGLE_HALF_PI_SECOND
+//     ANGLE_HALF_PI_THIRD
+//     ANGLE_LARGEST
+//     angle_finite
+//     angle_atan2
+//     angle_sin_cos
 
 // moment_shadows/map/map_region.wgsl
-// Regions: rectangles of a layer that share an atlas and know nothing of each other.
-//
-// Mip level k of a region runs from floor(first / 2^k) to floor(end / 2^k). Regions that touch share that edge on every
-// level, wherever it lies, so none covers a texel of another, and a gutter is not needed.
-
-// Filled by the host-side `MapRegion`: texels of mip level 0. No texels: no region. A rectangle that leaves the map is
-// cut off at its border.
-struct MapRegion {
-    origin: vec2u,
-    extent: vec2u,
-}
-
-// The part of a region that lies in a map of `size` texels.
-fn map_region_within(region: MapRegion, size: vec2u) -> MapRegion {
-    let origin = min(region.origin, size);
-    return MapRegion(origin, min(region.extent, size - origin));
-}
-
-// A region of a map (within it) on mip level `level`, below 32.
-fn map_region_at_level(region: MapRegion, level: u32) -> MapRegion {
-    let origin = region.origin >> vec2u(level);
-    return MapRegion(origin, ((region.origin + region.extent) >> vec2u(level)) - origin);
-}
-
-// The coarsest of `levels` mip levels on which a region still has texels.
-fn map_region_last_level(region: MapRegion, levels: u32) -> u32 {
-    var level = max(levels, 1u) - 1u;
-    while level > 0u && any(map_region_at_level(region, level).extent == vec2u(0u)) {
-        level--;
-    }
-    return level;
-}
-
-// The place of `uv` (from 0 to 1 across the region) in texels of a region's mip level, kept half a texel away from its
-// edge: a bilinear filter there reads no other region.
-fn map_region_place(region_on_level: MapRegion, uv: vec2f) -> vec2f {
-    let extent = vec2f(region_on_level.extent);
-    return vec2f(region_on_level.origin) + clamp(uv * extent, vec2f(0.5), max(extent - 0.5, vec2f(0.5)));
-}
+//     MapRegion
+//     map_region_within
+//     map_region_at_level
+//     map_region_place
 
 // moment_shadows/map/storage.wgsl
-// Storages: how the channels of a texel lie in memory, whatever they mean.
-//
-// Every technique filters linearly and writes after each filter, so each write is a rounding error that its bound has to
-// cover. Nothing here depends on a technique: how one spreads its quantities over the range of a storage is its own.
-
-// Storages, as a shader's specialisation names them.
-const STORAGE_UNORM16: u32 = 0u;
-const STORAGE_FLOAT16: u32 = 1u;
-const STORAGE_FLOAT32: u32 = 2u;
-const STORAGE_UNORM8: u32 = 3u;
-// Sums of channels as unorm16 has them; see `summed_area_encoding`.
-const STORAGE_FIXED32: u32 = 4u;
-// Three channels to a texel, in maps that are drawn.
-const STORAGE_UNORM10: u32 = 5u;
-
-// The largest finite float16.
-const STORAGE_LARGEST_FLOAT16: f32 = 65504.0;
-
-// Whether the channels of the storage are floats, which can be anything, rather than numbers in [0, 1].
-fn storage_is_float(storage: u32) -> bool {
-    return storage == STORAGE_FLOAT16 || storage == STORAGE_FLOAT32;
-}
-
-// The nearest float16 of each component, ties to even, for |value| <= 65504. A driver may truncate when it stores to a
-// float16 texture, which would double the rounding error that a bound has to cover.
-fn storage_round_to_float16(value: vec4f) -> vec4f {
-    let bits = bitcast<vec4u>(value);
-    // 13 of 23 mantissa bits go; adding just under half a unit, plus the last kept bit, rounds ties to even.
-    let rounded = bitcast<vec4f>((bits + 0xfffu + ((bits >> vec4u(13u)) & vec4u(1u))) & vec4u(0xffffe000u));
-    // Below 2^-14 float16 is a fixed-point format with a step of 2^-24.
-    let small = round(value * 16777216.0) * 5.960464477539063e-8;
-    return select(rounded, small, abs(value) < vec4f(6.103515625e-5));
-}
-
-// What to draw so that a target of 10 bits per channel holds the nearest number to each component, for any finite value. A driver
-// may round down, or round to 16 bits and drop the last six (lavapipe does): a little above that number they give it all the same.
-fn storage_round_to_unorm10(value: vec4f) -> vec4f {
-    return (round(saturate(value) * 1023.0) + 0.00390625) / 1023.0;
-}
-
-// A filtered combination of texels, as it has to be written back to the same storage.
-fn storage_round_texel(texel: vec4f, storage: u32) -> vec4f {
-    if storage == STORAGE_FLOAT16 {
-        return storage_round_to_float16(texel);
-    }
-    if storage == STORAGE_UNORM10 {
-        return storage_round_to_unorm10(texel);
-    }
-    return texel;
-}
-
-// A texel in which channels that are NaN or infinite count as 0, found by their bits since a compiler may assume that
-// there is neither. Unorm texels pass as they are.
-fn storage_finite_texel(texel: vec4f, storage: u32) -> vec4f {
-    if !storage_is_float(storage) {
-        return texel;
-    }
-    let exponent = bitcast<vec4u>(texel) & vec4u(0x7f800000u);
-    return select(texel, vec4f(0.0), exponent == vec4u(0x7f800000u));
-}
+//     STORAGE_FLOAT16
+//     STORAGE_FLOAT32
+//     storage_is_float
+//     storage_round_to_float16
+//     storage_finite_texel
 
 // moment_shadows/moments/four_moments.wgsl
-
-// Four moments of depth: encoding, storage, bias.
-//
-// A texel holds b = (E[z], E[z^2], E[z^3], E[z^4]) of the moment depths z in [-1, 1] that it covers (Peters & Klein,
-// "Moment Shadow Mapping", i3D 2015, section 2). Linear filters keep moments valid as long as their weights are not
-// negative and sum to one. Storage with few bits holds an affine image of the moments that spreads them over the range
-// of every channel (Peters, GDC 2016; JCGT 6(1) 2017, section 3); affine maps commute with filtering.
-
-// A moment bias: b is moved by alpha towards (0, second, 0, fourth), which pulls moments that rounding has made
-// impossible back among the possible ones. With one number beta for both these are the moments of occluders at the near
-// end, the middle and the far end with the weights beta/2, 1 - beta and beta/2.
-struct FourMomentsBias {
-    alpha: f32,
-    second: f32,
-    fourth: f32,
-}
-
-// The bias belongs to a storage's rounding error, not to a scene. Each value covers a resolve and a two-pass blur, every
-// stage rounded to the storage, for 99.999 % of filter regions (found by search: `moment-shadows bias`). Sums of many texels
-// in f32 are off by more than the bias of float32 covers, unless they are made as in `split_sum`. The target is optimal for the basis and for distributions on the real line (JCGT 6(1) 2017, section 3).
-const FOUR_MOMENTS_BIAS_UNORM16: FourMomentsBias = FourMomentsBias(6e-5, 0.628, 0.628);
-const FOUR_MOMENTS_BIAS_FLOAT16: FourMomentsBias = FourMomentsBias(1e-3, 0.628, 0.628);
-const FOUR_MOMENTS_BIAS_FLOAT32: FourMomentsBias = FourMomentsBias(1.5e-6, 0.375, 0.375);
-
-// sqrt(3), which the optimised basis and its inverse are made of.
-const FOUR_MOMENTS_SQRT_3: f32 = 1.7320508075688772;
-
-// The moments of a single depth z in [-1, 1]: its powers (i3D 2015, equation 2).
-fn four_moments_from_depth(z: f32) -> vec4f {
-    let square = z * z;
-    return vec4f(z, square, z * square, square * square);
-}
-
-// The optimised basis of JCGT 6(1) 2017 (equation 5, GDC 2016): maps the moments of depths in [-1, 1] into [0, 1]^4.
-fn four_moments_quantize(b: vec4f) -> vec4f {
-    return vec4f(
-        fma(1.5, b.x, fma(-2.0, b.z, 0.5)),
-        4.0 * (b.y - b.w),
-        fma(0.5 * FOUR_MOMENTS_SQRT_3, b.x, fma(-2.0 / 9.0 * FOUR_MOMENTS_SQRT_3, b.z, 0.5)),
-        0.5 * (b.y + b.w),
-    );
-}
-
-// Inverse of `four_moments_quantize`. Channels in [0, 1] give |b| <= 2.1, whatever they hold.
-fn four_moments_dequantize(channels: vec4f) -> vec4f {
-    let odd = channels.xz - 0.5;
-    return vec4f(
-        fma(-1.0 / 3.0, odd.x, FOUR_MOMENTS_SQRT_3 * odd.y),
-        fma(0.125, channels.y, channels.w),
-        0.75 * fma(FOUR_MOMENTS_SQRT_3, odd.y, -odd.x),
-        fma(-0.125, channels.y, channels.w),
-    );
-}
-
-// Moments that certainly lie in their ranges: odd ones in [-1, 1], even ones in [0, 1]. Float storage can hold
-// anything, and finite values beyond 1e15 would overflow further on.
-fn four_moments_clamp(b: vec4f) -> vec4f {
-    return clamp(b, vec4f(-1.0, 0.0, -1.0, 0.0), vec4f(1.0));
-}
-
-// What to write to a texel of the storage.
-fn four_moments_to_texel(b: vec4f, storage: u32) -> vec4f {
-    if storage == STORAGE_FLOAT32 {
-        return b;
-    }
-    let channels = saturate(four_moments_quantize(b));
-    if storage == STORAGE_FLOAT16 {
-        // Half precision is finest around zero, so the channels are centred there.
-        return storage_round_to_float16(channels - 0.5);
-    }
-    return channels;
-}
-
-// The moments in a (filtered) texel of the storage. Float storage can hold anything; `four_moments_clamp` comes before any
-// arithmetic that relies on ranges.
-fn four_moments_from_texel(texel: vec4f, storage: u32) -> vec4f {
-    if storage == STORAGE_FLOAT32 {
-        return texel;
-    }
-    if storage == STORAGE_FLOAT16 {
-        return four_moments_dequantize(texel + 0.5);
-    }
-    return four_moments_dequantize(texel);
-}
-
-// The moment bias of a storage.
-fn four_moments_bias_of(storage: u32) -> FourMomentsBias {
-    if storage == STORAGE_FLOAT32 {
-        return FOUR_MOMENTS_BIAS_FLOAT32;
-    }
-    if storage == STORAGE_FLOAT16 {
-        return FOUR_MOMENTS_BIAS_FLOAT16;
-    }
-    return FOUR_MOMENTS_BIAS_UNORM16;
-}
-
-// Applies the moment bias (i3D 2015, section 3.3). Written as a step towards the target: 1 - alpha would keep only a
-// few bits of alpha.
-fn four_moments_apply_bias(b: vec4f, bias: FourMomentsBias) -> vec4f {
-    return fma(vec4f(bias.alpha), vec4f(0.0, bias.second, 0.0, bias.fourth) - b, b);
-}
-
-// The biased moments in a (filtered) texel of the storage, within [-2.1, 2.1]: for unorm storage if the channels are in
-// [0, 1], as no texture can help, and for float storage whatever finite numbers it holds.
-fn four_moments_biased_from_texel(texel: vec4f, storage: u32, bias: FourMomentsBias) -> vec4f {
-    if storage == STORAGE_FLOAT32 {
-        return four_moments_apply_bias(four_moments_clamp(texel), bias);
-    }
-    // The inverse of the basis and the bias are both affine, and so one step. These biases are large enough for 1 - alpha.
-    let keep = 1.0 - bias.alpha;
-    let of_xy = keep * vec4f(-1.0 / 3.0, 0.125, -0.75, -0.125);
-    let of_zw = keep * vec4f(FOUR_MOMENTS_SQRT_3, 1.0, 0.75 * FOUR_MOMENTS_SQRT_3, 1.0);
-    // Odd moments are 0 for channels of one half, and float16 storage holds one half less.
-    let middle = select(vec4f(-0.5, 0.0, -0.5, 0.0), vec4f(0.0, 0.5, 0.0, 0.5), storage == STORAGE_FLOAT16);
-    let shift = fma(middle, of_xy + of_zw, bias.alpha * vec4f(0.0, bias.second, 0.0, bias.fourth));
-    let biased = fma(of_xy, texel.xyxy, fma(of_zw, texel.zwzw, shift));
-    if storage == STORAGE_FLOAT16 {
-        return four_moments_clamp(biased);
-    }
-    return biased;
-}
-
-// moment_shadows/map/minification.wgsl
-// Minification: what part of a map a pixel covers.
-//
-// A pixel maps to a parallelogram of texels. Its singular values are the axes of the ellipse that stands for it
-// (Heckbert, "Fundamentals of Texture Mapping and Image Warping", 1989, section 3.5): a lookup takes probes along the
-// major axis, each on a mip level that fits the minor axis. Averages of moments are moments, which is what filterable
-// shadow maps exist for (Donnelly & Lauritzen, "Variance Shadow Maps", i3D 2006, section 3).
-//
-// A pixel averages a box: over w texels its variance is w^2 / 12. A trilinear lookup on a mip level whose texels are t wide
-// averages boxes of t and blends neighbours that are t apart: (1/12 + 1/6) t^2. Lookups are as wide as pixels if their
-// variances are equal, t = w / sqrt(3); a level with t = w, as colour textures take it, would filter three times as much.
-
-// Probes along the major axis, at most.
-const MINIFICATION_LARGEST_ANISOTROPY: f32 = 16.0;
-
-// The width of a mip level's texels that makes trilinear lookups as wide as a box: 1 / sqrt(3).
-const MINIFICATION_TEXEL_PER_WIDTH: f32 = 0.57735026;
-
-struct MinificationFootprint {
-    // The line on which the probes lie, along the major axis and from end to end, in texels of mip level 0.
-    major: vec2f,
-    // Probes along it, a whole number from 1 to 16.
-    probes: f32,
-    // The mip level of each probe, at least 0.
-    level: f32,
-}
-
-// The footprint of a pixel from the differences of place, in texels, to its neighbours in x and y; each component at
-// most 1e9 in magnitude. `anisotropy`, from 1 to 16, is the largest number of probes; where more were needed, the minor
-// axis is taken for longer than it is.
-fn minification_footprint(difference_x: vec2f, difference_y: vec2f, anisotropy: f32) -> MinificationFootprint {
-    let xx = difference_x.x * difference_x.x + difference_y.x * difference_y.x;
-    let xy = difference_x.x * difference_x.y + difference_y.x * difference_y.y;
-    let yy = difference_x.y * difference_x.y + difference_y.y * difference_y.y;
-    // The squares of the axes are the eigenvalues of the symmetric matrix (xx xy, xy yy).
-    let half_difference = 0.5 * (xx - yy);
-    let root = sqrt(half_difference * half_difference + xy * xy);
-    let major_length = sqrt(0.5 * (xx + yy) + root);
-    // The product of the axes is the parallelogram's area; a difference of eigenvalues would cancel.
-    let area = abs(difference_x.x * difference_y.y - difference_x.y * difference_y.x);
-    let minor_length = area / max(major_length, 1e-20);
-    // Both rows of the matrix less its smaller eigenvalue point along the major axis; this is the one that does not cancel.
-    let along = select(vec2f(xy, root - half_difference), vec2f(root + half_difference, xy), half_difference >= 0.0);
-    // A circle has no direction; its probes number one.
-    let direction = along / max(max(abs(along.x), abs(along.y)), 1e-30);
-    let unit = direction / max(length(direction), 1e-6);
-    let largest = clamp(anisotropy, 1.0, MINIFICATION_LARGEST_ANISOTROPY);
-    // With so many probes a texel apart the major axis is filled: w^2 = 3 major_length^2 / (largest^2 + 2).
-    let filled = major_length * sqrt(3.0 / fma(largest, largest, 2.0));
-    let width = max(max(minor_length, filled), 1.0);
-    // A probe has the variance of the width along the major axis, too: the line of probes is shorter by that.
-    let line = sqrt(max(fma(-width, width, major_length * major_length), 0.0));
-    let texel = max(width * MINIFICATION_TEXEL_PER_WIDTH, 1.0);
-    return MinificationFootprint(unit * line, clamp(ceil(line / texel - 1e-3), 1.0, largest), log2(texel));
-}
-
-// Where probe `index` lies on the major axis: the offset, in texels, from the footprint's centre.
-fn minification_probe(footprint: MinificationFootprint, index: f32) -> vec2f {
-    return ((index + 0.5) / footprint.probes - 0.5) * footprint.major;
-}
-
-// The two axes of a footprint as the differences of place, in texels, that make a sampler with anisotropy take just these
-// probes: x is the column of the line, at least as long as the other one.
-fn minification_gradients(footprint: MinificationFootprint) -> mat2x2f {
-    let texel = exp2(footprint.level);
-    let line = length(footprint.major);
-    let unit = select(vec2f(1.0, 0.0), footprint.major / max(line, 1e-6), line >= 1e-3);
-    return mat2x2f(unit * max(line, texel), vec2f(-unit.y, unit.x) * texel);
-}
-
-// The variance that minification adds to the moment depths of a plane, whose moment depth changes by `gradient` per texel:
-// that of the probes' trilinear lookups, and that of the line they lie on. Between two levels the mixture of both has at
-// most 1.13 times the variance of the level between them.
-fn minification_depth_variance(footprint: MinificationFootprint, gradient: vec2f) -> f32 {
-    let texel = select(0.0, exp2(footprint.level), footprint.level > 0.0);
-    let across = texel * length(gradient);
-    let along = select(0.0, dot(footprint.major, gradient), footprint.probes > 1.0);
-    return (1.13 / 4.0) * across * across + along * along / 12.0;
-}
-
-// moment_shadows/map/map_load.wgsl
-
-// Lookups in a map that a device cannot filter, and where a sampler would read across the edge of a region: bilinear,
-// trilinear, averaged over a footprint. `uv`, `levels` and regions are those of `map_lookup`.
-//
-// Texels are loaded and blended here, in f32, while hardware may use weights of as few as 8 bits. Blending texels of moments
-// is a convex combination, so it keeps moments valid.
-
-// The bilinearly filtered texel on one mip level. `uv` is finite; values outside [0, 1] count as the nearer edge.
-fn map_load_bilinear(map: texture_2d_array<f32>, layer: u32, region: MapRegion, uv: vec2f, level: u32) -> vec4f {
-    let rectangle = map_region_at_level(region, level);
-    let place = map_region_place(rectangle, uv) - 0.5;
-    let base = floor(place);
-    let weight = place - base;
-    let low = vec2i(base);
-    let high = min(low + 1, vec2i(rectangle.origin + rectangle.extent) - 1);
-    let top = mix(textureLoad(map, low, layer, level), textureLoad(map, vec2i(high.x, low.y), layer, level), weight.x);
-    let bottom = mix(textureLoad(map, vec2i(low.x, high.y), layer, level), textureLoad(map, high, layer, level), weight.x);
-    return mix(top, bottom, weight.y);
-}
-
-// The same, blended between the two mip levels next to `level` >= 0, as far as the region has texels there.
-fn map_load_trilinear(map: texture_2d_array<f32>, layer: u32, region: MapRegion, levels: u32, uv: vec2f, level: f32) -> vec4f {
-    let last = map_region_last_level(region, levels);
-    let fine = min(u32(clamp(level, 0.0, 31.0)), last);
-    let texel = map_load_bilinear(map, layer, region, uv, fine);
-    let blend = level - f32(fine);
-    if fine == last || blend <= 0.0 {
-        return texel;
-    }
-    return mix(texel, map_load_bilinear(map, layer, region, uv, fine + 1u), blend);
-}
-
-// The average over a footprint around `uv`: trilinear probes along its major axis.
-fn map_load_footprint(map: texture_2d_array<f32>, layer: u32, region: MapRegion, levels: u32, uv: vec2f, footprint: MinificationFootprint) -> vec4f {
-    let per_texel = 1.0 / max(vec2f(region.extent), vec2f(1.0));
-    var sum = vec4f(0.0);
-    for (var probe = 0.0; probe < footprint.probes; probe += 1.0) {
-        let probe_uv = uv + minification_probe(footprint, probe) * per_texel;
-        sum += map_load_trilinear(map, layer, region, levels, probe_uv, footprint.level);
-    }
-    return sum / footprint.probes;
-}
+//     FOUR_MOMENTS_SQRT_3
+//     four_moments_from_depth
+//     four_moments_quantize
+//     four_moments_dequantize
+//     four_moments_to_texel
+//     four_moments_from_texel
 
 // moment_shadows/map/map_lookup.wgsl
+//     map_lookup_bilinear
 
-// Lookups in a filterable map by a sampler: bilinear, and averaged over a pixel. None reads across the edge of a region.
-//
-// `uv` runs from 0 to 1 across the region, v downwards; places are in texels of mip level 0. `levels` is the number of mip
-// levels of the map. Samplers filter linearly within and between levels and clamp to the edge. `map_load` has lookups for
-// maps that a device cannot filter.
+// moments_lookup
+//     moments_map
+//     moments_sampler
+//     moments_lookup
 
-// The bilinearly filtered texel on one mip level. The sampler is not anisotropic: a driver may apply anisotropy to lookups
-// with an explicit level, too, and then they reach beyond the region.
-fn map_lookup_bilinear(map: texture_2d_array<f32>, linear: sampler, layer: u32, region: MapRegion, uv: vec2f, level: u32) -> vec4f {
-    let place = map_region_place(map_region_at_level(region, level), uv);
-    return textureSampleLevel(map, linear, place / vec2f(textureDimensions(map, level)), layer, f32(level));
-}
+// moment_shadows/air/rectified_frame.wgsl
+//     RectifiedFrame
+//     rectified_frame_ray
+//     rectified_frame_depth
 
-// The average over a pixel, from the differences of place to its neighbours in x and y, in texels, each component at
-// most 1e9 in magnitude. Where the pixel's footprint lies well within a region that hardware would divide into the same
-// mip levels, hardware takes the probes, at most as many as the clamp of the sampler `anisotropic`; elsewhere at most
-// `anisotropy` are taken here, from loaded texels. Regions are read by hardware for the most part if their edges and the
-// size of the map are multiples of a texel of the coarsest level.
-fn map_lookup_gradient(map: texture_2d_array<f32>, anisotropic: sampler, layer: u32, region: MapRegion, levels: u32, uv: vec2f, difference_x: vec2f, difference_y: vec2f, anisotropy: f32) -> vec4f {
-    let footprint = minification_footprint(difference_x, difference_y, anisotropy);
-    let size = textureDimensions(map);
-    let place = vec2f(region.origin) + uv * vec2f(region.extent);
-    let whole = all(region.origin == vec2u(0u)) && all(region.extent == size);
-    if whole || map_lookup_is_inner(region, size, levels, place, abs(difference_x) + abs(difference_y)) {
-        let per_texel = 1.0 / vec2f(size);
-        let gradients = minification_gradients(footprint);
-        return textureSampleGrad(map, anisotropic, place * per_texel, layer, gradients[0] * per_texel, gradients[1] * per_texel);
-    }
-    return map_load_footprint(map, layer, region, levels, uv, footprint);
-}
+// rectified_texel
+//     rectified_texel
 
-// Whether hardware that filters around `place` over a box of `reach` texels reads no texel of another region, and divides
-// the map into mip levels just as regions are divided: edges and size are multiples of a texel of the coarsest level.
-fn map_lookup_is_inner(region: MapRegion, size: vec2u, levels: u32, place: vec2f, reach: vec2f) -> bool {
-    let part_of_texel = vec2u((1u << min(max(levels, 1u) - 1u, 31u)) - 1u);
-    let aligned = all(((region.origin | region.extent | size) & part_of_texel) == vec2u(0u));
-    // Half of the box, and two texels of a mip level whose texels may be twice as wide as the box is long.
-    let margin = vec2f(2.0) + 0.5 * reach + 4.0 * max(reach.x, reach.y);
-    let low = vec2f(region.origin) + margin;
-    let high = vec2f(region.origin + region.extent) - margin;
-    return aligned && all(place >= low) && all(place <= high);
-}
+// moment_shadows/maths/two_diracs.wgsl
+//     TwoDiracs
+//     TWO_DIRACS_SMALLEST_VARIANCE
+//     two_diracs_of_moments
+
+// rectify_moments.wgsl
+//     RectifyMomentsParameters
+//     parameters
+//     rectified_map
+//     FAR_END
+//     rectified
+//     rectify
+
+// Generated.
 
 // specialization
 const GROUP = 0;
 const SOURCE_STORAGE = 1u;
-const LEVELS = 1u;
-const ANISOTROPY = 8.0;
+
 alias MomentsStorage = texture_storage_2d<rgba16float, write>;
 const STORAGE = 1u;
 
-// moments_lookup
-
-// The lookup in a map that the device can filter, without mip levels.
-
-@group(GROUP) @binding(2) var moments_map: texture_2d_array<f32>;
-@group(GROUP) @binding(3) var moments_sampler: sampler;
-
-// The bilinearly filtered texel at `uv` in [0, 1] across a region. How far apart pixels lie does not matter.
-fn moments_lookup(layer: u32, region: MapRegion, uv: vec2f, difference_x: vec2f, difference_y: vec2f) -> vec4f {
-    return map_lookup_bilinear(moments_map, moments_sampler, layer, region, uv, 0u);
-}
-
-// moment_shadows/air/rectified_frame.wgsl
-
-// Rectified coordinates of a camera and a directional light, in which both view rays and light rays are lines along axes.
-//
-// With the camera at the origin and +z the direction in which light travels, a position has a radius r = |(x, y)|, an azimuth
-// phi about the light's direction, and an inclination theta to it (Peters et al., JCGT 6(1) 2017, section 7). All view rays
-// of one azimuth run through a row of a map with columns r and rows phi, each at its own constant inclination; a texel (r, phi)
-// is one light ray, along which theta falls. Depth along the light, -1 at the largest inclination of the frustum and 1 at the
-// smallest, then serves as the depth of a shadow map whose fragments are whole view rays.
-
-// Filled by the host-side `RectifiedFrame`.
-struct RectifiedFrame {
-    // The direction of the pixel at (x, y) in normalised device coordinates is x along_x + y along_y + along_middle, divided
-    // by the homogeneous coordinate of the scene its position.
-    along_x: vec3f,
-    // The largest radius of the frustum; positive.
-    largest_radius: f32,
-    along_y: vec3f,
-    // The azimuth of the first row, and that of the last one less the first: in (0, 2 pi].
-    first_azimuth: f32,
-    along_middle: vec3f,
-    azimuth_extent: f32,
-    // The homogeneous coordinate of the scene for clip coordinates (x, y, stored depth, 1).
-    scene_w: vec4f,
-    // The homogeneous coordinate at the far end: sky, and whatever is farther, counts as this far.
-    farthest_w: f32,
-    // The inclinations of depth 1 and -1.
-    smallest_inclination: f32,
-    largest_inclination: f32,
-    padding: f32,
-}
-
-// A component of a position, finite and not so large that squares overflow.
-fn rectified_frame_component(value: f32) -> f32 {
-    return clamp(angle_finite(value), -1e18, 1e18);
-}
-
-// Radius, azimuth in [-pi, pi] and inclination in [0, pi] of a position. The camera itself and components that are no finite
-// numbers count as 0.
-fn rectified_frame_coordinates(position: vec3f) -> vec3f {
-    let x = rectified_frame_component(position.x);
-    let y = rectified_frame_component(position.y);
-    let z = rectified_frame_component(position.z);
-    // Scaled, so that squares of small components do not vanish.
-    let most = max(abs(x), abs(y));
-    let scaled = vec2f(x, y) / max(most, 1e-30);
-    let radius = most * sqrt(dot(scaled, scaled));
-    return vec3f(radius, angle_atan2(y, x), angle_atan2(radius, z));
-}
-
-// The position of coordinates. On the light ray through the camera (inclination 0 or pi) the distance is unknown; the camera's
-// own position stands for all of it.
-fn rectified_frame_position(coordinates: vec3f) -> vec3f {
-    let around = angle_sin_cos(coordinates.y);
-    let inclined = angle_sin_cos(clamp(angle_finite(coordinates.z), 0.0, ANGLE_PI));
-    let radius = rectified_frame_component(coordinates.x);
-    // sin(theta) of the nearest f32 to pi is -9e-8; below that there is no such inclination.
-    let along = select(0.0, radius * inclined.y / inclined.x, inclined.x > 1e-7);
-    return vec3f(radius * around.y, radius * around.x, along);
-}
-
-// How far across the map's columns and rows coordinates lie, from 0 to 1. Azimuths outside of the frame take its nearer end.
-fn rectified_frame_place(frame: RectifiedFrame, coordinates: vec3f) -> vec2f {
-    let turn = 2.0 * ANGLE_PI;
-    let turned = coordinates.y - frame.first_azimuth;
-    let offset = turned - turn * floor(turned / turn);
-    let beyond = offset - frame.azimuth_extent;
-    // Of what the frame leaves of a turn, the second half is nearer to its beginning.
-    let before = beyond > 0.5 * (turn - frame.azimuth_extent);
-    let row = select(offset / frame.azimuth_extent, 0.0, before);
-    return saturate(vec2f(coordinates.x / frame.largest_radius, row));
-}
-
-// Radius and azimuth at a place.
-fn rectified_frame_ray(frame: RectifiedFrame, place: vec2f) -> vec2f {
-    return vec2f(place.x * frame.largest_radius, fma(place.y, frame.azimuth_extent, frame.first_azimuth));
-}
-
-// The depth along the light in [-1, 1] of an inclination.
-fn rectified_frame_depth(frame: RectifiedFrame, inclination: f32) -> f32 {
-    let extent = frame.largest_inclination - frame.smallest_inclination;
-    return clamp(fma(2.0 / extent, frame.largest_inclination - inclination, -1.0), -1.0, 1.0);
-}
-
-// The inclination of a depth in [-1, 1].
-fn rectified_frame_inclination(frame: RectifiedFrame, depth: f32) -> f32 {
-    return mix(frame.largest_inclination, frame.smallest_inclination, 0.5 * depth + 0.5);
-}
-
-// The position of a pixel's surface, or where its view ray ends at the far end. `device` are normalised device coordinates.
-fn rectified_frame_surface(frame: RectifiedFrame, device: vec2f, stored_depth: f32) -> vec3f {
-    let direction = fma(vec3f(device.x), frame.along_x, fma(vec3f(device.y), frame.along_y, frame.along_middle));
-    let scene_w = angle_finite(dot(frame.scene_w, vec4f(device, stored_depth, 1.0)));
-    return direction / max(scene_w, frame.farthest_w);
-}
-
-// Where in a map of so many rows a row lies, from 0 to 1: the first and last rows are the ends of the frame.
-fn rectified_frame_row(row: f32, rows: f32) -> f32 {
-    return fma(row, rows - 1.0, 0.5) / rows;
-}
-
-// Where in a map of so many columns the prefix sums up to one lie, from 0 to 1: a texel holds the sum up to its far edge, and is
-// right for view rays that end at the next column's middle. So no column is counted whose middle lies beyond a ray's end, where
-// what the ray ends at no longer shadows it.
-fn rectified_frame_prefix(column: f32, columns: f32) -> f32 {
-    return column - 1.0 / columns;
-}
-
-// rectified_texel
-
-// Four moments of two occluders in rectified coordinates.
-
-fn rectified_texel(depths: vec2f, weights: vec2f) -> vec4f {
-    let sums = weights.x * four_moments_from_depth(depths.x) + weights.y * four_moments_from_depth(depths.y);
-    return four_moments_to_texel(sums, STORAGE);
-}
-
-// moment_shadows/maths/two_diracs.wgsl
-// Two depths with weights that have given first three moments: what a filtered texel of a shadow map is resampled as.
-//
-// There is exactly one such pair (Peters et al., supplement of "Beyond Hard Shadows", i3D 2016, theorem 1). About the mean,
-// with the variance c and half of the regression slope's excess d, the depths are d -+ sqrt(d^2 + c): nothing cancels, where
-// the published form takes the root of a difference.
-
-// Two depths and their weights, which sum to one.
-struct TwoDiracs {
-    // In rising order.
-    depths: vec2f,
-    // Not negative.
-    weights: vec2f,
-}
-
-// The variance that rounding of f32 moments leaves no digit of; smaller ones count as this. It moves moments by as much.
-const TWO_DIRACS_SMALLEST_VARIANCE: f32 = 1e-7;
-
-// Of the moments b1, b2, b3 of depths in [-1, 1]. Moments that no distribution has, if they are finite, give finite depths,
-// which may lie outside of [-1, 1].
-fn two_diracs_of_moments(moments: vec3f) -> TwoDiracs {
-    let b = clamp(moments, vec3f(-1.0, 0.0, -1.0), vec3f(1.0));
-    let variance = max(fma(-b.x, b.x, b.y), TWO_DIRACS_SMALLEST_VARIANCE);
-    let d = 0.5 * fma(-b.x, b.y, b.z) / variance - b.x;
-    let root = sqrt(fma(d, d, variance));
-    let sum = abs(d) + root;
-    // The depth on the side of d is farther from the mean, and has the smaller weight.
-    let near = variance / sum;
-    let small = 0.5 * near / root;
-    let low = select(vec2f(-sum, small), vec2f(-near, 1.0 - small), d >= 0.0);
-    let high = select(vec2f(near, 1.0 - small), vec2f(sum, small), d >= 0.0);
-    return TwoDiracs(b.x + vec2f(low.x, high.x), vec2f(low.y, high.y));
-}
-
-// rectify_moments.wgsl
-
-// Resamples a filtered map of four moments in rectified coordinates: one texel, which is one light ray, per invocation.
-//
-// Depth along the light is not linear in the depth of the light's map, so moments cannot be converted; the two depths that stand
-// for a texel can (Peters et al., JCGT 6(1) 2017, section 7). Every texel is looked up in the light's map, so there are no
-// holes, whatever the directions of camera and light.
-
-struct RectifyMomentsParameters {
-    frame: RectifiedFrame,
-    // Where the light ray through the camera meets the light's map, from 0 to 1 across the region, and by how much that
-    // changes along the frame's first and second axis per scene unit.
-    map_at_camera: vec2f,
-    map_along_first: vec2f,
-    map_along_second: vec2f,
-    // The light's moment depth at the camera, and by how much it grows along the light per scene unit.
-    depth_at_camera: f32,
-    depth_per_length: f32,
-    // Where the light's view lies in its map.
-    region: MapRegion,
-    layer: u32,
-}
-
-@group(GROUP) @binding(0) var<uniform> parameters: RectifyMomentsParameters;
-@group(GROUP) @binding(1) var rectified_map: MomentsStorage;
-
-// From here on depths of the light's map are its far end, where there are no casters: those of filtered texels spread by
-// what a storage's rounding leaves of them.
-const FAR_END = 0.97;
-
-// The rectified depth of an occluder at a depth of the light's map, on the light ray of a radius.
-fn rectified(depth: f32, radius: f32) -> f32 {
-    let along = (max(depth, -1.0) - parameters.depth_at_camera) / parameters.depth_per_length;
-    let rectified = rectified_frame_depth(parameters.frame, angle_atan2(radius, along));
-    return select(rectified, 1.0, depth >= FAR_END);
-}
-
-@compute @workgroup_size(8, 8)
-fn rectify(@builtin(global_invocation_id) id: vec3u) {
-    let size = textureDimensions(rectified_map);
-    if any(id.xy >= size) {
-        return;
-    }
-    // Columns are intervals of the radius, rows azimuths from end to end.
-    let place = vec2f((f32(id.x) + 0.5) / f32(size.x), f32(id.y) / f32(max(size.y, 2u) - 1u));
-    let ray = rectified_frame_ray(parameters.frame, place);
-    let turn = angle_sin_cos(ray.y);
-    let outwards = turn.y * parameters.map_along_first + turn.x * parameters.map_along_second;
-    let around = turn.y * parameters.map_along_second - turn.x * parameters.map_along_first;
-    let uv = parameters.map_at_camera + ray.x * outwards;
-    if any(uv < vec2f(0.0)) || any(uv > vec2f(1.0)) {
-        // What the light's map does not know casts no shadow.
-        textureStore(rectified_map, id.xy, rectified_texel(vec2f(1.0), vec2f(0.5)));
-        return;
-    }
-    let region = map_region_within(parameters.region, textureDimensions(moments_map));
-    let texels = vec2f(region.extent);
-    let column = parameters.frame.largest_radius / f32(size.x) * texels * outwards;
-    let row = ray.x * parameters.frame.azimuth_extent / f32(size.y) * texels * around;
-    let texel = moments_lookup(parameters.layer, region, uv, column, row);
-    let moments = four_moments_from_texel(storage_finite_texel(texel, SOURCE_STORAGE), SOURCE_STORAGE);
-    let occluders = two_diracs_of_moments(moments.xyz);
-    // View rays that end within the first column run along the light: whatever is before the camera shadows all of them.
-    let radius = select(ray.x, 0.0, id.x == 0u);
-    let depths = vec2f(rectified(occluders.depths.x, radius), rectified(occluders.depths.y, radius));
-    textureStore(rectified_map, id.xy, rectified_texel(depths, occluders.weights));
-}

@@ -1,384 +1,127 @@
+// Files and what is linked of them.
+
 // fullscreen
-// The vertex stage of fullscreen passes.
-
-struct Covered {
-    @builtin(position) position: vec4f,
-    // The place in the picture from 0 to 1. Other than `position` it does not depend on where in its target a host has the
-    // viewport.
-    @location(0) uv: vec2f,
-}
-
-@vertex
-fn fullscreen(@builtin(vertex_index) index: u32) -> Covered {
-    // One triangle that covers the viewport: (-1, -1), (3, -1), (-1, 3).
-    let corner = 4.0 * vec2f(f32(index & 1u), f32(index >> 1u)) - 1.0;
-    return Covered(vec4f(corner, 0.0, 1.0), 0.5 + vec2f(0.5, -0.5) * corner);
-}
+//     Covered
+//     fullscreen
 
 // moment_shadows/map/depth.wgsl
-// Moment depth: the one interval that all moment arithmetic uses.
-//
-// Moment depth z is in [-1, 1], -1 at the light's near end and 1 at its far end, linear in distance along the light's
-// axis. Signed depth needs a far smaller moment bias than depth in [0, 1] (Peters et al., JCGT 6(1) 2017, section 3).
-// Every way in which a host stores depth (forward or reversed, orthographic or perspective, finite or infinite far
-// plane, linear distance) is a ratio of two functions that are linear in the stored value, so one conversion serves all.
-
-// How stored depth becomes moment depth. Filled by the host-side `DepthConversion`.
-//
-// With d = clamp(scale * stored + offset, 0, 1) the moment depth is
-//   ((1 - d) * numerator.x + d * numerator.y) / ((1 - d) * denominator.x + d * denominator.y).
-// Weighting the ends by 1 - d and d keeps both sums free of cancellation: a light with a near/far ratio of 1e5 in
-// reversed float depth keeps its precision. The denominators are not negative, and not both zero.
-struct DepthConversion {
-    numerator: vec2f,
-    denominator: vec2f,
-    scale: f32,
-    offset: f32,
-    // Keeps the size a multiple of 16, as uniform buffers ask for arrays of it.
-    padding: vec2f,
-}
-
-// The smallest denominator: the far end of an infinite projection divides by zero.
-const DEPTH_SMALLEST_DENOMINATOR: f32 = 1e-30;
-
-// The moment depth of a light with parallel rays.
-const DEPTH_INFINITELY_FAR: f32 = -1e30;
-
-// Whether `value` is NaN, by its bits: WGSL lets a compiler assume that no NaN occurs, so `value != value` may be folded.
-fn depth_is_nan(value: f32) -> bool {
-    return (bitcast<u32>(value) & 0x7fffffffu) > 0x7f800000u;
-}
-
-// Moment depth in [-1, 1] of a stored depth. NaN counts as the far end (no caster), infinities and values out of
-// range as the nearer end of the interval.
-fn depth_to_moment_depth(stored: f32, conversion: DepthConversion) -> f32 {
-    let d = clamp(fma(clamp(stored, -3e38, 3e38), conversion.scale, conversion.offset), 0.0, 1.0);
-    let ends = vec2f(1.0 - d, d);
-    let ratio = dot(ends, conversion.numerator) / max(dot(ends, conversion.denominator), DEPTH_SMALLEST_DENOMINATOR);
-    return select(clamp(ratio, -1.0, 1.0), 1.0, depth_is_nan(stored));
-}
-
-// The depth of a fragment in [-1, 1]: beyond the light's range it counts as the nearer end, and NaN as the near end, where
-// every lower bound is 0.
-fn depth_of_fragment(fragment_depth: f32) -> f32 {
-    return select(clamp(fragment_depth, -1.0, 1.0), -1.0, depth_is_nan(fragment_depth));
-}
-
-// The stored depth of a moment depth: the inverse of the above, as the reference value of a comparison sampler. Moment
-// depths that the stored interval does not reach count as its nearer end, NaN as the far end.
-fn depth_from_moment_depth(moment_depth: f32, conversion: DepthConversion) -> f32 {
-    let z = select(clamp(moment_depth, -1.0, 1.0), 1.0, depth_is_nan(moment_depth));
-    let numerator = conversion.numerator;
-    let denominator = conversion.denominator;
-    // The weights d and 1 - d of the two ends, up to a factor that is positive where depth is stored from near to far.
-    let weights = vec2f(fma(z, denominator.x, -numerator.x), fma(-z, denominator.y, numerator.y));
-    let reversed = numerator.y * denominator.x < numerator.x * denominator.y;
-    let positive = max(select(weights, -weights, reversed), vec2f(0.0));
-    let d = positive.x / max(positive.x + positive.y, DEPTH_SMALLEST_DENOMINATOR);
-    let scale = select(max(conversion.scale, DEPTH_SMALLEST_DENOMINATOR), min(conversion.scale, -DEPTH_SMALLEST_DENOMINATOR), conversion.scale < 0.0);
-    return clamp((d - conversion.offset) / scale, -3e38, 3e38);
-}
-
-// The moment depth of a light's own place, below -1; DEPTH_INFINITELY_FAR where the stored depth is linear, as parallel rays
-// have it.
-fn depth_of_light(conversion: DepthConversion) -> f32 {
-    // A perspective conversion tends to it where d grows without bounds.
-    let divisor = conversion.denominator.y - conversion.denominator.x;
-    if abs(divisor) < DEPTH_SMALLEST_DENOMINATOR {
-        return DEPTH_INFINITELY_FAR;
-    }
-    return clamp((conversion.numerator.y - conversion.numerator.x) / divisor, DEPTH_INFINITELY_FAR, -1.0);
-}
+//     DepthConversion
 
 // moment_shadows/shade/leak_reduction.wgsl
-// Light leaking, reduced after the bound: none of this touches the moments.
-//
-// Multiplying the moments by a constant before solving ("moment scale" in some samples) is not offered: it makes the
-// total weight differ from one, so that the result bounds nothing.
-
-// Filled by the host-side `LeakReduction`.
-struct LeakReduction {
-    // Shadow intensity that counts as full shadow, in (0, 1]; 0.98 hides weak leaks (Peters, GDC 2016).
-    full_shadow: f32,
-    // Visibility that counts as none, in [0, 1) (light bleeding reduction; Lauritzen, thesis 2008, section 3.4).
-    bleed_reduction: f32,
-    // Exponent of visibility, > 0; above 1 darkens penumbrae.
-    visibility_exponent: f32,
-    padding: f32,
-}
-
-// Shadow intensity after division by `full_shadow`.
-fn leak_reduction_full_shadow(shadow_intensity: f32, full_shadow: f32) -> f32 {
-    return saturate(shadow_intensity / max(full_shadow, 1e-6));
-}
-
-// Shadow intensity in [0, 1] after all three reductions. Each only darkens; full light stays full light.
-fn leak_reduction_apply(shadow_intensity: f32, reduction: LeakReduction) -> f32 {
-    let visibility = 1.0 - leak_reduction_full_shadow(clamp(shadow_intensity, 0.0, 1.0), reduction.full_shadow);
-    let bleed = clamp(reduction.bleed_reduction, 0.0, 0.999);
-    let remaining = saturate((visibility - bleed) / (1.0 - bleed));
-    // pow(0, e) goes through the logarithm of 0, and e = 1 is to change nothing at all.
-    let curved = pow(max(remaining, 1e-30), max(reduction.visibility_exponent, 1e-6));
-    let plain = remaining <= 0.0 || reduction.visibility_exponent == 1.0;
-    return 1.0 - select(curved, remaining, plain);
-}
+//     LeakReduction
+//     leak_reduction_full_shadow
+//     leak_reduction_apply
 
 // moment_shadows/map/map_region.wgsl
-// Regions: rectangles of a layer that share an atlas and know nothing of each other.
-//
-// Mip level k of a region runs from floor(first / 2^k) to floor(end / 2^k). Regions that touch share that edge on every
-// level, wherever it lies, so none covers a texel of another, and a gutter is not needed.
-
-// Filled by the host-side `MapRegion`: texels of mip level 0. No texels: no region. A rectangle that leaves the map is
-// cut off at its border.
-struct MapRegion {
-    origin: vec2u,
-    extent: vec2u,
-}
-
-// The part of a region that lies in a map of `size` texels.
-fn map_region_within(region: MapRegion, size: vec2u) -> MapRegion {
-    let origin = min(region.origin, size);
-    return MapRegion(origin, min(region.extent, size - origin));
-}
-
-// A region of a map (within it) on mip level `level`, below 32.
-fn map_region_at_level(region: MapRegion, level: u32) -> MapRegion {
-    let origin = region.origin >> vec2u(level);
-    return MapRegion(origin, ((region.origin + region.extent) >> vec2u(level)) - origin);
-}
-
-// The coarsest of `levels` mip levels on which a region still has texels.
-fn map_region_last_level(region: MapRegion, levels: u32) -> u32 {
-    var level = max(levels, 1u) - 1u;
-    while level > 0u && any(map_region_at_level(region, level).extent == vec2u(0u)) {
-        level--;
-    }
-    return level;
-}
-
-// The place of `uv` (from 0 to 1 across the region) in texels of a region's mip level, kept half a texel away from its
-// edge: a bilinear filter there reads no other region.
-fn map_region_place(region_on_level: MapRegion, uv: vec2f) -> vec2f {
-    let extent = vec2f(region_on_level.extent);
-    return vec2f(region_on_level.origin) + clamp(uv * extent, vec2f(0.5), max(extent - 0.5, vec2f(0.5)));
-}
+//     MapRegion
+//     map_region_within
+//     map_region_at_level
+//     map_region_last_level
+//     map_region_place
 
 // moment_shadows/map/minification.wgsl
-// Minification: what part of a map a pixel covers.
-//
-// A pixel maps to a parallelogram of texels. Its singular values are the axes of the ellipse that stands for it
-// (Heckbert, "Fundamentals of Texture Mapping and Image Warping", 1989, section 3.5): a lookup takes probes along the
-// major axis, each on a mip level that fits the minor axis. Averages of moments are moments, which is what filterable
-// shadow maps exist for (Donnelly & Lauritzen, "Variance Shadow Maps", i3D 2006, section 3).
-//
-// A pixel averages a box: over w texels its variance is w^2 / 12. A trilinear lookup on a mip level whose texels are t wide
-// averages boxes of t and blends neighbours that are t apart: (1/12 + 1/6) t^2. Lookups are as wide as pixels if their
-// variances are equal, t = w / sqrt(3); a level with t = w, as colour textures take it, would filter three times as much.
-
-// Probes along the major axis, at most.
-const MINIFICATION_LARGEST_ANISOTROPY: f32 = 16.0;
-
-// The width of a mip level's texels that makes trilinear lookups as wide as a box: 1 / sqrt(3).
-const MINIFICATION_TEXEL_PER_WIDTH: f32 = 0.57735026;
-
-struct MinificationFootprint {
-    // The line on which the probes lie, along the major axis and from end to end, in texels of mip level 0.
-    major: vec2f,
-    // Probes along it, a whole number from 1 to 16.
-    probes: f32,
-    // The mip level of each probe, at least 0.
-    level: f32,
-}
-
-// The footprint of a pixel from the differences of place, in texels, to its neighbours in x and y; each component at
-// most 1e9 in magnitude. `anisotropy`, from 1 to 16, is the largest number of probes; where more were needed, the minor
-// axis is taken for longer than it is.
-fn minification_footprint(difference_x: vec2f, difference_y: vec2f, anisotropy: f32) -> MinificationFootprint {
-    let xx = difference_x.x * difference_x.x + difference_y.x * difference_y.x;
-    let xy = difference_x.x * difference_x.y + difference_y.x * difference_y.y;
-    let yy = difference_x.y * difference_x.y + difference_y.y * difference_y.y;
-    // The squares of the axes are the eigenvalues of the symmetric matrix (xx xy, xy yy).
-    let half_difference = 0.5 * (xx - yy);
-    let root = sqrt(half_difference * half_difference + xy * xy);
-    let major_length = sqrt(0.5 * (xx + yy) + root);
-    // The product of the axes is the parallelogram's area; a difference of eigenvalues would cancel.
-    let area = abs(difference_x.x * difference_y.y - difference_x.y * difference_y.x);
-    let minor_length = area / max(major_length, 1e-20);
-    // Both rows of the matrix less its smaller eigenvalue point along the major axis; this is the one that does not cancel.
-    let along = select(vec2f(xy, root - half_difference), vec2f(root + half_difference, xy), half_difference >= 0.0);
-    // A circle has no direction; its probes number one.
-    let direction = along / max(max(abs(along.x), abs(along.y)), 1e-30);
-    let unit = direction / max(length(direction), 1e-6);
-    let largest = clamp(anisotropy, 1.0, MINIFICATION_LARGEST_ANISOTROPY);
-    // With so many probes a texel apart the major axis is filled: w^2 = 3 major_length^2 / (largest^2 + 2).
-    let filled = major_length * sqrt(3.0 / fma(largest, largest, 2.0));
-    let width = max(max(minor_length, filled), 1.0);
-    // A probe has the variance of the width along the major axis, too: the line of probes is shorter by that.
-    let line = sqrt(max(fma(-width, width, major_length * major_length), 0.0));
-    let texel = max(width * MINIFICATION_TEXEL_PER_WIDTH, 1.0);
-    return MinificationFootprint(unit * line, clamp(ceil(line / texel - 1e-3), 1.0, largest), log2(texel));
-}
-
-// Where probe `index` lies on the major axis: the offset, in texels, from the footprint's centre.
-fn minification_probe(footprint: MinificationFootprint, index: f32) -> vec2f {
-    return ((index + 0.5) / footprint.probes - 0.5) * footprint.major;
-}
-
-// The two axes of a footprint as the differences of place, in texels, that make a sampler with anisotropy take just these
-// probes: x is the column of the line, at least as long as the other one.
-fn minification_gradients(footprint: MinificationFootprint) -> mat2x2f {
-    let texel = exp2(footprint.level);
-    let line = length(footprint.major);
-    let unit = select(vec2f(1.0, 0.0), footprint.major / max(line, 1e-6), line >= 1e-3);
-    return mat2x2f(unit * max(line, texel), vec2f(-unit.y, unit.x) * texel);
-}
-
-// The variance that minification adds to the moment depths of a plane, whose moment depth changes by `gradient` per texel:
-// that of the probes' trilinear lookups, and that of the line they lie on. Between two levels the mixture of both has at
-// most 1.13 times the variance of the level between them.
-fn minification_depth_variance(footprint: MinificationFootprint, gradient: vec2f) -> f32 {
-    let texel = select(0.0, exp2(footprint.level), footprint.level > 0.0);
-    let across = texel * length(gradient);
-    let along = select(0.0, dot(footprint.major, gradient), footprint.probes > 1.0);
-    return (1.13 / 4.0) * across * across + along * along / 12.0;
-}
+//     MINIFICATION_LARGEST_ANISOTROPY
+//     MINIFICATION_TEXEL_PER_WIDTH
+//     MinificationFootprint
+//     minification_footprint
+//     minification_probe
+//     minification_depth_variance
 
 // moment_shadows/shade/area_light.wgsl
-// Area lights: how wide a light appears on its map when a receiver sees it through a blocker.
-//
-// The light's outline, projected from the receiver through the blocker onto the map, is what a filter has to average for a
-// penumbra (Fernando, "Percentage-Closer Soft Shadows", SIGGRAPH 2005 sketches). It is exact for one blocker parallel to the
-// map. Filters of another shape than the light take one of the same variance, which makes penumbrae equally wide.
-
-// Filled by the host-side `AreaLight`.
-struct AreaLight {
-    // Width and height of the light on the map in texels. Parallel rays: per scene unit between blocker and receiver. Rays
-    // from a point: per 1 / scene unit of difference between their inverse distances.
-    size: vec2f,
-    // Distances from the light along its axis, in scene units, of the moment depths -1 and 1.
-    near: f32,
-    far: f32,
-    // 0 for parallel rays, 1 for rays from a point.
-    perspective: u32,
-    // Smallest and largest half width in texels of filters. The smallest softens shadows near contacts; the largest bounds
-    // noise and cost.
-    smallest_radius: f32,
-    largest_radius: f32,
-    // 0 for a light that is a disk, 1 for a rectangle along the map's axes.
-    rectangular: u32,
-}
-
-// The largest half width in texels.
-const AREA_LIGHT_LARGEST_RADIUS: f32 = 4096.0;
-
-// A box of half width h has the variance h^2 / 3 along an axis, a disk of radius r r^2 / 4: half widths of a box, of which
-// the disk's radius is 1, and the reverse.
-const AREA_LIGHT_BOX_OF_DISK: f32 = 0.8660254;
-const AREA_LIGHT_DISK_OF_BOX: f32 = 1.1547005;
-
-// Half the light's width and height in texels as a receiver sees it through a blocker, projected onto the map. Both depths
-// are moment depths; 0 for a blocker that is not in front.
-fn area_light_half_extent(light: AreaLight, blocker_depth: f32, receiver_depth: f32) -> vec2f {
-    let ends = clamp(vec2f(blocker_depth, receiver_depth), vec2f(-1.0), vec2f(1.0));
-    let distances = clamp(mix(vec2f(light.near), vec2f(light.far), 0.5 * ends + 0.5), vec2f(-1e15), vec2f(1e15));
-    var apart = distances.y - distances.x;
-    if light.perspective != 0u {
-        // 1 / near - 1 / far as one quotient keeps its digits.
-        let positive = max(distances, vec2f(1e-9));
-        apart = apart / (positive.x * positive.y);
-    }
-    return 0.5 * clamp(light.size, vec2f(0.0), vec2f(1e15)) * clamp(apart, 0.0, 1e18);
-}
-
-// Half widths in texels between the light's smallest and largest one.
-fn area_light_limited(light: AreaLight, half_extent: vec2f) -> vec2f {
-    let smallest = vec2f(clamp(light.smallest_radius, 0.0, AREA_LIGHT_LARGEST_RADIUS));
-    let largest = vec2f(clamp(light.largest_radius, 0.0, AREA_LIGHT_LARGEST_RADIUS));
-    return min(max(half_extent, smallest), largest);
-}
-
-// The radii in texels of an elliptic filter that stands for the light.
-fn area_light_disk(light: AreaLight, blocker_depth: f32, receiver_depth: f32) -> vec2f {
-    let shape = select(1.0, AREA_LIGHT_DISK_OF_BOX, light.rectangular != 0u);
-    return area_light_limited(light, shape * area_light_half_extent(light, blocker_depth, receiver_depth));
-}
-
-// The half widths in texels of a box filter that stands for the light.
-fn area_light_box(light: AreaLight, blocker_depth: f32, receiver_depth: f32) -> vec2f {
-    let shape = select(AREA_LIGHT_BOX_OF_DISK, 1.0, light.rectangular != 0u);
-    return area_light_limited(light, shape * area_light_half_extent(light, blocker_depth, receiver_depth));
-}
+//     AreaLight
 
 // moment_shadows/shade/receiver_bias.wgsl
-// Receiver bias: how far the fragment depth moves towards the light so that a surface does not shadow itself.
-//
-// Not to be confused with the moment bias, which belongs to storage. A plane tilted against the light fills the filter
-// kernel with depths whose standard deviation is
-//   (the kernel's standard deviation in texels) x (change of depth per texel).
-// The lower bound of four moments is exactly 0 for fragments in front of the lower Gauss node, which for a symmetric
-// distribution lies one standard deviation in front of the mean. So a slope-scaled bias of somewhat more than one
-// standard deviation removes self-shadowing on planes, and nothing about it has to be tuned to a scene.
+//     RECEIVER_BIAS_STANDARD_DEVIATIONS
+//     RECEIVER_BIAS_EDGE_ON
+//     ReceiverBias
+//     receiver_bias_plane
+//     receiver_bias_depth
+//     receiver_bias_depth_minified
 
-// Standard deviations of depth under the filter by which a receiver moves: one, and what covers moment bias and rounding.
-const RECEIVER_BIAS_STANDARD_DEVIATIONS: f32 = 1.25;
+// moment_shadows/maths/hankel.wgsl
+//     HankelFactor
+//     HANKEL_SMALLEST_VARIANCE
+//     HANKEL_SMALLEST_RESIDUE
+//     hankel_factor
+//     hankel_second_polynomial
 
-// A gradient steeper than any surface that a light sees; its square is still finite.
-const RECEIVER_BIAS_EDGE_ON: f32 = 1e15;
+// moment_shadows/map/storage.wgsl
+//     STORAGE_FLOAT16
+//     STORAGE_FLOAT32
+//     STORAGE_UNORM10
+//     storage_is_float
 
-// Filled by the host-side `ReceiverBias`.
-struct ReceiverBias {
-    // Moment depth that is always subtracted.
-    constant: f32,
-    // Multiplies the length of the gradient of moment depth per texel: the kernel's standard deviation in texels, times
-    // a safety factor slightly above 1.
-    slope_scale: f32,
-    // The largest bias in moment depth; reached where the surface is seen edge-on by the light.
-    maximum: f32,
-    padding: f32,
-}
+// moment_shadows/moments/six_moments.wgsl
+//     SixMoments
+//     SixMomentsBias
+//     SIX_MOMENTS_BIAS_TARGET
+//     SIX_MOMENTS_BIAS_UNORM16
+//     SIX_MOMENTS_BIAS_FLOAT16
+//     SIX_MOMENTS_BIAS_FLOAT32
+//     SIX_MOMENTS_BIAS_UNORM10
+//     SIX_MOMENTS_ODD_OFFSET
+//     SIX_MOMENTS_EVEN_OFFSET
+//     SIX_MOMENTS_ODD_INVERSE
+//     SIX_MOMENTS_EVEN_INVERSE
+//     six_moments_affine
+//     six_moments_middle
+//     six_moments_from_texels
+//     six_moments_bias_of
+//     six_moments_apply_bias
 
-// The gradient of moment depth per texel on the receiver's plane, from the differences of two neighbouring points on it
-// in light space: xy in texels of the map, z in moment depth, each at most 1e9. Where the differences in xy are parallel
-// or zero (the plane is edge-on to the light, or a neighbour is missing) the result is huge, and `receiver_bias_depth`
-// limits it.
-fn receiver_bias_plane(difference_x: vec3f, difference_y: vec3f) -> vec2f {
-    let determinant = difference_x.x * difference_y.y - difference_x.y * difference_y.x;
-    if abs(determinant) < 1e-20 {
-        return vec2f(RECEIVER_BIAS_EDGE_ON, 0.0);
-    }
-    // Cramer's rule for the gradient g in dot(g, difference.xy) = difference.z.
-    let scaled = vec2f(
-        difference_x.z * difference_y.y - difference_y.z * difference_x.y,
-        difference_y.z * difference_x.x - difference_x.z * difference_y.x,
-    );
-    return clamp(scaled / determinant, vec2f(-RECEIVER_BIAS_EDGE_ON), vec2f(RECEIVER_BIAS_EDGE_ON));
-}
+// moment_shadows/bounds/hamburger6.wgsl
+//     Hamburger6Factor
+//     Hamburger6Polynomials
+//     HAMBURGER6_SMALLEST_PIVOT
+//     HAMBURGER6_LARGEST_SHIFT
+//     HAMBURGER6_LARGEST_RATIO
+//     HAMBURGER6_FARTHEST_SUPPORT
+//     HAMBURGER6_STEPS
+//     HAMBURGER6_LARGE_ALPHA
+//     HAMBURGER6_STEPS_OF_LARGE_ALPHA
+//     hamburger6_factor
+//     hamburger6_polynomials
+//     hamburger6_nodes_below
+//     hamburger6_lone_weight
+//     hamburger6_bounds
+//     hamburger6_lower_bound
+//     hamburger6_shadow_intensity
+//     hamburger6_shadow_intensity_of_texels
 
-// The receiver bias in moment depth, to be subtracted from the fragment depth.
-fn receiver_bias_depth(bias: ReceiverBias, gradient: f32) -> f32 {
-    return clamp(fma(bias.slope_scale, gradient, bias.constant), 0.0, bias.maximum);
-}
+// moment_shadows/map/map_load.wgsl
+//     map_load_bilinear
+//     map_load_trilinear
+//     map_load_footprint
 
-// The receiver bias where a lookup averages more of the map than its filter kernel: `variance` is the variance that this
-// adds to the depths of a plane with that gradient (`minification_depth_variance`). Variances of filters add up.
-fn receiver_bias_depth_minified(bias: ReceiverBias, gradient: f32, variance: f32) -> f32 {
-    let kernel = bias.slope_scale * gradient;
-    let added = RECEIVER_BIAS_STANDARD_DEVIATIONS * sqrt(max(variance, 0.0));
-    let deviation = length(vec2f(kernel, added));
-    // The limit is one of slope, not of depth: a filter that is wider by a factor may move by that factor more.
-    let limit = (bias.maximum - bias.constant) * deviation / max(kernel, 1e-30);
-    return max(bias.constant + min(deviation, max(limit, 0.0)), 0.0);
-}
+// moments_lookup
+//     moments_map
+//     moments_lookup
 
-// The part of the bias that grows with the slope, under a kernel with the standard deviation `deviation` in texels along x
-// and y, on a plane with the gradient of moment depth per texel; that counts up to the length `steepest`.
-fn receiver_bias_depth_of_kernel(gradient: vec2f, deviation: vec2f, steepest: f32) -> f32 {
-    let full = clamp(gradient, vec2f(-RECEIVER_BIAS_EDGE_ON), vec2f(RECEIVER_BIAS_EDGE_ON));
-    let steepness = length(full);
-    let limited = full * min(max(steepest, 0.0) / max(steepness, 1e-30), 1.0);
-    return RECEIVER_BIAS_STANDARD_DEVIATIONS * length(limited * deviation);
-}
+// technique_receiver
+//     TechniqueReceiver
+
+// map_texel
+//     map_texel
+
+// technique_map
+//     technique_map_size
+
+// shade.wgsl
+//     ViewParameters
+//     views
+//     camera_depth
+//     Receiver
+//     receiver_at
+//     camera_depth_at
+//     extrapolation_error
+//     UNUSABLE
+//     LARGEST_DIFFERENCE
+//     neighbour_of
+//     receiver_difference
+//     view_shadow_intensity
+//     shade
+
+// Generated.
 
 // specialization
 const GROUP = 0;
@@ -389,525 +132,6 @@ const ANISOTROPY = 8.0;
 const PLANES = 2u;
 const STORAGE = 2u;
 
-// moment_shadows/maths/hankel.wgsl
-// The shared factorisation: LDL^T of the Hankel matrix of four moments.
-//
-//       | 1  b1 b2 |
-//   B = | b1 b2 b3 |     B is positive semi-definite exactly if some distribution on the real line has these moments
-//       | b2 b3 b4 |     (Hamburger moment problem; Peters & Klein, i3D 2015, section 2.2 and Algorithm 3).
-//
-// Its pivots define the monic orthogonal polynomials of the distribution, with x = z - b1:
-//   P0 = 1,  P1(x) = x,  P2(x) = x (x - shift) - variance,
-// with squared norms 1, variance and residue. The roots of P2 are the two Gauss nodes.
-
-// The pivots of B and what the orthogonal polynomials need.
-struct HankelFactor {
-    // b2 - b1^2, the variance of z; positive.
-    variance: f32,
-    // The Schur complement of b4, the variance of z^2 that z does not explain; positive.
-    residue: f32,
-    // residue / variance.
-    ratio: f32,
-    // L32 - 2 b1, with L32 the slope of the regression of z^2 on z.
-    shift: f32,
-}
-
-// Pivots of valid moments stay above these multiples of the moment bias alpha, so the guards bind only where rounding
-// has left the pivots without a correct digit (or the moments are none). They also bound all that is divided by a pivot:
-// with alpha >= 1e-7 nothing below overflows on the way to a weight, whatever the moments.
-const HANKEL_SMALLEST_VARIANCE: f32 = 0.03;
-const HANKEL_SMALLEST_RESIDUE: f32 = 0.02;
-
-// Factorises the Hankel matrix of moments biased by `alpha` >= 1e-7. Moments must lie within [-2.1, 2.1].
-// The differences of products lose almost all digits near a single surface; `fma` keeps them where it is fused.
-fn hankel_factor(biased: vec4f, alpha: f32) -> HankelFactor {
-    let variance = max(fma(-biased.x, biased.x, biased.y), HANKEL_SMALLEST_VARIANCE * alpha);
-    // One division for all quotients.
-    let inverse = 1.0 / variance;
-    let covariance = fma(-biased.x, biased.y, biased.z);
-    let slope = covariance * inverse;
-    let residue = max(
-        fma(-covariance, slope, fma(-biased.y, biased.y, biased.w)),
-        HANKEL_SMALLEST_RESIDUE * alpha,
-    );
-    return HankelFactor(variance, residue, residue * inverse, fma(-2.0, biased.x, slope));
-}
-
-// P2 at x = z - b1. Negative exactly between the Gauss nodes.
-fn hankel_second_polynomial(factor: HankelFactor, x: f32) -> f32 {
-    return fma(x, x - factor.shift, -factor.variance);
-}
-
-// The Christoffel number of x = z - b1, 1 / (1 + x^2 / variance + P2^2 / residue): the largest weight that a distribution
-// with these moments can have at z, which is the weight that the extremal distribution through z has there. A sum of
-// positive terms, here times the residue: nothing cancels.
-fn hankel_christoffel_number(factor: HankelFactor, x: f32, second_polynomial: f32) -> f32 {
-    let x_term = fma(x * factor.ratio, x, factor.residue);
-    return factor.residue / fma(second_polynomial, second_polynomial, x_term);
-}
-
-// moment_shadows/map/storage.wgsl
-// Storages: how the channels of a texel lie in memory, whatever they mean.
-//
-// Every technique filters linearly and writes after each filter, so each write is a rounding error that its bound has to
-// cover. Nothing here depends on a technique: how one spreads its quantities over the range of a storage is its own.
-
-// Storages, as a shader's specialisation names them.
-const STORAGE_UNORM16: u32 = 0u;
-const STORAGE_FLOAT16: u32 = 1u;
-const STORAGE_FLOAT32: u32 = 2u;
-const STORAGE_UNORM8: u32 = 3u;
-// Sums of channels as unorm16 has them; see `summed_area_encoding`.
-const STORAGE_FIXED32: u32 = 4u;
-// Three channels to a texel, in maps that are drawn.
-const STORAGE_UNORM10: u32 = 5u;
-
-// The largest finite float16.
-const STORAGE_LARGEST_FLOAT16: f32 = 65504.0;
-
-// Whether the channels of the storage are floats, which can be anything, rather than numbers in [0, 1].
-fn storage_is_float(storage: u32) -> bool {
-    return storage == STORAGE_FLOAT16 || storage == STORAGE_FLOAT32;
-}
-
-// The nearest float16 of each component, ties to even, for |value| <= 65504. A driver may truncate when it stores to a
-// float16 texture, which would double the rounding error that a bound has to cover.
-fn storage_round_to_float16(value: vec4f) -> vec4f {
-    let bits = bitcast<vec4u>(value);
-    // 13 of 23 mantissa bits go; adding just under half a unit, plus the last kept bit, rounds ties to even.
-    let rounded = bitcast<vec4f>((bits + 0xfffu + ((bits >> vec4u(13u)) & vec4u(1u))) & vec4u(0xffffe000u));
-    // Below 2^-14 float16 is a fixed-point format with a step of 2^-24.
-    let small = round(value * 16777216.0) * 5.960464477539063e-8;
-    return select(rounded, small, abs(value) < vec4f(6.103515625e-5));
-}
-
-// What to draw so that a target of 10 bits per channel holds the nearest number to each component, for any finite value. A driver
-// may round down, or round to 16 bits and drop the last six (lavapipe does): a little above that number they give it all the same.
-fn storage_round_to_unorm10(value: vec4f) -> vec4f {
-    return (round(saturate(value) * 1023.0) + 0.00390625) / 1023.0;
-}
-
-// A filtered combination of texels, as it has to be written back to the same storage.
-fn storage_round_texel(texel: vec4f, storage: u32) -> vec4f {
-    if storage == STORAGE_FLOAT16 {
-        return storage_round_to_float16(texel);
-    }
-    if storage == STORAGE_UNORM10 {
-        return storage_round_to_unorm10(texel);
-    }
-    return texel;
-}
-
-// A texel in which channels that are NaN or infinite count as 0, found by their bits since a compiler may assume that
-// there is neither. Unorm texels pass as they are.
-fn storage_finite_texel(texel: vec4f, storage: u32) -> vec4f {
-    if !storage_is_float(storage) {
-        return texel;
-    }
-    let exponent = bitcast<vec4u>(texel) & vec4u(0x7f800000u);
-    return select(texel, vec4f(0.0), exponent == vec4u(0x7f800000u));
-}
-
-// moment_shadows/moments/six_moments.wgsl
-
-// Six moments of depth: encoding, storage, bias.
-//
-// A map holds b = (E[z], ..., E[z^6]) of the moment depths z in [-1, 1] that a texel covers, in two texels: the odd moments
-// in one, the even ones in the other, since the optimised basis mixes neither with the other (Peters, GDC 2016; Peters et
-// al., JCGT 6(1) 2017). Like that of four moments it spreads the moments over the range of every channel, and commutes
-// with filtering.
-
-// The moments of one distribution.
-struct SixMoments {
-    // E[z], E[z^3], E[z^5].
-    odd: vec3f,
-    // E[z^2], E[z^4], E[z^6].
-    even: vec3f,
-}
-
-// A moment bias: b is moved by alpha towards moments whose odd ones are 0.
-struct SixMomentsBias {
-    // The target's E[z^2], E[z^4], E[z^6].
-    even: vec3f,
-    alpha: f32,
-}
-
-// The bias belongs to a storage's rounding error, not to a scene. Each value covers a resolve and a two-pass blur, every
-// stage rounded to the storage, for 99.999 % of filter regions. 3e-6 would do so for float32, but below 8e-6 what is left of
-// the last pivot of `hamburger6` in f32 can be nothing but rounding. 5e-3 would do so for unorm10, but a search for the worst regions
-// finds some that need up to 6.5e-3, and with 5.5e-3 the bound exceeds the truth of one of them by 2.7e-2. The target is the
-// one published for moment-based transparency (Muenstermann et al., "Moment-Based Order-Independent Transparency", i3D 2018).
-const SIX_MOMENTS_BIAS_TARGET: vec3f = vec3f(0.5566, 0.489, 0.47869382);
-const SIX_MOMENTS_BIAS_UNORM16: SixMomentsBias = SixMomentsBias(SIX_MOMENTS_BIAS_TARGET, 1e-4);
-const SIX_MOMENTS_BIAS_FLOAT16: SixMomentsBias = SixMomentsBias(SIX_MOMENTS_BIAS_TARGET, 1.5e-3);
-const SIX_MOMENTS_BIAS_FLOAT32: SixMomentsBias = SixMomentsBias(SIX_MOMENTS_BIAS_TARGET, 1e-5);
-const SIX_MOMENTS_BIAS_UNORM10: SixMomentsBias = SixMomentsBias(SIX_MOMENTS_BIAS_TARGET, 6.5e-3);
-
-// The optimised basis, by columns: these products plus the offsets map the odd and the even moments of depths in [-1, 1]
-// into [0, 1]^3 each.
-const SIX_MOMENTS_ODD_BASIS: mat3x3f = mat3x3f(
-    2.5, -1.8749986445, 1.26583039016,
-    -10.0, 4.20757543111, -1.47644882902,
-    8.0, -1.83257678661, 0.71061660238,
-);
-const SIX_MOMENTS_EVEN_BASIS: mat3x3f = mat3x3f(
-    4.0, 9.0, -0.57759806484,
-    -4.0, -24.0, 4.61936647543,
-    0.0, 16.0, -3.07953906655,
-);
-const SIX_MOMENTS_ODD_OFFSET: vec3f = vec3f(0.5);
-const SIX_MOMENTS_EVEN_OFFSET: vec3f = vec3f(0.0, 0.0, 0.018888946);
-
-// Their inverses, by columns.
-const SIX_MOMENTS_ODD_INVERSE: mat3x3f = mat3x3f(
-    -0.02877789191977914, 0.09995235706024454, 0.25893353755023666,
-    0.4763555042123262, 0.8453258093069343, 0.907796166567316,
-    1.5524280897137293, 1.0547257075981561, 0.8332733564621547,
-);
-const SIX_MOMENTS_EVEN_INVERSE: mat3x3f = mat3x3f(
-    1.2530436076429571e-5, -0.24998746956392357, -0.37498825271617835,
-    0.16668494186053159, 0.16668494186053159, 0.21876713299424836,
-    0.866025405794346, 0.866025405794346, 0.8118988179321994,
-);
-
-// matrix * vector + offset, every step fused where the hardware does.
-fn six_moments_affine(matrix: mat3x3f, vector: vec3f, offset: vec3f) -> vec3f {
-    let last = fma(matrix[2], vector.zzz, offset);
-    return fma(matrix[0], vector.xxx, fma(matrix[1], vector.yyy, last));
-}
-
-// The moments of a single depth z in [-1, 1]: its powers.
-fn six_moments_from_depth(z: f32) -> SixMoments {
-    let square = z * z;
-    let powers = vec3f(1.0, square, square * square);
-    return SixMoments(z * powers, square * powers);
-}
-
-// What is subtracted from channels before they are stored: floats are finest around zero.
-fn six_moments_middle(storage: u32) -> f32 {
-    return select(0.0, 0.5, storage_is_float(storage));
-}
-
-// A texel of three channels, with 1 in the fourth.
-fn six_moments_texel(channels: vec3f, storage: u32) -> vec4f {
-    return storage_round_texel(vec4f(saturate(channels) - six_moments_middle(storage), 1.0), storage);
-}
-
-// What to write to the first texel of the storage: the odd moments.
-fn six_moments_to_odd_texel(odd: vec3f, storage: u32) -> vec4f {
-    return six_moments_texel(six_moments_affine(SIX_MOMENTS_ODD_BASIS, odd, SIX_MOMENTS_ODD_OFFSET), storage);
-}
-
-// What to write to the second one: the even moments.
-fn six_moments_to_even_texel(even: vec3f, storage: u32) -> vec4f {
-    return six_moments_texel(six_moments_affine(SIX_MOMENTS_EVEN_BASIS, even, SIX_MOMENTS_EVEN_OFFSET), storage);
-}
-
-// What is averaged for a moment depth z in [-1, 1], for one of the two texels: three odd moments for plane 0, three even ones for
-// plane 1.
-fn six_moments_channels(z: f32, plane: u32) -> vec4f {
-    let moments = six_moments_from_depth(z);
-    return vec4f(select(moments.even, moments.odd, plane == 0u), 1.0);
-}
-
-// What to write to a texel of the storage for averaged channels of a plane.
-fn six_moments_to_texel(mean: vec4f, plane: u32, storage: u32) -> vec4f {
-    if plane == 0u {
-        return six_moments_to_odd_texel(mean.xyz, storage);
-    }
-    return six_moments_to_even_texel(mean.xyz, storage);
-}
-
-// Both texels.
-fn six_moments_to_texels(b: SixMoments, storage: u32) -> array<vec4f, 2> {
-    return array<vec4f, 2>(six_moments_to_odd_texel(b.odd, storage), six_moments_to_even_texel(b.even, storage));
-}
-
-// The moments in the two (filtered) texels of the storage, |b| < 1.05. Float storage can hold anything: channels beyond their
-// range count as its ends. Channels and not moments are clamped, since the bias covers errors of channels; moments at the ends
-// of their ranges, of which rounding has moved one inwards, would need one ten times as large if the others were clamped.
-fn six_moments_from_texels(texels: array<vec4f, 2>, storage: u32) -> SixMoments {
-    let middle = six_moments_middle(storage);
-    var odd = texels[0].xyz;
-    var even = texels[1].xyz;
-    if storage_is_float(storage) {
-        odd = clamp(odd, vec3f(-0.5), vec3f(0.5));
-        even = clamp(even, vec3f(-0.5), vec3f(0.5));
-    }
-    return SixMoments(
-        six_moments_affine(SIX_MOMENTS_ODD_INVERSE, odd - (SIX_MOMENTS_ODD_OFFSET - middle), vec3f(0.0)),
-        six_moments_affine(SIX_MOMENTS_EVEN_INVERSE, even - (SIX_MOMENTS_EVEN_OFFSET - middle), vec3f(0.0)),
-    );
-}
-
-// The moment bias of a storage.
-fn six_moments_bias_of(storage: u32) -> SixMomentsBias {
-    if storage == STORAGE_FLOAT32 {
-        return SIX_MOMENTS_BIAS_FLOAT32;
-    }
-    if storage == STORAGE_FLOAT16 {
-        return SIX_MOMENTS_BIAS_FLOAT16;
-    }
-    if storage == STORAGE_UNORM10 {
-        return SIX_MOMENTS_BIAS_UNORM10;
-    }
-    return SIX_MOMENTS_BIAS_UNORM16;
-}
-
-// Applies the moment bias (i3D 2015, section 3.3). Written as a step towards the target: 1 - alpha would keep only a
-// few bits of alpha.
-fn six_moments_apply_bias(b: SixMoments, bias: SixMomentsBias) -> SixMoments {
-    let alpha = vec3f(bias.alpha);
-    return SixMoments(fma(-alpha, b.odd, b.odd), fma(alpha, bias.even - b.even, b.even));
-}
-
-// moment_shadows/bounds/hamburger6.wgsl
-
-// Hamburger six-moment shadow mapping: the sharpest bounds on shadow intensity that six moments allow.
-//
-// As with four moments the extremal distribution has the fragment depth in its support, and now three more points (Peters &
-// Klein, i3D 2015, Proposition 3; six moments in Peters et al., JCGT 6(1) 2017). The published evaluation takes the three
-// roots of a cubic by arc tangents and divides by its leading coefficient, which vanishes when the fragment is at a Gauss
-// node. This one gives the same values without either:
-//   - the weight of a support point is its Christoffel number, a sum of positive terms;
-//   - how many support points lie in front of the fragment follows from the signs of the orthogonal polynomials (Sturm);
-//   - since all weights add up to one, only the one point that is alone on its side is needed. In y = 1 / (z - fragment)
-//     it is an extreme root of a cubic that never degenerates, and Laguerre's method finds it from outside.
-//
-// With x = z - b1 the monic orthogonal polynomials are P0 to P2 of `hankel`, and P3(x) = (x - offset) P2(x) - ratio x.
-
-// The Hankel matrix of six moments, factorised.
-struct Hamburger6Factor {
-    // That of the first four moments.
-    four: HankelFactor,
-    // By how much x is shifted in the recurrence that makes P3.
-    offset: f32,
-    // One over the squared norms of P1, P2 and P3.
-    inverse_norms: vec3f,
-}
-
-// P1, P2 and P3 at one place, and these over their squared norms.
-struct Hamburger6Polynomials {
-    values: vec3f,
-    coefficients: vec3f,
-    // The Christoffel number 1 / (1 + P1^2 / D1 + P2^2 / D2 + P3^2 / D3).
-    weight: f32,
-}
-
-// The last pivot of valid moments stays above this multiple of the moment bias alpha, that of the bias' target being 0.049.
-const HAMBURGER6_SMALLEST_PIVOT: f32 = 0.004;
-
-// Coefficients of the recurrence are those of a distribution on [-1, 1] and below these, but for moments that are none or
-// have lost all digits. They keep what follows from overflowing: with coefficients in these ranges and positive norms the
-// polynomials are orthogonal for some distribution, so that everything below holds for them too.
-const HAMBURGER6_LARGEST_SHIFT: f32 = 8.0;
-const HAMBURGER6_LARGEST_RATIO: f32 = 4.0;
-
-// Support points and fragments farther out than this have a weight below 1e-8 or count as being there.
-const HAMBURGER6_FARTHEST_SUPPORT: f32 = 1e4;
-
-// Steps of Laguerre's method; without enough of them errors of 0.1 remain in one of 10^4 cases.
-const HAMBURGER6_STEPS: u32 = 6u;
-
-// With a moment bias of at least this so many steps do.
-const HAMBURGER6_LARGE_ALPHA: f32 = 1e-3;
-const HAMBURGER6_STEPS_OF_LARGE_ALPHA: u32 = 4u;
-
-// Factorises the Hankel matrix of moments biased by `alpha` >= 1e-7. Moments must lie within [-2, 2].
-fn hamburger6_factor(biased: SixMoments, alpha: f32) -> Hamburger6Factor {
-    let b = vec4f(biased.odd.x, biased.even.x, biased.odd.y, biased.even.y);
-    var four = hankel_factor(b, alpha);
-    four.shift = clamp(four.shift, -HAMBURGER6_LARGEST_SHIFT, HAMBURGER6_LARGEST_SHIFT);
-    four.ratio = min(four.ratio, HAMBURGER6_LARGEST_RATIO);
-    four.residue = min(four.residue, HAMBURGER6_LARGEST_RATIO * four.variance);
-    let inverse = 1.0 / vec2f(four.variance, four.residue);
-    // What the regressions of z^3 on 1 and z, and on z^2 besides, leave.
-    let third = fma(-b.x, b.z, b.w);
-    let third_slope = third * inverse.x;
-    let fourth = fma(-fma(-b.x, b.y, b.z), third_slope, fma(-b.y, b.z, biased.odd.z));
-    let fourth_slope = fourth * inverse.y;
-    let pivot = fma(-fourth, fourth_slope, fma(-third, third_slope, fma(-b.z, b.z, biased.even.z)));
-    let offset = fma(-3.0, b.x, fourth_slope - four.shift);
-    return Hamburger6Factor(
-        four,
-        clamp(offset, -HAMBURGER6_LARGEST_SHIFT, HAMBURGER6_LARGEST_SHIFT),
-        vec3f(inverse, 1.0 / max(pivot, HAMBURGER6_SMALLEST_PIVOT * alpha)),
-    );
-}
-
-// The orthogonal polynomials and the Christoffel number at x.
-fn hamburger6_polynomials(factor: Hamburger6Factor, x: f32) -> Hamburger6Polynomials {
-    let second = hankel_second_polynomial(factor.four, x);
-    let values = vec3f(x, second, fma(x - factor.offset, second, -factor.four.ratio * x));
-    let coefficients = values * factor.inverse_norms;
-    return Hamburger6Polynomials(values, coefficients, 1.0 / (1.0 + dot(values, coefficients)));
-}
-
-// How many Gauss nodes, the roots of P3, are below the place of the polynomials: agreements of neighbours' signs.
-fn hamburger6_nodes_below(polynomials: Hamburger6Polynomials) -> u32 {
-    let positive = vec4<bool>(true, polynomials.values >= vec3f(0.0));
-    let agree = positive.xyz == positive.yzw;
-    return u32(agree.x) + u32(agree.y) + u32(agree.z);
-}
-
-// The weight of the support point that is alone on its side of a fragment at x: below it if one Gauss node is (`side` 1),
-// above it if two are (`side` -1).
-fn hamburger6_lone_weight(factor: Hamburger6Factor, x: f32, fragment: Hamburger6Polynomials, side: f32, alpha: f32) -> f32 {
-    // The kernel sum_k P_k(x) P_k(t) / D_k, which vanishes at the support points, as a polynomial in t - x, by powers of y:
-    // y^3 + e2 y^2 + e1 y + e0 with only positive terms in what it was divided by.
-    let k = fragment.coefficients;
-    let shift = factor.four.shift;
-    let second = fma(-k.z, shift + factor.offset, k.y);
-    let product = fma(factor.offset, shift, -factor.four.variance - factor.four.ratio);
-    let first = fma(-k.y, shift, fma(k.z, product, k.x));
-    let e2 = side * fragment.weight * fma(x, fma(3.0 * k.z, x, 2.0 * second), first);
-    let e1 = fragment.weight * fma(3.0 * k.z, x, second);
-    let e0 = side * fragment.weight * k.z;
-    // The only negative root, from a place that is left of all roots. Steps only lead towards it.
-    const nearest_to_zero: f32 = -1.0 / HAMBURGER6_FARTHEST_SUPPORT;
-    var y = min(-(e2 + 2.0 * sqrt(max(fma(e2, e2, -3.0 * e1), 0.0))) / 3.0, nearest_to_zero);
-    let steps = select(HAMBURGER6_STEPS, HAMBURGER6_STEPS_OF_LARGE_ALPHA, alpha >= HAMBURGER6_LARGE_ALPHA);
-    for (var step = 0u; step < steps; step++) {
-        let value = fma(fma(y + e2, y, e1), y, e0);
-        let slope = fma(fma(3.0, y, 2.0 * e2), y, e1);
-        let curvature = fma(6.0, y, 2.0 * e2);
-        let root = sqrt(max(fma(4.0 * slope, slope, -6.0 * value * curvature), 0.0));
-        // Left of the root the sum is at least y^2, which stays above 1e-8.
-        y = min(y - 3.0 * value / max(slope + root, 1e-9), nearest_to_zero);
-    }
-    return hamburger6_polynomials(factor, fma(side, 1.0 / y, x)).weight;
-}
-
-// The sharp bounds of shadow intensity: x = inf S(z < fragment_depth), y = sup S(z <= fragment_depth) over all
-// distributions S with the moments `biased`, which are already biased by `alpha` >= 1e-7 and lie within [-2, 2].
-// Both are in [0, 1] for all such moments, valid or not, and every finite fragment depth; farther out than 1e4 the
-// fragment depth counts as 1e4. Error: |error| <= C * 2^-24 * (1 + sensitivity) where fma is fused, with C = 32 for alpha
-// of 1e-4 and more and C = 128 for alpha about 5e-6.
-fn hamburger6_bounds(biased: SixMoments, fragment_depth: f32, alpha: f32) -> vec2f {
-    let factor = hamburger6_factor(biased, alpha);
-    let x = clamp(fragment_depth, -HAMBURGER6_FARTHEST_SUPPORT, HAMBURGER6_FARTHEST_SUPPORT) - biased.odd.x;
-    let fragment = hamburger6_polynomials(factor, x);
-    let below = hamburger6_nodes_below(fragment);
-    if below == 0u {
-        return vec2f(0.0, fragment.weight);
-    }
-    if below == 3u {
-        return vec2f(1.0 - fragment.weight, 1.0);
-    }
-    let side = select(-1.0, 1.0, below == 1u);
-    let weight = hamburger6_lone_weight(factor, x, fragment, side, alpha);
-    let sum = weight + fragment.weight;
-    return saturate(select(vec2f(1.0 - sum, 1.0 - weight), vec2f(weight, sum), below == 1u));
-}
-
-// The lower one of `hamburger6_bounds`, with fragment depths beyond the light's range counting as its ends.
-fn hamburger6_lower_bound(biased: SixMoments, fragment_depth: f32, alpha: f32) -> f32 {
-    return hamburger6_bounds(biased, clamp(fragment_depth, -1.0, 1.0), alpha).x;
-}
-
-// Shadow intensity in [0, 1] (1 = shadowed) of a fragment at `fragment_depth` (moment depth) under the filtered moments
-// of its map: the lower bound, never darker than the truth but for the bias. Moments lie within [-2, 2], as those from
-// `six_moments_from_texels` do, valid or not; fragment depths beyond the light's range count as its ends.
-fn hamburger6_shadow_intensity(moments: SixMoments, fragment_depth: f32, bias: SixMomentsBias) -> f32 {
-    return hamburger6_lower_bound(six_moments_apply_bias(moments, bias), fragment_depth, bias.alpha);
-}
-
-// The same for the two filtered texels of a storage, with the bias of the storage.
-fn hamburger6_shadow_intensity_of_texels(texels: array<vec4f, 2>, fragment_depth: f32, storage: u32) -> f32 {
-    return hamburger6_shadow_intensity(six_moments_from_texels(texels, storage), fragment_depth, six_moments_bias_of(storage));
-}
-
-// moment_shadows/map/map_load.wgsl
-
-// Lookups in a map that a device cannot filter, and where a sampler would read across the edge of a region: bilinear,
-// trilinear, averaged over a footprint. `uv`, `levels` and regions are those of `map_lookup`.
-//
-// Texels are loaded and blended here, in f32, while hardware may use weights of as few as 8 bits. Blending texels of moments
-// is a convex combination, so it keeps moments valid.
-
-// The bilinearly filtered texel on one mip level. `uv` is finite; values outside [0, 1] count as the nearer edge.
-fn map_load_bilinear(map: texture_2d_array<f32>, layer: u32, region: MapRegion, uv: vec2f, level: u32) -> vec4f {
-    let rectangle = map_region_at_level(region, level);
-    let place = map_region_place(rectangle, uv) - 0.5;
-    let base = floor(place);
-    let weight = place - base;
-    let low = vec2i(base);
-    let high = min(low + 1, vec2i(rectangle.origin + rectangle.extent) - 1);
-    let top = mix(textureLoad(map, low, layer, level), textureLoad(map, vec2i(high.x, low.y), layer, level), weight.x);
-    let bottom = mix(textureLoad(map, vec2i(low.x, high.y), layer, level), textureLoad(map, high, layer, level), weight.x);
-    return mix(top, bottom, weight.y);
-}
-
-// The same, blended between the two mip levels next to `level` >= 0, as far as the region has texels there.
-fn map_load_trilinear(map: texture_2d_array<f32>, layer: u32, region: MapRegion, levels: u32, uv: vec2f, level: f32) -> vec4f {
-    let last = map_region_last_level(region, levels);
-    let fine = min(u32(clamp(level, 0.0, 31.0)), last);
-    let texel = map_load_bilinear(map, layer, region, uv, fine);
-    let blend = level - f32(fine);
-    if fine == last || blend <= 0.0 {
-        return texel;
-    }
-    return mix(texel, map_load_bilinear(map, layer, region, uv, fine + 1u), blend);
-}
-
-// The average over a footprint around `uv`: trilinear probes along its major axis.
-fn map_load_footprint(map: texture_2d_array<f32>, layer: u32, region: MapRegion, levels: u32, uv: vec2f, footprint: MinificationFootprint) -> vec4f {
-    let per_texel = 1.0 / max(vec2f(region.extent), vec2f(1.0));
-    var sum = vec4f(0.0);
-    for (var probe = 0.0; probe < footprint.probes; probe += 1.0) {
-        let probe_uv = uv + minification_probe(footprint, probe) * per_texel;
-        sum += map_load_trilinear(map, layer, region, levels, probe_uv, footprint.level);
-    }
-    return sum / footprint.probes;
-}
-
-// moments_lookup
-
-// The lookup in a map that the device cannot filter, or not as well over a pixel.
-
-@group(GROUP) @binding(2) var moments_map: texture_2d_array<f32>;
-
-// The texel at `uv` in [0, 1] across a region, filtered over a pixel with these differences of place to its neighbours.
-fn moments_lookup(layer: u32, region: MapRegion, uv: vec2f, difference_x: vec2f, difference_y: vec2f) -> vec4f {
-    if LEVELS == 1u {
-        return map_load_bilinear(moments_map, layer, region, uv, 0u);
-    }
-    let footprint = minification_footprint(difference_x, difference_y, ANISOTROPY);
-    return map_load_footprint(moments_map, layer, region, LEVELS, uv, footprint);
-}
-
-// technique_receiver
-
-// What a technique is told about a surface that a view of a light contains.
-
-struct TechniqueReceiver {
-    // The map's layer, and the region with texels.
-    layer: u32,
-    region: MapRegion,
-    // The place from 0 to 1 across the region, and how it changes, in texels, to the pixels beside and below.
-    uv: vec2f,
-    difference_x: vec2f,
-    difference_y: vec2f,
-    // The gradient of moment depth per texel on the surface.
-    gradient: vec2f,
-    // Moment depth: less the receiver bias, and less what depths are rounded by alone.
-    fragment_depth: f32,
-    depth: f32,
-    // The steepest slope per texel that is no edge.
-    steepest: f32,
-    // How the light's map stores depth, and the light's size: for tests on the plain depth map.
-    conversion: DepthConversion,
-    light: AreaLight,
-    // The pixel's coordinates.
-    pixel: vec2f,
-}
-
-// map_texel
-
-// The filtered texel of a plane of the map at a receiver.
-fn map_texel(receiver: TechniqueReceiver, plane: u32) -> vec4f {
-    return moments_lookup(receiver.layer * PLANES + plane, receiver.region, receiver.uv, receiver.difference_x, receiver.difference_y);
-}
 
 // technique
 
@@ -916,171 +140,3 @@ fn technique_shadow_intensity(receiver: TechniqueReceiver) -> f32 {
     return hamburger6_shadow_intensity_of_texels(texels, receiver.fragment_depth, STORAGE);
 }
 
-// technique_map
-
-// Width and height of the map in texels.
-fn technique_map_size() -> vec2u {
-    return textureDimensions(moments_map);
-}
-
-// shade.wgsl
-
-// Shadow intensity of every pixel, from the camera's depth and a light's map, by the technique of the map. A view of a light is one region of one
-// layer: a sun's cascade, a face of a point light, a spot light. Each light has a channel of the target.
-
-struct ViewParameters {
-    // From the camera's clip space (x, y, stored depth, 1) to the light: x and y are the place in the map in [0, 1], z its
-    // homogeneous coordinate (positive in front of the light) and w the moment depth, all times the factors they are
-    // divided by. Camera and light are combined in one matrix so that no large scene coordinates occur.
-    light_from_camera: mat4x4f,
-    // The homogeneous coordinate of the scene position, which divides the moment depth.
-    scene_w_from_camera: vec4f,
-    receiver_bias: ReceiverBias,
-    leak_reduction: LeakReduction,
-    // Where the view lies in its layer; without texels there is no such view.
-    region: MapRegion,
-    // The stored depth of pixels that show no surface; the same for all views.
-    far_depth: f32,
-    // The map's layer.
-    layer: u32,
-    // The target's channel, 0 to 3. Of the views of one channel the first that contains a pixel shades it.
-    channel: u32,
-    padding: f32,
-    // How the light's map stores depth, and how large the light is: for tests on the plain depth map.
-    conversion: DepthConversion,
-    light: AreaLight,
-}
-
-@group(GROUP) @binding(0) var<uniform> views: array<ViewParameters, VIEWS>;
-@group(GROUP) @binding(1) var camera_depth: texture_depth_2d;
-
-// A pixel's surface as the light sees it.
-struct Receiver {
-    // x and y in the map from 0 to 1, z in moment depth.
-    place: vec3f,
-    // What x and y were divided by; positive in front of the light.
-    light_w: f32,
-    // What z was divided by; positive in front of the camera.
-    scene_w: f32,
-}
-
-fn receiver_at(view: u32, pixel: vec2i, stored_depth: f32) -> Receiver {
-    let uv = (vec2f(pixel) + 0.5) / vec2f(textureDimensions(camera_depth));
-    let clip = vec4f(2.0 * uv.x - 1.0, 1.0 - 2.0 * uv.y, stored_depth, 1.0);
-    let light = views[view].light_from_camera * clip;
-    // Results behind the camera or the light are not used.
-    let scene_w = max(dot(views[view].scene_w_from_camera, clip), 1e-30);
-    return Receiver(vec3f(light.xy / max(light.z, 1e-30), light.w / scene_w), light.z, scene_w);
-}
-
-fn camera_depth_at(pixel: vec2i) -> f32 {
-    return textureLoad(camera_depth, clamp(pixel, vec2i(0), vec2i(textureDimensions(camera_depth)) - 1), 0);
-}
-
-// By how much the two pixels next to `pixel` along `step`, extrapolated, miss its stored depth; huge if the first one
-// shows no surface or lies outside of the picture.
-fn extrapolation_error(pixel: vec2i, step: vec2i, stored_depth: f32) -> f32 {
-    let neighbour = pixel + step;
-    let outside = any(neighbour < vec2i(0)) || any(neighbour >= vec2i(textureDimensions(camera_depth)));
-    let depth = camera_depth_at(neighbour);
-    let error = abs(2.0 * depth - camera_depth_at(neighbour + step) - stored_depth);
-    return select(error, UNUSABLE, outside || depth == views[0].far_depth);
-}
-
-// Above every difference of stored depths.
-const UNUSABLE: f32 = 1e30;
-
-// No place in the map is that many texels away. Products of two differences must not overflow.
-const LARGEST_DIFFERENCE: f32 = 1e9;
-
-// The neighbour of a pixel along `axis` on the side that continues its surface: xy is the step to it and z the change of
-// stored depth. Stored depth is linear on the screen where a surface is plane, so that is the side which extrapolates to
-// the pixel best; the other one may lie beyond a silhouette or an edge. Zero if there is no neighbour.
-fn neighbour_of(pixel: vec2i, axis: vec2i, stored_depth: f32) -> vec3f {
-    let error_before = extrapolation_error(pixel, -axis, stored_depth);
-    let error_after = extrapolation_error(pixel, axis, stored_depth);
-    if min(error_before, error_after) == UNUSABLE {
-        return vec3f(0.0);
-    }
-    let direction = select(axis, -axis, error_before < error_after);
-    return vec3f(vec2f(direction), camera_depth_at(pixel + direction) - stored_depth);
-}
-
-// How the place in the map (in texels) and the moment depth change from a pixel to its neighbour; zero if there is none,
-// as on a surface that is edge-on to the light.
-fn receiver_difference(view: u32, neighbour: vec3f, receiver: Receiver, texels: vec2f) -> vec3f {
-    if all(neighbour.xy == vec2f(0.0)) {
-        return vec3f(0.0);
-    }
-    let across_screen = vec2f(2.0, -2.0) * neighbour.xy / vec2f(textureDimensions(camera_depth));
-    let step = vec4f(across_screen, neighbour.z, 0.0);
-    // With numerators n and divisors w, n1 / w1 - n0 / w0 = (dn - (n0 / w0) dw) / w1. Other than the difference of two
-    // places, this keeps its digits where a pixel covers a small part of a texel.
-    let light = views[view].light_from_camera * step;
-    let scene_w = dot(views[view].scene_w_from_camera, step);
-    let across = (light.xy - receiver.place.xy * light.z) / max(receiver.light_w + light.z, 1e-30);
-    let along = (light.w - receiver.place.z * scene_w) / max(receiver.scene_w + scene_w, 1e-30);
-    return clamp(vec3f(across * texels, along), vec3f(-LARGEST_DIFFERENCE), vec3f(LARGEST_DIFFERENCE));
-}
-
-// Shadow intensity of a receiver that a view contains.
-fn view_shadow_intensity(view: u32, pixel: vec2i, receiver: Receiver, neighbour_x: vec3f, neighbour_y: vec3f, region: MapRegion) -> f32 {
-    let texels = vec2f(region.extent);
-    let difference_x = receiver_difference(view, neighbour_x, receiver, texels);
-    let difference_y = receiver_difference(view, neighbour_y, receiver, texels);
-    let gradient = receiver_bias_plane(difference_x, difference_y);
-    let settings = views[view].receiver_bias;
-    var bias = receiver_bias_depth(settings, length(gradient));
-    if LEVELS > 1u {
-        let footprint = minification_footprint(difference_x.xy, difference_y.xy, ANISOTROPY);
-        let variance = minification_depth_variance(footprint, gradient);
-        bias = receiver_bias_depth_minified(settings, length(gradient), variance);
-    }
-    // The map holds a surface that leaves the light's range at the far end. The bias counts from there, since some of the
-    // kernel may still see the surface within the range.
-    let depth = min(receiver.place.z, 1.0);
-    let intensity = technique_shadow_intensity(TechniqueReceiver(
-        views[view].layer,
-        region,
-        receiver.place.xy,
-        difference_x.xy,
-        difference_y.xy,
-        gradient,
-        depth - bias,
-        depth - settings.constant,
-        (settings.maximum - settings.constant) / max(settings.slope_scale, 1e-30),
-        views[view].conversion,
-        views[view].light,
-        vec2f(pixel),
-    ));
-    return leak_reduction_apply(intensity, views[view].leak_reduction);
-}
-
-@fragment
-fn shade(covered: Covered) -> @location(0) vec4f {
-    let size = vec2i(textureDimensions(camera_depth));
-    let pixel = clamp(vec2i(covered.uv * vec2f(size)), vec2i(0), size - 1);
-    let stored_depth = textureLoad(camera_depth, pixel, 0);
-    // Outside its map a light casts no shadow, and where there is no surface, either.
-    var intensities = vec4f(0.0);
-    if stored_depth == views[0].far_depth {
-        return intensities;
-    }
-    let neighbour_x = neighbour_of(pixel, vec2i(1, 0), stored_depth);
-    let neighbour_y = neighbour_of(pixel, vec2i(0, 1), stored_depth);
-    var open_channels = vec4<bool>(true);
-    for (var view = 0u; view < VIEWS; view++) {
-        let channel = vec4<bool>(vec4u(views[view].channel) == vec4u(0u, 1u, 2u, 3u));
-        let region = map_region_within(views[view].region, technique_map_size());
-        let receiver = receiver_at(view, pixel, stored_depth);
-        let uv = receiver.place.xy;
-        let inside = receiver.light_w > 0.0 && all(uv >= vec2f(0.0)) && all(uv <= vec2f(1.0));
-        if inside && all(region.extent > vec2u(0u)) && any(channel & open_channels) {
-            let intensity = view_shadow_intensity(view, pixel, receiver, neighbour_x, neighbour_y, region);
-            intensities = select(intensities, vec4f(intensity), channel);
-            open_channels = open_channels & !channel;
-        }
-    }
-    // A single light is in all channels, so that a host can blend with it or show it.
-    return select(intensities, intensities.xxxx, LIGHTS == 1u);
-}
