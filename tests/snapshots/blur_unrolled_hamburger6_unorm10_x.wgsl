@@ -1,31 +1,9 @@
-// Files and what is linked of them.
-
-// moment_shadows/map/storage.wgsl
-//     STORAGE_FLOAT16
-//     STORAGE_UNORM10
-//     storage_round_to_float16
-//     storage_round_to_unorm10
-//     storage_round_texel
-
-// fullscreen
-//     Covered
-//     fullscreen
-
-// moment_shadows/map/map_region.wgsl
-//     MapRegion
-//     map_region_within
-//     map_region_at_level
-
-// region_pixel
-//     regions
-//     RegionPixel
-//     region_pixel
-
-// blur_drawn.wgsl
-//     moments_map
-//     blur
-
-// Generated.
+// What is linked of files:
+// moment_shadows/map/storage.wgsl: STORAGE_FLOAT16 STORAGE_UNORM10 storage_round_to_float16 storage_round_to_unorm10 storage_round_texel
+// fullscreen: Covered fullscreen
+// moment_shadows/map/map_region.wgsl: MapRegion map_region_within map_region_at_level
+// region_pixel: regions RegionPixel region_pixel
+// blur_drawn.wgsl: moments_map blur
 
 // specialization
 const GROUP = 0;
@@ -33,7 +11,6 @@ const GROUP = 0;
 const AXIS = vec2i(1, 0);
 const STORAGE = 5u;
 const REGIONS = 1u;
-
 
 // map_filtering
 
@@ -46,7 +23,6 @@ fn filtering_value(texel: vec4f) -> vec4f {
 fn filtering_texel(value: vec4f) -> vec4f {
     return storage_round_texel(value, STORAGE);
 }
-
 
 // blur_texel
 

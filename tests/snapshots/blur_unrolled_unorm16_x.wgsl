@@ -1,31 +1,9 @@
-// Files and what is linked of them.
-
-// moment_shadows/map/storage.wgsl
-//     STORAGE_FLOAT16
-//     STORAGE_UNORM10
-//     storage_round_to_float16
-//     storage_round_to_unorm10
-//     storage_round_texel
-
-// blur_target
-//     moments_map
-//     blurred_map
-//     blur_store
-
-// moment_shadows/map/map_region.wgsl
-//     MapRegion
-//     map_region_within
-//     map_region_at_level
-
-// region_tile
-//     regions
-//     RegionTile
-//     region_tile
-
-// blur_unrolled.wgsl
-//     blur
-
-// Generated.
+// What is linked of files:
+// moment_shadows/map/storage.wgsl: STORAGE_FLOAT16 STORAGE_UNORM10 storage_round_to_float16 storage_round_to_unorm10 storage_round_texel
+// blur_target: moments_map blurred_map blur_store
+// moment_shadows/map/map_region.wgsl: MapRegion map_region_within map_region_at_level
+// region_tile: regions RegionTile region_tile
+// blur_unrolled.wgsl: blur
 
 // specialization
 const GROUP = 0;
@@ -35,7 +13,6 @@ const AXIS = vec2i(1, 0);
 alias MomentsStorage = texture_storage_2d<rgba16unorm, write>;
 const STORAGE = 0u;
 const REGIONS = 1u;
-
 
 // map_filtering
 
@@ -48,7 +25,6 @@ fn filtering_value(texel: vec4f) -> vec4f {
 fn filtering_texel(value: vec4f) -> vec4f {
     return storage_round_texel(value, STORAGE);
 }
-
 
 // blur_unrolled
 

@@ -1,40 +1,11 @@
-// Files and what is linked of them.
-
-// moment_shadows/map/map_region.wgsl
-//     MapRegion
-//     map_region_within
-//     map_region_at_level
-
-// region_tile
-//     regions
-//     RegionTile
-//     region_tile
-
-// moment_shadows/map/depth.wgsl
-//     DepthConversion
-//     DEPTH_SMALLEST_DENOMINATOR
-//     depth_is_nan
-//     depth_to_moment_depth
-
-// moment_shadows/map/storage.wgsl
-//     STORAGE_FLOAT16
-//     STORAGE_FLOAT32
-//     storage_round_to_float16
-
-// moment_shadows/moments/two_moments.wgsl
-//     two_moments_from_depth
-//     two_moments_to_texel
-
-// resolve_texel
-//     conversions
-//     depth_map
-//     resolve_texel
-
-// resolve.wgsl
-//     moments_map
-//     resolve
-
-// Generated.
+// What is linked of files:
+// moment_shadows/map/map_region.wgsl: MapRegion map_region_within map_region_at_level
+// region_tile: regions RegionTile region_tile
+// moment_shadows/map/depth.wgsl: DepthConversion DEPTH_SMALLEST_DENOMINATOR depth_is_nan depth_to_moment_depth
+// moment_shadows/map/storage.wgsl: STORAGE_FLOAT16 STORAGE_FLOAT32 storage_round_to_float16
+// moment_shadows/moments/two_moments.wgsl: two_moments_from_depth two_moments_to_texel
+// resolve_texel: conversions depth_map resolve_texel
+// resolve.wgsl: moments_map resolve
 
 // specialization
 const GROUP = 0;
@@ -43,7 +14,6 @@ const SAMPLES = 4;
 alias MomentsStorage = texture_storage_2d<rg32float, write>;
 const STORAGE = 2u;
 const REGIONS = 1u;
-
 
 // map_encoding
 

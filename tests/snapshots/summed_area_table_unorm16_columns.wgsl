@@ -1,29 +1,8 @@
-// Files and what is linked of them.
-
-// moment_shadows/map/map_region.wgsl
-//     MapRegion
-//     map_region_within
-//     map_region_at_level
-
-// region_tile
-//     regions
-//     RegionTile
-//     region_tile
-
-// sums
-//     Sums
-//     sums_of
-//     sums_texel
-
-// column_prefixes.wgsl
-//     column_sums
-//     column_prefixes
-//     row_prefixes
-//     LINES
-//     tile_row_sum
-//     sum_columns
-
-// Generated.
+// What is linked of files:
+// moment_shadows/map/map_region.wgsl: MapRegion map_region_within map_region_at_level
+// region_tile: regions RegionTile region_tile
+// sums: Sums sums_of sums_texel
+// column_prefixes.wgsl: column_sums column_prefixes row_prefixes LINES tile_row_sum sum_columns
 
 // specialization
 const GROUP = 0;

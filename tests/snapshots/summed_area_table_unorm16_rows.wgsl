@@ -1,27 +1,8 @@
-// Files and what is linked of them.
-
-// moment_shadows/map/map_region.wgsl
-//     MapRegion
-//     map_region_within
-//     map_region_at_level
-
-// region_tile
-//     regions
-//     RegionTile
-//     region_tile
-
-// sums
-//     Sums
-//     sums_of
-//     sums_texel
-
-// row_prefixes.wgsl
-//     row_sums
-//     row_prefixes
-//     LINES
-//     sum_rows
-
-// Generated.
+// What is linked of files:
+// moment_shadows/map/map_region.wgsl: MapRegion map_region_within map_region_at_level
+// region_tile: regions RegionTile region_tile
+// sums: Sums sums_of sums_texel
+// row_prefixes.wgsl: row_sums row_prefixes LINES sum_rows
 
 // specialization
 const GROUP = 0;

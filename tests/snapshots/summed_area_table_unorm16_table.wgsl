@@ -1,35 +1,11 @@
-// Files and what is linked of them.
-
-// moment_shadows/map/map_region.wgsl
-//     MapRegion
-//     map_region_within
-//     map_region_at_level
-
-// region_tile
-//     regions
-//     RegionTile
-//     region_tile
-
-// sums
-//     Sums
-//     sums_of
-//     sums_texel
-
-// sums_target
-//     target_map
-
-// moment_shadows/filter/summed_area_encoding.wgsl
-//     summed_area_encoding_of_unorm16
-
-// source
-//     source_integers
-
-// table.wgsl
-//     row_prefixes
-//     column_prefixes
-//     make_table
-
-// Generated.
+// What is linked of files:
+// moment_shadows/map/map_region.wgsl: MapRegion map_region_within map_region_at_level
+// region_tile: regions RegionTile region_tile
+// sums: Sums sums_of sums_texel
+// sums_target: target_map
+// moment_shadows/filter/summed_area_encoding.wgsl: summed_area_encoding_of_unorm16
+// source: source_integers
+// table.wgsl: row_prefixes column_prefixes make_table
 
 // specialization
 const GROUP = 0;
@@ -38,7 +14,6 @@ alias SumsStorage = texture_storage_2d<rgba32uint, write>;
 const TILE = vec2u(8u, 16u);
 const WORKGROUP = vec2u(8u, 8u);
 const REGIONS = 1u;
-
 
 // tile_columns
 

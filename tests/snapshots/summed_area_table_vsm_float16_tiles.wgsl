@@ -1,45 +1,13 @@
-// Files and what is linked of them.
-
-// moment_shadows/map/map_region.wgsl
-//     MapRegion
-//     map_region_within
-//     map_region_at_level
-
-// region_tile
-//     regions
-//     RegionTile
-//     region_tile
-
-// sums
-//     Sums
-//     sums_of
-//     sums_texel
-
-// moment_shadows/map/storage.wgsl
-//     STORAGE_UNORM16
-//     STORAGE_FLOAT16
-//     STORAGE_FLOAT32
-//     storage_is_float
-//     storage_round_to_float16
-//     storage_finite_texel
-
-// moment_shadows/filter/summed_area_encoding.wgsl
-//     summed_area_encoding_of_channels
-
-// moment_shadows/moments/two_moments.wgsl
-//     two_moments_to_texel
-
-// source
-//     source_integers
-
-// sums_target
-//     target_map
-
-// tile_sums.wgsl
-//     row_sums
-//     sum_tiles
-
-// Generated.
+// What is linked of files:
+// moment_shadows/map/map_region.wgsl: MapRegion map_region_within map_region_at_level
+// region_tile: regions RegionTile region_tile
+// sums: Sums sums_of sums_texel
+// moment_shadows/map/storage.wgsl: STORAGE_UNORM16 STORAGE_FLOAT16 STORAGE_FLOAT32 storage_is_float storage_round_to_float16 storage_finite_texel
+// moment_shadows/filter/summed_area_encoding.wgsl: summed_area_encoding_of_channels
+// moment_shadows/moments/two_moments.wgsl: two_moments_to_texel
+// source: source_integers
+// sums_target: target_map
+// tile_sums.wgsl: row_sums sum_tiles
 
 // specialization
 const GROUP = 0;
@@ -49,7 +17,6 @@ const UNIT = 1016560u;
 const TILE = vec2u(8u, 16u);
 const WORKGROUP = vec2u(8u, 8u);
 const REGIONS = 1u;
-
 
 // tile_columns
 
