@@ -1,7 +1,7 @@
 //! The linker: a file and the modules that it needs become one WGSL text.
 
 mod error;
-mod file;
+pub(crate) mod file;
 mod import;
 mod linked;
 mod location;
@@ -13,7 +13,6 @@ use std::collections::{BTreeMap, BTreeSet};
 
 pub use self::error::LinkError;
 use self::file::File;
-pub(crate) use self::file::definitions;
 use self::import::{Form, Import};
 pub use self::linked::{Linked, Origin};
 pub use self::location::Location;

@@ -7,7 +7,7 @@ use std::error::Error;
 use naga::front::wgsl::ParseError;
 use naga::valid::ValidationError;
 
-use crate::link::definitions;
+use crate::link::file::definitions;
 use crate::link::tokens::{Token, tokens};
 use crate::{Linked, Location};
 

@@ -2,7 +2,7 @@
 //! whole process down; nothing that a GPU should run comes near.
 
 use super::{ValidateError, constants};
-use crate::link::definitions;
+use crate::link::file::definitions;
 use crate::link::tokens::{Kind, Token, tokens};
 use crate::{Linked, Location};
 
