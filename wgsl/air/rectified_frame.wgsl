@@ -65,7 +65,7 @@ fn rectified_frame_place(frame: RectifiedFrame, coordinates: vec3f) -> vec2f {
     let turned = coordinates.y - frame.first_azimuth;
     let offset = turned - turn * floor(turned / turn);
     let beyond = offset - frame.azimuth_extent;
-    // Of the part of a turn outside the frame, the second half is nearer to the frame's beginning.
+    // Outside the frame, the second half of the rest of a turn is nearer to the frame's beginning.
     let before = beyond > 0.5 * (turn - frame.azimuth_extent);
     let row = select(offset / frame.azimuth_extent, 0.0, before);
     return saturate(vec2f(coordinates.x / frame.largest_radius, row));
