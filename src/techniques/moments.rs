@@ -39,7 +39,7 @@ pub(super) fn hamburger4() -> Row {
     }
 }
 
-/// The sharp lower bound from four moments on the light's range (the same).
+/// The sharp lower bound from four moments on the light's range (Peters & Klein, i3D 2015).
 pub(super) fn hausdorff4() -> Row {
     let evaluation = Snippet {
         imports: &["bounds::hausdorff4::{hausdorff4_shadow_intensity_of_texel}"],

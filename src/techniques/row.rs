@@ -1,4 +1,4 @@
-//! One row of the table of techniques: all that the library knows of a technique with its settings.
+//! One row of the table of techniques: all that the library knows about a technique with its settings.
 
 use super::{Finite, TechniqueError};
 use crate::Storage;
@@ -60,7 +60,7 @@ impl Contents {
 pub struct Snippet {
     /// Items by path, as after `moment_shadows::` in an import: `maths::hankel::{hankel_factor}`.
     pub imports: &'static [&'static str],
-    /// The body of a function. What it can use beside the imports, its function says.
+    /// The body of a function. The comment on that function says what the body can use besides the imports.
     pub body: &'static str,
 }
 
@@ -69,15 +69,15 @@ pub struct Snippet {
 pub struct Encoding {
     /// Items that both pieces use.
     pub imports: &'static [&'static str],
-    /// Of a moment depth `z`: the channels that are averaged, a vec4f.
+    /// The channels to average for a moment depth `z`, a vec4f.
     pub channels: &'static str,
-    /// Of their averages `mean`: the texel to write, a vec4f.
+    /// The texel to write for the averages `mean` of channels, a vec4f.
     pub texel: &'static str,
     /// Items that both pieces of the filter use.
     pub filter_imports: &'static [&'static str],
-    /// Of a `texel`: what a filter averages, a vec4f.
+    /// The value that a filter averages for a `texel`, a vec4f.
     pub filter_value: &'static str,
-    /// Of such averages `value`: the texel to write, a vec4f.
+    /// The texel to write for an average `value` of such values, a vec4f.
     pub filter_texel: &'static str,
 }
 
@@ -120,14 +120,14 @@ impl Constant {
     }
 }
 
-/// A technique with its settings. What a technique lacks is `None`, and a node refuses it by that.
+/// A technique with its settings. What a technique lacks is `None`, and a node refuses it for that.
 #[derive(Clone, Debug)]
 pub struct Row {
     /// The name in graph files and on command lines.
     pub name: &'static str,
     /// What the map holds.
     pub contents: Contents,
-    /// The storages of the map, the one with the least error per bit first. None where the plain depth map is read.
+    /// The storages of the map, the one with the least error per bit first. Empty where the plain depth map is read.
     pub storages: &'static [Storage],
     /// Channels of a plane of the map: 1, 2 or 4.
     pub channels: u32,
@@ -141,7 +141,7 @@ pub struct Row {
     pub largest_exponent: Option<fn(Storage) -> f32>,
     /// Constants of the pieces below.
     pub constants: Vec<Constant>,
-    /// How the map is made and filtered. None where the plain depth map is read.
+    /// How the map is made and filtered; `None` where the plain depth map is read.
     pub encoding: Option<Encoding>,
     /// Whether samplers and mip levels can average texels.
     pub averaged_by_samplers: bool,
@@ -149,7 +149,8 @@ pub struct Row {
     pub comparison: Option<bool>,
     /// Whether the layers of the map are placed on the device (node `place_layers`).
     pub places_layers: bool,
-    /// Shadow intensity of a `receiver`, by `map_texel(receiver, plane)` or on the plane `plane` of the plain depth map `depth_map`.
+    /// Shadow intensity of a `receiver`, by `map_texel(receiver, plane)` or on the plane `plane` of the plain depth map
+    /// `depth_map`.
     pub evaluation: Snippet,
     /// Soft shadow intensity of a `receiver` from the summed-area table of the map, by `soft_table` and `soft_receiver`.
     pub soft: Option<Snippet>,
