@@ -16,9 +16,6 @@ const STORAGE = 0u;
 const REGIONS = 1u;
 
 // map_filtering
-
-// Texels that any filter averages.
-
 fn filtering_value(texel: vec4f) -> vec4f {
     return texel;
 }
@@ -28,7 +25,6 @@ fn filtering_texel(value: vec4f) -> vec4f {
 }
 
 // blur_unrolled
-
 const OUTPUTS = 16;
 struct BlurSums {
     o0: vec4f,

@@ -18,9 +18,6 @@ const TERMS = 8u;
 const REGIONS = 1u;
 
 // map_encoding
-
-// Two terms of the Fourier series: what is averaged for a moment depth, and the texel for the mean.
-
 // The plane that is made.
 override PLANE: u32;
 

@@ -16,9 +16,6 @@ const STORAGE = 2u;
 const REGIONS = 1u;
 
 // map_encoding
-
-// Three of six moments: what is averaged for a moment depth, and the texel for the mean.
-
 // The plane that is made: 0 for odd moments, 1 for even ones.
 override PLANE: u32;
 

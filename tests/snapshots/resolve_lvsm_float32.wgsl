@@ -22,9 +22,6 @@ const LAYER_SPLITS_HIGH = vec4f(1.0, 1.0, 1.0, 1.0);
 const REGIONS = 1u;
 
 // map_encoding
-
-// Two moments of each of two layers: what is averaged for a moment depth, and the texel for the mean.
-
 // The plane that is made.
 override PLANE: u32;
 

@@ -20,9 +20,6 @@ const LAYER_OVERLAP = f32(0.0);
 const REGIONS = 1u;
 
 // map_encoding
-
-// Two moments of each of two layers: what is averaged for a moment depth, and the texel for the mean.
-
 // The plane that is made.
 override PLANE: u32;
 

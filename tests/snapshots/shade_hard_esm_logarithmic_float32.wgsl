@@ -23,11 +23,7 @@ const ANISOTROPY = 8.0;
 const STORAGE = 2u;
 const EXPONENT = f32(80.0);
 
-
 // technique
-
-// Texels hold logarithms: they are decoded before they are blended.
-
 fn mean_at(texel: vec2i, layer: u32) -> f32 {
     return exponential_mean_of_texel(textureLoad(moments_map, texel, layer, 0), STORAGE, EXPONENT, true);
 }

@@ -32,7 +32,6 @@ const LAYER_SPLITS_LOW = vec4f(-0.5, 0.0, 0.5, 1.0);
 const LAYER_SPLITS_HIGH = vec4f(1.0, 1.0, 1.0, 1.0);
 
 // technique
-
 fn intensity_of_layer(receiver: TechniqueReceiver, layers: LayeredVarianceLayers, layer: u32) -> f32 {
     let texel = map_texel(receiver, layer / 2u);
     return layered_variance_shadow_intensity_of_texel(texel, receiver.fragment_depth, STORAGE, layers, layer);

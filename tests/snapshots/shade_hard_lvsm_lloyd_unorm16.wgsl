@@ -30,7 +30,6 @@ const LAYERS = 4u;
 const LAYER_OVERLAP = f32(0.0);
 
 // technique
-
 fn intensity_of_layer(receiver: TechniqueReceiver, layers: LayeredVarianceLayers, layer: u32) -> f32 {
     let texel = map_texel(receiver, layer / 2u);
     return layered_variance_shadow_intensity_of_texel(texel, receiver.fragment_depth, STORAGE, layers, layer);
