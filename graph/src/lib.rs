@@ -28,7 +28,8 @@ pub use error::{GraphError, GraphErrorKind, Position};
 pub use graph::{Edge, Endpoint, Graph, GraphNode, Import, Output, VERSION};
 pub use node::{
     Binding, BindingResource, Connected, CountRule, Direction, ExtentRule, FormatRule, Lifetime,
-    MipLevel, Node, NodeDesc, ParameterBlock, Pass, RegionTable, Slot, SlotResource, Stage, Work,
+    MipLevel, Node, NodeDesc, ParameterBlock, Pass, RegionTable, SameAs, Slot, SlotResource, Stage,
+    TextureRule, Work, bind, same_as,
 };
 pub use plan::{
     Home, ParameterError, ParameterLayout, Plan, PlanError, PlannedBinding, PlannedBindingResource,

@@ -19,6 +19,7 @@ use crate::{
     Access, Capabilities, Connected, Direction, Graph, GraphError, GraphErrorKind, Home, NodeDesc,
     Plan, PlannedOutput, PlannedResource, ResourceDesc, Slot,
 };
+pub(crate) use reflect::numbers as binding_numbers;
 use wiring::{Source, Wiring};
 
 /// The imports that a host gives, by name.
@@ -76,11 +77,12 @@ pub fn compile(
             capabilities,
         };
         for pass in &described.desc.passes {
-            let planned = planner.plan(pass, &mut resources).map_err(placed)?;
+            let mut planned = planner.plan(pass, &mut resources).map_err(placed)?;
             usage::check_pass(&planned, &resources, capabilities).map_err(placed)?;
             shaders
-                .check(
-                    &planned,
+                .bind(
+                    pass,
+                    &mut planned,
                     &resources,
                     capabilities.profile,
                     capabilities.bind_group,

@@ -6,7 +6,7 @@ use super::{Described, bytes, workgroups};
 use crate::{
     Access, BindingResource, Capabilities, GraphError, GraphErrorKind, MipLevel, Pass,
     PlannedBinding, PlannedBindingResource, PlannedPass, PlannedResource, PlannedWork, SampleType,
-    SlotResource, TextureDesc, Work,
+    TextureDesc, Work,
 };
 
 /// What a node's passes are resolved with.
@@ -40,7 +40,8 @@ impl Planner<'_> {
             .iter()
             .map(|binding| {
                 Ok(PlannedBinding {
-                    binding: binding.binding,
+                    // The shader's declaration has it.
+                    binding: 0,
                     resource: self.binding(pass, &binding.resource, filtered, resources)?,
                 })
             })
@@ -206,10 +207,8 @@ impl Planner<'_> {
                     size: self.places.layout.regions[*table].size() as u32,
                 })
             }
-            BindingResource::Layer(slot) => loaded(slot, true, 0),
             BindingResource::Level(MipLevel { slot, level }) => loaded(slot, true, *level),
             BindingResource::Layers(slot) => loaded(slot, false, 0),
-            BindingResource::StorageLayer(slot) => stored(slot, 0),
             BindingResource::StorageLevel(MipLevel { slot, level }) => stored(slot, *level),
             BindingResource::Buffer(slot) => Ok(PlannedBindingResource::Buffer {
                 resource: self.resource(pass, slot)?,
@@ -382,11 +381,7 @@ impl Planner<'_> {
         slots
             .iter()
             .find(|candidate| candidate.name == slot)
-            .map_or(Access::default(), |slot| match &slot.resource {
-                SlotResource::Texture { access, .. } | SlotResource::Buffer { access, .. } => {
-                    *access
-                }
-            })
+            .map_or(Access::default(), |slot| slot.resource.access())
     }
 }
 

@@ -6,7 +6,7 @@ use moment_shadows::{Storage, TextureFormat};
 
 use crate::{
     Access, Capabilities, CountRule, Direction, ExtentRule, FormatRule, GraphError, GraphErrorKind,
-    NodeDesc, ResourceDesc, Slot, SlotResource, TextureDesc,
+    NodeDesc, ResourceDesc, Slot, SlotResource, TextureDesc, TextureRule,
 };
 
 /// A number of a texture that a [`CountRule`] is about.
@@ -27,9 +27,14 @@ pub(super) fn resolve(
             )
             .at_slot(&slot.name));
         }
-        let (SlotResource::Texture { access, .. } | SlotResource::Buffer { access, .. }) =
-            &slot.resource;
-        if slot.direction == Direction::In && access.writes() {
+        if slot.description.trim().is_empty() {
+            return Err(GraphError::new(
+                GraphErrorKind::Declaration,
+                "the slot has no description; say in a sentence what it is for",
+            )
+            .at_slot(&slot.name));
+        }
+        if slot.direction == Direction::In && slot.resource.access().writes() {
             return Err(GraphError::new(
                 GraphErrorKind::Declaration,
                 "the node writes to an input; declare it as changed in place ('in_out')",
@@ -84,14 +89,14 @@ fn make(
     };
     match &slot.resource {
         SlotResource::Buffer { size, .. } => Ok(ResourceDesc::Buffer { size: *size }),
-        SlotResource::Texture {
+        SlotResource::Texture(TextureRule {
             format,
             extent,
             layers,
             mips,
             samples,
             ..
-        } => {
+        }) => {
             let count = |rule: &CountRule, what: &str, of: Count| match rule {
                 CountRule::Exact(count) => Ok(*count),
                 CountRule::SameAs(other) => Ok(of(texture_of(slot, other, resolved)?)),
@@ -136,10 +141,10 @@ fn make(
 /// The slot whose width, height and regions a slot takes.
 pub(super) fn extent_from(slot: &Slot) -> Option<&str> {
     match &slot.resource {
-        SlotResource::Texture {
+        SlotResource::Texture(TextureRule {
             extent: ExtentRule::SameAs(other),
             ..
-        } => Some(other),
+        }) => Some(other),
         _ => None,
     }
 }
@@ -191,19 +196,19 @@ fn check(
             GraphErrorKind::Format,
             "a texture is connected, but this input takes a buffer".to_owned(),
         ),
-        (SlotResource::Texture { .. }, ResourceDesc::Buffer { .. }) => fail(
+        (SlotResource::Texture(_), ResourceDesc::Buffer { .. }) => fail(
             GraphErrorKind::Format,
             "a buffer is connected, but this input takes a texture".to_owned(),
         ),
         (
-            SlotResource::Texture {
+            SlotResource::Texture(TextureRule {
                 access,
                 format,
                 extent,
                 layers,
                 mips,
                 samples,
-            },
+            }),
             ResourceDesc::Texture(texture),
         ) => {
             let formats: Vec<TextureFormat> = match format {

@@ -251,7 +251,7 @@ fn downsample(storage: Storage) -> Entry {
     };
     Entry {
         settings: storage.to_string(),
-        node: Box::new(Downsample {}),
+        node: Box::new(Downsample),
         inputs: inputs([("map", moments)]),
         capabilities: native(),
         trips: Vec::new(),
@@ -415,7 +415,7 @@ fn scattering(technique: Technique) -> Result<Vec<Entry>, IsaError> {
         extent: SIZE,
     };
     let source = texture(storage.format());
-    let integrate = || Box::new(IntegrateScattering::default());
+    let integrate = || Box::new(IntegrateScattering);
     // Shared memory that is cleared; 512 columns at a time, with six steps of the scan.
     let parallel = vec![64, SIZE[0] / 512, 6];
     Ok(vec![
@@ -505,7 +505,7 @@ fn drawn() -> Result<Vec<Entry>, IsaError> {
         entry(", radius 4", Box::new(blur(4)), "map", map.clone(), vec![1]),
         // A loop over all taps.
         entry(", radius 32", Box::new(blur(32)), "map", map, vec![65]),
-        entry("", Box::new(Downsample {}), "map", levels, vec![1]),
+        entry("", Box::new(Downsample), "map", levels, vec![1]),
         of_technique(&encoding),
     ])
 }

@@ -94,7 +94,7 @@ fn variants(storage: Storage, capabilities: &Capabilities) -> Vec<Variant> {
         variants.push(Variant {
             mips: 4,
             regions,
-            ..Variant::new(name, Downsample::default(), capabilities)
+            ..Variant::new(name, Downsample, capabilities)
         });
     }
     for (name, show) in [
@@ -225,12 +225,12 @@ fn scattering(storage: Storage, capabilities: &Capabilities) -> Vec<Variant> {
         let nodes: [(&str, Box<dyn Node>, &Capabilities); 3] = [
             (
                 "integrate_scattering",
-                Box::new(IntegrateScattering::default()),
+                Box::new(IntegrateScattering),
                 capabilities,
             ),
             (
                 "integrate_scattering_software",
-                Box::new(IntegrateScattering::default()),
+                Box::new(IntegrateScattering),
                 &software,
             ),
             (
@@ -346,7 +346,7 @@ fn drawn(encoding: &MapEncoding, capabilities: &Capabilities) -> Vec<Variant> {
             let name = format!("blur_{kind}");
             variants.push(with_map(&name, Box::new(node), 1, 1, regions));
         }
-        let node = Box::new(Downsample::default());
+        let node = Box::new(Downsample);
         variants.push(with_map("downsample", node, 1, 4, regions));
     }
     variants
