@@ -35,6 +35,25 @@ fn every_node_of_the_registry_is_in_the_list_of_shaders() {
     );
 }
 
+#[test]
+fn the_readme_lists_every_node_with_its_slots() {
+    let readme = include_str!("../graph/README.md");
+    for node in shaders::nodes().unwrap() {
+        let heading = format!("### `{}`\n", node.node);
+        let (_, section) = readme
+            .split_once(&heading)
+            .unwrap_or_else(|| panic!("{heading}"));
+        let section = section.split("### ").next().unwrap();
+        for slot in node.slots {
+            assert!(
+                section.contains(&format!("| `{slot}` |")),
+                "{}.{slot}",
+                node.node
+            );
+        }
+    }
+}
+
 /// Variants whose text is kept. The others change a constant each, or repeat lines.
 fn is_kept(name: &str) -> bool {
     let ends = |suffixes: &[&str]| suffixes.iter().any(|suffix| name.ends_with(suffix));

@@ -22,8 +22,13 @@ mod registry;
 mod resource;
 mod version_1;
 
+/// How a host writes a node of its own.
+#[cfg(any(doc, doctest))]
+#[doc = include_str!("../docs/write_a_node.md")]
+pub mod write_a_node {}
+
 pub use capabilities::Capabilities;
-pub use compile::{Imports, compile};
+pub use compile::{Imports, compile, describe};
 pub use error::{GraphError, GraphErrorKind, Position};
 pub use graph::{Edge, Endpoint, Graph, GraphNode, Import, Output, VERSION};
 pub use node::{

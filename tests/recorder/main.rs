@@ -27,4 +27,6 @@ mod shade;
 mod shade_regions;
 mod six_moments;
 mod techniques;
+mod threshold;
+mod threshold_node;
 mod views;

@@ -1,6 +1,7 @@
 //! From a graph to a plan: names, formats, sizes and shaders are checked before anything is created.
 
 mod bytes;
+mod limits;
 mod memory;
 mod parameters;
 mod passes;
@@ -10,6 +11,7 @@ mod slots;
 mod touch;
 mod usage;
 mod wiring;
+mod work;
 mod workgroups;
 
 use std::collections::BTreeMap;
@@ -46,7 +48,7 @@ pub fn compile(
     let wiring = Wiring::of(graph)?;
     let mut resources = import_resources(graph, imports)?;
     let mut roots: Vec<usize> = (0..resources.len()).collect();
-    let described = describe(graph, &wiring, capabilities, &mut resources, &mut roots)?;
+    let described = describe_all(graph, &wiring, capabilities, &mut resources, &mut roots)?;
     let outputs = outputs(graph, &described)?;
     let needed = wiring.needed(graph)?;
     let mut kept: Vec<&Described> = described
@@ -105,6 +107,24 @@ pub fn compile(
     Ok(settle::settle(plan, &kept, &roots))
 }
 
+/// What every node of a graph says about itself for these imports, in the order of the graph: slots with their
+/// descriptions, passes and parameters. Nodes are described whether or not their outputs are taken.
+pub fn describe(
+    graph: &Graph,
+    capabilities: &Capabilities,
+    imports: &Imports,
+) -> Result<Vec<NodeDesc>, GraphError> {
+    let mut resources = import_resources(graph, imports)?;
+    let mut roots = (0..resources.len()).collect();
+    let wiring = Wiring::of(graph)?;
+    let mut described = describe_all(graph, &wiring, capabilities, &mut resources, &mut roots)?;
+    described.sort_by_key(|described| described.node);
+    Ok(described
+        .into_iter()
+        .map(|described| described.desc)
+        .collect())
+}
+
 /// Resources of the imports, in the order of the graph.
 fn import_resources(graph: &Graph, imports: &Imports) -> Result<Vec<PlannedResource>, GraphError> {
     if let Some(name) = imports
@@ -145,7 +165,7 @@ fn import_resources(graph: &Graph, imports: &Imports) -> Result<Vec<PlannedResou
 
 /// Lets every node describe itself, upstream first, and makes the resources of its slots. `roots` gets, for each, the
 /// resource whose layers and regions it follows: itself, or that of the slot whose extent it takes.
-fn describe(
+fn describe_all(
     graph: &Graph,
     wiring: &Wiring,
     capabilities: &Capabilities,

@@ -2,11 +2,11 @@
 
 use super::parameters::Places;
 use super::touch::{Touch, touched};
-use super::{Described, bytes, workgroups};
+use super::work::Resolved;
+use super::{Described, bytes};
 use crate::{
     Access, BindingResource, Capabilities, GraphError, GraphErrorKind, MipLevel, Pass,
-    PlannedBinding, PlannedBindingResource, PlannedPass, PlannedResource, PlannedWork, SampleType,
-    TextureDesc, Work,
+    PlannedBinding, PlannedBindingResource, PlannedPass, PlannedResource, SampleType, TextureDesc,
 };
 
 /// What a node's passes are resolved with.
@@ -100,7 +100,7 @@ impl Planner<'_> {
         })
     }
 
-    fn texture<'r>(
+    pub(super) fn texture<'r>(
         &self,
         pass: &Pass,
         slot: &str,
@@ -117,7 +117,7 @@ impl Planner<'_> {
     }
 
     /// The same, for a mip level that the texture has to have.
-    fn level<'r>(
+    pub(super) fn level<'r>(
         &self,
         pass: &Pass,
         slot: &str,
@@ -238,108 +238,6 @@ impl Planner<'_> {
         }
     }
 
-    fn work(&self, pass: &Pass, resources: &[PlannedResource]) -> Result<Resolved, GraphError> {
-        match &pass.work {
-            Work::Compute {
-                covers,
-                texels_per_workgroup,
-                each_layer,
-            } => {
-                let (followed, covered) = self.texture(pass, covers, resources)?;
-                let groups =
-                    workgroups::grid(covered.size, *texels_per_workgroup, self.capabilities)
-                        .map_err(|error| error.at_slot(covers))?;
-                Ok(Resolved {
-                    work: PlannedWork::Compute { workgroups: groups },
-                    followed,
-                    layers: covered.layers,
-                    each_layer: *each_layer,
-                })
-            }
-            Work::ComputeRegions {
-                covers,
-                level,
-                texels_per_workgroup,
-            } => {
-                let (followed, covered) = self.level(pass, covers, *level, resources)?;
-                let groups = workgroups::for_regions(
-                    covered.size_at(*level),
-                    covered.regions,
-                    *texels_per_workgroup,
-                    self.capabilities,
-                )
-                .map_err(|error| error.at_slot(covers))?;
-                Ok(Resolved {
-                    work: PlannedWork::Compute { workgroups: groups },
-                    followed,
-                    layers: covered.layers,
-                    each_layer: true,
-                })
-            }
-            Work::Fullscreen {
-                target: slot,
-                each_layer,
-            } => {
-                let (index, target) = self.texture(pass, slot, resources)?;
-                Ok(Resolved {
-                    work: PlannedWork::Fullscreen {
-                        target: index,
-                        level: 0,
-                        plane: plane(pass, slot, target)?,
-                        keeps: false,
-                    },
-                    followed: index,
-                    layers: target.layers,
-                    each_layer: *each_layer,
-                })
-            }
-            Work::FullscreenRegions {
-                target: slot,
-                level,
-            } => {
-                let (index, target) = self.level(pass, slot, *level, resources)?;
-                Ok(Resolved {
-                    work: PlannedWork::Fullscreen {
-                        target: index,
-                        level: *level,
-                        plane: plane(pass, slot, target)?,
-                        keeps: true,
-                    },
-                    followed: index,
-                    layers: target.layers,
-                    each_layer: true,
-                })
-            }
-            Work::Host {
-                targets,
-                blend,
-                depth,
-            } => {
-                let targets = targets
-                    .iter()
-                    .map(|slot| Ok(self.texture(pass, slot, resources)?.0))
-                    .collect::<Result<Vec<usize>, GraphError>>()?;
-                let depth = depth
-                    .as_ref()
-                    .map(|slot| Ok::<_, GraphError>(self.texture(pass, slot, resources)?.0))
-                    .transpose()?;
-                let followed = targets.first().copied().or(depth).ok_or_else(|| {
-                    declaration(format!("pass '{}' draws to nothing", pass.label))
-                })?;
-                Ok(Resolved {
-                    work: PlannedWork::Host {
-                        targets,
-                        blend: *blend,
-                        depth,
-                    },
-                    followed,
-                    layers: 1,
-                    each_layer: false,
-                })
-            }
-        }
-    }
-
     /// A pass per layer needs every texture that it binds by layer to have that layer.
     fn check_layers(
         &self,
@@ -385,17 +283,8 @@ impl Planner<'_> {
     }
 }
 
-/// A pass's work with its slots replaced.
-struct Resolved {
-    work: PlannedWork,
-    /// The resource whose layers it is recorded for.
-    followed: usize,
-    layers: u32,
-    each_layer: bool,
-}
-
 /// The plane that a pass means of a slot's texture.
-fn plane(pass: &Pass, slot: &str, texture: &TextureDesc) -> Result<u32, GraphError> {
+pub(super) fn plane(pass: &Pass, slot: &str, texture: &TextureDesc) -> Result<u32, GraphError> {
     match texture.planes {
         1 => Ok(0),
         planes if pass.plane < planes => Ok(pass.plane),
@@ -407,6 +296,6 @@ fn plane(pass: &Pass, slot: &str, texture: &TextureDesc) -> Result<u32, GraphErr
     }
 }
 
-fn declaration(message: String) -> GraphError {
+pub(super) fn declaration(message: String) -> GraphError {
     GraphError::new(GraphErrorKind::Declaration, message)
 }

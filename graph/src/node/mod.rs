@@ -1,11 +1,12 @@
 //! The contract: a node describes itself, as plain data, to any engine.
 
+pub mod bind;
 mod pass;
 mod slot;
 
 use std::collections::BTreeMap;
 
-pub use pass::{Binding, BindingResource, MipLevel, ParameterBlock, Pass, RegionTable, Work, bind};
+pub use pass::{Binding, BindingResource, MipLevel, ParameterBlock, Pass, RegionTable, Work};
 use serde::{Deserialize, Serialize};
 pub use slot::{
     CountRule, Direction, ExtentRule, FormatRule, Lifetime, SameAs, Slot, SlotResource,

@@ -8,7 +8,9 @@ use moment_shadows_graph::nodes::{
     KernelProperty, MipLevels, PlaceLayers, RectifyMoments, Resolve, ShadeHard, ShadeSoft, Show,
     SummedAreaTable,
 };
-use moment_shadows_graph::{Capabilities, Connected, Node, Pass, ResourceDesc, TextureDesc};
+use moment_shadows_graph::{
+    Capabilities, Connected, Direction, Node, Pass, ResourceDesc, TextureDesc,
+};
 
 use super::{Kind, Shader, ShadersError};
 use crate::techniques;
@@ -18,6 +20,8 @@ use crate::techniques;
 pub struct NodeShader {
     /// The node's name, by which the registry knows it.
     pub node: String,
+    /// The names of the slots that edges lead to or from.
+    pub slots: Vec<String>,
     /// Its linked text.
     pub shader: Shader,
 }
@@ -460,12 +464,19 @@ fn describe(
         }
     }
     let several = passes.len() > 1;
+    let slots: Vec<String> = desc
+        .slots
+        .into_iter()
+        .filter(|slot| slot.direction != Direction::Internal)
+        .map(|slot| slot.name)
+        .collect();
     for pass in passes {
         // Passes are told apart by the last words of their labels: "blur along x", "blur along y".
         let last = pass.label.rsplit(' ').next().filter(|_| several);
         let suffix = last.map(|word| format!("_{word}")).unwrap_or_default();
         all.push(NodeShader {
             node: desc.name.clone(),
+            slots: slots.clone(),
             shader: Shader {
                 name: variant.name.clone() + &suffix,
                 kind: Kind::Node,
