@@ -116,10 +116,10 @@ numerics_on_swiftshader() {
   )
 }
 
-# Graph files, models and shaders that are mutated at random: the same ones each time.
+# Graph files and shaders that are mutated at random: the same ones each time.
 run_fuzzing() {
   local bounds
-  for bounds in graph_file:12000 gltf_model:4000 wgsl:800; do
+  for bounds in graph_file:12000 wgsl:800; do
     cargo run --release --locked --quiet -p moment-shadows-fuzz --bin moment-shadows-fuzz -- \
       --target "${bounds%:*}" --iterations "${bounds#*:}" --seconds 120 --seed 1
   done

@@ -7,8 +7,7 @@ use std::path::Path;
 
 use glam::camera::rh::proj::directx::{orthographic, perspective_infinite_reverse};
 use glam::camera::rh::view::look_at_mat4;
-use moment_shadows::{Kernel, Profile, ReceiverBias, Source, TextureFormat, link};
-use moment_shadows_graph::nodes::LightDepth;
+use moment_shadows::{Kernel, LightDepth, Profile, ReceiverBias, Source, TextureFormat, link};
 use moment_shadows_graph::record::{
     Bindings, ImportedResource, PipelineOptions, Pipelines, Recording, Resources,
 };

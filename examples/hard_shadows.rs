@@ -6,8 +6,10 @@
 use std::error::Error;
 use std::path::Path;
 
-use moment_shadows::{Kernel, LeakReduction, MapRegion, Profile, ReceiverBias};
-use moment_shadows_graph::nodes::{CameraView, LightDepth, LightView, ViewParameters};
+use moment_shadows::{
+    CameraView, Kernel, LeakReduction, LightDepth, LightView, MapRegion, Profile, ReceiverBias,
+    ViewParameters,
+};
 use moment_shadows_graph::record::{
     Bindings, ImportedResource, PipelineOptions, Pipelines, Recording, Resources,
 };

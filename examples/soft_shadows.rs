@@ -7,9 +7,9 @@ use std::error::Error;
 use std::path::Path;
 
 use moment_shadows::{
-    AreaLight, DepthRange, LeakReduction, MapRegion, Profile, ReceiverBias, SoftRadii,
+    AreaLight, CameraView, DepthRange, LeakReduction, LightDepth, LightView, MapRegion, Profile,
+    ReceiverBias, SoftRadii, ViewParameters,
 };
-use moment_shadows_graph::nodes::{CameraView, LightDepth, LightView, ViewParameters};
 use moment_shadows_graph::record::{
     Bindings, ImportedResource, PipelineOptions, Pipelines, Recording, Resources,
 };

@@ -7,9 +7,9 @@
 use std::error::Error;
 use std::path::Path;
 
-use moment_shadows::{Kernel, LeakReduction, MapRegion, Profile, ReceiverBias, SingleScattering};
-use moment_shadows_graph::nodes::{
-    CameraView, LightDepth, LightView, ScatteringParameters, ViewParameters,
+use moment_shadows::{
+    CameraView, Kernel, LeakReduction, LightDepth, LightView, MapRegion, Profile, ReceiverBias,
+    ScatteringParameters, SingleScattering, ViewParameters,
 };
 use moment_shadows_graph::record::{
     Bindings, ImportedResource, PipelineOptions, Pipelines, Recording, Resources,

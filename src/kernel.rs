@@ -2,8 +2,13 @@
 
 use serde::{Deserialize, Serialize};
 
+use crate::constant::number;
+
 /// The largest radius of a kernel, in texels.
-pub const LARGEST_RADIUS: u32 = 64;
+pub const LARGEST_RADIUS: u32 = number(
+    include_str!("../wgsl/techniques/percentage_closer.wgsl"),
+    "PERCENTAGE_CLOSER_LARGEST_RADIUS",
+) as u32;
 
 /// Weights are multiples of this, 2^-18, for the sums of the WGSL module `split_sum`.
 const WEIGHT_UNIT: f64 = 1.0 / (1 << 18) as f64;

@@ -26,6 +26,7 @@
 //! default) checks a shader under a [`Profile`] and writes it for every backend; its errors point at the lines before linking.
 
 mod area_light;
+mod constant;
 mod depth;
 mod file;
 mod format;
@@ -37,21 +38,20 @@ mod link_error;
 mod linked;
 mod location;
 mod map_region;
-mod matrix;
 mod module;
+mod moment_bias;
 mod nearest;
 mod percentage_closer;
 mod profile;
 mod receiver_bias;
-mod rectified_frame;
 mod single_scattering;
-mod six_moments;
 mod storage;
 mod summed_area_table;
-mod technique;
+mod techniques;
 mod token;
 #[cfg(feature = "validate")]
 mod validate;
+mod view;
 
 pub use area_light::{AreaLight, AreaLightError, SoftRadii};
 pub use depth::{DepthConversion, DepthError, DepthRange};
@@ -65,24 +65,29 @@ pub use linked::{Linked, Origin};
 pub use location::Location;
 pub use map_region::MapRegion;
 pub use module::{Module, modules};
+pub use moment_bias::{FourMomentsBias, SixMomentsBias};
 pub use nearest::nearest;
 pub use percentage_closer::PercentageCloserKernel;
 pub use profile::Profile;
 pub use receiver_bias::{ReceiverBias, STANDARD_DEVIATIONS};
-pub use rectified_frame::{RectifiedFrame, RectifiedFrameError, RectifiedView};
 pub use single_scattering::{SingleScattering, SingleScatteringError};
-pub use six_moments::SixMomentsBias;
-pub use storage::{FourMomentsBias, Storage, UnsupportedStorage};
+pub use storage::{Storage, UnsupportedStorage};
 pub use summed_area_table::{SummedAreaTable, SummedAreaTableError};
-pub use technique::{
-    EsmFiltering, Finite, LayerSplits, MapEncoding, NotFinite, PcfTaps, Pcss, Technique,
-    TechniqueError,
+pub use techniques::{
+    Constant, Contents, Encoding, EsmFiltering, Finite, LayerSplits, MapEncoding, NotFinite,
+    PcfTaps, Pcss, Row, Snippet, Technique, TechniqueError,
 };
 #[cfg(feature = "validate")]
 pub use validate::{
     Backend, Diagnostic, LARGEST_CONSTANT, LARGEST_VALUE, LONGEST_CHAIN, LONGEST_DEFINITION,
     LONGEST_SHADER, Label, MOST_CONSTANTS, MOST_EXPRESSIONS, MOST_VALUES, Outcome, ValidateError,
     ValidationReport, validate, validate_module,
+};
+
+pub use view::{
+    CameraView, CompositeScatteringParameters, IntegrateScatteringParameters, LightDepth,
+    LightView, RectifiedFrame, RectifiedFrameError, RectifiedView, RectifyMomentsParameters,
+    ScatteringParameters, ScatteringViewError, ViewError, ViewParameters,
 };
 
 #[cfg(doctest)]

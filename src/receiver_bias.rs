@@ -3,12 +3,17 @@
 use bytemuck::{Pod, Zeroable};
 use serde::{Deserialize, Serialize};
 
+use crate::constant::number;
+
 /// How many standard deviations of depth under the kernel a receiver moves towards the light.
 ///
 /// One suffices for a symmetric distribution: a fragment in front of the lower Gauss node, which then lies one standard
 /// deviation in front of the mean, has a lower bound of exactly 0 (Peters & Klein, i3D 2015, Algorithm 3). The rest
 /// covers the moment bias and the rounding of storage.
-pub const STANDARD_DEVIATIONS: f32 = 1.25;
+pub const STANDARD_DEVIATIONS: f32 = number(
+    include_str!("../wgsl/shade/receiver_bias.wgsl"),
+    "RECEIVER_BIAS_STANDARD_DEVIATIONS",
+) as f32;
 
 /// The variance, in squared texels along either axis, that multisampling and bilinear lookup add to a kernel's: 1/12 for
 /// samples spread evenly over a texel, at most 1/4 for a lookup half-way between texels.
@@ -31,9 +36,8 @@ pub struct ReceiverBias {
     pub slope_scale: f32,
     /// The largest bias in moment depth.
     pub maximum: f32,
-    /// Scene units by which a receiver moves along its normal at grazing light: for shaders that know normals. Those that
-    /// start from depth alone, the render-graph nodes among them, do not use it.
-    pub normal_offset: f32,
+    /// Unused; keeps the WGSL layout.
+    pub padding: f32,
 }
 
 impl ReceiverBias {
@@ -42,7 +46,7 @@ impl ReceiverBias {
         constant: 0.0,
         slope_scale: 0.0,
         maximum: 0.0,
-        normal_offset: 0.0,
+        padding: 0.0,
     };
 
     /// The bias that follows from a kernel, for all scenes.
@@ -58,7 +62,7 @@ impl ReceiverBias {
             constant: DEPTH_ERROR,
             slope_scale,
             maximum: DEPTH_ERROR + slope_scale * STEEPEST_TANGENT * depth_per_texel,
-            normal_offset: 0.0,
+            padding: 0.0,
         }
     }
 }

@@ -4,7 +4,8 @@ use core::fmt;
 
 use serde::{Deserialize, Serialize};
 
-use crate::{Profile, SummedAreaTable, TextureFormat};
+use crate::constant::number;
+use crate::{Profile, TextureFormat};
 
 /// How four moments are stored in a texel.
 ///
@@ -41,20 +42,6 @@ pub enum Storage {
     Unorm10,
     /// Sums of 32-bit integers: a summed-area table, see [`SummedAreaTable`](crate::SummedAreaTable).
     Fixed32,
-}
-
-/// A moment bias: `b + alpha ((0, second, 0, fourth) - b)` (Peters & Klein, i3D 2015, section 3.3).
-#[derive(
-    Clone, Copy, Debug, PartialEq, Serialize, Deserialize, bytemuck::Pod, bytemuck::Zeroable,
-)]
-#[repr(C)]
-pub struct FourMomentsBias {
-    /// The step towards the target, in (0, 1).
-    pub alpha: f32,
-    /// The second moment of the target; the odd ones are 0.
-    pub second: f32,
-    /// The fourth moment of the target.
-    pub fourth: f32,
 }
 
 /// A storage that a profile does not offer.
@@ -146,86 +133,19 @@ impl Storage {
         self.format().bytes_per_texel() * 8
     }
 
-    /// The smallest moment bias that covers a resolve and a two-pass blur, every stage rounded to the storage. With 8 or 10
-    /// bits it leaks so far that no technique stores four moments like that. That of float32 relies on sums as exact as those of the
-    /// WGSL module `split_sum`, which blurs of any width have then. That of a summed-area table depends on
-    /// its largest kernel ([`SummedAreaTable::moment_bias`]); here it is that of the largest possible.
-    #[must_use]
-    pub fn moment_bias(self) -> FourMomentsBias {
-        match self {
-            Storage::Unorm8 => FourMomentsBias {
-                alpha: 1.8e-2,
-                second: 0.628,
-                fourth: 0.628,
-            },
-            Storage::Unorm10 => FourMomentsBias {
-                alpha: 4.4e-3,
-                second: 0.628,
-                fourth: 0.628,
-            },
-            Storage::Unorm16 => FourMomentsBias {
-                alpha: 6e-5,
-                second: 0.628,
-                fourth: 0.628,
-            },
-            Storage::Float16 => FourMomentsBias {
-                alpha: 1e-3,
-                second: 0.628,
-                fourth: 0.628,
-            },
-            Storage::Float32 => FourMomentsBias {
-                alpha: 1.5e-6,
-                second: 0.375,
-                fourth: 0.375,
-            },
-            Storage::Fixed32 => SummedAreaTable::COARSEST.moment_bias(),
-        }
-    }
-
-    /// The same for distributions on the depth interval (Hausdorff): their moments lie in a smaller set, so that the target
-    /// is another one and the step longer.
-    #[must_use]
-    pub fn hausdorff_moment_bias(self) -> FourMomentsBias {
-        match self {
-            Storage::Unorm8 => FourMomentsBias {
-                alpha: 2.4e-2,
-                second: 0.6036,
-                fourth: 0.4875,
-            },
-            Storage::Unorm10 => FourMomentsBias {
-                alpha: 6e-3,
-                second: 0.6036,
-                fourth: 0.4875,
-            },
-            Storage::Unorm16 => FourMomentsBias {
-                alpha: 8e-5,
-                second: 0.6036,
-                fourth: 0.4875,
-            },
-            Storage::Float16 => FourMomentsBias {
-                alpha: 1.5e-3,
-                second: 0.6036,
-                fourth: 0.4875,
-            },
-            Storage::Float32 => FourMomentsBias {
-                alpha: 2.8e-6,
-                second: 0.4403,
-                fourth: 0.3124,
-            },
-            Storage::Fixed32 => SummedAreaTable::COARSEST.hausdorff_moment_bias(),
-        }
-    }
-
     /// The number by which the WGSL module `storage` knows this storage (`STORAGE_UNORM16` and so on).
     #[must_use]
     pub fn wgsl_index(self) -> u32 {
+        const fn index(name: &str) -> u32 {
+            number(include_str!("../wgsl/map/storage.wgsl"), name) as u32
+        }
         match self {
-            Storage::Unorm16 => 0,
-            Storage::Float16 => 1,
-            Storage::Float32 => 2,
-            Storage::Unorm8 => 3,
-            Storage::Fixed32 => 4,
-            Storage::Unorm10 => 5,
+            Storage::Unorm16 => const { index("STORAGE_UNORM16") },
+            Storage::Float16 => const { index("STORAGE_FLOAT16") },
+            Storage::Float32 => const { index("STORAGE_FLOAT32") },
+            Storage::Unorm8 => const { index("STORAGE_UNORM8") },
+            Storage::Fixed32 => const { index("STORAGE_FIXED32") },
+            Storage::Unorm10 => const { index("STORAGE_UNORM10") },
         }
     }
 

@@ -4,6 +4,7 @@ use core::fmt;
 
 use serde::{Deserialize, Serialize};
 
+use crate::constant::number;
 use crate::{FourMomentsBias, Storage};
 
 /// What the integers of a summed-area table mean: the host side of the WGSL module `summed_area_encoding`.
@@ -62,6 +63,9 @@ pub enum SummedAreaTableError {
     },
 }
 
+const MODULE: &str = include_str!("../wgsl/filter/summed_area_encoding.wgsl");
+const UNIT_UNORM16: u32 = number(MODULE, "SUMMED_AREA_ENCODING_UNIT_UNORM16") as u32;
+
 /// What rounding costs, as the constants of the WGSL module say it: `per_error` times the error of a channel and what f32 adds, but
 /// no less than `smallest`.
 struct Cost {
@@ -70,11 +74,10 @@ struct Cost {
     smallest: f32,
 }
 
-/// `SUMMED_AREA_ENCODING_BIAS_PER_ERROR` and so on in WGSL.
 const BIAS: Cost = Cost {
-    per_error: 4.88,
-    of_f32: 4e-7,
-    smallest: 1e-6,
+    per_error: number(MODULE, "SUMMED_AREA_ENCODING_BIAS_PER_ERROR") as f32,
+    of_f32: number(MODULE, "SUMMED_AREA_ENCODING_BIAS_OF_F32") as f32,
+    smallest: number(MODULE, "SUMMED_AREA_ENCODING_SMALLEST_BIAS") as f32,
 };
 
 /// The same for distributions on the depth interval.
@@ -84,11 +87,10 @@ const HAUSDORFF_BIAS: Cost = Cost {
     smallest: 1.6e-6,
 };
 
-/// `SUMMED_AREA_ENCODING_VARIANCE_PER_ERROR` and so on in WGSL.
 const VARIANCE: Cost = Cost {
-    per_error: 5.0,
-    of_f32: 4e-7,
-    smallest: 1.2e-6,
+    per_error: number(MODULE, "SUMMED_AREA_ENCODING_VARIANCE_PER_ERROR") as f32,
+    of_f32: number(MODULE, "SUMMED_AREA_ENCODING_VARIANCE_OF_F32") as f32,
+    smallest: number(MODULE, "SUMMED_AREA_ENCODING_SMALLEST_VARIANCE") as f32,
 };
 
 impl Cost {
@@ -100,9 +102,9 @@ impl Cost {
 }
 
 impl SummedAreaTable {
-    /// The most texels that a kernel can cover (`SUMMED_AREA_ENCODING_LARGEST_AREA` in WGSL): 65537 channels of 65535 units are
+    /// The most texels that a kernel can cover: 65537 channels of 65535 units are
     /// just below 2^32. Tables of float maps keep to it, too, so that none is less exact than 16 bits.
-    pub const LARGEST_AREA: u32 = 65537;
+    pub const LARGEST_AREA: u32 = number(MODULE, "SUMMED_AREA_ENCODING_LARGEST_AREA") as u32;
 
     /// The one with the greatest error.
     pub(crate) const COARSEST: Self = Self {
@@ -154,7 +156,7 @@ impl SummedAreaTable {
     #[must_use]
     pub fn unit(&self) -> u32 {
         match self.source {
-            Storage::Unorm16 => 65535,
+            Storage::Unorm16 => UNIT_UNORM16,
             _ => {
                 let most = u32::MAX / self.largest_area();
                 let rounded = 8_u32.saturating_sub(most.leading_zeros());

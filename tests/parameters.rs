@@ -9,15 +9,16 @@
 use std::mem::offset_of;
 
 use moment_shadows::{
-    AreaLight, DepthConversion, EsmFiltering, Finite, FourMomentsBias, Kernel, LARGEST_RADIUS,
-    LayerSplits, LeakReduction, MapRegion, PcfTaps, Pcss, PercentageCloserKernel, Profile,
-    ReceiverBias, RectifiedFrame, STANDARD_DEVIATIONS, SingleScattering, SixMomentsBias, Source,
-    Storage, SummedAreaTable, Technique, TextureFormat, link,
+    AreaLight, CompositeScatteringParameters, DepthConversion, EsmFiltering, Finite,
+    FourMomentsBias, IntegrateScatteringParameters, Kernel, LARGEST_RADIUS, LayerSplits,
+    LeakReduction, MapRegion, PcfTaps, Pcss, PercentageCloserKernel, Profile, ReceiverBias,
+    RectifiedFrame, RectifyMomentsParameters, STANDARD_DEVIATIONS, SingleScattering,
+    SixMomentsBias, Source, Storage, SummedAreaTable, Technique, TextureFormat, ViewParameters,
+    link, modules,
 };
 use moment_shadows_graph::nodes::{
-    Blur, BlurParameters, CompositeScattering, CompositeScatteringParameters, IntegrateScattering,
-    IntegrateScatteringParameters, KernelProperty, RectifyMoments, RectifyMomentsParameters,
-    Resolve, ShadeHard, ViewParameters,
+    Blur, BlurParameters, CompositeScattering, IntegrateScattering, KernelProperty, RectifyMoments,
+    Resolve, ShadeHard,
 };
 use moment_shadows_graph::{
     BindingResource, Capabilities, Connected, Node, NodeDesc, ResourceDesc, TextureDesc,
@@ -41,7 +42,8 @@ fn parse(wgsl: &str) -> Module {
 
 /// The closure of one item of a library module.
 fn module(name: &str, item: &str) -> Module {
-    let text = format!("import moment_shadows::{name}::{{{item}}};\n");
+    let folder = modules().iter().find(|it| it.name == name).unwrap().folder;
+    let text = format!("import moment_shadows::{folder}::{name}::{{{item}}};\n");
     let source = Source {
         name: "user.wgsl",
         text: &text,
@@ -99,7 +101,7 @@ fn structs_of_the_modules_are_laid_out_alike() {
             constant: f32,
             slope_scale: f32,
             maximum: f32,
-            normal_offset: f32
+            padding: f32
         }),
     );
     assert_same_layout(
@@ -123,7 +125,7 @@ fn structs_of_the_modules_are_laid_out_alike() {
         }),
     );
     assert_same_layout(
-        &module("map", "FourMomentsBias"),
+        &module("four_moments", "FourMomentsBias"),
         "FourMomentsBias",
         size_of::<FourMomentsBias>(),
         &fields!(FourMomentsBias {
@@ -377,7 +379,7 @@ fn storages_have_the_numbers_and_biases_of_the_module() {
         let found = constant(&module("storage", &index), &index);
         assert_eq!(found, [f64::from(storage.wgsl_index())], "{index}");
         let bias = format!("FOUR_MOMENTS_BIAS_{name}");
-        let found = constant(&module("map", &bias), &bias);
+        let found = constant(&module("four_moments", &bias), &bias);
         let expected = storage.moment_bias();
         assert_eq!(
             found,
@@ -385,7 +387,7 @@ fn storages_have_the_numbers_and_biases_of_the_module() {
             "{bias}"
         );
         let bias = format!("HAUSDORFF4_BIAS_{name}");
-        let found = constant(&module("hausdorff", &bias), &bias);
+        let found = constant(&module("hausdorff4", &bias), &bias);
         let expected = storage.hausdorff_moment_bias();
         assert_eq!(
             found,

@@ -75,6 +75,11 @@ fn mutate(data: &[u8], seeds: &[Vec<u8>], random: &mut Random) -> Vec<u8> {
     }
 }
 
+/// Words of graph files, and names that are none.
+const FURTHER_WORDS: &str = " . .. a.b.c \u{0} \u{1f312} properties version texture buffer_size samples layers mips size format \
+    kernel radius sigma weights storage unorm16 float16 float32 technique hamburger4 mip_levels all per_frame views lights \
+    anisotropy show level deviation";
+
 /// What may stand where another word stands: those of the document, and those that graph files know.
 fn words(document: &Value) -> Vec<String> {
     let mut words = Vec::new();
@@ -82,45 +87,7 @@ fn words(document: &Value) -> Vec<String> {
     words.truncate(200);
     words.extend(NodeRegistry::new().type_names().map(str::to_owned));
     words.extend(TextureFormat::ALL.iter().map(ToString::to_string));
-    words.extend(
-        [
-            "",
-            ".",
-            "..",
-            "a.b.c",
-            "\u{0}",
-            "\u{1f312}",
-            "properties",
-            "version",
-            "texture",
-            "buffer_size",
-            "samples",
-            "layers",
-            "mips",
-            "size",
-            "format",
-            "kernel",
-            "radius",
-            "sigma",
-            "weights",
-            "storage",
-            "unorm16",
-            "float16",
-            "float32",
-            "technique",
-            "hamburger4",
-            "mip_levels",
-            "all",
-            "per_frame",
-            "views",
-            "lights",
-            "anisotropy",
-            "show",
-            "level",
-            "deviation",
-        ]
-        .map(str::to_owned),
-    );
+    words.extend(FURTHER_WORDS.split(' ').map(str::to_owned));
     words
 }
 

@@ -152,51 +152,15 @@ fn nearby(number: &Number, random: &mut Random) -> Number {
 }
 
 fn special_number(random: &mut Random) -> Number {
-    const WHOLE: [u64; 22] = [
-        0,
-        1,
-        2,
-        3,
-        4,
-        5,
-        8,
-        64,
-        65,
-        255,
-        256,
-        4096,
-        8192,
-        8193,
-        65_535,
-        65_536,
-        i32::MAX as u64,
-        1 << 31,
-        u32::MAX as u64,
-        1 << 32,
-        i64::MAX as u64,
-        u64::MAX,
-    ];
-    const REAL: [f64; 14] = [
-        -0.0,
-        0.5,
-        -1.0,
-        -2.0,
-        1e-300,
-        5e-324,
-        1e-45,
-        1e-30,
-        3.0e38,
-        3.5e38,
-        1e300,
-        -1e300,
-        2_147_483_648.5,
-        4_294_967_296.0,
-    ];
+    const REAL: &str = "-0.0 0.5 -1.0 -2.0 1e-300 5e-324 1e-45 1e-30 3.0e38 3.5e38 1e300 -1e300 2147483648.5 4294967296.0";
     if random.once_in(2) {
-        Number::from(WHOLE[random.below(WHOLE.len())])
-    } else {
-        Number::from_f64(REAL[random.below(REAL.len())]).unwrap_or(Number::from(0))
+        // Limits are powers of two, and 0; mistakes are next to them.
+        let limit = 1_u64 << random.below(64);
+        return Number::from(limit.wrapping_add([0, 1, u64::MAX][random.below(3)]));
     }
+    let words: Vec<&str> = REAL.split(' ').collect();
+    let real = random.word(&words).parse().unwrap_or(0.0);
+    Number::from_f64(real).unwrap_or(Number::from(0))
 }
 
 /// A value of any kind.
@@ -261,6 +225,7 @@ pub(crate) fn strings(value: &Value, found: &mut Vec<String>) {
 /// Changes the text where no document could be: keys that occur twice, numbers that JSON does not know, brackets
 /// without end, and so on.
 pub(crate) fn mutate_text(text: &str, random: &mut Random) -> String {
+    const WORDS: &str = r#"NaN Infinity - 1e999 -1e999 0x10 1_000 00 1. "\ud800" "\u0000""#;
     let mut breaks: Vec<usize> = text
         .match_indices([',', ':', '{', '[', '}', ']'])
         .map(|(at, _)| at)
@@ -271,19 +236,7 @@ pub(crate) fn mutate_text(text: &str, random: &mut Random) -> String {
     let (at, until) = (at.min(until), at.max(until));
     let insert = match random.below(8) {
         0 => ", \"name\": \"twice\"".to_owned(),
-        1 => random.word(&[
-            "NaN",
-            "Infinity",
-            "-",
-            "1e999",
-            "-1e999",
-            "0x10",
-            "1_000",
-            "00",
-            "1.",
-            "\"\\ud800\"",
-            "\"\\u0000\"",
-        ]),
+        1 => random.word(&WORDS.split(' ').collect::<Vec<_>>()),
         2 => "[".repeat(random.count(100_000)),
         3 => "{\"a\":".repeat(random.count(100_000)),
         4 => " ".repeat(random.count(100_000)),

@@ -1,13 +1,11 @@
-//! What moment-shadows reads from files, fed with whatever a file may hold: nothing panics, hangs or leaves a file behind.
+//! What the library crates read, graph files and shaders, fed with whatever a file may hold: nothing panics, hangs or leaves a file behind.
 //!
 //! A [`Target`] has inputs to start from, mutations that know the format, and a function that tries an input out and
 //! panics where an invariant is broken. The same targets run in two ways: `cargo run -p moment-shadows-fuzz` on stable
 //! Rust, seeded and bounded, and `cargo fuzz run TARGET`, guided by libFuzzer.
 
-pub mod gltf_model;
 pub mod graph_file;
 mod json;
-pub mod models;
 mod random;
 pub mod runner;
 mod text;
@@ -31,7 +29,7 @@ pub struct Target {
 }
 
 /// All targets.
-pub const TARGETS: [&Target; 3] = [&graph_file::TARGET, &gltf_model::TARGET, &wgsl::TARGET];
+pub const TARGETS: [&Target; 2] = [&graph_file::TARGET, &wgsl::TARGET];
 
 /// The largest input that is made.
 pub const LARGEST_INPUT: usize = 1 << 20;
@@ -50,6 +48,35 @@ impl Target {
         input.truncate(LARGEST_INPUT);
         input
     }
+}
+
+/// The main file of a target of cargo-fuzz, which only says how it is run where cargo-fuzz does not build it.
+#[macro_export]
+macro_rules! guided {
+    ($target:ident) => {
+        #[cfg(fuzzing)]
+        ::libfuzzer_sys::fuzz_target!(|data: &[u8]| ($crate::$target::TARGET.try_out)(data));
+
+        #[cfg(fuzzing)]
+        ::libfuzzer_sys::fuzz_mutator!(|data: &mut [u8],
+                                        size: usize,
+                                        max_size: usize,
+                                        seed: u32| {
+            if seed % 2 == 0 {
+                return ::libfuzzer_sys::fuzzer_mutate(data, size, max_size);
+            }
+            $crate::mutate_in_place(&$crate::$target::TARGET, data, size, max_size, seed)
+        });
+
+        #[cfg(not(fuzzing))]
+        fn main() {
+            eprintln!(concat!(
+                "run me with `cargo fuzz run ",
+                stringify!($target),
+                "`"
+            ));
+        }
+    };
 }
 
 /// The form of mutation that libFuzzer calls: changes the first `size` bytes of `data`, to at most `max_size` of them, and

@@ -9,12 +9,12 @@ use clap::Parser;
 use moment_shadows_fuzz::runner::{Run, watch, work};
 use moment_shadows_fuzz::{TARGETS, Target};
 
-/// Tries out seeded mutations of graph files, glTF models and shaders. Fails at the first panic, abort, hang, file left
+/// Tries out seeded mutations of graph files and shaders. Fails at the first panic, abort, hang, file left
 /// behind, or boundless use of memory, and writes the input that did it to a file.
 #[derive(Parser)]
 struct Options {
     /// A target; all of them without this
-    #[arg(long, value_parser = ["graph_file", "gltf_model", "wgsl"])]
+    #[arg(long, value_parser = ["graph_file", "wgsl"])]
     target: Option<String>,
     /// For how long, over all targets
     #[arg(long, default_value_t = 60)]

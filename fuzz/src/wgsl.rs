@@ -69,131 +69,37 @@ fn seeds() -> Vec<Vec<u8>> {
 
 /// Words of all seeds, and such as mean something to a compiler.
 static WORDS: LazyLock<Vec<String>> = LazyLock::new(|| {
-    let mut words: Vec<String> = seeds()
-        .iter()
+    const FURTHER: &str = "f16 u64 vec4<bool> mat2x3<f16> atomic<i32> ptr<private,f32> array<f32> array<u32,0> \
+        texture_depth_multisampled_2d texture_storage_3d<r32uint,read_write> sampler_comparison texture_external \
+        binding_array<texture_2d<f32>,4> enable requires diagnostic @must_use @id(0) @builtin(position) @location(99) \
+        @align(16) @size(4294967295) @group(4294967295) @workgroup_size(0) const_assert discard continuing \
+        0xffffffffu -2147483648 1e400 0x1p-500 1e-400h 0.0/0.0 1/0 1u<<32u -1%0 ldexp pack2x16float extractBits \
+        quantizeToF16 textureGather textureSampleGrad arrayLength bitcast<vec2<f16>> subgroupAdd \
+        import super moment_shadows //#more //#weights /* */ // \u{2028} \u{0} \u{feff} \u{e4} __x _";
+    let seeds = seeds();
+    let known = seeds.iter().map(|seed| String::from_utf8_lossy(seed));
+    known
         .flat_map(|seed| {
-            tokens(&String::from_utf8_lossy(seed))
+            tokens(&seed)
                 .into_iter()
                 .map(str::to_owned)
                 .collect::<Vec<_>>()
         })
+        .chain(FURTHER.split_whitespace().map(str::to_owned))
         .filter(|token| !token.trim().is_empty())
-        .collect();
-    words.extend(
-        [
-            "f16",
-            "u64",
-            "i64",
-            "vec4<bool>",
-            "mat4x4f",
-            "mat2x3<f16>",
-            "atomic<i32>",
-            "ptr<private, f32>",
-            "array<f32>",
-            "array<u32, 0>",
-            "texture_depth_multisampled_2d",
-            "texture_cube_array<f32>",
-            "texture_3d<u32>",
-            "texture_storage_3d<r32uint, read_write>",
-            "sampler_comparison",
-            "texture_external",
-            "acceleration_structure",
-            "binding_array<texture_2d<f32>, 4>",
-            "enable f16;",
-            "requires x;",
-            "diagnostic(off, derivative_uniformity);",
-            "@must_use",
-            "@id(0)",
-            "@builtin(position)",
-            "@location(99)",
-            "@interpolate(flat)",
-            "@align(16)",
-            "@size(4294967295)",
-            "@group(4294967295)",
-            "@workgroup_size(0)",
-            "const_assert",
-            "discard",
-            "continuing",
-            "break if",
-            "0xffffffffu",
-            "-2147483648",
-            "2147483648i",
-            "1e400",
-            "0x1p-500",
-            "1e-400h",
-            "340282356779733661637539395458142568447.9f",
-            "0.0 / 0.0",
-            "1 / 0",
-            "1u << 32u",
-            "-1 % 0",
-            "clamp",
-            "pow",
-            "ldexp",
-            "frexp",
-            "modf",
-            "pack2x16float",
-            "extractBits",
-            "insertBits",
-            "dot4U8Packed",
-            "quantizeToF16",
-            "determinant",
-            "transpose",
-            "textureGather",
-            "textureSampleGrad",
-            "textureSampleCompareLevel",
-            "textureNumLevels",
-            "arrayLength",
-            "workgroupUniformLoad",
-            "atomicCompareExchangeWeak",
-            "bitcast<u32>",
-            "bitcast<vec2<f16>>",
-            "subgroupAdd",
-            "quadBroadcast",
-            "import moment_shadows::bounds::hamburger4::{hamburger4_shadow_intensity};\n",
-            "import super::super::maths::hankel::{hankel_factor};\n",
-            "import node::more::{more_weight};\n",
-            "import node::weights::{weight_of};\n",
-            "\n//# more\n",
-            "\n//# weights\n",
-            "/*",
-            "*/",
-            "//",
-            "\u{2028}",
-            "\u{0}",
-            "\u{feff}",
-            "ä",
-            "__x",
-            "_",
-        ]
-        .map(str::to_owned),
-    );
-    words
+        .collect()
 });
 
-/// Words, numbers, symbols and white space, each as it stands in the text.
+/// Words and numbers, and what stands between them, each as it stands in the text.
 fn tokens(text: &str) -> Vec<&str> {
-    let kind = |c: char| {
-        if c.is_alphanumeric() || c == '_' {
-            1
-        } else if c.is_whitespace() {
-            2
-        } else {
-            0
-        }
-    };
-    let mut found = Vec::new();
-    let mut start = 0;
-    let mut before = 0;
-    for (at, c) in text.char_indices() {
-        let here = kind(c);
-        if at > start && (here != before || here == 0) {
-            found.push(&text[start..at]);
-            start = at;
-        }
-        before = here;
-    }
-    found.push(&text[start..]);
-    found
+    let is_word = |c: char| c.is_alphanumeric() || c == '_';
+    text.split_inclusive(|c| !is_word(c))
+        .flat_map(|part| {
+            let end = part.trim_end_matches(|c| !is_word(c)).len();
+            [&part[..end], &part[end..]]
+        })
+        .filter(|token| !token.is_empty())
+        .collect()
 }
 
 fn mutate(data: &[u8], seeds: &[Vec<u8>], random: &mut Random) -> Vec<u8> {
@@ -257,110 +163,35 @@ fn mutate(data: &[u8], seeds: &[Vec<u8>], random: &mut Random) -> Vec<u8> {
     tokens.concat().into_bytes()
 }
 
-/// Shaders that are valid or nearly so, and large in one way.
+/// Shaders that are valid, and long or deep: within the limit of bytes, they need time and stack.
 fn scaled(random: &mut Random) -> String {
     let n = random.count(30_000).max(1);
-    let few = n.min(3000);
-    let small = 1 + random.below(40);
-    let list = |of: &dyn Fn(usize) -> String, count: usize| (0..count).map(of).collect::<String>();
-    match random.below(18) {
-        0 => format!(
-            "fn large() -> u32 {{ var a: array<u32, {}>; return a[3]; }}",
-            random.bits() >> random.below(64)
-        ),
+    let list = |of: &dyn Fn(usize) -> String| (0..n).map(of).collect::<String>();
+    match random.below(7) {
+        0 => list(&|i| format!("fn f{i}(x: f32) -> f32 {{ return x + {i}.0; }}\n")),
         1 => format!(
-            "{} fn doubled(s: S{small}) -> S{small} {{ return s; }}",
-            list(
-                &|i| match i {
-                    0 => "struct S0 { a: f32, b: f32 }".to_owned(),
-                    _ => format!("struct S{i} {{ a: S{0}, b: S{0} }}\n", i - 1),
-                },
-                small + 1
-            )
+            "fn f0(x: f32) -> f32 {{ return x; }}\n{}",
+            list(&|i| format!(
+                "fn f{}(x: f32) -> f32 {{ return f{i}(x) + f{i}(x); }}\n",
+                i + 1
+            ))
         ),
         2 => format!(
-            "{} fn arrays() {{ var a: A{small}; a = A{small}(); }}",
-            list(
-                &|i| match i {
-                    0 => "alias A0 = f32;".to_owned(),
-                    _ => format!("alias A{i} = array<A{}, {}>;\n", i - 1, 1 + n % 9),
-                },
-                small + 1
-            )
+            "fn statements() -> f32 {{ var x = 1.0; {} return x; }}",
+            list(&|i| format!("x = x * {i}.5 + 1.0;"))
         ),
         3 => format!(
-            "{} fn constants() -> f32 {{ return C{small}{}.x; }}",
-            list(
-                &|i| match i {
-                    0 => "const C0 = vec2(1.0, 2.0);".to_owned(),
-                    _ => format!("const C{i} = array(C{0}, C{0});\n", i - 1),
-                },
-                small + 1
-            ),
-            "[1]".repeat(small)
+            "fn switches(x: u32) -> u32 {{ switch x {{ {} default: {{ return 1u; }} }} }}",
+            list(&|i| format!("case {i}u: {{ return {i}u; }}"))
         ),
-        4 => list(
-            &|i| format!("fn f{i}(x: f32) -> f32 {{ return x + {i}.0; }}\n"),
-            few,
+        4 => format!(
+            "fn nested(x: u32) {{ {} {} }}",
+            "if x > 1u { ".repeat(n),
+            "}".repeat(n)
         ),
         5 => format!(
-            "fn f0(x: f32) -> f32 {{ return x; }}\n{}",
-            list(
-                &|i| format!(
-                    "fn f{}(x: f32) -> f32 {{ return f{i}(x) + f{i}(x); }}\n",
-                    i + 1
-                ),
-                few
-            )
-        ),
-        6 => format!(
-            "fn statements() -> f32 {{ var x = 1.0; {} return x; }}",
-            list(&|i| format!("x = x * {i}.5 + 1.0;"), n)
-        ),
-        7 => format!(
-            "fn lets(x: f32) -> f32 {{ let a0 = x; {} return a{few}; }}",
-            list(&|i| format!("let a{} = a{i} * a{i};", i + 1), few)
-        ),
-        8 => format!(
-            "fn vectors(x: vec4f) -> vec4f {{ return x{}; }}",
-            ".wzyx".repeat(n)
-        ),
-        9 => format!(
-            "fn switches(x: u32) -> u32 {{ switch x {{ {} default: {{ return 1u; }} }} }}",
-            list(&|i| format!("case {i}u: {{ return {i}u; }}"), n)
-        ),
-        10 => format!(
-            "fn nested(x: u32) {{ {} {} }}",
-            "if x > 1u { ".repeat(few),
-            "}".repeat(few)
-        ),
-        11 => format!(
-            "fn loops() {{ {} {} }}",
-            "loop { ".repeat(few),
-            "break; }".repeat(few)
-        ),
-        12 => format!(
             "struct Wide {{ {} }}\nfn wide(w: Wide) -> Wide {{ var a = w; return a; }}",
-            list(&|i| format!("m{i}: vec3f,"), n)
-        ),
-        13 => format!("fn many({}) {{}}", list(&|i| format!("p{i}: f32,"), n)),
-        14 => format!(
-            "var<private> data: array<f32, {n}> = array<f32, {n}>({});\nfn read(i: u32) -> f32 {{ return data[i]; }}",
-            list(&|i| format!("{i}.0,"), n)
-        ),
-        15 => format!(
-            "{} @fragment fn main() -> @location(0) vec4f {{ return vec4f(0.0); }}",
-            list(
-                &|i| format!(
-                    "@group({}) @binding({i}) var t{i}: texture_2d<f32>;\n",
-                    i % 5
-                ),
-                few
-            )
-        ),
-        16 => list(
-            &|i| format!("@compute @workgroup_size(1) fn main{i}() {{ }}\n"),
-            few,
+            list(&|i| format!("m{i}: vec3f,"))
         ),
         _ => format!(
             "fn sums(x: f32) -> f32 {{ return x{}; }}",

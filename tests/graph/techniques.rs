@@ -1,10 +1,9 @@
 //! Every technique x storage x profile: what is legal compiles, and what is not is refused with the names of what is.
 
 use moment_shadows::{
-    DepthRange, Finite, LeakReduction, MapEncoding, MapRegion, Profile, ReceiverBias, Storage,
-    Technique, TechniqueError,
+    CameraView, DepthRange, Finite, LeakReduction, LightDepth, LightView, MapEncoding, MapRegion,
+    Profile, ReceiverBias, Storage, Technique, TechniqueError, ViewError, ViewParameters,
 };
-use moment_shadows_graph::nodes::{CameraView, LightDepth, LightView, ViewError, ViewParameters};
 use moment_shadows_graph::{Capabilities, GraphErrorKind};
 use moment_shadows_lab::techniques;
 

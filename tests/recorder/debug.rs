@@ -122,7 +122,7 @@ fn mean_deviation_and_moments_are_levels_of_grey_and_colour() {
             "{pixel:?} for {expected}"
         );
     }
-    let pixels = picture(&gpu, "map", &maps);
+    let pixels = picture(&gpu, "moments", &maps);
     for (pixel, [b1, b2, b3, _]) in pixels.into_iter().zip(maps) {
         let expected = [0.5 * b1 + 0.5, b2, 0.5 * b3 + 0.5].map(f64::from);
         assert!(

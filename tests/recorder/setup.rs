@@ -1,7 +1,9 @@
 //! A plan, bound and ready.
 
-use moment_shadows::{DepthConversion, LeakReduction, MapRegion, Profile, ReceiverBias};
-use moment_shadows_graph::nodes::{CameraView, LightDepth, LightView, ViewParameters};
+use moment_shadows::{
+    CameraView, DepthConversion, LeakReduction, LightDepth, LightView, MapRegion, Profile,
+    ReceiverBias, ViewParameters,
+};
 use moment_shadows_graph::record::{
     Bindings, ImportedResource, PipelineOptions, Pipelines, RecordError, Recording, Resources,
 };

@@ -1,6 +1,6 @@
 //! `shade_hard`: where there is shadow, and where there is none whatever the map holds.
 
-use moment_shadows::{Profile, TextureFormat};
+use moment_shadows::{Profile, TextureFormat, ViewParameters};
 use moment_shadows_graph::record::ImportedResource;
 use moment_shadows_graph::{Capabilities, TextureDesc};
 use moment_shadows_lab::gpu::Gpu;
@@ -9,7 +9,6 @@ use crate::depth_map;
 use crate::setup::{
     EXAMPLE, IDENTITY, aligned_view, bind, block, capabilities, compiled, gpu, view,
 };
-use moment_shadows_graph::nodes::ViewParameters;
 
 const MAP: [u32; 2] = [64, 64];
 const PICTURE: [u32; 2] = [48, 32];

@@ -1,10 +1,9 @@
 //! `shade_hard` over regions, layers and mip levels: which views shade which pixels, and what their lookups read.
 
 use moment_shadows::{
-    AreaLight, DepthRange, LeakReduction, MapRegion, Profile, ReceiverBias, SoftRadii,
-    TextureFormat,
+    AreaLight, CameraView, DepthRange, LeakReduction, LightDepth, LightView, MapRegion, Profile,
+    ReceiverBias, SoftRadii, TextureFormat, ViewParameters,
 };
-use moment_shadows_graph::nodes::{CameraView, LightDepth, LightView, ViewParameters};
 use moment_shadows_graph::record::{ImportedResource, Layers, RecordError, Recording};
 use moment_shadows_graph::{Capabilities, Stage, TextureDesc};
 use moment_shadows_lab::gpu::Gpu;

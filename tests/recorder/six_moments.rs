@@ -2,10 +2,9 @@
 
 use half::f16;
 use moment_shadows::{
-    DepthConversion, Kernel, LeakReduction, MapRegion, Profile, ReceiverBias, Storage, Technique,
-    TextureFormat,
+    CameraView, DepthConversion, Kernel, LeakReduction, LightDepth, LightView, MapRegion, Profile,
+    ReceiverBias, Storage, Technique, TextureFormat, ViewParameters,
 };
-use moment_shadows_graph::nodes::{CameraView, LightDepth, LightView, ViewParameters};
 use moment_shadows_graph::record::{ImportedResource, Layers};
 use moment_shadows_graph::{Capabilities, TextureDesc};
 use moment_shadows_lab::basis::{Quantisation, published_quantisations};

@@ -1,9 +1,9 @@
 //! Every technique through resolve, blur and shading on the adapter.
 
 use moment_shadows::{
-    LeakReduction, MapEncoding, MapRegion, Profile, ReceiverBias, Technique, TextureFormat,
+    CameraView, LeakReduction, LightDepth, LightView, MapEncoding, MapRegion, Profile,
+    ReceiverBias, Technique, TextureFormat, ViewParameters,
 };
-use moment_shadows_graph::nodes::{CameraView, LightDepth, LightView, ViewParameters};
 use moment_shadows_graph::record::ImportedResource;
 use moment_shadows_graph::{Capabilities, TextureDesc};
 use moment_shadows_lab::gpu::Gpu;

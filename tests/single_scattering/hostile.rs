@@ -1,10 +1,10 @@
 //! Parameters filled by hand with numbers that are none, or that no camera, light or medium has.
 
 use bytemuck::bytes_of;
-use moment_shadows_graph::Capabilities;
-use moment_shadows_graph::nodes::{
+use moment_shadows::{
     CompositeScatteringParameters, IntegrateScatteringParameters, RectifyMomentsParameters,
 };
+use moment_shadows_graph::Capabilities;
 
 use crate::pictures::{PICTURE, Scene, graph_of};
 use crate::stage::{Bound, bind, capabilities, gpu};

@@ -2,9 +2,11 @@
 
 use bytemuck::bytes_of;
 use glam::DMat4;
-use moment_shadows::{MapEncoding, MapRegion, SingleScattering, Storage, Technique};
+use moment_shadows::{
+    LightDepth, LightView, MapEncoding, MapRegion, ScatteringParameters, SingleScattering, Storage,
+    Technique,
+};
 use moment_shadows_graph::TextureDesc;
-use moment_shadows_graph::nodes::{LightDepth, LightView, ScatteringParameters};
 use moment_shadows_lab::gpu::Gpu;
 
 use crate::pictures::{EYE, MAP, Scene, graph};

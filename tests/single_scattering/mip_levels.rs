@@ -1,9 +1,8 @@
 //! Rectified maps of light maps with mip levels.
 
 use bytemuck::bytes_of;
-use moment_shadows::{MapEncoding, Storage, Technique};
+use moment_shadows::{MapEncoding, RectifyMomentsParameters, Storage, Technique};
 use moment_shadows_graph::TextureDesc;
-use moment_shadows_graph::nodes::RectifyMomentsParameters;
 use moment_shadows_lab::gpu::Gpu;
 use wgpu::util::DeviceExt as _;
 

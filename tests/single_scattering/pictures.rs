@@ -2,11 +2,11 @@
 
 use bytemuck::bytes_of;
 use glam::{DMat4, DVec3, DVec4};
-use moment_shadows::{MapEncoding, MapRegion, RectifiedView, SingleScattering, Storage, Technique};
-use moment_shadows_graph::TextureDesc;
-use moment_shadows_graph::nodes::{
-    CameraView, LightDepth, LightView, ScatteringParameters, ScatteringViewError,
+use moment_shadows::{
+    CameraView, LightDepth, LightView, MapEncoding, MapRegion, RectifiedView, ScatteringParameters,
+    ScatteringViewError, SingleScattering, Storage, Technique,
 };
+use moment_shadows_graph::TextureDesc;
 use moment_shadows_lab::gpu::Gpu;
 
 use crate::cameras::{Lens, Pair, looking, pair};

@@ -2,9 +2,10 @@
 
 use bytemuck::bytes_of;
 use glam::DVec3;
-use moment_shadows::{MapEncoding, RectifiedFrame, RectifiedView, Storage, Technique};
+use moment_shadows::{
+    IntegrateScatteringParameters, MapEncoding, RectifiedFrame, RectifiedView, Storage, Technique,
+};
 use moment_shadows_graph::Capabilities;
-use moment_shadows_graph::nodes::IntegrateScatteringParameters;
 use moment_shadows_lab::batch::Batch;
 use rand::{RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;

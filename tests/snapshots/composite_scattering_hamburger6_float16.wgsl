@@ -283,10 +283,10 @@ fn angle_atan2(y: f32, x: f32) -> f32 {
     let magnitudes = abs(finite);
     let most = max(magnitudes.x, magnitudes.y);
     // Sums and quotients stay among normal numbers.
-    let scale = select(select(1.0, 0x1p-64, most > 0x1p64), 0x1p64, most < 0x1p-40);
+    let scale = select(select(1.0, 5.421010862427522e-20, most > 1.8446744073709552e19), 1.8446744073709552e19, most < 9.094947017729282e-13);
     let large = most * scale;
     let small = min(magnitudes.x, magnitudes.y) * scale;
-    if large < 0x1p-60 {
+    if large < 8.673617379884035e-19 {
         return 0.0;
     }
     // atan(t) = pi / 4 + atan((t - 1) / (t + 1)).
@@ -518,14 +518,14 @@ fn storage_round_to_float16(value: vec4f) -> vec4f {
     // 13 of 23 mantissa bits go; adding just under half a unit, plus the last kept bit, rounds ties to even.
     let rounded = bitcast<vec4f>((bits + 0xfffu + ((bits >> vec4u(13u)) & vec4u(1u))) & vec4u(0xffffe000u));
     // Below 2^-14 float16 is a fixed-point format with a step of 2^-24.
-    let small = round(value * 0x1p24) * 0x1p-24;
-    return select(rounded, small, abs(value) < vec4f(0x1p-14));
+    let small = round(value * 16777216.0) * 5.960464477539063e-8;
+    return select(rounded, small, abs(value) < vec4f(6.103515625e-5));
 }
 
 // What to draw so that a target of 10 bits per channel holds the nearest number to each component, for any finite value. A driver
 // may round down, or round to 16 bits and drop the last six (lavapipe does): a little above that number they give it all the same.
 fn storage_round_to_unorm10(value: vec4f) -> vec4f {
-    return (round(saturate(value) * 1023.0) + 0x1p-8) / 1023.0;
+    return (round(saturate(value) * 1023.0) + 0.00390625) / 1023.0;
 }
 
 // A filtered combination of texels, as it has to be written back to the same storage.
@@ -642,6 +642,21 @@ fn six_moments_to_odd_texel(odd: vec3f, storage: u32) -> vec4f {
 // What to write to the second one: the even moments.
 fn six_moments_to_even_texel(even: vec3f, storage: u32) -> vec4f {
     return six_moments_texel(six_moments_affine(SIX_MOMENTS_EVEN_BASIS, even, SIX_MOMENTS_EVEN_OFFSET), storage);
+}
+
+// What is averaged for a moment depth z in [-1, 1], for one of the two texels: three odd moments for plane 0, three even ones for
+// plane 1.
+fn six_moments_channels(z: f32, plane: u32) -> vec4f {
+    let moments = six_moments_from_depth(z);
+    return vec4f(select(moments.even, moments.odd, plane == 0u), 1.0);
+}
+
+// What to write to a texel of the storage for averaged channels of a plane.
+fn six_moments_to_texel(mean: vec4f, plane: u32, storage: u32) -> vec4f {
+    if plane == 0u {
+        return six_moments_to_odd_texel(mean.xyz, storage);
+    }
+    return six_moments_to_even_texel(mean.xyz, storage);
 }
 
 // Both texels.

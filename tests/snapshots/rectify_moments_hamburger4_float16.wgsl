@@ -36,10 +36,10 @@ fn angle_atan2(y: f32, x: f32) -> f32 {
     let magnitudes = abs(finite);
     let most = max(magnitudes.x, magnitudes.y);
     // Sums and quotients stay among normal numbers.
-    let scale = select(select(1.0, 0x1p-64, most > 0x1p64), 0x1p64, most < 0x1p-40);
+    let scale = select(select(1.0, 5.421010862427522e-20, most > 1.8446744073709552e19), 1.8446744073709552e19, most < 9.094947017729282e-13);
     let large = most * scale;
     let small = min(magnitudes.x, magnitudes.y) * scale;
-    if large < 0x1p-60 {
+    if large < 8.673617379884035e-19 {
         return 0.0;
     }
     // atan(t) = pi / 4 + atan((t - 1) / (t + 1)).
@@ -147,14 +147,14 @@ fn storage_round_to_float16(value: vec4f) -> vec4f {
     // 13 of 23 mantissa bits go; adding just under half a unit, plus the last kept bit, rounds ties to even.
     let rounded = bitcast<vec4f>((bits + 0xfffu + ((bits >> vec4u(13u)) & vec4u(1u))) & vec4u(0xffffe000u));
     // Below 2^-14 float16 is a fixed-point format with a step of 2^-24.
-    let small = round(value * 0x1p24) * 0x1p-24;
-    return select(rounded, small, abs(value) < vec4f(0x1p-14));
+    let small = round(value * 16777216.0) * 5.960464477539063e-8;
+    return select(rounded, small, abs(value) < vec4f(6.103515625e-5));
 }
 
 // What to draw so that a target of 10 bits per channel holds the nearest number to each component, for any finite value. A driver
 // may round down, or round to 16 bits and drop the last six (lavapipe does): a little above that number they give it all the same.
 fn storage_round_to_unorm10(value: vec4f) -> vec4f {
-    return (round(saturate(value) * 1023.0) + 0x1p-8) / 1023.0;
+    return (round(saturate(value) * 1023.0) + 0.00390625) / 1023.0;
 }
 
 // A filtered combination of texels, as it has to be written back to the same storage.

@@ -191,14 +191,14 @@ fn storage_round_to_float16(value: vec4f) -> vec4f {
     // 13 of 23 mantissa bits go; adding just under half a unit, plus the last kept bit, rounds ties to even.
     let rounded = bitcast<vec4f>((bits + 0xfffu + ((bits >> vec4u(13u)) & vec4u(1u))) & vec4u(0xffffe000u));
     // Below 2^-14 float16 is a fixed-point format with a step of 2^-24.
-    let small = round(value * 0x1p24) * 0x1p-24;
-    return select(rounded, small, abs(value) < vec4f(0x1p-14));
+    let small = round(value * 16777216.0) * 5.960464477539063e-8;
+    return select(rounded, small, abs(value) < vec4f(6.103515625e-5));
 }
 
 // What to draw so that a target of 10 bits per channel holds the nearest number to each component, for any finite value. A driver
 // may round down, or round to 16 bits and drop the last six (lavapipe does): a little above that number they give it all the same.
 fn storage_round_to_unorm10(value: vec4f) -> vec4f {
-    return (round(saturate(value) * 1023.0) + 0x1p-8) / 1023.0;
+    return (round(saturate(value) * 1023.0) + 0.00390625) / 1023.0;
 }
 
 // A filtered combination of texels, as it has to be written back to the same storage.
@@ -332,7 +332,7 @@ const EXPONENTIAL_VARIANCE_LARGEST_EXPONENT_FLOAT16: f32 = 5.54;
 const EXPONENTIAL_VARIANCE_LARGEST_EXPONENT_FLOAT32: f32 = 43.6;
 
 // 2^63, above e^43.6.
-const EXPONENTIAL_VARIANCE_LARGEST_WARP: f32 = 0x1p63;
+const EXPONENTIAL_VARIANCE_LARGEST_WARP: f32 = 9.223372036854776e18;
 
 // The smallest variance is x * E[w^2] + y. It is the error that rounding in a resolve and a two-pass blur leaves in
 // E[w^2] - E[w]^2: with the relative error u = 2^-11 or 2^-24 of a rounding at most 3 (u + 2 u) E[w^2] = 4.4e-3 or 5.4e-7

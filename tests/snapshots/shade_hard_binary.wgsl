@@ -335,8 +335,7 @@ struct ReceiverBias {
     slope_scale: f32,
     // The largest bias in moment depth; reached where the surface is seen edge-on by the light.
     maximum: f32,
-    // Scene units by which a receiver moves along its normal at grazing light; 0 where only depth is biased.
-    normal_offset: f32,
+    padding: f32,
 }
 
 // The gradient of moment depth per texel on the receiver's plane, from the differences of two neighbouring points on it
@@ -354,19 +353,6 @@ fn receiver_bias_plane(difference_x: vec3f, difference_y: vec3f) -> vec2f {
         difference_y.z * difference_x.x - difference_x.z * difference_y.x,
     );
     return clamp(scaled / determinant, vec2f(-RECEIVER_BIAS_EDGE_ON), vec2f(RECEIVER_BIAS_EDGE_ON));
-}
-
-// The length of that gradient.
-fn receiver_bias_gradient(difference_x: vec3f, difference_y: vec3f) -> f32 {
-    return length(receiver_bias_plane(difference_x, difference_y));
-}
-
-// The same from the cosine between surface normal and direction to the light: `depth_per_texel` is the moment depth
-// of one texel's width, along the light's axis.
-fn receiver_bias_gradient_from_cosine(cosine: f32, depth_per_texel: f32) -> f32 {
-    let c = clamp(cosine, 0.0, 1.0);
-    let sine = sqrt(max(1.0 - c * c, 0.0));
-    return depth_per_texel * sine / max(c, 1e-6);
 }
 
 // The receiver bias in moment depth, to be subtracted from the fragment depth.
@@ -392,13 +378,6 @@ fn receiver_bias_depth_of_kernel(gradient: vec2f, deviation: vec2f, steepest: f3
     let steepness = length(full);
     let limited = full * min(max(steepest, 0.0) / max(steepness, 1e-30), 1.0);
     return RECEIVER_BIAS_STANDARD_DEVIATIONS * length(limited * deviation);
-}
-
-// The position, in scene units, at which to look the map up when the receiver moves along its normal: the offset
-// grows with the sine of the angle between normal and light (`cosine` > 0 faces the light).
-fn receiver_bias_offset_position(bias: ReceiverBias, position: vec3f, normal: vec3f, cosine: f32) -> vec3f {
-    let c = clamp(cosine, -1.0, 1.0);
-    return fma(vec3f(bias.normal_offset * sqrt(max(1.0 - c * c, 0.0))), normal, position);
 }
 
 // specialization

@@ -335,8 +335,7 @@ struct ReceiverBias {
     slope_scale: f32,
     // The largest bias in moment depth; reached where the surface is seen edge-on by the light.
     maximum: f32,
-    // Scene units by which a receiver moves along its normal at grazing light; 0 where only depth is biased.
-    normal_offset: f32,
+    padding: f32,
 }
 
 // The gradient of moment depth per texel on the receiver's plane, from the differences of two neighbouring points on it
@@ -354,19 +353,6 @@ fn receiver_bias_plane(difference_x: vec3f, difference_y: vec3f) -> vec2f {
         difference_y.z * difference_x.x - difference_x.z * difference_y.x,
     );
     return clamp(scaled / determinant, vec2f(-RECEIVER_BIAS_EDGE_ON), vec2f(RECEIVER_BIAS_EDGE_ON));
-}
-
-// The length of that gradient.
-fn receiver_bias_gradient(difference_x: vec3f, difference_y: vec3f) -> f32 {
-    return length(receiver_bias_plane(difference_x, difference_y));
-}
-
-// The same from the cosine between surface normal and direction to the light: `depth_per_texel` is the moment depth
-// of one texel's width, along the light's axis.
-fn receiver_bias_gradient_from_cosine(cosine: f32, depth_per_texel: f32) -> f32 {
-    let c = clamp(cosine, 0.0, 1.0);
-    let sine = sqrt(max(1.0 - c * c, 0.0));
-    return depth_per_texel * sine / max(c, 1e-6);
 }
 
 // The receiver bias in moment depth, to be subtracted from the fragment depth.
@@ -392,13 +378,6 @@ fn receiver_bias_depth_of_kernel(gradient: vec2f, deviation: vec2f, steepest: f3
     let steepness = length(full);
     let limited = full * min(max(steepest, 0.0) / max(steepness, 1e-30), 1.0);
     return RECEIVER_BIAS_STANDARD_DEVIATIONS * length(limited * deviation);
-}
-
-// The position, in scene units, at which to look the map up when the receiver moves along its normal: the offset
-// grows with the sine of the angle between normal and light (`cosine` > 0 faces the light).
-fn receiver_bias_offset_position(bias: ReceiverBias, position: vec3f, normal: vec3f, cosine: f32) -> vec3f {
-    let c = clamp(cosine, -1.0, 1.0);
-    return fma(vec3f(bias.normal_offset * sqrt(max(1.0 - c * c, 0.0))), normal, position);
 }
 
 // specialization
@@ -498,14 +477,14 @@ fn storage_round_to_float16(value: vec4f) -> vec4f {
     // 13 of 23 mantissa bits go; adding just under half a unit, plus the last kept bit, rounds ties to even.
     let rounded = bitcast<vec4f>((bits + 0xfffu + ((bits >> vec4u(13u)) & vec4u(1u))) & vec4u(0xffffe000u));
     // Below 2^-14 float16 is a fixed-point format with a step of 2^-24.
-    let small = round(value * 0x1p24) * 0x1p-24;
-    return select(rounded, small, abs(value) < vec4f(0x1p-14));
+    let small = round(value * 16777216.0) * 5.960464477539063e-8;
+    return select(rounded, small, abs(value) < vec4f(6.103515625e-5));
 }
 
 // What to draw so that a target of 10 bits per channel holds the nearest number to each component, for any finite value. A driver
 // may round down, or round to 16 bits and drop the last six (lavapipe does): a little above that number they give it all the same.
 fn storage_round_to_unorm10(value: vec4f) -> vec4f {
-    return (round(saturate(value) * 1023.0) + 0x1p-8) / 1023.0;
+    return (round(saturate(value) * 1023.0) + 0.00390625) / 1023.0;
 }
 
 // A filtered combination of texels, as it has to be written back to the same storage.

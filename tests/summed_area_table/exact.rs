@@ -15,7 +15,7 @@ const KERNEL: LargestKernel = LargestKernel::Square(9);
 #[track_caller]
 fn assert_exact(gpu: &Gpu, desc: &TextureDesc, bytes: &[u8], kernel: LargestKernel) {
     let source = desc.encoding.as_ref().unwrap();
-    let channels = source.technique().channels() as usize;
+    let channels = source.technique().row().channels as usize;
     let whole = MapRegion::new([0; 2], desc.size);
     let layer_bytes = bytes.len() / desc.layers as usize;
     for capabilities in both(gpu) {
@@ -179,7 +179,7 @@ fn hostile_texels_are_kept_in_range() {
     for technique in [Technique::Hamburger4, Technique::Vsm] {
         for storage in [Storage::Float16, Storage::Float32] {
             let desc = map(&encoding(technique.clone(), storage), size, 1);
-            let count = (size[0] * size[1] * technique.channels()) as usize;
+            let count = (size[0] * size[1] * technique.row().channels) as usize;
             let values = (0..count).map(|index| {
                 if index % 5 == 0 {
                     hostile[index / 5 % hostile.len()]

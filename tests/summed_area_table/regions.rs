@@ -36,7 +36,7 @@ fn regions_that_touch_do_not_see_each_other() {
         (Technique::Vsm, Storage::Float16),
     ] {
         let source = encoding(technique, storage);
-        let channels = source.technique().channels() as usize;
+        let channels = source.technique().row().channels as usize;
         let regions = atlas();
         let desc = TextureDesc {
             regions: regions.len() as u32,

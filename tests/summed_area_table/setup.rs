@@ -38,7 +38,7 @@ pub(crate) fn noise(desc: &TextureDesc, seed: u64) -> Vec<u8> {
     let mut random = random(seed);
     let encoding = desc.encoding.as_ref().unwrap();
     let count =
-        (desc.size[0] * desc.size[1] * desc.layers * encoding.technique().channels()) as usize;
+        (desc.size[0] * desc.size[1] * desc.layers * encoding.technique().row().channels) as usize;
     match encoding.storage() {
         Storage::Float16 => (0..count)
             .flat_map(|_| half::f16::from_f32(random.random_range(-0.5..=0.5)).to_le_bytes())

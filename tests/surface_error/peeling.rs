@@ -4,6 +4,7 @@ use glam::{DVec2, DVec3};
 use moment_shadows_lab::light::{DirectionalFit, LightView};
 use moment_shadows_lab::scene::{Image, Material, Scene};
 use moment_shadows_lab::truth::peel::{LightSurface, PeelError, Peeler};
+use wgpu::AddressMode;
 
 use crate::setup::{Random, plate, scene, soup};
 
@@ -188,6 +189,43 @@ fn coincident_surfaces_count_once_and_holes_not_at_all() {
             .iter()
             .all(|surface| surface.distance_per_texel() < 1e-12)
     );
+}
+
+#[test]
+fn beyond_its_edges_an_image_goes_on_as_its_material_says() {
+    let map = [24, 24];
+    // Three images long: from -1 to 2.
+    let mut long = plate(1.0, 1.0);
+    long.material = 1;
+    long.uvs.iter_mut().for_each(|uv| uv[0] = 3.0 * uv[0] - 1.0);
+    let mut scene = scene(vec![long]);
+    // Left half opaque, right half a hole.
+    scene.images.push(Image {
+        width: 2,
+        height: 1,
+        rgba: vec![255, 255, 255, 255, 255, 255, 255, 0],
+    });
+    scene.materials.push(Material {
+        texture: Some(0),
+        mask: Some(0.5),
+        ..Material::plain("holed", [1.0; 3])
+    });
+    for (wrap, expected) in [
+        (AddressMode::Repeat, "####....####....####...."),
+        (AddressMode::MirrorRepeat, "....########........####"),
+        (AddressMode::ClampToEdge, "############............"),
+    ] {
+        scene.materials[1].wrap[0] = wrap;
+        let light = sun(&scene, DOWN, map);
+        let surfaces = Peeler::new(&scene, &light, map).unwrap().rows(0..map[1]);
+        let mut counts = [0; 24];
+        for surface in &surfaces {
+            counts[(12.0 * (surface.position.x + 1.0)) as usize] += 1;
+        }
+        let opaque = counts.map(|count| if count == 24 { '#' } else { '.' });
+        assert_eq!(String::from_iter(opaque), expected, "{wrap:?}");
+        assert_eq!(surfaces.len(), 12 * 24, "{wrap:?}");
+    }
 }
 
 #[test]

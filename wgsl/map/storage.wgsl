@@ -28,14 +28,14 @@ fn storage_round_to_float16(value: vec4f) -> vec4f {
     // 13 of 23 mantissa bits go; adding just under half a unit, plus the last kept bit, rounds ties to even.
     let rounded = bitcast<vec4f>((bits + 0xfffu + ((bits >> vec4u(13u)) & vec4u(1u))) & vec4u(0xffffe000u));
     // Below 2^-14 float16 is a fixed-point format with a step of 2^-24.
-    let small = round(value * 0x1p24) * 0x1p-24;
-    return select(rounded, small, abs(value) < vec4f(0x1p-14));
+    let small = round(value * 16777216.0) * 5.960464477539063e-8;
+    return select(rounded, small, abs(value) < vec4f(6.103515625e-5));
 }
 
 // What to draw so that a target of 10 bits per channel holds the nearest number to each component, for any finite value. A driver
 // may round down, or round to 16 bits and drop the last six (lavapipe does): a little above that number they give it all the same.
 fn storage_round_to_unorm10(value: vec4f) -> vec4f {
-    return (round(saturate(value) * 1023.0) + 0x1p-8) / 1023.0;
+    return (round(saturate(value) * 1023.0) + 0.00390625) / 1023.0;
 }
 
 // A filtered combination of texels, as it has to be written back to the same storage.

@@ -35,10 +35,10 @@ fn angle_atan2(y: f32, x: f32) -> f32 {
     let magnitudes = abs(finite);
     let most = max(magnitudes.x, magnitudes.y);
     // Sums and quotients stay among normal numbers.
-    let scale = select(select(1.0, 0x1p-64, most > 0x1p64), 0x1p64, most < 0x1p-40);
+    let scale = select(select(1.0, 5.421010862427522e-20, most > 1.8446744073709552e19), 1.8446744073709552e19, most < 9.094947017729282e-13);
     let large = most * scale;
     let small = min(magnitudes.x, magnitudes.y) * scale;
-    if large < 0x1p-60 {
+    if large < 8.673617379884035e-19 {
         return 0.0;
     }
     // atan(t) = pi / 4 + atan((t - 1) / (t + 1)).

@@ -93,6 +93,21 @@ fn six_moments_to_even_texel(even: vec3f, storage: u32) -> vec4f {
     return six_moments_texel(six_moments_affine(SIX_MOMENTS_EVEN_BASIS, even, SIX_MOMENTS_EVEN_OFFSET), storage);
 }
 
+// What is averaged for a moment depth z in [-1, 1], for one of the two texels: three odd moments for plane 0, three even ones for
+// plane 1.
+fn six_moments_channels(z: f32, plane: u32) -> vec4f {
+    let moments = six_moments_from_depth(z);
+    return vec4f(select(moments.even, moments.odd, plane == 0u), 1.0);
+}
+
+// What to write to a texel of the storage for averaged channels of a plane.
+fn six_moments_to_texel(mean: vec4f, plane: u32, storage: u32) -> vec4f {
+    if plane == 0u {
+        return six_moments_to_odd_texel(mean.xyz, storage);
+    }
+    return six_moments_to_even_texel(mean.xyz, storage);
+}
+
 // Both texels.
 fn six_moments_to_texels(b: SixMoments, storage: u32) -> array<vec4f, 2> {
     return array<vec4f, 2>(six_moments_to_odd_texel(b.odd, storage), six_moments_to_even_texel(b.even, storage));

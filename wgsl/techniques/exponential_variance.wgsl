@@ -21,7 +21,7 @@ const EXPONENTIAL_VARIANCE_LARGEST_EXPONENT_FLOAT16: f32 = 5.54;
 const EXPONENTIAL_VARIANCE_LARGEST_EXPONENT_FLOAT32: f32 = 43.6;
 
 // 2^63, above e^43.6.
-const EXPONENTIAL_VARIANCE_LARGEST_WARP: f32 = 0x1p63;
+const EXPONENTIAL_VARIANCE_LARGEST_WARP: f32 = 9.223372036854776e18;
 
 // The smallest variance is x * E[w^2] + y. It is the error that rounding in a resolve and a two-pass blur leaves in
 // E[w^2] - E[w]^2: with the relative error u = 2^-11 or 2^-24 of a rounding at most 3 (u + 2 u) E[w^2] = 4.4e-3 or 5.4e-7

@@ -65,7 +65,7 @@ pub enum LabError {
     Parameters(#[from] ParameterError),
     /// A camera without an inverse.
     #[error(transparent)]
-    Camera(#[from] moment_shadows_graph::nodes::ViewError),
+    Camera(#[from] moment_shadows::ViewError),
     /// A light's depth convention.
     #[error(transparent)]
     Depth(#[from] moment_shadows::DepthError),
@@ -74,7 +74,7 @@ pub enum LabError {
     SoftLight(#[from] moment_shadows::AreaLightError),
     /// A camera or light whose scattering cannot be prefiltered.
     #[error(transparent)]
-    ScatteringView(#[from] moment_shadows_graph::nodes::ScatteringViewError),
+    ScatteringView(#[from] moment_shadows::ScatteringViewError),
     /// A medium that there is not.
     #[error(transparent)]
     SingleScattering(#[from] moment_shadows::SingleScatteringError),

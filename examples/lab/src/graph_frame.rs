@@ -1,11 +1,8 @@
 //! A graph on a frame: compiled for what the host has drawn, recorded, and read back.
 
 use moment_shadows::{
-    AreaLight, DepthRange, LeakReduction, MapRegion, ReceiverBias, SoftRadii, Technique,
-    TextureFormat,
-};
-use moment_shadows_graph::nodes::{
-    CameraView, LightDepth, LightView, ScatteringParameters, ViewParameters,
+    AreaLight, CameraView, DepthRange, LeakReduction, LightDepth, LightView, MapRegion,
+    ReceiverBias, ScatteringParameters, SoftRadii, Technique, TextureFormat, ViewParameters,
 };
 use moment_shadows_graph::record::{
     Bindings, ImportedResource, PipelineOptions, Pipelines, Recording, Resources,

@@ -8,7 +8,6 @@ mod integrate_scattering;
 mod place_layers;
 mod rectify_moments;
 mod resolve;
-mod scattering;
 mod shade_hard;
 mod shade_soft;
 mod shared;
@@ -23,13 +22,7 @@ pub use integrate_scattering::IntegrateScattering;
 pub use place_layers::PlaceLayers;
 pub use rectify_moments::RectifyMoments;
 pub use resolve::Resolve;
-pub use scattering::{
-    CompositeScatteringParameters, IntegrateScatteringParameters, RectifyMomentsParameters,
-    ScatteringParameters, ScatteringViewError,
-};
-pub use shade_hard::{
-    CameraView, LightDepth, LightView, ShadeHard, TechniqueShader, ViewError, ViewParameters,
-};
+pub use shade_hard::{ShadeHard, TechniqueShader};
 pub use shade_soft::{Interpolation, ShadeSoft};
 pub use shared::{KernelProperty, MipLevels};
 pub use summed_area_table::{LargestKernel, SummedAreaTable};

@@ -245,9 +245,6 @@ pub fn run(
         }
     }
     let scene = scene::load(&options.scene)?;
-    for warning in &scene.warnings {
-        eprintln!("warning: {}: {warning}", options.scene);
-    }
     let gpu = Gpu::open(profile)?;
     let bar = progress::bar(ErrorSubject::steps(options) + 1, "measuring surfaces");
     let subject = ErrorSubject::new(&gpu, &scene, options, &file, || bar.inc(1))?;

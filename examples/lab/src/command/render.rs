@@ -137,9 +137,6 @@ pub fn run(
     let options = &options.for_graph(&file);
     let bar = progress::bar(if truth { 5 } else { 4 }, "loading");
     let scene = scene::load(&options.scene)?;
-    for warning in &scene.warnings {
-        eprintln!("warning: {}: {warning}", options.scene);
-    }
     bar.inc(1);
     bar.set_message("drawing");
     let gpu = Gpu::open(file.profile(options.samples))?;

@@ -1,7 +1,8 @@
 //! Why a cost was not reported.
 
-use moment_shadows::{RectifiedFrameError, SingleScatteringError, TechniqueError, TextureFormat};
-use moment_shadows_graph::nodes::ScatteringViewError;
+use moment_shadows::{
+    RectifiedFrameError, ScatteringViewError, SingleScatteringError, TechniqueError, TextureFormat,
+};
 use moment_shadows_graph::record::RecordError;
 use moment_shadows_graph::{GraphError, ParameterError};
 

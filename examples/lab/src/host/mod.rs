@@ -25,7 +25,6 @@ pub struct Renderer {
     view_layout: wgpu::BindGroupLayout,
     material_layout: wgpu::BindGroupLayout,
     geometry_layout: wgpu::PipelineLayout,
-    sampler: wgpu::Sampler,
     surface_pipeline: wgpu::RenderPipeline,
     shade_layout: wgpu::BindGroupLayout,
     shade_pipeline: wgpu::RenderPipeline,
@@ -44,15 +43,6 @@ impl Renderer {
                 bind_group_layouts: &[Some(&view_layout), Some(&material_layout)],
                 immediate_size: 0,
             });
-            let sampler = device.create_sampler(&wgpu::SamplerDescriptor {
-                label: Some("host/base colour"),
-                address_mode_u: wgpu::AddressMode::Repeat,
-                address_mode_v: wgpu::AddressMode::Repeat,
-                mag_filter: wgpu::FilterMode::Linear,
-                min_filter: wgpu::FilterMode::Linear,
-                mipmap_filter: wgpu::MipmapFilterMode::Linear,
-                ..Default::default()
-            });
             let surface_pipeline = surface::pipeline(device, &geometry, &geometry_layout);
             let shade_layout = shade::layout(device);
             let shade_pipeline = shade::pipeline(device, &shade_layout);
@@ -61,7 +51,6 @@ impl Renderer {
                 view_layout,
                 material_layout,
                 geometry_layout,
-                sampler,
                 surface_pipeline,
                 shade_layout,
                 shade_pipeline,

@@ -175,7 +175,7 @@ impl Renderer {
                             wgpu::BufferUsages::INDEX,
                         ),
                         count: indices.len() as u32,
-                        material: self.material_group(gpu, &surface, image),
+                        material: self.material_group(gpu, &surface, image, material.wrap),
                         masked: material.mask.is_some(),
                     }
                 })
@@ -189,7 +189,17 @@ impl Renderer {
         gpu: &Gpu,
         surface: &SurfaceUniform,
         image: &wgpu::TextureView,
+        wrap: [wgpu::AddressMode; 2],
     ) -> wgpu::BindGroup {
+        let sampler = gpu.device.create_sampler(&wgpu::SamplerDescriptor {
+            label: Some("host/base colour"),
+            address_mode_u: wrap[0],
+            address_mode_v: wrap[1],
+            mag_filter: wgpu::FilterMode::Linear,
+            min_filter: wgpu::FilterMode::Linear,
+            mipmap_filter: wgpu::MipmapFilterMode::Linear,
+            ..Default::default()
+        });
         let uniform = buffer(
             gpu,
             bytemuck::bytes_of(surface),
@@ -209,7 +219,7 @@ impl Renderer {
                 },
                 wgpu::BindGroupEntry {
                     binding: 2,
-                    resource: wgpu::BindingResource::Sampler(&self.sampler),
+                    resource: wgpu::BindingResource::Sampler(&sampler),
                 },
             ],
         })

@@ -2,8 +2,7 @@
 
 use bytemuck::{Pod, Zeroable, bytes_of};
 use glam::DVec3;
-use moment_shadows::{Kernel, RectifiedFrame, SingleScattering};
-use moment_shadows_graph::nodes::ScatteringParameters;
+use moment_shadows::{Kernel, RectifiedFrame, ScatteringParameters, SingleScattering};
 use wgpu::util::DeviceExt;
 
 use super::air::Air;

@@ -1,136 +1,100 @@
-//! Loading glTF 2.0, text or binary, with everything checked before it is used.
+//! Loading glTF 2.0, text or binary, by way of crate `gltf`.
 
 use std::path::Path;
 
-use glam::{DMat3, DMat4, DVec4};
-use gltf::json::validation::{Error as Violation, Validate};
-use gltf::material::AlphaMode;
+use glam::{DMat4, DVec4};
 
-use super::accessor::Reader;
-use super::primitive::load_primitive;
-use super::resource;
-use super::total::Total;
-use super::{Material, Scene, SceneError};
+use super::caught::caught;
+use super::gltf_mesh::Loader;
+use super::gltf_source::{Source, check_file, check_uri};
+use super::{Scene, SceneError};
+
+/// Whether a file that needs this extension is shown: it is read, or only changes how surfaces look.
+fn is_supported(extension: &str) -> bool {
+    extension.starts_with("KHR_materials_")
+        || matches!(
+            extension,
+            "KHR_mesh_quantization"
+                | "KHR_node_visibility"
+                | "KHR_texture_transform"
+                | "KHR_lights_punctual"
+        )
+}
+
+/// Whether an extension of materials changes what casts a shadow. None of these is read.
+fn changes_casters(extension: &str) -> bool {
+    matches!(
+        extension,
+        "KHR_materials_diffuse_transmission"
+            | "KHR_materials_pbrSpecularGlossiness"
+            | "KHR_materials_transmission"
+            | "KHR_materials_variants"
+    )
+}
 
 /// Loads a glTF or GLB file: triangles of the default scene in world space, base colour and alpha mask. What is left
-/// out (skins, morph targets, points and lines, blending) is said in `warnings`.
+/// out (extensions, skins, morph targets, points and lines, blending) is said in `warnings`.
 pub fn load_gltf(file: &Path) -> Result<Scene, SceneError> {
-    let bytes = resource::read_file(file)?;
-    let gltf = parse(file, &bytes)?;
-    let root = gltf.document.as_json();
-    let buffers = resource::buffers(file, root, gltf.blob)?;
-    let reader = Reader::new(root, &buffers);
-    let name = file.file_stem().unwrap_or(file.as_os_str());
-    let mut scene = Scene {
-        name: name.to_string_lossy().into_owned(),
-        meshes: Vec::new(),
-        materials: Vec::new(),
-        images: Vec::new(),
-        ground: None,
-        stand: None,
-        warnings: Vec::new(),
-    };
-    load_materials(file, &gltf.document, &reader, &mut scene)?;
-    let mut total = Total::default();
-    for (node, world) in placed_nodes(file, &gltf.document)? {
-        let Some(mesh) = node.mesh() else { continue };
-        if node.skin().is_some() {
-            scene.warn(format!("{}: its skin is ignored", describe(&node)));
+    caught(|| load(file)).map_err(|reason| SceneError::File {
+        file: file.to_owned(),
+        reason,
+    })
+}
+
+fn load(file: &Path) -> Result<Scene, String> {
+    check_file(file)?;
+    let bytes = std::fs::read(file).map_err(|error| error.to_string())?;
+    let text = |error: gltf::Error| error.to_string();
+    let gltf = gltf::Gltf::from_slice_without_validation(&bytes).map_err(text)?;
+    let mut root = gltf.document.into_json();
+    // The library would refuse those that it does not know itself.
+    let required = std::mem::take(&mut root.extensions_required);
+    if let Some(extension) = required.iter().find(|name| !is_supported(name)) {
+        return Err(format!(
+            "it requires the extension '{extension}', which is not supported; export it without compression and texture extensions"
+        ));
+    }
+    let document = gltf::Document::from_json(root).map_err(text)?;
+    let folder = file.parent().unwrap_or(Path::new(""));
+    for buffer in document.buffers() {
+        if let gltf::buffer::Source::Uri(uri) = buffer.source() {
+            check_uri(folder, uri)
+                .map_err(|reason| format!("buffer {}: {reason}", buffer.index()))?;
         }
-        let label = mesh.name().unwrap_or("unnamed");
-        for primitive in mesh.primitives() {
-            let item = format!(
-                "mesh {} '{label}', primitive {}",
-                mesh.index(),
-                primitive.index()
-            );
-            total.count_primitive(file, &item)?;
-            let mesh = load_primitive(file, &reader, &primitive, &world, &item, &mut scene)?;
-            if let Some(mesh) = mesh {
-                total.count(file, &item, &mesh)?;
-                scene.meshes.push(mesh);
+    }
+    let buffers = gltf::import_buffers(&document, Some(folder), gltf.blob).map_err(text)?;
+    let name = file.file_stem().unwrap_or(file.as_os_str());
+    let source = Source::new(folder, &buffers);
+    let mut loader = Loader::new(source, &document, &name.to_string_lossy());
+    for extension in document.extensions_used() {
+        if !is_supported(extension) || changes_casters(extension) {
+            loader.warn(format!(
+                "the extension {extension} is not read; shadows may differ"
+            ));
+        }
+    }
+    for (node, world) in placed_nodes(&document)? {
+        if let Some(mesh) = node.mesh() {
+            if node.skin().is_some() {
+                loader.warn(format!("{}: its skin is ignored", describe(&node)));
+            }
+            for primitive in mesh.primitives() {
+                let item = format!(
+                    "mesh {} '{}', primitive {}",
+                    mesh.index(),
+                    mesh.name().unwrap_or("unnamed"),
+                    primitive.index()
+                );
+                loader
+                    .primitive(&primitive, &world, &item)
+                    .map_err(|reason| format!("{item}: {reason}"))?;
             }
         }
     }
-    if scene.triangles() == 0 {
-        return Err(SceneError::NoTriangles {
-            file: file.to_owned(),
-        });
+    if loader.scene.triangles() == 0 {
+        return Err("it has no triangles".to_owned());
     }
-    Ok(scene)
-}
-
-impl Scene {
-    /// Adds a warning once. After many, one says that there are more.
-    pub(super) fn warn(&mut self, warning: String) {
-        const MOST: usize = 100;
-        let warning = match self.warnings.len() {
-            0..MOST => warning,
-            _ => "further warnings are left out".to_owned(),
-        };
-        if !self.warnings.contains(&warning) {
-            self.warnings.push(warning);
-        }
-    }
-}
-
-/// Extensions that may be required: the first changes only how vertices are stored, the others only how surfaces look.
-fn is_supported(extension: &str) -> bool {
-    extension == "KHR_mesh_quantization"
-        || extension == "KHR_lights_punctual"
-        || extension.starts_with("KHR_materials_")
-}
-
-/// Parses and validates the document itself.
-fn parse(file: &Path, bytes: &[u8]) -> Result<gltf::Gltf, SceneError> {
-    let malformed = |reason: String| SceneError::Malformed {
-        file: file.to_owned(),
-        reason,
-    };
-    // The length in a GLB header counts the header; the parser subtracts it unchecked.
-    if bytes.starts_with(b"glTF") {
-        let length = bytes
-            .get(8..12)
-            .and_then(|length| length.try_into().ok())
-            .map_or(0, u32::from_le_bytes);
-        if length < 12 {
-            return Err(malformed("the binary header is cut short".to_owned()));
-        }
-    }
-    let gltf = gltf::Gltf::from_slice_without_validation(bytes)
-        .map_err(|error| malformed(error.to_string()))?;
-    let root = gltf.document.as_json();
-    if let Some(extension) = root
-        .extensions_required
-        .iter()
-        .find(|extension| !is_supported(extension))
-    {
-        return Err(SceneError::Extension {
-            file: file.to_owned(),
-            extension: extension.clone(),
-        });
-    }
-    // The validator reads the accessor of each POSITION before it has checked that there is one.
-    let primitives = root.meshes.iter().flat_map(|mesh| &mesh.primitives);
-    for accessor in primitives.flat_map(|primitive| primitive.attributes.values()) {
-        if accessor.value() >= root.accessors.len() {
-            return Err(malformed(format!(
-                "an attribute names accessor {}, but there are only {}",
-                accessor.value(),
-                root.accessors.len()
-            )));
-        }
-    }
-    let mut violations = Vec::new();
-    root.validate(root, gltf::json::Path::new, &mut |path, violation| {
-        if violation != Violation::Unsupported {
-            violations.push(format!("{}: {violation}", path()));
-        }
-    });
-    match violations.into_iter().next() {
-        Some(first) => Err(malformed(first)),
-        None => Ok(gltf),
-    }
+    Ok(loader.scene)
 }
 
 /// A node for messages.
@@ -142,133 +106,51 @@ fn describe(node: &gltf::Node<'_>) -> String {
     )
 }
 
-/// All nodes of the default scene with their transforms to world space. Without a scene: all roots.
-fn placed_nodes<'a>(
-    file: &Path,
-    document: &'a gltf::Document,
-) -> Result<Vec<(gltf::Node<'a>, DMat4)>, SceneError> {
-    let failed = |node: &gltf::Node<'_>, reason: &str| SceneError::Node {
-        file: file.to_owned(),
-        node: describe(node),
-        reason: reason.to_owned(),
-    };
+/// Whether neither the node nor what is under it can be seen.
+fn is_hidden(node: &gltf::Node<'_>) -> bool {
+    let visibility = node.extension_value("KHR_node_visibility");
+    visibility.is_some_and(|extension| extension["visible"] == false)
+        || node.transform().decomposed().2 == [0.0; 3]
+}
+
+/// All visible nodes of the default scene with their transforms to world space. Without a scene: all roots.
+fn placed_nodes(document: &gltf::Document) -> Result<Vec<(gltf::Node<'_>, DMat4)>, String> {
     let roots: Vec<_> = match document
         .default_scene()
         .or_else(|| document.scenes().next())
     {
         Some(scene) => scene.nodes().collect(),
         None => {
-            let children: std::collections::HashSet<usize> = document
-                .nodes()
-                .flat_map(|node| {
-                    node.children()
-                        .map(|child| child.index())
-                        .collect::<Vec<_>>()
-                })
-                .collect();
-            document
-                .nodes()
-                .filter(|node| !children.contains(&node.index()))
-                .collect()
+            let mut is_child = vec![false; document.nodes().len()];
+            for node in document.nodes() {
+                node.children()
+                    .for_each(|child| is_child[child.index()] = true);
+            }
+            let nodes = document.nodes();
+            nodes.filter(|node| !is_child[node.index()]).collect()
         }
     };
     let mut visited = vec![false; document.nodes().len()];
-    let mut open: Vec<_> = roots
-        .into_iter()
-        .rev()
-        .map(|node| (node, DMat4::IDENTITY))
-        .collect();
+    let identity = |node| (node, DMat4::IDENTITY);
+    let mut open: Vec<_> = roots.into_iter().rev().map(identity).collect();
     let mut placed = Vec::new();
     while let Some((node, parent)) = open.pop() {
         if std::mem::replace(&mut visited[node.index()], true) {
-            return Err(failed(
-                &node,
-                "it is its own descendant or the child of two nodes",
-            ));
+            let node = describe(&node);
+            return Err(format!("{node}: it is the child of two nodes or its own"));
         }
-        let columns = node
-            .transform()
-            .matrix()
-            .map(|column| DVec4::from_array(column.map(f64::from)));
-        let local = DMat4::from_cols(columns[0], columns[1], columns[2], columns[3]);
-        let world = parent * local;
+        if is_hidden(&node) {
+            continue;
+        }
+        let columns = node.transform().matrix();
+        let [x, y, z, w] = columns.map(|column| DVec4::from_array(column.map(f64::from)));
+        let world = parent * DMat4::from_cols(x, y, z, w);
         if !world.is_finite() {
-            return Err(failed(&node, "its transform is not finite"));
-        }
-        let linear = DMat3::from_mat4(local);
-        let lengths = linear.x_axis.length() * linear.y_axis.length() * linear.z_axis.length();
-        if linear.determinant().abs() <= 1e-9 * lengths {
-            return Err(failed(
-                &node,
-                "its scale is zero along some axis, which flattens everything in it",
-            ));
+            return Err(format!("{}: its transform is not finite", describe(&node)));
         }
         let children: Vec<_> = node.children().map(|child| (child, world)).collect();
         open.extend(children.into_iter().rev());
         placed.push((node, world));
     }
     Ok(placed)
-}
-
-/// All materials, the default one last, and the images they use.
-fn load_materials(
-    file: &Path,
-    document: &gltf::Document,
-    reader: &Reader<'_>,
-    scene: &mut Scene,
-) -> Result<(), SceneError> {
-    let mut loaded = std::collections::HashMap::new();
-    let mut image_bytes = 0;
-    for material in document.materials() {
-        let name = material.name().unwrap_or("unnamed").to_owned();
-        let surface = material.pbr_metallic_roughness();
-        let texture = match surface.base_color_texture() {
-            None => None,
-            Some(info) => {
-                // By way of the JSON: the wrapper of an image panics if its MIME type is missing.
-                let source = reader.root.textures[info.texture().index()].source.value();
-                Some(match loaded.get(&source) {
-                    Some(&index) => index,
-                    None => {
-                        let index = scene.images.len();
-                        let image = resource::image(file, reader, source)?;
-                        image_bytes += image.rgba.len() as u64;
-                        if image_bytes > resource::MOST_BYTES {
-                            return Err(SceneError::TooLarge {
-                                file: file.to_owned(),
-                                item: format!("the images up to image {source}"),
-                                count: image_bytes,
-                                unit: "bytes",
-                                limit: resource::MOST_BYTES,
-                            });
-                        }
-                        scene.images.push(image);
-                        loaded.insert(source, index);
-                        index
-                    }
-                })
-            }
-        };
-        let mask = match material.alpha_mode() {
-            AlphaMode::Opaque => None,
-            AlphaMode::Mask => Some(material.alpha_cutoff().unwrap_or(0.5)),
-            AlphaMode::Blend => {
-                scene.warn(format!(
-                    "material '{name}': blending is ignored, it is opaque"
-                ));
-                None
-            }
-        };
-        scene.materials.push(Material {
-            name,
-            base_colour: surface.base_color_factor(),
-            texture,
-            mask,
-            double_sided: material.double_sided(),
-        });
-    }
-    scene
-        .materials
-        .push(Material::plain("default", [0.8, 0.8, 0.8]));
-    Ok(())
 }

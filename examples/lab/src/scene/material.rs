@@ -20,6 +20,8 @@ pub struct Material {
     pub base_colour: [f32; 4],
     /// Index of the base colour image in the scene.
     pub texture: Option<usize>,
+    /// How the image goes on beyond its edges, along u and v.
+    pub wrap: [wgpu::AddressMode; 2],
     /// The alpha below which a point is a hole; `None` for an opaque surface.
     pub mask: Option<f32>,
     /// Whether both sides are meant to be seen. The host always draws both.
@@ -33,6 +35,7 @@ impl Material {
             name: name.to_owned(),
             base_colour: [red, green, blue, 1.0],
             texture: None,
+            wrap: [wgpu::AddressMode::Repeat; 2],
             mask: None,
             double_sided: false,
         }

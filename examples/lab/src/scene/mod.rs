@@ -1,21 +1,20 @@
 //! Scenes: triangles in world space with the little of materials that shadows need.
 
-mod accessor;
+mod caught;
 mod chairs;
 mod edge_and_hole;
 mod error;
 mod failures;
 mod fence_and_foliage;
 mod gltf_file;
+mod gltf_mesh;
+mod gltf_source;
 mod ground;
 mod hall;
 mod material;
 mod mesh;
 mod mips;
-mod primitive;
-mod resource;
 mod shapes;
-mod total;
 
 use std::path::Path;
 
@@ -89,7 +88,7 @@ impl Scene {
 }
 
 /// The scene that a command line names: a file, one of [`PROCEDURAL`], [`CHAIRS`], [`EDGE`] or [`HOLE`]. It stands on its
-/// ground plane, or hovers above it.
+/// ground plane, or hovers above it. What a file has and the scene has not is said on the standard error.
 pub fn load(name: &str) -> Result<Scene, SceneError> {
     match name {
         "fence-and-foliage" => Ok(place_on_ground(fence_and_foliage())),
@@ -97,7 +96,13 @@ pub fn load(name: &str) -> Result<Scene, SceneError> {
         CHAIRS => Ok(place_on_ground(chairs())),
         EDGE => Ok(straight_edges()),
         HOLE => Ok(small_hole()),
-        _ if Path::new(name).exists() => load_gltf(Path::new(name)).map(place_on_ground),
+        _ if Path::new(name).exists() => {
+            let scene = load_gltf(Path::new(name))?;
+            for warning in &scene.warnings {
+                eprintln!("warning: {name}: {warning}");
+            }
+            Ok(place_on_ground(scene))
+        }
         _ => Err(SceneError::Unknown {
             name: name.to_owned(),
             advice: format!(

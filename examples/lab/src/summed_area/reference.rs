@@ -9,7 +9,7 @@ use moment_shadows::{MapEncoding, MapRegion, Storage, SummedAreaTable, Technique
 /// with fused products, as the basis is written.
 #[must_use]
 pub fn integers(source: &MapEncoding, table: &SummedAreaTable, bytes: &[u8]) -> Vec<u32> {
-    let channels = source.technique().channels() as usize;
+    let channels = source.technique().row().channels as usize;
     match source.storage() {
         Storage::Float16 => bytes
             .chunks_exact(2 * channels)

@@ -5,7 +5,7 @@
 //! the two is due to how moments are stored, and to nothing else.
 
 use glam::{DVec2, DVec3, DVec4};
-use moment_shadows_graph::nodes::ViewParameters;
+use moment_shadows::ViewParameters;
 use rayon::prelude::*;
 
 use super::exact_bound::Lookup;

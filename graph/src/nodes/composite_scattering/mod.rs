@@ -1,11 +1,11 @@
 //! Light that a medium scatters into each pixel's view ray.
 
-use moment_shadows::{Technique, TextureFormat};
+use moment_shadows::{CompositeScatteringParameters, Technique, TextureFormat};
 use serde::{Deserialize, Serialize};
 
 use super::shared::lookup::moments_lookup;
 use super::shared::{self, FULLSCREEN, Specialization, map_input, regions, wgsl};
-use super::{CompositeScatteringParameters, techniques};
+use super::techniques;
 use crate::{
     Connected, GraphError, GraphErrorKind, Node, NodeDesc, ParameterBlock, Pass, Stage,
     TextureRule, bind, same_as,

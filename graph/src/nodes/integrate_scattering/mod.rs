@@ -1,9 +1,10 @@
 //! Prefix sums of a rectified map: the part of every view ray that is shadowed.
 
+use moment_shadows::IntegrateScatteringParameters;
 use serde::{Deserialize, Serialize};
 
 use super::shared::{NoProperties, Specialization, map_input, regions, wgsl};
-use super::{IntegrateScatteringParameters, techniques};
+use super::techniques;
 use crate::{
     Connected, GraphError, GraphErrorKind, Node, NodeDesc, ParameterBlock, Pass, Stage,
     TextureRule, bind, same_as,

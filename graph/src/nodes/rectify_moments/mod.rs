@@ -1,11 +1,11 @@
 //! Resamples a light's map in the rectified coordinates of a camera.
 
-use moment_shadows::{MapEncoding, Storage, Technique};
+use moment_shadows::{MapEncoding, RectifyMomentsParameters, Storage, Technique};
 use serde::{Deserialize, Serialize};
 
 use super::shared::lookup::moments_lookup;
 use super::shared::{Specialization, map_input, regions, wgsl};
-use super::{RectifyMomentsParameters, techniques};
+use super::techniques;
 use crate::{
     Connected, GraphError, GraphErrorKind, Node, NodeDesc, ParameterBlock, Pass, Stage,
     TextureRule, bind,

@@ -1,10 +1,6 @@
 //! Turns a filtered map and the camera's depth into shadow intensity on the screen.
 
-use bytemuck::{Pod, Zeroable};
-use moment_shadows::{
-    AreaLight, DepthConversion, LeakReduction, MapEncoding, MapRegion, PcfTaps, ReceiverBias,
-    Technique, TextureFormat,
-};
+use moment_shadows::{MapEncoding, PcfTaps, Technique, TextureFormat};
 use serde::{Deserialize, Serialize};
 
 use super::shared::lookup::{self, moments_lookup};
@@ -16,17 +12,15 @@ use crate::{
 };
 
 mod own_shader;
-pub(super) mod parameters;
 
 pub use own_shader::TechniqueShader;
-pub use parameters::{CameraView, LightDepth, LightView, ViewError};
 
 /// Node `shade_hard`: `moments` (a filtered map) and `camera_depth` to `shadow_intensity`, of the camera's size. A
 /// fullscreen pass: it can also be drawn into a render pass that the host has open. Techniques that read the plain depth map
 /// take it as the input `depth` instead of `moments`; layers that are placed on the device come from the input `splits`.
 ///
 /// It shades up to four lights, one in each channel of its output (a single one is in all of them), through any number of
-/// views: cascades, faces and spots, each a region of a layer. Parameters: an array of [`ViewParameters`], one per view. Where the map has mip
+/// views: cascades, faces and spots, each a region of a layer. Parameters: an array of [`moment_shadows::ViewParameters`], one per view. Where the map has mip
 /// levels, lookups average the texels that a pixel covers.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
@@ -70,36 +64,6 @@ impl Default for ShadeHard {
             anisotropy: default_anisotropy(),
         }
     }
-}
-
-/// What a [`ShadeHard`] node needs to know of a view of a light: the uniform struct of its shader.
-///
-/// Made by [`ViewParameters::new`] from a camera and a light.
-#[derive(Clone, Copy, Debug, PartialEq, Pod, Zeroable)]
-#[repr(C)]
-pub struct ViewParameters {
-    /// From the camera's clip space to the light, by columns.
-    pub light_from_camera: [[f32; 4]; 4],
-    /// The homogeneous coordinate of the scene position.
-    pub scene_w_from_camera: [f32; 4],
-    /// How far fragments move towards the light.
-    pub receiver_bias: ReceiverBias,
-    /// What is done about light leaking after the bound.
-    pub leak_reduction: LeakReduction,
-    /// Where the view lies in its layer; [`MapRegion::NONE`] where there is no such view.
-    pub region: MapRegion,
-    /// The stored depth of pixels that show no surface: 0 for reversed depth. That of the first view counts for all.
-    pub far_depth: f32,
-    /// The map's layer.
-    pub layer: u32,
-    /// The light's channel in the output, 0 to 3. Of the views of a channel the first that contains a pixel shades it.
-    pub channel: u32,
-    /// Unused; keeps the WGSL layout.
-    pub padding: f32,
-    /// How the light's map stores depth: for techniques that read the plain depth map.
-    pub conversion: DepthConversion,
-    /// The light's size: for percentage-closer soft shadows.
-    pub light: AreaLight,
 }
 
 impl Node for ShadeHard {

@@ -13,7 +13,7 @@ use crate::{
 /// area lights, hard at contacts and softer with distance, with a number of loads per pixel that does not depend on their
 /// width. A fullscreen pass: it can also be drawn into a render pass that the host has open.
 ///
-/// Lights, views and parameters are those of [`super::ShadeHard`]: an array of [`super::ViewParameters`], one per
+/// Lights, views and parameters are those of [`super::ShadeHard`]: an array of [`moment_shadows::ViewParameters`], one per
 /// view, whose `light` says how large the light is ([`moment_shadows::AreaLight`]). Of the receiver bias the constant counts
 /// and the steepest slope, which [`moment_shadows::ReceiverBias::for_kernel`] with a standard deviation of 0 gives; the rest
 /// follows from each pixel's own filter. No filter is larger than the table's largest kernel.

@@ -1,8 +1,7 @@
 //! What the nodes that shade a picture have in common: their shader, their target and their slots.
 
-use moment_shadows::TextureFormat;
+use moment_shadows::{TextureFormat, ViewParameters};
 
-use super::super::ViewParameters;
 use super::{depth, wgsl};
 use crate::{
     Binding, GraphError, GraphErrorKind, NodeDesc, ParameterBlock, Pass, Slot, Stage, TextureRule,

@@ -4,8 +4,10 @@ use core::f64::consts::TAU;
 
 use glam::{DMat4, DVec3, DVec4};
 use half::f16;
-use moment_shadows::{MapRegion, RectifiedView, SingleScattering};
-use moment_shadows_graph::nodes::{CameraView, LightDepth, LightView, ScatteringParameters};
+use moment_shadows::{
+    CameraView, LightDepth, LightView, MapRegion, RectifiedView, ScatteringParameters,
+    SingleScattering,
+};
 
 use super::super::CostError;
 use crate::error::LabError;

@@ -1,4 +1,4 @@
-//! Why a technique cannot be had.
+//! Why a technique, or its combination with a storage, is refused.
 
 use super::Finite;
 use crate::Storage;
@@ -90,7 +90,7 @@ pub enum TechniqueError {
         /// What was given.
         value: Finite,
         /// What it can be.
-        range: &'static str,
+        range: String,
     },
     /// Weights that are no filter.
     #[error(

@@ -4,7 +4,9 @@ use core::f64::consts::{PI, TAU};
 
 use bytemuck::{Pod, Zeroable};
 
-use crate::matrix::{Vector, combine, cross, dot, invert, length, normalized, wide};
+use glam::{DVec3, DVec4};
+
+use super::{RectifiedFrameError, inverse, wide};
 
 /// The rectified coordinates of a camera and a directional light: the uniform struct of the WGSL module `rectified_frame`.
 /// Made by [`RectifiedView::new`].
@@ -46,43 +48,6 @@ pub struct RectifiedView {
     pub frame: RectifiedFrame,
 }
 
-/// A camera or a light that has no rectified coordinates.
-#[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
-#[non_exhaustive]
-pub enum RectifiedFrameError {
-    /// The camera's matrix cannot be inverted.
-    #[error(
-        "the camera's clip_from_world is singular or not finite; it has to be an invertible projection of the scene"
-    )]
-    SingularCamera,
-    /// The camera's view rays are parallel.
-    #[error(
-        "the camera is orthographic; rectified coordinates need view rays that meet in the camera: use a perspective camera, \
-         or march the scattering"
-    )]
-    OrthographicCamera,
-    /// The frustum has no length.
-    #[error(
-        "the far distance is {far}, but must be above 0 and finite: how far along the camera's axis light is scattered"
-    )]
-    FarDistance {
-        /// What was given.
-        far: f64,
-    },
-    /// The light has no direction.
-    #[error(
-        "the light's direction is ({}, {}, {}), but must be finite and not zero: where light travels to",
-        direction[0], direction[1], direction[2]
-    )]
-    LightDirection {
-        /// What was given.
-        direction: [f64; 3],
-    },
-    /// A number of the frame does not fit into single precision.
-    #[error("the frustum's size is beyond single precision; choose another unit of length")]
-    Size,
-}
-
 /// By how much bounds grow, so that coordinates in f32 stay inside: relative for radii, in radians for angles.
 const MARGIN: f64 = 2e-6;
 
@@ -102,40 +67,41 @@ impl RectifiedView {
         light_direction: [f64; 3],
     ) -> Result<Self, RectifiedFrameError> {
         let world_from_clip =
-            invert(&wide(clip_from_world)).ok_or(RectifiedFrameError::SingularCamera)?;
+            inverse(wide(clip_from_world)).ok_or(RectifiedFrameError::SingularCamera)?;
         if !(far > 0.0 && far.is_finite()) {
             return Err(RectifiedFrameError::FarDistance { far });
         }
-        let light = normalized(light_direction).ok_or(RectifiedFrameError::LightDirection {
-            direction: light_direction,
-        })?;
+        let light = normalized(DVec3::from(light_direction)).ok_or(
+            RectifiedFrameError::LightDirection {
+                direction: light_direction,
+            },
+        )?;
         // All view rays meet where clip x, y and w are 0.
-        let [x, y, z, middle] = world_from_clip;
-        let scale = length([z[0], z[1], z[2]]);
-        if z[3].abs() <= 1e-12 * scale || z[3] == 0.0 {
+        let [x, y, z, middle] = world_from_clip.to_cols_array_2d().map(DVec4::from);
+        if z.w.abs() <= 1e-12 * z.truncate().length() || z.w == 0.0 {
             return Err(RectifiedFrameError::OrthographicCamera);
         }
-        let camera = [0, 1, 2].map(|axis: usize| z[axis] / z[3]);
+        let camera = z.truncate() / z.w;
         let axes = axes_of(light);
         // A position less the camera's, times its homogeneous coordinate, is linear in x and y and independent of depth.
-        let direction = |column: [f64; 4]| -> Vector {
-            let scene = [0, 1, 2].map(|axis: usize| column[axis] - column[3] * camera[axis]);
-            axes.map(|axis| dot(axis, scene))
+        let direction = |column: DVec4| {
+            let scene = column.truncate() - column.w * camera;
+            DVec3::from(axes.map(|axis| axis.dot(scene)))
         };
         let along = [direction(x), direction(y), direction(middle)];
         let normal =
-            normalized(cross(along[0], along[1])).ok_or(RectifiedFrameError::SingularCamera)?;
-        let farthest_w = dot(normal, along[2]).abs() / far;
-        let bounds = Bounds::new(along.map(|vector| vector.map(|value| value / farthest_w)));
+            normalized(along[0].cross(along[1])).ok_or(RectifiedFrameError::SingularCamera)?;
+        let farthest_w = normal.dot(along[2]).abs() / far;
+        let bounds = Bounds::new(along.map(|vector| vector / farthest_w));
         let single = |value: f64| value as f32;
         let frame = RectifiedFrame {
-            along_x: along[0].map(single),
+            along_x: along[0].as_vec3().to_array(),
             largest_radius: single(bounds.radius),
-            along_y: along[1].map(single),
+            along_y: along[1].as_vec3().to_array(),
             first_azimuth: single(bounds.azimuth[0]),
-            along_middle: along[2].map(single),
+            along_middle: along[2].as_vec3().to_array(),
             azimuth_extent: single(bounds.azimuth[1] - bounds.azimuth[0]),
-            scene_w: [x[3], y[3], z[3], middle[3]].map(single),
+            scene_w: [x.w, y.w, z.w, middle.w].map(single),
             farthest_w: single(farthest_w),
             smallest_inclination: single(bounds.inclination[0]),
             largest_inclination: single(bounds.inclination[1]),
@@ -147,27 +113,30 @@ impl RectifiedView {
             return Err(RectifiedFrameError::Size);
         }
         Ok(Self {
-            camera,
-            axes,
+            camera: camera.to_array(),
+            axes: axes.map(|axis| axis.to_array()),
             frame,
         })
     }
 }
 
+/// The vector of length 1; `None` where there is none.
+fn normalized(vector: DVec3) -> Option<DVec3> {
+    let largest = vector.abs().max_element();
+    if !(largest > 0.0 && vector.is_finite()) {
+        return None;
+    }
+    Some((vector / largest).normalize())
+}
+
 /// Right-handed axes, the last of which is `light`.
-fn axes_of(light: Vector) -> [Vector; 3] {
+fn axes_of(light: DVec3) -> [DVec3; 3] {
     // Of the scene's axes the one that is least along the light.
-    let smallest = [0, 1, 2]
-        .into_iter()
-        .min_by(|&a: &usize, &b: &usize| light[a].abs().total_cmp(&light[b].abs()))
-        .unwrap_or(0);
-    let mut other = [0.0; 3];
-    other[smallest] = 1.0;
-    let along = dot(other, light);
-    let first = [0, 1, 2].map(|axis: usize| other[axis] - along * light[axis]);
-    // Its length is at least sqrt(2 / 3).
-    let first = first.map(|value| value / length(first));
-    [first, cross(light, first), light]
+    let smallest = light.abs().min_position();
+    let other = DVec3::AXES[smallest];
+    // Before it is normalised its length is at least sqrt(2 / 3).
+    let first = (other - other.dot(light) * light).normalize();
+    [first, light.cross(first), light]
 }
 
 /// The bounds of a frustum in rectified coordinates.
@@ -179,19 +148,19 @@ struct Bounds {
 
 impl Bounds {
     /// Of the frustum whose far plane is spanned by what positions there change by along x and y, and their middle.
-    fn new(along: [Vector; 3]) -> Self {
+    fn new(along: [DVec3; 3]) -> Self {
         let corners = [[-1.0, -1.0], [1.0, -1.0], [1.0, 1.0], [-1.0, 1.0]]
-            .map(|[x, y]| combine([x, y, 1.0], along));
+            .map(|[x, y]| x * along[0] + y * along[1] + along[2]);
         let edges = [0, 1, 2, 3].map(|index: usize| [corners[index], corners[(index + 1) % 4]]);
         let inside = [1.0, -1.0].map(|sign| {
             edges.iter().all(|&[from, to]| {
-                let normal = cross(from, to);
-                let inner = dot(normal, along[2]).signum();
-                inner * sign * normal[2] >= -INSIDE * length(normal)
+                let normal = from.cross(to);
+                let inner = normal.dot(along[2]).signum();
+                inner * sign * normal.z >= -INSIDE * normal.length()
             })
         });
         let radius = corners
-            .map(|[x, y, _]| x.hypot(y))
+            .map(|corner| corner.x.hypot(corner.y))
             .into_iter()
             .fold(0.0, f64::max);
         Self {
@@ -202,14 +171,14 @@ impl Bounds {
     }
 }
 
-fn azimuths(corners: &[Vector; 4], middle: Vector, inside: [bool; 2]) -> [f64; 2] {
+fn azimuths(corners: &[DVec3; 4], middle: DVec3, inside: [bool; 2]) -> [f64; 2] {
     if inside[0] || inside[1] {
         return [0.0, TAU];
     }
     // Seen along the light the frustum is a wedge of less than half a turn that contains its middle.
-    let about = middle[1].atan2(middle[0]);
-    let offsets = corners.map(|[x, y, _]| {
-        let offset = y.atan2(x) - about;
+    let about = middle.y.atan2(middle.x);
+    let offsets = corners.map(|corner| {
+        let offset = corner.y.atan2(corner.x) - about;
         offset - TAU * (offset / TAU).round()
     });
     let low = offsets.into_iter().fold(0.0, f64::min) - MARGIN;
@@ -217,19 +186,16 @@ fn azimuths(corners: &[Vector; 4], middle: Vector, inside: [bool; 2]) -> [f64; 2
     [about + low, about + high]
 }
 
-fn inclinations(edges: &[[Vector; 2]; 4], inside: [bool; 2]) -> [f64; 2] {
-    let inclination = |[x, y, z]: Vector| x.hypot(y).atan2(z);
+fn inclinations(edges: &[[DVec3; 2]; 4], inside: [bool; 2]) -> [f64; 2] {
+    let inclination = |point: DVec3| point.x.hypot(point.y).atan2(point.z);
     let mut low = PI;
     let mut high = 0.0;
     for &[from, to] in edges {
-        let step = [0, 1, 2].map(|axis: usize| to[axis] - from[axis]);
+        let step = to - from;
         // Where the inclination is extremal on the line of the edge.
-        let (along, square) = (dot(from, step), dot(step, step));
-        let t =
-            (from[2] * along - step[2] * dot(from, from)) / (step[2] * along - from[2] * square);
-        let inner = (0.0..=1.0)
-            .contains(&t)
-            .then(|| combine([1.0, t, 0.0], [from, step, step]));
+        let (along, square) = (from.dot(step), step.dot(step));
+        let t = (from.z * along - step.z * from.dot(from)) / (step.z * along - from.z * square);
+        let inner = (0.0..=1.0).contains(&t).then(|| from + t * step);
         for point in [Some(from), inner].into_iter().flatten() {
             low = inclination(point).min(low);
             high = inclination(point).max(high);

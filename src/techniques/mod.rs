@@ -1,10 +1,18 @@
 //! What can be asked of a map, and how it has to be encoded for that.
 
+mod convolution;
+mod depth_tests;
 mod encoding;
 mod error;
+mod esm;
+mod evsm;
 mod finite;
+mod lvsm;
+mod moments;
 mod reference;
+mod row;
 mod settings;
+mod vsm;
 
 use core::fmt;
 
@@ -12,6 +20,7 @@ pub use encoding::MapEncoding;
 pub use error::TechniqueError;
 pub use finite::{Finite, NotFinite};
 pub use reference::{PcfTaps, Pcss};
+pub use row::{Constant, Contents, Encoding, Row, Snippet};
 use serde::{Deserialize, Serialize};
 pub use settings::{EsmFiltering, LayerSplits};
 
@@ -32,7 +41,7 @@ use crate::{Profile, Storage};
 /// | `lvsm` | 4 | one for two layers | unorm16, float16, float32 |
 /// | `convolution` | 4 | one for two terms | unorm8, unorm16, float16 |
 /// | `hamburger4`, `hausdorff4` | 4 | 1 | unorm16, float16, float32 |
-/// | `hamburger6` | 4 | 2 | unorm16, float16, float32 |
+/// | `hamburger6` | 4 | 2 | unorm16, float16, float32, unorm10 |
 #[derive(Clone, Debug, Default, PartialEq, Eq, Hash, Serialize, Deserialize)]
 #[serde(rename_all = "lowercase")]
 #[non_exhaustive]
@@ -100,101 +109,102 @@ fn yes() -> bool {
 }
 
 impl Technique {
+    /// What the library knows of the technique with these settings. Everything else about techniques is read from here.
+    #[must_use]
+    pub fn row(&self) -> Row {
+        match self {
+            Technique::Binary => depth_tests::binary(),
+            Technique::Pcf(taps) => depth_tests::pcf(taps),
+            Technique::Pcss(taps) => depth_tests::pcss(taps),
+            Technique::Esm {
+                exponent,
+                filtering,
+            } => esm::row(*exponent, *filtering),
+            Technique::Vsm => vsm::row(),
+            Technique::Evsm2 { exponent } => evsm::row_of_one(*exponent),
+            Technique::Evsm4 { positive, negative } => evsm::row_of_both(*positive, *negative),
+            Technique::Lvsm {
+                layers,
+                overlap,
+                splits,
+            } => lvsm::row(*layers, *overlap, splits),
+            Technique::Convolution { terms, lower_bound } => convolution::row(*terms, *lower_bound),
+            Technique::Hamburger4 => moments::hamburger4(),
+            Technique::Hausdorff4 => moments::hausdorff4(),
+            Technique::Hamburger6 => moments::hamburger6(),
+        }
+    }
+
+    /// Whether the settings are within their ranges, whatever the storage.
+    pub fn check(&self) -> Result<(), TechniqueError> {
+        self.row().settings
+    }
+
     /// The name in graph files and on command lines.
     #[must_use]
     pub fn name(&self) -> &'static str {
-        match self {
-            Technique::Binary => "binary",
-            Technique::Pcf(_) => "pcf",
-            Technique::Pcss(_) => "pcss",
-            Technique::Esm { .. } => "esm",
-            Technique::Vsm => "vsm",
-            Technique::Evsm2 { .. } => "evsm2",
-            Technique::Evsm4 { .. } => "evsm4",
-            Technique::Lvsm { .. } => "lvsm",
-            Technique::Convolution { .. } => "convolution",
-            Technique::Hamburger4 => "hamburger4",
-            Technique::Hausdorff4 => "hausdorff4",
-            Technique::Hamburger6 => "hamburger6",
-        }
+        self.row().name
     }
 
     /// Whether the technique reads the plain depth map instead of a filterable one.
     #[must_use]
     pub fn reads_depth(&self) -> bool {
-        matches!(
-            self,
-            Technique::Binary | Technique::Pcf(_) | Technique::Pcss(_)
-        )
+        self.row().reads_depth()
     }
 
     /// The storages of the technique's map, the one with the least error per bit first. None where it reads depth.
     #[must_use]
     pub fn storages(&self) -> &'static [Storage] {
-        use Storage::{Float16, Float32, Unorm8, Unorm10, Unorm16};
-        match self {
-            Technique::Binary | Technique::Pcf(_) | Technique::Pcss(_) => &[],
-            Technique::Esm {
-                filtering: EsmFiltering::Linear,
-                ..
-            } => &[Float32, Float16, Unorm16],
-            Technique::Esm { .. } | Technique::Vsm | Technique::Lvsm { .. } => {
-                &[Unorm16, Float32, Float16]
-            }
-            Technique::Evsm2 { .. } | Technique::Evsm4 { .. } => &[Float32, Float16],
-            Technique::Convolution { .. } => &[Unorm8, Unorm16, Float16],
-            Technique::Hamburger4 | Technique::Hausdorff4 => &[Unorm16, Float16, Float32],
-            // Half as large as the others, but the one that leaks farthest.
-            Technique::Hamburger6 => &[Unorm16, Float16, Float32, Unorm10],
-        }
+        self.row().storages
     }
 
     /// The first of [`Technique::storages`] that every device of the profile can write; none where the technique reads
     /// depth.
     #[must_use]
     pub fn best_storage(&self, profile: Profile) -> Option<Storage> {
-        self.storages().iter().copied().find(|&storage| {
-            let format = storage.format_of(self.channels());
+        let row = self.row();
+        row.storages.iter().copied().find(|&storage| {
+            let format = storage.format_of(row.channels);
             format.is_some_and(|format| storage.can_write(format, profile))
         })
-    }
-
-    /// Channels of a plane of the map: 1, 2 or 4.
-    #[must_use]
-    pub fn channels(&self) -> u32 {
-        match self {
-            Technique::Esm { .. } | Technique::Binary | Technique::Pcf(_) | Technique::Pcss(_) => 1,
-            Technique::Vsm | Technique::Evsm2 { .. } => 2,
-            _ => 4,
-        }
     }
 
     /// Texture layers that a layer of the map consists of.
     #[must_use]
     pub fn planes(&self) -> u32 {
-        match self {
-            Technique::Lvsm { layers, .. } => layers.div_ceil(2),
-            Technique::Convolution { terms, .. } => terms.div_ceil(2),
-            Technique::Hamburger6 => 2,
-            _ => 1,
-        }
+        self.row().planes
     }
 
     /// Whether both techniques read the same map.
     #[must_use]
     pub fn shares_map_with(&self, other: &Technique) -> bool {
-        match (self, other) {
-            (
-                Technique::Hamburger4 | Technique::Hausdorff4,
-                Technique::Hamburger4 | Technique::Hausdorff4,
-            ) => true,
-            (
-                Technique::Convolution { terms, .. },
-                Technique::Convolution { terms: others, .. },
-            ) => terms == others,
-            _ => self == other,
-        }
+        self.row().shares_map_with(&other.row())
     }
+
+    /// The largest exponent that a storage's range and precision allow; none for techniques without one.
+    #[must_use]
+    pub fn largest_exponent(&self, storage: Storage) -> Option<f32> {
+        self.row().largest_exponent.map(|largest| largest(storage))
+    }
+}
+
+/// A number of things between one and the most that there can be.
+fn count(
+    technique: &'static str,
+    what: &'static str,
+    count: u32,
+    largest: u32,
+) -> Result<(), TechniqueError> {
+    if (1..=largest).contains(&count) {
+        return Ok(());
+    }
+    Err(TechniqueError::Count {
+        technique,
+        what,
+        count,
+        smallest: 1,
+        largest,
+    })
 }
 
 impl fmt::Display for Technique {

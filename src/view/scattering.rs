@@ -1,14 +1,14 @@
 //! What the nodes of single scattering are told about camera, light and medium.
 
 use bytemuck::{Pod, Zeroable};
-use moment_shadows::{
-    MapRegion, RectifiedFrame, RectifiedFrameError, RectifiedView, SingleScattering,
+use glam::{DVec3, DVec4};
+
+use super::{
+    CameraView, LightDepth, LightView, RectifiedFrame, RectifiedView, ScatteringViewError, wide,
 };
+use crate::{MapRegion, SingleScattering};
 
-use super::shade_hard::parameters::{row, wide};
-use super::{CameraView, LightDepth, LightView};
-
-/// What a [`super::RectifyMoments`] node needs to know: the uniform struct of its shader.
+/// What a `rectify_moments` node needs to know: the uniform struct of its shader.
 #[derive(Clone, Copy, Debug, PartialEq, Pod, Zeroable)]
 #[repr(C)]
 pub struct RectifyMomentsParameters {
@@ -32,7 +32,7 @@ pub struct RectifyMomentsParameters {
     pub padding: [u32; 3],
 }
 
-/// What an [`super::IntegrateScattering`] node needs to know: the uniform struct of its shader.
+/// What an `integrate_scattering` node needs to know: the uniform struct of its shader.
 #[derive(Clone, Copy, Debug, PartialEq, Pod, Zeroable)]
 #[repr(C)]
 pub struct IntegrateScatteringParameters {
@@ -44,7 +44,7 @@ pub struct IntegrateScatteringParameters {
     pub padding: [f32; 3],
 }
 
-/// What a [`super::CompositeScattering`] node needs to know: the uniform struct of its shader.
+/// What a `composite_scattering` node needs to know: the uniform struct of its shader.
 #[derive(Clone, Copy, Debug, PartialEq, Pod, Zeroable)]
 #[repr(C)]
 pub struct CompositeScatteringParameters {
@@ -65,27 +65,6 @@ pub struct ScatteringParameters {
     pub composite: CompositeScatteringParameters,
 }
 
-/// A camera or a light whose scattering cannot be prefiltered.
-#[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
-#[non_exhaustive]
-pub enum ScatteringViewError {
-    /// The light's rays meet in a point.
-    #[error(
-        "the light is a point or spot light; only rays of a directional light are parallel to one axis of rectified coordinates: \
-         give an orthographic light, or march the scattering of this one"
-    )]
-    PerspectiveLight,
-    /// The light's matrix cannot be inverted.
-    #[error(
-        "the light's clip_from_world is singular or not finite; it has to be the invertible projection that its map was drawn \
-         with"
-    )]
-    SingularLight,
-    /// There are no rectified coordinates of this camera and light.
-    #[error(transparent)]
-    Frame(#[from] RectifiedFrameError),
-}
-
 impl ScatteringParameters {
     /// Of a perspective camera with surfaces and sky up to the distance `far` along its axis, a directional light and a medium.
     ///
@@ -101,42 +80,38 @@ impl ScatteringParameters {
             return Err(ScatteringViewError::PerspectiveLight);
         };
         let clip = wide(&light.clip_from_world);
-        let [.., scale] = row(&clip, 3);
-        if row(&clip, 3)[..3].iter().any(|&entry| entry != 0.0) {
+        let last = clip.row(3);
+        if last.truncate() != DVec3::ZERO {
             return Err(ScatteringViewError::PerspectiveLight);
         }
-        let clip = clip.map(|column| column.map(|entry| entry / scale));
-        let [x, y] = [0, 1].map(|axis| row(&clip, axis));
-        let depth = light.depth.row(&clip);
+        let clip = clip * (1.0 / last.w);
+        let (x, y, depth) = (clip.row(0), clip.row(1), light.depth.row(clip));
         // Along the light the place in its map stays.
-        let mut direction = cross(x, y);
-        let grows = dot(depth, direction);
-        direction = direction.map(|entry| entry * grows.signum());
-        let finite = x
-            .iter()
-            .chain(&y)
-            .chain(&depth)
-            .all(|entry| entry.is_finite());
+        let across = x.truncate().cross(y.truncate());
+        let grows = depth.truncate().dot(across);
+        let finite = x.is_finite() && y.is_finite() && depth.is_finite();
         if !(grows.abs() > 0.0 && grows.is_finite() && finite) {
             return Err(ScatteringViewError::SingularLight);
         }
+        let direction = across * grows.signum();
         let RectifiedView {
             camera: at,
             axes,
             frame,
-        } = RectifiedView::new(&camera.clip_from_world, far, direction)?;
+        } = RectifiedView::new(&camera.clip_from_world, far, direction.to_array())?;
+        let at = DVec3::from(at).extend(1.0);
+        let axes = axes.map(|axis| DVec3::from(axis).extend(0.0));
         // u = (x + 1) / 2, v = (1 - y) / 2.
-        let map = |[x, y]: [f64; 2]| [(0.5 * x) as f32, (-0.5 * y) as f32];
-        let along = |axis: [f64; 3]| map([dot(x, axis), dot(y, axis)]);
-        let [u, v] = map([dot(x, at) + x[3] + 1.0, dot(y, at) + y[3] - 1.0]);
+        let map = |x: f64, y: f64| [(0.5 * x) as f32, (-0.5 * y) as f32];
+        let along = |axis: DVec4| map(x.dot(axis), y.dot(axis));
         Ok(Self {
             rectify: RectifyMomentsParameters {
                 frame,
-                map_at_camera: [u, v],
+                map_at_camera: map(x.dot(at) + 1.0, y.dot(at) - 1.0),
                 map_along_first: along(axes[0]),
                 map_along_second: along(axes[1]),
-                depth_at_camera: (dot(depth, at) + depth[3]) as f32,
-                depth_per_length: dot(depth, axes[2]) as f32,
+                depth_at_camera: depth.dot(at) as f32,
+                depth_per_length: depth.dot(axes[2]) as f32,
                 region: light.region,
                 layer: light.layer,
                 padding: [0; 3],
@@ -149,17 +124,4 @@ impl ScatteringParameters {
             composite: CompositeScatteringParameters { frame, medium },
         })
     }
-}
-
-/// Of the linear part of a row and a direction or position.
-fn dot(row: [f64; 4], vector: [f64; 3]) -> f64 {
-    row[0] * vector[0] + row[1] * vector[1] + row[2] * vector[2]
-}
-
-fn cross(a: [f64; 4], b: [f64; 4]) -> [f64; 3] {
-    [
-        a[1] * b[2] - a[2] * b[1],
-        a[2] * b[0] - a[0] * b[2],
-        a[0] * b[1] - a[1] * b[0],
-    ]
 }

@@ -1,0 +1,193 @@
+//! How a filterable map is encoded: a technique and a storage that go together.
+
+use core::fmt;
+
+use serde::{Deserialize, Serialize};
+
+use super::{Finite, Row, Technique, TechniqueError};
+use crate::{Profile, Storage, SummedAreaTable, TextureFormat, UnsupportedStorage};
+
+/// The encoding of a filterable map: a technique with a storage that it can use.
+#[derive(Clone, Debug, PartialEq, Eq, Hash, Serialize, Deserialize)]
+#[serde(try_from = "Pair", into = "Pair")]
+pub struct MapEncoding {
+    technique: Technique,
+    storage: Storage,
+    format: TextureFormat,
+    table: Option<SummedAreaTable>,
+}
+
+/// As it is written in files.
+#[derive(Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+struct Pair {
+    #[serde(default)]
+    technique: Technique,
+    storage: Storage,
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    table: Option<SummedAreaTable>,
+}
+
+impl MapEncoding {
+    /// The encoding, if the storage is one of the technique's and its settings are within their ranges.
+    pub fn new(technique: Technique, storage: Storage) -> Result<Self, TechniqueError> {
+        let row = technique.row();
+        row.settings.clone()?;
+        if row.reads_depth() {
+            return Err(TechniqueError::ReadsDepth {
+                technique: row.name,
+            });
+        }
+        let format = storage
+            .format_of(row.channels)
+            .filter(|_| row.storages.contains(&storage))
+            .ok_or(TechniqueError::Storage {
+                technique: row.name,
+                storage,
+                legal: row.storages,
+            })?;
+        check_exponents(&row, storage)?;
+        Ok(Self {
+            technique,
+            storage,
+            format,
+            table: None,
+        })
+    }
+
+    /// The summed-area table of a map with this technique: of four moments or two.
+    pub fn of_table(technique: Technique, table: SummedAreaTable) -> Result<Self, TechniqueError> {
+        let row = technique.row();
+        let format = Storage::Fixed32
+            .format_of(row.channels)
+            .filter(|_| row.contents.have_tables())
+            .ok_or(TechniqueError::NoTable {
+                technique: row.name,
+            })?;
+        Ok(Self {
+            technique,
+            storage: Storage::Fixed32,
+            format,
+            table: Some(table),
+        })
+    }
+
+    /// Four moments, which both `hamburger4` and `hausdorff4` read.
+    #[must_use]
+    pub fn of_four_moments(format: TextureFormat) -> Option<Self> {
+        Storage::of_format(format).map(|storage| Self {
+            technique: Technique::Hamburger4,
+            storage,
+            format,
+            table: None,
+        })
+    }
+
+    /// The technique that the map was made for.
+    #[must_use]
+    pub fn technique(&self) -> &Technique {
+        &self.technique
+    }
+
+    /// The storage.
+    #[must_use]
+    pub fn storage(&self) -> Storage {
+        self.storage
+    }
+
+    /// What the integers mean, if this is a summed-area table.
+    #[must_use]
+    pub fn table(&self) -> Option<&SummedAreaTable> {
+        self.table.as_ref()
+    }
+
+    /// The format of the texture.
+    #[must_use]
+    pub fn format(&self) -> TextureFormat {
+        self.format
+    }
+
+    /// Whether blurs sum its texels with the WGSL module `split_sum`: moments within [-1, 1] whose
+    /// storage is as fine as sums of f32 are.
+    #[must_use]
+    pub fn has_split_sums(&self) -> bool {
+        self.technique.row().contents.are_bounded_moments() && self.storage == Storage::Float32
+    }
+
+    /// Texture layers that a layer of the map consists of.
+    #[must_use]
+    pub fn planes(&self) -> u32 {
+        self.technique.planes()
+    }
+
+    /// Bits of a texel of the map, all planes.
+    #[must_use]
+    pub fn bits_per_texel(&self) -> u32 {
+        self.format.bytes_per_texel() * 8 * self.planes()
+    }
+
+    /// Whether every device of the profile can write the map, or which storage to use instead.
+    pub fn check(&self, profile: Profile) -> Result<(), UnsupportedStorage> {
+        if self.storage.can_write(self.format, profile) {
+            return Ok(());
+        }
+        Err(UnsupportedStorage {
+            storage: self.storage,
+            format: self.format,
+            profile,
+            alternative: self
+                .technique
+                .best_storage(profile)
+                .unwrap_or_else(|| Storage::best_for(profile)),
+        })
+    }
+}
+
+/// Whether the exponents are within the range of the storage.
+fn check_exponents(row: &Row, storage: Storage) -> Result<(), TechniqueError> {
+    let Some(largest) = row.largest_exponent else {
+        return Ok(());
+    };
+    let largest = largest(storage);
+    let wrong = |exponent: &&Finite| !(1.0..=largest).contains(&exponent.get());
+    match row.exponents.iter().find(wrong) {
+        None => Ok(()),
+        Some(exponent) => Err(TechniqueError::Exponent {
+            technique: row.name,
+            storage,
+            exponent: *exponent,
+            largest,
+        }),
+    }
+}
+
+impl TryFrom<Pair> for MapEncoding {
+    type Error = TechniqueError;
+
+    fn try_from(pair: Pair) -> Result<Self, TechniqueError> {
+        match (pair.storage, pair.table) {
+            (Storage::Fixed32, Some(table)) => Self::of_table(pair.technique, table),
+            (_, None) => Self::new(pair.technique, pair.storage),
+            (storage, Some(_)) => Err(TechniqueError::NotATable { storage }),
+        }
+    }
+}
+
+impl From<MapEncoding> for Pair {
+    fn from(encoding: MapEncoding) -> Pair {
+        Pair {
+            technique: encoding.technique,
+            storage: encoding.storage,
+            table: encoding.table,
+        }
+    }
+}
+
+impl fmt::Display for MapEncoding {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match &self.table {
+            Some(table) => write!(f, "{} as {table}", self.technique),
+            None => write!(f, "{} as {}", self.technique, self.storage),
+        }
+    }
+}

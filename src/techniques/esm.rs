@@ -1,0 +1,105 @@
+//! Exponential shadow maps (Annen et al., GI 2008; Salvi 2008).
+
+use super::row::{Constant, Contents, Encoding, LINEAR, Row, Snippet, float};
+use super::{EsmFiltering, Finite};
+use crate::Storage::{self, Float16, Float32, Unorm16};
+use crate::constant::number;
+
+const MODULE: &str = include_str!("../../wgsl/techniques/exponential.wgsl");
+const LARGEST: f32 = number(MODULE, "EXPONENTIAL_LARGEST_EXPONENT") as f32;
+const LARGEST_FLOAT16: f32 = number(MODULE, "EXPONENTIAL_LARGEST_EXPONENT_FLOAT16") as f32;
+const LARGEST_FLOAT16_LOGARITHMIC: f32 =
+    number(MODULE, "EXPONENTIAL_LARGEST_EXPONENT_FLOAT16_LOGARITHMIC") as f32;
+const LARGEST_UNORM16: f32 = number(MODULE, "EXPONENTIAL_LARGEST_EXPONENT_UNORM16") as f32;
+
+const ENCODING: Encoding = Encoding {
+    imports: &["techniques::exponential::{exponential_channels, exponential_to_texel}"],
+    channels: "exponential_channels(z, EXPONENT)",
+    texel: "exponential_to_texel(mean, STORAGE, EXPONENT, LOGARITHMIC)",
+    ..LINEAR
+};
+
+/// Logarithms of means: a filter averages the means.
+const LOGARITHMIC: Encoding = Encoding {
+    filter_imports: &["techniques::exponential::{exponential_mean_of_texel, exponential_to_texel}"],
+    filter_value: "vec4f(exponential_mean_of_texel(texel, STORAGE, EXPONENT, true), 0.0, 0.0, 0.0)",
+    filter_texel: "exponential_to_texel(value, STORAGE, EXPONENT, true)",
+    ..ENCODING
+};
+
+pub(super) fn row(exponent: Finite, filtering: EsmFiltering) -> Row {
+    let logarithmic = filtering == EsmFiltering::Logarithmic;
+    let (encoding, storages, largest): (_, _, fn(Storage) -> f32) = match filtering {
+        EsmFiltering::Linear => (ENCODING, &[Float32, Float16, Unorm16], largest_linear),
+        EsmFiltering::Logarithmic => (
+            LOGARITHMIC,
+            &[Unorm16, Float32, Float16],
+            largest_logarithmic,
+        ),
+    };
+    let evaluation = if logarithmic {
+        EVALUATION_LOGARITHMIC
+    } else {
+        EVALUATION
+    };
+    Row {
+        exponents: vec![exponent],
+        largest_exponent: Some(largest),
+        constants: vec![
+            Constant::of_map("EXPONENT", float(exponent.get())),
+            Constant::of_map("LOGARITHMIC", logarithmic),
+        ],
+        averaged_by_samplers: !logarithmic,
+        ..Row::of_map(
+            "esm",
+            Contents::Exponential,
+            storages,
+            1,
+            encoding,
+            evaluation,
+        )
+    }
+}
+
+const EVALUATION: Snippet = Snippet {
+    imports: &["techniques::exponential::{exponential_shadow_intensity_of_texel}"],
+    body: "return exponential_shadow_intensity_of_texel(map_texel(receiver, 0u), receiver.fragment_depth, STORAGE, EXPONENT, false);",
+};
+
+/// Texels hold logarithms: they are decoded before they are blended.
+const EVALUATION_LOGARITHMIC: Snippet = Snippet {
+    imports: &[
+        "techniques::exponential::{exponential_mean_of_texel, exponential_shadow_intensity}",
+        "map::map_region::{map_region_place}",
+    ],
+    body: "let place = map_region_place(receiver.region, receiver.uv) - 0.5;
+    let base = floor(place);
+    let weight = place - base;
+    let low = vec2i(base);
+    let high = min(low + 1, vec2i(receiver.region.origin + receiver.region.extent) - 1);
+    let top_left = exponential_mean_of_texel(textureLoad(moments_map, low, receiver.layer, 0), STORAGE, EXPONENT, true);
+    let top_right = exponential_mean_of_texel(textureLoad(moments_map, vec2i(high.x, low.y), receiver.layer, 0), STORAGE, EXPONENT, true);
+    let bottom_left = exponential_mean_of_texel(textureLoad(moments_map, vec2i(low.x, high.y), receiver.layer, 0), STORAGE, EXPONENT, true);
+    let bottom_right = exponential_mean_of_texel(textureLoad(moments_map, high, receiver.layer, 0), STORAGE, EXPONENT, true);
+    let mean = mix(mix(top_left, top_right, weight.x), mix(bottom_left, bottom_right, weight.x), weight.y);
+    return exponential_shadow_intensity(mean, receiver.fragment_depth, EXPONENT, 0.0);",
+};
+
+fn largest_linear(storage: Storage) -> f32 {
+    match storage {
+        Storage::Float16 => LARGEST_FLOAT16,
+        Storage::Unorm16 | Storage::Unorm8 => LARGEST_UNORM16,
+        Storage::Float32 | Storage::Unorm10 | Storage::Fixed32 => LARGEST,
+    }
+}
+
+fn largest_logarithmic(storage: Storage) -> f32 {
+    match storage {
+        Storage::Float16 => LARGEST_FLOAT16_LOGARITHMIC,
+        Storage::Unorm16
+        | Storage::Unorm8
+        | Storage::Float32
+        | Storage::Unorm10
+        | Storage::Fixed32 => LARGEST,
+    }
+}

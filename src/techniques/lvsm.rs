@@ -1,0 +1,99 @@
+//! Layered variance shadow maps (Lauritzen & McCool, GI 2008).
+
+use super::row::{Constant, Contents, Encoding, LINEAR, Row, Snippet, float};
+use super::{Finite, LayerSplits, TechniqueError, count};
+use crate::Storage::{Float16, Float32, Unorm16};
+use crate::constant::number;
+
+const NAME: &str = "lvsm";
+const MODULE: &str = include_str!("../../wgsl/techniques/layered_variance.wgsl");
+const MOST_LAYERS: u32 = number(MODULE, "LAYERED_VARIANCE_LARGEST_COUNT") as u32;
+
+const ENCODING: Encoding = Encoding {
+    imports: &[
+        "moments::two_moments::{two_moments_to_texel}",
+        "techniques::layered_variance::{layered_variance_channels}",
+    ],
+    channels: "layered_variance_channels(z, technique_layers(0u), PLANE)",
+    texel: "two_moments_to_texel(mean, STORAGE)",
+    ..LINEAR
+};
+
+const EVALUATION: Snippet = Snippet {
+    imports: &[
+        "techniques::layered_variance::{layered_variance_choice, layered_variance_shadow_intensity_of_texel}",
+    ],
+    body: "let layers = technique_layers(receiver.layer);
+    let choice = layered_variance_choice(layers, receiver.fragment_depth);
+    let texel = map_texel(receiver, choice.layer / 2u);
+    let intensity = layered_variance_shadow_intensity_of_texel(texel, receiver.fragment_depth, STORAGE, layers, choice.layer);
+    if choice.neighbor_share <= 0.0 {
+        return intensity;
+    }
+    let next = map_texel(receiver, choice.neighbor / 2u);
+    let other = layered_variance_shadow_intensity_of_texel(next, receiver.fragment_depth, STORAGE, layers, choice.neighbor);
+    return mix(intensity, other, choice.neighbor_share);",
+};
+
+pub(super) fn row(layers: u32, overlap: Finite, splits: &LayerSplits) -> Row {
+    let known = splits.known(layers);
+    let mut constants = vec![
+        Constant::of_map("LAYERS", format!("{layers}u")),
+        Constant::of_map("LAYER_OVERLAP", float(overlap.get())),
+    ];
+    constants.extend(known.iter().flat_map(|known| of_splits(known)));
+    Row {
+        planes: layers.div_ceil(2),
+        settings: check(layers, overlap, splits),
+        constants,
+        places_layers: known.is_none(),
+        ..Row::of_map(
+            NAME,
+            Contents::LayeredMoments,
+            &[Unorm16, Float32, Float16],
+            4,
+            ENCODING,
+            EVALUATION,
+        )
+    }
+}
+
+/// The splits in two vectors; those that there are not are the far end.
+fn of_splits(known: &[f32]) -> [Constant; 2] {
+    let vector = |first: usize| {
+        let of = |index: usize| known.get(first + index).copied().unwrap_or(1.0);
+        format!("vec4f({:?}, {:?}, {:?}, {:?})", of(0), of(1), of(2), of(3))
+    };
+    [
+        Constant::of_map("LAYER_SPLITS_LOW", vector(0)),
+        Constant::of_map("LAYER_SPLITS_HIGH", vector(4)),
+    ]
+}
+
+fn check(layers: u32, overlap: Finite, splits: &LayerSplits) -> Result<(), TechniqueError> {
+    count(NAME, "layers", layers, MOST_LAYERS)?;
+    if !(0.0..=0.5).contains(&overlap.get()) {
+        return Err(TechniqueError::Setting {
+            technique: NAME,
+            what: "overlap",
+            value: overlap,
+            range: "from 0 to 0.5".to_owned(),
+        });
+    }
+    let LayerSplits::Given(given) = splits else {
+        return Ok(());
+    };
+    let places: Vec<f32> = core::iter::once(-1.0)
+        .chain(given.iter().map(|split| split.get()))
+        .chain([1.0])
+        .collect();
+    // Layers that are narrower than their overlap would contain others.
+    let apart = |pair: &[f32]| pair[1] - pair[0] > overlap.get();
+    if given.len() + 1 == layers as usize && places.windows(2).all(apart) {
+        return Ok(());
+    }
+    Err(TechniqueError::Splits {
+        layers,
+        given: given.len(),
+    })
+}

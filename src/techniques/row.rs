@@ -1,0 +1,220 @@
+//! One row of the table of techniques: all that the library knows of a technique with its settings.
+
+use super::{Finite, TechniqueError};
+use crate::Storage;
+
+/// What the texels of a technique's map hold.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Contents {
+    /// Depth as the light's pass stores it: the plain depth map.
+    Depth,
+    /// The mean of an exponential of depth, or its logarithm.
+    Exponential,
+    /// Two moments of depth.
+    TwoMoments,
+    /// Two moments of one exponential warp of depth or of two.
+    WarpedMoments,
+    /// Two moments of depth within each of several layers.
+    LayeredMoments,
+    /// Terms of a Fourier series of depth.
+    FourierTerms,
+    /// Four moments of depth.
+    FourMoments,
+    /// Six moments of depth.
+    SixMoments,
+}
+
+impl Contents {
+    /// Whether channels are means of values in [-1, 1] whose storage in float32 is as fine as sums of f32 are.
+    #[must_use]
+    pub fn are_bounded_moments(self) -> bool {
+        match self {
+            Contents::TwoMoments
+            | Contents::LayeredMoments
+            | Contents::FourMoments
+            | Contents::SixMoments => true,
+            Contents::Depth
+            | Contents::Exponential
+            | Contents::WarpedMoments
+            | Contents::FourierTerms => false,
+        }
+    }
+
+    /// Whether a summed-area table can be made of the map.
+    #[must_use]
+    pub fn have_tables(self) -> bool {
+        match self {
+            Contents::TwoMoments | Contents::FourMoments => true,
+            Contents::Depth
+            | Contents::Exponential
+            | Contents::WarpedMoments
+            | Contents::LayeredMoments
+            | Contents::FourierTerms
+            | Contents::SixMoments => false,
+        }
+    }
+}
+
+/// A piece of a shader that a row supplies: statements, and the items of the library that they use.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Snippet {
+    /// Items by path, as after `moment_shadows::` in an import: `maths::hankel::{hankel_factor}`.
+    pub imports: &'static [&'static str],
+    /// The body of a function. What it can use beside the imports, its function says.
+    pub body: &'static str,
+}
+
+/// How a map is made and filtered.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Encoding {
+    /// Items that both pieces use.
+    pub imports: &'static [&'static str],
+    /// Of a moment depth `z`: the channels that are averaged, a vec4f.
+    pub channels: &'static str,
+    /// Of their averages `mean`: the texel to write, a vec4f.
+    pub texel: &'static str,
+    /// Items that both pieces of the filter use.
+    pub filter_imports: &'static [&'static str],
+    /// Of a `texel`: what a filter averages, a vec4f.
+    pub filter_value: &'static str,
+    /// Of such averages `value`: the texel to write, a vec4f.
+    pub filter_texel: &'static str,
+}
+
+/// Texels that any filter averages as they are, samplers too.
+pub(super) const LINEAR: Encoding = Encoding {
+    imports: &[],
+    channels: "",
+    texel: "",
+    filter_imports: &["map::storage::{storage_round_texel}"],
+    filter_value: "texel",
+    filter_texel: "storage_round_texel(value, STORAGE)",
+};
+
+/// A constant of the generated module that a row's pieces import.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Constant {
+    /// Its name.
+    pub name: &'static str,
+    /// Its value, a WGSL expression.
+    pub value: String,
+    /// Whether the map depends on it, and not only how it is evaluated.
+    pub of_map: bool,
+}
+
+impl Constant {
+    pub(super) fn of_map(name: &'static str, value: impl ToString) -> Self {
+        Self {
+            name,
+            value: value.to_string(),
+            of_map: true,
+        }
+    }
+
+    pub(super) fn of_evaluation(name: &'static str, value: impl ToString) -> Self {
+        Self {
+            name,
+            value: value.to_string(),
+            of_map: false,
+        }
+    }
+}
+
+/// A technique with its settings. What a technique lacks is `None`, and a node refuses it by that.
+#[derive(Clone, Debug)]
+pub struct Row {
+    /// The name in graph files and on command lines.
+    pub name: &'static str,
+    /// What the map holds.
+    pub contents: Contents,
+    /// The storages of the map, the one with the least error per bit first. None where the plain depth map is read.
+    pub storages: &'static [Storage],
+    /// Channels of a plane of the map: 1, 2 or 4.
+    pub channels: u32,
+    /// Texture layers that a layer of the map consists of.
+    pub planes: u32,
+    /// Whether the settings are within their ranges, whatever the storage.
+    pub settings: Result<(), TechniqueError>,
+    /// Exponents, which are at least 1 and at most what `largest_exponent` says.
+    pub exponents: Vec<Finite>,
+    /// The largest exponent that a storage's range and precision allow.
+    pub largest_exponent: Option<fn(Storage) -> f32>,
+    /// Constants of the pieces below.
+    pub constants: Vec<Constant>,
+    /// How the map is made and filtered. None where the plain depth map is read.
+    pub encoding: Option<Encoding>,
+    /// Whether samplers and mip levels can average texels.
+    pub averaged_by_samplers: bool,
+    /// Whether a comparison sampler reads the depth map, and whether that stores 1 at the near plane.
+    pub comparison: Option<bool>,
+    /// Whether the layers of the map are placed on the device (node `place_layers`).
+    pub places_layers: bool,
+    /// Shadow intensity of a `receiver`, by `map_texel(receiver, plane)` or on the plane `plane` of the plain depth map `depth_map`.
+    pub evaluation: Snippet,
+    /// Soft shadow intensity of a `receiver` from the summed-area table of the map, by `soft_table` and `soft_receiver`.
+    pub soft: Option<Snippet>,
+}
+
+impl Row {
+    /// A row of a map that any filter averages, with one plane and no settings.
+    pub(super) fn of_map(
+        name: &'static str,
+        contents: Contents,
+        storages: &'static [Storage],
+        channels: u32,
+        encoding: Encoding,
+        evaluation: Snippet,
+    ) -> Self {
+        Self {
+            name,
+            contents,
+            storages,
+            channels,
+            planes: 1,
+            settings: Ok(()),
+            exponents: Vec::new(),
+            largest_exponent: None,
+            constants: Vec::new(),
+            encoding: Some(encoding),
+            averaged_by_samplers: true,
+            comparison: None,
+            places_layers: false,
+            evaluation,
+            soft: None,
+        }
+    }
+
+    /// A row of a test on the plain depth map.
+    pub(super) fn of_depth(name: &'static str, evaluation: Snippet) -> Self {
+        Self {
+            encoding: None,
+            averaged_by_samplers: false,
+            ..Self::of_map(name, Contents::Depth, &[], 1, LINEAR, evaluation)
+        }
+    }
+
+    /// Whether the technique reads the plain depth map instead of a filterable one.
+    #[must_use]
+    pub fn reads_depth(&self) -> bool {
+        self.encoding.is_none()
+    }
+
+    /// Whether both techniques read the same map.
+    #[must_use]
+    pub fn shares_map_with(&self, other: &Row) -> bool {
+        let of_map = |row: &Row| -> Vec<Constant> {
+            let constants = row.constants.iter();
+            constants.filter(|it| it.of_map).cloned().collect()
+        };
+        self.encoding == other.encoding
+            && self.channels == other.channels
+            && self.planes == other.planes
+            && self.places_layers == other.places_layers
+            && of_map(self) == of_map(other)
+    }
+}
+
+/// A number as a WGSL literal.
+pub(super) fn float(value: f32) -> String {
+    format!("f32({value:?})")
+}

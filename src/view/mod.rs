@@ -1,0 +1,50 @@
+//! Host-side mathematics: cameras, views of lights, and the uniform structs that are made of them.
+//!
+//! Matrices are plain arrays by columns outside, glam's f64 inside.
+
+mod camera;
+mod error;
+mod light;
+mod parameters;
+mod rectified;
+mod scattering;
+
+pub use camera::CameraView;
+pub use error::{RectifiedFrameError, ScatteringViewError, ViewError};
+use glam::{DMat4, DVec4};
+pub use light::{LightDepth, LightView};
+pub use parameters::ViewParameters;
+pub use rectified::{RectifiedFrame, RectifiedView};
+pub use scattering::{
+    CompositeScatteringParameters, IntegrateScatteringParameters, RectifyMomentsParameters,
+    ScatteringParameters,
+};
+
+/// A matrix as hosts give it, in f64: products of f32 matrices with large translations would lose digits.
+fn wide(columns: &[[f32; 4]; 4]) -> DMat4 {
+    DMat4::from_cols_array_2d(&columns.map(|column| column.map(f64::from)))
+}
+
+/// The most that the product of a matrix and its inverse may miss the identity by: beyond it the inverse is rounding error.
+const LARGEST_RESIDUAL: f64 = 1e-6;
+
+/// The inverse; `None` where there is none, or where entries are not finite.
+fn inverse(matrix: DMat4) -> Option<DMat4> {
+    // Rows of very different size, as projections have them, are scaled to a largest entry of 1.
+    let rows = matrix.transpose();
+    let scales = [0, 1, 2, 3].map(|index| rows.col(index).abs().max_element());
+    if scales.iter().any(|&scale| scale <= 0.0) || !matrix.is_finite() {
+        return None;
+    }
+    let scale = DMat4::from_diagonal(DVec4::from_array(scales).recip());
+    let scaled = scale * matrix;
+    let inverse = scaled.inverse();
+    let residual = inverse * scaled - DMat4::IDENTITY;
+    let largest = residual
+        .to_cols_array()
+        .into_iter()
+        .fold(0.0, |largest: f64, entry| largest.max(entry.abs()));
+    let unscaled = inverse * scale;
+    (unscaled.is_finite() && residual.is_finite() && largest <= LARGEST_RESIDUAL)
+        .then_some(unscaled)
+}

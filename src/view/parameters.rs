@@ -1,0 +1,75 @@
+//! The parameters of nodes that shade a picture, from a camera and a light.
+
+use bytemuck::{Pod, Zeroable};
+use glam::DMat4;
+
+use super::{CameraView, LightView, ViewError, inverse, wide};
+use crate::{AreaLight, DepthConversion, LeakReduction, MapRegion, ReceiverBias};
+
+/// What nodes that shade a picture need to know of a view of a light: the uniform struct of their shader.
+///
+/// Made by [`ViewParameters::new`] from a camera and a light.
+#[derive(Clone, Copy, Debug, PartialEq, Pod, Zeroable)]
+#[repr(C)]
+pub struct ViewParameters {
+    /// From the camera's clip space to the light, by columns.
+    pub light_from_camera: [[f32; 4]; 4],
+    /// The homogeneous coordinate of the scene position.
+    pub scene_w_from_camera: [f32; 4],
+    /// How far fragments move towards the light.
+    pub receiver_bias: ReceiverBias,
+    /// What is done about light leaking after the bound.
+    pub leak_reduction: LeakReduction,
+    /// Where the view lies in its layer; [`MapRegion::NONE`] where there is no such view.
+    pub region: MapRegion,
+    /// The stored depth of pixels that show no surface: 0 for reversed depth. That of the first view counts for all.
+    pub far_depth: f32,
+    /// The map's layer.
+    pub layer: u32,
+    /// The light's channel in the output, 0 to 3. Of the views of a channel the first that contains a pixel shades it.
+    pub channel: u32,
+    /// Unused; keeps the WGSL layout.
+    pub padding: f32,
+    /// How the light's map stores depth: for techniques that read the plain depth map.
+    pub conversion: DepthConversion,
+    /// The light's size: for percentage-closer soft shadows.
+    pub light: AreaLight,
+}
+
+impl ViewParameters {
+    /// The parameters of a camera that looks at receivers of a light's shadow.
+    ///
+    /// The matrices are combined in f64. [`ReceiverBias::for_kernel`] gives a bias that follows from the map's filter.
+    pub fn new(
+        camera: &CameraView,
+        light: &LightView,
+        receiver_bias: ReceiverBias,
+        leak_reduction: LeakReduction,
+    ) -> Result<Self, ViewError> {
+        let world_from_clip =
+            inverse(wide(&camera.clip_from_world)).ok_or(ViewError::SingularCamera)?;
+        let light_clip = wide(&light.clip_from_world);
+        inverse(light_clip).ok_or(ViewError::SingularLight)?;
+        let conversion = light.depth.conversion()?;
+        let [x, y, w] = [0, 1, 3].map(|index| light_clip.row(index));
+        // From clip space to the map: u = (x + w) / 2, v = (w - y) / 2, both still times w.
+        let rows = [0.5 * (w + x), 0.5 * (w - y), w, light.depth.row(light_clip)];
+        let light_from_world =
+            DMat4::from_cols_array_2d(&rows.map(|row| row.to_array())).transpose();
+        Ok(Self {
+            light_from_camera: (light_from_world * world_from_clip)
+                .as_mat4()
+                .to_cols_array_2d(),
+            scene_w_from_camera: world_from_clip.row(3).as_vec4().to_array(),
+            receiver_bias,
+            leak_reduction,
+            region: light.region,
+            far_depth: camera.far_depth,
+            layer: light.layer,
+            channel: light.channel,
+            padding: 0.0,
+            conversion,
+            light: AreaLight::NONE,
+        })
+    }
+}
