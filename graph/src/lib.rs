@@ -37,8 +37,8 @@ pub use node::{
     TextureRule, Work, bind, same_as,
 };
 pub use plan::{
-    Home, ParameterError, ParameterLayout, Plan, PlanError, PlannedBinding, PlannedBindingResource,
-    PlannedImport, PlannedMemory, PlannedOutput, PlannedParameters, PlannedPass, PlannedRegions,
+    Home, NamedResource, ParameterError, ParameterLayout, Plan, PlanError, PlannedBinding,
+    PlannedBindingResource, PlannedMemory, PlannedParameters, PlannedPass, PlannedRegions,
     PlannedResource, PlannedWork, RegionError, SampleType,
 };
 pub use registry::NodeRegistry;

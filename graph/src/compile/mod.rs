@@ -18,8 +18,8 @@ use std::collections::BTreeMap;
 
 use crate::graph::VERSION;
 use crate::{
-    Access, Capabilities, Connected, Direction, Graph, GraphError, GraphErrorKind, Home, NodeDesc,
-    Plan, PlannedOutput, PlannedResource, ResourceDesc, Slot,
+    Access, Capabilities, Connected, Direction, Graph, GraphError, GraphErrorKind, Home,
+    NamedResource, NodeDesc, Plan, PlannedResource, ResourceDesc, Slot,
 };
 pub(crate) use reflect::numbers as binding_numbers;
 use wiring::{Source, Wiring};
@@ -276,7 +276,7 @@ fn find(graph: &Graph, described: &[Described], source: &Source) -> Result<usize
     }
 }
 
-fn outputs(graph: &Graph, described: &[Described]) -> Result<Vec<PlannedOutput>, GraphError> {
+fn outputs(graph: &Graph, described: &[Described]) -> Result<Vec<NamedResource>, GraphError> {
     graph
         .outputs
         .iter()
@@ -284,7 +284,7 @@ fn outputs(graph: &Graph, described: &[Described]) -> Result<Vec<PlannedOutput>,
             let resource = wiring::source(graph, &output.from)
                 .and_then(|source| find(graph, described, &source))
                 .map_err(|error| error.at_position(output.position))?;
-            Ok(PlannedOutput {
+            Ok(NamedResource {
                 name: output.name.clone(),
                 resource,
             })
@@ -365,4 +365,9 @@ fn changed_in_place_by_one(
         }
     }
     Ok(())
+}
+
+/// A node that contradicts itself.
+fn declaration(message: String) -> GraphError {
+    GraphError::new(GraphErrorKind::Declaration, message)
 }

@@ -3,7 +3,7 @@
 use super::parameters::Places;
 use super::touch::{Touch, touched};
 use super::work::Resolved;
-use super::{Described, bytes};
+use super::{Described, bytes, declaration};
 use crate::{
     Access, BindingResource, Capabilities, GraphError, GraphErrorKind, MipLevel, Pass,
     PlannedBinding, PlannedBindingResource, PlannedPass, PlannedResource, SampleType, TextureDesc,
@@ -294,8 +294,4 @@ pub(super) fn plane(pass: &Pass, slot: &str, texture: &TextureDesc) -> Result<u3
         ))
         .at_slot(slot)),
     }
-}
-
-pub(super) fn declaration(message: String) -> GraphError {
-    GraphError::new(GraphErrorKind::Declaration, message)
 }

@@ -1,7 +1,7 @@
 //! The work of a node's pass, with its slots replaced by resources.
 
-use super::passes::{Planner, declaration, plane};
-use super::workgroups;
+use super::passes::{Planner, plane};
+use super::{declaration, workgroups};
 use crate::{GraphError, Pass, PlannedResource, PlannedWork, Work};
 
 /// A pass's work with its slots replaced.

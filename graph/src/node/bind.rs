@@ -3,13 +3,11 @@
 use super::{BindingResource, MipLevel, RegionTable};
 
 /// The node's uniform data.
-#[must_use]
 pub fn parameters() -> BindingResource {
     BindingResource::Parameters
 }
 
 /// The regions of a slot's map, which have at least so many texels along each side.
-#[must_use]
 pub fn regions(slot: &str, smallest: u32) -> BindingResource {
     BindingResource::Regions(RegionTable {
         slot: slot.to_owned(),
@@ -18,13 +16,11 @@ pub fn regions(slot: &str, smallest: u32) -> BindingResource {
 }
 
 /// One layer, mip level 0, loaded or sampled.
-#[must_use]
 pub fn layer(slot: &str) -> BindingResource {
     level(slot, 0)
 }
 
 /// A mip level of one layer, loaded or sampled.
-#[must_use]
 pub fn level(slot: &str, level: u32) -> BindingResource {
     BindingResource::Level(MipLevel {
         slot: slot.to_owned(),
@@ -33,19 +29,16 @@ pub fn level(slot: &str, level: u32) -> BindingResource {
 }
 
 /// All layers, loaded or sampled.
-#[must_use]
 pub fn layers(slot: &str) -> BindingResource {
     BindingResource::Layers(slot.to_owned())
 }
 
 /// One layer, mip level 0, written.
-#[must_use]
 pub fn store(slot: &str) -> BindingResource {
     store_level(slot, 0)
 }
 
 /// A mip level of one layer, written.
-#[must_use]
 pub fn store_level(slot: &str, level: u32) -> BindingResource {
     BindingResource::StorageLevel(MipLevel {
         slot: slot.to_owned(),
@@ -54,13 +47,11 @@ pub fn store_level(slot: &str, level: u32) -> BindingResource {
 }
 
 /// A storage buffer.
-#[must_use]
 pub fn buffer(slot: &str) -> BindingResource {
     BindingResource::Buffer(slot.to_owned())
 }
 
 /// A sampler that clamps to the edge, linear or nearest.
-#[must_use]
 pub fn sampler(filtering: bool) -> BindingResource {
     BindingResource::Sampler {
         filtering,

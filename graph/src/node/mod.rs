@@ -31,6 +31,7 @@ impl Stage {
 }
 
 /// What a node is: all that an engine needs to give it resources and to record it.
+#[must_use]
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct NodeDesc {
     /// The node type's name.
@@ -48,7 +49,6 @@ pub struct NodeDesc {
 /// A description, piece by piece. How passes touch slots is added to the slots' access, in whatever order both come.
 impl NodeDesc {
     /// A node without slots and passes.
-    #[must_use]
     pub fn new(name: &str, stage: Stage) -> Self {
         Self {
             name: name.to_owned(),
@@ -60,26 +60,22 @@ impl NodeDesc {
     }
 
     /// Adds a slot, or as many as there are.
-    #[must_use]
     pub fn slots(mut self, slots: impl IntoIterator<Item = Slot>) -> Self {
         self.slots.extend(slots);
         self.with_access()
     }
 
     /// Adds an input.
-    #[must_use]
     pub fn input(self, name: &str, description: &str, resource: impl Into<SlotResource>) -> Self {
         self.slots([Slot::input(name, description, resource)])
     }
 
     /// Adds an output.
-    #[must_use]
     pub fn output(self, name: &str, description: &str, resource: impl Into<SlotResource>) -> Self {
         self.slots([Slot::output(name, description, resource)])
     }
 
     /// Adds a resource of the node's own.
-    #[must_use]
     pub fn internal(
         self,
         name: &str,
@@ -90,25 +86,20 @@ impl NodeDesc {
     }
 
     /// Adds a pass.
-    #[must_use]
     pub fn pass(self, pass: Pass) -> Self {
         self.passes([pass])
     }
 
     /// Adds passes, in order.
-    #[must_use]
     pub fn passes(mut self, passes: impl IntoIterator<Item = Pass>) -> Self {
         self.passes.extend(passes);
         self.with_access()
     }
 
     /// Gives the node uniform data.
-    #[must_use]
-    pub fn parameters(self, block: ParameterBlock) -> Self {
-        Self {
-            parameters: Some(block),
-            ..self
-        }
+    pub fn parameters(mut self, block: ParameterBlock) -> Self {
+        self.parameters = Some(block);
+        self
     }
 
     /// Slots may be touched in every way in which a pass does.
@@ -132,7 +123,6 @@ pub struct Connected<'a> {
 
 impl<'a> Connected<'a> {
     /// Connections by slot name.
-    #[must_use]
     pub fn new(inputs: &'a BTreeMap<String, ResourceDesc>, capabilities: &'a Capabilities) -> Self {
         Self {
             inputs,
@@ -141,13 +131,11 @@ impl<'a> Connected<'a> {
     }
 
     /// What the device offers.
-    #[must_use]
     pub fn capabilities(&self) -> &'a Capabilities {
         self.capabilities
     }
 
     /// What is connected to a slot, if anything.
-    #[must_use]
     pub fn get(&self, slot: &str) -> Option<&'a ResourceDesc> {
         self.inputs.get(slot)
     }

@@ -7,6 +7,7 @@ use serde::{Deserialize, Serialize};
 use crate::Access;
 
 /// One dispatch or draw per layer (or per frame).
+#[must_use]
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Pass {
     /// The name, unique within the node.
@@ -27,6 +28,7 @@ pub struct Pass {
 }
 
 /// What a variable of a shader holds.
+#[must_use]
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub struct Binding {
     /// The WGSL variable's name. Bind group and binding number are those that its declaration has.
@@ -36,6 +38,7 @@ pub struct Binding {
 }
 
 /// What a binding holds.
+#[must_use]
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum BindingResource {
@@ -136,6 +139,7 @@ pub enum Work {
 }
 
 /// Uniform data that a host fills in for each view.
+#[must_use]
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub struct ParameterBlock {
     /// The WGSL struct's name.
@@ -152,7 +156,6 @@ pub struct ParameterBlock {
 
 impl Pass {
     /// A pass without a shader: a host's, or one that [`shader`](Self::shader) completes.
-    #[must_use]
     pub fn new(label: impl Into<String>, work: Work) -> Self {
         Self {
             label: label.into(),
@@ -166,7 +169,6 @@ impl Pass {
     }
 
     /// A dispatch that covers a slot's texture, once.
-    #[must_use]
     pub fn compute(label: impl Into<String>, covers: &str, texels_per_workgroup: [u32; 2]) -> Self {
         Self::new(
             label,
@@ -179,7 +181,6 @@ impl Pass {
     }
 
     /// A triangle over the whole of a slot's texture, drawn once.
-    #[must_use]
     pub fn fullscreen(label: impl Into<String>, target: &str) -> Self {
         Self::new(
             label,
@@ -191,7 +192,6 @@ impl Pass {
     }
 
     /// A hole where the host draws, without blending, to colour targets and perhaps to a depth target.
-    #[must_use]
     pub fn host(label: impl Into<String>, targets: &[&str], depth: Option<&str>) -> Self {
         Self::new(
             label,
@@ -204,7 +204,6 @@ impl Pass {
     }
 
     /// Drawn by a host that blends into the colour targets.
-    #[must_use]
     pub fn blended(mut self) -> Self {
         if let Work::Host { blend, .. } = &mut self.work {
             *blend = true;
@@ -213,7 +212,6 @@ impl Pass {
     }
 
     /// Once per dirty layer. Passes over regions are in any case; a host draws once.
-    #[must_use]
     pub fn each_layer(mut self) -> Self {
         if let Work::Compute { each_layer, .. } | Work::Fullscreen { each_layer, .. } =
             &mut self.work
@@ -224,7 +222,6 @@ impl Pass {
     }
 
     /// Linked WGSL, and its compute or fragment entry point.
-    #[must_use]
     pub fn shader(self, wgsl: impl Into<String>, entry_point: &str) -> Self {
         Self {
             wgsl: wgsl.into(),
@@ -234,21 +231,18 @@ impl Pass {
     }
 
     /// What a variable of the shader holds.
-    #[must_use]
     pub fn bind(mut self, variable: &str, resource: BindingResource) -> Self {
         self.bindings.push(Binding::new(variable, resource));
         self
     }
 
     /// The value of an `override` of the shader.
-    #[must_use]
     pub fn constant(mut self, name: &str, value: impl Into<f64>) -> Self {
         self.constants.insert(name.to_owned(), value.into());
         self
     }
 
     /// The plane that bindings of one layer mean.
-    #[must_use]
     pub fn plane(self, plane: u32) -> Self {
         Self { plane, ..self }
     }
@@ -272,7 +266,6 @@ impl Pass {
 
 impl Binding {
     /// What a variable holds.
-    #[must_use]
     pub fn new(variable: &str, resource: BindingResource) -> Self {
         Self {
             variable: variable.to_owned(),
@@ -300,7 +293,6 @@ impl Binding {
 
 impl ParameterBlock {
     /// One struct of this size and name, zeros at first.
-    #[must_use]
     pub fn of<P: bytemuck::NoUninit>(name: &str) -> Self {
         Self {
             name: name.to_owned(),
@@ -313,26 +305,19 @@ impl ParameterBlock {
     }
 
     /// A uniform array of so many structs.
-    #[must_use]
     pub fn elements(self, elements: u32) -> Self {
         Self { elements, ..self }
     }
 
     /// One struct or array per layer of a slot.
-    #[must_use]
-    pub fn each_layer_of(self, slot: &str) -> Self {
-        Self {
-            each_layer_of: Some(slot.to_owned()),
-            ..self
-        }
+    pub fn each_layer_of(mut self, slot: &str) -> Self {
+        self.each_layer_of = Some(slot.to_owned());
+        self
     }
 
     /// What each struct holds until the host writes something else.
-    #[must_use]
-    pub fn initial<P: bytemuck::NoUninit>(self, parameters: &P) -> Self {
-        Self {
-            initial: bytemuck::bytes_of(parameters).to_vec(),
-            ..self
-        }
+    pub fn initial<P: bytemuck::NoUninit>(mut self, parameters: &P) -> Self {
+        self.initial = bytemuck::bytes_of(parameters).to_vec();
+        self
     }
 }

@@ -6,6 +6,7 @@ use serde::{Deserialize, Serialize};
 use crate::Access;
 
 /// A named resource of a node.
+#[must_use]
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub struct Slot {
     /// The name, unique within the node.
@@ -62,6 +63,7 @@ pub enum SlotResource {
 }
 
 /// What a texture may be, or what it becomes.
+#[must_use]
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub struct TextureRule {
     /// How the node's passes touch it.
@@ -136,51 +138,40 @@ impl Slot {
     }
 
     /// What an edge has to lead to.
-    #[must_use]
     pub fn input(name: &str, description: &str, resource: impl Into<SlotResource>) -> Self {
         Self::new(Direction::In, name, description, resource)
     }
 
     /// What the node makes.
-    #[must_use]
     pub fn output(name: &str, description: &str, resource: impl Into<SlotResource>) -> Self {
         Self::new(Direction::Out, name, description, resource)
     }
 
     /// What an edge leads to, and the node changes in place.
-    #[must_use]
     pub fn in_out(name: &str, description: &str, resource: impl Into<SlotResource>) -> Self {
         Self::new(Direction::InOut, name, description, resource)
     }
 
     /// What the node needs for itself.
-    #[must_use]
     pub fn internal(name: &str, description: &str, resource: impl Into<SlotResource>) -> Self {
         Self::new(Direction::Internal, name, description, resource)
     }
 
     /// An input that the node can do without.
-    #[must_use]
-    pub fn optional(self) -> Self {
-        Self {
-            optional: true,
-            ..self
-        }
+    pub fn optional(mut self) -> Self {
+        self.optional = true;
+        self
     }
 
     /// Contents that are kept from frame to frame.
-    #[must_use]
-    pub fn persistent(self) -> Self {
-        Self {
-            lifetime: Lifetime::Persistent,
-            ..self
-        }
+    pub fn persistent(mut self) -> Self {
+        self.lifetime = Lifetime::Persistent;
+        self
     }
 }
 
 impl SlotResource {
     /// How the node's passes touch it.
-    #[must_use]
     pub fn access(&self) -> Access {
         match self {
             SlotResource::Texture(TextureRule { access, .. })
@@ -198,7 +189,6 @@ impl From<TextureRule> for SlotResource {
 /// Texture rules, from the common case on: one layer, one mip level and one sample per texel, of any size.
 impl TextureRule {
     /// A texture of a format: a format, several, an encoding or [`same_as`] another slot.
-    #[must_use]
     pub fn new(format: impl Into<FormatRule>) -> Self {
         Self {
             // A description's passes say it.
@@ -212,63 +202,47 @@ impl TextureRule {
     }
 
     /// Touched so, too. What a description's own passes do need not be said.
-    #[must_use]
-    pub fn access(self, access: Access) -> Self {
-        Self {
-            access: self.access.union(access),
-            ..self
-        }
+    pub fn access(mut self, access: Access) -> Self {
+        self.access = self.access.union(access);
+        self
     }
 
     /// Width and height, or [`same_as`] another slot, whose regions it then has, too.
-    #[must_use]
-    pub fn extent(self, extent: impl Into<ExtentRule>) -> Self {
-        Self {
-            extent: extent.into(),
-            ..self
-        }
+    pub fn extent(mut self, extent: impl Into<ExtentRule>) -> Self {
+        self.extent = extent.into();
+        self
     }
 
     /// The size, regions and layers of another slot.
-    #[must_use]
     pub fn like(self, slot: &str) -> Self {
         self.extent(same_as(slot)).layers(same_as(slot))
     }
 
     /// How many layers.
-    #[must_use]
-    pub fn layers(self, layers: impl Into<CountRule>) -> Self {
-        Self {
-            layers: layers.into(),
-            ..self
-        }
+    pub fn layers(mut self, layers: impl Into<CountRule>) -> Self {
+        self.layers = layers.into();
+        self
     }
 
     /// How many mip levels.
-    #[must_use]
-    pub fn mips(self, mips: impl Into<CountRule>) -> Self {
-        Self {
-            mips: mips.into(),
-            ..self
-        }
+    pub fn mips(mut self, mips: impl Into<CountRule>) -> Self {
+        self.mips = mips.into();
+        self
     }
 
     /// How many samples per texel.
-    #[must_use]
-    pub fn samples(self, samples: impl Into<CountRule>) -> Self {
-        Self {
-            samples: samples.into(),
-            ..self
-        }
+    pub fn samples(mut self, samples: impl Into<CountRule>) -> Self {
+        self.samples = samples.into();
+        self
     }
 }
 
 /// What another slot has: a rule for formats, extents and counts.
+#[must_use]
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct SameAs(String);
 
 /// What another slot has: a rule for formats, extents and counts.
-#[must_use]
 pub fn same_as(slot: &str) -> SameAs {
     SameAs(slot.to_owned())
 }

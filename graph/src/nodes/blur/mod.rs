@@ -25,7 +25,7 @@ const WORKGROUP: [u32; 2] = [8, 8];
 /// texels that lie above each other are worth more, and a square has more of them.
 const WORKGROUP_UNROLLED_Y: [u32; 2] = [64, 1];
 
-/// Node `blur`: `moments` to `blurred`, of the same format, size, layers and regions. Two passes, along x and along
+/// Node `blur`: `map` to `blurred`, of the same format, size, layers and regions. Two passes, along x and along
 /// y, for each plane; beyond the edge of a region its last texel repeats. Maps stored as `unorm10` are drawn, others are written by
 /// compute shaders.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]

@@ -25,7 +25,7 @@ pub enum Show {
     Validity,
 }
 
-/// Node `debug_moments`: `moments` to `picture`, rgba8unorm, of the map's size and layers.
+/// Node `debug_moments`: `map` to `picture`, rgba8unorm, of the map's size and layers.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct DebugMoments {

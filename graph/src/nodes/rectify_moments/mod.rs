@@ -11,7 +11,7 @@ use crate::{
     TextureRule, bind,
 };
 
-/// Node `rectify_moments`: `moments` (four of them, filtered, of any storage) to `rectified`, a map whose columns are distances
+/// Node `rectify_moments`: `map` (four moments, filtered, of any storage) to `rectified`, a map whose columns are distances
 /// from the light ray through the camera and whose rows are azimuths about it, as the WGSL module `rectified_frame`
 /// describes. A first step to single scattering; [`super::IntegrateScattering`] is the second. Parameters:
 /// [`RectifyMomentsParameters`].

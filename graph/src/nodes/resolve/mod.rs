@@ -8,7 +8,7 @@ use super::techniques;
 use crate::{Connected, GraphError, Node, NodeDesc, ParameterBlock, Stage, TextureRule, bind};
 
 /// Node `resolve`: `depth` (1, 2, 4 or 8 samples of depth32float or depth16unorm, any number of layers) to
-/// `moments`, a filterable map of the same size, layers and regions, encoded for a technique. The *moments* (or what else the
+/// `map`, a filterable map of the same size, layers and regions, encoded for a technique. The *moments* (or what else the
 /// technique stores) of the samples are averaged, not their depths, so edges are antialiased. With splits placed by Lloyd
 /// relaxation there is a second input, `splits`. The storage `unorm10` is drawn by render passes, others are written by compute
 /// shaders. Parameters: a [`DepthConversion`] per layer and region.

@@ -15,9 +15,9 @@ mod own_shader;
 
 pub use own_shader::TechniqueShader;
 
-/// Node `shade_hard`: `moments` (a filtered map) and `camera_depth` to `shadow_intensity`, of the camera's size. A
+/// Node `shade_hard`: `map` (a filtered map) and `camera_depth` to `shadow_intensity`, of the camera's size. A
 /// fullscreen pass: it can also be drawn into a render pass that the host has open. Techniques that read the plain depth map
-/// take it as the input `depth` instead of `moments`; layers that are placed on the device come from the input `splits`.
+/// take it as the input `depth` instead of `map`; layers that are placed on the device come from the input `splits`.
 ///
 /// It shades up to four lights, one in each channel of its output (a single one is in all of them), through any number of
 /// views: cascades, faces and spots, each a region of a layer. Parameters: an array of [`moment_shadows::ViewParameters`], one per view. Where the map has mip
@@ -133,7 +133,7 @@ impl ShadeHard {
         (techniques::specialize(specialization, technique), modules)
     }
 
-    /// The technique, and the map that it reads: `moments`, or the plain depth map.
+    /// The technique, and the map that it reads: `map`, or the plain depth map.
     fn technique_and_map<'a>(
         &self,
         capabilities: &Capabilities,

@@ -9,7 +9,7 @@ use super::shared::{Specialization, map_input, regions, wgsl};
 use super::techniques;
 use crate::{Connected, GraphError, Node, NodeDesc, Pass, Stage, TextureRule, bind, same_as};
 
-/// Node `summed_area_table`: `moments` (four of them or two, of any storage, straight from a resolve) to `table`, of the same
+/// Node `summed_area_table`: `map` (four moments or two, of any storage, straight from a resolve) to `table`, of the same
 /// size, layers and regions: in each texel of a region the sum of all its texels that lie neither below nor to the right,
 /// modulo 2^32 (Crow, SIGGRAPH 1984). What the integers mean is in the encoding of `table`
 /// ([`MapEncoding::table`]); the WGSL module `summed_area_table` looks up means of rectangles.
