@@ -5,22 +5,27 @@
 use std::path::{Path, PathBuf};
 
 use moment_shadows::{DepthConversion, Profile, Storage};
-use moment_shadows_graph::TextureDesc;
 use moment_shadows_graph::nodes::KernelProperty;
 use moment_shadows_graph::record::{Passes, RecordError};
+use moment_shadows_graph::{Capabilities, TextureDesc};
 use moment_shadows_lab::command::cost;
 use moment_shadows_lab::command::cost_growth::{self, GrowthOptions};
 use moment_shadows_lab::cost::CostError;
 use moment_shadows_lab::cost::bandwidth::Memory;
-use moment_shadows_lab::cost::baseline::{Copies, CopyWork};
-use moment_shadows_lab::cost::blur::{BOUNDS, BlurredMap, Bound};
+use moment_shadows_lab::cost::blur::{BOUNDS, BlurredMap};
 use moment_shadows_lab::cost::clock::{Clock, ClockKind, FEATURES};
+use moment_shadows_lab::cost::copies::{Copies, CopyWork};
+use moment_shadows_lab::cost::growth::Growth;
+use moment_shadows_lab::cost::harness::{Case, Measured};
 use moment_shadows_lab::cost::protocol::{CopyNumbers, FEWEST_ROUNDS, Rounds, Subject};
 use moment_shadows_lab::cost::reference;
-use moment_shadows_lab::cost::report::{BlurRow, Conditions, Time};
-use moment_shadows_lab::cost::scattering::{self, Method, ScatteringCost, ScatteringRow};
+use moment_shadows_lab::cost::report::{Conditions, Time};
+use moment_shadows_lab::cost::scattering;
 use moment_shadows_lab::cost::statistics::Distribution;
+use moment_shadows_lab::cost::summed_area;
+use moment_shadows_lab::cost::table::{CostTable, Facts, Gate, Row};
 use moment_shadows_lab::cost::texels::{decode, encode, noise, step};
+use moment_shadows_lab::error::LabError;
 use moment_shadows_lab::gpu::Gpu;
 use moment_shadows_lab::host::DepthSamples;
 
@@ -58,23 +63,43 @@ fn a_wide_spread_and_no_figures_are_unreliable() {
     assert!(!Distribution::of([]).reliable());
 }
 
+/// A subject at a size that takes so many copies and so many seconds per texel.
+fn row(name: &str, size: u32, copies: f64, per_texel: f64, gate: Gate) -> Row {
+    let mut time = time(copies, 0.1);
+    time.seconds.median = per_texel * f64::from(size) * f64::from(size);
+    let facts = Facts(vec![("size", size.into())]);
+    let written = [TextureDesc::new(Storage::Unorm16.format(), [size; 2])];
+    Row {
+        gate,
+        ..Row::new((name.to_owned(), facts), &written, [0; 2], time)
+    }
+}
+
+fn table(clock: ClockKind, rows: Vec<Row>) -> CostTable {
+    let conditions = Conditions {
+        adapter: String::new(),
+        driver: String::new(),
+        device_type: String::new(),
+        clock,
+        rounds: 9,
+    };
+    CostTable::new(conditions, "it", rows)
+}
+
 #[test]
 fn a_gate_holds_on_software_adapters_alone() {
-    let bound = Bound {
-        radius: 4,
+    let gate = Gate {
         gate: Some(4.5),
         goal: Some(3.4),
+        largest_growth: None,
     };
-    assert!(BlurRow::new(bound, time(4.5, 0.1), 0.0, true).passed());
-    assert!(!BlurRow::new(bound, time(4.51, 0.1), 0.0, true).passed());
-    assert!(!BlurRow::new(bound, time(f64::NAN, 0.1), 0.0, true).passed());
-    assert!(BlurRow::new(bound, time(100.0, 0.1), 0.0, false).passed());
-    let gates: Vec<_> = BOUNDS
-        .iter()
-        .map(|bound| (bound.radius, bound.gate))
-        .collect();
+    let passed = |clock, copies| table(clock, vec![row("it", 256, copies, 1.0, gate)]).passed();
+    assert!(passed(ClockKind::ProcessTime, 4.5));
+    assert!(!passed(ClockKind::ProcessTime, 4.51));
+    assert!(!passed(ClockKind::ProcessTime, f64::NAN));
+    assert!(passed(ClockKind::Timestamps, 100.0));
     assert_eq!(
-        gates,
+        BOUNDS.map(|(radius, gate, _)| (radius, gate)),
         [
             (4, Some(4.5)),
             (12, Some(8.0)),
@@ -85,23 +110,105 @@ fn a_gate_holds_on_software_adapters_alone() {
 }
 
 #[test]
-fn nodes_of_single_scattering_are_checked_before_they_are_timed() {
+fn growth_is_measured_from_512_and_bounded() {
+    let passed = |clock, gate, copies, largest| {
+        let gate = Gate {
+            gate,
+            goal: None,
+            largest_growth: Some(1.3),
+        };
+        let rows = vec![
+            row("it", 256, copies, 9.0, gate),
+            row("it", 512, copies, 1.0, gate),
+            row("other", 512, 100.0, 0.1, Gate::default()),
+            row("it", 4096, copies, largest, gate),
+        ];
+        let table = table(clock, rows);
+        assert_eq!(table.rows[0].growth, None);
+        assert_eq!(table.rows[1].growth, Some(1.0));
+        assert!((table.rows[3].growth.unwrap() - largest).abs() < 1e-12);
+        table.passed()
+    };
+    let cpu = ClockKind::ProcessTime;
+    assert!(passed(cpu, Some(1.3), 1.3, 1.29));
+    assert!(!passed(cpu, Some(1.3), 1.31, 1.0));
+    assert!(!passed(cpu, Some(1.3), 1.0, 1.31));
+    assert!(passed(cpu, None, 5.0, 1.0));
+    assert!(!passed(cpu, None, 5.0, 1.31));
+    assert!(passed(ClockKind::Timestamps, Some(1.3), 9.0, 2.0));
+}
+
+/// Each list of subjects with what the rounding of its results may be: less would mean that nothing was compared.
+#[test]
+fn subjects_are_checked_and_those_that_a_device_would_choose_are_bounded() {
+    let gpu = Gpu::open_with(Profile::Native, FEATURES).unwrap();
+    let software = Capabilities::of_device(&gpu.adapter, &gpu.device).software_adapter;
+    let growth = |gate, goal| Gate {
+        gate,
+        goal,
+        largest_growth: Some(1.3),
+    };
+    let subjects = |cases: Vec<Case>, errors: std::ops::Range<f64>| -> Vec<(String, Gate)> {
+        let subject = |case: Case| {
+            let error = case.difference.unwrap().accepted(&case.name).unwrap();
+            assert!(errors.contains(&error), "{}: {error}", case.name);
+            (case.name, case.gate)
+        };
+        cases.into_iter().map(subject).collect()
+    };
+    let choice = |gate, chosen| if chosen { gate } else { Gate::default() };
+    // Float16 rounds channels of up to 1/2 by up to 1.2e-4, weights of up to 1 by twice that.
+    assert_eq!(
+        subjects(scattering::cases(&gpu, 96).unwrap(), 1e-4..3.5e-4),
+        [
+            ("rectify".to_owned(), growth(None, None)),
+            (
+                "serial".to_owned(),
+                choice(growth(Some(1.3), None), software)
+            ),
+            ("parallel".to_owned(), choice(growth(None, None), !software)),
+        ]
+    );
+    let tables = (summed_area::TABLES.cases)(&gpu, 96).unwrap();
+    // Sums are exact.
+    assert_eq!(
+        subjects(tables, 0.0..f64::MIN_POSITIVE),
+        [
+            (
+                "software_tiles".to_owned(),
+                choice(growth(Some(3.5), Some(2.3)), software)
+            ),
+            (
+                "hardware_tiles".to_owned(),
+                choice(growth(Some(3.5), Some(2.3)), !software)
+            ),
+            ("naive".to_owned(), Gate::default()),
+        ]
+    );
+}
+
+/// A case whose result is wrong is refused before it is timed, and rows say what JSON of earlier versions says.
+#[test]
+fn a_wrong_result_is_not_timed() {
     let gpu = Gpu::open_with(Profile::Native, FEATURES).unwrap();
     let clock = Clock::new(&gpu, ClockKind::ProcessTime);
-    let rows = scattering::rows(&gpu, &clock, 96, 9).unwrap();
-    let methods: Vec<Method> = rows.iter().map(|row| row.method).collect();
-    assert_eq!(methods, [Method::Rectify, Method::Serial, Method::Parallel]);
-    for row in &rows {
-        // Float16 rounds channels of up to 1/2 by up to 1.2e-4, weights of up to 1 by twice that; less would mean that nothing was compared.
-        assert!(
-            (1e-4..3.5e-4).contains(&row.error),
-            "{}: {}",
-            row.method,
-            row.error
-        );
-        // Both planes are read and written, 8 bytes each.
-        assert!(row.bytes_per_texel >= 32.0, "{}", row.bytes_per_texel);
-    }
+    let mut cases = scattering::cases(&gpu, 64).unwrap();
+    cases.truncate(1);
+    let measured = Measured::of(&clock, &cases, 1, || ()).unwrap();
+    // Both planes are read and written, 8 bytes each.
+    assert!(measured.rows[0].bytes_per_texel >= 32.0);
+    let json = serde_json::to_value(&measured.rows[0]).unwrap();
+    assert_eq!(
+        (&json["size"], &json["method"]),
+        (&64.into(), &"rectify".into())
+    );
+    cases[0].difference.as_mut().unwrap().error = f64::NAN;
+    cases[0].record = Box::new(|_| panic!("it is timed"));
+    let refused = Measured::of(&clock, &cases, 1, || ()).err().unwrap();
+    assert!(
+        matches!(&refused, CostError::WrongResult { what, .. } if what == "rectify"),
+        "{refused}"
+    );
 }
 
 #[test]
@@ -122,46 +229,6 @@ fn a_difference_from_sums_in_f64_is_found() {
     assert!((error(&found(d + 0.125)) - 0.125).abs() < 2e-4);
     assert!(error(&found(f32::NAN)).is_nan());
     assert!(error(&[]).is_nan());
-}
-
-#[test]
-fn growth_of_single_scattering_is_measured_from_512_and_bounded() {
-    let row = |method, size: u32, copies: f64, per_texel: f64| {
-        let mut time = time(copies, 0.1);
-        time.seconds.median = per_texel * f64::from(size) * f64::from(size);
-        ScatteringRow {
-            size,
-            method,
-            time,
-            bytes_per_texel: 32.0,
-            error: 0.0,
-            growth: None,
-            chosen: method != Method::Parallel,
-        }
-    };
-    let conditions = |clock| Conditions {
-        adapter: String::new(),
-        driver: String::new(),
-        device_type: String::new(),
-        clock,
-        rounds: 9,
-    };
-    let passed = |clock, rows| ScatteringCost::new(conditions(clock), rows).passed();
-    let at = |method, copies, largest| {
-        vec![
-            row(method, 256, copies, 9.0),
-            row(method, 512, copies, 1.0),
-            row(method, 4096, copies, largest),
-        ]
-    };
-    let cpu = ClockKind::ProcessTime;
-    assert!(passed(cpu, at(Method::Serial, 1.3, 1.29)));
-    assert!(!passed(cpu, at(Method::Serial, 1.31, 1.0)));
-    assert!(!passed(cpu, at(Method::Serial, 1.0, 1.31)));
-    assert!(passed(cpu, at(Method::Rectify, 5.0, 1.0)));
-    assert!(!passed(cpu, at(Method::Rectify, 5.0, 1.31)));
-    assert!(passed(cpu, at(Method::Parallel, 9.0, 2.0)));
-    assert!(passed(ClockKind::Timestamps, at(Method::Serial, 9.0, 2.0)));
 }
 
 #[test]
@@ -203,12 +270,11 @@ fn the_resolve_reference_averages_moments_not_depths() {
 fn a_wrong_or_nan_or_short_output_is_refused() {
     let reference = [[0.25; 4], [0.5; 4]];
     let mut output = reference;
-    assert_eq!(
-        reference::check("it", &output, &reference, 0.01).unwrap(),
-        0.0
-    );
+    let accepted =
+        |output: &[[f64; 4]]| reference::difference(output, &reference, 0.01).accepted("it");
+    assert_eq!(accepted(&output).unwrap(), 0.0);
     output[1][3] += 0.02;
-    let refused = reference::check("it", &output, &reference, 0.01).unwrap_err();
+    let refused = accepted(&output).unwrap_err();
     assert!(
         matches!(&refused, CostError::WrongResult { what, error, .. } if what == "it" && *error > 0.019),
         "{refused}"
@@ -219,9 +285,9 @@ fn a_wrong_or_nan_or_short_output_is_refused() {
     let mut among = output;
     among[1][2] = f64::NAN;
     for output in [&nan[..], &among[..], &reference[..1]] {
-        let refused = reference::check("it", output, &reference, 0.01).unwrap_err();
+        let refused = accepted(output).unwrap_err();
         assert!(
-            matches!(refused, CostError::WrongResult { .. }),
+            matches!(refused, CostError::WrongResult { error, .. } if error.is_nan()),
             "{refused}"
         );
     }
@@ -232,7 +298,7 @@ fn every_subject_is_recorded_in_every_round_after_a_warm_up() {
     use std::cell::Cell;
     let gpu = Gpu::open(Profile::Native).unwrap();
     let desc = TextureDesc::new(Storage::Unorm16.format(), [512, 512]);
-    let copies = Copies::new(&gpu, &desc, CopyWork::Compute).unwrap();
+    let copies = Copies::new(&gpu, std::slice::from_ref(&desc), CopyWork::Compute).unwrap();
     let [counted, ended] = [Cell::new(0), Cell::new(0)];
     let subjects = [
         Subject {
@@ -256,13 +322,13 @@ fn every_subject_is_recorded_in_every_round_after_a_warm_up() {
         api: 1,
         draw: None,
     };
-    let time = rounds.time(0, copies);
+    let time = rounds.time(&[(0, copies)]);
     assert!(time.seconds.median > 0.0);
     assert_eq!(time.x_compute_copy.median, 1.0);
     // In each round the two ratios are each other's inverse, and the sum of both subjects is one more than either.
     let inverse = rounds.ratio(&[1], &[0]);
-    assert_eq!(rounds.time(1, copies).x_compute_copy, inverse);
-    let both = rounds.total(&[(0, copies), (1, copies)]);
+    assert_eq!(rounds.time(&[(1, copies)]).x_compute_copy, inverse);
+    let both = rounds.time(&[(0, copies), (1, copies)]);
     let one_more = rounds.ratio(&[0, 1], &[0]);
     // Up to the rounding of sums.
     assert!((2.0 * both.x_compute_copy.median - one_more.median).abs() < 1e-12);
@@ -274,7 +340,7 @@ fn every_subject_is_recorded_in_every_round_after_a_warm_up() {
 fn timestamps_and_the_wall_give_times_too() {
     let gpu = Gpu::open_with(Profile::Native, FEATURES).unwrap();
     let desc = TextureDesc::new(Storage::Float32.format(), [256, 256]);
-    let copies = Copies::new(&gpu, &desc, CopyWork::Compute).unwrap();
+    let copies = Copies::new(&gpu, std::slice::from_ref(&desc), CopyWork::Compute).unwrap();
     let mut kinds = vec![ClockKind::Wall, ClockKind::ProcessTime];
     if gpu.device.features().contains(FEATURES) {
         kinds.push(ClockKind::Timestamps);
@@ -296,10 +362,12 @@ fn timestamps_and_the_wall_give_times_too() {
 fn a_format_that_cannot_be_copied_is_an_error() {
     let gpu = Gpu::open(Profile::WebgpuCore).unwrap();
     let desc = TextureDesc::new(moment_shadows::TextureFormat::R8Unorm, [64, 64]);
-    assert!(Copies::new(&gpu, &desc, CopyWork::Fullscreen).is_ok());
-    let refused = Copies::new(&gpu, &desc, CopyWork::Compute).err().unwrap();
+    assert!(Copies::new(&gpu, std::slice::from_ref(&desc), CopyWork::Fullscreen).is_ok());
+    let refused = Copies::new(&gpu, std::slice::from_ref(&desc), CopyWork::Compute)
+        .err()
+        .unwrap();
     assert!(
-        matches!(&refused, CostError::Baseline { format, .. } if *format == desc.format),
+        matches!(&refused, CostError::Format { format, .. } if *format == desc.format),
         "{refused}"
     );
 }
@@ -324,14 +392,13 @@ fn the_example_graph_is_checked_and_its_bytes_are_counted() {
         .passes
         .iter()
         .map(|pass| {
-            let cost = &pass.cost;
-            assert!(cost.time.x_compute_copy.median > 0.0, "{}", cost.pass);
-            assert!(cost.time.x_api_copy.median > 0.0, "{}", cost.pass);
-            assert!(cost.error.is_some(), "{}", cost.pass);
+            assert!(pass.time.x_compute_copy.median > 0.0, "{}", pass.name);
+            assert!(pass.time.x_api_copy.median > 0.0, "{}", pass.name);
+            assert!(pass.error.is_some(), "{}", pass.name);
             (
-                cost.pass.as_str(),
-                cost.work,
-                cost.time.x_draw_copy.is_some(),
+                pass.name.as_str(),
+                pass.work,
+                pass.time.x_draw_copy.is_some(),
             )
         })
         .collect();
@@ -346,7 +413,7 @@ fn the_example_graph_is_checked_and_its_bytes_are_counted() {
     );
     // 4 samples of 4 bytes and the parameters are read, 8 bytes are written; the blur reads and writes 8 bytes.
     let texels = 256 * 256;
-    let costs: Vec<_> = cost.passes.iter().map(|pass| &pass.cost).collect();
+    let costs = &cost.passes;
     assert_eq!(costs[0].bytes_written, 8 * texels);
     assert!(costs[0].bytes_read >= 16 * texels);
     // And the map's one region of 16 bytes.
@@ -362,6 +429,7 @@ fn the_example_graph_is_checked_and_its_bytes_are_counted() {
     let json = serde_json::to_value(&cost).unwrap();
     assert!(json["conditions"]["adapter"].is_string(), "{json}");
     assert!(json["passes"][3]["time"]["x_api_copy"]["median"].is_number());
+    assert_eq!(json["passes"][3]["pass"], "shade/shade");
     assert_eq!(json["passes"][0]["bounds"][0]["memory"], "GTX 970");
     let text = cost.to_string();
     for part in [
@@ -405,13 +473,7 @@ fn mip_levels_are_checked_and_small_ones_are_summed() {
     let rows: Vec<_> = cost
         .passes
         .iter()
-        .map(|pass| {
-            (
-                pass.cost.pass.as_str(),
-                pass.cost.texture.as_str(),
-                pass.cost.small,
-            )
-        })
+        .map(|pass| (pass.name.as_str(), pass.texture.as_str(), pass.small))
         .collect();
     assert_eq!(
         rows,
@@ -432,12 +494,12 @@ fn mip_levels_are_checked_and_small_ones_are_summed() {
     let checked: Vec<_> = cost
         .passes
         .iter()
-        .map(|pass| pass.cost.error.is_some())
+        .map(|pass| pass.error.is_some())
         .collect();
     // The reference of shading knows no mip levels.
     assert_eq!(checked, [true, true, true, true, true, true, false]);
     // 32 x 32 texels and a third of it, 8 bytes each.
-    assert_eq!(cost.passes[5].cost.bytes_written, 8 * 1365);
+    assert_eq!(cost.passes[5].bytes_written, 8 * 1365);
 }
 
 /// Three texels become one, and five become two of two and a half each.
@@ -463,7 +525,7 @@ fn copies_have_the_layers_of_their_texture() {
         ..TextureDesc::new(Storage::Float16.format(), [64, 64])
     };
     for work in [CopyWork::Compute, CopyWork::Fullscreen] {
-        let copies = Copies::new(&gpu, &desc, work).unwrap();
+        let copies = Copies::new(&gpu, std::slice::from_ref(&desc), work).unwrap();
         let mut encoder = gpu.device.create_command_encoder(&Default::default());
         copies.by_shader()(&mut encoder).unwrap();
         copies.by_interface()(&mut encoder).unwrap();
@@ -478,22 +540,19 @@ fn growth_is_plotted() {
     let folder = tempfile::tempdir().unwrap();
     let out = folder.path().join("plots");
     let options = GrowthOptions {
+        graph: example("hard_shadows.json"),
+        out: out.clone(),
+        json: false,
         map_sizes: vec![128, 256],
         widths: vec![160, 320],
         radii: vec![1, 4],
         rounds: FEWEST_ROUNDS,
     };
-    let growth = cost_growth::run(&example("hard_shadows.json"), &out, &options).unwrap();
+    let growth = cost_growth::run(&options).unwrap();
     let curves: Vec<Vec<_>> = growth
         .growths
         .iter()
-        .map(|growth| {
-            growth
-                .curves
-                .iter()
-                .map(|curve| curve.node.as_str())
-                .collect()
-        })
+        .map(|growth| growth.curves().iter().map(|(node, _)| *node).collect())
         .collect();
     assert_eq!(
         curves,
@@ -503,10 +562,10 @@ fn growth_is_plotted() {
             vec!["blur"]
         ]
     );
-    for curve in growth.growths.iter().flat_map(|growth| &growth.curves) {
-        assert_eq!(curve.points.len(), 2);
-        assert_eq!(curve.points[0].per_texel.median, 1.0);
-        assert!(curve.points[1].x_copy().median > 0.0);
+    for (_, points) in growth.growths.iter().flat_map(Growth::curves) {
+        assert_eq!(points.len(), 2);
+        assert_eq!(points[0].per_texel.median, 1.0);
+        assert!(points[1].x_copy().median > 0.0);
     }
     let mut written: Vec<_> = std::fs::read_dir(&out)
         .unwrap()
@@ -553,7 +612,7 @@ fn passes_are_recorded_one_by_one() {
     let zeros = vec![[0.0; 4]; 64 * 64];
     let after = |passes: Passes<'_>| {
         let mut encoder = gpu.device.create_command_encoder(&Default::default());
-        map.record_passes(passes, &mut encoder).unwrap();
+        map.record(passes, &mut encoder).unwrap();
         gpu.queue.submit([encoder.finish()]);
         map.read(&gpu).unwrap()
     };
@@ -563,13 +622,14 @@ fn passes_are_recorded_one_by_one() {
     assert_ne!(second, zeros);
     assert_eq!(after(Passes::All), second);
     let mut encoder = gpu.device.create_command_encoder(&Default::default());
-    let refused = map
-        .record_passes(Passes::Only(&[0, 2]), &mut encoder)
-        .unwrap_err();
+    let refused = map.record(Passes::Only(&[0, 2]), &mut encoder).unwrap_err();
     assert!(
         matches!(
             refused,
-            CostError::Record(RecordError::NoSuchPassNumber { pass: 2, count: 2 })
+            CostError::Lab(LabError::Record(RecordError::NoSuchPassNumber {
+                pass: 2,
+                count: 2
+            }))
         ),
         "{refused}"
     );

@@ -1,6 +1,7 @@
-//! The linked text of every node's shader: valid under the profiles that it is for, and equal to its snapshot.
+//! The linked text of every node's shader: valid under the profiles that it is for, and made of what its snapshot says.
 //!
-//! `UPDATE_SNAPSHOTS=1 cargo test --test node_shaders` writes the snapshots anew.
+//! A snapshot holds what is generated: specialised constants, adapters of techniques, unrolled bodies; and of every other file the
+//! names of what is linked, in order. `UPDATE_SNAPSHOTS=1 cargo test --test node_shaders` writes the snapshots anew.
 #![allow(
     clippy::unwrap_used,
     clippy::expect_used,
@@ -12,7 +13,8 @@ use std::collections::{BTreeMap, BTreeSet};
 use std::path::PathBuf;
 
 use moment_shadows::{Backend, Profile, Source, validate};
-use moment_shadows_graph::NodeRegistry;
+use moment_shadows_graph::{Direction, NodeRegistry, Slot};
+use moment_shadows_lab::catalogue;
 use moment_shadows_lab::shaders::{self, Shader};
 
 fn variants() -> Vec<Shader> {
@@ -21,84 +23,28 @@ fn variants() -> Vec<Shader> {
 }
 
 #[test]
-fn every_node_of_the_registry_is_in_the_list_of_shaders() {
-    let listed: BTreeSet<String> = shaders::nodes()
-        .unwrap()
-        .into_iter()
-        .map(|node| node.node)
-        .collect();
-    let registry = NodeRegistry::new();
-    let registered: BTreeSet<String> = registry.type_names().map(str::to_owned).collect();
-    assert_eq!(
-        listed, registered,
-        "a node's variants are listed in examples/lab/src/shaders/nodes.rs"
-    );
-}
-
-#[test]
 fn the_readme_lists_every_node_with_its_slots() {
     let readme = include_str!("../graph/README.md");
-    for node in shaders::nodes().unwrap() {
-        let heading = format!("### `{}`\n", node.node);
+    for name in NodeRegistry::new().type_names() {
+        assert!(readme.contains(&format!("### `{name}`\n")), "{name}");
+    }
+    for variant in catalogue::variants().unwrap() {
+        let node = variant.describe().unwrap();
+        let heading = format!("### `{}`\n", node.name);
         let (_, section) = readme
             .split_once(&heading)
             .unwrap_or_else(|| panic!("{heading}"));
         let section = section.split("### ").next().unwrap();
-        for slot in node.slots {
+        let joined = |slot: &&Slot| slot.direction != Direction::Internal;
+        for Slot { name, .. } in node.slots.iter().filter(joined) {
             assert!(
-                section.contains(&format!("| `{slot}` |")),
-                "{}.{slot}",
-                node.node
+                section.contains(&format!("| `{name}` |")),
+                "{}.{name}",
+                node.name
             );
         }
     }
 }
-
-/// Variants whose text is kept. The others change a constant each, or repeat lines.
-fn is_kept(name: &str) -> bool {
-    let ends = |suffixes: &[&str]| suffixes.iter().any(|suffix| name.ends_with(suffix));
-    if name.starts_with("summed_area_table") {
-        // The tiles of software adapters repeat lines, and so do those of several regions.
-        let texels = ends(&["float32_tiles", "float16_tiles"]);
-        let plain = !name.contains("software") && !name.contains("regions");
-        return plain && (texels || name.starts_with("summed_area_table_unorm16"));
-    }
-    if name.starts_with("rectify_moments") || name.contains("scattering") {
-        // Storages are constants.
-        return ends(&["float16"]);
-    }
-    if name.starts_with("shade_soft") {
-        // Storages and ways to look the table up are constants.
-        return ["shade_soft_float32", "shade_soft_vsm_float32"].contains(&name);
-    }
-    if name.contains("unorm10") {
-        // What draws a map; shading with it differs by a constant from shading with other six moments.
-        let drawn = !name.starts_with("shade") && !name.contains("single");
-        return drawn && ends(&["unorm10", "unorm10_x"]);
-    }
-    // Other storages change a constant.
-    if OTHER_TECHNIQUES.iter().any(|other| name.contains(other)) {
-        let blurred_alike = name.starts_with("blur") && !name.contains("logarithmic");
-        return ends(&["float32", "unorm8", "lloyd_unorm16"]) && !blurred_alike;
-    }
-    if name.starts_with("blur") || name.starts_with("downsample") {
-        return !name.contains("radius") && ends(&["unorm16", "unorm16_x"]);
-    }
-    if name.starts_with("debug_moments") {
-        return name == "debug_moments_unorm16_validity";
-    }
-    name == "shade_hard_unorm16_mips" || !ends(&["_2", "_8", "_regions", "_mips", "_views"])
-}
-
-/// Techniques whose maps hold something else than four moments, or are read by other means.
-const OTHER_TECHNIQUES: [&str; 6] = [
-    "esm",
-    "vsm",
-    "convolution",
-    "hausdorff4",
-    "hamburger6",
-    "pcf",
-];
 
 fn snapshot(name: &str) -> PathBuf {
     [
@@ -111,18 +57,75 @@ fn snapshot(name: &str) -> PathBuf {
     .collect()
 }
 
+/// Modules that are made by Rust code; the text of the others is a file.
+const GENERATED: [&str; 7] = [
+    "blur_texel",
+    "blur_unrolled",
+    "map_encoding",
+    "map_filtering",
+    "specialization",
+    "technique",
+    "tile_columns",
+];
+
+/// The name that a comment line gives to the part of a linked text that follows it.
+fn file_name(line: &str) -> Option<&str> {
+    let name = line.strip_prefix("// ")?;
+    let part = |c: char| c.is_ascii_lowercase() || c.is_ascii_digit() || "_/.".contains(c);
+    (name.chars().all(part) && !name.ends_with("..")).then_some(name)
+}
+
+/// What a line defines at top level.
+fn definition(line: &str) -> Option<&str> {
+    let line = line
+        .rsplit_once(") ")
+        .filter(|_| line.starts_with('@'))
+        .map_or(line, |(_, rest)| rest);
+    let (kind, rest) = line.split_once([' ', '<'])?;
+    if !["fn", "struct", "alias", "const", "override", "var"].contains(&kind) {
+        return None;
+    }
+    let rest = rest
+        .split_once("> ")
+        .filter(|_| kind == "var")
+        .map_or(rest, |(_, name)| name);
+    let end = |c: char| !c.is_alphanumeric() && c != '_';
+    rest.split(end).next().filter(|name| !name.is_empty())
+}
+
+/// What a snapshot holds of a linked text.
+fn summary(wgsl: &str) -> String {
+    let mut names = String::new();
+    let mut generated = String::new();
+    let mut is_generated = false;
+    for line in wgsl.lines() {
+        if let Some(name) = file_name(line) {
+            is_generated = GENERATED.contains(&name);
+            if is_generated {
+                generated.push_str(&format!("// {name}\n"));
+            } else {
+                names.push_str(&format!("\n// {name}:"));
+            }
+        } else if is_generated {
+            generated.push_str(&format!("{line}\n"));
+        } else if let Some(name) = definition(line) {
+            names.push_str(&format!(" {name}"));
+        }
+    }
+    format!("// What is linked of files:{names}\n\n{generated}")
+}
+
 #[test]
 fn every_linked_shader_equals_its_snapshot() {
     let update = std::env::var_os("UPDATE_SNAPSHOTS").is_some();
     let mut names = BTreeSet::new();
-    for variant in variants()
-        .into_iter()
-        .filter(|variant| is_kept(&variant.name))
-    {
+    let nodes = shaders::nodes().unwrap().into_iter();
+    for variant in nodes.filter(|node| node.is_kept).map(|node| node.shader) {
         let path = snapshot(&variant.name);
         names.insert(path.file_name().unwrap().to_owned());
+        let found = summary(&variant.wgsl);
         if update {
-            std::fs::write(&path, &variant.wgsl).unwrap();
+            std::fs::write(&path, found).unwrap();
             continue;
         }
         let kept = std::fs::read_to_string(&path)
@@ -130,11 +133,11 @@ fn every_linked_shader_equals_its_snapshot() {
             .replace("\r\n", "\n");
         let difference = kept
             .lines()
-            .zip(variant.wgsl.lines())
+            .zip(found.lines())
             .position(|(kept, new)| kept != new);
-        let line = difference.unwrap_or(kept.lines().count().min(variant.wgsl.lines().count())) + 1;
+        let line = difference.unwrap_or(kept.lines().count().min(found.lines().count())) + 1;
         assert!(
-            kept == variant.wgsl,
+            kept == found,
             "{} differs from the shader from line {line} on; if that is meant, run \
              `UPDATE_SNAPSHOTS=1 cargo test --test node_shaders` and look at the difference",
             path.display()
@@ -191,11 +194,28 @@ fn a_storage_beyond_the_core_is_refused_there() {
     }
 }
 
+/// A variant's name without what its text does not depend on: row and column prefixes are sums of `u32` whatever the map
+/// stores.
+fn distinct(name: &str) -> String {
+    let prefixes = name.ends_with("_rows") || name.ends_with("_columns");
+    if !(name.starts_with("summed_area_table") && prefixes) {
+        return name.to_owned();
+    }
+    let storages = ["_unorm16", "_float16", "_float32"];
+    storages
+        .iter()
+        .fold(name.to_owned(), |name, storage| name.replace(storage, ""))
+}
+
 #[test]
 fn the_texts_of_variants_differ() {
     let mut texts: BTreeMap<String, String> = BTreeMap::new();
+    let mut names = BTreeSet::new();
     for variant in variants() {
-        let before = texts.insert(variant.wgsl, variant.name.clone());
-        assert_eq!(before, None, "{} repeats it", variant.name);
+        let name = distinct(&variant.name);
+        assert!(names.insert(variant.name.clone()), "{}", variant.name);
+        if let Some(before) = texts.insert(variant.wgsl, name.clone()) {
+            assert_eq!(before, name, "{} repeats it", variant.name);
+        }
     }
 }

@@ -14,7 +14,7 @@ use moment_shadows::{
     LeakReduction, MapRegion, PcfTaps, Pcss, PercentageCloserKernel, Profile, ReceiverBias,
     RectifiedFrame, RectifyMomentsParameters, STANDARD_DEVIATIONS, SingleScattering,
     SixMomentsBias, Source, Storage, SummedAreaTable, Technique, TextureFormat, ViewParameters,
-    link, modules,
+    link,
 };
 use moment_shadows_graph::nodes::{
     Blur, BlurParameters, CompositeScattering, IntegrateScattering, KernelProperty, RectifyMoments,
@@ -23,7 +23,12 @@ use moment_shadows_graph::nodes::{
 use moment_shadows_graph::{
     BindingResource, Capabilities, Connected, Node, NodeDesc, ResourceDesc, TextureDesc,
 };
-use naga::{Expression, Literal, Module, TypeInner};
+use naga::{Module, TypeInner};
+
+use wgsl_module::{constant, module, parse};
+
+#[path = "support/wgsl_module.rs"]
+mod wgsl_module;
 
 /// A field as both sides have to lay it out: name, offset, size.
 type Field = (&'static str, usize, usize);
@@ -33,22 +38,6 @@ macro_rules! fields {
     ($name:ty { $($field:ident: $kind:ty),* $(,)? }) => {
         [$((stringify!($field), offset_of!($name, $field), size_of::<$kind>())),*]
     };
-}
-
-fn parse(wgsl: &str) -> Module {
-    naga::front::wgsl::parse_str(wgsl)
-        .unwrap_or_else(|error| panic!("{}", error.emit_to_string(wgsl)))
-}
-
-/// The closure of one item of a library module.
-fn module(name: &str, item: &str) -> Module {
-    let folder = modules().iter().find(|it| it.name == name).unwrap().folder;
-    let text = format!("import moment_shadows::{folder}::{name}::{{{item}}};\n");
-    let source = Source {
-        name: "user.wgsl",
-        text: &text,
-    };
-    parse(link(source, &[]).unwrap().wgsl())
 }
 
 #[track_caller]
@@ -345,29 +334,6 @@ fn nodes_declare_the_structs_that_their_shaders_bind() {
                 node.name
             );
         }
-    }
-}
-
-/// The numbers that a constant of a module is made of.
-fn constant(module: &Module, name: &str) -> Vec<f64> {
-    let (_, found) = module
-        .constants
-        .iter()
-        .find(|(_, candidate)| candidate.name.as_deref() == Some(name))
-        .unwrap_or_else(|| panic!("there is no constant {name}"));
-    numbers(module, found.init)
-}
-
-fn numbers(module: &Module, expression: naga::Handle<Expression>) -> Vec<f64> {
-    match &module.global_expressions[expression] {
-        Expression::Literal(Literal::F32(value)) => vec![f64::from(*value)],
-        Expression::Literal(Literal::U32(value)) => vec![f64::from(*value)],
-        Expression::Literal(Literal::I32(value)) => vec![f64::from(*value)],
-        Expression::Compose { components, .. } => components
-            .iter()
-            .flat_map(|&component| numbers(module, component))
-            .collect(),
-        other => panic!("not a constant of numbers: {other:?}"),
     }
 }
 

@@ -8,10 +8,16 @@ use serde_json::{Value, json};
 
 /// The first published vector, alone in a file, as `change` leaves it.
 fn changed(change: impl FnOnce(&mut Value)) -> (tempfile::TempDir, PathBuf) {
+    changed_of(4, change)
+}
+
+/// The same of the first one with `count` moments.
+fn changed_of(count: usize, change: impl FnOnce(&mut Value)) -> (tempfile::TempDir, PathBuf) {
     let published = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/vectors/moment_problem.json");
     let text = std::fs::read_to_string(published).unwrap();
-    let mut vectors: Value = serde_json::from_str(&text).unwrap();
-    let mut vector = vectors["vectors"][0].take();
+    let vectors: Value = serde_json::from_str(&text).unwrap();
+    let mut vectors = vectors["vectors"].as_array().unwrap().iter();
+    let mut vector = vectors.find(|vector| vector["m"] == count).unwrap().clone();
     change(&mut vector);
     file(&json!({ "vectors": [vector] }).to_string())
 }
@@ -95,6 +101,83 @@ fn a_bound_that_the_shader_does_not_reach_fails_its_class() {
         assert!(class.largest > 0.9 * units);
         assert!(report.to_string().ends_with("FAILED"));
     }
+}
+
+#[test]
+fn so_does_a_hausdorff_bound() {
+    // Its unit is at least 2^-24 and, for this vector, below 3 of them: the file's tolerances are those of Hamburger bounds.
+    for (steps, far_beyond) in [(0.0, 0), (30.0, 0), (1000.0, 1)] {
+        let report = run(|vector| {
+            let bound = &mut vector["biased"][1]["hausdorff"]["upper"];
+            *bound = json!(bound.as_f64().unwrap() + steps * 2f64.powi(-24));
+        })
+        .unwrap();
+        assert_eq!(report.passed(), steps == 0.0);
+        let class = &report.biased["generic3, Hausdorff"];
+        let beyond = usize::from(steps > 0.0);
+        assert_eq!([class.beyond, class.far_beyond], [beyond, far_beyond]);
+        // The Hamburger bounds of the same record are as they were.
+        assert_eq!(report.biased["generic3"].beyond, 0);
+    }
+}
+
+#[test]
+fn two_moments_are_evaluated_without_and_with_a_bias_of_the_files() {
+    for (steps, far_beyond) in [(0.0, 0), (1000.0, 1)] {
+        let (_folder, path) = changed_of(2, |vector| {
+            let hex =
+                |moment: &Value| format!("{:#010x}", (moment.as_f64().unwrap() as f32).to_bits());
+            let moments = vector["moments_f32"].as_array().unwrap();
+            // The exact moments are within 2^-25 of these, and so are the bounds but for their sensitivity.
+            let input: Vec<String> = moments.iter().map(hex).collect();
+            let lower = vector["hamburger"]["lower"].as_f64().unwrap() + steps * 2f64.powi(-24);
+            vector["biased"] = json!([{
+                "for": "float32", "depth_kind": "as_given", "depth": vector["depth"], "alpha": 1e-6,
+                "input_hex": input, "hamburger": { "lower": lower, "upper": 1.0 },
+                "hausdorff": null, "sens": null, "tol": null
+            }]);
+        });
+        let report = vectors::run(path).unwrap();
+        let class = &report.biased["generic2, 2 moments"];
+        assert_eq!([class.evaluated, class.far_beyond], [1, far_beyond]);
+        // Once for the smallest variance of each storage.
+        let class = &report.unbiased["generic2, 2 moments"];
+        assert_eq!([class.evaluated, class.beyond], [3, 0]);
+        // The oracle is compared with the changed bound, too, which is that of the unrounded moments.
+        let reasons: Vec<_> = report.not_evaluated.iter().collect();
+        assert!(
+            matches!(&reasons[..], [(reason, 2)] if reason.contains("Hausdorff bounds of 2 moments")),
+            "{reasons:?}"
+        );
+    }
+}
+
+#[test]
+fn hausdorff_records_that_no_f32_solver_matches_are_named() {
+    let report = run(|vector| {
+        // A fragment behind the range, and moments on the boundary of those on [-1, 1]: of both ends, half each.
+        vector["biased"][0]["depth"] = json!(1.5);
+        vector["biased"][1]["input_hex"] =
+            json!(["0x00000000", "0x3f800000", "0x00000000", "0x3f800000"]);
+        vector["interval"] = json!([-1.0, 1.0]);
+    })
+    .unwrap();
+    for expected in ["outside of the interval", "no digit of the second pivot"] {
+        let found = report
+            .not_evaluated
+            .iter()
+            .filter(|(reason, _)| reason.contains(expected))
+            .map(|(_, count)| count);
+        assert_eq!(found.sum::<usize>(), 1, "{expected}: {report}");
+    }
+    let report = run(|vector| vector["interval"] = json!([0.0, 1.0])).unwrap();
+    assert!(
+        report
+            .biased
+            .keys()
+            .chain(report.unbiased.keys())
+            .all(|class| !class.contains("Hausdorff"))
+    );
 }
 
 #[test]

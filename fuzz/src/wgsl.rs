@@ -2,7 +2,7 @@
 
 use std::sync::LazyLock;
 
-use moment_shadows::{Profile, Source, imports_super, modules, validate, validate_module};
+use moment_shadows::{Profile, Source, modules, validate, validate_module};
 
 use crate::text::mutate_bytes;
 use crate::{Random, Target};
@@ -218,7 +218,7 @@ pub fn try_out(data: &[u8]) {
         })
         .collect();
     for profile in Profile::ALL {
-        let result = if imports_super(source.text) {
+        let result = if source.is_library_module() {
             validate_module(source, profile)
         } else {
             validate(source, &generated, profile)

@@ -3,7 +3,7 @@
 
 use std::collections::BTreeMap;
 
-use crate::token::{Kind, Token};
+use crate::link::tokens::{Kind, Token};
 
 /// The most words, numbers and symbols of a constant, with those of the constants that it names in their places.
 pub const LARGEST_CONSTANT: usize = 65_536;

@@ -7,8 +7,8 @@ use std::error::Error;
 use naga::front::wgsl::ParseError;
 use naga::valid::ValidationError;
 
-use crate::file::definitions;
-use crate::token::{Token, tokens};
+use crate::link::file::definitions;
+use crate::link::tokens::{Token, tokens};
 use crate::{Linked, Location};
 
 /// A message about a shader, with the places that it is about.

@@ -2,8 +2,8 @@
 //! whole process down; nothing that a GPU should run comes near.
 
 use super::{ValidateError, constants};
-use crate::file::definitions;
-use crate::token::{Kind, Token, tokens};
+use crate::link::file::definitions;
+use crate::link::tokens::{Kind, Token, tokens};
 use crate::{Linked, Location};
 
 /// The longest text that is validated, in bytes, before and after linking.

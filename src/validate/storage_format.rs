@@ -3,7 +3,7 @@
 use naga::{ImageClass, StorageAccess, StorageFormat, TypeInner};
 
 use super::{Diagnostic, Label, ValidateError};
-use crate::token::{Kind, Token, tokens};
+use crate::link::tokens::{Kind, Token, tokens};
 use crate::{Linked, Profile};
 
 /// Refuses the first storage texture whose format or access `profile` does not have; points at every use of it.

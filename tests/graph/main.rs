@@ -15,7 +15,10 @@ mod file;
 #[path = "../support/host_node.rs"]
 mod host_node;
 mod memory;
+mod memory_of_maps;
+mod parameters_again;
 mod plan;
+mod plan_file;
 mod regions;
 mod resources;
 mod shaders;

@@ -1,6 +1,8 @@
 //! What the moment bias costs: light behind an occluder, and how well two surfaces are told apart.
 #![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic)]
 
+mod reduction;
+
 use bytemuck::{Pod, Zeroable};
 use moment_shadows::{Profile, Storage};
 use moment_shadows_lab::batch::Batch;

@@ -90,14 +90,16 @@ fn published_vectors_are_within_tolerance() {
     let report = vectors::run(file).unwrap();
     println!("{report}");
     assert!(report.passed());
-    // 161 and 79 biased records, and 41 and 21 vectors under three biases: none of an implemented technique is left out.
+    // 161 and 79 biased records, and 41, 21 and 6 vectors under three biases or smallest variances: none of an implemented
+    // technique is left out. Of the Hausdorff bounds, those of one vector's fragment outside of the range are, and 28 records
+    // whose bias leaves the shader no digit.
     let count = |classes: &std::collections::BTreeMap<String, vectors::ClassReport>| {
         classes.values().map(|class| class.evaluated).sum::<usize>()
     };
-    assert_eq!(count(&report.biased), 161 + 79);
-    assert_eq!(count(&report.unbiased), 3 * (41 + 21));
-    // 2 moments, and the Hausdorff bounds of 4 and of 6.
-    assert_eq!(report.not_evaluated.len(), 3);
+    assert_eq!(count(&report.biased), 161 + 79 + (161 - 3 - 28));
+    assert_eq!(count(&report.unbiased), 3 * (41 + 21 + 6 + 40));
+    // Those two, and the Hausdorff bounds of 2 and of 6.
+    assert_eq!(report.not_evaluated.len(), 4);
 }
 
 #[test]

@@ -95,6 +95,36 @@ fn validity_tells_possible_from_repaired_impossible_and_broken() {
 }
 
 #[test]
+fn moments_of_enough_variance_are_impossible_where_their_determinant_is_negative() {
+    let gpu = gpu();
+    // Half of the weight each at -1/2 and 1/2: all moments are exact, the variance is 1/4 and the determinant 0.
+    let two = moments(&[(-0.5, 0.5), (0.5, 0.5)]);
+    let moved = |third: f32, fourth: f32| [two[0], two[1], two[2] + third, two[3] + fourth];
+    // The determinant is the fourth moment's step / 4 less the square of the third one's.
+    let cases = [
+        (moved(0.0, 0.0), "green"),
+        (moved(0.0, 1e-3), "green"),
+        (moved(0.0, -1e-3), "red"),
+        // The moment bias of float32 adds 9e-8 to the determinant, and this takes 3e-8.
+        (moved(0.0, -1.2e-7), "yellow"),
+        (moved(0.03, 1e-2), "green"),
+        (moved(-0.03, 1e-2), "green"),
+        (moved(0.03, 1e-3), "red"),
+        (moved(-0.03, 1e-3), "red"),
+    ];
+    let found = picture(&gpu, "validity", &cases.map(|(moments, _)| moments));
+    for ((moments, expected), [red, green, blue, _]) in cases.into_iter().zip(found) {
+        let shown = match (red > 128, green > 128, blue > 128) {
+            (true, false, false) => "red",
+            (false, true, false) => "green",
+            (true, true, false) => "yellow",
+            _ => "another colour",
+        };
+        assert_eq!(shown, expected, "{moments:?}");
+    }
+}
+
+#[test]
 fn mean_deviation_and_moments_are_levels_of_grey_and_colour() {
     let gpu = gpu();
     let maps = [

@@ -8,6 +8,7 @@
 
 mod debug;
 mod depth_map;
+mod depth_tests;
 mod errors;
 #[allow(dead_code, reason = "shared with the tests of the compiler")]
 #[path = "../support/host_node.rs"]
@@ -16,9 +17,13 @@ mod host_nodes;
 mod host_passes;
 mod host_targets;
 mod layers;
+mod leak_reduction;
 mod life_cycle;
 mod lost;
+mod minified;
 mod place_layers;
+mod receiver_bias;
+mod receiver_plane;
 mod recording;
 mod regions;
 mod resolve;
@@ -29,4 +34,5 @@ mod six_moments;
 mod techniques;
 mod threshold;
 mod threshold_node;
+mod timestamps;
 mod views;

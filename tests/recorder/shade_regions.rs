@@ -14,7 +14,7 @@ use crate::setup::{Bound, IDENTITY, bind, capabilities, compiled, gpu};
 const MAP: [u32; 2] = [128, 96];
 
 /// Resolve, a kernel of one texel, mip levels, shading.
-fn graph(storage: &str, mip_levels: u32, shade: &str) -> String {
+pub(crate) fn graph(storage: &str, mip_levels: u32, shade: &str) -> String {
     let (downsample, edges, from) = if mip_levels > 1 {
         (
             r#"{ "name": "downsample", "type": "downsample" },"#,
@@ -180,8 +180,17 @@ fn a_view_reads_its_region_alone_however_far_pixels_reach() {
             }
         });
         for (capabilities, storage) in devices(&gpu) {
-            // A texel per pixel, and 6 x 11 texels per pixel.
-            for (levels, picture) in [(1, [51, 43]), (6, [51, 43]), (6, [9, 4]), (6, [40, 3])] {
+            // A texel per pixel, 3 x 4 pixels per texel, of which the last lie beyond the last texel's centre, and 6 x 11
+            // texels per pixel.
+            let magnified = [153, 172];
+            for (levels, picture) in [
+                (1, [51, 43]),
+                (6, [51, 43]),
+                (1, magnified),
+                (6, magnified),
+                (6, [9, 4]),
+                (6, [40, 3]),
+            ] {
                 let camera = depth_map::of(&gpu, picture, |_, _| 0.8);
                 let shading = Shading::new(
                     &gpu,

@@ -46,7 +46,8 @@ fn graph(technique: &str, storage: &str) -> String {
     )
 }
 
-fn reading_depth(technique: &str) -> String {
+/// Shading by a test on the plain depth map.
+pub(crate) fn reading_depth(technique: &str) -> String {
     format!(
         r#"{{
   "version": 2,

@@ -7,7 +7,7 @@ use serde::Deserialize;
 /// White where the first channel of a map is above a level, black elsewhere.
 #[derive(Debug, Deserialize)]
 #[serde(deny_unknown_fields)]
-pub struct Threshold {
+pub(crate) struct Threshold {
     level: f32,
 }
 

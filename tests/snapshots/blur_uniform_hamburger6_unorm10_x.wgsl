@@ -1,88 +1,17 @@
+// What is linked of files:
+// blur_parameters: BlurParameters parameters
+// moment_shadows/map/storage.wgsl: STORAGE_FLOAT16 STORAGE_UNORM10 storage_round_to_float16 storage_round_to_unorm10 storage_round_texel
+// fullscreen: Covered fullscreen
+// moment_shadows/map/map_region.wgsl: MapRegion map_region_within map_region_at_level
+// region_pixel: regions RegionPixel region_pixel
+// blur_drawn.wgsl: moments_map blur
+
 // specialization
 const GROUP = 0;
-const WORKGROUP_X = 8;
-const WORKGROUP_Y = 8;
+
 const AXIS = vec2i(1, 0);
 const STORAGE = 5u;
 const REGIONS = 1u;
-
-// blur_parameters
-
-// Weights of a blur that a host can change per frame.
-
-struct BlurParameters {
-    // Texels on either side of the centre.
-    radius: u32,
-    // Blocks of 16 taps: 2 radius + OUTPUTS taps, rounded up.
-    blocks: u32,
-    padding: vec2u,
-    // The weights, preceded by 15 zeros and followed by zeros.
-    weights: array<vec4f, 40>,
-}
-
-@group(GROUP) @binding(2) var<uniform> parameters: BlurParameters;
-
-// moment_shadows/map/storage.wgsl
-// Storages: how the channels of a texel lie in memory, whatever they mean.
-//
-// Every technique filters linearly and writes after each filter, so each write is a rounding error that its bound has to
-// cover. Nothing here depends on a technique: how one spreads its quantities over the range of a storage is its own.
-
-// Storages, as a shader's specialisation names them.
-const STORAGE_UNORM16: u32 = 0u;
-const STORAGE_FLOAT16: u32 = 1u;
-const STORAGE_FLOAT32: u32 = 2u;
-const STORAGE_UNORM8: u32 = 3u;
-// Sums of channels as unorm16 has them; see `summed_area_encoding`.
-const STORAGE_FIXED32: u32 = 4u;
-// Three channels to a texel, in maps that are drawn.
-const STORAGE_UNORM10: u32 = 5u;
-
-// The largest finite float16.
-const STORAGE_LARGEST_FLOAT16: f32 = 65504.0;
-
-// Whether the channels of the storage are floats, which can be anything, rather than numbers in [0, 1].
-fn storage_is_float(storage: u32) -> bool {
-    return storage == STORAGE_FLOAT16 || storage == STORAGE_FLOAT32;
-}
-
-// The nearest float16 of each component, ties to even, for |value| <= 65504. A driver may truncate when it stores to a
-// float16 texture, which would double the rounding error that a bound has to cover.
-fn storage_round_to_float16(value: vec4f) -> vec4f {
-    let bits = bitcast<vec4u>(value);
-    // 13 of 23 mantissa bits go; adding just under half a unit, plus the last kept bit, rounds ties to even.
-    let rounded = bitcast<vec4f>((bits + 0xfffu + ((bits >> vec4u(13u)) & vec4u(1u))) & vec4u(0xffffe000u));
-    // Below 2^-14 float16 is a fixed-point format with a step of 2^-24.
-    let small = round(value * 16777216.0) * 5.960464477539063e-8;
-    return select(rounded, small, abs(value) < vec4f(6.103515625e-5));
-}
-
-// What to draw so that a target of 10 bits per channel holds the nearest number to each component, for any finite value. A driver
-// may round down, or round to 16 bits and drop the last six (lavapipe does): a little above that number they give it all the same.
-fn storage_round_to_unorm10(value: vec4f) -> vec4f {
-    return (round(saturate(value) * 1023.0) + 0.00390625) / 1023.0;
-}
-
-// A filtered combination of texels, as it has to be written back to the same storage.
-fn storage_round_texel(texel: vec4f, storage: u32) -> vec4f {
-    if storage == STORAGE_FLOAT16 {
-        return storage_round_to_float16(texel);
-    }
-    if storage == STORAGE_UNORM10 {
-        return storage_round_to_unorm10(texel);
-    }
-    return texel;
-}
-
-// A texel in which channels that are NaN or infinite count as 0, found by their bits since a compiler may assume that
-// there is neither. Unorm texels pass as they are.
-fn storage_finite_texel(texel: vec4f, storage: u32) -> vec4f {
-    if !storage_is_float(storage) {
-        return texel;
-    }
-    let exponent = bitcast<vec4u>(texel) & vec4u(0x7f800000u);
-    return select(texel, vec4f(0.0), exponent == vec4u(0x7f800000u));
-}
 
 // map_filtering
 
@@ -114,108 +43,3 @@ fn blur_texel(map: texture_2d<f32>, texel: vec2i, low: vec2i, last: vec2i) -> ve
     return sum;
 }
 
-// fullscreen
-// The vertex stage of fullscreen passes.
-
-struct Covered {
-    @builtin(position) position: vec4f,
-    // The place in the picture from 0 to 1. Other than `position` it does not depend on where in its target a host has the
-    // viewport.
-    @location(0) uv: vec2f,
-}
-
-@vertex
-fn fullscreen(@builtin(vertex_index) index: u32) -> Covered {
-    // One triangle that covers the viewport: (-1, -1), (3, -1), (-1, 3).
-    let corner = 4.0 * vec2f(f32(index & 1u), f32(index >> 1u)) - 1.0;
-    return Covered(vec4f(corner, 0.0, 1.0), 0.5 + vec2f(0.5, -0.5) * corner);
-}
-
-// moment_shadows/map/map_region.wgsl
-// Regions: rectangles of a layer that share an atlas and know nothing of each other.
-//
-// Mip level k of a region runs from floor(first / 2^k) to floor(end / 2^k). Regions that touch share that edge on every
-// level, wherever it lies, so none covers a texel of another, and a gutter is not needed.
-
-// Filled by the host-side `MapRegion`: texels of mip level 0. No texels: no region. A rectangle that leaves the map is
-// cut off at its border.
-struct MapRegion {
-    origin: vec2u,
-    extent: vec2u,
-}
-
-// The part of a region that lies in a map of `size` texels.
-fn map_region_within(region: MapRegion, size: vec2u) -> MapRegion {
-    let origin = min(region.origin, size);
-    return MapRegion(origin, min(region.extent, size - origin));
-}
-
-// A region of a map (within it) on mip level `level`, below 32.
-fn map_region_at_level(region: MapRegion, level: u32) -> MapRegion {
-    let origin = region.origin >> vec2u(level);
-    return MapRegion(origin, ((region.origin + region.extent) >> vec2u(level)) - origin);
-}
-
-// The coarsest of `levels` mip levels on which a region still has texels.
-fn map_region_last_level(region: MapRegion, levels: u32) -> u32 {
-    var level = max(levels, 1u) - 1u;
-    while level > 0u && any(map_region_at_level(region, level).extent == vec2u(0u)) {
-        level--;
-    }
-    return level;
-}
-
-// The place of `uv` (from 0 to 1 across the region) in texels of a region's mip level, kept half a texel away from its
-// edge: a bilinear filter there reads no other region.
-fn map_region_place(region_on_level: MapRegion, uv: vec2f) -> vec2f {
-    let extent = vec2f(region_on_level.extent);
-    return vec2f(region_on_level.origin) + clamp(uv * extent, vec2f(0.5), max(extent - 0.5, vec2f(0.5)));
-}
-
-// region_pixel
-
-// Which region a pixel of a drawn map lies in. Regions change per frame; what is drawn, the whole layer, does not.
-
-@group(GROUP) @binding(4) var<uniform> regions: array<MapRegion, REGIONS>;
-
-struct RegionPixel {
-    // The number of its region in the table; REGIONS where it lies in none.
-    number: u32,
-    // That region in texels of the mip level.
-    region: MapRegion,
-    // The pixel, a texel of the mip level.
-    texel: vec2u,
-}
-
-// The pixel at `uv` (from 0 to 1 across the target) of mip level `level`, in a layer of `size` texels on mip level 0.
-fn region_pixel(uv: vec2f, size: vec2u, level: u32) -> RegionPixel {
-    let drawn = max(size >> vec2u(level), vec2u(1u));
-    let texel = min(vec2u(uv * vec2f(drawn)), drawn - 1u);
-    for (var number = 0u; number < REGIONS; number++) {
-        let region = map_region_at_level(map_region_within(regions[number], size), level);
-        // Of unsigned numbers those below the origin wrap around to large ones.
-        if all(texel - region.origin < region.extent) {
-            return RegionPixel(number, region, texel);
-        }
-    }
-    return RegionPixel(REGIONS, MapRegion(vec2u(0u), vec2u(0u)), texel);
-}
-
-// blur_drawn.wgsl
-
-// One direction of a separable filter over one layer of a map that is drawn: one texel per pixel.
-
-@group(GROUP) @binding(0) var moments_map: texture_2d<f32>;
-
-@fragment
-fn blur(covered: Covered) -> @location(0) vec4f {
-    let pixel = region_pixel(covered.uv, textureDimensions(moments_map), 0u);
-    // What lies in no region is not this pass's.
-    if pixel.number == REGIONS {
-        discard;
-        return vec4f(0.0);
-    }
-    let low = vec2i(pixel.region.origin);
-    let last = low + vec2i(pixel.region.extent) - 1;
-    return filtering_texel(blur_texel(moments_map, vec2i(pixel.texel), low, last));
-}

@@ -11,6 +11,8 @@ mod layered_variance;
 mod lloyd;
 mod mixture;
 mod variance;
+#[path = "../support/wgsl_module.rs"]
+mod wgsl_module;
 
 /// 2^-24, half a unit in the last place of numbers just below 1.
 const HALF_ULP: f64 = 1.0 / (1 << 24) as f64;

@@ -7,15 +7,19 @@ use rayon::prelude::*;
 
 use crate::filtering::{filtered, patch, variance_of};
 use crate::mixture::{self, Input};
+use crate::wgsl_module::{constant, module};
 use crate::{HALF_ULP, assert_smallest, chebyshev};
 
-/// The module's constants.
+/// The module's own constants: what its text says, not what it should say.
 fn smallest(storage: Storage) -> f64 {
-    match storage {
-        Storage::Unorm16 => 6e-5,
-        Storage::Float16 => 1e-3,
-        _ => 5e-7,
-    }
+    let name = format!(
+        "TWO_MOMENTS_SMALLEST_VARIANCE_{}",
+        storage.name().to_uppercase()
+    );
+    let [smallest] = constant(&module("two_moments", &name), &name)[..] else {
+        panic!("{name} is one number");
+    };
+    smallest
 }
 
 /// Largest errors of mean and mean square by one rounding, and by f32 arithmetic before it.

@@ -69,10 +69,10 @@ fn minification_gradients(footprint: MinificationFootprint) -> mat2x2f {
 
 // The variance that minification adds to the moment depths of a plane, whose moment depth changes by `gradient` per texel:
 // that of the probes' trilinear lookups, and that of the line they lie on. Between two levels the mixture of both has at
-// most 1.13 times the variance of the level between them.
+// most 1.27 times the variance of the level between them.
 fn minification_depth_variance(footprint: MinificationFootprint, gradient: vec2f) -> f32 {
     let texel = select(0.0, exp2(footprint.level), footprint.level > 0.0);
     let across = texel * length(gradient);
     let along = select(0.0, dot(footprint.major, gradient), footprint.probes > 1.0);
-    return (1.13 / 4.0) * across * across + along * along / 12.0;
+    return (1.27 / 4.0) * across * across + along * along / 12.0;
 }

@@ -6,6 +6,7 @@ pub mod basis;
 pub mod batch;
 pub mod bias;
 pub mod candidate;
+pub mod catalogue;
 pub mod command;
 pub mod cost;
 pub mod dense;

@@ -8,6 +8,7 @@ use moment_shadows::{Profile, Storage, TechniqueError, nearest};
 use moment_shadows_graph::nodes::Overestimation;
 use moment_shadows_lab::bias::BiasTechnique;
 use moment_shadows_lab::candidate::{Candidate, TechniqueChoice, candidates};
+use moment_shadows_lab::command::cost::CostOptions;
 use moment_shadows_lab::command::cost_growth::GrowthOptions;
 use moment_shadows_lab::command::error_table::TableOptions;
 use moment_shadows_lab::command::render::{LightChoice, RenderOptions};
@@ -18,7 +19,6 @@ use moment_shadows_lab::command::{
     measure, minification, orderings, render, scattering_error, scattering_flicker, shaders,
     soft_error, stability, technique_pictures, validate,
 };
-use moment_shadows_lab::cost::bandwidth::Memory;
 
 use moment_shadows_lab::gpu::Gpu;
 use moment_shadows_lab::isa::child;
@@ -137,11 +137,7 @@ enum Command {
         only: Option<String>,
     },
     /// Writes every linked shader of the library, as WGSL and SPIR-V with an index, for other compilers.
-    Shaders {
-        /// The folder to make.
-        #[arg(long)]
-        out: PathBuf,
-    },
+    Shaders(shaders::Options),
     /// Prints the error of a graph over all surfaces that the light's rays meet, and over a picture.
     Error {
         #[command(flatten)]
@@ -216,26 +212,10 @@ enum Command {
     ScatteringFlicker(ScatteringFlickerArguments),
     /// Times the passes of a graph, blurs of several radii, summed-area tables or single scattering, as ratios to copies, and counts
     /// their bytes.
-    Cost {
-        #[command(flatten)]
-        subject: CostSubject,
-        /// A memory to bound the time by, in 10^9 bytes per second, with a name if you like: 224:GTX 970. Several may be
-        /// given; by default three cards.
-        #[arg(long, value_name = "GB/S[:NAME]", conflicts_with_all = ["blur", "summed_area_table", "scattering"])]
-        bandwidth: Vec<Memory>,
-        /// Texels per side of the light's map.
-        #[arg(long, default_value_t = 1024, value_parser = clap::value_parser!(u32).range(256..=8192))]
-        size: u32,
-        /// Rounds, at least 9.
-        #[arg(long, default_value_t = 15, value_parser = clap::value_parser!(u32).range(9..=1000))]
-        rounds: u32,
-        /// Prints JSON.
-        #[arg(long)]
-        json: bool,
-    },
+    Cost(CostOptions),
     /// Times the nodes of a graph at several sizes of the map and of the output and at several radii, and plots how their
     /// cost grows. Takes minutes.
-    CostGrowth(CostGrowthArguments),
+    CostGrowth(GrowthOptions),
     /// Finds the smallest safe moment bias of each storage by search over filtered patches of depth.
     Bias {
         /// The solver that the moments are for.
@@ -289,7 +269,7 @@ enum Command {
     /// infinite, outside of 0 to 1 or farther above the truth than is documented.
     Stability(StabilityArguments),
     /// Compiles every shader for chips that need not be there, and counts what the code does (Linux, Mesa's RADV).
-    Isa(IsaArguments),
+    Isa(isa::Options),
     /// The process that compiles for one chip, which its environment names.
     #[command(name = child::COMMAND, hide = true)]
     IsaChip {
@@ -512,30 +492,6 @@ struct StabilityArguments {
 }
 
 #[derive(clap::Args)]
-struct CostGrowthArguments {
-    /// The graph file.
-    graph: PathBuf,
-    /// The folder for the plots, as SVG and PNG; it is made if need be.
-    #[arg(long)]
-    out: PathBuf,
-    /// Texels per side of the light's map.
-    #[arg(long, num_args = 1.., default_values = ["256", "512", "1024", "2048", "4096"], value_parser = clap::value_parser!(u32).range(64..=8192))]
-    map: Vec<u32>,
-    /// Widths of the output; heights follow at 16 to 9.
-    #[arg(long, num_args = 1.., default_values = ["640", "1280", "1920", "2560", "3840"], value_parser = clap::value_parser!(u32).range(64..=8192))]
-    width: Vec<u32>,
-    /// Radii of the Gaussian, in texels.
-    #[arg(long, num_args = 1.., default_values = ["1", "2", "4", "8", "12", "16", "32", "64"], value_parser = clap::value_parser!(u32).range(1..=64))]
-    radius: Vec<u32>,
-    /// Rounds, at least 9.
-    #[arg(long, default_value_t = 15, value_parser = clap::value_parser!(u32).range(9..=1000))]
-    rounds: u32,
-    /// Prints JSON.
-    #[arg(long)]
-    json: bool,
-}
-
-#[derive(clap::Args)]
 struct TableArguments {
     #[command(flatten)]
     frame: FrameArguments,
@@ -576,63 +532,6 @@ impl TableArguments {
         }
         candidates(&self.technique, storage)
     }
-}
-
-#[derive(clap::Args)]
-struct IsaArguments {
-    /// The chip.
-    #[arg(long, value_enum, default_value = "all")]
-    chip: ChipArgument,
-    /// Prints the table as JSON.
-    #[arg(long, conflicts_with_all = ["check", "update", "shader"])]
-    json: bool,
-    /// Compares with the table that is kept, and fails where a figure is over 5 % higher.
-    #[arg(long, conflicts_with_all = ["update", "shader"])]
-    check: bool,
-    /// Replaces the table that is kept.
-    #[arg(long, conflicts_with_all = ["chip", "shader"])]
-    update: bool,
-    /// Prints the code of one shader, by its name in the table.
-    #[arg(long)]
-    shader: Option<String>,
-    /// The table that is kept.
-    #[arg(long, default_value = isa::TABLE)]
-    table: PathBuf,
-}
-
-#[derive(Clone, Copy, ValueEnum)]
-enum ChipArgument {
-    Navi21,
-    Vega10,
-    All,
-}
-
-impl ChipArgument {
-    fn chips(self) -> &'static [Chip] {
-        match self {
-            ChipArgument::Navi21 => &[Chip::Navi21],
-            ChipArgument::Vega10 => &[Chip::Vega10],
-            ChipArgument::All => &Chip::ALL,
-        }
-    }
-}
-
-#[derive(clap::Args)]
-#[group(required = true, multiple = false)]
-struct CostSubject {
-    /// A graph file: each of its passes, and all together.
-    graph: Option<PathBuf>,
-    /// The blur in both directions. Fails where a radius costs more than it may on a software adapter.
-    #[arg(long)]
-    blur: bool,
-    /// Summed-area tables of maps from 256 texels per side up to the size, beside the usual way to make them. Fails where
-    /// they cost more than they may on a software adapter.
-    #[arg(long)]
-    summed_area_table: bool,
-    /// The nodes of single scattering on maps from 256 texels per side up to the size, with both ways to sum rows up. Fails
-    /// where they cost more than they may on a software adapter.
-    #[arg(long)]
-    scattering: bool,
 }
 
 #[derive(clap::Args)]
@@ -736,17 +635,6 @@ impl FrameArguments {
             samples: self.samples,
             storage: self.storage.map(Storage::from),
             technique: None,
-        }
-    }
-}
-
-impl From<CostGrowthArguments> for GrowthOptions {
-    fn from(arguments: CostGrowthArguments) -> Self {
-        Self {
-            map_sizes: arguments.map,
-            widths: arguments.width,
-            radii: arguments.radius,
-            rounds: arguments.rounds,
         }
     }
 }
@@ -872,9 +760,7 @@ fn run(command: Command) -> Result<ExitCode, Box<dyn std::error::Error>> {
             let made = technique_pictures::run(&out, &scene, only.as_deref())?;
             print!("{}", technique_pictures::table(&made));
         }
-        Command::Shaders { out } => {
-            println!("{} shaders in {}", shaders::run(&out)?, out.display());
-        }
+        Command::Shaders(options) => shaders::run(&options)?,
         Command::Bias {
             technique,
             storage,
@@ -911,7 +797,7 @@ fn run(command: Command) -> Result<ExitCode, Box<dyn std::error::Error>> {
             json,
         } => print(&orderings::run(samples, seed), json)?,
         Command::Stability(arguments) => return run_stability(&arguments),
-        Command::Isa(arguments) => return run_isa(&arguments),
+        Command::Isa(options) => return Ok(isa::run(&options)?),
         Command::IsaChip { chip, shader } => {
             print!("{}", child::compile(chip, shader.as_deref())?);
         }
@@ -972,44 +858,15 @@ fn run(command: Command) -> Result<ExitCode, Box<dyn std::error::Error>> {
                 return Ok(ExitCode::FAILURE);
             }
         }
-        Command::CostGrowth(arguments) => {
-            let json = arguments.json;
-            let (graph, out) = (arguments.graph.clone(), arguments.out.clone());
-            let growth = cost_growth::run(&graph, &out, &arguments.into())?;
-            print(&growth, json)?;
-        }
-        Command::Cost {
-            subject,
-            bandwidth,
-            size,
-            rounds,
-            json,
-        } => match subject.graph {
+        Command::CostGrowth(options) => print(&cost_growth::run(&options)?, options.json)?,
+        Command::Cost(options) => match options.subject.graph {
             Some(graph) => {
-                let memories = if bandwidth.is_empty() {
-                    Memory::known()
-                } else {
-                    bandwidth
-                };
-                print(&cost::graph(&graph, size, rounds, memories)?, json)?;
-            }
-            None if subject.summed_area_table => {
-                let cost = cost::summed_area_table(size, rounds)?;
-                print(&cost, json)?;
-                if !cost.passed() {
-                    return Ok(ExitCode::FAILURE);
-                }
-            }
-            None if subject.scattering => {
-                let cost = cost::scattering(size, rounds)?;
-                print(&cost, json)?;
-                if !cost.passed() {
-                    return Ok(ExitCode::FAILURE);
-                }
+                let cost = cost::graph(&graph, options.size, options.rounds, options.bandwidth)?;
+                print(&cost, options.json)?;
             }
             None => {
-                let cost = cost::blur(size, rounds)?;
-                print(&cost, json)?;
+                let cost = cost::table(&options.subject.list(), options.size, options.rounds)?;
+                print(&cost, options.json)?;
                 if !cost.passed() {
                     return Ok(ExitCode::FAILURE);
                 }
@@ -1115,27 +972,6 @@ fn run_stability(arguments: &StabilityArguments) -> Result<ExitCode, Box<dyn std
     } else {
         ExitCode::from(stability::FAULT_CODE)
     })
-}
-
-fn run_isa(arguments: &IsaArguments) -> Result<ExitCode, Box<dyn std::error::Error>> {
-    let chips = arguments.chip.chips();
-    if arguments.update {
-        isa::update(&arguments.table)?;
-        println!("{} is up to date", arguments.table.display());
-    } else if arguments.check {
-        let checked = isa::check(chips, &arguments.table)?;
-        print!("{checked}");
-        if !checked.passed() {
-            return Ok(ExitCode::FAILURE);
-        }
-    } else if let Some(shader) = &arguments.shader {
-        for &chip in chips {
-            println!("{chip}\n{}", child::disassembly(chip, shader)?);
-        }
-    } else {
-        print(&isa::table(chips)?, arguments.json)?;
-    }
-    Ok(ExitCode::SUCCESS)
 }
 
 fn print<T: serde::Serialize + std::fmt::Display>(

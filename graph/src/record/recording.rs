@@ -206,11 +206,20 @@ impl Bindings {
         recording: &Recording<'_>,
         queries: Option<(&wgpu::QuerySet, u32)>,
     ) {
-        let last = step.dirty(recording.layers).last();
+        let count = step.dirty(recording.layers).count();
         for (order, layer) in step.dirty(recording.layers).enumerate() {
             let Some(view) = targets.get(layer as usize) else {
                 continue;
             };
+            // A pass between the first and the last layer's writes nothing; it must not say so.
+            let timestamp_writes =
+                queries
+                    .filter(|_| order == 0 || order + 1 == count)
+                    .map(|(query_set, begin)| wgpu::RenderPassTimestampWrites {
+                        query_set,
+                        beginning_of_pass_write_index: (order == 0).then_some(begin),
+                        end_of_pass_write_index: (order + 1 == count).then_some(begin + 1),
+                    });
             let mut pass = encoder.begin_render_pass(&wgpu::RenderPassDescriptor {
                 label: Some(&step.label),
                 color_attachments: &[Some(wgpu::RenderPassColorAttachment {
@@ -223,13 +232,7 @@ impl Bindings {
                     },
                 })],
                 depth_stencil_attachment: None,
-                timestamp_writes: queries.map(|(query_set, begin)| {
-                    wgpu::RenderPassTimestampWrites {
-                        query_set,
-                        beginning_of_pass_write_index: (order == 0).then_some(begin),
-                        end_of_pass_write_index: (Some(layer) == last).then_some(begin + 1),
-                    }
-                }),
+                timestamp_writes,
                 occlusion_query_set: None,
                 multiview_mask: None,
             });

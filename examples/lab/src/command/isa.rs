@@ -1,91 +1,81 @@
 //! `moment-shadows isa`: what a real shader compiler makes of every shader, and the gate on it.
 
-use std::path::Path;
+use std::path::PathBuf;
+use std::process::ExitCode;
 
 use crate::isa::child;
 use crate::isa::chip::Chip;
-use crate::isa::compare::{Belongs, Difference, TOLERANCE, belongs, compare};
+use crate::isa::compare::compare;
 use crate::isa::error::IsaError;
 use crate::isa::table::Table;
 
-/// The table that is kept with the sources, from the root of a checkout.
-pub const TABLE: &str = "examples/lab/isa/table.json";
-
-/// What a check found.
-pub struct Checked {
-    /// How the table and the driver belong together; never [`Belongs::No`].
-    pub belongs: Belongs,
-    /// Everything that differs.
-    pub differences: Vec<Difference>,
-    /// Rows that were compared.
-    pub rows: usize,
+/// What `isa` takes.
+#[derive(clap::Args)]
+pub struct Options {
+    /// The chip.
+    #[arg(long, value_enum, default_value = "all")]
+    chip: ChipArgument,
+    /// Prints the table as JSON.
+    #[arg(long, conflicts_with_all = ["check", "update", "shader"])]
+    json: bool,
+    /// Compares with the table that is kept, and fails where a figure is over 5 % higher.
+    #[arg(long, conflicts_with_all = ["update", "shader"])]
+    check: bool,
+    /// Replaces the table that is kept.
+    #[arg(long, conflicts_with_all = ["chip", "shader"])]
+    update: bool,
+    /// Prints the code of one shader, by its name in the table.
+    #[arg(long)]
+    shader: Option<String>,
+    /// The table that is kept.
+    #[arg(long, default_value = "examples/lab/isa/table.json")]
+    table: PathBuf,
 }
 
-/// Compiles every shader for some chips.
-pub fn table(chips: &[Chip]) -> Result<Table, IsaError> {
-    child::table(chips)
+#[derive(Clone, Copy, clap::ValueEnum)]
+enum ChipArgument {
+    Navi21,
+    Vega10,
+    All,
 }
 
-/// Compares every shader with a table.
-pub fn check(chips: &[Chip], path: &Path) -> Result<Checked, IsaError> {
-    let before = Table::read(path)?;
-    let now = child::table(chips)?;
-    let belongs = belongs(&before.driver, &now.driver);
-    if belongs == Belongs::No {
-        return Err(IsaError::OtherDriver {
-            path: path.display().to_string(),
-            table: format!("{} {}", before.driver.name, before.driver.version),
-            now: format!("{} {}", now.driver.name, now.driver.version),
-        });
-    }
-    Ok(Checked {
-        belongs,
-        differences: compare(&before, &now),
-        rows: now.chips.iter().map(|chip| chip.shaders.len()).sum(),
-    })
-}
-
-/// Writes the table anew.
-pub fn update(path: &Path) -> Result<(), IsaError> {
-    child::table(&Chip::ALL)?.write(path)
-}
-
-impl Checked {
-    /// Whether no figure grew and no shader came or went.
-    #[must_use]
-    pub fn passed(&self) -> bool {
-        !self.differences.iter().any(Difference::fails)
-    }
-}
-
-impl core::fmt::Display for Checked {
-    fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
-        if self.belongs == Belongs::OtherBuild {
-            writeln!(
-                f,
-                "warning: the table was made by another build of the same driver version"
-            )?;
+/// Compiles every shader, or prints one; [`ExitCode::FAILURE`] where a check finds a figure above the table.
+///
+/// # Errors
+/// [`IsaError`].
+pub fn run(options: &Options) -> Result<ExitCode, IsaError> {
+    let chips: &[Chip] = match options.chip {
+        ChipArgument::Navi21 => &[Chip::Navi21],
+        ChipArgument::Vega10 => &[Chip::Vega10],
+        ChipArgument::All => &Chip::ALL,
+    };
+    let path = &options.table;
+    if options.update {
+        child::table(&Chip::ALL)?.write(path)?;
+        println!("{} is up to date", path.display());
+    } else if options.check {
+        let (before, now) = (Table::read(path)?, child::table(chips)?);
+        let compared = compare(&before, &now).ok_or_else(|| {
+            let reason = format!(
+                "it belongs to {} {}, but this is {} {}, whose figures cannot be compared with it; install that driver, or \
+                 make a table for this one with `isa --update`",
+                before.driver.name, before.driver.version, now.driver.name, now.driver.version
+            );
+            IsaError::file(path, reason)
+        })?;
+        print!("{compared}");
+        if !compared.passed() {
+            return Ok(ExitCode::FAILURE);
         }
-        for difference in &self.differences {
-            writeln!(f, "{difference}")?;
+    } else if let Some(shader) = &options.shader {
+        for &chip in chips {
+            println!("{chip}\n{}", child::disassembly(chip, shader)?);
         }
-        let failed = self
-            .differences
-            .iter()
-            .filter(|difference| difference.fails())
-            .count();
-        let (rows, percent) = (self.rows, TOLERANCE * 100.0);
-        if failed == 0 {
-            writeln!(
-                f,
-                "no figure of {rows} rows is more than {percent} % above the table"
-            )
-        } else {
-            writeln!(
-                f,
-                "the table of {rows} rows does not hold: {failed} above; if that is meant, run `isa --update` and say why in \
-                 the commit"
-            )
-        }
+    } else if options.json {
+        let text = serde_json::to_string_pretty(&child::table(chips)?);
+        println!("{}", text.map_err(|error| IsaError::file(path, error))?);
+    } else {
+        print!("{}", child::table(chips)?);
     }
+    Ok(ExitCode::SUCCESS)
 }

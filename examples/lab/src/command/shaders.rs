@@ -1,15 +1,24 @@
 //! `moment-shadows shaders`: every linked shader as a file, for other compilers to judge.
 
-use std::path::Path;
+use std::path::PathBuf;
 
 use crate::shaders::{self, ShadersError};
 
-/// Writes every shader of the library into the new folder `out`. Gives their number.
+/// What `shaders` takes.
+#[derive(clap::Args)]
+pub struct Options {
+    /// The folder to make.
+    #[arg(long)]
+    out: PathBuf,
+}
+
+/// Writes every shader of the library into the new folder, and says how many they are.
 ///
 /// # Errors
 /// [`ShadersError`]; there is then no folder.
-pub fn run(out: &Path) -> Result<usize, ShadersError> {
+pub fn run(options: &Options) -> Result<(), ShadersError> {
     let all = shaders::all()?;
-    shaders::write(&all, out)?;
-    Ok(all.len())
+    shaders::write(&all, &options.out)?;
+    println!("{} shaders in {}", all.len(), options.out.display());
+    Ok(())
 }

@@ -6,8 +6,8 @@ use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 
 use moment_shadows::{
-    LONGEST_SHADER, Outcome, Profile, Source, ValidateError, ValidationReport, imports_super,
-    validate, validate_module,
+    LONGEST_SHADER, Outcome, Profile, Source, ValidateError, ValidationReport, validate,
+    validate_module,
 };
 
 /// A file that could not be read, or is not valid.
@@ -63,7 +63,7 @@ pub fn check_file(path: &Path, profile: Profile) -> Result<ValidationReport, Che
         name: &name,
         text: &text,
     };
-    Ok(if imports_super(&text) {
+    Ok(if source.is_library_module() {
         validate_module(source, profile)?
     } else {
         validate(source, &[], profile)?

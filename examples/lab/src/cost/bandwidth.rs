@@ -8,6 +8,8 @@ use core::str::FromStr;
 
 use serde::Serialize;
 
+use super::CostError;
+
 /// A memory of a known bandwidth.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Memory {
@@ -26,28 +28,21 @@ pub struct TimeBound {
     pub microseconds: f64,
 }
 
-/// A bandwidth on the command line that cannot be understood.
-#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
-#[error(
-    "'{0}' is no bandwidth; give gigabytes per second above 0, and a name after a colon if you like: 224:GTX 970"
-)]
-pub struct BandwidthError(String);
-
 impl Memory {
     /// Cards by their makers' figures: that of the lecture on moment shadow maps (Peters, GDC 2016), and those with the
     /// two chips that `moment-shadows isa` compiles for, Vega 10 and Navi 21.
     #[must_use]
     pub fn known() -> Vec<Memory> {
-        [
+        let cards = [
             ("GTX 970", 224.0),
             ("RX Vega 64", 484.0),
             ("RX 6900 XT", 512.0),
-        ]
-        .map(|(name, gigabytes_per_second)| Memory {
+        ];
+        let memory = |(name, gigabytes_per_second): (&str, f64)| Memory {
             name: name.to_owned(),
             gigabytes_per_second,
-        })
-        .to_vec()
+        };
+        cards.map(memory).to_vec()
     }
 
     /// The least time that moving so many bytes takes.
@@ -61,16 +56,17 @@ impl Memory {
 }
 
 impl FromStr for Memory {
-    type Err = BandwidthError;
+    type Err = CostError;
 
     /// `GB/S` or `GB/S:NAME`.
     fn from_str(text: &str) -> Result<Self, Self::Err> {
         let (number, name) = text.split_once(':').unwrap_or((text, ""));
-        let refused = || BandwidthError(text.to_owned());
-        let gigabytes_per_second: f64 = number.trim().parse().map_err(|_| refused())?;
-        if !gigabytes_per_second.is_finite() || gigabytes_per_second <= 0.0 {
-            return Err(refused());
-        }
+        let gigabytes_per_second = number
+            .trim()
+            .parse()
+            .ok()
+            .filter(|bandwidth: &f64| bandwidth.is_finite() && *bandwidth > 0.0)
+            .ok_or_else(|| CostError::Bandwidth(text.to_owned()))?;
         let name = match name.trim() {
             "" => format!("{gigabytes_per_second} GB/s"),
             name => name.to_owned(),

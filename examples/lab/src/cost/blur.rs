@@ -1,67 +1,44 @@
-//! The blur alone, on a map of noise: found right, and timed in both directions together against its bounds.
+//! The blur alone, on a map of noise, in both directions together.
 
 use moment_shadows::{Kernel, Profile, Storage};
 use moment_shadows_graph::nodes::KernelProperty;
-use moment_shadows_graph::record::{
-    Bindings, ImportedResource, Passes, PipelineOptions, Pipelines, Recording, Resources,
-    texture_format,
-};
-use moment_shadows_graph::{
-    Capabilities, Graph, Imports, NodeRegistry, ResourceDesc, Stage, TextureDesc, compile,
-};
-use pollster::block_on;
-use wgpu::util::DeviceExt;
+use moment_shadows_graph::record::Passes;
+use moment_shadows_graph::{Capabilities, TextureDesc};
+use serde_json::json;
 
-use super::CostError;
-use super::reference;
-use super::texels::{Channels, decode, encode};
+use super::copies::CopyWork;
+use super::harness::{Case, Difference};
+use super::node::{NodeOnMap, NodeText, upload};
+use super::table::{Facts, Gate};
+use super::texels::{Channels, decode, encode, noise};
+use super::{CostError, SubjectList, reference};
 use crate::gpu::Gpu;
 
-/// What a radius may cost, in compute copies of the map on a software adapter.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Bound {
-    /// Texels on either side of the centre.
-    pub radius: u32,
-    /// Beyond this the command fails; none where there is no bound.
-    pub gate: Option<f64>,
-    /// What is aimed at.
-    pub goal: Option<f64>,
-}
+/// Blurs of several radii of a map of one size.
+pub const BLURS: SubjectList = SubjectList {
+    title: "blur of rgba16unorm, both directions, in copies of the map",
+    sizes: &[],
+    cases,
+};
 
-/// The radii that are measured.
-pub const BOUNDS: [Bound; 4] = [
-    Bound {
-        radius: 4,
-        gate: Some(4.5),
-        goal: Some(3.4),
-    },
-    Bound {
-        radius: 12,
-        gate: Some(8.0),
-        goal: Some(5.5),
-    },
-    Bound {
-        radius: 32,
-        gate: None,
-        goal: None,
-    },
-    Bound {
-        radius: 64,
-        gate: Some(24.0),
-        goal: Some(15.0),
-    },
+/// Radii that are measured, in texels, with the most that they may cost and what is aimed at.
+pub const BOUNDS: [(u32, Option<f64>, Option<f64>); 4] = [
+    (4, Some(4.5), Some(3.4)),
+    (12, Some(8.0), Some(5.5)),
+    (32, None, None),
+    (64, Some(24.0), Some(15.0)),
 ];
+
+/// A device that can store the moments of every storage.
+pub const PROFILE: Profile = Profile::Native;
 
 /// A map of moments of any contents, and a blur of it.
 pub struct BlurredMap {
     storage: Storage,
     kernel: Kernel,
     size: [u32; 2],
-    bindings: Bindings,
+    node: NodeOnMap,
 }
-
-/// A device that can store the moments of every storage.
-pub const PROFILE: Profile = Profile::Native;
 
 impl BlurredMap {
     /// Compiles a graph of one blur and binds it to a map with these channels, row by row. With `per_frame`, the weights
@@ -75,125 +52,77 @@ impl BlurredMap {
         per_frame: bool,
     ) -> Result<Self, CostError> {
         let desc = TextureDesc::new(storage.format(), size);
-        let text = serde_json::json!({
-            "version": 2,
-            "imports": [{ "name": "map" }],
-            "nodes": [{
-                "name": "blur",
-                "type": "blur",
-                "properties": { "kernel": kernel, "per_frame": per_frame }
-            }],
-            "edges": [{ "from": "map", "to": "blur.map" }],
-            "outputs": [{ "name": "blurred", "from": "blur.blurred" }]
-        });
-        let graph = Graph::parse(&text.to_string(), &NodeRegistry::new())?;
+        let text = NodeText {
+            node_type: "blur",
+            properties: json!({ "kernel": kernel, "per_frame": per_frame }),
+            input: "map",
+            output: "blurred",
+        };
+        let map = upload(gpu, &desc, &encode(storage, channels))?;
         let capabilities = Capabilities::of_device(&gpu.adapter, &gpu.device);
-        let imports = Imports::from([("map".to_owned(), ResourceDesc::Texture(desc.clone()))]);
-        let plan = compile(&graph, &capabilities, &imports)?;
-        let device = &gpu.device;
-        let pipelines = block_on(Pipelines::create(device, &plan, PipelineOptions::default()))?;
-        let resources = block_on(Resources::create(device, &plan))?;
-        let parameters = device.create_buffer_init(&wgpu::util::BufferInitDescriptor {
-            label: Some("cost/parameters"),
-            contents: &[plan.parameters.initial(), vec![0; 16]].concat(),
-            usage: wgpu::BufferUsages::UNIFORM,
-        });
-        let moments = moments_texture(gpu, &desc, &encode(storage, channels))?;
-        let bindings = block_on(Bindings::create(
-            device,
-            &plan,
-            &pipelines,
-            &resources,
-            &[("map", ImportedResource::Texture(&moments))],
-            Some(&parameters),
-        ))?;
         Ok(Self {
             storage,
             kernel: kernel.kernel()?,
             size,
-            bindings,
+            node: NodeOnMap::new(gpu, &capabilities, text, (&desc, &map), |_, _| Ok(()))?,
         })
     }
 
-    /// Records the blur, both directions.
-    pub fn record(&self, encoder: &mut wgpu::CommandEncoder) -> Result<(), CostError> {
-        self.record_passes(Passes::All, encoder)
-    }
-
     /// Records some of its passes: number 0 blurs along x, number 1 along y.
-    pub fn record_passes(
+    pub fn record(
         &self,
         passes: Passes<'_>,
         encoder: &mut wgpu::CommandEncoder,
     ) -> Result<(), CostError> {
-        let recording = Recording {
-            passes,
-            ..Recording::default()
-        };
-        Ok(self
-            .bindings
-            .record(Stage::AfterShadowMaps, encoder, recording)?)
+        self.node.record(passes, encoder)
     }
 
     /// The blurred channels, row by row.
     pub fn run(&self, gpu: &Gpu) -> Result<Channels, CostError> {
-        let mut encoder = gpu.device.create_command_encoder(&Default::default());
-        self.record(&mut encoder)?;
-        gpu.queue.submit([encoder.finish()]);
-        self.read(gpu)
+        Ok(decode(self.storage, &self.node.run(gpu)?.concat()))
     }
 
     /// What the output holds now.
     pub fn read(&self, gpu: &Gpu) -> Result<Channels, CostError> {
-        let blurred = self.bindings.output("blurred").ok_or(CostError::Format {
-            format: self.storage.format(),
-        })?;
-        let bytes = gpu.read_texture(blurred, 0, "blurred moments")?;
-        Ok(decode(self.storage, &bytes))
+        Ok(decode(self.storage, &self.node.read(gpu)?.concat()))
     }
 
-    /// Runs the blur and compares it with the reference for the same stored channels; gives the largest error.
-    pub fn check(&self, gpu: &Gpu, channels: &[[f64; 4]]) -> Result<f64, CostError> {
+    /// Runs the blur and compares it with the reference for the same stored channels.
+    pub fn difference(&self, gpu: &Gpu, channels: &[[f64; 4]]) -> Result<Difference, CostError> {
         let stored = decode(self.storage, &encode(self.storage, channels));
         let reference = reference::blur(&stored, self.size.map(|side| side as usize), &self.kernel);
-        reference::check(
-            &format!(
-                "a blur of radius {} of {}",
-                self.kernel.radius(),
-                self.storage
-            ),
+        let tolerance = reference::blur_tolerance(self.storage, &self.kernel);
+        Ok(reference::difference(
             &self.run(gpu)?,
             &reference,
-            reference::blur_tolerance(self.storage, &self.kernel),
-        )
+            tolerance,
+        ))
     }
 }
 
-fn moments_texture(
-    gpu: &Gpu,
-    desc: &TextureDesc,
-    bytes: &[u8],
-) -> Result<wgpu::Texture, CostError> {
-    let format = texture_format(desc.format).ok_or(CostError::Format {
-        format: desc.format,
-    })?;
-    Ok(gpu.device.create_texture_with_data(
-        &gpu.queue,
-        &wgpu::TextureDescriptor {
-            label: Some("cost/moments"),
-            size: wgpu::Extent3d {
-                width: desc.size[0],
-                height: desc.size[1],
-                depth_or_array_layers: 1,
+fn cases(gpu: &Gpu, size: u32) -> Result<Vec<Case>, CostError> {
+    let storage = Storage::Unorm16;
+    let channels = noise(storage, size as usize * size as usize);
+    let case = |(radius, gate, goal)| {
+        let kernel = KernelProperty {
+            radius: Some(radius),
+            ..KernelProperty::default()
+        };
+        let map = BlurredMap::new(gpu, storage, [size; 2], &channels, kernel, false)?;
+        Ok(Case {
+            name: format!("a blur of radius {radius}"),
+            facts: Facts(vec![("size", size.into()), ("radius", radius.into())]),
+            written: vec![TextureDesc::new(storage.format(), [size; 2])],
+            work: CopyWork::Compute,
+            bytes: map.node.bytes(),
+            difference: Some(map.difference(gpu, &channels)?),
+            gate: Gate {
+                gate,
+                goal,
+                largest_growth: None,
             },
-            mip_level_count: 1,
-            sample_count: 1,
-            dimension: wgpu::TextureDimension::D2,
-            format,
-            usage: wgpu::TextureUsages::TEXTURE_BINDING,
-            view_formats: &[],
-        },
-        wgpu::util::TextureDataOrder::LayerMajor,
-        bytes,
-    ))
+            record: Box::new(move |encoder| map.record(Passes::All, encoder)),
+        })
+    };
+    BOUNDS.into_iter().map(case).collect()
 }

@@ -1,57 +1,23 @@
 //! Why a cost was not reported.
 
-use moment_shadows::{
-    RectifiedFrameError, ScatteringViewError, SingleScatteringError, TechniqueError, TextureFormat,
-};
-use moment_shadows_graph::record::RecordError;
-use moment_shadows_graph::{GraphError, ParameterError};
+use moment_shadows::{RectifiedFrameError, TextureFormat};
+use moment_shadows_graph::GraphError;
 
 use crate::error::LabError;
-use crate::gpu::GpuError;
-use crate::picture::PictureError;
-use crate::plot::PlotError;
-use crate::summed_area::TableError;
 
 /// Why a cost was not reported.
 #[derive(Debug, thiserror::Error)]
 #[non_exhaustive]
 pub enum CostError {
-    /// The lab could not prepare what is measured.
+    /// What is measured could not be prepared or recorded, or its figures could not be saved.
     #[error(transparent)]
-    Lab(#[from] LabError),
-    /// The device.
-    #[error(transparent)]
-    Gpu(#[from] GpuError),
-    /// The library's recorder.
-    #[error(transparent)]
-    Record(#[from] RecordError),
-    /// A file that cannot be written.
-    #[error(transparent)]
-    Picture(#[from] PictureError),
-    /// A plot.
-    #[error(transparent)]
-    Plot(#[from] PlotError),
-    /// A summed-area table.
-    #[error(transparent)]
-    Table(#[from] TableError),
-    /// An encoding that there is not.
-    #[error(transparent)]
-    Technique(#[from] TechniqueError),
-    /// A graph that the harness makes itself.
+    Lab(LabError),
+    /// A kernel or a graph that the harness makes itself.
     #[error(transparent)]
     Graph(#[from] GraphError),
-    /// Parameters that a graph does not have.
-    #[error(transparent)]
-    Parameter(#[from] ParameterError),
-    /// A camera and a light that are not for single scattering.
-    #[error(transparent)]
-    Scattering(#[from] ScatteringViewError),
     /// A camera and a light without rectified coordinates.
     #[error(transparent)]
     Frame(#[from] RectifiedFrameError),
-    /// A medium that there is not.
-    #[error(transparent)]
-    Medium(#[from] SingleScatteringError),
     /// The work was submitted, but its end could not be waited for.
     #[error("the device did not finish '{what}': {reason}; it may have been lost")]
     Wait {
@@ -60,20 +26,19 @@ pub enum CostError {
         /// What the driver said.
         reason: String,
     },
-    /// A baseline that the device cannot run.
-    #[error("a copy of {format} was refused: {reason}; measure a graph with another format")]
-    Baseline {
-        /// The format.
-        format: TextureFormat,
-        /// What the driver said.
-        reason: String,
-    },
-    /// A format that the harness does not decode.
-    #[error("{format} cannot be compared with the reference; only moments can")]
+    /// Textures of a format that the device cannot copy by a shader, or that the harness does not decode.
+    #[error("{format} cannot be measured: {reason}; measure a graph with another format")]
     Format {
         /// The format.
         format: TextureFormat,
+        /// Why.
+        reason: String,
     },
+    /// A bandwidth on the command line that cannot be understood.
+    #[error(
+        "'{0}' is no bandwidth; give gigabytes per second above 0, and a name after a colon if you like: 224:GTX 970"
+    )]
+    Bandwidth(String),
     /// A pass that is fast and wrong.
     #[error(
         "{what} differs from the reference by {error:e}, more than {tolerance:e}; its cost means nothing"
@@ -86,4 +51,10 @@ pub enum CostError {
         /// What rounding explains.
         tolerance: f64,
     },
+}
+
+impl<E: Into<LabError>> From<E> for CostError {
+    fn from(error: E) -> Self {
+        CostError::Lab(error.into())
+    }
 }

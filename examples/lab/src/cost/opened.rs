@@ -1,10 +1,11 @@
 //! A graph whose every connection is an output, so that what each node takes and gives can be read and compared.
 
-use moment_shadows::{DepthConversion, Storage};
+use moment_shadows::{DepthConversion, Storage, TextureFormat};
 use moment_shadows_graph::nodes::KernelProperty;
 use moment_shadows_graph::{Endpoint, Output};
 
 use super::CostError;
+use super::harness::Difference;
 use super::reference;
 use super::shading;
 use super::texels::{Channels, decode};
@@ -18,6 +19,16 @@ use crate::host::read_depth_samples;
 pub(super) struct OpenedGraph {
     file: GraphFile,
     frame: GraphFrame,
+}
+
+/// A difference from the reference, if there is one.
+type Checked = Result<Option<Difference>, CostError>;
+
+/// Channels of a mip level.
+struct Level {
+    storage: Storage,
+    size: [usize; 2],
+    channels: Channels,
 }
 
 /// The import that the lab binds the light's depth to.
@@ -54,144 +65,110 @@ impl OpenedGraph {
         })
     }
 
-    /// Compares a node's output with the reference, and gives the largest error (for shading, the mean error of some
-    /// pixels); `None` for a node without a reference.
-    pub(super) fn check(
-        &self,
-        gpu: &Gpu,
-        frame: &Frame,
-        node: &str,
-    ) -> Result<Option<f64>, CostError> {
+    /// How far a node's output is from the reference (for shading, in the mean of some pixels); `None` for a node without
+    /// a reference.
+    pub(super) fn difference(&self, gpu: &Gpu, frame: &Frame, node: &str) -> Checked {
         match self.file.node_entry(node, "type").as_str() {
-            Some("resolve") => self.check_resolve(gpu, frame, node),
-            Some("blur") => self.check_blur(gpu, node),
-            Some("downsample") => self.check_downsample(gpu, node),
-            Some("shade_hard") => self.check_shade(gpu, frame, node),
+            Some("resolve") => self.of_resolve(gpu, frame, node),
+            Some("blur") => self.of_blur(gpu, node),
+            Some("downsample") => self.of_downsample(gpu, node),
+            Some("shade_hard") => self.of_shade(gpu, frame, node),
             _ => Ok(None),
         }
     }
 
-    fn check_resolve(
-        &self,
-        gpu: &Gpu,
-        frame: &Frame,
-        node: &str,
-    ) -> Result<Option<f64>, CostError> {
-        let Some((storage, moments)) = self.moments(gpu, &self.held(node, "map"))? else {
+    fn of_resolve(&self, gpu: &Gpu, frame: &Frame, node: &str) -> Checked {
+        let depth = self.source(node, "depth");
+        let output = self.held(node, "map");
+        let Some(found) = self
+            .level(gpu, &output, 0)?
+            .filter(|_| depth == LIGHT_DEPTH)
+        else {
             return Ok(None);
         };
-        if self.source(node, "depth") != Some(LIGHT_DEPTH.to_owned()) {
-            return Ok(None);
-        }
-        let depth = read_depth_samples(gpu, &frame.light_map.texture)
-            .map_err(crate::error::LabError::from)?;
+        let depth = read_depth_samples(gpu, &frame.light_map.texture)?;
         // The harness's light is a sun whose depth is not reversed.
         let conversion = DepthConversion::orthographic();
-        let reference = reference::resolve(&depth, &conversion, storage);
-        let tolerance = reference::resolve_tolerance(storage, depth.samples);
-        reference::check(node, &moments, &reference, tolerance).map(Some)
+        let reference = reference::resolve(&depth, &conversion, found.storage);
+        let tolerance = reference::resolve_tolerance(found.storage, depth.samples);
+        found.difference(&reference, tolerance)
     }
 
-    fn check_blur(&self, gpu: &Gpu, node: &str) -> Result<Option<f64>, CostError> {
-        let Some(source) = self.source(node, "map") else {
+    fn of_blur(&self, gpu: &Gpu, node: &str) -> Checked {
+        let source = self.level(gpu, &self.source(node, "map"), 0)?;
+        let found = self.level(gpu, &self.held(node, "blurred"), 0)?;
+        let (Some(source), Some(found)) = (source, found) else {
             return Ok(None);
         };
-        let (Some((storage, moments)), Some((_, blurred))) = (
-            self.moments(gpu, &source)?,
-            self.moments(gpu, &self.held(node, "blurred"))?,
-        ) else {
-            return Ok(None);
-        };
-        let kernel: KernelProperty =
-            serde_json::from_value(self.file.node_entry(node, "properties")["kernel"].clone())
-                .unwrap_or_default();
+        let kernel = self.file.node_entry(node, "properties")["kernel"].clone();
+        let kernel: KernelProperty = serde_json::from_value(kernel).unwrap_or_default();
         let kernel = kernel.kernel()?;
-        let size = self
-            .frame
-            .plan
-            .output_texture(&source)
-            .map_or([0; 2], |desc| desc.size.map(|side| side as usize));
-        let reference = reference::blur(&moments, size, &kernel);
-        let tolerance = reference::blur_tolerance(storage, &kernel);
-        reference::check(node, &blurred, &reference, tolerance).map(Some)
+        let reference = reference::blur(&source.channels, source.size, &kernel);
+        found.difference(
+            &reference,
+            reference::blur_tolerance(found.storage, &kernel),
+        )
     }
 
     /// Each mip level against the one before it, as that is stored.
-    fn check_downsample(&self, gpu: &Gpu, node: &str) -> Result<Option<f64>, CostError> {
+    fn of_downsample(&self, gpu: &Gpu, node: &str) -> Checked {
         let output = format!("{node} moments");
-        let Some(desc) = self.frame.plan.output_texture(&output).cloned() else {
-            return Ok(None);
-        };
-        let mut largest = 0.0_f64;
-        let Some((storage, mut finer)) = self.level(gpu, &output, 0)? else {
-            return Ok(None);
-        };
-        let size = |level: u32| desc.size_at(level).map(|side| side as usize);
-        for level in 1..desc.mips {
-            let reference = reference::downsample(&finer, size(level - 1), size(level));
-            let Some((_, found)) = self.level(gpu, &output, level)? else {
+        let mips = self
+            .frame
+            .plan
+            .output_texture(&output)
+            .map_or(0, |desc| desc.mips);
+        let mut all: Option<Difference> = None;
+        for level in 1..mips {
+            let finer = self.level(gpu, &output, level - 1)?;
+            let (Some(finer), Some(found)) = (finer, self.level(gpu, &output, level)?) else {
                 return Ok(None);
             };
-            let what = format!("{node}, mip level {level}");
-            let tolerance = reference::downsample_tolerance(storage);
-            largest = largest.max(reference::check(&what, &found, &reference, tolerance)?);
-            finer = found;
+            let reference = reference::downsample(&finer.channels, finer.size, found.size);
+            let tolerance = reference::downsample_tolerance(found.storage);
+            let next = found.difference(&reference, tolerance)?;
+            all = all.into_iter().chain(next).reduce(Difference::worse);
         }
-        Ok(Some(largest))
+        Ok(all)
     }
 
     /// Only a map without mip levels: the reference looks up the finest.
-    fn check_shade(&self, gpu: &Gpu, frame: &Frame, node: &str) -> Result<Option<f64>, CostError> {
-        let map = self.source(node, "map");
-        let map = map.and_then(|map| self.frame.plan.output_texture(&map));
-        let intensity = self
-            .frame
-            .bindings
-            .output(&self.held(node, "shadow_intensity"));
-        let (Some(map), Some(intensity)) = (map, intensity) else {
+    fn of_shade(&self, gpu: &Gpu, frame: &Frame, node: &str) -> Checked {
+        let map = self.frame.plan.output_texture(&self.source(node, "map"));
+        let map = map.filter(|map| map.mips == 1 && map.size == frame.desc.map);
+        let output = self.held(node, "shadow_intensity");
+        let (Some(map), Some(intensity)) = (map, self.frame.bindings.output(&output)) else {
             return Ok(None);
         };
-        if map.mips > 1 || map.size != frame.desc.map {
-            return Ok(None);
-        }
-        let storage =
-            Storage::of_format(map.format).ok_or(CostError::Format { format: map.format })?;
-        shading::check(gpu, frame, &self.file, (node, intensity), storage)
+        shading::difference(gpu, frame, &self.file, intensity, storage(map.format)?)
     }
 
-    /// The stored channels of an output that holds moments.
-    fn moments(&self, gpu: &Gpu, output: &str) -> Result<Option<(Storage, Channels)>, CostError> {
-        self.level(gpu, output, 0)
-    }
-
-    /// The same of one of its mip levels.
-    fn level(
-        &self,
-        gpu: &Gpu,
-        output: &str,
-        level: u32,
-    ) -> Result<Option<(Storage, Channels)>, CostError> {
-        let (Some(desc), Some(texture)) = (
-            self.frame.plan.output_texture(output),
-            self.frame.bindings.output(output),
-        ) else {
+    /// A mip level of an output that holds moments.
+    fn level(&self, gpu: &Gpu, output: &str, level: u32) -> Result<Option<Level>, CostError> {
+        let Self { frame, .. } = self;
+        let desc = frame.plan.output_texture(output);
+        let (Some(desc), Some(texture)) = (desc, frame.bindings.output(output)) else {
             return Ok(None);
         };
-        let storage = Storage::of_format(desc.format).ok_or(CostError::Format {
-            format: desc.format,
-        })?;
-        let bytes = gpu.read_level(texture, 0, level, output)?;
-        Ok(Some((storage, decode(storage, &bytes))))
+        let storage = storage(desc.format)?;
+        Ok(Some(Level {
+            storage,
+            size: desc.size_at(level).map(|side| side as usize),
+            channels: decode(storage, &gpu.read_level(texture, 0, level, output)?),
+        }))
     }
 
-    /// What an input of a node is connected to: the name of an output of this graph, or of an import.
-    fn source(&self, node: &str, slot: &str) -> Option<String> {
+    /// What an input of a node is connected to: the name of an output of this graph, or of an import; empty where it is
+    /// open.
+    fn source(&self, node: &str, slot: &str) -> String {
         let to = format!("{node}.{slot}");
-        let edges = &self.file.graph.edges;
-        let edge = edges.iter().find(|edge| edge.to.to_string() == to)?;
-        Some(match &edge.from.slot {
-            Some(slot) => self.held(&edge.from.owner, slot),
-            None => output_name(&edge.from),
+        let mut edges = self.file.graph.edges.iter();
+        let from = edges
+            .find(|edge| edge.to.to_string() == to)
+            .map(|edge| &edge.from);
+        from.map_or(String::new(), |from| match &from.slot {
+            Some(slot) => self.held(&from.owner, slot),
+            None => output_name(from),
         })
     }
 
@@ -206,6 +183,23 @@ impl OpenedGraph {
         });
         changed.unwrap_or_else(|| format!("{node} {slot}"))
     }
+}
+
+impl Level {
+    fn difference(&self, reference: &[[f64; 4]], tolerance: f64) -> Checked {
+        Ok(Some(reference::difference(
+            &self.channels,
+            reference,
+            tolerance,
+        )))
+    }
+}
+
+fn storage(format: TextureFormat) -> Result<Storage, CostError> {
+    Storage::of_format(format).ok_or_else(|| CostError::Format {
+        format,
+        reason: "the reference knows moments alone".to_owned(),
+    })
 }
 
 /// The output of the node that an edge leads to, if it is the same texture as this input.

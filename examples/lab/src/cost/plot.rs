@@ -10,8 +10,8 @@ use plotters::element::{Circle, PathElement};
 use plotters::series::LineSeries;
 use plotters::style::{Color, RGBColor, ShapeStyle, WHITE};
 
-use super::baseline::CopyWork;
-use super::growth::{Axis, Curve, Growth, Point};
+use super::copies::CopyWork;
+use super::growth::{Axis, Growth, Point};
 use super::report::Conditions;
 use super::statistics::Distribution;
 use crate::plot::{COLOURS, Drawn, FONT, Plot, PlotError, Scale, number};
@@ -28,7 +28,7 @@ pub fn save(
     conditions: &Conditions,
     folder: &Path,
 ) -> Result<[PathBuf; 2], PlotError> {
-    let stem = growth.axis.file_stem();
+    let stem = growth.axis.texts()[2];
     crate::plot::save(&GrowthPlot { growth, conditions }, folder, stem)
 }
 
@@ -43,13 +43,13 @@ struct Panel {
     figure: fn(&Point) -> Distribution,
     /// Whether the figure is drawn by its logarithm.
     logarithmic: bool,
-    /// Whether the legend says what copies are.
-    in_copies: bool,
+    /// What follows a node's name in the legend.
+    unit: fn(CopyWork) -> &'static str,
 }
 
 impl Plot for GrowthPlot<'_> {
     fn title(&self) -> &str {
-        self.growth.axis.title()
+        self.growth.axis.texts()[0]
     }
 
     fn size(&self) -> (u32, u32) {
@@ -62,20 +62,23 @@ impl Plot for GrowthPlot<'_> {
             "{}, {:?}, median of {} rounds with the interquartile range",
             conditions.adapter, conditions.clock, conditions.rounds
         );
-        let below = area.titled(growth.axis.title(), (FONT, 24))?;
+        let below = area.titled(self.title(), (FONT, 24))?;
         let below = below.titled(&setting, (FONT, 14))?;
         let (left, right) = below.split_horizontally(SIZE.0 / 2);
         let copies = Panel {
             label: "time (copies of the output)",
             figure: Point::x_copy,
             logarithmic: true,
-            in_copies: true,
+            unit: |work| match work {
+                CopyWork::Compute => " (compute copies)",
+                CopyWork::Fullscreen => " (copies by a draw)",
+            },
         };
         let per_texel = Panel {
             label: "time per texel (multiple of the first)",
             figure: |point| point.per_texel,
             logarithmic: growth.axis == Axis::Radius,
-            in_copies: false,
+            unit: |_| "",
         };
         draw_panel(&left, growth, &copies)?;
         draw_panel(&right, growth, &per_texel)
@@ -87,19 +90,13 @@ fn draw_panel<B: DrawingBackend>(
     growth: &Growth,
     panel: &Panel,
 ) -> Drawn<B> {
-    let points: Vec<&Point> = growth
-        .curves
-        .iter()
-        .flat_map(|curve| &curve.points)
-        .collect();
-    let mut values: Vec<(f64, &str)> = points
-        .iter()
-        .map(|point| (point.value.x.log2(), point.value.label.as_str()))
-        .collect();
+    let points = growth.points.iter();
+    let values = points.clone().map(|point| &point.value);
+    let mut values: Vec<_> = values.map(|value| (value.x.log2(), &value.label)).collect();
     values.sort_by(|one, other| one.0.total_cmp(&other.0));
     values.dedup();
     let ends = [values.first(), values.last()].map(|end| end.map_or(0.0, |value| value.0));
-    let medians = points.iter().map(|point| (panel.figure)(point).median);
+    let medians = points.map(|point| (panel.figure)(point).median);
     let y_axis = Scale::of(medians, panel.logarithmic, ROOM);
     let x_axis = Scale {
         range: ends[0] - 0.3..ends[1] + 0.3,
@@ -112,43 +109,37 @@ fn draw_panel<B: DrawingBackend>(
         .build_cartesian_2d(x_axis, y_axis)?;
     let label = |x: &f64| {
         let near = values.iter().find(|value| (value.0 - x).abs() < 1e-9);
-        near.map_or(String::new(), |value| value.1.to_owned())
+        near.map_or(String::new(), |value| value.1.clone())
     };
     let logarithmic = panel.logarithmic;
-    let figure = |y: &f64| number(if logarithmic { y.exp2() } else { *y });
     chart
         .configure_mesh()
-        .x_desc(growth.axis.label())
+        .x_desc(growth.axis.texts()[1])
         .y_desc(panel.label)
         .x_label_formatter(&label)
-        .y_label_formatter(&figure)
+        .y_label_formatter(&|y: &f64| number(if logarithmic { y.exp2() } else { *y }))
         .label_style((FONT, 15))
         .axis_desc_style((FONT, 17))
         .draw()?;
     let place = |value: f64| if logarithmic { value.log2() } else { value };
-    for (curve, colour) in growth.curves.iter().zip(COLOURS.iter().cycle()) {
-        let style = ShapeStyle::from(colour).stroke_width(2);
-        let at = |point: &Point, offset: f64| {
-            let figure = (panel.figure)(point);
-            let value = figure.median + offset * figure.interquartile_range;
-            (point.value.x.log2(), place(value.max(f64::MIN_POSITIVE)))
-        };
-        let line = LineSeries::new(curve.points.iter().map(|point| at(point, 0.0)), style);
-        let colour = *colour;
+    let at = |point: &Point, offset: f64| {
+        let figure = (panel.figure)(point);
+        let value = figure.median + offset * figure.interquartile_range;
+        (point.value.x.log2(), place(value.max(f64::MIN_POSITIVE)))
+    };
+    for ((node, points), &colour) in growth.curves().into_iter().zip(COLOURS.iter().cycle()) {
+        let style = ShapeStyle::from(&colour).stroke_width(2);
+        let work = points.first().map(|point| point.row.work);
+        let line = LineSeries::new(points.iter().map(|point| at(point, 0.0)), style);
         chart
             .draw_series(line)?
-            .label(name(curve, panel))
+            .label(format!("{node}{}", work.map_or("", panel.unit)))
             .legend(move |(x, y)| PathElement::new(vec![(x, y), (x + 22, y)], style));
-        chart.draw_series(curve.points.iter().map(|point| {
-            let ends = vec![at(point, -0.5), at(point, 0.5)];
-            PathElement::new(ends, colour)
-        }))?;
-        chart.draw_series(
-            curve
-                .points
-                .iter()
-                .map(|point| Circle::new(at(point, 0.0), 4, colour.filled())),
-        )?;
+        let spread = |point: &&Point| vec![at(point, -0.5), at(point, 0.5)];
+        let spreads = points.iter().map(spread);
+        chart.draw_series(spreads.map(|ends| PathElement::new(ends, colour)))?;
+        let medians = points.iter().map(|point| at(point, 0.0));
+        chart.draw_series(medians.map(|place| Circle::new(place, 4, colour.filled())))?;
     }
     chart
         .configure_series_labels()
@@ -158,12 +149,4 @@ fn draw_panel<B: DrawingBackend>(
         .legend_area_size(30)
         .label_font((FONT, 15))
         .draw()
-}
-
-fn name(curve: &Curve, panel: &Panel) -> String {
-    match (panel.in_copies, curve.copy) {
-        (true, CopyWork::Compute) => format!("{} (compute copies)", curve.node),
-        (true, CopyWork::Fullscreen) => format!("{} (copies by a draw)", curve.node),
-        (false, _) => curve.node.clone(),
-    }
 }

@@ -91,15 +91,9 @@ impl Rounds {
         Ok(Self { readings })
     }
 
-    /// A subject's time, beside that of its copies.
+    /// The time of one subject or of several together, beside that of all their copies together.
     #[must_use]
-    pub fn time(&self, subject: usize, copies: CopyNumbers) -> Time {
-        self.total(&[(subject, copies)])
-    }
-
-    /// The time of several subjects together, beside that of all their copies together.
-    #[must_use]
-    pub fn total(&self, parts: &[(usize, CopyNumbers)]) -> Time {
+    pub fn time(&self, parts: &[(usize, CopyNumbers)]) -> Time {
         let subjects: Vec<usize> = parts.iter().map(|(subject, _)| *subject).collect();
         let copies = |number: fn(&CopyNumbers) -> usize| -> Vec<usize> {
             parts.iter().map(|(_, copies)| number(copies)).collect()

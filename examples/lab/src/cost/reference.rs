@@ -3,7 +3,7 @@
 use moment_shadows::{DepthConversion, Kernel, Storage};
 use rayon::prelude::*;
 
-use super::CostError;
+use super::harness::Difference;
 use super::texels::{Channels, step};
 use crate::host::DepthSamples;
 
@@ -62,36 +62,12 @@ pub fn resolve_tolerance(storage: Storage, samples: u32) -> f64 {
     tolerance(storage, 1, samples as usize + 32)
 }
 
-/// Compares an output with its reference. An output with a NaN is wrong.
-pub fn check(
-    what: &str,
-    output: &[[f64; 4]],
-    reference: &[[f64; 4]],
-    tolerance: f64,
-) -> Result<f64, CostError> {
-    let differences = output
-        .iter()
-        .zip(reference)
-        .flat_map(|(output, reference)| (0..4).map(|channel| output[channel] - reference[channel]));
-    let mut error = if output.len() == reference.len() {
-        0.0_f64
-    } else {
-        f64::NAN
-    };
-    for difference in differences {
-        // `f64::max` would drop NaN.
-        if difference.is_nan() || difference.abs() > error {
-            error = difference.abs();
-        }
-    }
-    if error <= tolerance {
-        return Ok(error);
-    }
-    Err(CostError::WrongResult {
-        what: what.to_owned(),
-        error,
-        tolerance,
-    })
+/// How far channels are from those of the reference.
+#[must_use]
+pub fn difference(output: &[[f64; 4]], reference: &[[f64; 4]], tolerance: f64) -> Difference {
+    let [output, reference] =
+        [output, reference].map(|texels| texels.as_flattened().iter().copied());
+    Difference::of(output, reference, tolerance)
 }
 
 /// Storage of 16 bits rounds once per stage, and single-precision sums hardly matter beside that; in single precision
@@ -164,7 +140,7 @@ fn moment_depth(stored: f64, conversion: &DepthConversion) -> f64 {
 }
 
 /// As the WGSL module `moments` stores: the optimised basis (JCGT 6(1) 2017, section 3), centred for float16.
-fn channels(b: [f64; 4], storage: Storage) -> [f64; 4] {
+pub(super) fn channels(b: [f64; 4], storage: Storage) -> [f64; 4] {
     if storage == Storage::Float32 {
         return b;
     }

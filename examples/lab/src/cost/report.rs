@@ -1,10 +1,9 @@
-//! Costs as text and as JSON.
+//! Times, and where and how they were taken.
 
 use core::fmt;
 
 use serde::Serialize;
 
-use super::blur::Bound;
 use super::clock::{Clock, ClockKind};
 use super::protocol::FEWEST_ROUNDS;
 use super::statistics::Distribution;
@@ -44,32 +43,6 @@ pub struct Time {
     pub reliable: bool,
 }
 
-/// What a blur costs in both directions.
-#[derive(Clone, Debug, Serialize)]
-pub struct BlurRow {
-    /// Texels on either side of the centre.
-    pub radius: u32,
-    /// The time.
-    pub time: Time,
-    /// The bound, on a software adapter.
-    pub gate: Option<f64>,
-    /// What is aimed at, on a software adapter.
-    pub goal: Option<f64>,
-    /// The largest difference from the reference, in the channels' unit.
-    pub error: f64,
-}
-
-/// What blurs of several radii cost.
-#[derive(Clone, Debug, Serialize)]
-pub struct BlurCost {
-    /// Where and how.
-    pub conditions: Conditions,
-    /// Texels per side of the map.
-    pub size: u32,
-    /// Per radius.
-    pub rows: Vec<BlurRow>,
-}
-
 impl Conditions {
     /// The conditions of measurements with a clock.
     #[must_use]
@@ -85,35 +58,6 @@ impl Conditions {
     }
 }
 
-impl BlurRow {
-    /// A row with its bound, which holds for software adapters.
-    #[must_use]
-    pub fn new(bound: Bound, time: Time, error: f64, software: bool) -> Self {
-        Self {
-            radius: bound.radius,
-            time,
-            gate: bound.gate.filter(|_| software),
-            goal: bound.goal.filter(|_| software),
-            error,
-        }
-    }
-
-    /// Whether the median is within the gate; true where there is none.
-    #[must_use]
-    pub fn passed(&self) -> bool {
-        self.gate
-            .is_none_or(|gate| self.time.x_compute_copy.median <= gate)
-    }
-}
-
-impl BlurCost {
-    /// Whether every radius is within its gate.
-    #[must_use]
-    pub fn passed(&self) -> bool {
-        self.rows.iter().all(BlurRow::passed)
-    }
-}
-
 impl fmt::Display for Conditions {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         writeln!(f, "adapter  {}", self.adapter)?;
@@ -125,44 +69,6 @@ impl fmt::Display for Conditions {
             ClockKind::Wall => "wall, from submission to completion",
         };
         writeln!(f, "clock    {clock}, {} rounds", self.rounds)
-    }
-}
-
-impl fmt::Display for BlurCost {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        writeln!(f, "{}", self.conditions)?;
-        writeln!(
-            f,
-            "blur of rgba16unorm {0}x{0}, both directions, in compute copies of the map",
-            self.size
-        )?;
-        writeln!(
-            f,
-            "{:>6} {:>8} {:>6} {:>8} {:>6} {:>6} {:>9}",
-            "radius", "x copy", "IQR", "x API", "gate", "goal", "error"
-        )?;
-        for row in &self.rows {
-            let bound =
-                |bound: Option<f64>| bound.map_or("-".to_owned(), |bound| bound.to_string());
-            let verdict = match row.gate {
-                Some(_) if !row.passed() => "  gate missed",
-                Some(_) => "  ok",
-                None => "",
-            };
-            writeln!(
-                f,
-                "{:>6} {:>8.2} {:>6} {:>8.2} {:>6} {:>6} {:>9.1e}{verdict}{}",
-                row.radius,
-                row.time.x_compute_copy.median,
-                percent(row.time.x_compute_copy.spread()),
-                row.time.x_api_copy.median,
-                bound(row.gate),
-                bound(row.goal),
-                row.error,
-                mark(&row.time, self.conditions.clock),
-            )?;
-        }
-        Ok(())
     }
 }
 

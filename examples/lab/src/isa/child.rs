@@ -3,14 +3,12 @@
 
 use std::process::Command;
 
-use serde::{Deserialize, Serialize};
-
 use super::chip::Chip;
 use super::compiler::Compiler;
-use super::driver::{Driver, manifest};
+use super::driver::manifest;
 use super::error::IsaError;
 use super::figures::{Figures, Row};
-use super::subjects::subjects;
+use super::subjects::{Subject, subjects};
 use super::table::{ChipRows, Table};
 
 /// The subcommand that the process runs.
@@ -26,33 +24,24 @@ const UNSET: [&str; 6] = [
     "VK_LOADER_LAYERS_ENABLE",
 ];
 
-/// What the process writes.
-#[derive(Serialize, Deserialize)]
-struct Report {
-    driver: Driver,
-    rows: ChipRows,
+/// The table for some chips, a process each, which writes the table of its own. The program that runs must know the
+/// subcommand [`COMMAND`].
+pub fn table(chips: &[Chip]) -> Result<Table, IsaError> {
+    let mut compiled = Table::default();
+    for &chip in chips {
+        let own: Table =
+            serde_json::from_str(&run(chip, None)?).map_err(|error| failed(chip, error))?;
+        compiled.driver = own.driver;
+        compiled.chips.extend(own.chips);
+    }
+    Ok(compiled)
 }
 
-/// The table for some chips, a process each. The program that runs must know the subcommand [`COMMAND`].
-pub fn table(chips: &[Chip]) -> Result<Table, IsaError> {
-    let mut compiled: Option<Table> = None;
-    for &chip in chips {
-        let report: Report =
-            serde_json::from_str(&run(chip, None)?).map_err(|error| IsaError::Child {
-                chip,
-                reason: error.to_string(),
-            })?;
-        match &mut compiled {
-            Some(table) => table.chips.push(report.rows),
-            None => {
-                compiled = Some(Table {
-                    driver: report.driver,
-                    chips: vec![report.rows],
-                });
-            }
-        }
+fn failed(chip: Chip, reason: impl ToString) -> IsaError {
+    IsaError::Child {
+        chip,
+        reason: reason.to_string(),
     }
-    compiled.ok_or(IsaError::NoDevice)
 }
 
 /// The disassembly of one shader.
@@ -61,9 +50,8 @@ pub fn disassembly(chip: Chip, shader: &str) -> Result<String, IsaError> {
 }
 
 fn run(chip: Chip, shader: Option<&str>) -> Result<String, IsaError> {
-    let failed = |reason: String| IsaError::Child { chip, reason };
     let manifest = manifest()?;
-    let program = std::env::current_exe().map_err(|error| failed(error.to_string()))?;
+    let program = std::env::current_exe().map_err(|error| failed(chip, error))?;
     let mut command = Command::new(program);
     command.args([COMMAND, chip.name()]).args(shader);
     for name in UNSET {
@@ -78,22 +66,21 @@ fn run(chip: Chip, shader: Option<&str>) -> Result<String, IsaError> {
     }
     // Nothing is left behind in the user's folders.
     command.env("MESA_SHADER_CACHE_DISABLE", "true");
-    let output = command
-        .output()
-        .map_err(|error| failed(error.to_string()))?;
+    let output = command.output().map_err(|error| failed(chip, error))?;
     if output.status.success() {
         return Ok(String::from_utf8_lossy(&output.stdout).into_owned());
     }
     let said = String::from_utf8_lossy(&output.stderr);
     // Drivers warn before; the error is the last line.
     let error = said.lines().last().unwrap_or_default();
-    Err(failed(match error.strip_prefix("error: ") {
+    let reason = match error.strip_prefix("error: ") {
         Some(error) => error.to_owned(),
         None => format!(
             "the driver ended the process ({}); it may not know the chip",
             output.status
         ),
-    }))
+    };
+    Err(failed(chip, reason))
 }
 
 /// What the process prints: the figures of all shaders as JSON, or the disassembly of one.
@@ -111,23 +98,16 @@ pub fn compile(chip: Chip, shader: Option<&str>) -> Result<String, IsaError> {
         })?;
         return Ok(compiler.compile(subject)?.executable.isa);
     }
-    let mut rows = ChipRows {
-        chip,
-        shaders: Vec::new(),
-    };
-    for subject in &subjects {
-        let compiled = compiler.compile(subject)?;
-        rows.shaders.push(Row {
+    let row = |subject: &Subject| {
+        Ok(Row {
             shader: subject.name.clone(),
-            figures: Figures::of(subject, &compiled, chip)?,
-        });
-    }
-    let report = Report {
-        driver: compiler.driver.clone(),
-        rows,
+            figures: Figures::of(subject, &compiler.compile(subject)?, chip)?,
+        })
     };
-    serde_json::to_string(&report).map_err(|error| IsaError::Child {
-        chip,
-        reason: error.to_string(),
-    })
+    let shaders = subjects.iter().map(row).collect::<Result<_, IsaError>>()?;
+    let table = Table {
+        driver: compiler.driver,
+        chips: vec![ChipRows { chip, shaders }],
+    };
+    serde_json::to_string(&table).map_err(|error| failed(chip, error))
 }

@@ -3,7 +3,6 @@
 use core::fmt;
 
 use super::chip::Chip;
-use super::driver::Driver;
 use super::figures::Row;
 use super::table::Table;
 
@@ -13,157 +12,162 @@ pub const TOLERANCE: f64 = 0.05;
 
 /// A difference between a table and what a driver makes now.
 #[derive(Clone, Debug, PartialEq)]
-pub enum Difference {
-    /// A figure is higher than in the table.
-    Worse(Change),
-    /// A figure is lower than in the table.
-    Improved(Change),
-    /// A shader that the table does not have.
-    New {
-        /// The chip.
-        chip: Chip,
-        /// The shader.
-        shader: String,
-    },
-    /// A shader that only the table has.
-    Gone {
-        /// The chip.
-        chip: Chip,
-        /// The shader.
-        shader: String,
-    },
-}
-
-/// One figure of one shader.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Change {
+pub struct Difference {
     /// The chip.
     pub chip: Chip,
     /// The shader.
     pub shader: String,
-    /// The figure's name.
-    pub figure: &'static str,
-    /// What the table says.
-    pub table: f64,
-    /// What it is now.
-    pub now: f64,
+    /// What differs.
+    pub change: Change,
+}
+
+/// What differs for a shader.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Change {
+    /// The table does not have the shader.
+    New,
+    /// Only the table has the shader.
+    Gone,
+    /// A figure is another one.
+    Figure {
+        /// Its name.
+        name: &'static str,
+        /// What the table says.
+        table: f64,
+        /// What it is now.
+        now: f64,
+    },
 }
 
 impl Difference {
     /// Whether the gate closes. An improvement passes.
     #[must_use]
     pub fn fails(&self) -> bool {
-        !matches!(self, Difference::Improved(_))
+        !matches!(self.change, Change::Figure { table, now, .. } if now < table)
     }
 }
 
 impl fmt::Display for Difference {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        match self {
-            Difference::Worse(change) => write!(f, "worse: {change}"),
-            Difference::Improved(change) => write!(f, "improved: {change}; update the table"),
-            Difference::New { chip, shader } => {
+        let Difference { chip, shader, .. } = self;
+        match &self.change {
+            Change::New => write!(
+                f,
+                "new: {chip}, {shader}: not in the table; update the table"
+            ),
+            Change::Gone => write!(
+                f,
+                "gone: {chip}, {shader}: only in the table; update the table"
+            ),
+            Change::Figure { name, table, now } => {
+                let kind = if self.fails() { "worse" } else { "improved" };
                 write!(
                     f,
-                    "new: {chip}, {shader}: not in the table; update the table"
-                )
-            }
-            Difference::Gone { chip, shader } => {
-                write!(
-                    f,
-                    "gone: {chip}, {shader}: only in the table; update the table"
-                )
+                    "{kind}: {chip}, {shader}: {name} {now} instead of {table}"
+                )?;
+                if *table > 0.0 {
+                    write!(f, " ({:+.1} %)", 100.0 * (now / table - 1.0))?;
+                }
+                f.write_str(if self.fails() {
+                    ""
+                } else {
+                    "; update the table"
+                })
             }
         }
     }
 }
 
-impl fmt::Display for Change {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let Change {
-            chip,
-            shader,
-            figure,
-            table,
-            now,
-        } = self;
-        write!(f, "{chip}, {shader}: {figure} {now} instead of {table}")?;
-        if *table > 0.0 {
-            write!(f, " ({:+.1} %)", 100.0 * (now / table - 1.0))?;
-        }
-        Ok(())
-    }
+/// How a driver compares with the one that made a table.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Comparison {
+    /// The same version of the driver, built another time: figures should be the same.
+    pub other_build: bool,
+    /// Everything that differs by more than [`TOLERANCE`], for the chips that were compiled now.
+    pub differences: Vec<Difference>,
+    /// Rows that were compared.
+    pub rows: usize,
 }
 
-/// Whether a table belongs to a driver.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Belongs {
-    /// The very same library.
-    Yes,
-    /// The same version, built another time: figures should be the same.
-    OtherBuild,
-    /// Another compiler: figures cannot be compared.
-    No,
-}
-
-/// Compares the drivers of a table and of now.
+/// Compares tables; `None` where the drivers' versions differ, whose figures cannot be compared.
 #[must_use]
-pub fn belongs(table: &Driver, now: &Driver) -> Belongs {
-    if table.name != now.name || table.version != now.version {
-        Belongs::No
-    } else if table.sha256 != now.sha256 {
-        Belongs::OtherBuild
-    } else {
-        Belongs::Yes
+pub fn compare(table: &Table, now: &Table) -> Option<Comparison> {
+    if (&table.driver.name, &table.driver.version) != (&now.driver.name, &now.driver.version) {
+        return None;
     }
-}
-
-/// Everything that differs by more than [`TOLERANCE`], for the chips that were compiled now.
-#[must_use]
-pub fn compare(table: &Table, now: &Table) -> Vec<Difference> {
     let mut differences = Vec::new();
     for rows in &now.chips {
-        let chip = rows.chip;
-        let before: &[Row] = table
-            .chips
-            .iter()
-            .find(|before| before.chip == chip)
-            .map_or(&[], |before| &before.shaders);
+        let before = table.chips.iter().find(|before| before.chip == rows.chip);
+        let before = before.map_or(&[][..], |before| &before.shaders);
+        let mut push = |row: &Row, change| {
+            differences.push(Difference {
+                chip: rows.chip,
+                shader: row.shader.clone(),
+                change,
+            });
+        };
         for row in &rows.shaders {
             match before.iter().find(|before| before.shader == row.shader) {
-                Some(before) => compare_rows(chip, before, row, &mut differences),
-                None => differences.push(Difference::New {
-                    chip,
-                    shader: row.shader.clone(),
-                }),
+                Some(before) => figures(before, row).for_each(|figure| push(row, figure)),
+                None => push(row, Change::New),
             }
         }
         for row in before {
             if rows.shaders.iter().all(|now| now.shader != row.shader) {
-                differences.push(Difference::Gone {
-                    chip,
-                    shader: row.shader.clone(),
-                });
+                push(row, Change::Gone);
             }
         }
     }
-    differences
+    Some(Comparison {
+        other_build: table.driver.sha256 != now.driver.sha256,
+        differences,
+        rows: now.chips.iter().map(|chip| chip.shaders.len()).sum(),
+    })
 }
 
-fn compare_rows(chip: Chip, before: &Row, now: &Row, differences: &mut Vec<Difference>) {
-    for ((figure, table), (_, value)) in before.figures.named().into_iter().zip(now.figures.named())
-    {
-        let change = || Change {
-            chip,
-            shader: now.shader.clone(),
-            figure,
-            table,
-            now: value,
-        };
-        if value > table * (1.0 + TOLERANCE) {
-            differences.push(Difference::Worse(change()));
-        } else if value < table * (1.0 - TOLERANCE) {
-            differences.push(Difference::Improved(change()));
+/// The figures that differ by more than [`TOLERANCE`].
+fn figures(before: &Row, now: &Row) -> impl Iterator<Item = Change> {
+    let figures = before.figures.named().into_iter().zip(now.figures.named());
+    figures.filter_map(|((name, _, table), (.., now))| {
+        let differs = now > table * (1.0 + TOLERANCE) || now < table * (1.0 - TOLERANCE);
+        differs.then_some(Change::Figure { name, table, now })
+    })
+}
+
+impl Comparison {
+    /// Whether no figure grew and no shader came or went.
+    #[must_use]
+    pub fn passed(&self) -> bool {
+        !self.differences.iter().any(Difference::fails)
+    }
+}
+
+impl fmt::Display for Comparison {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        if self.other_build {
+            writeln!(
+                f,
+                "warning: the table was made by another build of the same driver version"
+            )?;
+        }
+        for difference in &self.differences {
+            writeln!(f, "{difference}")?;
+        }
+        let failed = self
+            .differences
+            .iter()
+            .filter(|difference| difference.fails());
+        let (rows, percent) = (self.rows, TOLERANCE * 100.0);
+        match failed.count() {
+            0 => writeln!(
+                f,
+                "no figure of {rows} rows is more than {percent} % above the table"
+            ),
+            failed => writeln!(
+                f,
+                "the table of {rows} rows does not hold: {failed} above; if that is meant, run `isa --update` and say why in \
+                 the commit"
+            ),
         }
     }
 }
@@ -171,6 +175,7 @@ fn compare_rows(chip: Chip, before: &Row, now: &Row, differences: &mut Vec<Diffe
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::isa::driver::Driver;
     use crate::isa::figures::Figures;
     use crate::isa::table::ChipRows;
 
@@ -200,8 +205,15 @@ mod tests {
         }
     }
 
+    fn differences(before: &[(&str, u64)], now: &[(&str, u64)]) -> Vec<Difference> {
+        let compared = compare(&table(before), &table(now));
+        compared
+            .map(|compared| compared.differences)
+            .unwrap_or_default()
+    }
+
     fn texts(before: u64, now: u64) -> Vec<(bool, String)> {
-        compare(&table(&[("blur", before)]), &table(&[("blur", now)]))
+        differences(&[("blur", before)], &[("blur", now)])
             .iter()
             .map(|difference| (difference.fails(), difference.to_string()))
             .collect()
@@ -226,18 +238,17 @@ mod tests {
 
     #[test]
     fn shaders_that_come_and_go_fail() {
-        let differences = compare(&table(&[("old", 1)]), &table(&[("new", 1)]));
+        let differences = differences(&[("old", 1)], &[("new", 1)]);
+        let difference = |shader: &str, change| Difference {
+            chip: Chip::Navi21,
+            shader: shader.to_owned(),
+            change,
+        };
         assert_eq!(
             differences,
             [
-                Difference::New {
-                    chip: Chip::Navi21,
-                    shader: "new".to_owned()
-                },
-                Difference::Gone {
-                    chip: Chip::Navi21,
-                    shader: "old".to_owned()
-                },
+                difference("new", Change::New),
+                difference("old", Change::Gone)
             ]
         );
         assert!(differences.iter().all(Difference::fails));
@@ -245,9 +256,21 @@ mod tests {
 
     #[test]
     fn a_table_belongs_to_a_version_and_not_to_a_build() {
-        let table = driver("Mesa 1", "a");
-        assert_eq!(belongs(&table, &driver("Mesa 1", "a")), Belongs::Yes);
-        assert_eq!(belongs(&table, &driver("Mesa 1", "b")), Belongs::OtherBuild);
-        assert_eq!(belongs(&table, &driver("Mesa 2", "a")), Belongs::No);
+        let before = Table {
+            driver: driver("Mesa 1", "a"),
+            chips: Vec::new(),
+        };
+        for (version, sha256, other_build) in [
+            ("Mesa 1", "a", Some(false)),
+            ("Mesa 1", "b", Some(true)),
+            ("Mesa 2", "a", None),
+        ] {
+            let now = Table {
+                driver: driver(version, sha256),
+                chips: Vec::new(),
+            };
+            let compared = compare(&before, &now);
+            assert_eq!(compared.map(|compared| compared.other_build), other_build);
+        }
     }
 }

@@ -3,9 +3,10 @@
 use super::chip::Chip;
 use super::driver::{Driver, loaded_sha256};
 use super::error::IsaError;
-use super::spirv;
+use super::spirv::SpirvModule;
 use super::subjects::{Subject, SubjectWork};
-use super::vulkan::{Executable, NullDevice, Program, ProgramStage};
+use super::vulkan::{Executable, NullDevice};
+use crate::shaders;
 
 /// The driver, opened for a chip.
 pub(super) struct Compiler {
@@ -40,44 +41,24 @@ impl Compiler {
     }
 
     pub(super) fn compile(&self, subject: &Subject) -> Result<Compiled, IsaError> {
-        let write = |stage, entry_point| {
-            spirv::compile(
-                &subject.name,
-                &subject.wgsl,
-                stage,
-                entry_point,
-                &subject.constants,
-            )
-        };
-        match &subject.work {
+        let shader = shaders::Compiled::new(&subject.name, &subject.wgsl, &subject.constants)?;
+        let write =
+            |stage, entry_point| SpirvModule::new(&subject.name, &shader, stage, entry_point);
+        match subject.work {
             SubjectWork::Compute {
                 texels_per_workgroup,
             } => {
                 let module = write(naga::ShaderStage::Compute, &subject.entry_point)?;
-                let executable = self.device.compile(&Program {
-                    entry_point: &subject.entry_point,
-                    module: &module,
-                    stage: ProgramStage::Compute,
-                })?;
                 Ok(Compiled {
-                    executable,
-                    outputs: f64::from(*texels_per_workgroup) / f64::from(module.workgroup.max(1)),
+                    executable: self.device.compile(&module, None)?,
+                    outputs: f64::from(texels_per_workgroup) / f64::from(module.workgroup.max(1)),
                 })
             }
-            SubjectWork::Fragment { targets } => {
+            SubjectWork::Fragment { target } => {
                 let vertex = write(naga::ShaderStage::Vertex, VERTEX_ENTRY_POINT)?;
                 let module = write(naga::ShaderStage::Fragment, &subject.entry_point)?;
-                let executable = self.device.compile(&Program {
-                    entry_point: &subject.entry_point,
-                    module: &module,
-                    stage: ProgramStage::Fragment {
-                        vertex_entry_point: VERTEX_ENTRY_POINT,
-                        vertex: &vertex,
-                        targets,
-                    },
-                })?;
                 Ok(Compiled {
-                    executable,
+                    executable: self.device.compile(&module, Some((&vertex, target)))?,
                     outputs: 1.0,
                 })
             }

@@ -1,6 +1,6 @@
 //! The driver's files: where it is, and what exactly it is.
 
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 
 use serde::{Deserialize, Serialize};
 use sha2::{Digest, Sha256};
@@ -8,7 +8,7 @@ use sha2::{Digest, Sha256};
 use super::error::IsaError;
 
 /// A driver.
-#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[derive(Clone, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Driver {
     /// The name, as it tells it.
@@ -52,11 +52,11 @@ pub(super) fn manifest() -> Result<PathBuf, IsaError> {
 /// SHA-256 of the driver that this process has loaded.
 pub(super) fn loaded_sha256() -> Result<String, IsaError> {
     let maps = "/proc/self/maps";
-    let text = std::fs::read_to_string(maps).map_err(|error| file_error(maps.as_ref(), &error))?;
-    let library = library_in(&text).ok_or(IsaError::Incomplete {
-        what: "which library it is",
-    })?;
-    let bytes = std::fs::read(library).map_err(|error| file_error(library.as_ref(), &error))?;
+    let text =
+        std::fs::read_to_string(maps).map_err(|error| IsaError::file(maps.as_ref(), error))?;
+    let library =
+        library_in(&text).ok_or_else(|| IsaError::incomplete("which library the driver is"))?;
+    let bytes = std::fs::read(library).map_err(|error| IsaError::file(library.as_ref(), error))?;
     let digest = Sha256::digest(&bytes);
     Ok(digest.iter().map(|byte| format!("{byte:02x}")).collect())
 }
@@ -69,14 +69,6 @@ fn library_in(maps: &str) -> Option<&str> {
             let name = path.rsplit('/').next().unwrap_or_default();
             name.starts_with(LIBRARY)
         })
-}
-
-/// An error about a file, with what the system says.
-pub(super) fn file_error(path: &Path, error: &std::io::Error) -> IsaError {
-    IsaError::File {
-        path: path.display().to_string(),
-        reason: error.to_string(),
-    }
 }
 
 #[cfg(test)]

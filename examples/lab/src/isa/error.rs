@@ -1,8 +1,9 @@
 //! Why there is no ISA table.
 
-use moment_shadows_graph::GraphError;
+use std::path::Path;
 
 use super::chip::Chip;
+use crate::shaders::ShadersError;
 
 /// Why shaders could not be compiled for a chip, or their table not be used.
 #[derive(Debug, thiserror::Error)]
@@ -17,19 +18,14 @@ pub enum IsaError {
         /// The folders that were searched.
         searched: String,
     },
-    /// The Vulkan loader is missing.
-    #[error(
-        "the Vulkan loader cannot be loaded: {reason}; on Debian install it with `apt-get install libvulkan1`"
-    )]
-    Loader {
-        /// What the system said.
+    /// The Vulkan loader is missing, or the driver refused something or left it out.
+    #[error("{what}: {reason}")]
+    Driver {
+        /// What was asked for.
+        what: &'static str,
+        /// What was said instead, and what to do.
         reason: String,
     },
-    /// The driver has no device.
-    #[error(
-        "the driver offers no device, not even one without a GPU; use Mesa's RADV built with LLVM or its own compiler"
-    )]
-    NoDevice,
     /// The driver offers a device, but not the one asked for.
     #[error(
         "the driver gave '{found}' instead of {chip}; this version of it may not know the chip, or may only use the GPU \
@@ -41,69 +37,15 @@ pub enum IsaError {
         /// What the driver gave.
         found: String,
     },
-    /// The driver refused to make something.
-    #[error("the driver did not give {what}: {reason}; try the version of it that the table names")]
-    Driver {
-        /// What it was to make.
-        what: &'static str,
-        /// What it said.
-        reason: String,
-    },
-    /// The driver left something out.
-    #[error("the driver does not tell {what}; use Mesa's RADV from a distribution")]
-    Incomplete {
-        /// What is missing.
-        what: &'static str,
-    },
-    /// The driver does not tell a statistic.
-    #[error(
-        "shader '{shader}': the driver does not tell '{statistic}'; use the version of it that the table names"
-    )]
-    Statistic {
-        /// The shader.
-        shader: String,
-        /// The statistic's name.
-        statistic: &'static str,
-    },
-    /// A shader is not valid.
+    /// A shader of the catalogue cannot be made.
+    #[error(transparent)]
+    Catalogue(#[from] ShadersError),
+    /// A shader does not fit the table, or its code could not be understood.
     #[error("shader '{shader}': {reason}")]
     Shader {
         /// The shader.
         shader: String,
         /// What is wrong.
-        reason: String,
-    },
-    /// A node could not describe itself.
-    #[error("shader '{shader}': {error}")]
-    Node {
-        /// The shader.
-        shader: String,
-        /// What the node said.
-        error: GraphError,
-    },
-    /// The number of loops differs from what the list says.
-    #[error(
-        "shader '{shader}' on {chip}: its code has {found} loops where the list of shaders gives trip counts for {listed}; \
-         correct the trip counts in the list"
-    )]
-    Loops {
-        /// The shader.
-        shader: String,
-        /// The chip.
-        chip: Chip,
-        /// Loops in the code.
-        found: usize,
-        /// Trip counts in the list.
-        listed: usize,
-    },
-    /// The driver's disassembly could not be understood.
-    #[error("shader '{shader}' on {chip}: {reason}")]
-    Text {
-        /// The shader.
-        shader: String,
-        /// The chip.
-        chip: Chip,
-        /// What is odd.
         reason: String,
     },
     /// The process that compiles for a chip failed.
@@ -114,26 +56,13 @@ pub enum IsaError {
         /// What it wrote, or how it ended.
         reason: String,
     },
-    /// A file could not be read or written.
+    /// A file could not be read, used or written.
     #[error("{path}: {reason}")]
     File {
         /// The file.
         path: String,
         /// What is wrong, and what to do.
         reason: String,
-    },
-    /// The table was made by another version of the driver.
-    #[error(
-        "{path} belongs to {table}, but this is {now}, whose figures cannot be compared with it; install that driver, or \
-         make a table for this one with `isa --update`"
-    )]
-    OtherDriver {
-        /// The table.
-        path: String,
-        /// The driver that made it.
-        table: String,
-        /// The driver here.
-        now: String,
     },
     /// There is no such shader.
     #[error("there is no shader '{name}'; the nearest are {nearest}")]
@@ -143,4 +72,31 @@ pub enum IsaError {
         /// Shaders of similar names.
         nearest: String,
     },
+}
+
+impl IsaError {
+    /// An error about a file.
+    pub(crate) fn file(path: &Path, reason: impl ToString) -> Self {
+        Self::File {
+            path: path.display().to_string(),
+            reason: reason.to_string(),
+        }
+    }
+
+    /// What the driver does not tell.
+    pub(super) fn incomplete(what: &'static str) -> Self {
+        Self::Driver {
+            what,
+            reason: "the driver does not tell it; use Mesa's RADV from a distribution, in the version that the table names"
+                .to_owned(),
+        }
+    }
+
+    /// An error about a shader.
+    pub(super) fn shader(shader: &str, reason: impl ToString) -> Self {
+        Self::Shader {
+            shader: shader.to_owned(),
+            reason: reason.to_string(),
+        }
+    }
 }

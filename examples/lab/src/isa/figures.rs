@@ -60,29 +60,30 @@ pub struct Row {
 }
 
 impl Figures {
-    /// The number of figures.
-    pub const COUNT: usize = 16;
-
-    /// Every figure with its name.
+    /// Every figure with its name and the head of its column.
     #[must_use]
-    pub fn named(&self) -> [(&'static str, f64); Self::COUNT] {
+    pub fn named(&self) -> [(&'static str, &'static str, f64); 16] {
         [
-            ("instructions", self.instructions as f64),
-            ("VGPRs", self.vgprs as f64),
-            ("SGPRs", self.sgprs as f64),
-            ("LDS bytes", self.lds_bytes as f64),
-            ("code bytes", self.code_bytes as f64),
-            ("inverse throughput", self.inverse_throughput as f64),
-            ("latency", self.latency as f64),
-            ("VALU per output", self.valu),
-            ("SALU per output", self.salu),
-            ("textures per output", self.texture),
-            ("buffer loads per output", self.memory),
-            ("LDS per output", self.lds),
-            ("stores per output", self.store),
-            ("ALU cycles", self.alu_cycles),
-            ("texture cycles", self.texture_cycles),
-            ("LDS cycles", self.lds_cycles),
+            ("instructions", "instr", self.instructions as f64),
+            ("VGPRs", "VGPR", self.vgprs as f64),
+            ("SGPRs", "SGPR", self.sgprs as f64),
+            ("LDS bytes", "LDS B", self.lds_bytes as f64),
+            ("code bytes", "code B", self.code_bytes as f64),
+            (
+                "inverse throughput",
+                "inv.thr",
+                self.inverse_throughput as f64,
+            ),
+            ("latency", "latency", self.latency as f64),
+            ("VALU per output", "VALU", self.valu),
+            ("SALU per output", "SALU", self.salu),
+            ("textures per output", "tex", self.texture),
+            ("buffer loads per output", "mem", self.memory),
+            ("LDS per output", "LDS", self.lds),
+            ("stores per output", "store", self.store),
+            ("ALU cycles", "cyc ALU", self.alu_cycles),
+            ("texture cycles", "cyc tex", self.texture_cycles),
+            ("LDS cycles", "cyc LDS", self.lds_cycles),
         ]
     }
 
@@ -92,33 +93,26 @@ impl Figures {
         compiled: &Compiled,
         chip: Chip,
     ) -> Result<Figures, IsaError> {
-        let statistic = |statistic: &'static str| {
-            compiled
-                .executable
-                .statistics
-                .get(statistic)
-                .copied()
-                .ok_or_else(|| IsaError::Statistic {
-                    shader: subject.name.clone(),
-                    statistic,
-                })
+        let statistic = |name: &str| {
+            let value = compiled.executable.statistics.get(name).copied();
+            value.ok_or_else(|| {
+                let reason = format!(
+                    "the driver does not tell '{name}'; use the version that the table names"
+                );
+                IsaError::shader(&subject.name, reason)
+            })
         };
-        let odd = |reason: String| IsaError::Text {
-            shader: subject.name.clone(),
-            chip,
-            reason,
-        };
+        let odd = |reason: String| IsaError::shader(&subject.name, format!("on {chip}: {reason}"));
         let code = text::parse(&compiled.executable.isa).map_err(odd)?;
         let loops = loops::find(&code).map_err(odd)?;
         // Loops that run once may be unrolled; it makes no difference.
         let unrolled = loops.is_empty() && subject.trips.iter().all(|&trips| trips == 1);
         if loops.len() != subject.trips.len() && !unrolled {
-            return Err(IsaError::Loops {
-                shader: subject.name.clone(),
-                chip,
-                found: loops.len(),
-                listed: subject.trips.len(),
-            });
+            return Err(odd(format!(
+                "its code has {} loops where the catalogue gives trip counts for {}; correct them there",
+                loops.len(),
+                subject.trips.len()
+            )));
         }
         let weights = loops::weights(code.instructions.len(), &loops, &subject.trips);
         let mut figures = Figures {

@@ -9,7 +9,6 @@ pub mod class;
 pub mod compare;
 mod compiler;
 pub mod cycles;
-mod described;
 pub mod driver;
 pub mod error;
 pub mod figures;

@@ -5,12 +5,6 @@ use core::fmt;
 use super::figures::Figures;
 use super::table::Table;
 
-/// Heads of the columns, in the order of [`Figures::named`].
-const HEADS: [&str; Figures::COUNT] = [
-    "instr", "VGPR", "SGPR", "LDS B", "code B", "inv.thr", "latency", "VALU", "SALU", "tex", "mem",
-    "LDS", "store", "cyc ALU", "cyc tex", "cyc LDS",
-];
-
 const REMARK: &str = "\
 instr to latency: the compiler's figures per invocation (loops by a fixed factor). VALU to store: executed per output,
 loops by their trip counts. cyc: cycles per 64 outputs that keep each unit of an RDNA 2 compute unit busy, in a model.";
@@ -21,13 +15,13 @@ impl fmt::Display for Table {
         let width = names.map(|row| row.shader.len()).max().unwrap_or_default();
         for chip in &self.chips {
             write!(f, "{:width$}", chip.chip.name())?;
-            for head in HEADS {
+            for (_, head, _) in Figures::default().named() {
                 write!(f, " {head:>7}")?;
             }
             writeln!(f)?;
             for row in &chip.shaders {
                 write!(f, "{:width$}", row.shader)?;
-                for (index, (_, value)) in row.figures.named().into_iter().enumerate() {
+                for (index, (.., value)) in row.figures.named().into_iter().enumerate() {
                     // The compiler's figures are whole numbers.
                     let decimals = usize::from(index >= 7);
                     write!(f, " {value:>7.decimals$}")?;

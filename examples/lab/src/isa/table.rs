@@ -6,7 +6,7 @@ use std::path::Path;
 use serde::{Deserialize, Serialize};
 
 use super::chip::Chip;
-use super::driver::{Driver, file_error};
+use super::driver::Driver;
 use super::error::IsaError;
 use super::figures::Row;
 
@@ -21,7 +21,7 @@ pub struct ChipRows {
 }
 
 /// What a driver makes of the shaders.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Table {
     /// The driver.
@@ -33,37 +33,26 @@ pub struct Table {
 impl Table {
     /// Reads a table.
     pub fn read(path: &Path) -> Result<Table, IsaError> {
-        let odd = |reason: String| IsaError::File {
-            path: path.display().to_string(),
-            reason,
-        };
         let text = std::fs::read_to_string(path).map_err(|error| {
-            odd(format!(
-                "{error}; run the command from a checkout, or name a table with `--table`; `isa --update` makes one"
-            ))
+            let way = "run the command from a checkout, or name a table with `--table`; `isa --update` makes one";
+            IsaError::file(path, format!("{error}; {way}"))
         })?;
         serde_json::from_str(&text).map_err(|error| {
-            odd(format!(
-                "it is no ISA table: {error}; make a new one with `isa --update`"
-            ))
+            let reason = format!("it is no ISA table: {error}; make a new one with `isa --update`");
+            IsaError::file(path, reason)
         })
     }
 
     /// Writes the table beside `path` and renames it, so that an existing one is never half-replaced.
     pub fn write(&self, path: &Path) -> Result<(), IsaError> {
-        let failed = |error: &std::io::Error| file_error(path, error);
-        let folder = path
-            .parent()
-            .filter(|folder| !folder.as_os_str().is_empty());
-        let mut file = tempfile::NamedTempFile::new_in(folder.unwrap_or(Path::new(".")))
-            .map_err(|error| failed(&error))?;
-        let text = self
-            .to_json()
-            .map_err(|error| failed(&std::io::Error::from(error)))?;
-        file.write_all(text.as_bytes())
-            .map_err(|error| failed(&error))?;
-        file.persist(path).map_err(|error| failed(&error.error))?;
-        Ok(())
+        let folder = path.parent().filter(|folder| *folder != Path::new(""));
+        let write = || -> std::io::Result<()> {
+            let mut file = tempfile::NamedTempFile::new_in(folder.unwrap_or(Path::new(".")))?;
+            file.write_all(self.to_json()?.as_bytes())?;
+            file.persist(path)?;
+            Ok(())
+        };
+        write().map_err(|error| IsaError::file(path, error))
     }
 
     /// JSON with one row per line, so that a difference between two tables can be read.

@@ -2,7 +2,7 @@
 
 use std::path::PathBuf;
 
-use moment_shadows::LinkError;
+use moment_shadows::{LinkError, SummedAreaTableError, TechniqueError};
 use moment_shadows_graph::GraphError;
 
 /// Why shaders cannot be listed, compiled or written. Nothing is left behind.
@@ -10,15 +10,19 @@ use moment_shadows_graph::GraphError;
 #[non_exhaustive]
 pub enum ShadersError {
     /// A node refuses one of the variants it is listed with.
-    #[error(
-        "the variant '{name}' of a node cannot be described: {error}; correct the list of variants"
-    )]
+    #[error("the variant '{name}' of a node cannot be described: {error}; correct the catalogue")]
     Node {
         /// The variant.
         name: String,
         /// What the node says.
         error: Box<GraphError>,
     },
+    /// A map of the catalogue is encoded as no technique can be.
+    #[error(transparent)]
+    Technique(#[from] TechniqueError),
+    /// A table of the catalogue cannot be.
+    #[error(transparent)]
+    Table(#[from] SummedAreaTableError),
     /// A shader does not link.
     #[error(transparent)]
     Link(#[from] LinkError),

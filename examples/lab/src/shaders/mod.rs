@@ -2,17 +2,18 @@
 
 mod calls;
 mod error;
-mod nodes;
 mod spirv;
 mod write;
 
 use std::collections::BTreeMap;
 
 use moment_shadows::{Profile, Source, link, link_module, modules};
+use moment_shadows_graph::Pass;
+
+use crate::catalogue;
 
 pub use calls::calls;
 pub use error::ShadersError;
-pub use nodes::{NodeShader, nodes};
 pub use spirv::{Compiled, Target};
 pub use write::write;
 
@@ -31,6 +32,17 @@ pub struct Shader {
     pub constants: BTreeMap<String, f64>,
 }
 
+/// A pass of a variant of a node.
+#[derive(Clone, Debug)]
+pub struct NodeShader {
+    /// The node's name, by which the registry knows it.
+    pub node: String,
+    /// Its linked text.
+    pub shader: Shader,
+    /// Whether the text is kept as a snapshot.
+    pub is_kept: bool,
+}
+
 /// What a shader was made of.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, serde::Serialize)]
 #[serde(rename_all = "kebab-case")]
@@ -45,46 +57,65 @@ pub enum Kind {
     Example,
 }
 
-/// Everything, in a fixed order. Modules and the nodes' names come from the library's own registries, so only a node's
-/// variants have to be written down ([`nodes()`]).
+/// The shader of each pass of every variant in the [`catalogue`], but texts that a variant has already.
+pub fn nodes() -> Result<Vec<NodeShader>, ShadersError> {
+    let mut all = Vec::new();
+    for variant in catalogue::variants()? {
+        let Some(file) = &variant.file else {
+            continue;
+        };
+        let desc = variant.describe()?;
+        // Passes that share a text differ by their constants only, and planes take turns.
+        let mut passes: Vec<Pass> = Vec::new();
+        for pass in desc.passes {
+            if !passes.iter().any(|before| before.wgsl == pass.wgsl) {
+                passes.push(pass);
+            }
+        }
+        let several = passes.len() > 1;
+        for (index, pass) in passes.into_iter().enumerate() {
+            // Passes are told apart by the last words of their labels: "blur along x", "blur along y".
+            let last = pass.label.rsplit(' ').next().filter(|_| several);
+            let suffix = last.map(|word| format!("_{word}")).unwrap_or_default();
+            all.push(NodeShader {
+                node: desc.name.clone(),
+                shader: Shader {
+                    name: format!("{file}{suffix}"),
+                    kind: Kind::Node,
+                    profile: variant.profile(),
+                    wgsl: pass.wgsl,
+                    constants: pass.constants,
+                },
+                is_kept: index < variant.kept,
+            });
+        }
+    }
+    Ok(all)
+}
+
+/// Everything, in a fixed order. Modules come from the library's own registry, nodes from the [`catalogue`].
 pub fn all() -> Result<Vec<Shader>, ShadersError> {
+    let core = |name: String, kind, wgsl| Shader {
+        name,
+        kind,
+        profile: Profile::WebgpuCore,
+        wgsl,
+        constants: BTreeMap::new(),
+    };
     let mut all = Vec::new();
     for module in modules() {
-        let source = Source {
-            name: module.name,
-            text: module.source,
-        };
-        let linked = link_module(source)?.into_wgsl();
-        all.push(Shader {
-            name: format!("calls_{}", module.name),
-            kind: Kind::Calls,
-            profile: Profile::WebgpuCore,
-            wgsl: calls(module.source, &linked),
-            constants: BTreeMap::new(),
-        });
-        all.push(Shader {
-            name: format!("module_{}", module.name),
-            kind: Kind::Module,
-            profile: Profile::WebgpuCore,
-            wgsl: linked,
-            constants: BTreeMap::new(),
-        });
+        let (name, text) = (module.name, module.source);
+        let linked = link_module(Source { name, text })?.into_wgsl();
+        let called = calls(text, &linked);
+        all.push(core(format!("calls_{name}"), Kind::Calls, called));
+        all.push(core(format!("module_{name}"), Kind::Module, linked));
     }
-    let nodes = nodes()?.into_iter();
-    all.extend(nodes.map(|node| node.shader));
-    all.push(Shader {
-        name: "example_forward_shading".to_owned(),
-        kind: Kind::Example,
-        profile: Profile::WebgpuCore,
-        wgsl: link(
-            Source {
-                name: "forward_shading.wgsl",
-                text: include_str!("../../../forward_shading.wgsl"),
-            },
-            &[],
-        )?
-        .into_wgsl(),
-        constants: BTreeMap::new(),
-    });
+    all.extend(nodes()?.into_iter().map(|node| node.shader));
+    let example = Source {
+        name: "forward_shading.wgsl",
+        text: include_str!("../../../forward_shading.wgsl"),
+    };
+    let name = "example_forward_shading".to_owned();
+    all.push(core(name, Kind::Example, link(example, &[])?.into_wgsl()));
     Ok(all)
 }

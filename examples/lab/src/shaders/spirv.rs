@@ -1,11 +1,13 @@
 //! SPIR-V as wgpu hands it to a Vulkan driver.
 
+use std::collections::BTreeMap;
+
 use naga::back::pipeline_constants::process_overrides;
 use naga::back::spv;
 use naga::proc::{BoundsCheckPolicies, BoundsCheckPolicy};
 use naga::valid::{Capabilities, ValidationFlags, Validator};
 
-use super::{Shader, ShadersError};
+use super::ShadersError;
 
 /// A version of Vulkan that SPIR-V is written for.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, serde::Serialize)]
@@ -38,20 +40,53 @@ impl Target {
             Target::Vulkan13 => (1, 6),
         }
     }
+
+    /// wgpu's options for a device without optional features and without robust access to images and buffers.
+    pub(super) fn options(self) -> spv::Options<'static> {
+        let capabilities = [
+            spv::Capability::Shader,
+            spv::Capability::Matrix,
+            spv::Capability::Sampled1D,
+            spv::Capability::Image1D,
+            spv::Capability::ImageQuery,
+            spv::Capability::DerivativeControl,
+            spv::Capability::StorageImageExtendedFormats,
+            spv::Capability::SampledCubeArray,
+            spv::Capability::SampleRateShading,
+        ];
+        spv::Options {
+            lang_version: self.version(),
+            flags: spv::WriterFlags::LABEL_VARYINGS | spv::WriterFlags::FORCE_POINT_SIZE,
+            capabilities: Some(capabilities.into_iter().collect()),
+            bounds_check_policies: BoundsCheckPolicies {
+                index: BoundsCheckPolicy::Restrict,
+                buffer: BoundsCheckPolicy::Restrict,
+                image_load: BoundsCheckPolicy::Restrict,
+                binding_array: BoundsCheckPolicy::Unchecked,
+            },
+            ..spv::Options::default()
+        }
+    }
 }
 
 /// A shader's module, parsed and validated by naga.
 pub struct Compiled<'a> {
-    shader: &'a Shader,
+    name: &'a str,
+    /// Values for its `override` declarations.
+    constants: &'a BTreeMap<String, f64>,
     module: naga::Module,
     info: naga::valid::ModuleInfo,
 }
 
 impl<'a> Compiled<'a> {
     /// Parses and validates.
-    pub fn new(shader: &'a Shader) -> Result<Self, ShadersError> {
+    pub fn new(
+        name: &'a str,
+        wgsl: &str,
+        constants: &'a BTreeMap<String, f64>,
+    ) -> Result<Self, ShadersError> {
         let failed = |reason| ShadersError::Compile {
-            name: shader.name.clone(),
+            name: name.to_owned(),
             reason,
         };
         // What a shader may ask for is checked per profile by the tests; here only that it translates.
@@ -60,13 +95,14 @@ impl<'a> Compiled<'a> {
         let mut options = naga::front::wgsl::Options::new();
         options.capabilities = capabilities;
         let module = naga::front::wgsl::Frontend::new_with_options(options)
-            .parse(&shader.wgsl)
-            .map_err(|error| failed(error.emit_to_string(&shader.wgsl)))?;
+            .parse(wgsl)
+            .map_err(|error| failed(error.emit_to_string(wgsl)))?;
         let info = Validator::new(ValidationFlags::all(), capabilities)
             .validate(&module)
-            .map_err(|error| failed(error.emit_to_string(&shader.wgsl)))?;
+            .map_err(|error| failed(error.emit_to_string(wgsl)))?;
         Ok(Self {
-            shader,
+            name,
+            constants,
             module,
             info,
         })
@@ -87,48 +123,21 @@ impl<'a> Compiled<'a> {
     pub fn spirv(
         &self,
         entry_point: &naga::EntryPoint,
-        target: Target,
+        options: &spv::Options<'_>,
     ) -> Result<Vec<u32>, ShadersError> {
         let failed = |reason| ShadersError::Compile {
-            name: format!("{}, entry point {}", self.shader.name, entry_point.name),
+            name: format!("{}, entry point {}", self.name, entry_point.name),
             reason,
         };
         let pipeline = spv::PipelineOptions {
             shader_stage: entry_point.stage,
             entry_point: entry_point.name.clone(),
         };
-        let constants = self.shader.constants.clone().into_iter().collect();
+        let constants = self.constants.clone().into_iter().collect();
         let stage = Some((entry_point.stage, entry_point.name.as_str()));
         let (module, info) = process_overrides(&self.module, &self.info, stage, &constants)
             .map_err(|error| failed(error.to_string()))?;
-        spv::write_vec(&module, &info, &options(target), Some(&pipeline))
+        spv::write_vec(&module, &info, options, Some(&pipeline))
             .map_err(|error| failed(error.to_string()))
-    }
-}
-
-/// wgpu's options for a device without optional features and without robust access to images and buffers.
-fn options(target: Target) -> spv::Options<'static> {
-    let capabilities = [
-        spv::Capability::Shader,
-        spv::Capability::Matrix,
-        spv::Capability::Sampled1D,
-        spv::Capability::Image1D,
-        spv::Capability::ImageQuery,
-        spv::Capability::DerivativeControl,
-        spv::Capability::StorageImageExtendedFormats,
-        spv::Capability::SampledCubeArray,
-        spv::Capability::SampleRateShading,
-    ];
-    spv::Options {
-        lang_version: target.version(),
-        flags: spv::WriterFlags::LABEL_VARYINGS | spv::WriterFlags::FORCE_POINT_SIZE,
-        capabilities: Some(capabilities.into_iter().collect()),
-        bounds_check_policies: BoundsCheckPolicies {
-            index: BoundsCheckPolicy::Restrict,
-            buffer: BoundsCheckPolicy::Restrict,
-            image_load: BoundsCheckPolicy::Restrict,
-            binding_array: BoundsCheckPolicy::Unchecked,
-        },
-        ..spv::Options::default()
     }
 }

@@ -72,13 +72,13 @@ pub fn write(shaders: &[Shader], folder: &Path) -> Result<(), ShadersError> {
     for shader in shaders {
         let wgsl = format!("{}.wgsl", shader.name);
         fs::write(part.path().join(&wgsl), &shader.wgsl).map_err(failed)?;
-        let compiled = Compiled::new(shader)?;
+        let compiled = Compiled::new(&shader.name, &shader.wgsl, &shader.constants)?;
         let mut entry_points = Vec::new();
         for entry_point in compiled.entry_points() {
             let mut spirv = Vec::new();
             for target in Target::ALL {
                 let file = format!("{}.{}.{}.spv", shader.name, entry_point.name, target.name());
-                let words = compiled.spirv(entry_point, target)?;
+                let words = compiled.spirv(entry_point, &target.options())?;
                 fs::write(part.path().join(&file), bytemuck::cast_slice(&words)).map_err(failed)?;
                 spirv.push(Spirv { target, file });
             }

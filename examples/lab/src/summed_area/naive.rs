@@ -85,11 +85,14 @@ impl NaiveTable {
         Ok(bytemuck::pod_collect_to_vec(&bytes))
     }
 
-    /// Bytes that both halves move per texel of unorm16.
+    /// Bytes that both halves read and write per texel of unorm16.
     #[must_use]
-    pub fn bytes_per_texel() -> u32 {
+    pub fn bytes_per_texel() -> [u32; 2] {
         let sums = TextureFormat::Rgba32Uint.bytes_per_texel();
-        TextureFormat::Rgba16Unorm.bytes_per_texel() + 3 * sums
+        [
+            TextureFormat::Rgba16Unorm.bytes_per_texel() + sums,
+            2 * sums,
+        ]
     }
 }
 

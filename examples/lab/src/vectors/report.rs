@@ -96,7 +96,7 @@ impl fmt::Display for VectorReport {
         };
         writeln!(
             f,
-            "Hamburger bounds of four and six moments on {}",
+            "Hamburger bounds of two, four and six moments and Hausdorff bounds of four on {}",
             self.adapter
         )?;
         writeln!(

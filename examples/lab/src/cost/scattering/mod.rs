@@ -1,25 +1,35 @@
-//! What the nodes of single scattering cost in front of the picture: resampling of a light's map, and both ways to sum it up.
+//! The nodes of single scattering in front of the picture: resampling of a light's map, and both ways to sum it up.
 
-mod node;
 pub mod reference;
-mod report;
 mod view;
 
-use half::f16;
 use moment_shadows::{MapEncoding, Storage, Technique};
+use moment_shadows_graph::record::Passes;
 use moment_shadows_graph::{Capabilities, TextureDesc};
-use rand::{RngExt, SeedableRng};
 use serde_json::json;
 
-use self::node::{NodeOnMap, NodeText, upload};
 use self::reference::{Resampled, sums_error, thicknesses};
-pub use self::report::{FROM, GATE, LARGEST_GROWTH, Method, SIZES, ScatteringCost, ScatteringRow};
 use self::view::{ScatteringView, two_surfaces};
-use super::CostError;
-use super::baseline::{Copies, CopyWork};
-use super::clock::Clock;
-use super::protocol::{CopyNumbers, Rounds, Subject};
+use super::copies::CopyWork;
+use super::harness::{Case, Difference, largest};
+use super::node::{NodeOnMap, NodeText, upload};
+use super::table::{Facts, Gate};
+use super::texels::{encode, noise};
+use super::{CostError, SubjectList};
 use crate::gpu::Gpu;
+
+/// The nodes on maps of up to a size.
+pub const NODES: SubjectList = SubjectList {
+    title: "six moments in two planes of rgba16float, in copies of both planes",
+    sizes: &[256, 512, 1024, 2048, 4096],
+    cases,
+};
+
+/// What sums by a row per invocation may cost.
+const SERIAL_GATE: f64 = 1.3;
+
+/// What the time per texel may be of that at a smaller size.
+const LARGEST_GROWTH: f64 = 1.3;
 
 /// Of channels of float16 below 1/2, and what f32 makes of thousands of sums.
 const SUMS_TOLERANCE: f64 = 1.23e-4 + 1e-5;
@@ -27,26 +37,21 @@ const SUMS_TOLERANCE: f64 = 1.23e-4 + 1e-5;
 /// Of weights of float16 up to 1, and what f32 and a sampler make of two depths.
 const RECTIFIED_TOLERANCE: f64 = 2.45e-4 + 1e-4;
 
-/// Runs and checks the nodes on maps of six moments in float16, then times them in turn with copies of both planes of such a map.
-pub fn rows(
-    gpu: &Gpu,
-    clock: &Clock<'_>,
-    size: u32,
-    rounds: u32,
-) -> Result<Vec<ScatteringRow>, CostError> {
+/// Resampling of a light's map of four moments, and sums of noise by a row per invocation and by a row per workgroup.
+pub fn cases(gpu: &Gpu, size: u32) -> Result<Vec<Case>, CostError> {
     let view = ScatteringView::new()?;
     let capabilities = Capabilities::of_device(&gpu.adapter, &gpu.device);
-    let (rectify, error) = rectified(gpu, &capabilities, &view, size)?;
-    let mut nodes = vec![(Method::Rectify, rectify, error)];
-    let desc = TextureDesc::of_map(
-        MapEncoding::new(Technique::Hamburger6, Storage::Float16)?,
-        [size; 2],
-    );
-    let noise = noise(desc.array_layers() as usize * size as usize * size as usize);
+    let software = capabilities.software_adapter;
+    let (node, difference) = rectified(gpu, &capabilities, &view, size)?;
+    let mut cases = vec![case("rectify", size, node, difference, true)];
+    let encoding = MapEncoding::new(Technique::Hamburger6, Storage::Float16)?;
+    let desc = TextureDesc::of_map(encoding, [size; 2]);
+    let texels = desc.array_layers() as usize * size as usize * size as usize;
+    let noise = encode(Storage::Float16, &noise(Storage::Float16, texels));
     let map = upload(gpu, &desc, &noise)?;
-    for method in [Method::Serial, Method::Parallel] {
+    for (method, software_adapter) in [("serial", true), ("parallel", false)] {
         let capabilities = Capabilities {
-            software_adapter: method == Method::Serial,
+            software_adapter,
             ..capabilities.clone()
         };
         let text = NodeText {
@@ -56,13 +61,41 @@ pub fn rows(
             output: "integrated",
         };
         let parameters = &view.parameters.integrate;
-        let node = NodeOnMap::new(gpu, &capabilities, text, (&desc, &map), parameters)?;
-        let error = sums_of_planes(&node.run(gpu)?, &noise, &view, size);
-        checked(method, size, error, SUMS_TOLERANCE)?;
-        nodes.push((method, node, error));
+        let node = NodeOnMap::new(gpu, &capabilities, text, (&desc, &map), |plan, block| {
+            plan.parameters.write(block, "node", 0, parameters)
+        })?;
+        let difference = Difference {
+            error: sums_of_planes(&node.run(gpu)?, &noise, &view, size),
+            tolerance: SUMS_TOLERANCE,
+        };
+        let chosen = software_adapter == software;
+        cases.push(case(method, size, node, difference, chosen));
     }
-    drop(noise);
-    timed(gpu, clock, size, rounds, &capabilities, &nodes)
+    Ok(cases)
+}
+
+fn case(method: &str, size: u32, node: NodeOnMap, difference: Difference, chosen: bool) -> Case {
+    Case {
+        name: method.to_owned(),
+        facts: Facts(vec![
+            ("size", size.into()),
+            ("method", method.into()),
+            ("chosen", chosen.into()),
+        ]),
+        written: vec![TextureDesc {
+            layers: 2,
+            ..TextureDesc::new(Storage::Float16.format(), [size; 2])
+        }],
+        work: CopyWork::Compute,
+        bytes: node.bytes(),
+        difference: Some(difference),
+        gate: Gate {
+            gate: (chosen && method == "serial").then_some(SERIAL_GATE),
+            goal: None,
+            largest_growth: chosen.then_some(LARGEST_GROWTH),
+        },
+        record: Box::new(move |encoder| node.record(Passes::All, encoder)),
+    }
 }
 
 /// The node that resamples, and how far it is off.
@@ -71,7 +104,7 @@ fn rectified(
     capabilities: &Capabilities,
     view: &ScatteringView,
     size: u32,
-) -> Result<(NodeOnMap, f64), CostError> {
+) -> Result<(NodeOnMap, Difference), CostError> {
     let bytes = two_surfaces(size);
     let encoding = MapEncoding::new(Technique::Hamburger4, Storage::Float16)?;
     let desc = TextureDesc::of_map(encoding, [size; 2]);
@@ -82,23 +115,22 @@ fn rectified(
         input: "map",
         output: "rectified",
     };
-    let node = NodeOnMap::new(
-        gpu,
-        capabilities,
-        text,
-        (&desc, &map),
-        &view.parameters.rectify,
-    )?;
+    let parameters = &view.parameters.rectify;
+    let node = NodeOnMap::new(gpu, capabilities, text, (&desc, &map), |plan, block| {
+        plan.parameters.write(block, "node", 0, parameters)
+    })?;
     let resampled = Resampled {
         map: &bytes,
         size,
         light: view.light,
         view: &view.rectified,
     };
-    // At most a million texels, of all rows.
-    let error = resampled.error(&node.run(gpu)?, (size / 1024).pow(2).max(1));
-    checked(Method::Rectify, size, error, RECTIFIED_TOLERANCE)?;
-    Ok((node, error))
+    let difference = Difference {
+        // At most a million texels, of all rows.
+        error: resampled.error(&node.run(gpu)?, (size / 1024).pow(2).max(1)),
+        tolerance: RECTIFIED_TOLERANCE,
+    };
+    Ok((node, difference))
 }
 
 /// How far the sums of both planes are off.
@@ -112,79 +144,5 @@ fn sums_of_planes(found: &[Vec<u8>], summed: &[u8], view: &ScatteringView, size:
     let errors = found.iter().zip(planes);
     errors
         .map(|(found, summed)| sums_error(found, summed, &thicknesses))
-        .fold(0.0, |error, next| {
-            if next.is_nan() || next > error {
-                next
-            } else {
-                error
-            }
-        })
-}
-
-fn checked(method: Method, size: u32, error: f64, tolerance: f64) -> Result<(), CostError> {
-    if error <= tolerance {
-        return Ok(());
-    }
-    Err(CostError::WrongResult {
-        what: format!("{method} of {size}x{size}"),
-        error,
-        tolerance,
-    })
-}
-
-/// Reproducible texels over all channels of float16.
-fn noise(texels: usize) -> Vec<u8> {
-    let mut random = rand_chacha::ChaCha8Rng::seed_from_u64(1);
-    let channels = (0..4 * texels).map(|_| random.random_range(-0.5..=0.5_f32));
-    channels
-        .flat_map(|channel| f16::from_f32(channel).to_le_bytes())
-        .collect()
-}
-
-fn timed(
-    gpu: &Gpu,
-    clock: &Clock<'_>,
-    size: u32,
-    rounds: u32,
-    capabilities: &Capabilities,
-    nodes: &[(Method, NodeOnMap, f64)],
-) -> Result<Vec<ScatteringRow>, CostError> {
-    let both = TextureDesc {
-        layers: 2,
-        ..TextureDesc::new(Storage::Float16.format(), [size; 2])
-    };
-    let copies = Copies::new(gpu, &both, CopyWork::Compute)?;
-    let mut subjects = vec![
-        Subject {
-            name: "compute copy".to_owned(),
-            record: copies.by_shader(),
-        },
-        Subject {
-            name: "interface copy".to_owned(),
-            record: copies.by_interface(),
-        },
-    ];
-    subjects.extend(nodes.iter().map(|(method, node, _)| Subject {
-        name: method.to_string(),
-        record: Box::new(|encoder| node.record(encoder)),
-    }));
-    let times = Rounds::run(clock, &subjects, rounds, || ())?;
-    let numbers = CopyNumbers {
-        compute: 0,
-        api: 1,
-        draw: None,
-    };
-    let texels = f64::from(size) * f64::from(size);
-    let rows = nodes.iter().zip(2..);
-    Ok(rows
-        .map(|((method, node, error), subject)| ScatteringRow {
-            size,
-            method: *method,
-            time: times.time(subject, numbers),
-            bytes_per_texel: node.bytes_moved() as f64 / texels,
-            error: *error,
-            growth: None,
-            chosen: method.chosen(capabilities.software_adapter),
-        })
-        .collect())
+        .fold(0.0, largest)
 }

@@ -7,6 +7,8 @@ use half::f16;
 use moment_shadows::{RectifiedFrame, RectifiedView};
 use rayon::prelude::*;
 
+use super::super::harness::largest;
+
 /// Texels of float16 as numbers.
 fn texel(bytes: &[u8], index: usize) -> [f64; 4] {
     [0, 1, 2, 3].map(|channel| {
@@ -16,15 +18,6 @@ fn texel(bytes: &[u8], index: usize) -> [f64; 4] {
             _ => f64::NAN,
         }
     })
-}
-
-/// The largest of some differences; NaN if one of them is.
-fn largest(one: f64, other: f64) -> f64 {
-    if one.is_nan() || one > other {
-        one
-    } else {
-        other
-    }
 }
 
 /// The largest difference of a plane's prefix sums from those of the plane that was summed up, where rows have these

@@ -6,10 +6,11 @@ use glam::{DMat4, DVec3, DVec4};
 use half::f16;
 use moment_shadows::{
     CameraView, LightDepth, LightView, MapRegion, RectifiedView, ScatteringParameters,
-    SingleScattering,
+    SingleScattering, Storage,
 };
 
 use super::super::CostError;
+use super::super::reference::channels;
 use crate::error::LabError;
 use crate::view::Camera;
 
@@ -100,19 +101,8 @@ pub(super) fn two_surfaces(size: u32) -> Vec<u8> {
             let share = 0.5 + 0.3 * wave(u + v);
             let moments = [1, 2, 3, 4]
                 .map(|power| share * near.powi(power) + (1.0 - share) * far.powi(power));
-            four_channels(moments).map(|channel| f16::from_f64(channel).to_le_bytes())
+            channels(moments, Storage::Float16).map(|channel| f16::from_f64(channel).to_le_bytes())
         })
         .flatten()
         .collect()
-}
-
-/// The centred channels of four moments (Peters et al., JCGT 6(1) 2017, section 3).
-fn four_channels([b1, b2, b3, b4]: [f64; 4]) -> [f64; 4] {
-    let root = 3.0_f64.sqrt();
-    [
-        1.5 * b1 - 2.0 * b3,
-        4.0 * (b2 - b4) - 0.5,
-        root * (0.5 * b1 - 2.0 / 9.0 * b3),
-        0.5 * (b2 + b4) - 0.5,
-    ]
 }

@@ -31,8 +31,9 @@ impl NullDevice {
     /// Opens the first device of the first driver.
     pub(in crate::isa) fn open() -> Result<Self, IsaError> {
         // SAFETY: the loader is a system library whose initialisation has no requirements.
-        let entry = unsafe { ash::Entry::load() }.map_err(|error| IsaError::Loader {
-            reason: error.to_string(),
+        let entry = unsafe { ash::Entry::load() }.map_err(|error| IsaError::Driver {
+            what: "the Vulkan loader",
+            reason: format!("{error}; on Debian install it with `apt-get install libvulkan1`"),
         })?;
         let application = vk::ApplicationInfo::default().api_version(vk::API_VERSION_1_3);
         let info = vk::InstanceCreateInfo::default().application_info(&application);
@@ -74,7 +75,9 @@ impl Drop for NullDevice {
 fn open_device(instance: &ash::Instance) -> Result<(ash::Device, [String; 3]), IsaError> {
     // SAFETY: the instance is alive.
     let all = unsafe { instance.enumerate_physical_devices() }.map_err(refused("its devices"))?;
-    let physical = *all.first().ok_or(IsaError::NoDevice)?;
+    let physical = *all
+        .first()
+        .ok_or_else(|| IsaError::incomplete("a device, not even one without a GPU"))?;
     let mut driver = vk::PhysicalDeviceDriverProperties::default();
     let mut properties = vk::PhysicalDeviceProperties2::default().push_next(&mut driver);
     // SAFETY: the physical device is the instance's own, and the chain of structures lives through the call.

@@ -30,9 +30,7 @@ pub(super) fn of_pipeline(
     let index = all
         .iter()
         .position(|executable| executable.stages.contains(stage))
-        .ok_or(IsaError::Incomplete {
-            what: "the stage that was asked for",
-        })?;
+        .ok_or_else(|| IsaError::incomplete("the stage that was asked for"))?;
     let info = vk::PipelineExecutableInfoKHR::default()
         .pipeline(pipeline)
         .executable_index(index as u32);
@@ -90,16 +88,13 @@ fn disassembly(
     unsafe { call(device.device.handle(), info, &mut count, all.as_mut_ptr()) }
         .result()
         .map_err(&failed)?;
-    let incomplete = IsaError::Incomplete {
-        what: "the disassembly; the driver was built without a disassembler",
-    };
     let index = all
         .iter()
         .position(|one| {
             one.name_as_c_str()
                 .is_ok_and(|name| name.to_string_lossy() == DISASSEMBLY)
         })
-        .ok_or(incomplete)?;
+        .ok_or_else(|| IsaError::incomplete("the disassembly"))?;
     let text = String::from_utf8_lossy(&texts[index]);
     Ok(text.trim_end_matches('\0').to_owned())
 }

@@ -11,7 +11,6 @@ mod pipeline;
 
 pub(super) use device::NullDevice;
 pub(super) use executable::Executable;
-pub(super) use pipeline::{Program, ProgramStage};
 
 use super::error::IsaError;
 
@@ -19,6 +18,6 @@ use super::error::IsaError;
 fn refused(what: &'static str) -> impl Fn(ash::vk::Result) -> IsaError {
     move |result| IsaError::Driver {
         what,
-        reason: result.to_string(),
+        reason: format!("the driver says {result}; try the version of it that the table names"),
     }
 }

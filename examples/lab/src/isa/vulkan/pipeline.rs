@@ -1,30 +1,11 @@
 //! One pipeline per shader, made only to be asked.
 
 use ash::vk;
-use std::ffi::CString;
 
 use super::{Executable, NullDevice, executable, refused};
 use crate::isa::error::IsaError;
-use crate::isa::spirv::{Bound, BoundKind, SpirvModule};
+use crate::isa::spirv::{Bound, SpirvModule};
 use moment_shadows::TextureFormat;
-
-/// What is compiled.
-pub(in crate::isa) struct Program<'a> {
-    /// The compute or fragment entry point.
-    pub(in crate::isa) entry_point: &'a str,
-    pub(in crate::isa) module: &'a SpirvModule,
-    pub(in crate::isa) stage: ProgramStage<'a>,
-}
-
-/// The kind of a program.
-pub(in crate::isa) enum ProgramStage<'a> {
-    Compute,
-    Fragment {
-        vertex_entry_point: &'a str,
-        vertex: &'a SpirvModule,
-        targets: &'a [TextureFormat],
-    },
-}
 
 /// Vulkan objects that are destroyed with the scope they were made in.
 struct Objects<'a> {
@@ -58,8 +39,13 @@ const FLAGS: vk::PipelineCreateFlags = vk::PipelineCreateFlags::from_raw(
 );
 
 impl NullDevice {
-    /// Compiles a program and gives what the driver says about its compute or fragment stage.
-    pub(in crate::isa) fn compile(&self, program: &Program<'_>) -> Result<Executable, IsaError> {
+    /// Compiles a compute shader, or a fragment shader with the vertex shader and the target that it is drawn with, and gives
+    /// what the driver says about it.
+    pub(in crate::isa) fn compile(
+        &self,
+        module: &SpirvModule,
+        drawn: Option<(&SpirvModule, TextureFormat)>,
+    ) -> Result<Executable, IsaError> {
         let mut objects = Objects {
             device: &self.device,
             modules: Vec::new(),
@@ -67,47 +53,41 @@ impl NullDevice {
             layout: vk::PipelineLayout::null(),
             pipeline: vk::Pipeline::null(),
         };
-        objects.layout(&program.module.bindings)?;
-        let module = objects.module(program.module)?;
-        let name = entry_point(program.entry_point)?;
-        let stage = vk::PipelineShaderStageCreateInfo::default()
-            .module(module)
-            .name(&name);
-        let asked = match &program.stage {
-            ProgramStage::Compute => {
-                objects.compute(stage.stage(vk::ShaderStageFlags::COMPUTE))?;
-                vk::ShaderStageFlags::COMPUTE
-            }
-            ProgramStage::Fragment {
-                vertex_entry_point,
-                vertex,
-                targets,
-            } => {
-                let vertex = objects.module(vertex)?;
-                let vertex_name = entry_point(vertex_entry_point)?;
-                let vertex = vk::PipelineShaderStageCreateInfo::default()
-                    .stage(vk::ShaderStageFlags::VERTEX)
-                    .module(vertex)
-                    .name(&vertex_name);
-                objects.fragment(
-                    &[vertex, stage.stage(vk::ShaderStageFlags::FRAGMENT)],
-                    targets,
-                )?;
-                vk::ShaderStageFlags::FRAGMENT
-            }
+        objects.layout(&module.bindings)?;
+        let mut stage = |module, flag| objects.stage(module, flag);
+        let asked = if let Some((vertex, target)) = drawn {
+            let asked = vk::ShaderStageFlags::FRAGMENT;
+            let stages = [
+                stage(vertex, vk::ShaderStageFlags::VERTEX)?,
+                stage(module, asked)?,
+            ];
+            objects.fragment(&stages, target)?;
+            asked
+        } else {
+            let asked = vk::ShaderStageFlags::COMPUTE;
+            let stage = stage(module, asked)?;
+            objects.compute(stage)?;
+            asked
         };
         executable::of_pipeline(self, objects.pipeline, asked)
     }
 }
 
 impl Objects<'_> {
-    fn module(&mut self, module: &SpirvModule) -> Result<vk::ShaderModule, IsaError> {
+    fn stage<'m>(
+        &mut self,
+        module: &'m SpirvModule,
+        stage: vk::ShaderStageFlags,
+    ) -> Result<vk::PipelineShaderStageCreateInfo<'m>, IsaError> {
         let info = vk::ShaderModuleCreateInfo::default().code(&module.words);
         // SAFETY: the code is valid SPIR-V: naga wrote it from a validated module.
-        let module = unsafe { self.device.create_shader_module(&info, None) }
+        let made = unsafe { self.device.create_shader_module(&info, None) }
             .map_err(refused("a shader module"))?;
-        self.modules.push(module);
-        Ok(module)
+        self.modules.push(made);
+        Ok(vk::PipelineShaderStageCreateInfo::default()
+            .stage(stage)
+            .module(made)
+            .name(&module.entry_point))
     }
 
     /// A layout with exactly the bindings of the shader, for every stage.
@@ -120,7 +100,7 @@ impl Objects<'_> {
                 .map(|bound| {
                     vk::DescriptorSetLayoutBinding::default()
                         .binding(bound.binding)
-                        .descriptor_type(descriptor(bound.kind))
+                        .descriptor_type(bound.kind)
                         .descriptor_count(1)
                         .stage_flags(vk::ShaderStageFlags::ALL)
                 })
@@ -155,16 +135,11 @@ impl Objects<'_> {
     fn fragment(
         &mut self,
         stages: &[vk::PipelineShaderStageCreateInfo<'_>],
-        targets: &[TextureFormat],
+        target: TextureFormat,
     ) -> Result<(), IsaError> {
-        let formats: Vec<_> = targets.iter().map(|&target| format(target)).collect();
-        let blends: Vec<_> = targets
-            .iter()
-            .map(|_| {
-                vk::PipelineColorBlendAttachmentState::default()
-                    .color_write_mask(vk::ColorComponentFlags::RGBA)
-            })
-            .collect();
+        let formats = [format(target)];
+        let blends = [vk::PipelineColorBlendAttachmentState::default()
+            .color_write_mask(vk::ColorComponentFlags::RGBA)];
         let vertices = vk::PipelineVertexInputStateCreateInfo::default();
         let assembly = vk::PipelineInputAssemblyStateCreateInfo::default()
             .topology(vk::PrimitiveTopology::TRIANGLE_LIST);
@@ -210,23 +185,6 @@ impl Objects<'_> {
         };
         self.pipeline = pipelines.first().copied().unwrap_or_default();
         result.map_err(refused("a pipeline"))
-    }
-}
-
-fn entry_point(name: &str) -> Result<CString, IsaError> {
-    CString::new(name).map_err(|error| IsaError::Shader {
-        shader: name.to_owned(),
-        reason: error.to_string(),
-    })
-}
-
-fn descriptor(kind: BoundKind) -> vk::DescriptorType {
-    match kind {
-        BoundKind::Uniform => vk::DescriptorType::UNIFORM_BUFFER_DYNAMIC,
-        BoundKind::Buffer => vk::DescriptorType::STORAGE_BUFFER,
-        BoundKind::Texture => vk::DescriptorType::SAMPLED_IMAGE,
-        BoundKind::StorageTexture => vk::DescriptorType::STORAGE_IMAGE,
-        BoundKind::Sampler => vk::DescriptorType::SAMPLER,
     }
 }
 

@@ -6,7 +6,7 @@ use core::ops::Range;
 /// A span of text on one line of a file.
 #[derive(Clone, Debug, PartialEq, Eq, Hash)]
 pub struct Location {
-    /// The file's name, as it was given with its text; `moment_shadows/<module>.wgsl` for modules of the library.
+    /// The file's name, as it was given with its text; `moment_shadows/<folder>/<file>.wgsl` for modules of the library.
     pub file: String,
     /// The line, from 1.
     pub line: u32,

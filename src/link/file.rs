@@ -3,9 +3,10 @@
 use core::ops::Range;
 use std::collections::BTreeSet;
 
-use crate::import::{self, Form, Import};
-use crate::location::line_ends;
-use crate::token::{Kind, Token, UnterminatedComment, tokens};
+use super::import::{self, Form, Import};
+use super::location::line_ends;
+use super::prune::{Declaration, declarations};
+use super::tokens::{Kind, Token, UnterminatedComment, tokens};
 use crate::{LinkError, Location};
 
 /// A file whose text follows the import rules.
@@ -14,6 +15,8 @@ pub(crate) struct File<'a> {
     pub(crate) name: String,
     /// The text without a byte order mark.
     pub(crate) text: &'a str,
+    /// How its imports are written.
+    pub(crate) form: Form,
     pub(crate) imports: Vec<Import<'a>>,
     /// The directives (`enable`, `requires`, `diagnostic`), as bytes of the text: they stay first when files are joined.
     pub(crate) directives: Vec<Range<usize>>,
@@ -21,6 +24,11 @@ pub(crate) struct File<'a> {
     pub(crate) definitions: Vec<Token<'a>>,
     /// The names that its code refers to, without those that it declares itself.
     pub(crate) uses: Vec<Token<'a>>,
+    pub(crate) declarations: Vec<Declaration<'a>>,
+    /// The declarations that are left out when files are joined, as bytes of the text.
+    pub(crate) unreached: Vec<Range<usize>>,
+    /// Whether anything of the file is linked.
+    pub(crate) is_reached: bool,
 }
 
 impl<'a> File<'a> {
@@ -30,10 +38,14 @@ impl<'a> File<'a> {
         let mut file = Self {
             name,
             text,
+            form,
             imports: Vec::new(),
             directives: Vec::new(),
             definitions: Vec::new(),
             uses: Vec::new(),
+            declarations: Vec::new(),
+            unreached: Vec::new(),
+            is_reached: true,
         };
         let tokens = tokens(text).map_err(|UnterminatedComment(start)| {
             let at = file.at(start..start + 2);
@@ -43,8 +55,12 @@ impl<'a> File<'a> {
         let (mut line, mut counted) = (1, 0);
         while code.first().is_some_and(|token| token.is_word("import")) {
             let (mut import, rest) = import::parse(&file, code, form)?;
-            line += line_ends(text.get(counted..import.start).unwrap_or_default());
-            (import.line, counted) = (line, import.start);
+            let mut line_of = |byte: usize| {
+                line += line_ends(text.get(counted..byte).unwrap_or_default());
+                counted = byte;
+                line
+            };
+            import.lines = line_of(import.range.start)..=line_of(import.range.end);
             file.imports.push(import);
             code = rest;
         }
@@ -52,6 +68,8 @@ impl<'a> File<'a> {
         file.directives = directives(code);
         file.definitions = definitions(code);
         file.uses = uses(code);
+        let start = file.imports.last().map_or(0, |last| last.range.end);
+        file.declarations = declarations(text, start, code);
         Ok(file)
     }
 

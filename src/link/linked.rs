@@ -3,8 +3,8 @@
 use core::ops::Range;
 use std::collections::BTreeSet;
 
+use super::file::File;
 use crate::Location;
-use crate::file::File;
 
 /// A linked WGSL text that knows where each of its lines comes from.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -18,7 +18,7 @@ pub struct Linked {
 /// Where a line of a linked text comes from.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Origin<'a> {
-    /// The file's name, as it was given; `moment_shadows/<module>.wgsl` for modules of the library.
+    /// The file's name, as it was given; `moment_shadows/<folder>/<file>.wgsl` for modules of the library.
     pub file: &'a str,
     /// The line in that file, from 1.
     pub line: u32,
@@ -37,7 +37,7 @@ impl Linked {
         self.wgsl
     }
 
-    /// The files that were linked, in the order of the text; the file given to the linker is the last.
+    /// The files of which anything was linked, in the order of the text; the file given to the linker is the last.
     pub fn files(&self) -> impl ExactSizeIterator<Item = &str> {
         self.files.iter().map(String::as_str)
     }
@@ -90,10 +90,18 @@ impl Linked {
         let name: String = file.name.chars().filter(|c| !is_break(*c)).collect();
         self.push_line(&format!("// {name}"), None);
 
-        let hoisted: &[_] = if is_root { &file.directives } else { &[] };
-        let text = mask(file.text, hoisted, Keep::Outside);
-        let imports: BTreeSet<u32> = file.imports.iter().map(|import| import.line).collect();
-        // Of several blank lines, which removed imports leave, one is kept.
+        let elsewhere = if is_root {
+            &file.directives
+        } else {
+            &file.unreached
+        };
+        let text = mask(file.text, elsewhere, Keep::Outside);
+        let imports: BTreeSet<u32> = file
+            .imports
+            .iter()
+            .flat_map(|import| import.lines.clone())
+            .collect();
+        // Of several blank lines, which removed text leaves, one is kept.
         let mut blank = false;
         for (line, text) in (1..).zip(text.lines()) {
             let was_blank = core::mem::replace(&mut blank, text.trim().is_empty());

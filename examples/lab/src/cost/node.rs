@@ -1,16 +1,18 @@
-//! One node of single scattering on its own, bound to a map.
+//! One node on its own, bound to a map of any contents.
 
 use moment_shadows_graph::record::{
-    Bindings, ImportedResource, PipelineOptions, Pipelines, Recording, Resources, texture_format,
+    Bindings, ImportedResource, Passes, PipelineOptions, Pipelines, Recording, Resources,
+    texture_format,
 };
 use moment_shadows_graph::{
-    Capabilities, Graph, Imports, NodeRegistry, Plan, ResourceDesc, Stage, TextureDesc, compile,
+    Capabilities, Graph, Imports, NodeRegistry, ParameterError, Plan, ResourceDesc, Stage,
+    TextureDesc, compile,
 };
 use pollster::block_on;
 use serde_json::Value;
 use wgpu::util::DeviceExt;
 
-use super::super::CostError;
+use super::CostError;
 use crate::gpu::Gpu;
 
 /// A graph of one node.
@@ -32,13 +34,13 @@ pub(super) struct NodeText {
 }
 
 impl NodeOnMap {
-    /// Compiles the graph and binds it to a map and parameters.
-    pub(super) fn new<P: bytemuck::NoUninit>(
+    /// Compiles the graph and binds it to a map and to parameters, which `fill` writes over the initial ones.
+    pub(super) fn new(
         gpu: &Gpu,
         capabilities: &Capabilities,
         text: NodeText,
         map: (&TextureDesc, &wgpu::Texture),
-        parameters: &P,
+        fill: impl FnOnce(&Plan, &mut [u8]) -> Result<(), ParameterError>,
     ) -> Result<Self, CostError> {
         let json = serde_json::json!({
             "version": 2,
@@ -54,7 +56,9 @@ impl NodeOnMap {
         let pipelines = block_on(Pipelines::create(device, &plan, PipelineOptions::default()))?;
         let resources = block_on(Resources::create(device, &plan))?;
         let mut block = plan.parameters.initial();
-        plan.parameters.write(&mut block, "node", 0, parameters)?;
+        fill(&plan, &mut block)?;
+        // Nor may a buffer for no parameters be empty.
+        block.extend([0; 16]);
         let buffer = device.create_buffer_init(&wgpu::util::BufferInitDescriptor {
             label: Some("cost/parameters"),
             contents: &block,
@@ -71,42 +75,59 @@ impl NodeOnMap {
         Ok(Self { plan, bindings })
     }
 
-    /// Records all planes.
-    pub(super) fn record(&self, encoder: &mut wgpu::CommandEncoder) -> Result<(), CostError> {
-        let recording = Recording::default();
+    /// Records some of its passes for all layers.
+    pub(super) fn record(
+        &self,
+        passes: Passes<'_>,
+        encoder: &mut wgpu::CommandEncoder,
+    ) -> Result<(), CostError> {
+        let recording = Recording {
+            passes,
+            ..Recording::default()
+        };
         Ok(self
             .bindings
             .record(Stage::AfterShadowMaps, encoder, recording)?)
     }
 
-    /// Bytes that all planes move.
-    #[must_use]
-    pub(super) fn bytes_moved(&self) -> u64 {
-        self.plan.bytes_moved()
+    /// Bytes that all passes read and write.
+    pub(super) fn bytes(&self) -> [u64; 2] {
+        let passes = self.plan.passes.iter();
+        let [read, written] = [passes.clone(), passes];
+        [
+            read.map(|pass| pass.bytes_read).sum(),
+            written.map(|pass| pass.bytes_written).sum(),
+        ]
     }
 
-    /// Runs the node once and reads its output, plane by plane.
+    /// Runs the node once and reads its output, layer by layer.
     pub(super) fn run(&self, gpu: &Gpu) -> Result<Vec<Vec<u8>>, CostError> {
         let mut encoder = gpu.device.create_command_encoder(&Default::default());
-        self.record(&mut encoder)?;
+        self.record(Passes::All, &mut encoder)?;
         gpu.queue.submit([encoder.finish()]);
+        self.read(gpu)
+    }
+
+    /// What the output holds now, layer by layer.
+    pub(super) fn read(&self, gpu: &Gpu) -> Result<Vec<Vec<u8>>, CostError> {
         let Some(output) = self.bindings.output("output") else {
             return Ok(Vec::new());
         };
-        let planes = 0..output.depth_or_array_layers();
-        let read = |plane| gpu.read_texture(output, plane, "output");
-        Ok(planes.map(read).collect::<Result<_, _>>()?)
+        let layers = 0..output.depth_or_array_layers();
+        let read = |layer| gpu.read_texture(output, layer, "output");
+        Ok(layers.map(read).collect::<Result<_, _>>()?)
     }
 }
 
-/// A texture with these bytes, plane by plane and row by row.
+/// A texture with these bytes, layer by layer and row by row.
 pub(super) fn upload(
     gpu: &Gpu,
     desc: &TextureDesc,
     bytes: &[u8],
 ) -> Result<wgpu::Texture, CostError> {
-    let format = texture_format(desc.format).ok_or(CostError::Format {
+    let format = texture_format(desc.format).ok_or_else(|| CostError::Format {
         format: desc.format,
+        reason: "the recorder does not know it".to_owned(),
     })?;
     Ok(gpu.device.create_texture_with_data(
         &gpu.queue,

@@ -1,5 +1,7 @@
 //! What can be wrong with the imports of a file.
 
+use std::path::PathBuf;
+
 use crate::Location;
 
 /// An import that does not follow the rules of [`link`](crate::link()), with the place where it stands.
@@ -7,7 +9,7 @@ use crate::Location;
 #[non_exhaustive]
 pub enum LinkError {
     /// An import that is not of the one form that is allowed where it stands.
-    #[error("{reason}; write `{form}` on a line of its own\n{at}")]
+    #[error("{reason}; write `{form}`, with nothing else on its lines\n{at}")]
     WrongForm {
         /// What is wrong.
         reason: &'static str,
@@ -47,13 +49,13 @@ pub enum LinkError {
         at: Box<Location>,
     },
     /// A module that exists neither in the library nor among the generated ones.
-    #[error("there is no module `{module}`; the nearest names are {nearest}\n{at}")]
+    #[error("there is no module `{module}`; the nearest are {nearest}\n{at}")]
     UnknownModule {
-        /// The module asked for.
+        /// The path of the module asked for.
         module: String,
-        /// The nearest names, quoted, nearest first.
+        /// The nearest paths of modules, quoted, nearest first.
         nearest: String,
-        /// The module's name in the import.
+        /// The path in the import.
         at: Box<Location>,
     },
     /// An item that the module does not define.
@@ -61,7 +63,7 @@ pub enum LinkError {
     UnknownItem {
         /// The item asked for.
         item: String,
-        /// The module it was asked from.
+        /// The path of the module it was asked from.
         module: String,
         /// The nearest names that the module defines, quoted, nearest first.
         nearest: String,
@@ -95,7 +97,7 @@ pub enum LinkError {
     Cycle {
         /// The modules of the cycle in order, joined by arrows; the first is also the last.
         cycle: String,
-        /// The module's name in the import that closes the cycle.
+        /// The module's path in the import that closes the cycle.
         at: Box<Location>,
     },
     /// A name that two of the linked files define. Linked files share one namespace.
@@ -108,11 +110,21 @@ pub enum LinkError {
         /// The definition in the file that comes earlier.
         first: Box<Location>,
     },
-    /// A generated module with the name of another module.
-    #[error("the generated module `{module}` has the name of another module; give it another name")]
+    /// A generated module with the name of another.
+    #[error("two generated modules are named `{module}`; give one another name")]
     GeneratedName {
         /// The name.
         module: String,
+    },
+    /// A variable that names a folder of edited modules which does not exist.
+    #[error(
+        "the environment variable {variable} names {}, which is no folder; name one, or unset it", folder.display()
+    )]
+    NoFolder {
+        /// The environment variable.
+        variable: &'static str,
+        /// What it names.
+        folder: PathBuf,
     },
     /// A block comment without its end.
     #[error("this comment does not end; close it with `*/`\n{at}")]

@@ -1,12 +1,23 @@
 //! The linker: a file and the modules that it needs become one WGSL text.
 
+mod error;
+pub(crate) mod file;
+mod import;
+mod linked;
+mod location;
+mod module;
+mod prune;
+pub(crate) mod tokens;
+
 use std::collections::{BTreeMap, BTreeSet};
 
-use crate::file::File;
-use crate::import::{Form, Import};
-use crate::linked::Linked;
+pub use self::error::LinkError;
+use self::file::File;
+use self::import::{Form, Import};
+pub use self::linked::{Linked, Origin};
+pub use self::location::Location;
+pub use self::module::{Module, modules};
 use crate::nearest::nearest;
-use crate::{LinkError, Location, modules};
 
 /// A WGSL text with the name that errors show for it.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -17,20 +28,31 @@ pub struct Source<'a> {
     pub text: &'a str,
 }
 
+impl Source<'_> {
+    /// Whether the text is written as a module of the library ([`link_module()`]), not as a shader ([`link()`]): its
+    /// imports start with `super::`.
+    #[must_use]
+    pub fn is_library_module(&self) -> bool {
+        import::starts_with_super(self.text)
+    }
+}
+
 /// Links `source`, a shader outside the library, with the modules that it imports, directly or through other modules.
 ///
 /// `generated` are further modules: each can be imported as `node::<name>`, and may itself import modules of
 /// the library and other generated ones.
 ///
 /// The rules of imports:
-/// - They come first, before directives and declarations; each is one line with nothing else on it but a `//` comment.
-/// - The only forms are `import moment_shadows::maths::hankel::{hankel_factor};` (`super::super` in place of `moment_shadows` within
-///   the library) and `import node::name::{item};` for generated modules, with any number of items. No `as`, no `public`, no path
-///   within code, no conditional attribute.
+/// - They come first, before directives and declarations, with nothing else on their lines but a `//` comment.
+/// - The only forms are `import moment_shadows::maths::hankel::{hankel_factor};` for the file `wgsl/maths/hankel.wgsl`
+///   (`super::super` in place of `moment_shadows` within the library) and `import node::name::{item};` for generated modules,
+///   with any number of items over any number of lines. No `as`, no `public`, no path within code, no conditional attribute.
 /// - Every item is defined at top level by its module, and imported once; a file imports every item that it uses.
 ///
-/// The result holds every file once, each after those that it imports, headed by a comment that names it; `source` comes
-/// last, but its directives come first. Names are not changed, so no two of the files may define the same name.
+/// The result holds `source` whole, and of each module what `source` reaches: the declarations whose names stand in what is linked,
+/// and entry points, with the comments above them. Files come once, each after those that it imports, headed by a comment
+/// that names it; `source` comes last, but its directives come first. Names are not changed, so no two of the files may define
+/// the same name, linked or not.
 /// The same input always gives the same text.
 ///
 /// # Errors
@@ -51,9 +73,11 @@ pub fn link_module(source: Source<'_>) -> Result<Linked, LinkError> {
 fn link_as(form: Form, source: Source<'_>, generated: &[Source<'_>]) -> Result<Linked, LinkError> {
     let library = Library::new(generated)?;
     let root = File::parse(source.name.to_owned(), source.text, form)?;
-    let files = library.closure(root)?;
+    let mut files = library.closure(root)?;
     refuse_collisions(&files)?;
     refuse_unimported(&files)?;
+    prune::prune(&mut files);
+    files.retain(|file| file.is_reached);
     Ok(Linked::join(&files))
 }
 
@@ -64,21 +88,15 @@ struct Library<'a> {
 
 impl<'a> Library<'a> {
     fn new(generated: &[Source<'a>]) -> Result<Self, LinkError> {
-        let mut known: BTreeMap<_, _> = modules()
-            .iter()
-            .map(|module| {
-                let path = format!("{}::{}", module.folder, module.name);
-                (path, (Form::Inside, module.source))
-            })
-            .collect();
+        module::check_edited_folder()?;
+        let library = modules().iter().map(|module| {
+            let path = format!("moment_shadows::{}::{}", module.folder, module.name);
+            (path, (Form::Inside, module.source))
+        });
+        let mut known: BTreeMap<_, _> = library.collect();
         for source in generated {
-            if known
-                .insert(
-                    format!("node::{}", source.name),
-                    (Form::Outside, source.text),
-                )
-                .is_some()
-            {
+            let path = format!("node::{}", source.name);
+            if known.insert(path, (Form::Outside, source.text)).is_some() {
                 return Err(LinkError::GeneratedName {
                     module: source.name.to_owned(),
                 });
@@ -91,27 +109,28 @@ impl<'a> Library<'a> {
     /// form a chain of any length.
     fn closure(&self, root: File<'a>) -> Result<Vec<File<'a>>, LinkError> {
         let mut finished: Vec<File<'a>> = Vec::new();
-        let mut position: BTreeMap<&str, usize> = BTreeMap::new();
+        let mut position: BTreeMap<String, usize> = BTreeMap::new();
         let mut path = vec![Visit {
-            module: "",
+            module: String::new(),
             file: root,
             next: 0,
         }];
         while let Some(visit) = path.last_mut() {
             if let Some(import) = visit.file.imports.get(visit.next) {
-                if let Some(imported) = position.get(import.module.text) {
+                if let Some(imported) = position.get(&import.module) {
                     if let Some(imported) = finished.get(*imported) {
                         check_items(&visit.file, import, imported)?;
                     }
                     visit.next += 1;
                     continue;
                 }
-                let module = import.module.text;
-                let at = visit.file.at(import.module.range());
+                let module = import.module.clone();
+                let at = visit.file.at(import.path.clone());
+                let form = visit.file.form;
                 if path.iter().any(|above| above.module == module) {
-                    return Err(cycle(&path, module, at));
+                    return Err(cycle(&path, &module, at));
                 }
-                let file = self.open(module, at)?;
+                let file = self.open(&module, form, at)?;
                 path.push(Visit {
                     module,
                     file,
@@ -126,28 +145,48 @@ impl<'a> Library<'a> {
         Ok(finished)
     }
 
-    /// Reads the module that is imported at `at`.
-    fn open(&self, module: &str, at: Box<Location>) -> Result<File<'a>, LinkError> {
+    /// Reads the module that is imported at `at`, by a file of form `form`.
+    fn open(&self, module: &str, form: Form, at: Box<Location>) -> Result<File<'a>, LinkError> {
         match self.modules.get(module) {
             Some(&(Form::Inside, text)) => {
-                let path = module.replace("::", "/");
-                File::parse(format!("moment_shadows/{path}.wgsl"), text, Form::Inside)
+                let name = format!("{}.wgsl", module.replace("::", "/"));
+                File::parse(name, text, Form::Inside)
             }
             Some(&(Form::Outside, text)) => {
-                File::parse(module.replacen("node::", "", 1), text, Form::Outside)
+                let name = module.strip_prefix("node::").unwrap_or(module).to_owned();
+                File::parse(name, text, Form::Outside)
             }
             None => Err(LinkError::UnknownModule {
-                module: module.to_owned(),
-                nearest: nearest(module, self.modules.keys().map(String::as_str)),
+                module: form.written(module),
+                nearest: self.nearest(module, form),
                 at,
             }),
         }
+    }
+
+    /// The paths nearest to `module` that a file of form `form` can import; those that end alike, if there are any.
+    fn nearest(&self, module: &str, form: Form) -> String {
+        let file = |path: &str| path.rsplit("::").next().unwrap_or_default().to_owned();
+        let all: Vec<_> = self
+            .modules
+            .iter()
+            .filter(|(_, (of, _))| *of == Form::Inside || form == Form::Outside)
+            .map(|(path, _)| path)
+            .collect();
+        let alike: Vec<_> = all
+            .iter()
+            .copied()
+            .filter(|path| file(path) == file(module))
+            .collect();
+        let candidates = if alike.is_empty() { all } else { alike };
+        let written: Vec<_> = candidates.iter().map(|path| form.written(path)).collect();
+        nearest(&form.written(module), written.iter().map(String::as_str))
     }
 }
 
 /// A file on the way from the root to the file being read.
 struct Visit<'a> {
-    module: &'a str,
+    module: String,
     file: File<'a>,
     /// The import to follow next.
     next: usize,
@@ -156,7 +195,7 @@ struct Visit<'a> {
 fn cycle(path: &[Visit<'_>], module: &str, at: Box<Location>) -> LinkError {
     let mut names: Vec<_> = path
         .iter()
-        .map(|visit| visit.module)
+        .map(|visit| visit.module.as_str())
         .skip_while(|name| *name != module)
         .collect();
     names.push(module);
@@ -176,7 +215,7 @@ fn check_items(file: &File<'_>, import: &Import<'_>, imported: &File<'_>) -> Res
         None => Ok(()),
         Some(item) => Err(LinkError::UnknownItem {
             item: item.text.to_owned(),
-            module: import.module.text.to_owned(),
+            module: import.module.clone(),
             nearest: nearest(item.text, names()),
             at: file.at(item.range()),
         }),
@@ -187,7 +226,7 @@ fn refuse_duplicates(file: &File<'_>) -> Result<(), LinkError> {
     let mut seen = BTreeMap::new();
     for import in &file.imports {
         for item in &import.items {
-            if let Some(first) = seen.insert((import.module.text, item.text), import.line) {
+            if let Some(first) = seen.insert((&import.module, item.text), *import.lines.start()) {
                 return Err(LinkError::DuplicateImport {
                     item: item.text.to_owned(),
                     first,

@@ -1,0 +1,55 @@
+//! Single scattering, with four and six moments; sums in parallel and, on a software adapter, row by row.
+
+use moment_shadows::{MapEncoding, Storage, Technique, TechniqueError};
+use moment_shadows_graph::nodes::{CompositeScattering, IntegrateScattering, RectifyMoments};
+
+use super::{SIZE, Variant};
+use crate::techniques;
+
+/// What a storage of four moments allows.
+pub(super) fn of_storage(four: &MapEncoding) -> Result<Vec<Variant>, TechniqueError> {
+    let storage = four.storage();
+    // Storages are constants.
+    let portable = storage == Storage::Float16;
+    let mut all = Vec::new();
+    for technique in [Technique::Hamburger4, Technique::Hamburger6] {
+        let map = MapEncoding::new(technique.clone(), storage)?;
+        let label = techniques::label(&technique);
+        // Sums know nothing of moments: their text is the same for both.
+        let repeats = technique == Technique::Hamburger6;
+        let rectify = RectifyMoments {
+            technique,
+            storage,
+            extent: SIZE,
+        };
+        let sum = || Variant::new(IntegrateScattering, &map);
+        // Shared memory that is cleared; 512 columns at a time, with six steps of the scan.
+        let parallel = [64, SIZE[0] / 512, 6];
+        // Four columns at a time.
+        let row_by_row = [SIZE[0] / 4];
+        let composite = Variant::new(CompositeScattering::default(), &map);
+        let variant = |variant: Variant, node: &str, kind: &str, trips: &[u32]| {
+            variant
+                .file(format!("{node}_{label}_{storage}"), portable)
+                .row(portable, format!("{label}, {storage}{kind}"), trips)
+        };
+        let sums = [
+            variant(sum(), "integrate_scattering", "", &parallel),
+            variant(
+                sum().on(|capabilities| capabilities.software_adapter = true),
+                "integrate_scattering_software",
+                ", row by row",
+                &row_by_row,
+            ),
+        ];
+        let rectify = Variant::new(rectify, four);
+        all.push(variant(rectify, "rectify_moments", "", &[]));
+        if !repeats {
+            all.extend(sums);
+        } else if portable {
+            all.extend(sums.map(|sum| Variant { file: None, ..sum }));
+        }
+        all.push(variant(composite, "composite_scattering", "", &[]));
+    }
+    Ok(all)
+}

@@ -1,0 +1,171 @@
+//! What shades with maps, tables and plain depth.
+
+use moment_shadows::{MapEncoding, PcfTaps, Profile, Storage, SummedAreaTable, Technique};
+use moment_shadows_graph::nodes::Interpolation::{Both, Filter, Neither};
+use moment_shadows_graph::nodes::{ShadeHard, ShadeSoft};
+
+use super::Variant;
+use crate::shaders::ShadersError;
+use crate::techniques;
+
+/// Shading with a lookup by the sampler and in the shader, with and without mip levels, for one light and for several.
+pub(super) fn of_four_moments(four: &MapEncoding) -> Result<Vec<Variant>, ShadersError> {
+    let storage = four.storage();
+    let unorm16 = storage == Storage::Unorm16;
+    let mut all = Vec::new();
+    // Other storages can be filtered everywhere.
+    let kinds: &[_] = if storage == Storage::Float32 {
+        &[("", "loaded"), ("_filterable", "sampled")]
+    } else {
+        &[("", "sampled")]
+    };
+    for &(kind, lookup) in kinds {
+        let shade = |lights, views| {
+            let node = ShadeHard {
+                lights,
+                views,
+                ..ShadeHard::default()
+            };
+            Variant::new(node, four)
+                .on(|capabilities| capabilities.float32_filterable = !kind.is_empty())
+        };
+        let name = format!("shade_hard_{storage}{kind}");
+        let row = format!("{storage}, {lookup}");
+        // Each of at most so many probes looks for the coarsest level with texels: the last one, in a large region.
+        let probes = [u32::from(ShadeHard::default().anisotropy), 1];
+        all.extend([
+            shade(1, 1).file(&name, true).row(true, &row, &[]),
+            shade(2, 6).file(format!("{name}_views"), false),
+            shade(1, 1)
+                .mips(4)
+                .file(format!("{name}_mips"), unorm16)
+                .row(kind.is_empty(), format!("{row}, mip levels"), &probes),
+            shade(2, 6)
+                .mips(4)
+                .file(format!("{name}_mips_views"), false),
+            shade(1, 4).row(unorm16, format!("{row}, 4 views"), &[4]),
+        ]);
+    }
+    all.extend(soft(four)?);
+    Ok(all)
+}
+
+/// Soft shadows from the table of a map: all ways to look it up, two moments, several lights.
+fn soft(four: &MapEncoding) -> Result<Vec<Variant>, ShadersError> {
+    let storage = four.storage();
+    let table = SummedAreaTable::new(storage, [65, 65])?;
+    let mut all = Vec::new();
+    let (four_moments, two) = (Technique::Hamburger4, Technique::Vsm);
+    for (kind, technique, interpolation, words) in [
+        ("", &four_moments, Filter, "filter"),
+        ("_both", &four_moments, Both, "search and filter"),
+        ("_neither", &four_moments, Neither, "nothing"),
+        ("_vsm", &two, Filter, "filter"),
+    ] {
+        let node = ShadeSoft {
+            interpolation,
+            ..ShadeSoft::default()
+        };
+        let listed = storage == Storage::Float32;
+        let name = format!("shade_soft{kind}_{storage}");
+        // The loop over the only view, which a compiler unrolls unless it is long.
+        all.push(
+            Variant::new(node, four)
+                .connected(&MapEncoding::of_table(technique.clone(), table)?)
+                .file(name, listed && interpolation == Filter)
+                .row(listed, format!("{technique}, {words} interpolated"), &[1]),
+        );
+    }
+    let lights = ShadeSoft {
+        lights: 2,
+        views: 6,
+        ..ShadeSoft::default()
+    };
+    all.push(
+        Variant::new(lights, four)
+            .connected(&MapEncoding::of_table(four_moments, table)?)
+            .file(format!("shade_soft_views_{storage}"), false),
+    );
+    Ok(all)
+}
+
+/// Techniques without a filterable map.
+pub(super) fn of_depth(any: &MapEncoding) -> Vec<Variant> {
+    let variant = |technique: Technique| {
+        let label = techniques::label(&technique);
+        let trips = match &technique {
+            Technique::Pcf(taps) => match taps {
+                // Rows, one more where results are blended; the few columns of small kernels are unrolled.
+                PcfTaps::Box { radius } => vec![2 * radius + 2],
+                PcfTaps::Gaussian { radius, .. } => vec![2 * radius + 2; 2],
+                PcfTaps::Weights(weights) => vec![weights.len() as u32 + 1],
+                PcfTaps::Hardware { radius, .. } => vec![2 * radius + 1],
+                PcfTaps::Poisson { .. } => vec![16],
+            },
+            Technique::Pcss(taps) => vec![taps.search_taps, taps.filter_taps],
+            _ => Vec::new(),
+        };
+        let kept = !matches!(technique, Technique::Pcf(_));
+        let node = ShadeHard {
+            technique: Some(technique),
+            ..ShadeHard::default()
+        };
+        Variant::new(node, any)
+            .file(format!("shade_hard_{label}"), kept)
+            .row(true, label, &trips)
+    };
+    techniques::reading_depth()
+        .into_iter()
+        .map(variant)
+        .collect()
+}
+
+/// Shading with another technique's map. Each with one lookup; four moments have all.
+pub(super) fn of_technique(map: &MapEncoding) -> Vec<Variant> {
+    let (technique, storage) = (map.technique(), map.storage());
+    let label = techniques::label(technique);
+    let shade = || Variant::new(ShadeHard::default(), map);
+    let file = shade().file(format!("shade_hard_{label}_{storage}"), super::is_kept(map));
+    // The storage that a native device would choose, and what is drawn; others change how a texel is decoded.
+    let chosen = technique.best_storage(Profile::Native) == Some(storage) || storage.is_drawn();
+    if !chosen || label.contains("lloyd") {
+        return vec![file];
+    }
+    let trips = match technique {
+        // The split in front of the fragment is searched for, at most through all of them.
+        Technique::Lvsm { layers, .. } => &[layers - 1][..],
+        _ => &[],
+    };
+    let settings = format!("{label}, {storage}");
+    if storage == Storage::Float32 {
+        let filterable = shade().on(|capabilities| capabilities.float32_filterable = true);
+        vec![file, filterable.row(true, settings, trips)]
+    } else {
+        vec![file.row(true, settings, trips)]
+    }
+}
+
+/// Shading in the mip levels of a map that is drawn.
+pub(super) fn in_mip_levels(map: &MapEncoding, suffix: &str) -> Variant {
+    Variant::new(ShadeHard::default(), map)
+        .mips(4)
+        .file(format!("shade_hard_mips_{suffix}"), false)
+}
+
+/// Shading with the series itself, where a technique evaluates a bound of it.
+pub(super) fn of_series(map: &MapEncoding) -> Option<Variant> {
+    let Technique::Convolution { terms, .. } = map.technique() else {
+        return None;
+    };
+    let series = Technique::Convolution {
+        terms: *terms,
+        lower_bound: false,
+    };
+    let label = techniques::label(&series);
+    let name = format!("shade_hard_{label}_{}", map.storage());
+    let node = ShadeHard {
+        technique: Some(series),
+        ..ShadeHard::default()
+    };
+    Some(Variant::new(node, map).file(name, super::is_kept(map)))
+}

@@ -1,0 +1,218 @@
+//! An import: the only forms are `import super::super::folder::file::{a, b};` within the library, and
+//! `import moment_shadows::folder::file::{a, b};` or `import node::name::{a, b};` outside it. All are WESL as it stands.
+
+use core::ops::{Range, RangeInclusive};
+
+use super::file::File;
+use super::tokens::{Kind, Token, tokens};
+use crate::LinkError;
+
+/// Which of the forms a file uses.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Form {
+    /// `import super::super::folder::file::{a, b};`, in modules of the library.
+    Inside,
+    /// `import moment_shadows::folder::file::{a, b};` and `import node::name::{a, b};`, everywhere else.
+    Outside,
+}
+
+impl Form {
+    fn example(self) -> &'static str {
+        match self {
+            Form::Inside => "import super::super::folder::file::{item, item};",
+            Form::Outside => "import moment_shadows::folder::file::{item, item};",
+        }
+    }
+
+    fn wrong_root(self) -> &'static str {
+        match self {
+            Form::Inside => "within the library an import starts with `super::super::`",
+            Form::Outside => {
+                "outside the library an import starts with `moment_shadows::` or `node::`"
+            }
+        }
+    }
+
+    /// How a file of this form writes the path `module`, which starts with `moment_shadows::` or `node::`.
+    pub(crate) fn written(self, module: &str) -> String {
+        match (self, module.strip_prefix("moment_shadows::")) {
+            (Form::Inside, Some(path)) => format!("super::super::{path}"),
+            (Form::Inside | Form::Outside, _) => module.to_owned(),
+        }
+    }
+}
+
+/// The items that a file imports from one module.
+pub(crate) struct Import<'a> {
+    /// The module's path from its root: `moment_shadows::folder::file` or `node::name`, however it is written.
+    pub(crate) module: String,
+    /// The bytes where the path stands.
+    pub(crate) path: Range<usize>,
+    pub(crate) items: Vec<Token<'a>>,
+    /// The bytes of the statement.
+    pub(crate) range: Range<usize>,
+    /// The lines of the statement, from 1; they hold nothing else. Filled in by the file, which counts its lines once.
+    pub(crate) lines: RangeInclusive<u32>,
+}
+
+/// Whether `text` starts with an import that starts with `super::`.
+pub(super) fn starts_with_super(text: &str) -> bool {
+    let text = text.strip_prefix('\u{feff}').unwrap_or(text);
+    let tokens = tokens(text).unwrap_or_default();
+    matches!(tokens.as_slice(), [import, root, ..] if import.is_word("import") && root.is_word("super"))
+}
+
+/// Reads the import that `code` starts with; returns it and the tokens after it.
+pub(crate) fn parse<'a, 'b>(
+    file: &File<'a>,
+    code: &'b [Token<'a>],
+    form: Form,
+) -> Result<(Import<'a>, &'b [Token<'a>]), LinkError> {
+    let mut reader = Reader {
+        file,
+        form,
+        rest: code,
+        last: code.first().copied(),
+    };
+    let import = reader.import()?;
+    Ok((import, reader.rest))
+}
+
+/// Takes the tokens of one import, and says what is wrong at the first that does not fit.
+struct Reader<'a, 'b, 'c> {
+    file: &'c File<'a>,
+    form: Form,
+    rest: &'b [Token<'a>],
+    last: Option<Token<'a>>,
+}
+
+impl<'a> Reader<'a, '_, '_> {
+    fn import(&mut self) -> Result<Import<'a>, LinkError> {
+        let text = self.file.text;
+        let start = self.last.map_or(0, |import| import.start);
+        let line_start = text[..start].rfind('\n').map_or(0, |end| end + 1);
+        if !text[line_start..start].trim().is_empty() {
+            return Err(self.wrong("something stands before the import"));
+        }
+        self.take(|token| token.is_word("import"), "an import is expected")?;
+        let (module, path) = self.module()?;
+        let items = self.items()?;
+        let brace = self.last;
+        let end = match self.take(|token| token.is_symbol(";"), "`;` is missing") {
+            Ok(semicolon) => semicolon.range().end,
+            Err(_) => {
+                self.last = brace;
+                return Err(self.wrong("`;` is missing"));
+            }
+        };
+        let end_of_line = text[end..].find('\n').map_or(text.len(), |at| end + at);
+        let after = text[end..end_of_line].trim();
+        let comment = after.is_empty() || after.starts_with("//");
+        if !comment
+            || self
+                .rest
+                .first()
+                .is_some_and(|next| next.start < end_of_line)
+        {
+            return Err(self.wrong("something stands after the import"));
+        }
+        Ok(Import {
+            module,
+            path,
+            items,
+            range: start..end,
+            lines: 0..=0,
+        })
+    }
+
+    /// The module's path, up to the brace: its root, then one name or more.
+    fn module(&mut self) -> Result<(String, Range<usize>), LinkError> {
+        let root = self.take(|token| token.kind == Kind::Word, self.form.wrong_root())?;
+        let mut module = match (self.form, root.text) {
+            (Form::Inside, "super") => {
+                self.take(|token| token.kind == Kind::Path, "`::` is missing")?;
+                self.take(|token| token.is_word("super"), self.form.wrong_root())?;
+                "moment_shadows".to_owned()
+            }
+            (Form::Outside, "moment_shadows" | "node") => root.text.to_owned(),
+            _ => return Err(self.wrong(self.form.wrong_root())),
+        };
+        self.take(|token| token.kind == Kind::Path, "`::` is missing")?;
+        let mut end = root.range().end;
+        loop {
+            let named = end > root.range().end;
+            if named && self.rest.first().is_some_and(|next| next.is_symbol("{")) {
+                return Ok((module, root.start..end));
+            }
+            let missing = if named {
+                "items are imported in braces"
+            } else {
+                "the module's name is missing"
+            };
+            let name = self.take(|token| token.kind == Kind::Word, missing)?;
+            module.push_str("::");
+            module.push_str(name.text);
+            end = name.range().end;
+            if self
+                .take(
+                    |token| token.kind == Kind::Path,
+                    "items are imported in braces",
+                )
+                .is_err()
+            {
+                self.last = Some(name);
+                return Err(self.wrong("items are imported in braces"));
+            }
+        }
+    }
+
+    /// The items in their braces. A comma may follow the last.
+    fn items(&mut self) -> Result<Vec<Token<'a>>, LinkError> {
+        self.take(|token| token.is_symbol("{"), "items are imported in braces")?;
+        let mut items = Vec::new();
+        loop {
+            items.push(self.take(
+                |token| token.kind == Kind::Word,
+                "an item's name is missing",
+            )?);
+            let closes = |token: &Token<'_>| token.is_symbol("}");
+            let next = self.take(
+                |token| token.is_symbol(",") || closes(token),
+                "items are plain names with commas between them (no `as`, no path)",
+            )?;
+            if closes(&next) {
+                return Ok(items);
+            }
+            if self.rest.first().is_some_and(closes) {
+                self.take(closes, "`}` is missing")?;
+                return Ok(items);
+            }
+        }
+    }
+
+    /// The next token, if it `fits`.
+    fn take(
+        &mut self,
+        fits: impl Fn(&Token<'a>) -> bool,
+        reason: &'static str,
+    ) -> Result<Token<'a>, LinkError> {
+        let Some((&token, rest)) = self.rest.split_first() else {
+            return Err(self.wrong(reason));
+        };
+        self.last = Some(token);
+        if !fits(&token) {
+            return Err(self.wrong(reason));
+        }
+        self.rest = rest;
+        Ok(token)
+    }
+
+    /// The error, pointing at the token taken last.
+    fn wrong(&self, reason: &'static str) -> LinkError {
+        LinkError::WrongForm {
+            reason,
+            form: self.form.example(),
+            at: self.file.at(self.last.map_or(0..0, |token| token.range())),
+        }
+    }
+}

@@ -1,0 +1,253 @@
+//! The forms of imports: what is read, what is refused and where.
+
+use moment_shadows::{LinkError, Source, link_module};
+
+use crate::{link_user, link_with, place};
+
+/// The place of an import of the wrong form, and the reason.
+fn wrong_form(text: &str) -> ((u32, u32, u32), &'static str) {
+    match link_user(text).unwrap_err() {
+        LinkError::WrongForm { reason, at, form } => {
+            assert_eq!(form, "import moment_shadows::folder::file::{item, item};");
+            assert_eq!(at.file, "user.wgsl");
+            assert_eq!(at.text, text.lines().nth(at.line as usize - 1).unwrap());
+            (place(&at), reason)
+        }
+        other => panic!("another error: {other}"),
+    }
+}
+
+#[test]
+fn an_import_may_take_several_lines() {
+    let text = "// A shader.\n\nimport moment_shadows::maths // where\n  ::hankel::{\n    HankelFactor, /* the\n    type */\n    \
+                hankel_factor,\n}; // end\nimport node::a::{\r\n\ta\r\n};\n\nconst b = a;\nfn f(f: HankelFactor) {}\n";
+    let linked = link_with(text, &[("a", "const a = 1;\n")]).unwrap();
+    let end = "\n// user.wgsl\n// A shader.\n\nconst b = a;\nfn f(f: HankelFactor) {}\n";
+    assert!(linked.wgsl().ends_with(end), "{}", linked.wgsl());
+    let lines = u32::try_from(linked.wgsl().lines().count()).unwrap();
+    assert_eq!(linked.origin(lines - 1).unwrap().line, 13);
+    assert_eq!(linked.origin(lines).unwrap().line, 14);
+    let at = linked.location(linked.wgsl().rfind("HankelFactor").unwrap()..linked.wgsl().len());
+    assert_eq!(place(&at.unwrap()), (14, 9, 16));
+
+    // Errors after it, and within it, stand where they stand.
+    let text = "import moment_shadows::maths::hankel::{\n  HankelFactor,\n  hankel_facto,\n};\n";
+    match link_user(text).unwrap_err() {
+        LinkError::UnknownItem { item, at, .. } => {
+            assert_eq!((item.as_str(), place(&at)), ("hankel_facto", (3, 3, 12)));
+        }
+        other => panic!("another error: {other}"),
+    }
+    let text = "import moment_shadows::maths::hankel::{\n  HankelFactor,\n};\nimport\nmoment_shadows::maths::hankel::{HankelFactor};";
+    match link_user(text).unwrap_err() {
+        LinkError::DuplicateImport { first, at, .. } => {
+            assert_eq!((first, place(&at)), (1, (5, 33, 12)));
+        }
+        other => panic!("another error: {other}"),
+    }
+}
+
+#[test]
+fn a_module_of_the_library_imports_its_siblings() {
+    let text =
+        "import super::super::maths::hankel::{hankel_factor};\nfn mine() { _ = hankel_factor; }\n";
+    let source = Source {
+        name: "mine.wgsl",
+        text,
+    };
+    assert!(source.is_library_module());
+    let linked = link_module(source).unwrap();
+    assert_eq!(
+        linked.files().collect::<Vec<_>>(),
+        ["moment_shadows/maths/hankel.wgsl", "mine.wgsl"]
+    );
+
+    let text = "import moment_shadows::maths::hankel::{hankel_factor};\n";
+    let source = Source { text, ..source };
+    assert!(!source.is_library_module());
+    // A folder's own files are imported from the root too: one form is enough.
+    for text in [text, "import super::hankel::{hankel_factor};\n"] {
+        match link_module(Source { text, ..source }).unwrap_err() {
+            LinkError::WrongForm { reason, form, .. } => {
+                assert_eq!(form, "import super::super::folder::file::{item, item};");
+                assert!(reason.contains("starts with `super::super::`"), "{reason}");
+            }
+            other => panic!("another error: {other}"),
+        }
+    }
+}
+
+#[test]
+fn refuses_other_forms_of_import() {
+    let outside = "outside the library an import starts with `moment_shadows::` or `node::`";
+    let braces = "items are imported in braces";
+    let plain = "items are plain names with commas between them (no `as`, no path)";
+    let after = "something stands after the import";
+    let cases = [
+        (
+            "import super::super::maths::hankel::{hankel_factor};",
+            (1, 8, 5),
+            outside,
+        ),
+        (
+            "\nimport bevy::hankel::{hankel_factor};",
+            (2, 8, 4),
+            outside,
+        ),
+        ("import moment_shadows::maths::hankel;", (1, 31, 6), braces),
+        (
+            "import moment_shadows::maths::hankel::hankel_factor;",
+            (1, 39, 13),
+            braces,
+        ),
+        (
+            "import moment_shadows::maths::hankel::*;",
+            (1, 39, 1),
+            braces,
+        ),
+        (
+            "import moment_shadows::{hankel};",
+            (1, 24, 1),
+            "the module's name is missing",
+        ),
+        ("import node;", (1, 12, 1), "`::` is missing"),
+        (
+            "import moment_shadows::maths::hankel::{};",
+            (1, 40, 1),
+            "an item's name is missing",
+        ),
+        (
+            "import moment_shadows::maths::hankel::{a,,};",
+            (1, 42, 1),
+            "an item's name is missing",
+        ),
+        (
+            "import moment_shadows::maths::hankel::{hankel_factor as f};",
+            (1, 54, 2),
+            plain,
+        ),
+        (
+            "import moment_shadows::maths::hankel::{a::b};",
+            (1, 41, 2),
+            plain,
+        ),
+        (
+            "import moment_shadows::maths::hankel::{\n  a\n  b\n};",
+            (3, 3, 1),
+            plain,
+        ),
+        (
+            "import moment_shadows::maths::hankel::{a}",
+            (1, 41, 1),
+            "`;` is missing",
+        ),
+        (
+            "import moment_shadows::maths::hankel::{a,\n}\nfn f() {}",
+            (2, 1, 1),
+            "`;` is missing",
+        ),
+        ("import", (1, 1, 6), outside),
+        (
+            "/* a */ import moment_shadows::maths::hankel::{a};",
+            (1, 9, 6),
+            "something stands before the import",
+        ),
+        (
+            "import moment_shadows::maths::hankel::{a}; fn f() {}",
+            (1, 42, 1),
+            after,
+        ),
+        (
+            "import moment_shadows::maths::hankel::{\na}; fn f() {}",
+            (2, 3, 1),
+            after,
+        ),
+        (
+            "import moment_shadows::maths::hankel::{a}; // b\u{2028}fn f() {}",
+            (1, 42, 1),
+            after,
+        ),
+        (
+            "import moment_shadows::maths::hankel::{a}; /* a\n*/",
+            (1, 42, 1),
+            after,
+        ),
+    ];
+    for (text, at, reason) in cases {
+        assert_eq!(wrong_form(text), (at, reason), "{text}");
+    }
+}
+
+#[test]
+fn refuses_imports_after_code() {
+    let cases = [
+        (
+            "\nconst A = 1;\n  import moment_shadows::maths::hankel::{hankel_factor};",
+            (3, 3, 6),
+            2,
+        ),
+        (
+            "enable f16;\nimport moment_shadows::maths::hankel::{hankel_factor};",
+            (2, 1, 6),
+            1,
+        ),
+        (
+            "@if(x) import moment_shadows::maths::hankel::{hankel_factor};",
+            (1, 2, 2),
+            0,
+        ),
+    ];
+    for (text, expected, line) in cases {
+        match link_user(text).unwrap_err() {
+            LinkError::ImportAfterCode { first_code, at } => {
+                assert_eq!((place(&at), first_code), (expected, line));
+            }
+            LinkError::Conditional { attribute, at } if line == 0 => {
+                assert_eq!((place(&at), attribute.as_str()), (expected, "if"));
+            }
+            other => panic!("another error: {other}"),
+        }
+    }
+}
+
+#[test]
+fn refuses_paths_conditions_and_public_in_code() {
+    match link_user("fn f() {\n\tlet a = super::hankel::hankel_factor();\n}").unwrap_err() {
+        LinkError::InlinePath { at } => assert_eq!(place(&at), (2, 15, 2)),
+        other => panic!("another error: {other}"),
+    }
+    match link_user("@else fn f() {}").unwrap_err() {
+        LinkError::Conditional { attribute, at } => {
+            assert_eq!((attribute.as_str(), place(&at)), ("else", (1, 2, 4)));
+        }
+        other => panic!("another error: {other}"),
+    }
+    match link_user("public import moment_shadows::maths::hankel::{hankel_factor};").unwrap_err() {
+        LinkError::Public { at } => assert_eq!(place(&at), (1, 1, 6)),
+        other => panic!("another error: {other}"),
+    }
+    // A plain `if` is no attribute.
+    link_user("fn f() { if true { return; } else { return; } }").unwrap();
+}
+
+#[test]
+fn refuses_comments_without_end() {
+    match link_user("fn f() {}\n /* /* */").unwrap_err() {
+        LinkError::UnterminatedComment { at } => assert_eq!(place(&at), (2, 2, 2)),
+        other => panic!("another error: {other}"),
+    }
+}
+
+#[test]
+fn errors_show_the_line_with_carets() {
+    let text = "// é\nimport\tmoment_shadows::maths::hankel::{hankel_facto};";
+    let shown = link_user(text).unwrap_err().to_string();
+    let indent = " ".repeat(32);
+    let expected = format!(
+        " --> user.wgsl:2:40\n  |\n2 | {}\n  |       \t{indent}^^^^^^^^^^^^",
+        "import\tmoment_shadows::maths::hankel::{hankel_facto};"
+    );
+    assert!(shown.ends_with(&expected), "{shown}");
+    let start = "module `moment_shadows::maths::hankel` does not define `hankel_facto`; the nearest names are";
+    assert!(shown.starts_with(start), "{shown}");
+}
