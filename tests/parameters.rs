@@ -203,7 +203,7 @@ fn structs_of_single_scattering_are_laid_out_alike() {
         }),
     );
     assert_same_layout(
-        &of(&IntegrateScattering::default()),
+        &of(&IntegrateScattering),
         "IntegrateScatteringParameters",
         size_of::<IntegrateScatteringParameters>(),
         &fields!(IntegrateScatteringParameters {
@@ -308,16 +308,12 @@ fn nodes_declare_the_structs_that_their_shaders_bind() {
                 .bindings
                 .iter()
                 .find(|binding| binding.resource == BindingResource::Parameters);
-            let index = declared.unwrap().binding;
+            let name = Some(declared.unwrap().variable.as_str());
             let parsed = parse(&pass.wgsl);
             let (_, bound) = parsed
                 .global_variables
                 .iter()
-                .find(|(_, variable)| {
-                    variable
-                        .binding
-                        .is_some_and(|binding| binding.binding == index)
-                })
+                .find(|(_, variable)| variable.name.as_deref() == name)
                 .unwrap();
             let whole = &parsed.types[bound.ty];
             let kind = match whole.inner {

@@ -4,17 +4,11 @@
 
 use moment_shadows::{EsmFiltering, LayerSplits, MapEncoding, PcfTaps, Technique};
 
-use super::specialization::Specialization;
-use crate::{
-    Access, Binding, BindingResource, CountRule, Direction, ExtentRule, FormatRule, GraphError,
-    GraphErrorKind, Lifetime, Slot, SlotResource,
-};
+use super::shared::Specialization;
+use crate::{Binding, CountRule, GraphError, GraphErrorKind, Slot, TextureRule, bind};
 
 /// The name and text of a virtual module.
 pub(super) type VirtualModule = (&'static str, &'static str);
-
-/// The binding of the splits that are placed on the device.
-const SPLITS_BINDING: u32 = 5;
 
 /// The slot of these splits: one layer per layer of the map, the splits in two texels.
 pub(super) const SPLITS: &str = "splits";
@@ -222,29 +216,12 @@ pub(super) fn places_layers(technique: &Technique) -> bool {
 
 /// The input for the splits, and its binding.
 pub(super) fn splits_input(one_layer: bool) -> (Slot, Binding) {
-    let slot = Slot {
-        name: SPLITS.to_owned(),
-        direction: Direction::In,
-        lifetime: Lifetime::Frame,
-        optional: false,
-        resource: SlotResource::Texture {
-            access: Access::READ,
-            format: FormatRule::Exact(moment_shadows::TextureFormat::Rgba32Float),
-            extent: ExtentRule::Exact([2, 1]),
-            layers: CountRule::Any,
-            mips: CountRule::Exact(1),
-            samples: CountRule::Exact(1),
-        },
-    };
-    let name = SPLITS.to_owned();
-    let binding = Binding {
-        binding: SPLITS_BINDING,
-        resource: if one_layer {
-            BindingResource::Layer(name)
-        } else {
-            BindingResource::Layers(name)
-        },
-    };
+    let rule = TextureRule::new(moment_shadows::TextureFormat::Rgba32Float)
+        .extent([2, 1])
+        .layers(CountRule::Any);
+    let slot = Slot::input(SPLITS, "Where the layers of the technique lie.", rule);
+    let bound = if one_layer { bind::layer } else { bind::layers };
+    let binding = Binding::new("splits_map", bound(SPLITS));
     (slot, binding)
 }
 

@@ -32,7 +32,7 @@ fn blur(map: &MapEncoding, radius: u32, per_frame: bool) -> Variant {
 
 /// Every level but the first has a pass with the same shader, so that two levels are enough.
 fn downsample(map: &MapEncoding) -> Variant {
-    Variant::new(Downsample::default(), map).mips(2)
+    Variant::new(Downsample, map).mips(2)
 }
 
 /// Maps of four moments.

@@ -9,44 +9,45 @@ use moment_shadows::{Source, link};
 
 use crate::{Capabilities, GraphError, GraphErrorKind};
 
-/// The virtual module with the vertex stage of fullscreen passes.
-pub(super) const FULLSCREEN: (&str, &str) = ("fullscreen", include_str!("fullscreen.wgsl"));
-
 /// The text of a `specialization` module.
 #[derive(Clone, Debug)]
-pub(super) struct Specialization {
+pub(in crate::nodes) struct Specialization {
     text: String,
 }
 
 impl Specialization {
     /// A module that knows the bind group.
-    pub(super) fn new(capabilities: &Capabilities) -> Self {
+    pub(in crate::nodes) fn new(capabilities: &Capabilities) -> Self {
         Self {
             text: format!("const GROUP = {};\n", capabilities.bind_group),
         }
     }
 
-    pub(super) fn alias(mut self, name: &str, of: &str) -> Self {
+    pub(in crate::nodes) fn alias(mut self, name: &str, of: &str) -> Self {
         // Writing to a string cannot fail.
         let _ = writeln!(self.text, "alias {name} = {of};");
         self
     }
 
-    pub(super) fn constant(mut self, name: &str, value: &str) -> Self {
+    pub(in crate::nodes) fn constant(mut self, name: &str, value: &str) -> Self {
         let _ = writeln!(self.text, "const {name} = {value};");
         self
     }
 
-    pub(super) fn text(mut self, text: &str) -> Self {
+    /// A constant of type u32.
+    pub(in crate::nodes) fn unsigned(self, name: &str, value: u32) -> Self {
+        self.constant(name, &format!("{value}u"))
+    }
+
+    pub(in crate::nodes) fn text(mut self, text: &str) -> Self {
         self.text.push_str(text);
         self
     }
 
-    /// Links a node's shader with this module and further ones.
-    pub(super) fn link(
+    /// Links a node's shader, a file with its text, with this module and further ones.
+    pub(in crate::nodes) fn link(
         &self,
-        file: &str,
-        shader: &str,
+        (name, text): (&str, &str),
         others: &[(&str, &str)],
     ) -> Result<String, GraphError> {
         let mut generated = vec![Source {
@@ -54,14 +55,8 @@ impl Specialization {
             text: &self.text,
         }];
         generated.extend(others.iter().map(|&(name, text)| Source { name, text }));
-        let linked = link(
-            Source {
-                name: file,
-                text: shader,
-            },
-            &generated,
-        )
-        .map_err(|error| GraphError::new(GraphErrorKind::Shader, error.to_string()))?;
+        let linked = link(Source { name, text }, &generated)
+            .map_err(|error| GraphError::new(GraphErrorKind::Shader, error.to_string()))?;
         Ok(linked.into_wgsl())
     }
 }

@@ -3,10 +3,11 @@
 use moment_shadows::{MapEncoding, SummedAreaTable, Technique, TextureFormat};
 use serde::{Deserialize, Serialize};
 
-use super::shading::{self, ShadedMap};
-use super::specialization::{FULLSCREEN, Specialization};
-use super::techniques::VirtualModule;
-use crate::{Binding, BindingResource, Connected, GraphError, GraphErrorKind, Node, NodeDesc};
+use super::shared::{FULLSCREEN, Specialization, VirtualModule, shading};
+use crate::{
+    Binding, Connected, CountRule, GraphError, GraphErrorKind, Node, NodeDesc, Slot, TextureRule,
+    bind,
+};
 
 /// Node `shade_soft`: `table` (a summed-area table) and `camera_depth` to `shadow_intensity`, of the camera's size: penumbrae of
 /// area lights, hard at contacts and softer with distance, with a number of loads per pixel that does not depend on their
@@ -76,37 +77,19 @@ impl Node for ShadeSoft {
     fn describe(&self, upstream: &Connected<'_>) -> Result<NodeDesc, GraphError> {
         let format = shading::target_format(self.format, self.lights, self.views)?;
         let (encoding, table) = table_input(upstream)?;
-        let wgsl = self.specialization(upstream, table).link(
-            "shade.wgsl",
-            shading::SHADER,
-            &modules(encoding.technique()),
-        )?;
-        let bindings = vec![
-            Binding {
-                binding: 0,
-                resource: BindingResource::Parameters,
-            },
-            Binding {
-                binding: 1,
-                resource: BindingResource::Layer("camera_depth".to_owned()),
-            },
-            Binding {
-                binding: 2,
-                resource: BindingResource::Layers("table".to_owned()),
-            },
-        ];
-        let map = ShadedMap {
-            slot: "table",
-            formats: vec![encoding.format()],
-        };
+        let wgsl = self
+            .specialization(upstream, table)
+            .link(shading::SHADER, &modules(encoding.technique()))?;
+        let rule = TextureRule::new(encoding.format())
+            .layers(CountRule::Any)
+            .mips(CountRule::Any);
         Ok(shading::describe(
             "shade_soft",
-            map,
+            [Slot::input("table", "The light's summed-area table.", rule)],
+            [Binding::new("table_sums", bind::layers("table"))],
             format,
             self.views,
             wgsl,
-            bindings,
-            Vec::new(),
         ))
     }
 }
@@ -119,8 +102,8 @@ impl ShadeSoft {
             // Filters are as wide as pixels are: there are no mip levels to choose from.
             .constant("LEVELS", "1u")
             .constant("ANISOTROPY", "1.0")
-            .constant("VIEWS", &format!("{}u", self.views))
-            .constant("LIGHTS", &format!("{}u", self.lights))
+            .unsigned("VIEWS", self.views)
+            .unsigned("LIGHTS", self.lights)
             .constant("LARGEST_KERNEL", &format!("vec2f({width}.0, {height}.0)"))
             .constant("TABLE_UNIT", &format!("f32({}u)", table.unit()))
             .constant("TABLE_ERROR", &format!("f32({:?})", table.error()))
@@ -144,17 +127,20 @@ fn table_input(upstream: &Connected<'_>) -> Result<(MapEncoding, SummedAreaTable
 
 fn modules(technique: &Technique) -> [VirtualModule; 5] {
     let technique = match technique {
-        Technique::Vsm => include_str!("techniques/soft_variance.wgsl"),
-        _ => include_str!("techniques/soft_four_moments.wgsl"),
+        Technique::Vsm => include_str!("../techniques/soft_variance.wgsl"),
+        _ => include_str!("../techniques/soft_four_moments.wgsl"),
     };
     [
         FULLSCREEN,
         ("technique", technique),
-        ("technique_map", include_str!("techniques/map_table.wgsl")),
-        ("technique_soft", include_str!("techniques/soft.wgsl")),
+        (
+            "technique_map",
+            include_str!("../techniques/map_table.wgsl"),
+        ),
+        ("technique_soft", include_str!("../techniques/soft.wgsl")),
         (
             "technique_receiver",
-            include_str!("techniques/receiver.wgsl"),
+            include_str!("../techniques/receiver.wgsl"),
         ),
     ]
 }

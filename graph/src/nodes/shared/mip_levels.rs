@@ -6,20 +6,13 @@ use crate::{GraphError, GraphErrorKind, TextureDesc};
 
 /// How many mip levels a map has room for; `downsample` fills all but the first.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
-#[serde(untagged)]
-pub enum MipLevels {
-    /// So many, the map itself included.
-    Count(u32),
-    /// As many as the shorter side of the map allows.
-    All(AllLevels),
-}
-
-/// The word for as many mip levels as there can be.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
-pub enum AllLevels {
-    /// `"all"`
+pub enum MipLevels {
+    /// `"all"`: as many as the shorter side of the map allows.
     All,
+    /// So many, the map itself included.
+    #[serde(untagged)]
+    Count(u32),
 }
 
 impl Default for MipLevels {
@@ -30,15 +23,12 @@ impl Default for MipLevels {
 }
 
 impl MipLevels {
-    /// As many as the shorter side of the map allows.
-    pub const ALL: MipLevels = MipLevels::All(AllLevels::All);
-
     /// The number for a map of a size. A region has texels on every level only if it is large enough for it, so more
     /// levels than the shorter side of the whole map allows are refused.
-    pub(super) fn count(self, size: [u32; 2]) -> Result<u32, GraphError> {
+    pub(in crate::nodes) fn count(self, size: [u32; 2]) -> Result<u32, GraphError> {
         let most = TextureDesc::most_levels(size);
         match self {
-            MipLevels::All(AllLevels::All) => Ok(most),
+            MipLevels::All => Ok(most),
             MipLevels::Count(count) if (1..=most).contains(&count) => Ok(count),
             MipLevels::Count(count) => Err(GraphError::new(
                 GraphErrorKind::Size,

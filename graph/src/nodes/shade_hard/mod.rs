@@ -3,23 +3,21 @@
 use moment_shadows::{MapEncoding, PcfTaps, Technique, TextureFormat};
 use serde::{Deserialize, Serialize};
 
-use super::moments_input::{map_formats, moments_input};
-use super::moments_lookup::moments_lookup;
-use super::shading;
-use super::specialization::{FULLSCREEN, Specialization};
-use super::techniques::{self, VirtualModule};
+use super::shared::lookup::{self, moments_lookup};
+use super::shared::{DEPTHS, FULLSCREEN, Specialization, VirtualModule, map_input, shading};
+use super::techniques;
 use crate::{
     Binding, BindingResource, Capabilities, Connected, GraphError, GraphErrorKind, Node, NodeDesc,
-    TextureDesc,
+    Slot, TextureDesc, bind,
 };
 
 mod own_shader;
 
 pub use own_shader::TechniqueShader;
 
-/// Node `shade_hard`: `moments` (a filtered map) and `camera_depth` to `shadow_intensity`, of the camera's size. A
+/// Node `shade_hard`: `map` (a filtered map) and `camera_depth` to `shadow_intensity`, of the camera's size. A
 /// fullscreen pass: it can also be drawn into a render pass that the host has open. Techniques that read the plain depth map
-/// take it as the input `depth` instead of `moments`; layers that are placed on the device come from the input `splits`.
+/// take it as the input `depth` instead of `map`; layers that are placed on the device come from the input `splits`.
 ///
 /// It shades up to four lights, one in each channel of its output (a single one is in all of them), through any number of
 /// views: cascades, faces and spots, each a region of a layer. Parameters: an array of [`moment_shadows::ViewParameters`], one per view. Where the map has mip
@@ -45,9 +43,6 @@ pub struct ShadeHard {
     /// in which a pixel covers more texels.
     #[serde(default = "default_anisotropy")]
     pub anisotropy: u16,
-    /// Some samples multiply moments by a constant. Refused: the result bounds nothing.
-    #[serde(default, skip_serializing)]
-    pub moment_scale: Option<f32>,
 }
 
 fn one() -> u32 {
@@ -67,7 +62,6 @@ impl Default for ShadeHard {
             lights: 1,
             views: 1,
             anisotropy: default_anisotropy(),
-            moment_scale: None,
         }
     }
 }
@@ -76,34 +70,22 @@ impl Node for ShadeHard {
     fn describe(&self, upstream: &Connected<'_>) -> Result<NodeDesc, GraphError> {
         let format = self.check()?;
         let capabilities = upstream.capabilities();
-        let (technique, map) = self.technique_and_map(capabilities, || moments_input(upstream))?;
+        let (technique, map) =
+            self.technique_and_map(capabilities, || map_input::connected(upstream, "map"))?;
         let (specialization, mut modules) = self.evaluation(&technique, &map, capabilities);
         modules.push(FULLSCREEN);
-        let wgsl = specialization.link("shade.wgsl", shading::SHADER, &modules)?;
-        let mut bindings = vec![
-            Binding {
-                binding: 0,
-                resource: BindingResource::Parameters,
-            },
-            Binding {
-                binding: 1,
-                resource: BindingResource::Layer("camera_depth".to_owned()),
-            },
-        ];
-        bindings.extend(map.bindings());
+        let wgsl = specialization.link(shading::SHADER, &modules)?;
+        let rule = map_input::rule(map.formats);
+        let input = Slot::input(map.slot, "The light's map.", rule);
         let splits = techniques::places_layers(&technique).then(|| techniques::splits_input(false));
-        bindings.extend(splits.iter().map(|(_, binding)| binding.clone()));
+        let (splits, splits_binding) = splits.unzip();
         Ok(shading::describe(
             "shade_hard",
-            shading::ShadedMap {
-                slot: map.slot,
-                formats: map.formats,
-            },
+            core::iter::once(input).chain(splits),
+            map.bindings().into_iter().chain(splits_binding),
             format,
             self.views,
             wgsl,
-            bindings,
-            splits.map(|(slot, _)| slot).into_iter().collect(),
         ))
     }
 }
@@ -111,26 +93,21 @@ impl Node for ShadeHard {
 /// The map that is shaded with.
 struct Map {
     slot: &'static str,
-    formats: Vec<TextureFormat>,
+    formats: &'static [TextureFormat],
+    /// The shader's variable.
+    variable: &'static str,
     /// The storage's number in WGSL, of a filterable map.
     storage: Option<u32>,
     levels: u32,
-    lookup: &'static str,
-    sampler: Option<BindingResource>,
+    lookup: VirtualModule,
+    sampler: Option<Binding>,
 }
 
 impl Map {
     /// The map and its sampler, if there is one.
     fn bindings(&self) -> Vec<Binding> {
-        let map = Binding {
-            binding: 2,
-            resource: BindingResource::Layers(self.slot.to_owned()),
-        };
-        let sampler = self.sampler.clone().map(|resource| Binding {
-            binding: 3,
-            resource,
-        });
-        core::iter::once(map).chain(sampler).collect()
+        let map = Binding::new(self.variable, bind::layers(self.slot));
+        core::iter::once(map).chain(self.sampler.clone()).collect()
     }
 }
 
@@ -143,20 +120,20 @@ impl ShadeHard {
         capabilities: &Capabilities,
     ) -> (Specialization, Vec<VirtualModule>) {
         let mut specialization = Specialization::new(capabilities)
-            .constant("LEVELS", &format!("{}u", map.levels))
-            .constant("VIEWS", &format!("{}u", self.views))
-            .constant("LIGHTS", &format!("{}u", self.lights))
+            .unsigned("LEVELS", map.levels)
+            .unsigned("VIEWS", self.views)
+            .unsigned("LIGHTS", self.lights)
             .constant("ANISOTROPY", &format!("{}.0", self.anisotropy))
-            .constant("PLANES", &format!("{}u", technique.planes()));
+            .unsigned("PLANES", technique.planes());
         if let Some(storage) = map.storage {
-            specialization = specialization.constant("STORAGE", &format!("{storage}u"));
+            specialization = specialization.unsigned("STORAGE", storage);
         }
         let mut modules = techniques::evaluation(technique);
-        modules.push(("moments_lookup", map.lookup));
+        modules.push(map.lookup);
         (techniques::specialize(specialization, technique), modules)
     }
 
-    /// The technique, and the map that it reads: `moments`, or the plain depth map.
+    /// The technique, and the map that it reads: `map`, or the plain depth map.
     fn technique_and_map<'a>(
         &self,
         capabilities: &Capabilities,
@@ -191,7 +168,8 @@ impl ShadeHard {
         );
         let map = Map {
             slot: "map",
-            formats: map_formats(),
+            formats: &map_input::FORMATS,
+            variable: "moments_map",
             storage: Some(encoding.storage().wgsl_index()),
             // Logarithms have no mip levels.
             levels: if logarithmic { 1 } else { moments.mips },
@@ -203,19 +181,11 @@ impl ShadeHard {
 
     /// Checks the properties and gives the format of the output.
     fn check(&self) -> Result<TextureFormat, GraphError> {
-        let property = |message: String| Err(GraphError::new(GraphErrorKind::Property, message));
-        if self.moment_scale.is_some() {
-            return property(
-                "'moment_scale' is refused: moments times a constant are the moments of no distribution, so that the result \
-                 bounds nothing; use the leak reduction of the node's parameters instead"
-                    .to_owned(),
-            );
-        }
         if !(1..=16).contains(&self.anisotropy) {
-            return property(format!(
+            return Err(techniques::property(format!(
                 "'anisotropy' is {}; it is from 1 (trilinear lookups) to 16",
                 self.anisotropy
-            ));
+            )));
         }
         shading::target_format(self.format, self.lights, self.views)
     }
@@ -223,19 +193,22 @@ impl ShadeHard {
 
 /// The plain depth map.
 fn depth_map(technique: &Technique) -> Map {
+    let sampler = match technique {
+        Technique::Pcf(PcfTaps::Hardware { reversed, .. }) => Some(Binding::new(
+            "comparison_sampler",
+            BindingResource::ComparisonSampler {
+                reversed: *reversed,
+            },
+        )),
+        _ => None,
+    };
     Map {
         slot: "depth",
-        formats: vec![TextureFormat::Depth32Float, TextureFormat::Depth16Unorm],
+        formats: &DEPTHS,
+        variable: "depth_map",
         storage: None,
         levels: 1,
-        lookup: include_str!("moments_lookup_loaded.wgsl"),
-        sampler: match technique {
-            Technique::Pcf(PcfTaps::Hardware { reversed, .. }) => {
-                Some(BindingResource::ComparisonSampler {
-                    reversed: *reversed,
-                })
-            }
-            _ => None,
-        },
+        lookup: lookup::LOADED,
+        sampler,
     }
 }

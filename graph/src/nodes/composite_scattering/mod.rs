@@ -3,14 +3,12 @@
 use moment_shadows::{CompositeScatteringParameters, Technique, TextureFormat};
 use serde::{Deserialize, Serialize};
 
-use super::moments_input::{encoding_of, map_formats};
-use super::moments_lookup::moments_lookup;
-use super::specialization::{FULLSCREEN, Specialization};
-use super::{drawn_map, techniques};
+use super::shared::lookup::moments_lookup;
+use super::shared::{self, FULLSCREEN, Specialization, map_input, regions, wgsl};
+use super::techniques;
 use crate::{
-    Access, Binding, BindingResource, Connected, CountRule, Direction, ExtentRule, FormatRule,
-    GraphError, GraphErrorKind, Lifetime, Node, NodeDesc, ParameterBlock, Pass, Slot, SlotResource,
-    Stage, Work,
+    Connected, GraphError, GraphErrorKind, Node, NodeDesc, ParameterBlock, Pass, Stage,
+    TextureRule, bind, same_as,
 };
 
 /// Node `composite_scattering`: `integrated` (from [`super::IntegrateScattering`]) and `camera_depth` to `scattering`, of the
@@ -89,13 +87,12 @@ impl Node for CompositeScattering {
                 ));
             }
         }
-        let integrated = upstream.texture("integrated")?;
-        let encoding = encoding_of(integrated).map_err(|error| error.at_slot("integrated"))?;
-        drawn_map::refuse_prefix_sums(&encoding, GraphErrorKind::Format)
+        let (integrated, encoding) = map_input::connected(upstream, "integrated")?;
+        regions::refuse_prefix_sums(&encoding, GraphErrorKind::Format)
             .map_err(|error| error.at_slot("integrated"))?;
         let bounds = match encoding.technique() {
-            Technique::Hamburger4 => include_str!("scattering/bounds_four_moments.wgsl"),
-            Technique::Hamburger6 => include_str!("scattering/bounds_six_moments.wgsl"),
+            Technique::Hamburger4 => include_str!("bounds_four_moments.wgsl"),
+            Technique::Hamburger6 => include_str!("bounds_six_moments.wgsl"),
             _ => {
                 return Err(GraphError::new(
                     GraphErrorKind::Format,
@@ -113,79 +110,30 @@ impl Node for CompositeScattering {
             .constant("ANISOTROPY", "1.0")
             .constant("OVERESTIMATION", &format!("vec2f({towards:?}, {away:?})"));
         let wgsl = techniques::specialize_map(specialization, &encoding).link(
-            "composite_scattering.wgsl",
-            include_str!("composite_scattering.wgsl"),
-            &[
-                FULLSCREEN,
-                ("moments_lookup", lookup),
-                ("scattering_bounds", bounds),
-            ],
+            wgsl!("composite_scattering.wgsl"),
+            &[FULLSCREEN, lookup, ("scattering_bounds", bounds)],
         )?;
-        let mut bindings = vec![
-            BindingResource::Parameters,
-            BindingResource::Layer("camera_depth".to_owned()),
-            BindingResource::Layers("integrated".to_owned()),
-        ];
-        bindings.extend(sampler);
-        let depths = vec![TextureFormat::Depth32Float, TextureFormat::Depth16Unorm];
-        Ok(NodeDesc {
-            name: "composite_scattering".to_owned(),
-            stage: Stage::AfterMainPass,
-            slots: vec![
-                slot(
-                    "integrated",
-                    Direction::In,
-                    FormatRule::OneOf(map_formats()),
-                ),
-                slot("camera_depth", Direction::In, FormatRule::OneOf(depths)),
-                slot("scattering", Direction::Out, FormatRule::Exact(format)),
-            ],
-            passes: vec![Pass {
-                label: "composite".to_owned(),
-                wgsl,
-                entry_point: "composite".to_owned(),
-                bindings: (0..)
-                    .zip(bindings)
-                    .map(|(binding, resource)| Binding { binding, resource })
-                    .collect(),
-                constants: [].into(),
-                plane: 0,
-                work: Work::Fullscreen {
-                    target: "scattering".to_owned(),
-                    each_layer: false,
-                },
-            }],
-            parameters: Some(ParameterBlock {
-                name: "CompositeScatteringParameters".to_owned(),
-                size: size_of::<CompositeScatteringParameters>() as u32,
-                elements: 1,
-                each_layer_of: None,
-                initial: Vec::new(),
-            }),
-        })
-    }
-}
-
-fn slot(name: &str, direction: Direction, format: FormatRule) -> Slot {
-    let (access, extent) = match direction {
-        Direction::In => (Access::READ, ExtentRule::Any),
-        _ => (
-            Access::RENDER_TARGET,
-            ExtentRule::SameAs("camera_depth".to_owned()),
-        ),
-    };
-    Slot {
-        name: name.to_owned(),
-        direction,
-        lifetime: Lifetime::Frame,
-        optional: false,
-        resource: SlotResource::Texture {
-            access,
-            format,
-            extent,
-            layers: CountRule::Exact(1),
-            mips: CountRule::Exact(1),
-            samples: CountRule::Exact(1),
-        },
+        let mut pass = Pass::fullscreen("composite", "scattering")
+            .shader(wgsl, "composite")
+            .bind("parameters", bind::parameters())
+            .bind("camera_depth", bind::layer("camera_depth"))
+            .bind("moments_map", bind::layers("integrated"));
+        pass.bindings.extend(sampler);
+        Ok(NodeDesc::new("composite_scattering", Stage::AfterMainPass)
+            .input(
+                "integrated",
+                "Means of the light's map along view rays.",
+                TextureRule::new(map_input::FORMATS.as_slice()),
+            )
+            .input("camera_depth", "Where surfaces are.", shared::depth())
+            .output(
+                "scattering",
+                "In-scattered radiance, and in alpha the transmittance to the surface.",
+                TextureRule::new(format).extent(same_as("camera_depth")),
+            )
+            .pass(pass)
+            .parameters(ParameterBlock::of::<CompositeScatteringParameters>(
+                "CompositeScatteringParameters",
+            )))
     }
 }
