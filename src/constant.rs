@@ -82,8 +82,11 @@ const fn literal(bytes: &[u8], start: usize) -> f64 {
                 exponent += if negative { -power } else { power };
                 break;
             }
-            b'u' | b'i' | b'f' | b'h' | b';' | b',' | b')' | b' ' => break,
-            _ => panic!("the constant is no decimal number"),
+            _ => {
+                let ends = matches!(byte, b'u' | b'i' | b'f' | b'h' | b';' | b',' | b')' | b' ');
+                assert!(ends, "the constant is no decimal number");
+                break;
+            }
         }
         at += 1;
     }

@@ -9,7 +9,6 @@ use crate::Profile;
 /// A texture format that nodes and hosts exchange. Named as in WebGPU, and independent of graphics libraries.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord, Serialize, Deserialize)]
 #[serde(rename_all = "lowercase")]
-#[non_exhaustive]
 pub enum TextureFormat {
     /// One channel of 8 bits in [0, 1].
     R8Unorm,

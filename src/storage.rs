@@ -27,7 +27,6 @@ use crate::{Profile, TextureFormat};
 /// Light leaks behind an occluder over a distance that grows with the square root of the bias.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, Serialize, Deserialize)]
 #[serde(rename_all = "lowercase")]
-#[non_exhaustive]
 pub enum Storage {
     /// 16-bit normalised channels with the optimised basis.
     Unorm16,
@@ -105,16 +104,18 @@ impl Storage {
     /// The format of a texture with 1, 2 or 4 channels, if there is one.
     #[must_use]
     pub fn format_of(self, channels: u32) -> Option<TextureFormat> {
-        match (self, channels) {
-            (Storage::Unorm16, 1) => Some(TextureFormat::R16Unorm),
-            (Storage::Unorm16, 2) => Some(TextureFormat::Rg16Unorm),
-            (Storage::Float16, 1) => Some(TextureFormat::R16Float),
-            (Storage::Float16, 2) => Some(TextureFormat::Rg16Float),
-            (Storage::Float32, 1) => Some(TextureFormat::R32Float),
-            (Storage::Float32, 2) => Some(TextureFormat::Rg32Float),
-            (Storage::Fixed32, 1) => None,
-            (Storage::Fixed32, 2) => Some(TextureFormat::Rg32Uint),
-            (_, 4) => Some(self.format()),
+        use TextureFormat as F;
+        let (one, two) = match self {
+            Storage::Unorm16 => (Some(F::R16Unorm), Some(F::Rg16Unorm)),
+            Storage::Float16 => (Some(F::R16Float), Some(F::Rg16Float)),
+            Storage::Float32 => (Some(F::R32Float), Some(F::Rg32Float)),
+            Storage::Unorm8 | Storage::Unorm10 => (None, None),
+            Storage::Fixed32 => (None, Some(F::Rg32Uint)),
+        };
+        match channels {
+            1 => one,
+            2 => two,
+            4 => Some(self.format()),
             _ => None,
         }
     }

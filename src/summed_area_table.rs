@@ -157,7 +157,11 @@ impl SummedAreaTable {
     pub fn unit(&self) -> u32 {
         match self.source {
             Storage::Unorm16 => UNIT_UNORM16,
-            _ => {
+            Storage::Float16
+            | Storage::Float32
+            | Storage::Unorm8
+            | Storage::Unorm10
+            | Storage::Fixed32 => {
                 let most = u32::MAX / self.largest_area();
                 let rounded = 8_u32.saturating_sub(most.leading_zeros());
                 most >> rounded << rounded
@@ -170,7 +174,11 @@ impl SummedAreaTable {
     pub fn error(&self) -> f32 {
         let source = match self.source {
             Storage::Float16 => 1.0 / 8192.0,
-            _ => 0.0,
+            Storage::Unorm16
+            | Storage::Float32
+            | Storage::Unorm8
+            | Storage::Unorm10
+            | Storage::Fixed32 => 0.0,
         };
         0.5 / self.unit() as f32 + source
     }

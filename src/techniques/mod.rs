@@ -44,7 +44,6 @@ use crate::{Profile, Storage};
 /// | `hamburger6` | 4 | 2 | unorm16, float16, float32, unorm10 |
 #[derive(Clone, Debug, Default, PartialEq, Eq, Hash, Serialize, Deserialize)]
 #[serde(rename_all = "lowercase")]
-#[non_exhaustive]
 pub enum Technique {
     /// The comparison with the nearest texel (Williams, SIGGRAPH 1978).
     Binary,

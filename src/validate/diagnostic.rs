@@ -100,7 +100,11 @@ fn headline<'a>(module: &naga::Module, error: &'a ValidationError) -> (String, O
                 None => ("a type is not valid".to_owned(), None),
             }
         }
-        other => (other.to_string(), None),
+        E::InvalidHandle(_)
+        | E::Layouter(_)
+        | E::ConstExpression { .. }
+        | E::ArraySizeError { .. }
+        | E::Corrupted => (error.to_string(), None),
     }
 }
 

@@ -63,30 +63,30 @@ fn call(
     let mut caller = Function::default();
     let mut arguments = Vec::new();
     for argument in &function.arguments {
-        let expression = match module.types[argument.ty].inner {
-            TypeInner::Image { .. } | TypeInner::Sampler { .. } => {
-                Expression::GlobalVariable(resource(exercised, argument.ty))
-            }
-            TypeInner::Pointer {
-                base,
-                space: AddressSpace::Function,
-            } if is_value(module, base) => {
-                let local = LocalVariable {
-                    name: None,
-                    ty: base,
-                    init: None,
-                };
-                Expression::LocalVariable(caller.local_variables.append(local, Span::UNDEFINED))
-            }
-            _ if is_value(module, argument.ty) => Expression::ZeroValue(argument.ty),
-            _ => {
-                let of = |name: &Option<String>| name.clone().unwrap_or_default();
-                return Err(format!(
-                    "no value can be made up for `{}` of function `{}`; validate a shader that calls it",
-                    of(&argument.name),
-                    of(&function.name),
-                ));
-            }
+        let inner = &module.types[argument.ty].inner;
+        let expression = if matches!(inner, TypeInner::Image { .. } | TypeInner::Sampler { .. }) {
+            Expression::GlobalVariable(resource(exercised, argument.ty))
+        } else if let TypeInner::Pointer {
+            base,
+            space: AddressSpace::Function,
+        } = *inner
+            && is_value(module, base)
+        {
+            let local = LocalVariable {
+                name: None,
+                ty: base,
+                init: None,
+            };
+            Expression::LocalVariable(caller.local_variables.append(local, Span::UNDEFINED))
+        } else if is_value(module, argument.ty) {
+            Expression::ZeroValue(argument.ty)
+        } else {
+            let of = |name: &Option<String>| name.clone().unwrap_or_default();
+            return Err(format!(
+                "no value can be made up for `{}` of function `{}`; validate a shader that calls it",
+                of(&argument.name),
+                of(&function.name),
+            ));
         };
         arguments.push(caller.expressions.append(expression, Span::UNDEFINED));
     }
@@ -125,14 +125,15 @@ const UNUSED_GROUP: u32 = 200;
 
 /// Whether a value of the type can be a zero.
 fn is_value(module: &Module, ty: Handle<Type>) -> bool {
-    match &module.types[ty].inner {
-        TypeInner::Scalar(_) | TypeInner::Vector { .. } | TypeInner::Matrix { .. } => true,
-        TypeInner::Array { base, size, .. } => {
-            matches!(size, ArraySize::Constant(_)) && is_value(module, *base)
-        }
-        TypeInner::Struct { members, .. } => {
-            members.iter().all(|member| is_value(module, member.ty))
-        }
-        _ => false,
+    let inner = &module.types[ty].inner;
+    if let TypeInner::Array { base, size, .. } = inner {
+        return matches!(size, ArraySize::Constant(_)) && is_value(module, *base);
     }
+    if let TypeInner::Struct { members, .. } = inner {
+        return members.iter().all(|member| is_value(module, member.ty));
+    }
+    matches!(
+        inner,
+        TypeInner::Scalar(_) | TypeInner::Vector { .. } | TypeInner::Matrix { .. }
+    )
 }

@@ -259,7 +259,13 @@ impl Planner<'_> {
                     let table = &self.places.layout.regions[*table];
                     (&table.map, table.layers)
                 }
-                _ => continue,
+                PlannedBindingResource::Texture {
+                    one_layer: false, ..
+                }
+                | PlannedBindingResource::Parameters { .. }
+                | PlannedBindingResource::Buffer { .. }
+                | PlannedBindingResource::Sampler { .. }
+                | PlannedBindingResource::ComparisonSampler { .. } => continue,
             };
             if layers < pass.layers {
                 return Err(GraphError::new(

@@ -54,7 +54,7 @@ impl Shaders {
         check_constants(module, pass)?;
         let stage = match pass.work {
             PlannedWork::Compute { .. } => ShaderStage::Compute,
-            _ => ShaderStage::Fragment,
+            PlannedWork::Fullscreen { .. } | PlannedWork::Host { .. } => ShaderStage::Fragment,
         };
         let uses = info.get_entry_point(entry_point(module, &pass.entry_point, stage)?);
         let mut open: BTreeMap<&str, &mut PlannedBinding> = BTreeMap::new();
@@ -296,17 +296,15 @@ fn difference(
                 .texture()
                 .map(|texture| texture.format);
             let name = format.map_or("", |format| format.name());
-            let matches = match actual {
+            let matches = matches!(
+                actual,
                 TypeInner::Image {
                     dim: ImageDimension::D2,
                     arrayed: false,
                     class: ImageClass::Storage { format, access },
-                } => {
-                    *access == naga::StorageAccess::STORE
-                        && format!("{format:?}").to_lowercase() == name
-                }
-                _ => false,
-            };
+                } if *access == naga::StorageAccess::STORE
+                    && format!("{format:?}").to_lowercase() == name
+            );
             (
                 matches,
                 format!("a two-dimensional storage texture of format {name}, written only"),
@@ -331,18 +329,18 @@ fn difference(
                     multi: *multisampled,
                 },
             };
-            let matches = match actual {
+            let matches = matches!(
+                actual,
                 TypeInner::Image {
                     dim: ImageDimension::D2,
                     arrayed,
                     class: actual,
-                } => *arrayed != *one_layer && *actual == class,
-                _ => false,
-            };
+                } if *arrayed != *one_layer && *actual == class
+            );
             let kind = match sample {
                 SampleType::Depth => "depth",
                 SampleType::Integer => "u32",
-                _ => "float",
+                SampleType::Filterable | SampleType::Unfilterable => "float",
             };
             let shape = match (one_layer, multisampled) {
                 (_, true) => "multisampled two-dimensional",

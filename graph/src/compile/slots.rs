@@ -113,14 +113,14 @@ fn make(
                 planes: match format {
                     FormatRule::Encoded(encoding) => encoding.planes(),
                     FormatRule::SameAs(other) => texture_of(slot, other, resolved)?.planes,
-                    _ => 1,
+                    FormatRule::Exact(_) | FormatRule::OneOf(_) => 1,
                 },
                 encoding: match format {
                     FormatRule::Encoded(encoding) => Some(encoding.clone()),
                     FormatRule::SameAs(other) => {
                         texture_of(slot, other, resolved)?.encoding.clone()
                     }
-                    _ => None,
+                    FormatRule::Exact(_) | FormatRule::OneOf(_) => None,
                 },
                 size: match extent {
                     ExtentRule::Exact(size) => *size,
@@ -129,7 +129,7 @@ fn make(
                 },
                 regions: match extent {
                     ExtentRule::SameAs(other) => texture_of(slot, other, resolved)?.regions,
-                    _ => 1,
+                    ExtentRule::Exact(_) | ExtentRule::Any => 1,
                 },
                 layers: count(layers, "number of layers", |texture| texture.layers)?,
                 mips: count(mips, "number of mip levels", |texture| texture.mips)?,
@@ -146,7 +146,7 @@ pub(super) fn extent_from(slot: &Slot) -> Option<&str> {
             extent: ExtentRule::SameAs(other),
             ..
         }) => Some(other),
-        _ => None,
+        SlotResource::Texture(_) | SlotResource::Buffer { .. } => None,
     }
 }
 

@@ -221,7 +221,7 @@ fn cycle(
     let unplaced_upstream = |node: usize| {
         inputs[node].values().find_map(|(source, _)| match source {
             Source::Node(upstream, _) if !placed[*upstream] => Some(*upstream),
-            _ => None,
+            Source::Node(..) | Source::Import(_) => None,
         })
     };
     let mut path: Vec<usize> = Vec::new();

@@ -104,7 +104,9 @@ impl Bindings {
             let what = label(pass);
             let pipeline = match pass.work {
                 PlannedWork::Host { .. } => None,
-                _ => Some(pipelines.get(plan, pass)?),
+                PlannedWork::Compute { .. } | PlannedWork::Fullscreen { .. } => {
+                    Some(pipelines.get(plan, pass)?)
+                }
             };
             let mut step = scoped(device, &what, || binder.step(pass, pipeline)).await??;
             if let Action::Draw { drawn, .. } = &mut step.action {
@@ -138,7 +140,7 @@ impl Bindings {
             .iter()
             .find_map(|(output, created)| match created {
                 Created::Texture(texture) if output == name => Some(texture),
-                _ => None,
+                Created::Texture(_) | Created::Buffer(_) => None,
             })
     }
 
@@ -149,7 +151,7 @@ impl Bindings {
             .iter()
             .find_map(|(output, created)| match created {
                 Created::Buffer(buffer) if output == name => Some(buffer),
-                _ => None,
+                Created::Texture(_) | Created::Buffer(_) => None,
             })
     }
 }
@@ -269,7 +271,11 @@ impl Binder<'_> {
                         let table = &layout.regions[table];
                         (table.offset, table.stride, table.layers)
                     }
-                    _ => return None,
+                    PlannedBindingResource::Texture { .. }
+                    | PlannedBindingResource::StorageTexture { .. }
+                    | PlannedBindingResource::Buffer { .. }
+                    | PlannedBindingResource::Sampler { .. }
+                    | PlannedBindingResource::ComparisonSampler { .. } => return None,
                 };
                 let stride = if count > 1 { stride } else { 0 };
                 Some((binding.binding, Uniform { offset, stride }))
@@ -390,7 +396,7 @@ impl Binder<'_> {
                 let texture = texture.ok_or_else(|| self.wrong(planned, "a list of textures"))?;
                 (texture, layer.map(|_| 0))
             }
-            _ => return Err(self.wrong(planned, "a buffer")),
+            Some(Object::Buffer(_)) | None => return Err(self.wrong(planned, "a buffer")),
         };
         Ok(texture.create_view(&wgpu::TextureViewDescriptor {
             label: Some(&planned.name),
@@ -410,7 +416,9 @@ impl Binder<'_> {
         let planned = &self.plan.resources[resource];
         match self.object(planned) {
             Some(Object::Buffer(buffer)) => Ok(buffer.clone()),
-            _ => Err(self.wrong(planned, "a texture")),
+            Some(Object::Texture(_) | Object::Layers(_)) | None => {
+                Err(self.wrong(planned, "a texture"))
+            }
         }
     }
 

@@ -4,10 +4,10 @@ use moment_shadows::TextureFormat;
 
 use crate::{Access, TextureDesc};
 
-/// The wgpu format of a texture that a plan describes; `None` for one that this version of the recorder does not know.
+/// The wgpu format of a texture that a plan describes.
 #[must_use]
-pub fn texture_format(format: TextureFormat) -> Option<wgpu::TextureFormat> {
-    Some(match format {
+pub fn texture_format(format: TextureFormat) -> wgpu::TextureFormat {
+    match format {
         TextureFormat::R8Unorm => wgpu::TextureFormat::R8Unorm,
         TextureFormat::Rgba8Unorm => wgpu::TextureFormat::Rgba8Unorm,
         TextureFormat::R16Unorm => wgpu::TextureFormat::R16Unorm,
@@ -24,9 +24,7 @@ pub fn texture_format(format: TextureFormat) -> Option<wgpu::TextureFormat> {
         TextureFormat::Rgba32Uint => wgpu::TextureFormat::Rgba32Uint,
         TextureFormat::Depth16Unorm => wgpu::TextureFormat::Depth16Unorm,
         TextureFormat::Depth32Float => wgpu::TextureFormat::Depth32Float,
-        // A format that this version of the recorder does not know.
-        _ => return None,
-    })
+    }
 }
 
 pub(super) fn texture_usages(access: Access, exported: bool) -> wgpu::TextureUsages {
@@ -49,7 +47,7 @@ pub(super) fn texture_difference(
     access: Access,
 ) -> Option<String> {
     let usages = texture_usages(access, false);
-    let same = Some(texture.format()) == texture_format(desc.format)
+    let same = texture.format() == texture_format(desc.format)
         && [texture.width(), texture.height()] == desc.size
         && texture.depth_or_array_layers() == layers
         && texture.sample_count() == desc.samples

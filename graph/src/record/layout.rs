@@ -122,10 +122,8 @@ fn binding_type(entry: &EntryKey) -> wgpu::BindingType {
         },
         EntryKey::Storage(format) => wgpu::BindingType::StorageTexture {
             access: wgpu::StorageTextureAccess::WriteOnly,
-            // An unknown format is refused before a layout is made.
-            format: format
-                .and_then(texture_format)
-                .unwrap_or(wgpu::TextureFormat::Rgba32Float),
+            // `Plan::check` has refused a buffer.
+            format: format.map_or(wgpu::TextureFormat::Rgba32Float, texture_format),
             view_dimension: wgpu::TextureViewDimension::D2,
         },
         EntryKey::Buffer { writable } => wgpu::BindingType::Buffer {

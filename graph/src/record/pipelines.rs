@@ -227,20 +227,14 @@ impl PipelineKey {
     fn of(plan: &Plan, pass: &PlannedPass, label: &str) -> Result<Self, RecordError> {
         let target = match pass.work {
             PlannedWork::Fullscreen { target, .. } => {
-                let format = plan.resources[target]
-                    .desc
-                    .texture()
-                    .map(|texture| texture.format);
-                Some(
-                    format
-                        .and_then(texture_format)
-                        .ok_or_else(|| RecordError::Device {
-                            what: label.to_owned(),
-                            reason: format!("{format:?} cannot be drawn to by this recorder"),
-                        })?,
-                )
+                let texture = plan.resources[target].desc.texture();
+                let texture = texture.ok_or_else(|| RecordError::Device {
+                    what: label.to_owned(),
+                    reason: "a buffer cannot be drawn to".to_owned(),
+                })?;
+                Some(texture_format(texture.format))
             }
-            _ => None,
+            PlannedWork::Compute { .. } | PlannedWork::Host { .. } => None,
         };
         Ok(Self {
             wgsl: pass.wgsl.clone(),

@@ -152,7 +152,7 @@ impl Bindings {
                 Action::Draw {
                     pipeline, drawn, ..
                 } => Some((step, drawn.as_ref().unwrap_or(pipeline))),
-                _ => None,
+                Action::Dispatch { .. } | Action::Host { .. } => None,
             })
         };
         let (step, pipeline) = draws().find(|(step, _)| step.name == pass).ok_or_else(|| {
@@ -332,7 +332,7 @@ impl Step {
                 let of_map = maps.iter().find(|(map, _)| *map == self.map);
                 (0..0, of_map.map_or(&[][..], |(_, listed)| listed))
             }
-            _ => (0..self.layers, &[][..]),
+            Layers::All | Layers::Only(_) | Layers::OfMaps(_) => (0..self.layers, &[][..]),
         };
         range.chain(listed.iter().copied())
     }

@@ -26,11 +26,6 @@ impl Resources {
             let label = format!("moment-shadows/{}", planned.label);
             let created = match &planned.desc {
                 ResourceDesc::Texture(texture) => {
-                    let format =
-                        texture_format(texture.format).ok_or_else(|| RecordError::Device {
-                            what: label.clone(),
-                            reason: format!("{} is unknown to this recorder", texture.format),
-                        })?;
                     let descriptor = wgpu::TextureDescriptor {
                         label: Some(&label),
                         size: wgpu::Extent3d {
@@ -41,7 +36,7 @@ impl Resources {
                         mip_level_count: texture.mips,
                         sample_count: texture.samples,
                         dimension: wgpu::TextureDimension::D2,
-                        format,
+                        format: texture_format(texture.format),
                         usage: texture_usages(planned.access, planned.exported),
                         view_formats: &[],
                     };

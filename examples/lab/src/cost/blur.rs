@@ -58,7 +58,7 @@ impl BlurredMap {
             input: "map",
             output: "blurred",
         };
-        let map = upload(gpu, &desc, &encode(storage, channels))?;
+        let map = upload(gpu, &desc, &encode(storage, channels));
         let capabilities = Capabilities::of_device(&gpu.adapter, &gpu.device);
         Ok(Self {
             storage,

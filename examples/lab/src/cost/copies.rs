@@ -48,16 +48,14 @@ impl Copies {
             layers: Vec::new(),
         };
         for desc in descs {
-            let refused = |reason: String| CostError::Format {
-                format: desc.format,
-                reason,
-            };
-            let format = texture_format(desc.format)
-                .ok_or_else(|| refused("the recorder does not know it".to_owned()))?;
+            let format = texture_format(desc.format);
             let scope = gpu.device.push_error_scope(wgpu::ErrorFilter::Validation);
             copies.add(gpu, desc, format, work);
             if let Some(error) = pollster::block_on(scope.pop()) {
-                return Err(refused(format!("a copy was refused: {error}")));
+                return Err(CostError::Format {
+                    format: desc.format,
+                    reason: format!("a copy was refused: {error}"),
+                });
             }
         }
         Ok(copies)

@@ -120,16 +120,8 @@ impl NodeOnMap {
 }
 
 /// A texture with these bytes, layer by layer and row by row.
-pub(super) fn upload(
-    gpu: &Gpu,
-    desc: &TextureDesc,
-    bytes: &[u8],
-) -> Result<wgpu::Texture, CostError> {
-    let format = texture_format(desc.format).ok_or_else(|| CostError::Format {
-        format: desc.format,
-        reason: "the recorder does not know it".to_owned(),
-    })?;
-    Ok(gpu.device.create_texture_with_data(
+pub(super) fn upload(gpu: &Gpu, desc: &TextureDesc, bytes: &[u8]) -> wgpu::Texture {
+    gpu.device.create_texture_with_data(
         &gpu.queue,
         &wgpu::TextureDescriptor {
             label: Some("cost/map"),
@@ -141,11 +133,11 @@ pub(super) fn upload(
             mip_level_count: 1,
             sample_count: 1,
             dimension: wgpu::TextureDimension::D2,
-            format,
+            format: texture_format(desc.format),
             usage: wgpu::TextureUsages::TEXTURE_BINDING,
             view_formats: &[],
         },
         wgpu::util::TextureDataOrder::LayerMajor,
         bytes,
-    ))
+    )
 }

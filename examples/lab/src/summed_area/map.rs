@@ -1,6 +1,6 @@
 //! A map of any contents and its summed-area table.
 
-use moment_shadows::{LinkError, MapRegion, TextureFormat};
+use moment_shadows::{LinkError, MapRegion};
 use moment_shadows_graph::nodes::LargestKernel;
 use moment_shadows_graph::record::{
     Bindings, ImportedResource, Layers, PipelineOptions, Pipelines, RecordError, Recording,
@@ -37,12 +37,6 @@ pub enum TableError {
     /// A plan without a table.
     #[error("the plan has no output 'table'; make one of a graph that does")]
     NoTable,
-    /// A format that the recorder does not know.
-    #[error("{format} is no format of a texture of this device; use another storage")]
-    Format {
-        /// The format.
-        format: TextureFormat,
-    },
 }
 
 /// A map, its table and what makes it.
@@ -70,7 +64,7 @@ impl SummedMap {
             contents: &plan.parameters.initial(),
             usage: wgpu::BufferUsages::UNIFORM | wgpu::BufferUsages::COPY_DST,
         });
-        let moments = moments_texture(gpu, desc, bytes)?;
+        let moments = moments_texture(gpu, desc, bytes);
         let bindings = block_on(Bindings::create(
             device,
             &plan,
@@ -172,15 +166,8 @@ impl SummedMap {
 }
 
 /// The map as a texture.
-pub(super) fn moments_texture(
-    gpu: &Gpu,
-    desc: &TextureDesc,
-    bytes: &[u8],
-) -> Result<wgpu::Texture, TableError> {
-    let format = texture_format(desc.format).ok_or(TableError::Format {
-        format: desc.format,
-    })?;
-    Ok(gpu.device.create_texture_with_data(
+pub(super) fn moments_texture(gpu: &Gpu, desc: &TextureDesc, bytes: &[u8]) -> wgpu::Texture {
+    gpu.device.create_texture_with_data(
         &gpu.queue,
         &wgpu::TextureDescriptor {
             label: Some("summed area/moments"),
@@ -192,11 +179,11 @@ pub(super) fn moments_texture(
             mip_level_count: 1,
             sample_count: 1,
             dimension: wgpu::TextureDimension::D2,
-            format,
+            format: texture_format(desc.format),
             usage: wgpu::TextureUsages::TEXTURE_BINDING,
             view_formats: &[],
         },
         wgpu::util::TextureDataOrder::LayerMajor,
         bytes,
-    ))
+    )
 }

@@ -35,7 +35,7 @@ pub struct NaiveTable {
 impl NaiveTable {
     /// Of a map with these bytes.
     pub fn new(gpu: &Gpu, desc: &TextureDesc, bytes: &[u8]) -> Result<Self, TableError> {
-        let moments = moments_texture(gpu, desc, bytes)?;
+        let moments = moments_texture(gpu, desc, bytes);
         let texture = |label| {
             gpu.device.create_texture(&wgpu::TextureDescriptor {
                 label: Some(label),

@@ -93,7 +93,16 @@ impl Node for CompositeScattering {
         let bounds = match encoding.technique() {
             Technique::Hamburger4 => include_str!("bounds_four_moments.wgsl"),
             Technique::Hamburger6 => include_str!("bounds_six_moments.wgsl"),
-            _ => {
+            Technique::Binary
+            | Technique::Pcf(_)
+            | Technique::Pcss(_)
+            | Technique::Esm { .. }
+            | Technique::Vsm
+            | Technique::Evsm2 { .. }
+            | Technique::Evsm4 { .. }
+            | Technique::Lvsm { .. }
+            | Technique::Convolution { .. }
+            | Technique::Hausdorff4 => {
                 return Err(GraphError::new(
                     GraphErrorKind::Format,
                     format!(

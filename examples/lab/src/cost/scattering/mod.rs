@@ -48,7 +48,7 @@ pub fn cases(gpu: &Gpu, size: u32) -> Result<Vec<Case>, CostError> {
     let desc = TextureDesc::of_map(encoding, [size; 2]);
     let texels = desc.array_layers() as usize * size as usize * size as usize;
     let noise = encode(Storage::Float16, &noise(Storage::Float16, texels));
-    let map = upload(gpu, &desc, &noise)?;
+    let map = upload(gpu, &desc, &noise);
     for (method, software_adapter) in [("serial", true), ("parallel", false)] {
         let capabilities = Capabilities {
             software_adapter,
@@ -108,7 +108,7 @@ fn rectified(
     let bytes = two_surfaces(size);
     let encoding = MapEncoding::new(Technique::Hamburger4, Storage::Float16)?;
     let desc = TextureDesc::of_map(encoding, [size; 2]);
-    let map = upload(gpu, &desc, &bytes)?;
+    let map = upload(gpu, &desc, &bytes);
     let text = NodeText {
         node_type: "rectify_moments",
         properties: json!({ "technique": "hamburger6", "storage": "float16", "extent": [size, size] }),
