@@ -6,9 +6,8 @@ use std::path::Path;
 use std::process::ExitCode;
 
 use moment_shadows::{
-    Backend, Diagnostic, LARGEST_CONSTANT, LARGEST_VALUE, LONGEST_CHAIN, LONGEST_DEFINITION,
-    LONGEST_SHADER, LinkError, MOST_CONSTANTS, MOST_EXPRESSIONS, MOST_VALUES, Outcome, Profile,
-    Source, TextureFormat, ValidateError, ValidationReport, modules, validate, validate_module,
+    Backend, Diagnostic, LONGEST_SHADER, LinkError, Outcome, Profile, Source, TextureFormat,
+    ValidateError, ValidationReport, modules, validate, validate_module,
 };
 use moment_shadows_lab::command::validate::{CheckError, check_file, run};
 
@@ -353,52 +352,30 @@ fn link_errors_come_through() {
 }
 
 #[test]
-fn text_that_no_compiler_survives_is_refused() {
+fn a_text_that_is_too_long_is_refused() {
     match core(&" ".repeat(LONGEST_SHADER + 1)).unwrap_err() {
         ValidateError::TooLong { file, bytes } => {
             assert_eq!((file.as_str(), bytes), ("user.wgsl", LONGEST_SHADER + 1));
         }
         other => panic!("another error: {other}"),
     }
-    let sum = |n| format!("fn f(x: f32) -> f32 {{\n return x{}; }}", "+x".repeat(n));
-    let branches = |n| format!("fn f() {{\n {} {{}} }}", "if true {} else ".repeat(n));
-    let functions = |n| {
-        (0..n)
-            .map(|i| format!("const c{i} = 1;\n"))
-            .collect::<String>()
-    };
-    let cases = [
-        (
-            sum(LONGEST_CHAIN),
-            sum(LONGEST_CHAIN + 1),
-            "operators in one expression",
-            2,
-        ),
-        (
-            branches(LONGEST_CHAIN),
-            branches(LONGEST_CHAIN + 1),
-            "branches in one chain of `else`",
-            2,
-        ),
-        (
-            functions(LONGEST_CHAIN),
-            functions(LONGEST_CHAIN + 1),
-            "definitions",
-            2_001,
-        ),
-    ];
-    for (longest, longer, expected, line) in cases {
-        core(&longest).unwrap_or_else(|error| panic!("{expected}: {error}"));
-        match core(&longer).unwrap_err() {
-            ValidateError::TooMany { limit, what, at } => {
-                assert_eq!(
-                    (limit, what, at.file.as_str(), at.line),
-                    (LONGEST_CHAIN, expected, "user.wgsl", line)
-                );
-            }
-            other => panic!("another error: {other}"),
-        }
-    }
+}
+
+#[test]
+fn long_chains_are_validated() {
+    // The compiler recurses over the first two, and a usual stack of 2 MiB overflows.
+    core(&format!(
+        "fn f(x: f32) -> f32 {{ return x{}; }}",
+        "+x".repeat(5_000)
+    ))
+    .unwrap();
+    core(&format!(
+        "fn f() {{ {} {{}} }}",
+        "if true {} else ".repeat(2_000)
+    ))
+    .unwrap();
+    let constants: String = (0..2_000).map(|i| format!("const c{i} = 1;\n")).collect();
+    core(&constants).unwrap();
     // naga refuses deep brackets by itself.
     parse_error(&format!(
         "fn f() -> f32 {{ return {}1.0{}; }}",
@@ -407,84 +384,12 @@ fn text_that_no_compiler_survives_is_refused() {
     ));
 }
 
-/// What there is too much of, how much there may be, and the line.
-fn too_many(text: &str) -> (&'static str, usize, u32) {
-    match core(text).unwrap_err() {
-        ValidateError::TooMany { limit, what, at } => (what, limit, at.line),
-        other => panic!("another error: {other}"),
-    }
-}
-
 #[test]
-fn text_that_would_take_the_compiler_minutes_is_refused() {
-    // Time grows with the square of a function's length.
-    let statements = |n| format!("fn f() {{\n var x = 1.0; {} }}", "x = 2.0;".repeat(n));
-    core(&statements(LONGEST_DEFINITION / 4 - 100)).unwrap();
-    assert_eq!(
-        too_many(&statements(LONGEST_DEFINITION / 4)),
-        (
-            "words, numbers and symbols in one definition",
-            LONGEST_DEFINITION,
-            2
-        )
-    );
-    // Constants are copied to where they are named: each line doubles them. They may stand in any order.
-    let mut lines: Vec<String> = (0..30)
-        .map(|i| format!("const c{} = array(c{i}, c{i});\n", i + 1))
-        .collect();
-    lines.insert(0, "const c0 = vec2(1.0, 2.0);\n".to_owned());
-    let user = "fn f() -> f32 { return c30[1][1][1].x; }";
-    let limit = LARGEST_CONSTANT;
-    let what =
-        "words, numbers and symbols in one constant, with those of the constants that it names";
-    let text = lines.concat();
-    assert_eq!(too_many(&format!("{text}{user}")), (what, limit, 14));
-    lines.reverse();
-    let text = lines.concat();
-    assert_eq!(too_many(&format!("{text}{user}")), (what, limit, 18));
+fn large_values_are_validated() {
     core("const c0 = 1; const c1 = c0 + c0; const c2 = c1 + c1; fn f() -> i32 { return c2; }")
         .unwrap();
-    // Many copies of one constant.
-    let text = format!(
-        "const c = array({}); fn f() -> f32 {{ return {} 0.0; }}",
-        "1.0,".repeat(2000),
-        "c[7] + ".repeat(900)
-    );
-    let what = "words, numbers and symbols in all constants, each counted as often as it is named";
-    assert_eq!(too_many(&text), (what, MOST_CONSTANTS, 1));
-    // Zero-initialised variables are written out in GLSL.
-    let array = |n| format!("fn f() -> u32 {{\n var a: array<u32, {n}>; return a[3]; }}");
-    core(&array(LARGEST_VALUE)).unwrap();
-    let limit = LARGEST_VALUE as usize;
-    assert_eq!(
-        too_many(&array(LARGEST_VALUE + 1)),
-        ("numbers in one value", limit, 2)
-    );
-    let doubled: String = (1..28)
-        .map(|i| format!("struct S{i} {{ a: S{0}, b: S{0} }}\n", i - 1))
-        .collect();
-    let text = format!("struct S0 {{ a: f32 }}\n{doubled}fn f(s: S27) {{}}");
-    assert_eq!(too_many(&text).0, "numbers in one value");
-    let text = format!(
-        "fn f() {{ var a: array<u32, 16384>; {} }}",
-        "a = array<u32, 16384>();".repeat(70)
-    );
-    let what = "numbers in all arrays and structs";
-    assert_eq!(too_many(&text), (what, MOST_VALUES as usize, 1));
-    // A buffer may be as large as it likes.
+    core("fn f() -> u32 { var a: array<u32, 16384>; return a[3]; }").unwrap();
     core("@group(0) @binding(0) var<storage> b: array<vec4f, 10000000>; fn f(i: u32) -> f32 { return b[i].x; }").unwrap();
-    // GLSL is written once for each entry point.
-    let body = "x = 2.0;".repeat(8000);
-    let entries: String = (0..800)
-        .map(|i| format!("@compute @workgroup_size(1) fn m{i}() {{ f(); g(); h(); }}\n"))
-        .collect();
-    let functions = ["f", "g", "h"].map(|name| format!("fn {name}() {{ var x = 1.0; {body} }}\n"));
-    let what = "expressions, counted once for each entry point";
-    let limit = MOST_EXPRESSIONS as usize;
-    assert_eq!(
-        too_many(&format!("{}{entries}", functions.concat())),
-        (what, limit, 3)
-    );
 }
 
 #[test]

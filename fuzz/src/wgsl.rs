@@ -119,7 +119,7 @@ fn mutate(data: &[u8], seeds: &[Vec<u8>], random: &mut Random) -> Vec<u8> {
         0 => drop(tokens.drain(span)),
         1 => {
             let part = tokens[span.clone()].to_vec();
-            let times = random.count(20_000 / (part.len() + 1)) + 1;
+            let times = random.count(2000 / (part.len() + 1)) + 1;
             tokens.splice(span.end..span.end, part.repeat(times));
         }
         2 => {
@@ -146,7 +146,7 @@ fn mutate(data: &[u8], seeds: &[Vec<u8>], random: &mut Random) -> Vec<u8> {
                 ("array<", ">"),
                 ("if true {", "}"),
             ][random.below(8)];
-            let times = random.count(4000);
+            let times = random.count(1000);
             tokens.splice(span.end..span.end, std::iter::repeat_n(close, times));
             tokens.splice(span.start..span.start, std::iter::repeat_n(open, times));
         }
@@ -163,9 +163,9 @@ fn mutate(data: &[u8], seeds: &[Vec<u8>], random: &mut Random) -> Vec<u8> {
     tokens.concat().into_bytes()
 }
 
-/// Shaders that are valid, and long or deep: within the limit of bytes, they need time and stack.
+/// Shaders that are valid, and long or deep, but not so that the compiler takes more than a second.
 fn scaled(random: &mut Random) -> String {
-    let n = random.count(30_000).max(1);
+    let n = random.count(1000).max(1);
     let list = |of: &dyn Fn(usize) -> String| (0..n).map(of).collect::<String>();
     match random.below(7) {
         0 => list(&|i| format!("fn f{i}(x: f32) -> f32 {{ return x + {i}.0; }}\n")),

@@ -1,7 +1,7 @@
 //! Why a shader is not valid under a profile.
 
 use super::{Backend, Diagnostic, LONGEST_SHADER};
-use crate::{LinkError, Location};
+use crate::LinkError;
 
 /// A shader that is not valid under a profile, or that a backend fails to write.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
@@ -16,18 +16,6 @@ pub enum ValidateError {
         file: String,
         /// Its length, or that of the linked text.
         bytes: usize,
-    },
-    /// The text has more of something than [`LONGEST_CHAIN`](super::LONGEST_CHAIN),
-    /// [`LONGEST_DEFINITION`](super::LONGEST_DEFINITION), [`LARGEST_CONSTANT`](super::LARGEST_CONSTANT),
-    /// [`LARGEST_VALUE`](super::LARGEST_VALUE) or [`MOST_VALUES`](super::MOST_VALUES) allows.
-    #[error("more than {limit} {what}; split the shader\n{at}")]
-    TooMany {
-        /// The limit.
-        limit: usize,
-        /// What exceeds the limit.
-        what: &'static str,
-        /// The place where the limit is exceeded.
-        at: Box<Location>,
     },
     /// The imports are wrong.
     #[error(transparent)]
