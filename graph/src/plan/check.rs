@@ -1,6 +1,6 @@
 //! Whether a plan that was read from elsewhere holds together.
 
-use super::{Plan, PlannedBindingResource, PlannedPass, PlannedWork};
+use super::{Plan, PlannedBindingResource, PlannedPass, PlannedResource, PlannedWork};
 use crate::{Home, VERSION};
 
 /// Why a plan cannot be used. A plan that [`crate::compile`] gave is never refused; one that was read from a file may be.
@@ -82,60 +82,47 @@ impl Plan {
                 Home::Memory(index) => within(what, "memory", index, self.memory.len())?,
             }
         }
-        let count = self.resources.len();
-        for import in &self.imports {
-            within(
-                format!("import '{}'", import.name),
-                "resource",
-                import.resource,
-                count,
-            )?;
+        let named = self.imports.iter().map(|import| ("import", import));
+        let named = named.chain(self.outputs.iter().map(|output| ("output", output)));
+        for (kind, named) in named {
+            let what = format!("{kind} '{}'", named.name);
+            within(what, "resource", named.resource, self.resources.len())?;
         }
-        for output in &self.outputs {
-            within(
-                format!("output '{}'", output.name),
-                "resource",
-                output.resource,
-                count,
-            )?;
-        }
+        // Whether `count` pieces lie within a view's block.
+        let fits = |offset: u32, count: u32, stride: u32, size: u64| {
+            let last = u64::from(count.saturating_sub(1));
+            u64::from(offset) + last * u64::from(stride) + size <= u64::from(self.parameters.size)
+        };
         for block in &self.parameters.blocks {
-            let last = u64::from(block.count.saturating_sub(1));
-            let end = u64::from(block.offset) + last * u64::from(block.stride) + block.array_size();
-            if end > u64::from(self.parameters.size) || block.initial.len() > block.size as usize {
+            let inside = fits(block.offset, block.count, block.stride, block.array_size());
+            if !inside || block.initial.len() > block.size as usize {
                 return Err(PlanError::Parameters {
                     node: block.node.clone(),
                 });
             }
         }
         for table in &self.parameters.regions {
-            let last = u64::from(table.layers.saturating_sub(1));
-            let end = u64::from(table.offset) + last * u64::from(table.stride) + table.size();
-            if end > u64::from(self.parameters.size) || table.capacity == 0 {
+            let inside = fits(table.offset, table.layers, table.stride, table.size());
+            if !inside || table.capacity == 0 {
                 return Err(PlanError::Regions {
                     map: table.map.clone(),
                 });
             }
         }
-        self.passes
-            .iter()
-            .try_for_each(|pass| self.check_pass(pass))
+        let mut passes = self.passes.iter();
+        passes.try_for_each(|pass| self.check_pass(pass))
     }
 
     fn check_pass(&self, pass: &PlannedPass) -> Result<(), PlanError> {
         let what = || format!("pass '{}/{}'", pass.node, pass.label);
+        let within = |of, index, count| within(what(), of, index, count);
         for binding in &pass.bindings {
             match binding.resource {
                 PlannedBindingResource::Parameters { block, .. } => {
-                    within(
-                        what(),
-                        "parameter block",
-                        block,
-                        self.parameters.blocks.len(),
-                    )?;
+                    within("parameter block", block, self.parameters.blocks.len())?;
                 }
                 PlannedBindingResource::Regions { table, .. } => {
-                    within(what(), "region table", table, self.parameters.regions.len())?;
+                    within("region table", table, self.parameters.regions.len())?;
                 }
                 PlannedBindingResource::Texture {
                     resource,
@@ -147,13 +134,13 @@ impl Plan {
                     resource,
                     level,
                     plane,
-                } => {
-                    self.check_kind(what(), resource, true)?;
-                    self.check_level(what(), resource, level)?;
-                    self.check_plane(what(), resource, plane)?;
-                }
+                } => self.check_texture(what(), resource, level, plane)?,
                 PlannedBindingResource::Buffer { resource, .. } => {
-                    self.check_kind(what(), resource, false)?;
+                    within("resource", resource, self.resources.len())?;
+                    let buffer = &self.resources[resource];
+                    if buffer.desc.texture().is_some() {
+                        return Err(kind(what(), buffer));
+                    }
                 }
                 PlannedBindingResource::Sampler { .. }
                 | PlannedBindingResource::ComparisonSampler { .. } => {}
@@ -166,52 +153,44 @@ impl Plan {
                 level,
                 plane,
                 ..
-            } => {
-                self.check_kind(what(), *target, true)?;
-                self.check_level(what(), *target, *level)?;
-                self.check_plane(what(), *target, *plane)
-            }
+            } => self.check_texture(what(), *target, *level, *plane),
             PlannedWork::Host { targets, depth, .. } => targets
                 .iter()
                 .chain(depth)
-                .try_for_each(|&target| self.check_kind(what(), target, true)),
+                .try_for_each(|&target| self.check_texture(what(), target, 0, 0)),
         }
     }
 
-    fn check_plane(&self, what: String, index: usize, plane: u32) -> Result<(), PlanError> {
-        let texture = self.resources.get(index);
-        let planes = texture
-            .and_then(|resource| resource.desc.texture())
-            .map_or(1, |texture| texture.planes);
-        within(what, "plane", plane as usize, planes as usize)
-    }
-
-    fn check_level(&self, what: String, index: usize, level: u32) -> Result<(), PlanError> {
-        let texture = self
-            .resources
-            .get(index)
-            .and_then(|resource| Some((&resource.name, resource.desc.texture()?)));
-        match texture {
-            Some((name, texture)) if level >= texture.mips => Err(PlanError::Level {
+    fn check_texture(
+        &self,
+        what: String,
+        index: usize,
+        level: u32,
+        plane: u32,
+    ) -> Result<(), PlanError> {
+        let Some(resource) = self.resources.get(index) else {
+            return within(what, "resource", index, self.resources.len());
+        };
+        let Some(texture) = resource.desc.texture() else {
+            return Err(kind(what, resource));
+        };
+        if level >= texture.mips {
+            return Err(PlanError::Level {
                 what,
                 level,
-                resource: name.clone(),
-                count: texture.mips,
-            }),
-            _ => Ok(()),
-        }
-    }
-
-    fn check_kind(&self, what: String, index: usize, texture: bool) -> Result<(), PlanError> {
-        match self.resources.get(index) {
-            None => within(what, "resource", index, self.resources.len()),
-            Some(resource) if resource.desc.texture().is_some() == texture => Ok(()),
-            Some(resource) => Err(PlanError::Kind {
-                what,
                 resource: resource.name.clone(),
-                desc: resource.desc.to_string(),
-            }),
+                count: texture.mips,
+            });
         }
+        within(what, "plane", plane as usize, texture.planes as usize)
+    }
+}
+
+fn kind(what: String, resource: &PlannedResource) -> PlanError {
+    PlanError::Kind {
+        what,
+        resource: resource.name.clone(),
+        desc: resource.desc.to_string(),
     }
 }
 

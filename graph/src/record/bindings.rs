@@ -1,11 +1,13 @@
 //! A plan bound to its pipelines, its resources and the host's imports.
 
 use super::given::{ImportedResource, check_alignment, check_parameters, find_import};
+use super::objects::{Objects, Part};
 use super::pipelines::{Pipeline, label, name};
 use super::resources::Created;
+use super::samplers::{comparison_sampler, sampler};
 use super::scope::{check_alive, scoped};
 use super::{Pipelines, RecordError, Resources};
-use crate::{Home, Plan, PlannedBindingResource, PlannedPass, PlannedResource, PlannedWork, Stage};
+use crate::{Plan, PlannedBindingResource, PlannedPass, PlannedWork, Stage};
 
 /// Everything that recording needs, made beforehand.
 #[derive(Debug)]
@@ -90,13 +92,15 @@ impl Bindings {
         check_alignment(plan, device.limits().min_uniform_buffer_offset_alignment)?;
         let binder = Binder {
             device,
-            plan,
-            resources,
-            imports: plan
-                .imports
-                .iter()
-                .map(|import| find_import(plan, &import.name, import.resource, imports))
-                .collect::<Result<_, _>>()?,
+            objects: Objects {
+                plan,
+                resources,
+                imports: plan
+                    .imports
+                    .iter()
+                    .map(|import| find_import(plan, &import.name, import.resource, imports))
+                    .collect::<Result<_, _>>()?,
+            },
             parameters,
         };
         let mut steps = Vec::with_capacity(plan.passes.len());
@@ -159,9 +163,7 @@ impl Bindings {
 /// What binding a pass draws from.
 struct Binder<'a> {
     device: &'a wgpu::Device,
-    plan: &'a Plan,
-    resources: &'a Resources,
-    imports: Vec<ImportedResource<'a>>,
+    objects: Objects<'a>,
     parameters: Option<&'a wgpu::Buffer>,
 }
 
@@ -219,7 +221,7 @@ impl Binder<'_> {
                     drawn: None,
                     keeps,
                     targets: (0..pass.layers)
-                        .map(|layer| self.view(target, Some(part(layer))))
+                        .map(|layer| self.objects.view(target, Some(part(layer))))
                         .collect::<Result<_, _>>()?,
                 }
             }
@@ -233,10 +235,10 @@ impl Binder<'_> {
             ) => Action::Host {
                 targets: colours
                     .iter()
-                    .map(|&target| self.view(target, Some(Part::default())))
+                    .map(|&target| self.objects.view(target, Some(Part::default())))
                     .collect::<Result<_, _>>()?,
                 depth: depth
-                    .map(|target| self.view(target, Some(Part::default())))
+                    .map(|target| self.objects.view(target, Some(Part::default())))
                     .transpose()?,
                 blend: *blend,
             },
@@ -257,7 +259,7 @@ impl Binder<'_> {
 
     /// Uniform data in the order of the bindings, which is that of dynamic offsets.
     fn uniforms(&self, pass: &PlannedPass) -> Vec<Uniform> {
-        let layout = &self.plan.parameters;
+        let layout = &self.objects.plan.parameters;
         let mut uniforms: Vec<(u32, Uniform)> = pass
             .bindings
             .iter()
@@ -355,7 +357,7 @@ impl Binder<'_> {
                     plane,
                     level,
                 };
-                Bound::View(self.view(resource, one_layer.then_some(part))?)
+                Bound::View(self.objects.view(resource, one_layer.then_some(part))?)
             }
             PlannedBindingResource::StorageTexture {
                 resource,
@@ -367,10 +369,10 @@ impl Binder<'_> {
                     plane,
                     level,
                 };
-                Bound::View(self.view(resource, Some(part))?)
+                Bound::View(self.objects.view(resource, Some(part))?)
             }
             PlannedBindingResource::Buffer { resource, .. } => {
-                Bound::Buffer(self.buffer(resource)?)
+                Bound::Buffer(self.objects.buffer(resource)?)
             }
             PlannedBindingResource::Sampler {
                 filtering,
@@ -381,116 +383,4 @@ impl Binder<'_> {
             }
         })
     }
-
-    /// A view of one mip level of one plane of a layer, or an array view of all.
-    fn view(&self, resource: usize, part: Option<Part>) -> Result<wgpu::TextureView, RecordError> {
-        let planned = &self.plan.resources[resource];
-        let planes = planned.desc.texture().map_or(1, |texture| texture.planes);
-        let layer = part.map(|part| part.layer * planes + part.plane);
-        let (texture, layer) = match self.object(planned) {
-            Some(Object::Texture(texture)) => (texture, layer),
-            Some(Object::Layers(textures)) => {
-                // An array view needs an array texture; a list of one layer is one.
-                let chosen = layer.or((textures.len() == 1).then_some(0));
-                let texture = chosen.and_then(|layer| textures.get(layer as usize));
-                let texture = texture.ok_or_else(|| self.wrong(planned, "a list of textures"))?;
-                (texture, layer.map(|_| 0))
-            }
-            Some(Object::Buffer(_)) | None => return Err(self.wrong(planned, "a buffer")),
-        };
-        Ok(texture.create_view(&wgpu::TextureViewDescriptor {
-            label: Some(&planned.name),
-            dimension: Some(match layer {
-                Some(_) => wgpu::TextureViewDimension::D2,
-                None => wgpu::TextureViewDimension::D2Array,
-            }),
-            base_array_layer: layer.unwrap_or(0),
-            array_layer_count: layer.map(|_| 1),
-            base_mip_level: part.map_or(0, |part| part.level),
-            mip_level_count: part.map(|_| 1),
-            ..Default::default()
-        }))
-    }
-
-    fn buffer(&self, resource: usize) -> Result<wgpu::Buffer, RecordError> {
-        let planned = &self.plan.resources[resource];
-        match self.object(planned) {
-            Some(Object::Buffer(buffer)) => Ok(buffer.clone()),
-            Some(Object::Texture(_) | Object::Layers(_)) | None => {
-                Err(self.wrong(planned, "a texture"))
-            }
-        }
-    }
-
-    fn object(&self, planned: &PlannedResource) -> Option<Object<'_>> {
-        match planned.home {
-            Home::Import(index) => self.imports.get(index).map(|import| match import {
-                ImportedResource::Texture(texture) => Object::Texture(texture),
-                ImportedResource::Layers(textures) => Object::Layers(textures),
-                ImportedResource::Buffer(buffer) => Object::Buffer(buffer),
-            }),
-            Home::Memory(_) => self.resources.get(planned).map(|created| match created {
-                Created::Texture(texture) => Object::Texture(texture),
-                Created::Buffer(buffer) => Object::Buffer(buffer),
-            }),
-        }
-    }
-
-    fn wrong(&self, planned: &PlannedResource, given: &str) -> RecordError {
-        RecordError::WrongImport {
-            name: planned.name.clone(),
-            expected: planned.desc.to_string(),
-            given: given.to_owned(),
-        }
-    }
-}
-
-/// One mip level of one plane of a layer.
-#[derive(Clone, Copy, Default)]
-struct Part {
-    layer: u32,
-    plane: u32,
-    level: u32,
-}
-
-enum Object<'a> {
-    Texture(&'a wgpu::Texture),
-    Layers(&'a [wgpu::Texture]),
-    Buffer(&'a wgpu::Buffer),
-}
-
-fn sampler(device: &wgpu::Device, filtering: bool, anisotropy: u16, label: &str) -> wgpu::Sampler {
-    let (filter, mipmap_filter) = if filtering {
-        (wgpu::FilterMode::Linear, wgpu::MipmapFilterMode::Linear)
-    } else {
-        (wgpu::FilterMode::Nearest, wgpu::MipmapFilterMode::Nearest)
-    };
-    device.create_sampler(&wgpu::SamplerDescriptor {
-        label: Some(label),
-        address_mode_u: wgpu::AddressMode::ClampToEdge,
-        address_mode_v: wgpu::AddressMode::ClampToEdge,
-        address_mode_w: wgpu::AddressMode::ClampToEdge,
-        mag_filter: filter,
-        min_filter: filter,
-        mipmap_filter,
-        anisotropy_clamp: anisotropy,
-        ..Default::default()
-    })
-}
-
-fn comparison_sampler(device: &wgpu::Device, reversed: bool, label: &str) -> wgpu::Sampler {
-    device.create_sampler(&wgpu::SamplerDescriptor {
-        label: Some(label),
-        address_mode_u: wgpu::AddressMode::ClampToEdge,
-        address_mode_v: wgpu::AddressMode::ClampToEdge,
-        address_mode_w: wgpu::AddressMode::ClampToEdge,
-        mag_filter: wgpu::FilterMode::Linear,
-        min_filter: wgpu::FilterMode::Linear,
-        compare: Some(if reversed {
-            wgpu::CompareFunction::Less
-        } else {
-            wgpu::CompareFunction::Greater
-        }),
-        ..Default::default()
-    })
 }

@@ -9,9 +9,11 @@ mod error;
 mod format;
 mod given;
 mod layout;
+mod objects;
 mod pipelines;
 mod recording;
 mod resources;
+mod samplers;
 mod scope;
 
 pub use bindings::Bindings;
