@@ -105,21 +105,21 @@ impl GraphError {
         }
     }
 
-    /// The same error about a node, unless it already names one.
+    /// This error, said of a node, unless it already names one.
     #[must_use]
     pub fn at_node(mut self, node: &str) -> Self {
         self.node.get_or_insert_with(|| node.to_owned());
         self
     }
 
-    /// The same error about a slot.
+    /// This error, said of a slot.
     #[must_use]
     pub fn at_slot(mut self, slot: &str) -> Self {
         self.slot.get_or_insert_with(|| slot.to_owned());
         self
     }
 
-    /// The same error with its place in the file, unless it already has one.
+    /// This error with its place in the file, unless it already has one.
     #[must_use]
     pub fn at_position(mut self, position: Option<Position>) -> Self {
         self.position = self.position.or(position);

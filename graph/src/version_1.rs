@@ -82,7 +82,7 @@ impl Renamed {
 }
 
 /// Rewrites a graph file of version 1 to the current one, for tools that change files before they parse them; returns what has
-/// changed. Anything that is no graph file of version 1 stays as it is, for [`crate::Graph::parse`] to judge.
+/// changed. Anything but a graph file of version 1 stays as it is, for [`crate::Graph::parse`] to judge.
 pub fn upgrade(file: &mut Value) -> Vec<String> {
     let mut renamed = Renamed::default();
     if file["version"] != 1 {

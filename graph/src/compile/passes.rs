@@ -116,7 +116,7 @@ impl Planner<'_> {
         Ok((index, texture))
     }
 
-    /// The same, for a mip level that the texture has to have.
+    /// The texture behind a slot, which has to have this mip level.
     pub(super) fn level<'r>(
         &self,
         pass: &Pass,

@@ -296,7 +296,7 @@ impl ParameterBlock {
     pub fn of<P: bytemuck::NoUninit>(name: &str) -> Self {
         Self {
             name: name.to_owned(),
-            // A struct of 4 GiB is no uniform data, and the compiler refuses it.
+            // The compiler refuses a struct of 4 GiB as uniform data.
             size: u32::try_from(size_of::<P>()).unwrap_or(u32::MAX),
             elements: 1,
             each_layer_of: None,

@@ -110,13 +110,13 @@ pub enum ExtentRule {
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum CountRule {
-    /// This many.
+    /// This number.
     Exact(u32),
     /// One of these. Only for inputs.
     OneOf(Vec<u32>),
     /// Any. Only for inputs.
     Any,
-    /// As many as another slot.
+    /// The number that another slot has.
     SameAs(String),
 }
 

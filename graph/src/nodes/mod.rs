@@ -27,7 +27,7 @@ pub use shade_soft::{Interpolation, ShadeSoft};
 pub use shared::{KernelProperty, MipLevels};
 pub use summed_area_table::{LargestKernel, SummedAreaTable};
 
-/// Properties that nodes do not have, with the reason: what a file asks by them cannot be had.
+/// Properties that a file may ask for in vain: node, property and the reason why no node has it.
 pub(crate) const REFUSED: [(&str, &str, &str); 2] = [
     (
         "shade_hard",

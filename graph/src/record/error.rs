@@ -150,7 +150,7 @@ pub enum RecordError {
 }
 
 impl RecordError {
-    /// `pass` is none of `known`, the plan's fullscreen passes.
+    /// The error about a `pass` outside `known`, the plan's fullscreen passes.
     pub(super) fn no_such_pass<'a>(pass: &str, known: impl Iterator<Item = &'a str>) -> Self {
         let known: Vec<&str> = known.collect();
         Self::NoSuchPass {

@@ -43,7 +43,8 @@ impl HostTarget {
         }
     }
 
-    /// As [`new`](Self::new); what is there is multiplied by 1 - shadow intensity, and keeps its alpha.
+    /// A target that is darkened: its colours are multiplied by 1 - shadow intensity, and its alpha stays. Otherwise like
+    /// [`new`](Self::new).
     #[must_use]
     pub fn darkened(format: wgpu::TextureFormat) -> Self {
         let component = |dst_factor| wgpu::BlendComponent {
@@ -60,8 +61,8 @@ impl HostTarget {
         }
     }
 
-    /// As [`new`](Self::new), for `composite_scattering`: what is there is multiplied by the transmittance, in-scattered
-    /// radiance is added to it, and its alpha stays.
+    /// A target for `composite_scattering`: its colours are multiplied by the transmittance, in-scattered radiance is added
+    /// to them, and its alpha stays. Otherwise like [`new`](Self::new).
     #[must_use]
     pub fn scattered(format: wgpu::TextureFormat) -> Self {
         let component = |src_factor, dst_factor| wgpu::BlendComponent {
@@ -183,7 +184,7 @@ impl Pipelines {
         self.pipelines.len() + self.drawn.len()
     }
 
-    /// Whether there are none.
+    /// Whether there is no pipeline.
     #[must_use]
     pub fn is_empty(&self) -> bool {
         self.pipelines.is_empty()

@@ -12,8 +12,8 @@ pub enum Layers<'a> {
     All,
     /// These, of every map.
     Only(&'a [u32]),
-    /// These of the maps with these names: an import's, or `node.slot` where a node makes a map of its own. Of other maps
-    /// none.
+    /// These of the maps with these names: an import's, or `node.slot` where a node makes a map of its own. Other
+    /// maps are left out.
     OfMaps(&'a [(&'a str, &'a [u32])]),
 }
 

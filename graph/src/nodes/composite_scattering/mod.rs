@@ -17,8 +17,8 @@ use crate::{
 /// pass that the host has open, blended as source + source alpha x destination (`HostTarget::scattered`). Parameters:
 /// [`CompositeScatteringParameters`].
 ///
-/// One texel is looked up per pixel for four moments, two for six. Where the medium has no density the result is (0, 0, 0, 1) to
-/// the bit, and so it is wherever a parameter is no finite number and the result would be none. Radiance is at most 65504.
+/// One texel is looked up per pixel for four moments, two for six. A medium without density, or with parameters that would give
+/// a non-finite result, gives exactly (0, 0, 0, 1). Radiance is at most 65504.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct CompositeScattering {

@@ -5,8 +5,8 @@ import node::specialization::{GROUP};
 // What a texel of a mip level holds, from one layer of the finer level.
 //
 // A texel is the exact mean over the part of the finer level that it covers, whatever the region's size: two texels along
-// an axis where that is even, up to three where it is odd. Other than with the two texels that are next to it, the last
-// row of a region with an odd size counts as much as the others.
+// an axis where that is even, up to three where it is odd. Unlike a mean of the two nearest texels, it counts the last row
+// of a region with an odd size as much as the others.
 
 @group(GROUP) @binding(0) var finer_level: texture_2d<f32>;
 

@@ -8,7 +8,7 @@ import node::specialization::{DepthTexture, GROUP, LAYERS, REGIONS};
 // of tiles; the sum of these sums, which moves two splits; a copy, since no pass may read what it writes.
 //
 // The state is five texels in a row: the splits (two), the weights of their cells (two), and the split that is moved next
-// (x) with whether there is a state at all (y). A texture that is all zeros holds none.
+// (x) with whether there is a state at all (y). A texture of zeros holds no state.
 
 @group(GROUP) @binding(0) var<uniform> conversions: array<DepthConversion, REGIONS>;
 @group(GROUP) @binding(1) var depth_map: DepthTexture;

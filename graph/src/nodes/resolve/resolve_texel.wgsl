@@ -4,8 +4,8 @@ import node::specialization::{DepthTexture, GROUP, REGIONS, SAMPLES};
 
 // What a texel of one plane of a filterable map holds, from one layer of a depth map.
 //
-// The moments (or other channels) of the samples are averaged. Averaging depths instead would put an occluder between foreground and
-// background, where there is none (Peters & Klein, i3D 2015, section 4).
+// The moments (or other channels) of the samples are averaged. Averaging depths instead would invent an occluder between
+// foreground and background (Peters & Klein, i3D 2015, section 4).
 
 @group(GROUP) @binding(0) var<uniform> conversions: array<DepthConversion, REGIONS>;
 @group(GROUP) @binding(1) var depth_map: DepthTexture;

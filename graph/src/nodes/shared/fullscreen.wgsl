@@ -2,7 +2,7 @@
 
 struct Covered {
     @builtin(position) position: vec4f,
-    // The place in the picture from 0 to 1. Other than `position` it does not depend on where in its target a host has the
+    // The place in the picture from 0 to 1. Unlike `position` it does not depend on where in its target a host has the
     // viewport.
     @location(0) uv: vec2f,
 }

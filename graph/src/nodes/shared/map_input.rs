@@ -39,7 +39,7 @@ pub(in crate::nodes) fn connected<'a>(
     Ok((map, encoding_of(map).map_err(|error| error.at_slot(slot))?))
 }
 
-/// The same where it holds four moments, for a node that does `what` with them.
+/// The map of four moments that is connected to a slot, for a node that does `what` with it.
 pub(in crate::nodes) fn of_four_moments<'a>(
     upstream: &Connected<'a>,
     what: &str,
@@ -55,7 +55,7 @@ pub(in crate::nodes) fn of_four_moments<'a>(
     .at_slot("map"))
 }
 
-/// The encoding of a filterable map that is no table: four moments, unless the map says otherwise.
+/// The encoding of a filterable map other than a table: four moments, unless the map says otherwise.
 pub(in crate::nodes) fn encoding_of(map: &TextureDesc) -> Result<MapEncoding, GraphError> {
     if map.format.is_integer() {
         return Err(format_error(format!(

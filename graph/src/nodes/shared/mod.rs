@@ -67,7 +67,7 @@ pub(super) fn depth_texture(depth: &TextureDesc) -> &'static str {
     }
 }
 
-/// The properties of a node that has none.
+/// A node without properties.
 #[derive(Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub(super) struct NoProperties {}

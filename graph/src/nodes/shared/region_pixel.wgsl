@@ -6,7 +6,7 @@ import node::specialization::{GROUP, REGIONS};
 @group(GROUP) @binding(4) var<uniform> regions: array<MapRegion, REGIONS>;
 
 struct RegionPixel {
-    // The number of its region in the table; REGIONS where it lies in none.
+    // The number of its region in the table; REGIONS outside every region.
     number: u32,
     // That region in texels of the mip level.
     region: MapRegion,
@@ -20,7 +20,7 @@ fn region_pixel(uv: vec2f, size: vec2u, level: u32) -> RegionPixel {
     let texel = min(vec2u(uv * vec2f(drawn)), drawn - 1u);
     for (var number = 0u; number < REGIONS; number++) {
         let region = map_region_at_level(map_region_within(regions[number], size), level);
-        // Of unsigned numbers those below the origin wrap around to large ones.
+        // Unsigned differences wrap around: a texel before the origin becomes a large number.
         if all(texel - region.origin < region.extent) {
             return RegionPixel(number, region, texel);
         }

@@ -22,7 +22,7 @@ struct ViewParameters {
     scene_w_from_camera: vec4f,
     receiver_bias: ReceiverBias,
     leak_reduction: LeakReduction,
-    // Where the view lies in its layer; without texels there is no such view.
+    // The view's place in its layer; a view without texels is unused.
     region: MapRegion,
     // The stored depth of pixels that show no surface; the same for all views.
     far_depth: f32,
@@ -80,7 +80,7 @@ const LARGEST_DIFFERENCE: f32 = 1e9;
 
 // The neighbour of a pixel along `axis` on the side that continues its surface: xy is the step to it and z the change of
 // stored depth. Stored depth is linear on the screen where a surface is plane, so that is the side which extrapolates to
-// the pixel best; the other one may lie beyond a silhouette or an edge. Zero if there is no neighbour.
+// the pixel best; the other one may lie beyond a silhouette or an edge. Zero without a neighbour.
 fn neighbour_of(pixel: vec2i, axis: vec2i, stored_depth: f32) -> vec3f {
     let error_before = extrapolation_error(pixel, -axis, stored_depth);
     let error_after = extrapolation_error(pixel, axis, stored_depth);
@@ -91,7 +91,7 @@ fn neighbour_of(pixel: vec2i, axis: vec2i, stored_depth: f32) -> vec3f {
     return vec3f(vec2f(direction), camera_depth_at(pixel + direction) - stored_depth);
 }
 
-// How the place in the map (in texels) and the moment depth change from a pixel to its neighbour; zero if there is none,
+// How the place in the map (in texels) and the moment depth change from a pixel to its neighbour; zero without a neighbour,
 // as on a surface that is edge-on to the light.
 fn receiver_difference(view: u32, neighbour: vec3f, receiver: Receiver, texels: vec2f) -> vec3f {
     if all(neighbour.xy == vec2f(0.0)) {
@@ -99,7 +99,7 @@ fn receiver_difference(view: u32, neighbour: vec3f, receiver: Receiver, texels: 
     }
     let across_screen = vec2f(2.0, -2.0) * neighbour.xy / vec2f(textureDimensions(camera_depth));
     let step = vec4f(across_screen, neighbour.z, 0.0);
-    // With numerators n and divisors w, n1 / w1 - n0 / w0 = (dn - (n0 / w0) dw) / w1. Other than the difference of two
+    // With numerators n and divisors w, n1 / w1 - n0 / w0 = (dn - (n0 / w0) dw) / w1. Unlike the difference of two
     // places, this keeps its digits where a pixel covers a small part of a texel.
     let light = views[view].light_from_camera * step;
     let scene_w = dot(views[view].scene_w_from_camera, step);
@@ -146,7 +146,7 @@ fn shade(covered: Covered) -> @location(0) vec4f {
     let size = vec2i(textureDimensions(camera_depth));
     let pixel = clamp(vec2i(covered.uv * vec2f(size)), vec2i(0), size - 1);
     let stored_depth = textureLoad(camera_depth, pixel, 0);
-    // Outside its map a light casts no shadow, and where there is no surface, either.
+    // A light casts no shadow outside its map, nor where the camera sees no surface.
     var intensities = vec4f(0.0);
     if stored_depth == views[0].far_depth {
         return intensities;
