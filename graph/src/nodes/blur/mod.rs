@@ -205,7 +205,6 @@ impl Along {
             (name, body),
             ("blur_target", include_str!("blur_target.wgsl")),
             ("blur_parameters", include_str!("blur_parameters.wgsl")),
-            techniques::filtering(encoding.technique()),
         ];
         modules.extend(regions::modules(encoding));
         let wgsl = specialization.link(shader, &modules)?;

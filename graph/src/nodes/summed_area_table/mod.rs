@@ -2,7 +2,9 @@
 
 mod tile_columns;
 
-use moment_shadows::{MapEncoding, Storage, SummedAreaTable as TableEncoding, Technique};
+use moment_shadows::{
+    Contents, MapEncoding, Storage, SummedAreaTable as TableEncoding, TechniqueError,
+};
 use serde::{Deserialize, Serialize};
 
 use super::shared::{Specialization, map_input, regions, wgsl};
@@ -139,7 +141,7 @@ impl Node for SummedAreaTable {
                 "The sum of all texels of a region that lie neither below nor to the right.",
                 TextureRule::new(encoding.clone()).like("map"),
             )
-            .passes(tiles.passes(&specialization, &source, &encoding)?))
+            .passes(tiles.passes(&specialization, &source)?))
     }
 }
 
@@ -148,13 +150,13 @@ impl Tiles {
         &self,
         specialization: &Specialization,
         source: &MapEncoding,
-        encoding: &MapEncoding,
     ) -> Result<[Pass; 4], GraphError> {
         let columns = tile_columns::columns(self.tile[0]);
+        let [sums, integers] = sums(source)?;
         let modules = [
             regions::TILE,
-            ("sums", sums(encoding)),
-            ("source", source_integers(source)),
+            sums,
+            integers,
             ("sums_target", include_str!("sums_target.wgsl")),
             (tile_columns::MODULE, &columns),
         ];
@@ -195,19 +197,32 @@ impl Tiles {
     }
 }
 
-/// How many channels are summed up.
-fn sums(encoding: &MapEncoding) -> &'static str {
-    match encoding.technique() {
-        Technique::Vsm => include_str!("two_channels.wgsl"),
-        _ => include_str!("four_channels.wgsl"),
-    }
-}
-
-/// How a texel becomes integers.
-fn source_integers(source: &MapEncoding) -> &'static str {
-    match (source.storage(), source.technique()) {
-        (Storage::Unorm16, _) => include_str!("source_unorm16.wgsl"),
-        (_, Technique::Vsm) => include_str!("source_variance.wgsl"),
-        _ => include_str!("source_four_moments.wgsl"),
-    }
+/// How many channels are summed up, and how a texel becomes integers. The table of another map is refused before.
+fn sums(source: &MapEncoding) -> Result<[(&'static str, &'static str); 2], GraphError> {
+    let exact = include_str!("source_unorm16.wgsl");
+    let (sums, fixed) = match source.technique().row().contents {
+        Contents::TwoMoments => (
+            include_str!("two_channels.wgsl"),
+            include_str!("source_variance.wgsl"),
+        ),
+        Contents::FourMoments => (
+            include_str!("four_channels.wgsl"),
+            include_str!("source_four_moments.wgsl"),
+        ),
+        Contents::Depth
+        | Contents::Exponential
+        | Contents::WarpedMoments
+        | Contents::LayeredMoments
+        | Contents::FourierTerms
+        | Contents::SixMoments => {
+            let technique = source.technique().name();
+            return Err(techniques::property(TechniqueError::NoTable { technique }).at_slot("map"));
+        }
+    };
+    let integers = if source.storage() == Storage::Unorm16 {
+        exact
+    } else {
+        fixed
+    };
+    Ok([("sums", sums), ("source", integers)])
 }
