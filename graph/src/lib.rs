@@ -9,6 +9,9 @@
 //! and the device's [`Capabilities`] and gives a [`Plan`], which any engine can record. The `record` module (feature
 //! `wgpu`) records it with wgpu.
 
+// A technique, a storage or a format is never taken for another one.
+#![warn(clippy::wildcard_enum_match_arm)]
+
 mod capabilities;
 mod compile;
 mod error;
