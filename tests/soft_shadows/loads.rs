@@ -1,6 +1,6 @@
 //! The number of loads per pixel does not depend on penumbrae: there are no loops and no branches around loads.
 
-use moment_shadows::{Source, link};
+use moment_shadows::{Source, link_module, modules};
 use naga::{Block, Expression, Module, Statement};
 
 /// Loads of a function and of all that it calls, and whether any is repeated.
@@ -38,11 +38,15 @@ fn calls(block: &Block) -> Vec<naga::Handle<naga::Function>> {
 
 #[test]
 fn they_are_as_many_as_documented() {
-    let shader = Source {
-        name: "loads.wgsl",
-        text: "import moment_shadows::shade::moment_soft_shadows::{moment_soft_shadows_intensity, moment_soft_shadows_variance_intensity};\n",
+    let soft = modules()
+        .iter()
+        .find(|module| module.name == "moment_soft_shadows")
+        .unwrap();
+    let source = Source {
+        name: soft.name,
+        text: soft.source,
     };
-    let text = link(shader, &[]).unwrap().into_wgsl();
+    let text = link_module(source).unwrap().into_wgsl();
     let module = naga::front::wgsl::parse_str(&text).unwrap();
     // A query is one of two, as a constant of the node says.
     assert_eq!(loads(&module, "summed_area_table_mean_interpolated"), 16);
