@@ -116,7 +116,7 @@ fn draw_panel<B: DrawingBackend>(area: &DrawingArea<B, Shift>, panel: &ErrorPane
         range: first - 0.5..last + 0.5,
         ticks: (first as i32..=last as i32).map(f64::from).collect(),
     };
-    let y_axis = Scale::of(points().map(|point| point.percent), false, 1.05);
+    let y_axis = Scale::of(points().map(|point| point.percent), 1.05);
     let mut chart = ChartBuilder::on(area)
         .margin(14)
         .caption(&panel.title, (FONT, 18))

@@ -9,15 +9,14 @@ use moment_shadows_graph::nodes::Overestimation;
 use moment_shadows_lab::bias::BiasTechnique;
 use moment_shadows_lab::candidate::{Candidate, TechniqueChoice, candidates};
 use moment_shadows_lab::command::cost::CostOptions;
-use moment_shadows_lab::command::cost_growth::GrowthOptions;
 use moment_shadows_lab::command::error_table::TableOptions;
 use moment_shadows_lab::command::render::{LightChoice, RenderOptions};
 use moment_shadows_lab::command::scattering_error::ScatteringErrorOptions;
 use moment_shadows_lab::command::soft_error::SoftErrorOptions;
 use moment_shadows_lab::command::{
-    bases, bias, contacts, cost, cost_growth, error, error_table, graph, isa, layers_figure,
-    measure, minification, orderings, render, scattering_error, scattering_flicker, shaders,
-    soft_error, stability, technique_pictures, validate,
+    bias, contacts, cost, error, error_table, graph, isa, measure, minification, render,
+    scattering_error, scattering_flicker, shaders, soft_error, stability, technique_pictures,
+    validate,
 };
 
 use moment_shadows_lab::gpu::Gpu;
@@ -161,30 +160,6 @@ enum Command {
     },
     /// Prints the error over all surfaces of several scenes, for several radii, techniques and storages.
     ErrorTable(TableArguments),
-    /// Prints the errors of layered variance and of convolution shadow maps of as many bits, with 2 to 8 layers and 4 to 16
-    /// terms, and plots them.
-    LayersFigure {
-        #[command(flatten)]
-        frame: FrameArguments,
-        /// A glTF or GLB file, or a procedural scene: fence-and-foliage, hall, chairs.
-        #[arg(long, default_value = "hall")]
-        scene: String,
-        /// The graph file.
-        #[arg(long)]
-        graph: PathBuf,
-        /// Of the Gaussian, in texels.
-        #[arg(long, default_value_t = 4, value_parser = clap::value_parser!(u32).range(1..=64))]
-        radius: u32,
-        /// Of the map's texels one of so many along either axis counts.
-        #[arg(long, default_value_t = 1, value_parser = clap::value_parser!(u32).range(1..=64))]
-        stride: u32,
-        /// The folder for the plot, as SVG and PNG; it is made if need be.
-        #[arg(long)]
-        out: Option<PathBuf>,
-        /// Prints JSON.
-        #[arg(long)]
-        json: bool,
-    },
     /// Prints how much light leaks where the thin legs of chairs meet the ground.
     Contacts {
         #[command(flatten)]
@@ -213,9 +188,6 @@ enum Command {
     /// Times the passes of a graph, blurs of several radii, summed-area tables or single scattering, as ratios to copies, and counts
     /// their bytes.
     Cost(CostOptions),
-    /// Times the nodes of a graph at several sizes of the map and of the output and at several radii, and plots how their
-    /// cost grows. Takes minutes.
-    CostGrowth(GrowthOptions),
     /// Finds the smallest safe moment bias of each storage by search over filtered patches of depth.
     Bias {
         /// The solver that the moments are for.
@@ -229,33 +201,6 @@ enum Command {
         tables: bool,
         /// Patches per row of the table.
         #[arg(long, default_value_t = 1_000_000, value_parser = sample_count)]
-        samples: usize,
-        /// Of the random numbers.
-        #[arg(long, default_value_t = 2015)]
-        seed: u64,
-        /// Prints JSON.
-        #[arg(long)]
-        json: bool,
-    },
-    /// Compares all choices of four among twelve functions of depth by linear programming, and plots a histogram.
-    Bases {
-        /// The folder for the plot, as SVG and PNG; it is made if need be.
-        #[arg(long)]
-        out: PathBuf,
-        /// The share of the depth range at either end that is free of surfaces: sine and cosine cannot tell the ends apart.
-        #[arg(long, default_value_t = 0.0)]
-        margin: f64,
-        /// Random depth distributions, each with eight receivers.
-        #[arg(long, default_value_t = 300, value_parser = sample_count)]
-        samples: usize,
-        /// Prints JSON.
-        #[arg(long)]
-        json: bool,
-    },
-    /// Prints how the bounds of techniques compare on the same surfaces while the light's depth range grows around them.
-    Orderings {
-        /// Random depth distributions.
-        #[arg(long, default_value_t = 20_000, value_parser = sample_count)]
         samples: usize,
         /// Of the random numbers.
         #[arg(long, default_value_t = 2015)]
@@ -779,23 +724,6 @@ fn run(command: Command) -> Result<ExitCode, Box<dyn std::error::Error>> {
             json,
             ..
         } => print(&bias::tables(samples, seed)?, json)?,
-        Command::Bases {
-            out,
-            margin,
-            samples,
-            json,
-        } => {
-            let (subsets, files) = bases::run(&out, samples, margin)?;
-            print(&subsets, json)?;
-            if !json {
-                println!("\n{}\n{}", files[0].display(), files[1].display());
-            }
-        }
-        Command::Orderings {
-            samples,
-            seed,
-            json,
-        } => print(&orderings::run(samples, seed), json)?,
         Command::Stability(arguments) => return run_stability(&arguments),
         Command::Isa(options) => return Ok(isa::run(&options)?),
         Command::IsaChip { chip, shader } => {
@@ -813,28 +741,6 @@ fn run(command: Command) -> Result<ExitCode, Box<dyn std::error::Error>> {
             json,
         )?,
         Command::ErrorTable(arguments) => run_error_table(arguments)?,
-        Command::LayersFigure {
-            frame,
-            scene,
-            graph,
-            radius,
-            stride,
-            out,
-            json,
-        } => {
-            let options = frame.options(scene);
-            if options.storage.is_some() {
-                return Err(
-                    "the storages of the figure are those of equal memory; leave out --storage"
-                        .into(),
-                );
-            }
-            let mut figure = layers_figure::run(&options, &graph, radius, stride)?;
-            if let Some(out) = out {
-                figure.plot(&out)?;
-            }
-            print(&figure, json)?;
-        }
         Command::Contacts {
             frame,
             graph,
@@ -858,7 +764,6 @@ fn run(command: Command) -> Result<ExitCode, Box<dyn std::error::Error>> {
                 return Ok(ExitCode::FAILURE);
             }
         }
-        Command::CostGrowth(options) => print(&cost_growth::run(&options)?, options.json)?,
         Command::Cost(options) => match options.subject.graph {
             Some(graph) => {
                 let cost = cost::graph(&graph, options.size, options.rounds, options.bandwidth)?;

@@ -111,22 +111,12 @@ pub(crate) struct Scale {
 }
 
 impl Scale {
-    /// For some figures above 0: their logarithms with ticks at powers of two and room for a legend above them, or from 0
-    /// in round steps with `room` times the largest.
-    pub(crate) fn of(figures: impl Iterator<Item = f64>, logarithmic: bool, room: f64) -> Self {
-        let (low, high) = figures
-            .filter(|figure| figure.is_finite() && *figure > 0.0)
-            .fold((f64::INFINITY, 0.0_f64), |(low, high), figure| {
-                (low.min(figure), high.max(figure))
-            });
-        let (low, high) = if low <= high { (low, high) } else { (1.0, 1.0) };
-        if logarithmic {
-            let (first, last) = (low.log2().floor().min(0.0), high.log2().ceil() + 1.0);
-            return Self {
-                range: first..last,
-                ticks: (first as i32..=last as i32).map(f64::from).collect(),
-            };
-        }
+    /// For some figures above 0: from 0 in round steps to `room` times the largest.
+    pub(crate) fn of(figures: impl Iterator<Item = f64>, room: f64) -> Self {
+        let largest = figures
+            .filter(|figure| figure.is_finite())
+            .fold(0.0, f64::max);
+        let high = if largest > 0.0 { largest } else { 1.0 };
         let step = [0.1, 0.2, 0.25, 0.5, 1.0, 2.0, 5.0, 10.0, 20.0]
             .into_iter()
             .find(|step| high / step <= 6.0)

@@ -8,7 +8,7 @@ use crate::cost::blur::{BLURS, PROFILE};
 use crate::cost::clock::{Clock, ClockKind, FEATURES};
 use crate::cost::graph_cost::GraphCost;
 use crate::cost::harness::Measured;
-use crate::cost::passes::{Grouping, cases};
+use crate::cost::passes::cases;
 use crate::cost::report::Conditions;
 use crate::cost::scattering::NODES;
 use crate::cost::summed_area::TABLES;
@@ -88,7 +88,7 @@ pub fn graph(
     let scene = scene::load(&options.scene)?;
     let margin = file.kernel()?.map_or(0, |kernel| kernel.radius());
     let frame = options.frame(&gpu, &scene, margin)?;
-    let (cases, bytes) = cases(&gpu, &frame, &file, Grouping::Passes, |_| true)?;
+    let (cases, bytes) = cases(&gpu, &frame, &file)?;
     let clock = Clock::new(&gpu, ClockKind::for_device(&gpu));
     let bar = progress::bar(u64::from(rounds), "timing");
     let measured = Measured::of(&clock, &cases, rounds, || bar.inc(1))?;

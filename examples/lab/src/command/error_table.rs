@@ -1,7 +1,6 @@
 //! `moment-shadows error-table`: the error over all surfaces of scenes, for techniques, storages and radii.
 
 mod average;
-mod orderings;
 
 use core::fmt;
 use std::path::{Path, PathBuf};
@@ -9,7 +8,6 @@ use std::path::{Path, PathBuf};
 use serde::Serialize;
 
 pub use average::error_plot;
-pub use orderings::{Ordering, orderings};
 
 use super::error::{ErrorSubject, GraphErrors, Setting, storage_name};
 use super::render::{RenderOptions, profile_for};
@@ -56,8 +54,6 @@ pub struct ErrorTable {
     pub stride: u32,
     /// Scene by scene, radius by radius, in the order of the candidates.
     pub rows: Vec<ErrorRow>,
-    /// Whether the published orderings hold, where all of their techniques were measured.
-    pub orderings: Vec<Ordering>,
     /// Files that were written.
     pub plots: Vec<PathBuf>,
 }
@@ -110,7 +106,6 @@ pub fn run(graph: &Path, options: &TableOptions) -> Result<ErrorTable, LabError>
     Ok(ErrorTable {
         setting: Setting::of(&gpu, graph, &options.render),
         stride: options.stride,
-        orderings: orderings(&rows),
         rows,
         plots: Vec::new(),
     })
@@ -177,12 +172,6 @@ impl fmt::Display for ErrorTable {
                 write!(f, " {:.3} |", 100.0 * error)?;
             }
             writeln!(f)?;
-        }
-        if !self.orderings.is_empty() {
-            writeln!(f)?;
-        }
-        for ordering in &self.orderings {
-            writeln!(f, "{ordering}")?;
         }
         for plot in &self.plots {
             writeln!(f, "{}", plot.display())?;

@@ -1,18 +1,14 @@
 //! The subcommands of `moment-shadows`.
 
-pub mod bases;
 pub mod bias;
 pub mod contacts;
 pub mod cost;
-pub mod cost_growth;
 pub mod error;
 pub mod error_table;
 pub mod graph;
 pub mod isa;
-pub mod layers_figure;
 pub mod measure;
 pub mod minification;
-pub mod orderings;
 pub mod render;
 pub mod scattering_error;
 pub mod scattering_flicker;
