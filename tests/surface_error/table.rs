@@ -4,23 +4,18 @@ use std::path::Path;
 
 use moment_shadows::{EsmFiltering, Storage, Technique};
 use moment_shadows_lab::candidate::{Candidate, TechniqueChoice};
-use moment_shadows_lab::command::error_table::{self, ErrorRow, ErrorTable, TableOptions};
+use moment_shadows_lab::command::error_table::{ErrorRow, ErrorTable};
 
-use crate::setup::options;
+use crate::setup::{options, table_options};
 
 fn path() -> std::path::PathBuf {
     Path::new(env!("CARGO_MANIFEST_DIR")).join("examples/hard_shadows.json")
 }
 
 fn table(radii: &[u32], candidates: Vec<Candidate>, stride: u32, map: u32) -> ErrorTable {
-    let options = TableOptions {
-        scenes: vec!["hall".to_owned()],
-        radii: radii.to_vec(),
-        candidates,
-        stride,
-        render: options(map, 4),
-    };
-    error_table::run(&path(), &options).unwrap()
+    let scenes = vec!["hall".to_owned()];
+    let options = table_options(&path(), options(map, 4), scenes, radii, stride);
+    options.measure(&candidates).unwrap()
 }
 
 fn error(row: &ErrorRow) -> f64 {

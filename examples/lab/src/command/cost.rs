@@ -1,8 +1,10 @@
 //! `moment-shadows cost`: what passes cost, as ratios to copies, and in bytes.
 
 use std::path::{Path, PathBuf};
+use std::process::ExitCode;
 
 use super::render::RenderOptions;
+use super::{CommandResult, print};
 use crate::cost::bandwidth::Memory;
 use crate::cost::blur::{BLURS, PROFILE};
 use crate::cost::clock::{Clock, ClockKind, FEATURES};
@@ -57,6 +59,22 @@ pub struct CostSubject {
     /// where they cost more than they may on a software adapter.
     #[arg(long)]
     pub scattering: bool,
+}
+
+impl CostOptions {
+    /// Prints what the subject costs; fails where a gate is passed.
+    pub fn run(self) -> CommandResult {
+        if let Some(path) = &self.subject.graph {
+            let cost = graph(path, self.size, self.rounds, self.bandwidth)?;
+            return print(&cost, self.json);
+        }
+        let cost = table(&self.subject.list(), self.size, self.rounds)?;
+        print(&cost, self.json)?;
+        Ok(match cost.passed() {
+            true => ExitCode::SUCCESS,
+            false => ExitCode::FAILURE,
+        })
+    }
 }
 
 impl CostSubject {
