@@ -11,8 +11,9 @@ use plotters::element::{Circle, PathElement, Polygon, Text};
 use plotters::style::text_anchor::{HPos, Pos, VPos};
 use plotters::style::{BLACK, Color, IntoFont, RGBColor, ShapeStyle};
 
+use crate::error::LabError;
 use crate::picture::PictureError;
-use crate::plot::{self, COLOURS, Drawn, FONT, Plot, PlotError, Scale, number};
+use crate::plot::{self, COLOURS, Drawn, FONT, Plot, Scale, number};
 
 /// Pixels.
 const PANEL_WIDTH: u32 = 480;
@@ -67,7 +68,7 @@ pub struct ErrorPoint {
 
 impl ErrorPlot {
     /// Draws it as SVG and as PNG into a folder, which is made if need be, and gives their paths.
-    pub fn save(&self, folder: &Path, stem: &str) -> Result<[PathBuf; 2], PlotError> {
+    pub fn save(&self, folder: &Path, stem: &str) -> Result<[PathBuf; 2], LabError> {
         std::fs::create_dir_all(folder).map_err(|source| PictureError::Unwritable {
             path: folder.to_owned(),
             source,

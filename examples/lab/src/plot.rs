@@ -11,7 +11,8 @@ use plotters::coord::ranged1d::{DefaultFormatting, KeyPointHint, Ranged};
 use plotters::drawing::{DrawingArea, IntoDrawingArea};
 use plotters::style::{FontStyle, RGBColor, WHITE, register_font};
 
-use crate::picture::{PictureError, save_atomically, save_rgba};
+use crate::error::LabError;
+use crate::picture::{save_atomically, save_rgba};
 
 /// The font of all text.
 pub(crate) const FONT: &str = "sans-serif";
@@ -26,23 +27,6 @@ pub(crate) const COLOURS: [RGBColor; 7] = [
     RGBColor(230, 159, 0),
     RGBColor(0, 0, 0),
 ];
-
-/// Why there is no plot.
-#[derive(Debug, thiserror::Error)]
-#[non_exhaustive]
-pub enum PlotError {
-    /// It cannot be drawn.
-    #[error("the plot '{title}' cannot be drawn: {reason}")]
-    Drawing {
-        /// Its title.
-        title: String,
-        /// Why.
-        reason: String,
-    },
-    /// It cannot be saved.
-    #[error(transparent)]
-    Picture(#[from] PictureError),
-}
 
 pub(crate) type Drawn<B> =
     Result<(), plotters::drawing::DrawingAreaErrorKind<<B as DrawingBackend>::ErrorType>>;
@@ -60,7 +44,7 @@ pub(crate) trait Plot {
 }
 
 /// Draws a plot as SVG and as PNG into a folder, and gives their paths.
-pub(crate) fn save(plot: &impl Plot, folder: &Path, stem: &str) -> Result<[PathBuf; 2], PlotError> {
+pub(crate) fn save(plot: &impl Plot, folder: &Path, stem: &str) -> Result<[PathBuf; 2], LabError> {
     let [svg, png] = ["svg", "png"].map(|extension| folder.join(format!("{stem}.{extension}")));
     let (width, height) = plot.size();
     let mut text = String::new();
@@ -82,11 +66,8 @@ pub(crate) fn save(plot: &impl Plot, folder: &Path, stem: &str) -> Result<[PathB
     Ok([svg, png])
 }
 
-fn draw<B: DrawingBackend>(
-    plot: &impl Plot,
-    area: &DrawingArea<B, Shift>,
-) -> Result<(), PlotError> {
-    let failed = |reason: String| PlotError::Drawing {
+fn draw<B: DrawingBackend>(plot: &impl Plot, area: &DrawingArea<B, Shift>) -> Result<(), LabError> {
+    let failed = |reason: String| LabError::Plot {
         title: plot.title().to_owned(),
         reason,
     };

@@ -6,11 +6,12 @@ use std::process::ExitCode;
 use moment_shadows::{MapEncoding, Profile, Storage, nearest};
 
 use super::CommandResult;
+use crate::error::LabError;
 use crate::gpu::Gpu;
 use crate::picture::{PictureError, save_atomically, save_rgba};
 use crate::progress;
 use crate::stability::report::Report;
-use crate::stability::{self, Effort, StabilityError, plot};
+use crate::stability::{self, Effort, plot};
 use crate::techniques::{STORAGES, filterable, label};
 
 /// What `stability` takes.
@@ -78,10 +79,7 @@ fn technique(text: &str) -> Result<String, String> {
 }
 
 /// The pairs of a technique, a storage, both or neither.
-pub fn pairs(
-    technique: Option<&str>,
-    storage: Option<&str>,
-) -> Result<Vec<MapEncoding>, StabilityError> {
+pub fn pairs(technique: Option<&str>, storage: Option<&str>) -> Result<Vec<MapEncoding>, LabError> {
     let of_technique: Vec<MapEncoding> = filterable()
         .into_iter()
         .filter(|pair| technique.is_none_or(|name| label(pair.technique()) == name))
@@ -96,7 +94,7 @@ pub fn pairs(
         .filter(|pair| storage.is_none_or(|name| pair.storage().name() == name))
         .collect();
     if pairs.is_empty() {
-        return Err(StabilityError::NoPair {
+        return Err(LabError::NoPair {
             technique: technique.unwrap_or("any technique").to_owned(),
             storage: storage.unwrap_or("any storage").to_owned(),
             legal,
@@ -106,11 +104,7 @@ pub fn pairs(
 }
 
 /// Makes the report of some pairs, and writes it into the folder `out` as text, JSON and a picture.
-fn report(
-    pairs: &[MapEncoding],
-    effort: Effort,
-    out: Option<&Path>,
-) -> Result<Report, StabilityError> {
+fn report(pairs: &[MapEncoding], effort: Effort, out: Option<&Path>) -> Result<Report, LabError> {
     let gpu = Gpu::open(Profile::WebgpuCore)?;
     if let Some(out) = out {
         // Before the work, which takes minutes.
