@@ -9,6 +9,7 @@ use crate::light::LightError;
 use crate::metric::MetricError;
 use crate::picture::PictureError;
 use crate::scene::SceneError;
+use crate::shaders::ShadersError;
 use crate::truth::area_light::AreaLightError;
 use crate::truth::peel::PeelError;
 use crate::truth::surface::TruthError;
@@ -46,14 +47,17 @@ pub enum LabError {
         /// What is wrong with it.
         error: GraphError,
     },
-    /// A graph that is right, but that the lab cannot judge.
+    /// Something that the lab cannot use: a graph that it cannot judge, a table of other figures, a driver that lacks something.
     #[error("{file}: {reason}")]
     Unsuitable {
-        /// The graph file.
+        /// The graph file, or what else it is.
         file: String,
-        /// Why.
+        /// Why, and what to do.
         reason: String,
     },
+    /// Shaders that cannot be listed or compiled.
+    #[error(transparent)]
+    Shaders(#[from] ShadersError),
     /// A technique's settings.
     #[error(transparent)]
     Technique(#[from] moment_shadows::TechniqueError),
@@ -149,4 +153,14 @@ pub enum LabError {
     /// A picture.
     #[error(transparent)]
     Picture(#[from] PictureError),
+}
+
+impl LabError {
+    /// What cannot be used, and why.
+    pub fn unsuitable(what: impl ToString, reason: impl ToString) -> Self {
+        Self::Unsuitable {
+            file: what.to_string(),
+            reason: reason.to_string(),
+        }
+    }
 }

@@ -134,10 +134,9 @@ impl ErrorSubject {
     ) -> Result<Self, LabError> {
         let files = core::slice::from_ref(file);
         let mut subjects = Self::of_kernels(gpu, scene, options, files, 1, step)?;
-        subjects.pop().ok_or_else(|| LabError::Unsuitable {
-            file: file.name.clone(),
-            reason: "there is nothing to measure".to_owned(),
-        })
+        subjects
+            .pop()
+            .ok_or_else(|| LabError::unsuitable(&file.name, "there is nothing to measure"))
     }
 
     /// Draws and peels a scene once, with room for the widest of the kernels around it, and computes its truths for the

@@ -4,10 +4,10 @@ use std::path::PathBuf;
 use std::process::ExitCode;
 
 use super::CommandResult;
+use crate::error::LabError;
 use crate::isa::child;
 use crate::isa::chip::Chip;
 use crate::isa::compare::compare;
-use crate::isa::error::IsaError;
 use crate::isa::table::Table;
 
 /// What `isa` takes.
@@ -60,7 +60,7 @@ impl Options {
                  make a table for this one with `isa --update`",
                 before.driver.name, before.driver.version, now.driver.name, now.driver.version
             );
-            IsaError::file(path, reason)
+            LabError::unsuitable(path.display(), reason)
         })?;
             print!("{compared}");
             if !compared.passed() {
@@ -72,7 +72,10 @@ impl Options {
             }
         } else if self.json {
             let text = serde_json::to_string_pretty(&child::table(chips)?);
-            println!("{}", text.map_err(|error| IsaError::file(path, error))?);
+            println!(
+                "{}",
+                text.map_err(|error| LabError::unsuitable(path.display(), error))?
+            );
         } else {
             print!("{}", child::table(chips)?);
         }

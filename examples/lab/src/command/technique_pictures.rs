@@ -169,13 +169,13 @@ fn draw(out: &Path, view: &str, only: Option<&str>) -> Result<Vec<Made>, LabErro
     if let Some(only) = only {
         let names: Vec<&str> = subjects.iter().map(|subject| subject.name).collect();
         if !names.contains(&only) {
-            return Err(LabError::Unsuitable {
-                file: only.to_owned(),
-                reason: format!(
+            return Err(LabError::unsuitable(
+                only,
+                format!(
                     "no technique of this name is pictured; the nearest are {}",
                     nearest(only, names)
                 ),
-            });
+            ));
         }
         subjects.retain(|subject| subject.name == only);
     }
@@ -278,11 +278,9 @@ impl Stage {
         technique: &str,
         storage: Option<Storage>,
     ) -> Result<Shaded, LabError> {
-        let argument: TechniqueArgument =
-            technique.parse().map_err(|error| LabError::Unsuitable {
-                file: technique.to_owned(),
-                reason: format!("{error}"),
-            })?;
+        let argument: TechniqueArgument = technique
+            .parse()
+            .map_err(|error| LabError::unsuitable(technique, format!("{error}")))?;
         let file = graph
             .with_technique_argument(&argument, storage)?
             .in_single_precision()?;

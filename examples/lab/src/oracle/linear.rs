@@ -60,8 +60,6 @@ pub struct LinearBound {
     /// What no distribution on the nodes passes, by duality: at most `value` for lower bounds, at least for upper ones, and
     /// the same up to rounding.
     pub certificate: f64,
-    /// That distribution as (depth, weight), ascending.
-    pub support: Vec<(f64, f64)>,
 }
 
 /// Powers of depth on a grid, made ready for many distributions.
@@ -192,16 +190,9 @@ impl MomentProblem {
             Side::Lower => value,
             Side::Upper => 1.0 - value,
         };
-        let mut support: Vec<(f64, f64)> = optimum
-            .support
-            .iter()
-            .filter_map(|&(index, weight)| nodes().nth(index).map(|z| (z, weight)))
-            .collect();
-        support.sort_by(|one, other| one.0.total_cmp(&other.0));
         Ok(LinearBound {
             value: share(optimum.value),
             certificate: share(optimum.certificate),
-            support,
         })
     }
 

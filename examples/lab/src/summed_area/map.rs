@@ -19,16 +19,12 @@ use crate::gpu::Gpu;
 /// What errors name.
 const NAME: &str = "summed-area table";
 
-fn unsuitable(reason: String) -> LabError {
-    LabError::Unsuitable {
-        file: NAME.to_owned(),
-        reason,
-    }
-}
-
 /// A plan without a table.
 pub(super) fn no_table() -> LabError {
-    unsuitable("the plan has no output 'table'; make one of a graph that does".to_owned())
+    LabError::unsuitable(
+        NAME,
+        "the plan has no output 'table'; make one of a graph that does",
+    )
 }
 
 /// A map, its table and what makes it.
@@ -172,7 +168,7 @@ pub(super) fn moments_texture(
             "a texture of this device cannot be {}; use another storage",
             desc.format
         );
-        unsuitable(reason)
+        LabError::unsuitable(NAME, reason)
     })?;
     Ok(gpu.device.create_texture_with_data(
         &gpu.queue,
