@@ -9,13 +9,11 @@ use moment_shadows_graph::nodes::KernelProperty;
 use moment_shadows_graph::record::{Passes, RecordError};
 use moment_shadows_graph::{Capabilities, TextureDesc};
 use moment_shadows_lab::command::cost;
-use moment_shadows_lab::command::cost_growth::{self, GrowthOptions};
 use moment_shadows_lab::cost::CostError;
 use moment_shadows_lab::cost::bandwidth::Memory;
 use moment_shadows_lab::cost::blur::{BOUNDS, BlurredMap};
 use moment_shadows_lab::cost::clock::{Clock, ClockKind, FEATURES};
 use moment_shadows_lab::cost::copies::{Copies, CopyWork};
-use moment_shadows_lab::cost::growth::Growth;
 use moment_shadows_lab::cost::harness::{Case, Measured};
 use moment_shadows_lab::cost::protocol::{CopyNumbers, FEWEST_ROUNDS, Rounds, Subject};
 use moment_shadows_lab::cost::reference;
@@ -531,73 +529,6 @@ fn copies_have_the_layers_of_their_texture() {
         copies.by_interface()(&mut encoder).unwrap();
         gpu.queue.submit([encoder.finish()]);
         gpu.check().unwrap();
-    }
-}
-
-/// Every axis is measured and plotted, with its nodes named, and nothing but the plots is left in the folder.
-#[test]
-fn growth_is_plotted() {
-    let folder = tempfile::tempdir().unwrap();
-    let out = folder.path().join("plots");
-    let options = GrowthOptions {
-        graph: example("hard_shadows.json"),
-        out: out.clone(),
-        json: false,
-        map_sizes: vec![128, 256],
-        widths: vec![160, 320],
-        radii: vec![1, 4],
-        rounds: FEWEST_ROUNDS,
-    };
-    let growth = cost_growth::run(&options).unwrap();
-    let curves: Vec<Vec<_>> = growth
-        .growths
-        .iter()
-        .map(|growth| growth.curves().iter().map(|(node, _)| *node).collect())
-        .collect();
-    assert_eq!(
-        curves,
-        [
-            vec!["resolve", "blur", "shade"],
-            vec!["shade"],
-            vec!["blur"]
-        ]
-    );
-    for (_, points) in growth.growths.iter().flat_map(Growth::curves) {
-        assert_eq!(points.len(), 2);
-        assert_eq!(points[0].per_texel.median, 1.0);
-        assert!(points[1].x_copy().median > 0.0);
-    }
-    let mut written: Vec<_> = std::fs::read_dir(&out)
-        .unwrap()
-        .map(|entry| entry.unwrap().file_name().into_string().unwrap())
-        .collect();
-    written.sort();
-    let stems = ["cost-by-map-size", "cost-by-output-size", "cost-by-radius"];
-    let wanted = stems.map(|stem| [format!("{stem}.png"), format!("{stem}.svg")]);
-    assert_eq!(written, wanted.concat());
-    for ([png, svg], curves) in wanted.iter().zip(&curves) {
-        let svg = std::fs::read_to_string(out.join(svg)).unwrap();
-        assert!(
-            svg.starts_with("<svg") && svg.trim_end().ends_with("</svg>"),
-            "{svg}"
-        );
-        for part in curves
-            .iter()
-            .chain(&["time (copies of the output)", "median of 9 rounds"])
-        {
-            assert!(svg.contains(part), "{part} is missing in {svg}");
-        }
-        let bytes = std::fs::read(out.join(png)).unwrap();
-        let picture = image::load_from_memory(&bytes).unwrap().into_luma8();
-        assert_eq!(picture.dimensions(), (1280, 560));
-        let picture = picture.as_raw();
-        // Text and lines, but mostly paper.
-        let dark = picture.iter().filter(|&&value| value < 128).count();
-        assert!(
-            (2000..picture.len() / 10).contains(&dark),
-            "{png}: {dark} of {}",
-            picture.len()
-        );
     }
 }
 

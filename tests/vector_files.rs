@@ -3,7 +3,8 @@
 
 use std::path::{Path, PathBuf};
 
-use moment_shadows_lab::vectors::{self, VectorFileError, VectorReport, VectorsError};
+use moment_shadows_lab::error::LabError;
+use moment_shadows_lab::vectors::{self, VectorFileError, VectorReport};
 use serde_json::{Value, json};
 
 /// The first published vector, alone in a file, as `change` leaves it.
@@ -29,7 +30,7 @@ fn file(text: &str) -> (tempfile::TempDir, PathBuf) {
     (folder, path)
 }
 
-fn run(change: impl FnOnce(&mut Value)) -> Result<VectorReport, VectorsError> {
+fn run(change: impl FnOnce(&mut Value)) -> Result<VectorReport, LabError> {
     let (_folder, path) = changed(change);
     vectors::run(path)
 }
@@ -37,7 +38,7 @@ fn run(change: impl FnOnce(&mut Value)) -> Result<VectorReport, VectorsError> {
 /// What the report says is wrong with the changed vector.
 fn reason(change: impl FnOnce(&mut Value)) -> String {
     let error = run(change).unwrap_err();
-    let VectorsError::File(VectorFileError::Vector {
+    let LabError::Vectors(VectorFileError::Vector {
         index: 0,
         id,
         reason,
@@ -55,7 +56,7 @@ fn a_missing_file_is_named() {
     let error = vectors::run("no/such/vectors.json").unwrap_err();
     assert!(matches!(
         error,
-        VectorsError::File(VectorFileError::Unreadable { .. })
+        LabError::Vectors(VectorFileError::Unreadable { .. })
     ));
     assert!(error.to_string().contains("no/such/vectors.json"));
 }
@@ -67,7 +68,7 @@ fn text_that_is_no_file_of_vectors_is_refused_with_its_position() {
         let error = vectors::run(path).unwrap_err();
         assert!(matches!(
             error,
-            VectorsError::File(VectorFileError::Malformed { .. })
+            LabError::Vectors(VectorFileError::Malformed { .. })
         ));
         assert!(error.to_string().contains("line"), "{error}");
     }

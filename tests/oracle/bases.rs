@@ -1,10 +1,6 @@
-//! The published bases and biases, and the comparison of bases.
+//! The published bases.
 
-use moment_shadows_lab::basis::{
-    Quantisation, SubsetError, Subsets, published_biases, published_quantisations,
-};
-use moment_shadows_lab::command::bases::{self, BasesError};
-use moment_shadows_lab::oracle::{hausdorff, rational};
+use moment_shadows_lab::basis::{Quantisation, published_quantisations};
 
 fn of(count: usize, interval: [f64; 2]) -> Quantisation {
     let mut all = published_quantisations().into_iter();
@@ -185,96 +181,4 @@ fn determinants_are_as_published() {
             "{count} moments on {interval:?}: {gained}"
         );
     }
-}
-
-/// A target must be a vector of moments; the first one published is on the boundary, a single pair of surfaces at both ends.
-#[test]
-fn targets_are_moments() {
-    let biases = published_biases();
-    assert_eq!(biases.len(), 7);
-    for bias in &biases {
-        let moments: Vec<_> = bias.target.iter().map(|&b| rational(b).unwrap()).collect();
-        let [low, high] = bias.interval.map(|end| rational(end).unwrap());
-        let middle = rational(0.5 * (bias.interval[0] + bias.interval[1])).unwrap();
-        let extremal = hausdorff(&moments, [&low, &high], &middle).unwrap();
-        let halves = bias.target.iter().all(|&b| b == 0.5);
-        // (0, beta, 0, beta) are moments of both ends and the middle, the only such ones on the interval.
-        let planes = bias.interval[0] < 0.0;
-        assert_eq!(
-            extremal.unique,
-            halves || planes,
-            "{} by {}",
-            bias.name,
-            bias.source
-        );
-        assert_eq!(
-            extremal.points.len(),
-            if halves { 2 } else { extremal.points.len() }
-        );
-    }
-    let alphas: Vec<f64> = biases.iter().map(|bias| bias.alpha).collect();
-    assert_eq!(alphas, [2e-6, 3e-5, 3e-5, 4e-3, 6e-5, 3e-7, 6e-5]);
-}
-
-#[test]
-fn all_choices_of_bases_are_ranked_the_same_each_time() {
-    let one = Subsets::evaluate(3, 0.0, 7, || ()).unwrap();
-    assert_eq!(one.ranked.len() as u64, Subsets::COUNT);
-    assert_eq!(one.receivers, 24);
-    assert!(one.ranked.is_sorted_by(|a, b| a.mean_error <= b.mean_error));
-    // Lower bounds do not exceed the truth, and four functions tell something.
-    assert!(
-        one.ranked
-            .iter()
-            .all(|subset| (0.0..0.5).contains(&subset.mean_error))
-    );
-    for indices in [Subsets::POWERS, Subsets::TRIGONOMETRIC] {
-        let (rank, subset) = one.rank(indices).unwrap();
-        assert_eq!(one.ranked[rank - 1], *subset);
-        println!("{rank}: {}, {}", subset.name, subset.mean_error);
-    }
-    let threads = rayon::ThreadPoolBuilder::new()
-        .num_threads(1)
-        .build()
-        .unwrap();
-    assert_eq!(
-        threads.install(|| Subsets::evaluate(3, 0.0, 7, || ()).unwrap()),
-        one
-    );
-}
-
-/// On a circle both ends of the depth range are one point.
-#[test]
-fn a_margin_favours_trigonometric_functions() {
-    let advantage = |margin| {
-        let subsets = Subsets::evaluate(20, margin, 8, || ()).unwrap();
-        let error = |indices| subsets.rank(indices).unwrap().1.mean_error;
-        error(Subsets::POWERS) / error(Subsets::TRIGONOMETRIC)
-    };
-    let [without, with] = [0.0, 0.2].map(advantage);
-    assert!(with > 1.2 * without, "{without} {with}");
-}
-
-#[test]
-fn the_histogram_is_saved_or_the_reason_told() {
-    let folder = tempfile::tempdir().unwrap();
-    let (subsets, files) = bases::run(&folder.path().join("new"), 1, 0.0).unwrap();
-    let svg = std::fs::read_to_string(&files[0]).unwrap();
-    let (rank, powers) = subsets.rank(Subsets::POWERS).unwrap();
-    assert!(svg.contains(&format!("rank {rank}")) && svg.contains(&powers.name));
-    let png = image::open(&files[1]).unwrap();
-    assert_eq!([png.width(), png.height()], [1000, 560]);
-    let taken = folder.path().join("taken");
-    std::fs::write(&taken, "").unwrap();
-    let error = bases::run(&taken, 1, 0.0).unwrap_err();
-    assert!(matches!(error, BasesError::Folder { .. }));
-    assert!(error.to_string().contains("taken"));
-    for margin in [-0.1, 0.5, f64::NAN] {
-        let error = Subsets::evaluate(1, margin, 7, || ()).unwrap_err();
-        assert!(matches!(error, SubsetError::Margin(_)));
-    }
-    assert!(matches!(
-        bases::run(&folder.path().join("none"), 0, 0.0),
-        Err(BasesError::Subsets(SubsetError::NoSamples))
-    ));
 }

@@ -2,9 +2,10 @@
 
 use moment_shadows::{MapEncoding, Profile, Storage, Technique};
 use moment_shadows_lab::command::stability::pairs;
+use moment_shadows_lab::error::LabError;
 use moment_shadows_lab::gpu::Gpu;
 use moment_shadows_lab::stability::report::Report;
-use moment_shadows_lab::stability::{Effort, StabilityError, run};
+use moment_shadows_lab::stability::{Effort, run};
 
 fn report(pairs: &[MapEncoding], effort: Effort) -> Report {
     let gpu = Gpu::open(Profile::WebgpuCore).unwrap();
@@ -58,7 +59,7 @@ fn the_same_seed_gives_the_same_report_and_another_one_another() {
 #[test]
 fn a_pair_that_does_not_exist_is_refused_with_those_that_do() {
     let error = pairs(Some("evsm2"), Some("unorm16")).unwrap_err();
-    assert!(matches!(error, StabilityError::NoPair { .. }));
+    assert!(matches!(error, LabError::NoPair { .. }));
     let text = error.to_string();
     assert_eq!(
         text,

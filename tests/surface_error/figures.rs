@@ -4,7 +4,6 @@ use moment_shadows::{FourMomentsBias, Storage};
 use moment_shadows_lab::candidate::Candidate;
 use moment_shadows_lab::command::error;
 use moment_shadows_lab::command::error::ErrorReport;
-use moment_shadows_lab::command::error_table::{self, TableOptions};
 use moment_shadows_lab::error::LabError;
 use moment_shadows_lab::graph_file::GraphFile;
 use moment_shadows_lab::judgement::Unfiltered;
@@ -13,7 +12,7 @@ use moment_shadows_lab::truth::exact_bound::{Lookup, biased_bound};
 use moment_shadows_lab::truth::pcf::{Receiver, pcf_at};
 use moment_shadows_lab::truth::peel::{PeelError, Peeler};
 
-use crate::setup::{graph, open, options, plate, scene as scene_of, subject};
+use crate::setup::{graph, open, options, plate, scene as scene_of, subject, table_options};
 
 #[test]
 fn two_plates_have_the_error_of_leak_reduction_alone() {
@@ -137,7 +136,7 @@ fn report() -> ErrorReport {
     let path = std::path::Path::new(env!("CARGO_MANIFEST_DIR")).join("examples/hard_shadows.json");
     let mut options = options(128, 4);
     options.scene = "hall".to_owned();
-    error::run(&options, &path, Some(3), None).unwrap()
+    error::measure(&options, &path, Some(3), None).unwrap()
 }
 
 #[test]
@@ -166,14 +165,10 @@ fn figures_repeat_to_the_last_digit() {
 #[test]
 fn the_table_has_a_row_for_each_scene_radius_and_storage() {
     let path = std::path::Path::new(env!("CARGO_MANIFEST_DIR")).join("examples/hard_shadows.json");
-    let options = TableOptions {
-        scenes: ["hall", "fence-and-foliage"].map(str::to_owned).to_vec(),
-        radii: vec![1, 2],
-        candidates: Storage::OF_FOUR_MOMENTS.map(Candidate::Storage).to_vec(),
-        stride: 1,
-        render: options(64, 1),
-    };
-    let table = error_table::run(&path, &options).unwrap();
+    let scenes = ["hall", "fence-and-foliage"].map(str::to_owned).to_vec();
+    let candidates = Storage::OF_FOUR_MOMENTS.map(Candidate::Storage);
+    let options = table_options(&path, options(64, 1), scenes, &[1, 2], 1);
+    let table = options.measure(&candidates).unwrap();
     let keys: Vec<_> = table
         .rows
         .iter()

@@ -4,6 +4,7 @@ use std::path::Path;
 
 use moment_shadows::Storage;
 use moment_shadows_lab::command::error::ErrorSubject;
+use moment_shadows_lab::command::error_table;
 use moment_shadows_lab::command::render::{RenderOptions, profile_for};
 use moment_shadows_lab::gpu::Gpu;
 use moment_shadows_lab::graph_file::GraphFile;
@@ -25,6 +26,27 @@ pub(crate) fn options(map: u32, samples: u32) -> RenderOptions {
         map,
         samples,
         ..RenderOptions::default()
+    }
+}
+
+/// A table of a graph.
+pub(crate) fn table_options(
+    graph: &Path,
+    frame: RenderOptions,
+    scene: Vec<String>,
+    radii: &[u32],
+    stride: u32,
+) -> error_table::Options {
+    error_table::Options {
+        frame,
+        scene,
+        graph: graph.to_owned(),
+        radius: radii.to_vec(),
+        technique: Vec::new(),
+        all: false,
+        stride,
+        out: None,
+        json: false,
     }
 }
 

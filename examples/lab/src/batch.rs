@@ -3,44 +3,10 @@
 use core::marker::PhantomData;
 
 use bytemuck::Pod;
-use moment_shadows::{LinkError, Source, link};
+use moment_shadows::{Source, link};
 
-use crate::gpu::{Gpu, GpuError};
-
-/// Why a batch could not be run.
-#[derive(Debug, thiserror::Error)]
-#[non_exhaustive]
-pub enum BatchError {
-    /// The device failed.
-    #[error(transparent)]
-    Gpu(#[from] GpuError),
-    /// The shader's imports are wrong.
-    #[error(transparent)]
-    Link(#[from] LinkError),
-    /// The shader was refused.
-    #[error("the shader of batch '{label}' was refused: {reason}")]
-    Shader {
-        /// The batch's label.
-        label: String,
-        /// What the validation said.
-        reason: String,
-    },
-    /// The Rust types cannot be the shader's.
-    #[error(
-        "batch '{label}' has items of {input} and {output} bytes; arrays in storage buffers need positive multiples of 4 \
-         that fit into {largest} bytes"
-    )]
-    ItemSize {
-        /// The batch's label.
-        label: String,
-        /// Bytes of an input item.
-        input: usize,
-        /// Bytes of an output item.
-        output: usize,
-        /// The largest buffer that the device binds.
-        largest: u64,
-    },
-}
+use crate::error::LabError;
+use crate::gpu::Gpu;
 
 /// Invocations of one workgroup.
 const WORKGROUP: u64 = 64;
@@ -77,7 +43,7 @@ pub struct Batch<'gpu, I, O> {
 impl<'gpu, I: Pod, O: Pod> Batch<'gpu, I, O> {
     /// Links and compiles `wgsl`, a shader that may import library modules, declares the types `BatchInput` and `BatchOutput`
     /// and a function `batch(input: BatchInput) -> BatchOutput`, but no bindings.
-    pub fn new(gpu: &'gpu Gpu, label: &str, wgsl: &str) -> Result<Self, BatchError> {
+    pub fn new(gpu: &'gpu Gpu, label: &str, wgsl: &str) -> Result<Self, LabError> {
         Self::build(gpu, label, wgsl, None)
     }
 
@@ -88,7 +54,7 @@ impl<'gpu, I: Pod, O: Pod> Batch<'gpu, I, O> {
         label: &str,
         wgsl: &str,
         table: &[f32],
-    ) -> Result<Self, BatchError> {
+    ) -> Result<Self, LabError> {
         Self::build(gpu, label, wgsl, Some(table))
     }
 
@@ -97,7 +63,7 @@ impl<'gpu, I: Pod, O: Pod> Batch<'gpu, I, O> {
         label: &str,
         wgsl: &str,
         table: Option<&[f32]>,
-    ) -> Result<Self, BatchError> {
+    ) -> Result<Self, LabError> {
         let declared = if table.is_some() { TABLE } else { "" };
         let linked = link(
             Source {
@@ -126,7 +92,7 @@ impl<'gpu, I: Pod, O: Pod> Batch<'gpu, I, O> {
                 cache: None,
             });
         if let Some(error) = pollster::block_on(scope.pop()) {
-            return Err(BatchError::Shader {
+            return Err(LabError::Shader {
                 label: label.to_owned(),
                 reason: error.to_string(),
             });
@@ -151,7 +117,7 @@ impl<'gpu, I: Pod, O: Pod> Batch<'gpu, I, O> {
     }
 
     /// Runs the function over all inputs, in as many dispatches as the device's limits ask for.
-    pub fn run(&self, inputs: &[I]) -> Result<Vec<O>, BatchError> {
+    pub fn run(&self, inputs: &[I]) -> Result<Vec<O>, LabError> {
         let limits = self.gpu.device.limits();
         let (input, output) = (size_of::<I>(), size_of::<O>());
         let largest = limits
@@ -164,7 +130,7 @@ impl<'gpu, I: Pod, O: Pod> Batch<'gpu, I, O> {
             || !output.is_multiple_of(4)
             || item > largest
         {
-            return Err(BatchError::ItemSize {
+            return Err(LabError::ItemSize {
                 label: self.label.clone(),
                 input,
                 output,
@@ -180,7 +146,7 @@ impl<'gpu, I: Pod, O: Pod> Batch<'gpu, I, O> {
         Ok(outputs)
     }
 
-    fn run_chunk(&self, inputs: &[I]) -> Result<Vec<O>, BatchError> {
+    fn run_chunk(&self, inputs: &[I]) -> Result<Vec<O>, LabError> {
         let device = &self.gpu.device;
         let label = Some(self.label.as_str());
         let input = device.create_buffer(&wgpu::BufferDescriptor {

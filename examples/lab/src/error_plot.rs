@@ -11,8 +11,9 @@ use plotters::element::{Circle, PathElement, Polygon, Text};
 use plotters::style::text_anchor::{HPos, Pos, VPos};
 use plotters::style::{BLACK, Color, IntoFont, RGBColor, ShapeStyle};
 
+use crate::error::LabError;
 use crate::picture::PictureError;
-use crate::plot::{self, COLOURS, Drawn, FONT, Plot, PlotError, Scale, number};
+use crate::plot::{self, COLOURS, Drawn, FONT, Plot, Scale, number};
 
 /// Pixels.
 const PANEL_WIDTH: u32 = 480;
@@ -67,7 +68,7 @@ pub struct ErrorPoint {
 
 impl ErrorPlot {
     /// Draws it as SVG and as PNG into a folder, which is made if need be, and gives their paths.
-    pub fn save(&self, folder: &Path, stem: &str) -> Result<[PathBuf; 2], PlotError> {
+    pub fn save(&self, folder: &Path, stem: &str) -> Result<[PathBuf; 2], LabError> {
         std::fs::create_dir_all(folder).map_err(|source| PictureError::Unwritable {
             path: folder.to_owned(),
             source,
@@ -116,7 +117,7 @@ fn draw_panel<B: DrawingBackend>(area: &DrawingArea<B, Shift>, panel: &ErrorPane
         range: first - 0.5..last + 0.5,
         ticks: (first as i32..=last as i32).map(f64::from).collect(),
     };
-    let y_axis = Scale::of(points().map(|point| point.percent), false, 1.05);
+    let y_axis = Scale::of(points().map(|point| point.percent), 1.05);
     let mut chart = ChartBuilder::on(area)
         .margin(14)
         .caption(&panel.title, (FONT, 18))

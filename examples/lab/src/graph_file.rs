@@ -126,10 +126,10 @@ impl GraphFile {
     /// The same graph with a Gaussian of this radius and 0.6 times that as its standard deviation in place of its kernel.
     pub fn with_radius(&self, radius: u32) -> Result<Self, LabError> {
         if self.kernel()?.is_none() {
-            return Err(LabError::Unsuitable {
-                file: self.name.clone(),
-                reason: "it has no blur node whose radius could be another; add one".to_owned(),
-            });
+            return Err(LabError::unsuitable(
+                &self.name,
+                "it has no blur node whose radius could be another; add one",
+            ));
         }
         let kernel = serde_json::json!({ "radius": radius });
         let text = with_property(&self.text, "blur", "kernel", kernel);
@@ -190,13 +190,13 @@ impl GraphFile {
                     file: self.name.clone(),
                     error,
                 }),
-            _ => Err(LabError::Unsuitable {
-                file: self.name.clone(),
-                reason: format!(
+            _ => Err(LabError::unsuitable(
+                &self.name,
+                format!(
                     "it has {} blur nodes; the receiver bias and the truth are derived from one kernel",
                     kernels.len()
                 ),
-            }),
+            )),
         }
     }
 }

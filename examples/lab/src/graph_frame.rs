@@ -130,12 +130,9 @@ impl GraphFrame {
 
     /// The shadow intensity that the graph gives.
     pub fn shadow(&self, file: &GraphFile) -> Result<&wgpu::Texture, LabError> {
-        self.bindings
-            .output(SHADOW_INTENSITY)
-            .ok_or_else(|| LabError::Unsuitable {
-                file: file.name.clone(),
-                reason: format!("it has no output '{SHADOW_INTENSITY}'"),
-            })
+        self.bindings.output(SHADOW_INTENSITY).ok_or_else(|| {
+            LabError::unsuitable(&file.name, format!("it has no output '{SHADOW_INTENSITY}'"))
+        })
     }
 
     /// The shadow intensity per pixel, the top row first.

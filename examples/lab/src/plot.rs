@@ -11,7 +11,8 @@ use plotters::coord::ranged1d::{DefaultFormatting, KeyPointHint, Ranged};
 use plotters::drawing::{DrawingArea, IntoDrawingArea};
 use plotters::style::{FontStyle, RGBColor, WHITE, register_font};
 
-use crate::picture::{PictureError, save_atomically, save_rgba};
+use crate::error::LabError;
+use crate::picture::{save_atomically, save_rgba};
 
 /// The font of all text.
 pub(crate) const FONT: &str = "sans-serif";
@@ -26,23 +27,6 @@ pub(crate) const COLOURS: [RGBColor; 7] = [
     RGBColor(230, 159, 0),
     RGBColor(0, 0, 0),
 ];
-
-/// Why there is no plot.
-#[derive(Debug, thiserror::Error)]
-#[non_exhaustive]
-pub enum PlotError {
-    /// It cannot be drawn.
-    #[error("the plot '{title}' cannot be drawn: {reason}")]
-    Drawing {
-        /// Its title.
-        title: String,
-        /// Why.
-        reason: String,
-    },
-    /// It cannot be saved.
-    #[error(transparent)]
-    Picture(#[from] PictureError),
-}
 
 pub(crate) type Drawn<B> =
     Result<(), plotters::drawing::DrawingAreaErrorKind<<B as DrawingBackend>::ErrorType>>;
@@ -60,7 +44,7 @@ pub(crate) trait Plot {
 }
 
 /// Draws a plot as SVG and as PNG into a folder, and gives their paths.
-pub(crate) fn save(plot: &impl Plot, folder: &Path, stem: &str) -> Result<[PathBuf; 2], PlotError> {
+pub(crate) fn save(plot: &impl Plot, folder: &Path, stem: &str) -> Result<[PathBuf; 2], LabError> {
     let [svg, png] = ["svg", "png"].map(|extension| folder.join(format!("{stem}.{extension}")));
     let (width, height) = plot.size();
     let mut text = String::new();
@@ -82,11 +66,8 @@ pub(crate) fn save(plot: &impl Plot, folder: &Path, stem: &str) -> Result<[PathB
     Ok([svg, png])
 }
 
-fn draw<B: DrawingBackend>(
-    plot: &impl Plot,
-    area: &DrawingArea<B, Shift>,
-) -> Result<(), PlotError> {
-    let failed = |reason: String| PlotError::Drawing {
+fn draw<B: DrawingBackend>(plot: &impl Plot, area: &DrawingArea<B, Shift>) -> Result<(), LabError> {
+    let failed = |reason: String| LabError::Plot {
         title: plot.title().to_owned(),
         reason,
     };
@@ -111,22 +92,12 @@ pub(crate) struct Scale {
 }
 
 impl Scale {
-    /// For some figures above 0: their logarithms with ticks at powers of two and room for a legend above them, or from 0
-    /// in round steps with `room` times the largest.
-    pub(crate) fn of(figures: impl Iterator<Item = f64>, logarithmic: bool, room: f64) -> Self {
-        let (low, high) = figures
-            .filter(|figure| figure.is_finite() && *figure > 0.0)
-            .fold((f64::INFINITY, 0.0_f64), |(low, high), figure| {
-                (low.min(figure), high.max(figure))
-            });
-        let (low, high) = if low <= high { (low, high) } else { (1.0, 1.0) };
-        if logarithmic {
-            let (first, last) = (low.log2().floor().min(0.0), high.log2().ceil() + 1.0);
-            return Self {
-                range: first..last,
-                ticks: (first as i32..=last as i32).map(f64::from).collect(),
-            };
-        }
+    /// For some figures above 0: from 0 in round steps to `room` times the largest.
+    pub(crate) fn of(figures: impl Iterator<Item = f64>, room: f64) -> Self {
+        let largest = figures
+            .filter(|figure| figure.is_finite())
+            .fold(0.0, f64::max);
+        let high = if largest > 0.0 { largest } else { 1.0 };
         let step = [0.1, 0.2, 0.25, 0.5, 1.0, 2.0, 5.0, 10.0, 20.0]
             .into_iter()
             .find(|step| high / step <= 6.0)

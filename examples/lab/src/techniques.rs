@@ -4,19 +4,21 @@ use moment_shadows::{
     EsmFiltering, Finite, LayerSplits, MapEncoding, PcfTaps, Pcss, Storage, Technique,
 };
 
+/// The storages of maps that are made by drawing a light's depth.
+pub const STORAGES: [Storage; 5] = [
+    Storage::Unorm8,
+    Storage::Unorm10,
+    Storage::Unorm16,
+    Storage::Float16,
+    Storage::Float32,
+];
+
 /// The filterable techniques with settings that suit a storage, and their encodings.
 #[must_use]
 pub fn filterable() -> Vec<MapEncoding> {
-    let every = [
-        Storage::Unorm8,
-        Storage::Unorm10,
-        Storage::Unorm16,
-        Storage::Float16,
-        Storage::Float32,
-    ];
-    every
-        .iter()
-        .flat_map(|&storage| {
+    STORAGES
+        .into_iter()
+        .flat_map(|storage| {
             settings(storage)
                 .into_iter()
                 .filter_map(move |technique| MapEncoding::new(technique, storage).ok())

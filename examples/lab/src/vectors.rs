@@ -10,29 +10,15 @@ use std::path::Path;
 
 use moment_shadows::Profile;
 
-use crate::batch::{Batch, BatchError};
-use crate::gpu::{Gpu, GpuError};
+use crate::batch::Batch;
+use crate::error::LabError;
+use crate::gpu::Gpu;
 use cases::{Case, Input, Output, Truth, collect};
 use exact::{Bound, exact, rationals, unit};
 
 pub use agreement::{AGREEMENT, Agreement, agreement};
 pub use file::VectorFileError;
 pub use report::{ALLOWED_SHARE, ClassReport, HARD_TOLERANCE, TOLERANCE, VectorReport};
-
-/// Why vectors could not be evaluated.
-#[derive(Debug, thiserror::Error)]
-#[non_exhaustive]
-pub enum VectorsError {
-    /// The file is wrong.
-    #[error(transparent)]
-    File(#[from] VectorFileError),
-    /// There is no device.
-    #[error(transparent)]
-    Gpu(#[from] GpuError),
-    /// The shader did not run.
-    #[error(transparent)]
-    Batch(#[from] BatchError),
-}
 
 /// Evaluates on the best adapter all Hamburger records of two, four and six moments in a file, by `chebyshev_lower_bound` and
 /// `chebyshev_upper_bound`, `hamburger4_bounds` and `hamburger6_bounds`, and all Hausdorff records of four, by `hausdorff4_bounds`.
@@ -43,7 +29,7 @@ pub enum VectorsError {
 /// device made. Two moments have no bias: their variance is raised to the smallest one of each storage, and so it is for the oracle.
 ///
 /// The oracle itself is compared with all bounds of the file, those that no shader evaluates too.
-pub fn run(file: impl AsRef<Path>) -> Result<VectorReport, VectorsError> {
+pub fn run(file: impl AsRef<Path>) -> Result<VectorReport, LabError> {
     let vectors = file::read(file.as_ref())?;
     let gpu = Gpu::open(Profile::WebgpuCore)?;
     let mut report = VectorReport {

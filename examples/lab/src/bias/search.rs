@@ -41,7 +41,7 @@ pub enum BiasError {
 }
 
 /// Which solver the bias is for.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, clap::ValueEnum)]
 #[serde(rename_all = "lowercase")]
 pub enum BiasTechnique {
     /// Four moments on the real line.

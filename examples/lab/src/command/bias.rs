@@ -1,35 +1,68 @@
 //! `moment-shadows bias`: the smallest safe moment bias of a storage, by search.
 
-use moment_shadows::{Storage, SummedAreaTableError};
+use moment_shadows::Storage;
 
-use crate::bias::{
-    BiasError, BiasTable, BiasTechnique, Form, TableBiases, search, search_tables, steps,
-    table_steps,
-};
+use super::{CommandResult, argument, print};
+use crate::bias::{BiasTechnique, Form, search, search_tables, steps, table_steps};
 use crate::progress;
 
-/// Searches one storage, or all and the published forms.
-pub fn run(
+/// What `bias` takes.
+#[derive(clap::Args)]
+pub struct Options {
+    /// The solver that the moments are for.
+    #[arg(long, value_enum, default_value = "hamburger4")]
     technique: BiasTechnique,
+    /// One storage of the library; all of them and the published forms if none is given.
+    #[arg(long, value_parser = argument::storage())]
     storage: Option<Storage>,
+    /// Summed-area tables of every storage instead, for both solvers and for two moments.
+    #[arg(long, conflicts_with_all = ["technique", "storage"])]
+    tables: bool,
+    /// Patches per row of the table.
+    #[arg(long, default_value_t = 1_000_000, value_parser = samples)]
     samples: usize,
+    /// Of the random numbers.
+    #[arg(long, default_value_t = 2015)]
     seed: u64,
-) -> Result<BiasTable, BiasError> {
-    let rows = match (storage, technique) {
-        (Some(_), _) => 1,
-        (None, BiasTechnique::Hamburger4) => technique.storages().len() + Form::published().len(),
-        (None, _) => technique.storages().len(),
-    };
-    let bar = progress::bar((rows * steps(samples)) as u64, "filtering patches");
-    let table = search(technique, storage, samples, seed, || bar.inc(1));
-    bar.finish_and_clear();
-    table
+    /// Prints JSON.
+    #[arg(long)]
+    json: bool,
 }
 
-/// Searches summed-area tables of every storage with several kernels.
-pub fn tables(samples: usize, seed: u64) -> Result<TableBiases, SummedAreaTableError> {
-    let bar = progress::bar(table_steps(samples) as u64, "summing patches");
-    let tables = search_tables(samples, seed, || bar.inc(1));
-    bar.finish_and_clear();
-    tables
+impl Options {
+    /// Searches one storage, all of them and the published forms, or summed-area tables, and prints what is found.
+    pub fn run(self) -> CommandResult {
+        let Self {
+            technique,
+            storage,
+            samples,
+            seed,
+            ..
+        } = self;
+        if self.tables {
+            let bar = progress::bar(table_steps(samples) as u64, "summing patches");
+            let tables = search_tables(samples, seed, || bar.inc(1));
+            bar.finish_and_clear();
+            return print(&tables?, self.json);
+        }
+        let rows = match (storage, technique) {
+            (Some(_), _) => 1,
+            (None, BiasTechnique::Hamburger4) => {
+                technique.storages().len() + Form::published().len()
+            }
+            (None, _) => technique.storages().len(),
+        };
+        let bar = progress::bar((rows * steps(samples)) as u64, "filtering patches");
+        let table = search(technique, storage, samples, seed, || bar.inc(1));
+        bar.finish_and_clear();
+        print(&table?, self.json)
+    }
+}
+
+/// How many samples to draw.
+fn samples(text: &str) -> Result<usize, String> {
+    match text.parse() {
+        Ok(count) if (1..=1_000_000_000).contains(&count) => Ok(count),
+        _ => Err("a number of samples is an integer from 1 to 1000000000".to_owned()),
+    }
 }

@@ -1,7 +1,7 @@
 //! `moment-shadows contacts`: light leaking where thin legs meet the ground, of every technique against the truth.
 
 use core::fmt;
-use std::path::Path;
+use std::path::PathBuf;
 
 use glam::{DVec2, DVec3};
 use moment_shadows::{Storage, Technique};
@@ -9,7 +9,8 @@ use serde::Serialize;
 
 use super::error::{Setting, storage_name};
 use super::render::{RenderOptions, profile_for};
-use crate::candidate::Candidate;
+use super::{CommandResult, print};
+use crate::candidate::{TechniqueChoice, candidates};
 use crate::error::LabError;
 use crate::frame::Frame;
 use crate::gpu::Gpu;
@@ -20,6 +21,25 @@ use crate::scene::{self, CHAIRS, Scene, feet};
 use crate::surface_error::{MapEvaluator, MapPoint, MapRun};
 use crate::techniques::described;
 use crate::truth::pcf::{Receiver, pcf_at};
+
+/// What `contacts` takes.
+#[derive(clap::Args)]
+pub struct Options {
+    #[command(flatten)]
+    frame: RenderOptions,
+    /// The graph file.
+    #[arg(long)]
+    graph: PathBuf,
+    /// Radii of the Gaussian, in texels.
+    #[arg(long, num_args = 1.., default_values = ["1", "4", "12"], value_parser = clap::value_parser!(u32).range(1..=64))]
+    radius: Vec<u32>,
+    /// Techniques in place of all: names with usual settings, or objects as in graph files.
+    #[arg(long, num_args = 1..)]
+    technique: Vec<TechniqueChoice>,
+    /// Prints JSON.
+    #[arg(long)]
+    json: bool,
+}
 
 /// How far from a leg the ground counts, in metres.
 pub const BAND: f64 = 0.03;
@@ -156,44 +176,48 @@ fn ground_around_legs(scene: &Scene) -> Vec<Receiver> {
     receivers
 }
 
-/// Measures every radius with every candidate.
-pub fn run(
-    options: &RenderOptions,
-    graph: &Path,
-    radii: &[u32],
-    candidates: &[Candidate],
-) -> Result<ContactTable, LabError> {
-    let profile = profile_for(None, options.samples);
-    let profile = candidates.iter().fold(profile, |profile, candidate| {
-        candidate.profile_with(profile)
-    });
-    let gpu = Gpu::open(profile)?;
-    let file = GraphFile::read(graph, None)?;
-    let bar = progress::bar((radii.len() * candidates.len()) as u64, "contacts");
-    let plainly = RenderOptions {
-        samples: 1,
-        ..options.clone()
-    };
-    let mut rows = Vec::new();
-    for &radius in radii {
-        let file = file.with_radius(radius)?;
-        let contacts = Contacts::new(&gpu, options, &file)?;
-        let plain = plainly.frame(&gpu, &scene::load(CHAIRS)?, radius)?;
-        for candidate in candidates {
-            let frame = if candidate.reads_depth() {
-                &plain
-            } else {
-                &contacts.frame
-            };
-            rows.push(contacts.judge(&gpu, frame, &candidate.graph(&file)?)?);
-            bar.inc(1);
-        }
+impl Options {
+    /// Prints the table.
+    pub fn run(self) -> CommandResult {
+        print(&self.measure()?, self.json)
     }
-    bar.finish_and_clear();
-    Ok(ContactTable {
-        setting: Setting::of(&gpu, graph, options),
-        rows,
-    })
+
+    /// Measures every radius with every candidate.
+    fn measure(&self) -> Result<ContactTable, LabError> {
+        let options = &self.frame;
+        let candidates = candidates(&self.technique, None)?;
+        let profile = profile_for(None, options.samples);
+        let profile = candidates.iter().fold(profile, |profile, candidate| {
+            candidate.profile_with(profile)
+        });
+        let gpu = Gpu::open(profile)?;
+        let file = GraphFile::read(&self.graph, None)?;
+        let bar = progress::bar((self.radius.len() * candidates.len()) as u64, "contacts");
+        let plainly = RenderOptions {
+            samples: 1,
+            ..options.clone()
+        };
+        let mut rows = Vec::new();
+        for &radius in &self.radius {
+            let file = file.with_radius(radius)?;
+            let contacts = Contacts::new(&gpu, options, &file)?;
+            let plain = plainly.frame(&gpu, &scene::load(CHAIRS)?, radius)?;
+            for candidate in &candidates {
+                let frame = if candidate.reads_depth() {
+                    &plain
+                } else {
+                    &contacts.frame
+                };
+                rows.push(contacts.judge(&gpu, frame, &candidate.graph(&file)?)?);
+                bar.inc(1);
+            }
+        }
+        bar.finish_and_clear();
+        Ok(ContactTable {
+            setting: Setting::of(&gpu, &self.graph, options),
+            rows,
+        })
+    }
 }
 
 impl fmt::Display for ContactTable {

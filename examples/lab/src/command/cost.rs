@@ -1,14 +1,16 @@
 //! `moment-shadows cost`: what passes cost, as ratios to copies, and in bytes.
 
 use std::path::{Path, PathBuf};
+use std::process::ExitCode;
 
 use super::render::RenderOptions;
+use super::{CommandResult, print};
 use crate::cost::bandwidth::Memory;
 use crate::cost::blur::{BLURS, PROFILE};
 use crate::cost::clock::{Clock, ClockKind, FEATURES};
 use crate::cost::graph_cost::GraphCost;
 use crate::cost::harness::Measured;
-use crate::cost::passes::{Grouping, cases};
+use crate::cost::passes::cases;
 use crate::cost::report::Conditions;
 use crate::cost::scattering::NODES;
 use crate::cost::summed_area::TABLES;
@@ -59,6 +61,22 @@ pub struct CostSubject {
     pub scattering: bool,
 }
 
+impl CostOptions {
+    /// Prints what the subject costs; fails where a gate is passed.
+    pub fn run(self) -> CommandResult {
+        if let Some(path) = &self.subject.graph {
+            let cost = graph(path, self.size, self.rounds, self.bandwidth)?;
+            return print(&cost, self.json);
+        }
+        let cost = table(&self.subject.list(), self.size, self.rounds)?;
+        print(&cost, self.json)?;
+        Ok(match cost.passed() {
+            true => ExitCode::SUCCESS,
+            false => ExitCode::FAILURE,
+        })
+    }
+}
+
 impl CostSubject {
     /// The list of subjects that was asked for in place of a graph.
     #[must_use]
@@ -88,7 +106,7 @@ pub fn graph(
     let scene = scene::load(&options.scene)?;
     let margin = file.kernel()?.map_or(0, |kernel| kernel.radius());
     let frame = options.frame(&gpu, &scene, margin)?;
-    let (cases, bytes) = cases(&gpu, &frame, &file, Grouping::Passes, |_| true)?;
+    let (cases, bytes) = cases(&gpu, &frame, &file)?;
     let clock = Clock::new(&gpu, ClockKind::for_device(&gpu));
     let bar = progress::bar(u64::from(rounds), "timing");
     let measured = Measured::of(&clock, &cases, rounds, || bar.inc(1))?;

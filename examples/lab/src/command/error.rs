@@ -1,13 +1,14 @@
 //! `moment-shadows error`: the error of a graph over all surfaces that the light's rays meet.
 
 use core::fmt;
-use std::path::Path;
+use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
 use moment_shadows::{FourMomentsBias, Storage, Technique};
 use serde::Serialize;
 
 use super::render::{LightChoice, RenderOptions, profile_for};
+use super::{CommandResult, print};
 use crate::candidate::TechniqueChoice;
 use crate::error::LabError;
 use crate::frame::Frame;
@@ -20,6 +21,41 @@ use crate::scene::{self, Scene};
 use crate::surface_error::{MapRun, SurfaceErrors, SurfaceTruth};
 use crate::techniques::described;
 use crate::truth::kernel::TapPattern;
+
+/// What `error` takes.
+#[derive(clap::Args)]
+pub struct Options {
+    #[command(flatten)]
+    frame: RenderOptions,
+    /// A glTF or GLB file, or a procedural scene: fence-and-foliage, hall.
+    #[arg(long, default_value = "fence-and-foliage")]
+    scene: String,
+    /// The graph file.
+    #[arg(long)]
+    graph: PathBuf,
+    /// A Gaussian of this radius, in texels, in place of the graph's own kernel.
+    #[arg(long, value_parser = clap::value_parser!(u32).range(1..=64))]
+    radius: Option<u32>,
+    /// A technique in place of the graph's own: a name with usual settings (vsm, evsm4, pcf, ...), or an object as in
+    /// graph files ({"esm":{"exponent":80}}).
+    #[arg(long)]
+    technique: Option<TechniqueChoice>,
+    /// Prints JSON.
+    #[arg(long)]
+    json: bool,
+}
+
+impl Options {
+    /// Prints the report.
+    pub fn run(self) -> CommandResult {
+        let options = RenderOptions {
+            scene: self.scene,
+            ..self.frame
+        };
+        let report = measure(&options, &self.graph, self.radius, self.technique.as_ref())?;
+        print(&report, self.json)
+    }
+}
 
 /// A drawn scene with the truths for one kernel: of all its surfaces, and of a picture.
 pub struct ErrorSubject {
@@ -98,10 +134,9 @@ impl ErrorSubject {
     ) -> Result<Self, LabError> {
         let files = core::slice::from_ref(file);
         let mut subjects = Self::of_kernels(gpu, scene, options, files, 1, step)?;
-        subjects.pop().ok_or_else(|| LabError::Unsuitable {
-            file: file.name.clone(),
-            reason: "there is nothing to measure".to_owned(),
-        })
+        subjects
+            .pop()
+            .ok_or_else(|| LabError::unsuitable(&file.name, "there is nothing to measure"))
     }
 
     /// Draws and peels a scene once, with room for the widest of the kernels around it, and computes its truths for the
@@ -222,7 +257,7 @@ impl Setting {
 
 /// Measures the graph on one scene; `radius` replaces the kernel by a Gaussian, and `technique` the technique and the
 /// storage of the map.
-pub fn run(
+pub fn measure(
     options: &RenderOptions,
     graph: &Path,
     radius: Option<u32>,

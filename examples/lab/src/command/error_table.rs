@@ -1,19 +1,19 @@
 //! `moment-shadows error-table`: the error over all surfaces of scenes, for techniques, storages and radii.
 
 mod average;
-mod orderings;
 
 use core::fmt;
 use std::path::{Path, PathBuf};
 
+use moment_shadows::{Storage, TechniqueError};
 use serde::Serialize;
 
 pub use average::error_plot;
-pub use orderings::{Ordering, orderings};
 
 use super::error::{ErrorSubject, GraphErrors, Setting, storage_name};
 use super::render::{RenderOptions, profile_for};
-use crate::candidate::Candidate;
+use super::{CommandResult, print};
+use crate::candidate::{Candidate, TechniqueChoice, candidates};
 use crate::error::LabError;
 use crate::gpu::Gpu;
 use crate::graph_file::GraphFile;
@@ -21,19 +21,38 @@ use crate::progress;
 use crate::scene;
 use crate::techniques::described;
 
-/// What is measured.
-#[derive(Clone, Debug)]
-pub struct TableOptions {
-    /// glTF files or names of procedural scenes.
-    pub scenes: Vec<String>,
-    /// Of the Gaussian, in texels.
-    pub radii: Vec<u32>,
-    /// What the graph is measured with.
-    pub candidates: Vec<Candidate>,
-    /// Of the map's texels every one of so many along either axis counts.
-    pub stride: u32,
+/// What `error-table` takes.
+#[derive(clap::Args)]
+pub struct Options {
     /// The light, its map and the picture.
-    pub render: RenderOptions,
+    #[command(flatten)]
+    pub frame: RenderOptions,
+    /// glTF or GLB files, or procedural scenes.
+    #[arg(long, num_args = 1.., default_values = ["fence-and-foliage", "hall"])]
+    pub scene: Vec<String>,
+    /// The graph file.
+    #[arg(long)]
+    pub graph: PathBuf,
+    /// Radii of the Gaussian, in texels, in place of the graph's own kernel.
+    #[arg(long, num_args = 1.., default_values = ["1", "4", "12"], value_parser = clap::value_parser!(u32).range(1..=64))]
+    pub radius: Vec<u32>,
+    /// Techniques in place of the graph's own, each in all of its storages: names with usual settings (vsm, evsm4, pcf,
+    /// ...), or objects as in graph files.
+    #[arg(long, num_args = 1.., conflicts_with = "all")]
+    pub technique: Vec<TechniqueChoice>,
+    /// All techniques in all of their storages, and as references the binary test and percentage-closer filtering with the
+    /// same kernel.
+    #[arg(long)]
+    pub all: bool,
+    /// Of the map's texels one of so many along either axis counts: 2 takes a quarter of the time.
+    #[arg(long, default_value_t = 1, value_parser = clap::value_parser!(u32).range(1..=64))]
+    pub stride: u32,
+    /// A folder for a plot of error against bits per texel, as SVG and PNG; it is made if need be.
+    #[arg(long)]
+    pub out: Option<PathBuf>,
+    /// Prints JSON.
+    #[arg(long)]
+    pub json: bool,
 }
 
 /// One scene, radius, technique and storage.
@@ -56,64 +75,79 @@ pub struct ErrorTable {
     pub stride: u32,
     /// Scene by scene, radius by radius, in the order of the candidates.
     pub rows: Vec<ErrorRow>,
-    /// Whether the published orderings hold, where all of their techniques were measured.
-    pub orderings: Vec<Ordering>,
     /// Files that were written.
     pub plots: Vec<PathBuf>,
 }
 
-/// Measures every scene with every radius and every candidate. A scene is peeled once, with room for the widest kernel.
-pub fn run(graph: &Path, options: &TableOptions) -> Result<ErrorTable, LabError> {
-    let profile = profile_for(None, options.render.samples);
-    let profile = options
-        .candidates
-        .iter()
-        .fold(profile, |profile, candidate| {
+impl Options {
+    /// Prints the table, and plots it where a folder is given.
+    pub fn run(self) -> CommandResult {
+        let mut table = self.measure(&self.candidates()?)?;
+        if let Some(out) = &self.out {
+            table.plot(out)?;
+        }
+        print(&table, self.json)
+    }
+
+    /// What is measured: all techniques, those that are named, or the graph's own in all of its storages.
+    fn candidates(&self) -> Result<Vec<Candidate>, TechniqueError> {
+        let storage = self.frame.storage;
+        if !self.all && self.technique.is_empty() {
+            let own = storage.map_or(Storage::OF_FOUR_MOMENTS.to_vec(), |storage| vec![storage]);
+            return Ok(own.into_iter().map(Candidate::Storage).collect());
+        }
+        candidates(&self.technique, storage)
+    }
+
+    /// Measures every scene with every radius and every candidate. A scene is peeled once, with room for the widest kernel.
+    pub fn measure(&self, candidates: &[Candidate]) -> Result<ErrorTable, LabError> {
+        let render = &self.frame;
+        let profile = profile_for(None, render.samples);
+        let profile = candidates.iter().fold(profile, |profile, candidate| {
             candidate.profile_with(profile)
         });
-    let gpu = Gpu::open(profile)?;
-    let file = GraphFile::read(graph, None)?;
-    let files: Vec<GraphFile> = options
-        .radii
-        .iter()
-        .map(|&radius| file.with_radius(radius))
-        .collect::<Result<_, _>>()?;
-    let rows_of_scene = (files.len() * options.candidates.len()) as u64;
-    let steps = ErrorSubject::steps(&options.render) + rows_of_scene;
-    let bar = progress::bar(options.scenes.len() as u64 * steps, "measuring surfaces");
-    let mut rows = Vec::new();
-    for name in &options.scenes {
-        let scene = scene::load(name)?;
-        let (render, stride) = (&options.render, options.stride);
-        let subjects =
-            ErrorSubject::of_kernels(&gpu, &scene, render, &files, stride, || bar.inc(1))?;
-        let plain = if options.candidates.iter().any(Candidate::reads_depth) {
-            Some(ErrorSubject::plain_frame(&gpu, &scene, render, &files)?)
-        } else {
-            None
-        };
-        for ((subject, file), &radius) in subjects.iter().zip(&files).zip(&options.radii) {
-            for candidate in &options.candidates {
-                let plain = plain.as_ref().filter(|_| candidate.reads_depth());
-                let frame = plain.unwrap_or(&subject.frame);
-                let errors = subject.judge_on(&gpu, frame, &candidate.graph(file)?, None)?;
-                rows.push(ErrorRow {
-                    scene: scene.name.clone(),
-                    radius,
-                    errors,
-                });
-                bar.inc(1);
+        let gpu = Gpu::open(profile)?;
+        let file = GraphFile::read(&self.graph, None)?;
+        let files: Vec<GraphFile> = self
+            .radius
+            .iter()
+            .map(|&radius| file.with_radius(radius))
+            .collect::<Result<_, _>>()?;
+        let rows_of_scene = (files.len() * candidates.len()) as u64;
+        let steps = ErrorSubject::steps(render) + rows_of_scene;
+        let bar = progress::bar(self.scene.len() as u64 * steps, "measuring surfaces");
+        let mut rows = Vec::new();
+        for name in &self.scene {
+            let scene = scene::load(name)?;
+            let subjects =
+                ErrorSubject::of_kernels(&gpu, &scene, render, &files, self.stride, || bar.inc(1))?;
+            let plain = if candidates.iter().any(Candidate::reads_depth) {
+                Some(ErrorSubject::plain_frame(&gpu, &scene, render, &files)?)
+            } else {
+                None
+            };
+            for ((subject, file), &radius) in subjects.iter().zip(&files).zip(&self.radius) {
+                for candidate in candidates {
+                    let plain = plain.as_ref().filter(|_| candidate.reads_depth());
+                    let frame = plain.unwrap_or(&subject.frame);
+                    let errors = subject.judge_on(&gpu, frame, &candidate.graph(file)?, None)?;
+                    rows.push(ErrorRow {
+                        scene: scene.name.clone(),
+                        radius,
+                        errors,
+                    });
+                    bar.inc(1);
+                }
             }
         }
+        bar.finish_and_clear();
+        Ok(ErrorTable {
+            setting: Setting::of(&gpu, &self.graph, render),
+            stride: self.stride,
+            rows,
+            plots: Vec::new(),
+        })
     }
-    bar.finish_and_clear();
-    Ok(ErrorTable {
-        setting: Setting::of(&gpu, graph, &options.render),
-        stride: options.stride,
-        orderings: orderings(&rows),
-        rows,
-        plots: Vec::new(),
-    })
 }
 
 impl ErrorTable {
@@ -177,12 +211,6 @@ impl fmt::Display for ErrorTable {
                 write!(f, " {:.3} |", 100.0 * error)?;
             }
             writeln!(f)?;
-        }
-        if !self.orderings.is_empty() {
-            writeln!(f)?;
-        }
-        for ordering in &self.orderings {
-            writeln!(f, "{ordering}")?;
         }
         for plot in &self.plots {
             writeln!(f, "{}", plot.display())?;

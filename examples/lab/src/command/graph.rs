@@ -1,18 +1,52 @@
 //! `moment-shadows graph`: checks and prints a graph file and its plan.
 
-use std::path::Path;
+use std::path::{Path, PathBuf};
+use std::process::ExitCode;
 
 use moment_shadows::Profile;
 use moment_shadows_graph::{
     Capabilities, Direction, Graph, Imports, NodeDesc, Plan, compile, describe,
 };
 
+use super::{CommandResult, argument};
 use crate::error::LabError;
 use crate::graph_file::GraphFile;
 
+/// What `graph` takes.
+#[derive(clap::Args)]
+pub struct Options {
+    /// The graph file.
+    file: PathBuf,
+    /// Also prints the compiled plan.
+    #[arg(long)]
+    plan: bool,
+    /// Prints the plan as JSON.
+    #[arg(long, requires = "plan")]
+    json: bool,
+    /// What the plan may rely on.
+    #[arg(long, value_parser = argument::profile(), default_value = "native")]
+    profile: Profile,
+}
+
+impl Options {
+    /// Checks the file and prints it, or its plan as JSON.
+    pub fn run(self) -> CommandResult {
+        let (summary, plan) = check(&self.file, self.profile)?;
+        if self.json {
+            println!("{}", serde_json::to_string_pretty(&plan)?);
+            return Ok(ExitCode::SUCCESS);
+        }
+        println!("{summary}");
+        if self.plan {
+            println!("\n{plan}");
+        }
+        Ok(ExitCode::SUCCESS)
+    }
+}
+
 /// Compiles a graph file for a profile, with its imports as the file expects them, without a device. Gives its plan, and
 /// the graph as text.
-pub fn check(path: &Path, profile: Profile) -> Result<(String, Plan), LabError> {
+fn check(path: &Path, profile: Profile) -> Result<(String, Plan), LabError> {
     let file = GraphFile::read(path, None)?;
     let capabilities = Capabilities::of_profile(profile);
     let failed = |error| LabError::Graph {

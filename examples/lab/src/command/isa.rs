@@ -3,10 +3,11 @@
 use std::path::PathBuf;
 use std::process::ExitCode;
 
+use super::CommandResult;
+use crate::error::LabError;
 use crate::isa::child;
 use crate::isa::chip::Chip;
 use crate::isa::compare::compare;
-use crate::isa::error::IsaError;
 use crate::isa::table::Table;
 
 /// What `isa` takes.
@@ -39,43 +40,61 @@ enum ChipArgument {
     All,
 }
 
-/// Compiles every shader, or prints one; [`ExitCode::FAILURE`] where a check finds a figure above the table.
-///
-/// # Errors
-/// [`IsaError`].
-pub fn run(options: &Options) -> Result<ExitCode, IsaError> {
-    let chips: &[Chip] = match options.chip {
-        ChipArgument::Navi21 => &[Chip::Navi21],
-        ChipArgument::Vega10 => &[Chip::Vega10],
-        ChipArgument::All => &Chip::ALL,
-    };
-    let path = &options.table;
-    if options.update {
-        child::table(&Chip::ALL)?.write(path)?;
-        println!("{} is up to date", path.display());
-    } else if options.check {
-        let (before, now) = (Table::read(path)?, child::table(chips)?);
-        let compared = compare(&before, &now).ok_or_else(|| {
+impl Options {
+    /// Compiles every shader, or prints one; [`ExitCode::FAILURE`] where a check finds a figure above the table.
+    pub fn run(self) -> CommandResult {
+        let chips: &[Chip] = match self.chip {
+            ChipArgument::Navi21 => &[Chip::Navi21],
+            ChipArgument::Vega10 => &[Chip::Vega10],
+            ChipArgument::All => &Chip::ALL,
+        };
+        let path = &self.table;
+        if self.update {
+            child::table(&Chip::ALL)?.write(path)?;
+            println!("{} is up to date", path.display());
+        } else if self.check {
+            let (before, now) = (Table::read(path)?, child::table(chips)?);
+            let compared = compare(&before, &now).ok_or_else(|| {
             let reason = format!(
                 "it belongs to {} {}, but this is {} {}, whose figures cannot be compared with it; install that driver, or \
                  make a table for this one with `isa --update`",
                 before.driver.name, before.driver.version, now.driver.name, now.driver.version
             );
-            IsaError::file(path, reason)
+            LabError::unsuitable(path.display(), reason)
         })?;
-        print!("{compared}");
-        if !compared.passed() {
-            return Ok(ExitCode::FAILURE);
+            print!("{compared}");
+            if !compared.passed() {
+                return Ok(ExitCode::FAILURE);
+            }
+        } else if let Some(shader) = &self.shader {
+            for &chip in chips {
+                println!("{chip}\n{}", child::disassembly(chip, shader)?);
+            }
+        } else if self.json {
+            let text = serde_json::to_string_pretty(&child::table(chips)?);
+            println!(
+                "{}",
+                text.map_err(|error| LabError::unsuitable(path.display(), error))?
+            );
+        } else {
+            print!("{}", child::table(chips)?);
         }
-    } else if let Some(shader) = &options.shader {
-        for &chip in chips {
-            println!("{chip}\n{}", child::disassembly(chip, shader)?);
-        }
-    } else if options.json {
-        let text = serde_json::to_string_pretty(&child::table(chips)?);
-        println!("{}", text.map_err(|error| IsaError::file(path, error))?);
-    } else {
-        print!("{}", child::table(chips)?);
+        Ok(ExitCode::SUCCESS)
     }
-    Ok(ExitCode::SUCCESS)
+}
+
+/// What the process takes that compiles for one chip.
+#[derive(clap::Args)]
+pub struct ChildOptions {
+    #[arg(value_enum)]
+    chip: Chip,
+    shader: Option<String>,
+}
+
+impl ChildOptions {
+    /// Prints what was compiled, for the process that asked for it.
+    pub fn run(self) -> CommandResult {
+        print!("{}", child::compile(self.chip, self.shader.as_deref())?);
+        Ok(ExitCode::SUCCESS)
+    }
 }

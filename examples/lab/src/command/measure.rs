@@ -1,10 +1,12 @@
 //! `moment-shadows measure`: errors of a technique with every storage on several scenes, beside the exact bound.
 
 use std::fmt::Write;
-use std::path::Path;
+use std::path::{Path, PathBuf};
+use std::process::ExitCode;
 
 use moment_shadows::Storage;
 
+use super::CommandResult;
 use super::render::RenderOptions;
 use crate::error::LabError;
 use crate::gpu::Gpu;
@@ -12,21 +14,48 @@ use crate::graph_frame::GraphFrame;
 use crate::judgement::{Judgement, Truth};
 use crate::progress;
 use crate::scene;
+use crate::technique_argument::TechniqueArgument;
+
+/// What `measure` takes.
+#[derive(clap::Args)]
+pub struct Options {
+    #[command(flatten)]
+    frame: RenderOptions,
+    /// A technique in place of the graph's own: a name, or settings as in a graph file.
+    #[arg(long, value_name = "NAME|JSON")]
+    technique: Option<TechniqueArgument>,
+    /// glTF or GLB files, or procedural scenes.
+    #[arg(long, num_args = 1.., default_values = ["fence-and-foliage", "hall"])]
+    scene: Vec<String>,
+    /// The graph file.
+    #[arg(long)]
+    graph: PathBuf,
+}
 
 /// Figures of one scene and storage.
-pub struct Row {
-    /// The scene's name.
-    pub scene: String,
-    /// The storage; none where the technique reads the plain depth map.
-    pub storage: Option<Storage>,
-    /// The figures.
-    pub judgement: Judgement,
+struct Row {
+    scene: String,
+    /// None where the technique reads the plain depth map.
+    storage: Option<Storage>,
+    judgement: Judgement,
     /// The exact bound's own mean error over facing pixels.
-    pub bound_error: f64,
+    bound_error: f64,
+}
+
+impl Options {
+    /// Prints the table.
+    pub fn run(self) -> CommandResult {
+        let options = RenderOptions {
+            technique: self.technique,
+            ..self.frame
+        };
+        print!("{}", table(&rows(&self.scene, &self.graph, &options)?));
+        Ok(ExitCode::SUCCESS)
+    }
 }
 
 /// Renders every scene with every storage of the technique, in single precision, and compares each with the truth.
-pub fn run(scenes: &[String], graph: &Path, options: &RenderOptions) -> Result<Vec<Row>, LabError> {
+fn rows(scenes: &[String], graph: &Path, options: &RenderOptions) -> Result<Vec<Row>, LabError> {
     let storages = match &options.technique {
         None => Storage::OF_FOUR_MOMENTS.map(Some).to_vec(),
         Some(technique) => technique.storages(),
@@ -62,7 +91,7 @@ pub fn run(scenes: &[String], graph: &Path, options: &RenderOptions) -> Result<V
 }
 
 /// The rows as a table.
-pub fn table(rows: &[Row]) -> String {
+fn table(rows: &[Row]) -> String {
     let mut text = format!(
         "{:<20} {:<8} {:>9} {:>9} {:>9} {:>9} {:>9} {:>9} {:>9} {:>5}\n",
         "scene",

@@ -1,11 +1,12 @@
 //! `moment-shadows minification`: a scene from afar, with and without the mip levels of a graph.
 
 use std::fmt;
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
 use serde::Serialize;
 
 use super::render::{RenderOptions, profile_for};
+use super::{CommandResult, print};
 use crate::error::LabError;
 use crate::footprint::{Flicker, PixelTruth, lit_pixels};
 use crate::frame::{Frame, FrameDesc};
@@ -16,6 +17,25 @@ use crate::metric::{ErrorFigures, compare};
 use crate::progress;
 use crate::scene::{self, Scene};
 use crate::view::View;
+
+/// What `minification` takes.
+#[derive(clap::Args)]
+pub struct Options {
+    #[command(flatten)]
+    frame: RenderOptions,
+    /// A glTF or GLB file, or a procedural scene: fence-and-foliage, hall.
+    #[arg(long, default_value = "fence-and-foliage")]
+    scene: String,
+    /// The graph file, with a downsample node.
+    #[arg(long)]
+    graph: PathBuf,
+    /// The camera's distance, as a multiple of the viewpoint's.
+    #[arg(long, default_value_t = 8.0, value_parser = distance)]
+    distance: f64,
+    /// Prints JSON.
+    #[arg(long)]
+    json: bool,
+}
 
 /// Frames of the film.
 pub const FRAMES: u32 = 60;
@@ -50,8 +70,27 @@ pub struct Minification {
     pub without_mips: Figures,
 }
 
+impl Options {
+    /// Prints the outcome.
+    pub fn run(self) -> CommandResult {
+        let options = RenderOptions {
+            scene: self.scene,
+            ..self.frame
+        };
+        print(&measure(&options, &self.graph, self.distance)?, self.json)
+    }
+}
+
+/// A multiple of a distance.
+fn distance(text: &str) -> Result<f64, String> {
+    match text.parse() {
+        Ok(distance) if (1.0..=1000.0).contains(&distance) => Ok(distance),
+        _ => Err("a distance is a number from 1 to 1000".to_owned()),
+    }
+}
+
 /// Measures a graph with mip levels from `distance` times the viewpoint's own distance.
-pub fn run(options: &RenderOptions, graph: &Path, distance: f64) -> Result<Minification, LabError> {
+fn measure(options: &RenderOptions, graph: &Path, distance: f64) -> Result<Minification, LabError> {
     let with = GraphFile::read(graph, options.storage)?.in_single_precision()?;
     let without = with.without_mip_levels()?;
     let scene = scene::load(&options.scene)?;

@@ -1,18 +1,16 @@
-//! The subcommands of `moment-shadows`.
+//! The subcommands of `moment-shadows`: a file has the options of each, and runs it.
 
-pub mod bases;
+pub mod adapter;
+mod argument;
 pub mod bias;
 pub mod contacts;
 pub mod cost;
-pub mod cost_growth;
 pub mod error;
 pub mod error_table;
 pub mod graph;
 pub mod isa;
-pub mod layers_figure;
 pub mod measure;
 pub mod minification;
-pub mod orderings;
 pub mod render;
 pub mod scattering_error;
 pub mod scattering_flicker;
@@ -21,3 +19,23 @@ pub mod soft_error;
 pub mod stability;
 pub mod technique_pictures;
 pub mod validate;
+pub mod vectors;
+
+use core::fmt::Display;
+use std::error::Error;
+use std::process::ExitCode;
+
+use serde::Serialize;
+
+/// What a command ends with: its exit code, or what it says before it ends with 1.
+pub type CommandResult = Result<ExitCode, Box<dyn Error>>;
+
+/// Prints what was found, as JSON where that is asked for.
+pub fn print(report: &(impl Serialize + Display), json: bool) -> CommandResult {
+    if json {
+        println!("{}", serde_json::to_string_pretty(report)?);
+    } else {
+        print!("{report}");
+    }
+    Ok(ExitCode::SUCCESS)
+}

@@ -1,9 +1,12 @@
 //! `moment-shadows render`: a scene with the shadows of a graph, as a picture.
 
 use std::path::{Path, PathBuf};
+use std::process::ExitCode;
 
+use clap::builder::TypedValueParser;
 use moment_shadows::{Profile, Storage};
 
+use super::{CommandResult, argument};
 use crate::error::LabError;
 use crate::frame::{Frame, FrameDesc};
 use crate::gpu::Gpu;
@@ -18,7 +21,7 @@ use crate::technique_argument::TechniqueArgument;
 use crate::view::View;
 
 /// The light of a rendering.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, clap::ValueEnum)]
 pub enum LightChoice {
     /// A sun, fitted to the casters.
     Sun,
@@ -26,26 +29,58 @@ pub enum LightChoice {
     Spot,
 }
 
-/// What to render.
-#[derive(Clone, Debug)]
+/// What `render` takes.
+#[derive(clap::Args)]
+pub struct Options {
+    #[command(flatten)]
+    frame: RenderOptions,
+    /// A glTF or GLB file, or a procedural scene: fence-and-foliage, hall.
+    #[arg(long, default_value = "fence-and-foliage")]
+    scene: String,
+    /// The graph file.
+    #[arg(long)]
+    graph: PathBuf,
+    /// The picture to write.
+    #[arg(long)]
+    out: PathBuf,
+    /// A technique in place of the graph's own: a name, or settings as in a graph file. Tests on the plain depth map
+    /// (binary, pcf_..., pcss) get a map of one sample per texel.
+    #[arg(long, value_name = "NAME|JSON")]
+    technique: Option<TechniqueArgument>,
+    /// Also writes the brute-force picture and the difference, and prints the error.
+    #[arg(long)]
+    truth: bool,
+}
+
+/// What to render. The scene and the technique are arguments of their own in each command.
+#[derive(Clone, Debug, clap::Args)]
 pub struct RenderOptions {
     /// A glTF file or the name of a procedural scene.
+    #[arg(skip)]
     pub scene: String,
-    /// The numbered viewpoint.
+    /// One of the numbered viewpoints and light directions.
+    #[arg(long, default_value_t = 0)]
     pub view: u32,
     /// The light.
+    #[arg(long, value_enum, default_value = "sun")]
     pub light: LightChoice,
-    /// Whether the light's depth is stored reversed.
+    /// Stores the light's depth reversed.
+    #[arg(long)]
     pub reversed: bool,
-    /// Width and height of the picture.
+    /// Width of the picture; the height follows at 16 to 9.
+    #[arg(long = "width", value_name = "WIDTH", default_value = "1280", value_parser = clap::value_parser!(u32).range(16..=8192).map(|width| [width, width * 9 / 16]))]
     pub size: [u32; 2],
-    /// Width and height of the light's map.
+    /// Texels per side of the light's map.
+    #[arg(long, default_value_t = 1024, value_parser = clap::value_parser!(u32).range(16..=8192))]
     pub map: u32,
-    /// Samples per texel of the light's map.
+    /// Samples per texel of the light's map: 1 and 4 everywhere, 2 and 8 where the device can.
+    #[arg(long, default_value_t = 4)]
     pub samples: u32,
     /// A storage in place of the graph's own.
+    #[arg(long, value_parser = argument::storage())]
     pub storage: Option<Storage>,
     /// A technique in place of the graph's own.
+    #[arg(skip)]
     pub technique: Option<TechniqueArgument>,
 }
 
@@ -125,9 +160,30 @@ pub fn profile_for(storage: Option<Storage>, samples: u32) -> Profile {
     }
 }
 
+impl Options {
+    /// Renders, and prints the error where the truth is asked for.
+    pub fn run(self) -> CommandResult {
+        let options = RenderOptions {
+            scene: self.scene,
+            technique: self.technique,
+            ..self.frame
+        };
+        if let Some((judgement, truth)) = render(&options, &self.graph, &self.out, self.truth)? {
+            println!("{}", judgement.error);
+            println!("exact bound on the same depths\n{}", truth.bound_error);
+            println!("{}", judgement.excess);
+            println!(
+                "mean absolute error {:.6}",
+                judgement.error.facing.mean_absolute
+            );
+        }
+        Ok(ExitCode::SUCCESS)
+    }
+}
+
 /// Renders to `out`. With `truth`, also writes the brute-force picture and the difference beside it, and gives the
 /// judgement.
-pub fn run(
+fn render(
     options: &RenderOptions,
     graph: &Path,
     out: &Path,

@@ -1,8 +1,10 @@
 //! `moment-shadows shaders`: every linked shader as a file, for other compilers to judge.
 
 use std::path::PathBuf;
+use std::process::ExitCode;
 
-use crate::shaders::{self, ShadersError};
+use super::CommandResult;
+use crate::shaders;
 
 /// What `shaders` takes.
 #[derive(clap::Args)]
@@ -12,13 +14,12 @@ pub struct Options {
     out: PathBuf,
 }
 
-/// Writes every shader of the library into the new folder, and says how many they are.
-///
-/// # Errors
-/// [`ShadersError`]; there is then no folder.
-pub fn run(options: &Options) -> Result<(), ShadersError> {
-    let all = shaders::all()?;
-    shaders::write(&all, &options.out)?;
-    println!("{} shaders in {}", all.len(), options.out.display());
-    Ok(())
+impl Options {
+    /// Writes every shader of the library into the new folder, and says how many they are.
+    pub fn run(self) -> CommandResult {
+        let all = shaders::all()?;
+        shaders::write(&all, &self.out)?;
+        println!("{} shaders in {}", all.len(), self.out.display());
+        Ok(ExitCode::SUCCESS)
+    }
 }

@@ -1,36 +1,85 @@
 //! `moment-shadows stability`: every technique with every storage on inputs of all kinds.
 
-use std::path::Path;
+use std::path::{Path, PathBuf};
+use std::process::ExitCode;
 
-use moment_shadows::{MapEncoding, Profile};
+use moment_shadows::{MapEncoding, Profile, Storage, nearest};
 
+use super::CommandResult;
+use crate::error::LabError;
 use crate::gpu::Gpu;
 use crate::picture::{PictureError, save_atomically, save_rgba};
 use crate::progress;
 use crate::stability::report::Report;
-use crate::stability::{self, Effort, StabilityError, plot};
-use crate::techniques::{filterable, label};
+use crate::stability::{self, Effort, plot};
+use crate::techniques::{STORAGES, filterable, label};
+
+/// What `stability` takes.
+#[derive(clap::Args)]
+pub struct Options {
+    /// Tries a hundredth of the inputs, and shorter climbs.
+    #[arg(long)]
+    quick: bool,
+    /// A folder for the report as text, JSON and a picture; it is made if need be.
+    #[arg(long)]
+    out: Option<PathBuf>,
+    /// Only this technique.
+    #[arg(long, value_parser = technique)]
+    technique: Option<String>,
+    /// Only this storage.
+    #[arg(long, value_parser = STORAGES.map(Storage::name))]
+    storage: Option<String>,
+    /// Inputs per technique and storage in place of 10000000, or of 100000 if quick.
+    #[arg(long, value_parser = clap::value_parser!(u64).range(10..=1_000_000_000))]
+    samples: Option<u64>,
+    /// The same seed gives the same inputs.
+    #[arg(long, default_value_t = Effort::FULL.seed)]
+    seed: u64,
+}
 
 /// The exit code where there is a fault; errors that prevent a report have 1, wrong arguments 2.
-pub const FAULT_CODE: u8 = 3;
+const FAULT_CODE: u8 = 3;
 
-/// The labels of all techniques.
-#[must_use]
-pub fn techniques() -> Vec<String> {
+impl Options {
+    /// Prints the report; ends with 3 where there is a fault.
+    pub fn run(self) -> CommandResult {
+        let usual = if self.quick {
+            Effort::QUICK
+        } else {
+            Effort::FULL
+        };
+        let effort = Effort {
+            samples: self.samples.unwrap_or(usual.samples),
+            seed: self.seed,
+            ..usual
+        };
+        let pairs = pairs(self.technique.as_deref(), self.storage.as_deref())?;
+        let report = report(&pairs, effort, self.out.as_deref())?;
+        print!("{report}");
+        Ok(match report.faults() {
+            0 => ExitCode::SUCCESS,
+            _ => ExitCode::from(FAULT_CODE),
+        })
+    }
+}
+
+/// The label of a technique with a filterable map.
+fn technique(text: &str) -> Result<String, String> {
     let mut labels: Vec<String> = filterable()
         .iter()
         .map(|pair| label(pair.technique()))
         .collect();
     labels.sort();
     labels.dedup();
-    labels
+    if labels.iter().any(|label| label == text) {
+        return Ok(text.to_owned());
+    }
+    let meant = nearest(text, labels.iter().map(String::as_str));
+    Err(format!("the nearest techniques are {meant}"))
 }
 
 /// The pairs of a technique, a storage, both or neither.
-pub fn pairs(
-    technique: Option<&str>,
-    storage: Option<&str>,
-) -> Result<Vec<MapEncoding>, StabilityError> {
+pub fn pairs(technique: Option<&str>, storage: Option<&str>) -> Result<Vec<MapEncoding>, LabError> {
     let of_technique: Vec<MapEncoding> = filterable()
         .into_iter()
         .filter(|pair| technique.is_none_or(|name| label(pair.technique()) == name))
@@ -45,7 +94,7 @@ pub fn pairs(
         .filter(|pair| storage.is_none_or(|name| pair.storage().name() == name))
         .collect();
     if pairs.is_empty() {
-        return Err(StabilityError::NoPair {
+        return Err(LabError::NoPair {
             technique: technique.unwrap_or("any technique").to_owned(),
             storage: storage.unwrap_or("any storage").to_owned(),
             legal,
@@ -55,11 +104,7 @@ pub fn pairs(
 }
 
 /// Makes the report of some pairs, and writes it into the folder `out` as text, JSON and a picture.
-pub fn run(
-    pairs: &[MapEncoding],
-    effort: Effort,
-    out: Option<&Path>,
-) -> Result<Report, StabilityError> {
+fn report(pairs: &[MapEncoding], effort: Effort, out: Option<&Path>) -> Result<Report, LabError> {
     let gpu = Gpu::open(Profile::WebgpuCore)?;
     if let Some(out) = out {
         // Before the work, which takes minutes.

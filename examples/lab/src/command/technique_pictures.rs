@@ -1,10 +1,12 @@
 //! `moment-shadows technique-pictures`: every technique on one view, and where it fails.
 
 use std::fmt::Write;
-use std::path::Path;
+use std::path::{Path, PathBuf};
+use std::process::ExitCode;
 
 use moment_shadows::{Profile, Storage, nearest};
 
+use super::CommandResult;
 use super::render::RenderOptions;
 use crate::error::LabError;
 use crate::frame::Frame;
@@ -19,6 +21,29 @@ use crate::progress;
 use crate::scene::{self, Scene, contacts, place_on_ground, stacked_boards};
 use crate::technique_argument::TechniqueArgument;
 use crate::truth::area_light::{AreaLight, USUAL_PLACES};
+
+/// What `technique-pictures` takes.
+#[derive(clap::Args)]
+pub struct Options {
+    /// The folder to make.
+    #[arg(long)]
+    out: PathBuf,
+    /// A glTF or GLB file, or a procedural scene: fence-and-foliage, hall.
+    #[arg(long, default_value = "hall")]
+    scene: String,
+    /// Only the technique of this name.
+    #[arg(long)]
+    only: Option<String>,
+}
+
+impl Options {
+    /// Makes the pictures and prints what they show.
+    pub fn run(self) -> CommandResult {
+        let made = draw(&self.out, &self.scene, self.only.as_deref())?;
+        print!("{}", table(&made));
+        Ok(ExitCode::SUCCESS)
+    }
+}
 
 /// The chain of resolve, blur (radius 4) and shading that techniques are put into.
 const GRAPH: &str = include_str!("../../../hard_shadows.json");
@@ -127,30 +152,30 @@ struct Stage {
 }
 
 /// What was made.
-pub struct Made {
+struct Made {
     /// The technique's name.
-    pub name: String,
+    name: String,
     /// Bits per texel of the map on the common view; none where the plain depth map is read.
-    pub bits: Option<u32>,
+    bits: Option<u32>,
     /// Planes of that map.
-    pub planes: u32,
+    planes: u32,
     /// Mean absolute error over the lit side of surfaces, on the view and where the technique fails.
-    pub errors: [f64; 2],
+    errors: [f64; 2],
 }
 
 /// Makes the pictures of all techniques in `out`, with `view` as the common scene; of one, if it is named.
-pub fn run(out: &Path, view: &str, only: Option<&str>) -> Result<Vec<Made>, LabError> {
+fn draw(out: &Path, view: &str, only: Option<&str>) -> Result<Vec<Made>, LabError> {
     let mut subjects = subjects();
     if let Some(only) = only {
         let names: Vec<&str> = subjects.iter().map(|subject| subject.name).collect();
         if !names.contains(&only) {
-            return Err(LabError::Unsuitable {
-                file: only.to_owned(),
-                reason: format!(
+            return Err(LabError::unsuitable(
+                only,
+                format!(
                     "no technique of this name is pictured; the nearest are {}",
                     nearest(only, names)
                 ),
-            });
+            ));
         }
         subjects.retain(|subject| subject.name == only);
     }
@@ -195,8 +220,7 @@ pub fn run(out: &Path, view: &str, only: Option<&str>) -> Result<Vec<Made>, LabE
 }
 
 /// What was made, as a table.
-#[must_use]
-pub fn table(made: &[Made]) -> String {
+fn table(made: &[Made]) -> String {
     let mut text = format!(
         "{:<14} {:>14} {:>7} {:>10} {:>10}\n",
         "technique", "bits per texel", "planes", "on view", "failing"
@@ -254,11 +278,9 @@ impl Stage {
         technique: &str,
         storage: Option<Storage>,
     ) -> Result<Shaded, LabError> {
-        let argument: TechniqueArgument =
-            technique.parse().map_err(|error| LabError::Unsuitable {
-                file: technique.to_owned(),
-                reason: format!("{error}"),
-            })?;
+        let argument: TechniqueArgument = technique
+            .parse()
+            .map_err(|error| LabError::unsuitable(technique, format!("{error}")))?;
         let file = graph
             .with_technique_argument(&argument, storage)?
             .in_single_precision()?;

@@ -10,6 +10,26 @@ use moment_shadows::{
     validate_module,
 };
 
+use super::{CommandResult, argument};
+
+/// What `validate` takes.
+#[derive(clap::Args)]
+pub struct Options {
+    /// WGSL files.
+    #[arg(required = true)]
+    files: Vec<PathBuf>,
+    /// What the shaders may rely on.
+    #[arg(long, value_parser = argument::profile())]
+    profile: Option<Profile>,
+}
+
+impl Options {
+    /// Validates the files as [`run`] does.
+    pub fn run(self) -> CommandResult {
+        Ok(run(&self.files, self.profile))
+    }
+}
+
 /// A file that could not be read, or is not valid.
 #[derive(Debug, thiserror::Error)]
 #[non_exhaustive]

@@ -16,23 +16,12 @@ use crate::gpu::Gpu;
 use crate::graph_file::GraphFile;
 use crate::graph_frame::GraphFrame;
 
-/// What makes a row.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Grouping {
-    /// A pass; those of a node that write fewer than [`FEWEST_TEXELS`] together.
-    Passes,
-    /// All passes of a node, in copies of what its first pass writes.
-    Nodes,
-}
-
-/// Binds the graph to the frame, runs it, and compares what its nodes give with the reference: cases of those nodes whose
-/// types are `wanted`, and the bytes that the plan creates and moves.
+/// Binds the graph to the frame, runs it, and compares what its nodes give with the reference: a case per pass, those of a
+/// node that write fewer than [`FEWEST_TEXELS`] together, and the bytes that the plan creates and moves.
 pub fn cases(
     gpu: &Gpu,
     frame: &Frame,
     file: &GraphFile,
-    grouping: Grouping,
-    wanted: impl Fn(&str) -> bool,
 ) -> Result<(Vec<Case>, [u64; 2]), CostError> {
     let opened = OpenedGraph::run(gpu, frame, file)?;
     let graph = Rc::new(GraphFrame::new(gpu, frame, file)?);
@@ -41,33 +30,23 @@ pub fn cases(
     let plan = &graph.plan;
     let mut differences = BTreeMap::new();
     let mut cases = Vec::new();
-    for group in groups(plan, grouping) {
+    for group in groups(plan) {
         let numbers: Vec<usize> = group.iter().map(|(number, ..)| *number).collect();
         let passes: Vec<&PlannedPass> =
             numbers.iter().map(|&number| &plan.passes[number]).collect();
         let node = passes[0].node.clone();
-        if !file.node_entry(&node, "type").as_str().is_some_and(&wanted) {
-            continue;
-        }
         let difference = match differences.get(&node) {
             Some(&difference) => difference,
             None => opened.difference(gpu, frame, &node)?,
         };
         differences.insert(node.clone(), difference);
         let labels: Vec<String> = passes.iter().map(|pass| pass.label.clone()).collect();
-        let (name, copied) = match grouping {
-            Grouping::Passes => (format!("{node}/{}", between(&labels, " to ")), group.len()),
-            Grouping::Nodes => (node, 1),
-        };
+        let name = format!("{node}/{}", between(&labels, " to "));
         let recorded = Rc::clone(&graph);
         cases.push(Case {
             facts: Facts(vec![("pass", name.clone().into())]),
             name,
-            written: group
-                .iter()
-                .map(|(_, desc, _)| desc.clone())
-                .take(copied)
-                .collect(),
+            written: group.iter().map(|(_, desc, _)| desc.clone()).collect(),
             work: group[0].2,
             bytes: [
                 passes.iter().map(|pass| pass.bytes_read).sum(),
@@ -96,16 +75,15 @@ pub fn cases(
 type Written = (usize, TextureDesc, CopyWork);
 
 /// The passes that make a row each; none of them is empty.
-fn groups(plan: &Plan, grouping: Grouping) -> Vec<Vec<Written>> {
+fn groups(plan: &Plan) -> Vec<Vec<Written>> {
     let mut groups: Vec<Vec<Written>> = Vec::new();
     // The host's own passes are not ours to measure.
     for pass in (0..plan.passes.len()).filter_map(|number| written(plan, number)) {
         let node = |pass: &Written| &plan.passes[pass.0].node;
         let small = |pass: &Written| texels(&pass.1) < FEWEST_TEXELS;
-        let joined = groups.iter_mut().find(|group| {
-            node(&group[0]) == node(&pass)
-                && (grouping == Grouping::Nodes || (small(&group[0]) && small(&pass)))
-        });
+        let joined = groups
+            .iter_mut()
+            .find(|group| node(&group[0]) == node(&pass) && small(&group[0]) && small(&pass));
         match joined {
             Some(group) => group.push(pass),
             None => groups.push(vec![pass]),

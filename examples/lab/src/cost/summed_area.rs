@@ -13,9 +13,8 @@ use super::protocol::Record;
 use super::table::{Facts, Gate};
 use super::texels::{encode, noise};
 use super::{CostError, SubjectList};
-use crate::error::LabError;
 use crate::gpu::Gpu;
-use crate::summed_area::{NaiveTable, TableError, reference};
+use crate::summed_area::{NaiveTable, reference};
 
 /// Tables of maps of up to a size.
 pub const TABLES: SubjectList = SubjectList {
@@ -92,8 +91,8 @@ fn cases(gpu: &Gpu, size: u32) -> Result<Vec<Case>, CostError> {
         let record: Record<'static> = Box::new(move |encoder| node.record(Passes::All, encoder));
         cases.push(case(method, tile, chosen, bytes, &found, record));
     }
-    let naive = NaiveTable::new(gpu, &desc, &bytes).map_err(refused)?;
-    let found = naive.run(gpu).map_err(refused)?;
+    let naive = NaiveTable::new(gpu, &desc, &bytes)?;
+    let found = naive.run(gpu)?;
     let moved =
         NaiveTable::bytes_per_texel().map(|bytes| u64::from(bytes * size) * u64::from(size));
     let record: Record<'static> = Box::new(move |encoder| {
@@ -102,12 +101,4 @@ fn cases(gpu: &Gpu, size: u32) -> Result<Vec<Case>, CostError> {
     });
     cases.push(case("naive", [size, 1], false, moved, &found, record));
     Ok(cases)
-}
-
-/// The usual way needs no graph, and so fails for a shader or the device alone.
-fn refused(error: TableError) -> LabError {
-    LabError::Unsuitable {
-        file: "naive summed-area table".to_owned(),
-        reason: error.to_string(),
-    }
 }

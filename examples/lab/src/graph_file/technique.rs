@@ -184,9 +184,6 @@ impl GraphFile {
     }
 
     pub(super) fn unsuitable(&self, reason: String) -> LabError {
-        LabError::Unsuitable {
-            file: self.name.clone(),
-            reason,
-        }
+        LabError::unsuitable(&self.name, reason)
     }
 }

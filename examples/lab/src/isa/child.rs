@@ -6,10 +6,10 @@ use std::process::Command;
 use super::chip::Chip;
 use super::compiler::Compiler;
 use super::driver::manifest;
-use super::error::IsaError;
 use super::figures::{Figures, Row};
 use super::subjects::{Subject, subjects};
 use super::table::{ChipRows, Table};
+use crate::error::LabError;
 
 /// The subcommand that the process runs.
 pub const COMMAND: &str = "isa-chip";
@@ -26,7 +26,7 @@ const UNSET: [&str; 6] = [
 
 /// The table for some chips, a process each, which writes the table of its own. The program that runs must know the
 /// subcommand [`COMMAND`].
-pub fn table(chips: &[Chip]) -> Result<Table, IsaError> {
+pub fn table(chips: &[Chip]) -> Result<Table, LabError> {
     let mut compiled = Table::default();
     for &chip in chips {
         let own: Table =
@@ -37,19 +37,16 @@ pub fn table(chips: &[Chip]) -> Result<Table, IsaError> {
     Ok(compiled)
 }
 
-fn failed(chip: Chip, reason: impl ToString) -> IsaError {
-    IsaError::Child {
-        chip,
-        reason: reason.to_string(),
-    }
+fn failed(chip: Chip, reason: impl ToString) -> LabError {
+    LabError::unsuitable(format!("compiling for {chip} failed"), reason)
 }
 
 /// The disassembly of one shader.
-pub fn disassembly(chip: Chip, shader: &str) -> Result<String, IsaError> {
+pub fn disassembly(chip: Chip, shader: &str) -> Result<String, LabError> {
     run(chip, Some(shader))
 }
 
-fn run(chip: Chip, shader: Option<&str>) -> Result<String, IsaError> {
+fn run(chip: Chip, shader: Option<&str>) -> Result<String, LabError> {
     let manifest = manifest()?;
     let program = std::env::current_exe().map_err(|error| failed(chip, error))?;
     let mut command = Command::new(program);
@@ -84,17 +81,18 @@ fn run(chip: Chip, shader: Option<&str>) -> Result<String, IsaError> {
 }
 
 /// What the process prints: the figures of all shaders as JSON, or the disassembly of one.
-pub fn compile(chip: Chip, shader: Option<&str>) -> Result<String, IsaError> {
+pub fn compile(chip: Chip, shader: Option<&str>) -> Result<String, LabError> {
     let subjects = subjects()?;
     let compiler = Compiler::open(chip)?;
     if let Some(name) = shader {
         let subject = subjects.iter().find(|subject| subject.name == name);
-        let subject = subject.ok_or_else(|| IsaError::UnknownShader {
-            name: name.to_owned(),
-            nearest: moment_shadows::nearest(
-                name,
-                subjects.iter().map(|subject| subject.name.as_str()),
-            ),
+        let subject = subject.ok_or_else(|| {
+            let names = subjects.iter().map(|subject| subject.name.as_str());
+            let nearest = moment_shadows::nearest(name, names);
+            LabError::unsuitable(
+                format!("shader '{name}'"),
+                format!("there is none; the nearest are {nearest}"),
+            )
         })?;
         return Ok(compiler.compile(subject)?.executable.isa);
     }
@@ -104,7 +102,7 @@ pub fn compile(chip: Chip, shader: Option<&str>) -> Result<String, IsaError> {
             figures: Figures::of(subject, &compiler.compile(subject)?, chip)?,
         })
     };
-    let shaders = subjects.iter().map(row).collect::<Result<_, IsaError>>()?;
+    let shaders = subjects.iter().map(row).collect::<Result<_, LabError>>()?;
     let table = Table {
         driver: compiler.driver,
         chips: vec![ChipRows { chip, shaders }],

@@ -2,10 +2,10 @@
 
 use super::chip::Chip;
 use super::driver::{Driver, loaded_sha256};
-use super::error::IsaError;
 use super::spirv::SpirvModule;
 use super::subjects::{Subject, SubjectWork};
 use super::vulkan::{Executable, NullDevice};
+use crate::error::LabError;
 use crate::shaders;
 
 /// The driver, opened for a chip.
@@ -24,13 +24,14 @@ pub(super) struct Compiled {
 
 impl Compiler {
     /// Opens the driver that the environment names, and makes sure that it compiles for `chip`.
-    pub(super) fn open(chip: Chip) -> Result<Self, IsaError> {
+    pub(super) fn open(chip: Chip) -> Result<Self, LabError> {
         let device = NullDevice::open()?;
         if !device.chip_name.to_lowercase().contains(chip.name()) {
-            return Err(IsaError::NoChip {
-                chip,
-                found: device.chip_name.clone(),
-            });
+            let reason = format!(
+                "it gave '{}' instead of {chip}; this version of it may not know the chip, or may only use the GPU that is there",
+                device.chip_name
+            );
+            return Err(LabError::unsuitable("the driver", reason));
         }
         let driver = Driver {
             name: device.driver_name.clone(),
@@ -40,7 +41,7 @@ impl Compiler {
         Ok(Self { device, driver })
     }
 
-    pub(super) fn compile(&self, subject: &Subject) -> Result<Compiled, IsaError> {
+    pub(super) fn compile(&self, subject: &Subject) -> Result<Compiled, LabError> {
         let shader = shaders::Compiled::new(&subject.name, &subject.wgsl, &subject.constants)?;
         let write =
             |stage, entry_point| SpirvModule::new(&subject.name, &shader, stage, entry_point);

@@ -5,7 +5,7 @@ use std::path::PathBuf;
 use serde::{Deserialize, Serialize};
 use sha2::{Digest, Sha256};
 
-use super::error::IsaError;
+use crate::error::LabError;
 
 /// A driver.
 #[derive(Clone, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
@@ -30,7 +30,7 @@ const FOLDERS: [&str; 3] = [
 const LIBRARY: &str = "libvulkan_radeon";
 
 /// The file that names the driver for AMD chips: that of this machine's architecture before others.
-pub(super) fn manifest() -> Result<PathBuf, IsaError> {
+pub(super) fn manifest() -> Result<PathBuf, LabError> {
     let mut found: Vec<PathBuf> = FOLDERS
         .iter()
         .filter_map(|folder| std::fs::read_dir(folder).ok())
@@ -44,21 +44,31 @@ pub(super) fn manifest() -> Result<PathBuf, IsaError> {
         let other = !path.to_string_lossy().contains(std::env::consts::ARCH);
         (other, path.clone())
     });
-    found.into_iter().next().ok_or_else(|| IsaError::NoDriver {
-        searched: FOLDERS.join(", "),
+    found.into_iter().next().ok_or_else(|| {
+        LabError::unsuitable(
+            "no Vulkan driver for AMD chips (radeon_icd)",
+            format!(
+                "none was found in {}; on Debian install it with `apt-get install mesa-vulkan-drivers` (no GPU is needed)",
+                FOLDERS.join(", ")
+            ),
+        )
     })
 }
 
 /// SHA-256 of the driver that this process has loaded.
-pub(super) fn loaded_sha256() -> Result<String, IsaError> {
+pub(super) fn loaded_sha256() -> Result<String, LabError> {
     let maps = "/proc/self/maps";
-    let text =
-        std::fs::read_to_string(maps).map_err(|error| IsaError::file(maps.as_ref(), error))?;
-    let library =
-        library_in(&text).ok_or_else(|| IsaError::incomplete("which library the driver is"))?;
-    let bytes = std::fs::read(library).map_err(|error| IsaError::file(library.as_ref(), error))?;
+    let text = std::fs::read_to_string(maps).map_err(|error| LabError::unsuitable(maps, error))?;
+    let library = library_in(&text).ok_or_else(|| incomplete("which library the driver is"))?;
+    let bytes = std::fs::read(library).map_err(|error| LabError::unsuitable(library, error))?;
     let digest = Sha256::digest(&bytes);
     Ok(digest.iter().map(|byte| format!("{byte:02x}")).collect())
+}
+
+/// What the driver does not tell.
+pub(super) fn incomplete(what: &str) -> LabError {
+    let reason = "the driver does not tell it; use Mesa's RADV from a distribution, in the version that the table names";
+    LabError::unsuitable(what, reason)
 }
 
 /// The driver's path in a list of memory maps, whose lines end with the file that is mapped.

@@ -6,10 +6,10 @@ use super::chip::Chip;
 use super::class::Class;
 use super::compiler::Compiled;
 use super::cycles;
-use super::error::IsaError;
 use super::loops;
 use super::subjects::Subject;
 use super::text;
+use crate::error::LabError;
 
 /// What a compiled shader needs. Lower is better, in all of them.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
@@ -92,17 +92,22 @@ impl Figures {
         subject: &Subject,
         compiled: &Compiled,
         chip: Chip,
-    ) -> Result<Figures, IsaError> {
+    ) -> Result<Figures, LabError> {
         let statistic = |name: &str| {
             let value = compiled.executable.statistics.get(name).copied();
             value.ok_or_else(|| {
                 let reason = format!(
                     "the driver does not tell '{name}'; use the version that the table names"
                 );
-                IsaError::shader(&subject.name, reason)
+                LabError::unsuitable(format!("shader '{}'", &subject.name), reason)
             })
         };
-        let odd = |reason: String| IsaError::shader(&subject.name, format!("on {chip}: {reason}"));
+        let odd = |reason: String| {
+            LabError::unsuitable(
+                format!("shader '{}'", &subject.name),
+                format!("on {chip}: {reason}"),
+            )
+        };
         let code = text::parse(&compiled.executable.isa).map_err(odd)?;
         let loops = loops::find(&code).map_err(odd)?;
         // Loops that run once may be unrolled; it makes no difference.

@@ -10,7 +10,6 @@ pub mod compare;
 mod compiler;
 pub mod cycles;
 pub mod driver;
-pub mod error;
 pub mod figures;
 pub mod loops;
 mod report;

@@ -6,7 +6,7 @@ use ash::vk;
 use naga::back::spv;
 use naga::proc::{BoundsCheckPolicies, BoundsCheckPolicy};
 
-use super::error::IsaError;
+use crate::error::LabError;
 use crate::shaders::Compiled;
 
 /// A shader as the driver takes it.
@@ -35,8 +35,8 @@ impl SpirvModule {
         compiled: &Compiled<'_>,
         stage: naga::ShaderStage,
         entry_point: &str,
-    ) -> Result<Self, IsaError> {
-        let failed = |reason: String| IsaError::shader(shader, reason);
+    ) -> Result<Self, LabError> {
+        let failed = |reason: String| LabError::unsuitable(format!("shader '{}'", shader), reason);
         let entry = compiled
             .entry_points()
             .find(|entry| entry.name == entry_point && entry.stage == stage)

@@ -8,8 +8,8 @@ use moment_shadows_graph::{
     TextureRule, Work,
 };
 
-use super::error::IsaError;
 use crate::catalogue::{self, Row, SIZE, Variant};
+use crate::error::LabError;
 use crate::shaders::ShadersError;
 use crate::summed_area::naive;
 
@@ -72,7 +72,7 @@ const REFERENCES: [(&str, u32, &str); 4] = [
 ];
 
 /// Every shader of the table: the references first.
-pub fn subjects() -> Result<Vec<Subject>, IsaError> {
+pub fn subjects() -> Result<Vec<Subject>, LabError> {
     let mut subjects = Vec::new();
     let fullscreen = Source {
         name: "fullscreen",
@@ -113,7 +113,7 @@ pub fn subjects() -> Result<Vec<Subject>, IsaError> {
 }
 
 /// The shaders of every pass that the node itself records.
-fn of_variant(variant: &Variant, row: &Row) -> Result<Vec<Subject>, IsaError> {
+fn of_variant(variant: &Variant, row: &Row) -> Result<Vec<Subject>, LabError> {
     let desc = variant.describe()?;
     let formats = Formats {
         desc: &desc,
@@ -140,7 +140,10 @@ fn of_variant(variant: &Variant, row: &Row) -> Result<Vec<Subject>, IsaError> {
             },
             Work::Fullscreen { target, .. } | Work::FullscreenRegions { target, .. } => {
                 let format = formats.of(target).ok_or_else(|| {
-                    IsaError::shader(&name, format!("its target '{target}' has no format"))
+                    LabError::unsuitable(
+                        format!("shader '{}'", &name),
+                        format!("its target '{target}' has no format"),
+                    )
                 })?;
                 SubjectWork::Fragment { target: format }
             }
@@ -206,7 +209,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn every_name_is_there_once() -> Result<(), IsaError> {
+    fn every_name_is_there_once() -> Result<(), LabError> {
         let subjects = subjects()?;
         let names: BTreeSet<&str> = subjects.iter().map(|subject| &*subject.name).collect();
         assert_eq!(names.len(), subjects.len());
@@ -214,7 +217,7 @@ mod tests {
     }
 
     #[test]
-    fn a_subject_knows_its_outputs_its_texels_and_its_loops() -> Result<(), IsaError> {
+    fn a_subject_knows_its_outputs_its_texels_and_its_loops() -> Result<(), LabError> {
         let subjects = subjects()?;
         let find = |name: &str| subjects.iter().find(|subject| subject.name == name);
         let blur = find("blur, float32, radius 64: blur along x");

@@ -7,8 +7,8 @@ use serde::{Deserialize, Serialize};
 
 use super::chip::Chip;
 use super::driver::Driver;
-use super::error::IsaError;
 use super::figures::Row;
+use crate::error::LabError;
 
 /// The shaders of one chip.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -32,19 +32,19 @@ pub struct Table {
 
 impl Table {
     /// Reads a table.
-    pub fn read(path: &Path) -> Result<Table, IsaError> {
+    pub fn read(path: &Path) -> Result<Table, LabError> {
         let text = std::fs::read_to_string(path).map_err(|error| {
             let way = "run the command from a checkout, or name a table with `--table`; `isa --update` makes one";
-            IsaError::file(path, format!("{error}; {way}"))
+            LabError::unsuitable(path.display(), format!("{error}; {way}"))
         })?;
         serde_json::from_str(&text).map_err(|error| {
             let reason = format!("it is no ISA table: {error}; make a new one with `isa --update`");
-            IsaError::file(path, reason)
+            LabError::unsuitable(path.display(), reason)
         })
     }
 
     /// Writes the table beside `path` and renames it, so that an existing one is never half-replaced.
-    pub fn write(&self, path: &Path) -> Result<(), IsaError> {
+    pub fn write(&self, path: &Path) -> Result<(), LabError> {
         let folder = path.parent().filter(|folder| *folder != Path::new(""));
         let write = || -> std::io::Result<()> {
             let mut file = tempfile::NamedTempFile::new_in(folder.unwrap_or(Path::new(".")))?;
@@ -52,7 +52,7 @@ impl Table {
             file.persist(path)?;
             Ok(())
         };
-        write().map_err(|error| IsaError::file(path, error))
+        write().map_err(|error| LabError::unsuitable(path.display(), error))
     }
 
     /// JSON with one row per line, so that a difference between two tables can be read.

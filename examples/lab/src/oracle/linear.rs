@@ -1,4 +1,4 @@
-//! The moment problem for any functions, by linear programming (Peters & Klein, "Moment Shadow Mapping", i3D 2015,
+//! The moment problem for powers of depth, by linear programming (Peters & Klein, "Moment Shadow Mapping", i3D 2015,
 //! Algorithm 1).
 //!
 //! The distributions considered put their mass on the nodes of a grid and on the fragment depth; where the distribution is
@@ -11,22 +11,21 @@
 //! a good part of the interval. Each comes with a certificate, which says how good it is.
 
 use super::simplex::{Failure, minimise};
-use crate::basis::Basis;
 
 /// Why there is no bound.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 #[non_exhaustive]
 pub enum LinearError {
     /// Nothing can be interpolated on so few nodes.
-    #[error("a grid of {0} nodes was asked for; it needs more than there are functions")]
+    #[error("a grid of {0} nodes was asked for; it needs more than there are powers")]
     TooFewNodes(usize),
-    /// A function is a combination of the others, or not finite on the interval.
+    /// Rounding made a power a combination of lower ones.
     #[error(
-        "function {0} of the basis is not finite on the interval or depends linearly on those before it; leave it out"
+        "depth to the power of {0} depends linearly on lower powers up to rounding; ask for fewer"
     )]
     Dependent(usize),
     /// The wrong number of moments.
-    #[error("{given} moments were given for a basis of {expected} functions")]
+    #[error("{given} moments were given for {expected} powers")]
     MomentCount {
         /// How many there are.
         given: usize,
@@ -35,11 +34,11 @@ pub enum LinearError {
     },
     /// A mixture without a surface of positive weight, or with one outside of the interval.
     #[error(
-        "the mixture has no surfaces, or a surface outside of the interval of the basis, or a negative weight"
+        "the mixture has no surfaces, or a surface outside of the interval, or a negative weight"
     )]
     Mixture,
     /// The fragment lies outside of the interval.
-    #[error("the fragment depth {0} lies outside of the interval of the basis")]
+    #[error("the fragment depth {0} lies outside of the interval")]
     Depth(f64),
     /// No distribution on the grid has the moments.
     #[error(
@@ -61,20 +60,18 @@ pub struct LinearBound {
     /// What no distribution on the nodes passes, by duality: at most `value` for lower bounds, at least for upper ones, and
     /// the same up to rounding.
     pub certificate: f64,
-    /// That distribution as (depth, weight), ascending.
-    pub support: Vec<(f64, f64)>,
 }
 
-/// A basis on a grid, made ready for many distributions.
+/// Powers of depth on a grid, made ready for many distributions.
 ///
-/// The functions are made orthonormal on the grid first, so that powers are as well conditioned as any others.
+/// They are made orthonormal on the grid first, so that they are well conditioned.
 #[derive(Clone, Debug)]
 pub struct MomentProblem {
-    basis: Basis,
+    interval: [f64; 2],
     nodes: Vec<f64>,
-    /// Orthonormal functions at the nodes, node by node.
+    /// Orthonormal polynomials at the nodes, node by node.
     rows: Vec<f64>,
-    /// Lower triangle, row by row: the orthonormal functions in terms of 1 and the basis.
+    /// Lower triangle, row by row: the orthonormal polynomials by their coefficients.
     transform: Vec<Vec<f64>>,
 }
 
@@ -86,22 +83,22 @@ enum Side {
 }
 
 impl MomentProblem {
-    /// A uniform grid of `count` nodes, ends included.
-    pub fn new(basis: Basis, count: usize) -> Result<Self, LinearError> {
-        let size = basis.functions.len() + 1;
+    /// The powers from 1 to `powers` on a uniform grid of `count` nodes, ends included.
+    pub fn new(powers: usize, interval: [f64; 2], count: usize) -> Result<Self, LinearError> {
+        let size = powers + 1;
         if count <= size {
             return Err(LinearError::TooFewNodes(count));
         }
-        let [low, high] = basis.interval;
+        let [low, high] = interval;
         let nodes: Vec<f64> = (0..count)
             .map(|index| {
                 let part = index as f64 / (count - 1) as f64;
                 (1.0 - part) * low + part * high
             })
             .collect();
-        let transform = orthonormalise(&basis, &nodes)?;
+        let transform = orthonormalise(size, &nodes)?;
         let mut problem = Self {
-            basis,
+            interval,
             nodes,
             rows: Vec::new(),
             transform,
@@ -110,18 +107,12 @@ impl MomentProblem {
         Ok(problem)
     }
 
-    /// The basis.
-    #[must_use]
-    pub fn basis(&self) -> &Basis {
-        &self.basis
-    }
-
-    /// inf S(z < depth) for given expectations of the functions.
+    /// inf S(z < depth) for given moments.
     pub fn lower(&self, moments: &[f64], depth: f64) -> Result<LinearBound, LinearError> {
         self.bound(&self.given(moments)?, &[], depth, Side::Lower)
     }
 
-    /// sup S(z <= depth) for given expectations of the functions.
+    /// sup S(z <= depth) for given moments.
     pub fn upper(&self, moments: &[f64], depth: f64) -> Result<LinearBound, LinearError> {
         self.bound(&self.given(moments)?, &[], depth, Side::Upper)
     }
@@ -136,12 +127,13 @@ impl MomentProblem {
         self.bound(&self.of_mixture(atoms)?, atoms, depth, Side::Upper)
     }
 
-    /// Expectations of the orthonormal functions.
+    /// Expectations of the orthonormal polynomials.
     fn given(&self, moments: &[f64]) -> Result<Vec<f64>, LinearError> {
-        if moments.len() != self.basis.functions.len() {
+        let expected = self.transform.len() - 1;
+        if moments.len() != expected {
             return Err(LinearError::MomentCount {
                 given: moments.len(),
-                expected: self.basis.functions.len(),
+                expected,
             });
         }
         let moments: Vec<f64> = core::iter::once(1.0)
@@ -151,7 +143,7 @@ impl MomentProblem {
     }
 
     fn of_mixture(&self, atoms: &[(f64, f64)]) -> Result<Vec<f64>, LinearError> {
-        let [low, high] = self.basis.interval;
+        let [low, high] = self.interval;
         let total: f64 = atoms.iter().map(|atom| atom.1).sum();
         let sound = |&(z, weight): &(f64, f64)| (low..=high).contains(&z) && weight >= 0.0;
         if !(total > 0.0 && total.is_finite() && atoms.iter().all(sound)) {
@@ -173,7 +165,7 @@ impl MomentProblem {
         depth: f64,
         side: Side,
     ) -> Result<LinearBound, LinearError> {
-        let [low, high] = self.basis.interval;
+        let [low, high] = self.interval;
         if !(low..=high).contains(&depth) {
             return Err(LinearError::Depth(depth));
         }
@@ -198,22 +190,15 @@ impl MomentProblem {
             Side::Lower => value,
             Side::Upper => 1.0 - value,
         };
-        let mut support: Vec<(f64, f64)> = optimum
-            .support
-            .iter()
-            .filter_map(|&(index, weight)| nodes().nth(index).map(|z| (z, weight)))
-            .collect();
-        support.sort_by(|one, other| one.0.total_cmp(&other.0));
         Ok(LinearBound {
             value: share(optimum.value),
             certificate: share(optimum.certificate),
-            support,
         })
     }
 
-    /// The orthonormal functions at depth `z`.
+    /// The orthonormal polynomials at depth `z`.
     fn row(&self, z: f64) -> Vec<f64> {
-        let values: Vec<f64> = self.basis.row(z).collect();
+        let values: Vec<f64> = powers(z).take(self.transform.len()).collect();
         self.apply(&values)
     }
 
@@ -230,12 +215,16 @@ impl MomentProblem {
     }
 }
 
-/// Gram and Schmidt's method on the nodes, each function being made orthogonal twice.
-fn orthonormalise(basis: &Basis, nodes: &[f64]) -> Result<Vec<Vec<f64>>, LinearError> {
-    let size = basis.functions.len() + 1;
+/// 1, z, z^2, ...
+fn powers(z: f64) -> impl Iterator<Item = f64> {
+    (0..).map(move |power| z.powi(power))
+}
+
+/// Gram and Schmidt's method on the nodes, each power being made orthogonal twice.
+fn orthonormalise(size: usize, nodes: &[f64]) -> Result<Vec<Vec<f64>>, LinearError> {
     let mut values: Vec<Vec<f64>> = vec![Vec::with_capacity(nodes.len()); size];
     for &z in nodes {
-        for (list, value) in values.iter_mut().zip(basis.row(z)) {
+        for (list, value) in values.iter_mut().zip(powers(z)) {
             list.push(value);
         }
     }
@@ -261,7 +250,7 @@ fn orthonormalise(basis: &Basis, nodes: &[f64]) -> Result<Vec<Vec<f64>>, LinearE
             }
         }
         let norm = mean(&own, &own);
-        // Below this, nothing but rounding is left of the function.
+        // Below this, nothing but rounding is left of the power.
         if !(norm > 1e-24 * before && norm.is_finite()) {
             return Err(LinearError::Dependent(index));
         }

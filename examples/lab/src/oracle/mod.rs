@@ -5,7 +5,7 @@
 //! two have nothing in common but the theorem.
 //!
 //! - [`hamburger`] and [`hausdorff`]: exact bounds for any even number of power moments, on the real line and on an interval.
-//! - [`MomentProblem`]: bounds for any functions of depth, by linear programming.
+//! - [`MomentProblem`]: the same bounds by linear programming, with certificates.
 //! - [`ideal`]: the bounds of every technique for known surfaces in f64, fast enough for millions of them.
 
 mod exact;

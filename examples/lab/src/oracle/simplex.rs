@@ -27,8 +27,6 @@ pub(super) enum Failure {
 pub(super) struct Optimum {
     /// The least cost.
     pub(super) value: f64,
-    /// The columns in use, with their entries of the solution.
-    pub(super) support: Vec<(usize, f64)>,
     /// A lower bound of the least cost of all solutions whose entries sum to one.
     pub(super) certificate: f64,
 }
@@ -58,19 +56,12 @@ pub(super) fn minimise(columns: &[f64], costs: &[f64], right: &[f64]) -> Result<
     let least = (0..costs.len())
         .map(|column| costs[column] - dot(&dual, state.column(column)))
         .fold(0.0, f64::min);
-    let support: Vec<(usize, f64)> = state
-        .basic
-        .iter()
-        .zip(&state.values)
-        .filter(|&(&column, _)| column < costs.len())
-        .map(|(&column, &value)| (column, value.max(0.0)))
-        .collect();
+    let in_use = state.basic.iter().zip(&state.values);
+    let in_use = in_use.filter(|&(&column, _)| column < costs.len());
     Ok(Optimum {
-        value: support
-            .iter()
-            .map(|&(column, value)| costs[column] * value)
+        value: in_use
+            .map(|(&column, value)| costs[column] * value.max(0.0))
             .sum(),
-        support,
         certificate: dot(&dual, right) + least,
     })
 }

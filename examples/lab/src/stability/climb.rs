@@ -3,13 +3,13 @@
 use rand::{RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
 
-use super::StabilityError;
 use super::input::Input;
 use super::judge::{Case, Tally};
 use super::kernels;
 use super::shader::Evaluator;
 use super::strata::{Stratum, normalise};
 use super::truth::truth;
+use crate::error::LabError;
 
 /// Climbs per technique and storage.
 pub const CLIMBS: usize = 200;
@@ -23,7 +23,7 @@ pub(super) fn climb(
     drawn: &Tally,
     steps: u32,
     seed: u64,
-) -> Result<Tally, StabilityError> {
+) -> Result<Tally, LabError> {
     let mut random = ChaCha8Rng::seed_from_u64(seed);
     let mut climbs: Vec<(Stratum, Case)> = Stratum::ALL
         .into_iter()

@@ -16,57 +16,19 @@ pub mod shader;
 pub mod strata;
 pub mod truth;
 
-use moment_shadows::{KernelError, LinkError, MapEncoding};
+use moment_shadows::MapEncoding;
 use rand::SeedableRng;
 use rand_chacha::ChaCha8Rng;
 use rayon::prelude::*;
 
-use crate::batch::BatchError;
-use crate::gpu::{Gpu, GpuError};
-use crate::picture::PictureError;
+use crate::error::LabError;
+use crate::gpu::Gpu;
 pub use climb::CLIMBS;
 use input::Input;
 use judge::Tally;
 use report::{Report, Row};
 use shader::Evaluator;
 use strata::Stratum;
-
-/// Why there is no report.
-#[derive(Debug, thiserror::Error)]
-#[non_exhaustive]
-pub enum StabilityError {
-    /// The device.
-    #[error(transparent)]
-    Gpu(#[from] GpuError),
-    /// A batch on it.
-    #[error(transparent)]
-    Batch(#[from] BatchError),
-    /// A shader that cannot be linked.
-    #[error(transparent)]
-    Link(#[from] LinkError),
-    /// A kernel.
-    #[error(transparent)]
-    Kernel(#[from] KernelError),
-    /// A file that cannot be written.
-    #[error(transparent)]
-    Picture(#[from] PictureError),
-    /// The figures as JSON.
-    #[error("the figures cannot be written as JSON: {0}")]
-    Json(#[from] serde_json::Error),
-    /// The picture cannot be drawn.
-    #[error("the plot of the stability report cannot be drawn: {0}")]
-    Plot(String),
-    /// No pair was asked for.
-    #[error("'{technique}' is not stored as {storage}; it is as {legal}")]
-    NoPair {
-        /// The technique's name.
-        technique: String,
-        /// The storage's name.
-        storage: String,
-        /// The storages that it has.
-        legal: String,
-    },
-}
 
 /// How much is tried.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, serde::Serialize)]
@@ -103,7 +65,7 @@ pub fn run(
     pairs: &[MapEncoding],
     effort: Effort,
     step: impl Fn(),
-) -> Result<Report, StabilityError> {
+) -> Result<Report, LabError> {
     let evaluators: Vec<Evaluator<'_>> = pairs
         .par_iter()
         .map(|pair| Evaluator::new(gpu, pair))

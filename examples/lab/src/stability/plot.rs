@@ -6,8 +6,8 @@ use plotters::drawing::{DrawingArea, DrawingAreaErrorKind, IntoDrawingArea};
 use plotters::element::{PathElement, Rectangle, Text};
 use plotters::style::{BLACK, Color, FontStyle, IntoFont, RGBColor, WHITE, register_font};
 
-use super::StabilityError;
 use super::report::{Report, Row};
+use crate::error::LabError;
 
 const FONT: &str = "sans-serif";
 
@@ -42,13 +42,17 @@ pub struct Plot {
 }
 
 /// Draws the excess over the truth of every row: quantiles, the largest, and what is allowed.
-pub fn draw(report: &Report) -> Result<Plot, StabilityError> {
+pub fn draw(report: &Report) -> Result<Plot, LabError> {
+    let failed = |reason: String| LabError::Plot {
+        title: "stability".to_owned(),
+        reason,
+    };
     register_font(FONT, FontStyle::Normal, epaint_default_fonts::UBUNTU_LIGHT)
-        .map_err(|_| StabilityError::Plot("its font cannot be read".to_owned()))?;
+        .map_err(|_| failed("its font cannot be read".to_owned()))?;
     let height = TOP as u32 + report.rows.len() as u32 * ROW as u32 + 46;
     let mut rgb = vec![255; 3 * (WIDTH * height) as usize];
     let area = BitMapBackend::with_buffer(&mut rgb, (WIDTH, height)).into_drawing_area();
-    draw_rows(&area, report).map_err(|error| StabilityError::Plot(error.to_string()))?;
+    draw_rows(&area, report).map_err(|error| failed(error.to_string()))?;
     drop(area);
     let rgba = rgb
         .chunks_exact(3)

@@ -2,10 +2,10 @@
 
 use moment_shadows::{Kernel, LinkError, MapEncoding, Row, Source, link};
 
-use super::StabilityError;
 use super::input::Input;
 use super::kernels::{kernels, table};
 use crate::batch::Batch;
+use crate::error::LabError;
 use crate::gpu::Gpu;
 
 /// The file of the nodes that has this name.
@@ -23,7 +23,7 @@ pub struct Evaluator<'gpu> {
 
 impl<'gpu> Evaluator<'gpu> {
     /// Compiles the shader.
-    pub fn new(gpu: &'gpu Gpu, encoding: &MapEncoding) -> Result<Self, StabilityError> {
+    pub fn new(gpu: &'gpu Gpu, encoding: &MapEncoding) -> Result<Self, LabError> {
         let kernels = kernels()?;
         let wgsl = linked(encoding)?;
         let label = encoding.to_string();
@@ -34,7 +34,7 @@ impl<'gpu> Evaluator<'gpu> {
     }
 
     /// The shadow intensities.
-    pub fn run(&self, inputs: &[Input]) -> Result<Vec<f32>, StabilityError> {
+    pub fn run(&self, inputs: &[Input]) -> Result<Vec<f32>, LabError> {
         Ok(self.batch.run(inputs)?)
     }
 

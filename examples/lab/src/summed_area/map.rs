@@ -1,42 +1,30 @@
 //! A map of any contents and its summed-area table.
 
-use moment_shadows::{LinkError, MapRegion};
+use moment_shadows::MapRegion;
 use moment_shadows_graph::nodes::LargestKernel;
 use moment_shadows_graph::record::{
     Bindings, ImportedResource, Layers, PipelineOptions, Pipelines, RecordError, Recording,
     Resources, texture_format,
 };
 use moment_shadows_graph::{
-    Capabilities, Graph, GraphError, Imports, NodeRegistry, Plan, RegionError, ResourceDesc, Stage,
-    TextureDesc, compile,
+    Capabilities, Graph, GraphError, Imports, NodeRegistry, Plan, ResourceDesc, Stage, TextureDesc,
+    compile,
 };
 use pollster::block_on;
 use wgpu::util::DeviceExt;
 
-use crate::gpu::{Gpu, GpuError};
+use crate::error::LabError;
+use crate::gpu::Gpu;
 
-/// Why there is no table.
-#[derive(Debug, thiserror::Error)]
-#[non_exhaustive]
-pub enum TableError {
-    /// The graph was refused.
-    #[error(transparent)]
-    Graph(#[from] GraphError),
-    /// The recorder refused its plan.
-    #[error(transparent)]
-    Record(#[from] RecordError),
-    /// The map does not have these regions.
-    #[error(transparent)]
-    Region(#[from] RegionError),
-    /// The device.
-    #[error(transparent)]
-    Gpu(#[from] GpuError),
-    /// A shader that imports what is not there.
-    #[error(transparent)]
-    Link(#[from] LinkError),
-    /// A plan without a table.
-    #[error("the plan has no output 'table'; make one of a graph that does")]
-    NoTable,
+/// What errors name.
+const NAME: &str = "summed-area table";
+
+/// A plan without a table.
+pub(super) fn no_table() -> LabError {
+    LabError::unsuitable(
+        NAME,
+        "the plan has no output 'table'; make one of a graph that does",
+    )
 }
 
 /// A map, its table and what makes it.
@@ -54,8 +42,12 @@ impl SummedMap {
         desc: &TextureDesc,
         bytes: &[u8],
         largest_kernel: LargestKernel,
-    ) -> Result<Self, TableError> {
-        let plan = Self::plan(capabilities, desc, largest_kernel)?;
+    ) -> Result<Self, LabError> {
+        let plan =
+            Self::plan(capabilities, desc, largest_kernel).map_err(|error| LabError::Graph {
+                file: NAME.to_owned(),
+                error,
+            })?;
         let device = &gpu.device;
         let pipelines = block_on(Pipelines::create(device, &plan, PipelineOptions::default()))?;
         let resources = block_on(Resources::create(device, &plan))?;
@@ -126,7 +118,7 @@ impl SummedMap {
         gpu: &Gpu,
         layer: u32,
         regions: &[MapRegion],
-    ) -> Result<(), TableError> {
+    ) -> Result<(), LabError> {
         let mut block = self.plan.parameters.initial();
         self.plan
             .parameters
@@ -150,7 +142,7 @@ impl SummedMap {
     }
 
     /// Makes the table of some layers.
-    pub fn run(&self, gpu: &Gpu, layers: Layers<'_>) -> Result<(), TableError> {
+    pub fn run(&self, gpu: &Gpu, layers: Layers<'_>) -> Result<(), LabError> {
         let mut encoder = gpu.device.create_command_encoder(&Default::default());
         self.record(&mut encoder, layers)?;
         gpu.queue.submit([encoder.finish()]);
@@ -158,8 +150,8 @@ impl SummedMap {
     }
 
     /// The integers of a layer, all channels of a texel after the other.
-    pub fn read(&self, gpu: &Gpu, layer: u32) -> Result<Vec<u32>, TableError> {
-        let table = self.table().ok_or(TableError::NoTable)?;
+    pub fn read(&self, gpu: &Gpu, layer: u32) -> Result<Vec<u32>, LabError> {
+        let table = self.table().ok_or_else(no_table)?;
         let bytes = gpu.read_texture(table, layer, "summed-area table")?;
         Ok(bytemuck::pod_collect_to_vec(&bytes))
     }

@@ -4,7 +4,9 @@ use bytemuck::{Pod, Zeroable};
 use moment_shadows::{MapRegion, Source, link};
 use wgpu::util::DeviceExt;
 
-use super::{SummedMap, TableError};
+use super::SummedMap;
+use super::map::no_table;
+use crate::error::LabError;
 use crate::gpu::Gpu;
 
 /// A rectangle of a table's first layer; the struct of the shader `means.wgsl`.
@@ -52,8 +54,8 @@ pub struct Means<'a> {
 
 impl<'a> Means<'a> {
     /// Of the table that a map has now.
-    pub fn new(gpu: &'a Gpu, summed: &SummedMap) -> Result<Self, TableError> {
-        let table = summed.table().ok_or(TableError::NoTable)?;
+    pub fn new(gpu: &'a Gpu, summed: &SummedMap) -> Result<Self, LabError> {
+        let table = summed.table().ok_or_else(no_table)?;
         let linked = link(
             Source {
                 name: "means.wgsl",
@@ -88,7 +90,7 @@ impl<'a> Means<'a> {
     }
 
     /// The answers to queries, in their order.
-    pub fn run(&self, queries: &[Query]) -> Result<Vec<Mean>, TableError> {
+    pub fn run(&self, queries: &[Query]) -> Result<Vec<Mean>, LabError> {
         let mut means = Vec::with_capacity(queries.len());
         for queries in queries.chunks(MOST) {
             means.extend(self.run_some(queries)?);
@@ -96,7 +98,7 @@ impl<'a> Means<'a> {
         Ok(means)
     }
 
-    fn run_some(&self, queries: &[Query]) -> Result<Vec<Mean>, TableError> {
+    fn run_some(&self, queries: &[Query]) -> Result<Vec<Mean>, LabError> {
         let device = &self.gpu.device;
         let input = device.create_buffer_init(&wgpu::util::BufferInitDescriptor {
             label: Some("summed area/queries"),

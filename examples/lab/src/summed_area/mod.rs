@@ -5,6 +5,6 @@ mod means;
 pub mod naive;
 pub mod reference;
 
-pub use map::{SummedMap, TableError};
+pub use map::SummedMap;
 pub use means::{Mean, Means, Query};
 pub use naive::NaiveTable;

@@ -3,8 +3,8 @@
 use moment_shadows::{LinkError, Source, TextureFormat, link};
 use moment_shadows_graph::TextureDesc;
 
-use super::TableError;
 use super::map::moments_texture;
+use crate::error::LabError;
 use crate::gpu::Gpu;
 
 /// Both halves by name, text and entry point.
@@ -34,7 +34,7 @@ pub struct NaiveTable {
 
 impl NaiveTable {
     /// Of a map with these bytes.
-    pub fn new(gpu: &Gpu, desc: &TextureDesc, bytes: &[u8]) -> Result<Self, TableError> {
+    pub fn new(gpu: &Gpu, desc: &TextureDesc, bytes: &[u8]) -> Result<Self, LabError> {
         let moments = moments_texture(gpu, desc, bytes);
         let texture = |label| {
             gpu.device.create_texture(&wgpu::TextureDescriptor {
@@ -58,7 +58,7 @@ impl NaiveTable {
             .map(|((name, text, entry_point), textures)| {
                 pass(gpu, name, &linked(name, text)?, entry_point, textures)
             })
-            .collect::<Result<_, TableError>>()?;
+            .collect::<Result<_, LabError>>()?;
         Ok(Self {
             size: desc.size,
             passes,
@@ -77,7 +77,7 @@ impl NaiveTable {
     }
 
     /// Makes the table and reads its integers.
-    pub fn run(&self, gpu: &Gpu) -> Result<Vec<u32>, TableError> {
+    pub fn run(&self, gpu: &Gpu) -> Result<Vec<u32>, LabError> {
         let mut encoder = gpu.device.create_command_encoder(&Default::default());
         self.record(&mut encoder);
         gpu.queue.submit([encoder.finish()]);
@@ -102,7 +102,7 @@ fn pass(
     wgsl: &str,
     entry_point: &str,
     textures: [&wgpu::Texture; 2],
-) -> Result<(wgpu::ComputePipeline, wgpu::BindGroup), TableError> {
+) -> Result<(wgpu::ComputePipeline, wgpu::BindGroup), LabError> {
     let module = gpu
         .device
         .create_shader_module(wgpu::ShaderModuleDescriptor {

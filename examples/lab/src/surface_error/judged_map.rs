@@ -67,9 +67,11 @@ impl MapRun {
                 _ => None,
             },
         };
-        let (texture, desc) = found.ok_or_else(|| LabError::Unsuitable {
-            file: self.file.name.clone(),
-            reason: "the input of its shade_hard node is no map".to_owned(),
+        let (texture, desc) = found.ok_or_else(|| {
+            LabError::unsuitable(
+                &self.file.name,
+                "the input of its shade_hard node is no map",
+            )
         })?;
         Ok(JudgedMap {
             name: self.file.name.clone(),

@@ -5,7 +5,8 @@ use core::ffi::CStr;
 use ash::vk;
 
 use super::refused;
-use crate::isa::error::IsaError;
+use crate::error::LabError;
+use crate::isa::driver::incomplete;
 
 /// An open device of the driver that the environment names.
 pub(in crate::isa) struct NullDevice {
@@ -29,11 +30,11 @@ const ROBUSTNESS: &CStr = ash::ext::robustness2::NAME;
 
 impl NullDevice {
     /// Opens the first device of the first driver.
-    pub(in crate::isa) fn open() -> Result<Self, IsaError> {
+    pub(in crate::isa) fn open() -> Result<Self, LabError> {
         // SAFETY: the loader is a system library whose initialisation has no requirements.
-        let entry = unsafe { ash::Entry::load() }.map_err(|error| IsaError::Driver {
-            what: "the Vulkan loader",
-            reason: format!("{error}; on Debian install it with `apt-get install libvulkan1`"),
+        let entry = unsafe { ash::Entry::load() }.map_err(|error| {
+            let reason = format!("{error}; on Debian install it with `apt-get install libvulkan1`");
+            LabError::unsuitable("the Vulkan loader", reason)
         })?;
         let application = vk::ApplicationInfo::default().api_version(vk::API_VERSION_1_3);
         let info = vk::InstanceCreateInfo::default().application_info(&application);
@@ -72,12 +73,12 @@ impl Drop for NullDevice {
 }
 
 /// A device, with the names of the driver, its version and the chip.
-fn open_device(instance: &ash::Instance) -> Result<(ash::Device, [String; 3]), IsaError> {
+fn open_device(instance: &ash::Instance) -> Result<(ash::Device, [String; 3]), LabError> {
     // SAFETY: the instance is alive.
     let all = unsafe { instance.enumerate_physical_devices() }.map_err(refused("its devices"))?;
     let physical = *all
         .first()
-        .ok_or_else(|| IsaError::incomplete("a device, not even one without a GPU"))?;
+        .ok_or_else(|| incomplete("a device, not even one without a GPU"))?;
     let mut driver = vk::PhysicalDeviceDriverProperties::default();
     let mut properties = vk::PhysicalDeviceProperties2::default().push_next(&mut driver);
     // SAFETY: the physical device is the instance's own, and the chain of structures lives through the call.

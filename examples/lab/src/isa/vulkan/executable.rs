@@ -5,7 +5,8 @@ use std::collections::BTreeMap;
 use ash::vk;
 
 use super::{NullDevice, refused};
-use crate::isa::error::IsaError;
+use crate::error::LabError;
+use crate::isa::driver::incomplete;
 
 /// Statistics by the driver's names, and the disassembly.
 #[derive(Clone, Debug)]
@@ -22,7 +23,7 @@ pub(super) fn of_pipeline(
     device: &NullDevice,
     pipeline: vk::Pipeline,
     stage: vk::ShaderStageFlags,
-) -> Result<Executable, IsaError> {
+) -> Result<Executable, LabError> {
     let info = vk::PipelineInfoKHR::default().pipeline(pipeline);
     // SAFETY: the pipeline is alive, and its device has the extension.
     let all = unsafe { device.executables.get_pipeline_executable_properties(&info) }
@@ -30,7 +31,7 @@ pub(super) fn of_pipeline(
     let index = all
         .iter()
         .position(|executable| executable.stages.contains(stage))
-        .ok_or_else(|| IsaError::incomplete("the stage that was asked for"))?;
+        .ok_or_else(|| incomplete("the stage that was asked for"))?;
     let info = vk::PipelineExecutableInfoKHR::default()
         .pipeline(pipeline)
         .executable_index(index as u32);
@@ -43,7 +44,7 @@ pub(super) fn of_pipeline(
 fn statistics(
     device: &NullDevice,
     info: &vk::PipelineExecutableInfoKHR<'_>,
-) -> Result<BTreeMap<String, u64>, IsaError> {
+) -> Result<BTreeMap<String, u64>, LabError> {
     // SAFETY: the pipeline is alive and was made with `CAPTURE_STATISTICS`.
     let all = unsafe { device.executables.get_pipeline_executable_statistics(info) }
         .map_err(refused("the statistics of a pipeline"))?;
@@ -65,7 +66,7 @@ fn statistics(
 fn disassembly(
     device: &NullDevice,
     info: &vk::PipelineExecutableInfoKHR<'_>,
-) -> Result<String, IsaError> {
+) -> Result<String, LabError> {
     let failed = refused("the text of a pipeline");
     // SAFETY: the pipeline is alive and was made with `CAPTURE_INTERNAL_REPRESENTATIONS`.
     let mut all = unsafe {
@@ -94,7 +95,7 @@ fn disassembly(
             one.name_as_c_str()
                 .is_ok_and(|name| name.to_string_lossy() == DISASSEMBLY)
         })
-        .ok_or_else(|| IsaError::incomplete("the disassembly"))?;
+        .ok_or_else(|| incomplete("the disassembly"))?;
     let text = String::from_utf8_lossy(&texts[index]);
     Ok(text.trim_end_matches('\0').to_owned())
 }

@@ -12,12 +12,13 @@ mod pipeline;
 pub(super) use device::NullDevice;
 pub(super) use executable::Executable;
 
-use super::error::IsaError;
+use crate::error::LabError;
 
 /// Says which call failed.
-fn refused(what: &'static str) -> impl Fn(ash::vk::Result) -> IsaError {
-    move |result| IsaError::Driver {
-        what,
-        reason: format!("the driver says {result}; try the version of it that the table names"),
+fn refused(what: &'static str) -> impl Fn(ash::vk::Result) -> LabError {
+    move |result| {
+        let reason =
+            format!("the driver says {result}; try the version of it that the table names");
+        LabError::unsuitable(what, reason)
     }
 }

@@ -3,7 +3,7 @@
 use ash::vk;
 
 use super::{Executable, NullDevice, executable, refused};
-use crate::isa::error::IsaError;
+use crate::error::LabError;
 use crate::isa::spirv::{Bound, SpirvModule};
 use moment_shadows::TextureFormat;
 
@@ -45,7 +45,7 @@ impl NullDevice {
         &self,
         module: &SpirvModule,
         drawn: Option<(&SpirvModule, TextureFormat)>,
-    ) -> Result<Executable, IsaError> {
+    ) -> Result<Executable, LabError> {
         let mut objects = Objects {
             device: &self.device,
             modules: Vec::new(),
@@ -78,7 +78,7 @@ impl Objects<'_> {
         &mut self,
         module: &'m SpirvModule,
         stage: vk::ShaderStageFlags,
-    ) -> Result<vk::PipelineShaderStageCreateInfo<'m>, IsaError> {
+    ) -> Result<vk::PipelineShaderStageCreateInfo<'m>, LabError> {
         let info = vk::ShaderModuleCreateInfo::default().code(&module.words);
         // SAFETY: the code is valid SPIR-V: naga wrote it from a validated module.
         let made = unsafe { self.device.create_shader_module(&info, None) }
@@ -91,7 +91,7 @@ impl Objects<'_> {
     }
 
     /// A layout with exactly the bindings of the shader, for every stage.
-    fn layout(&mut self, bindings: &[Bound]) -> Result<(), IsaError> {
+    fn layout(&mut self, bindings: &[Bound]) -> Result<(), LabError> {
         let groups = bindings.iter().map(|bound| bound.group + 1).max();
         for group in 0..groups.unwrap_or(0) {
             let entries: Vec<_> = bindings
@@ -118,7 +118,7 @@ impl Objects<'_> {
         Ok(())
     }
 
-    fn compute(&mut self, stage: vk::PipelineShaderStageCreateInfo<'_>) -> Result<(), IsaError> {
+    fn compute(&mut self, stage: vk::PipelineShaderStageCreateInfo<'_>) -> Result<(), LabError> {
         let info = vk::ComputePipelineCreateInfo::default()
             .flags(FLAGS)
             .stage(stage)
@@ -136,7 +136,7 @@ impl Objects<'_> {
         &mut self,
         stages: &[vk::PipelineShaderStageCreateInfo<'_>],
         target: TextureFormat,
-    ) -> Result<(), IsaError> {
+    ) -> Result<(), LabError> {
         let formats = [format(target)];
         let blends = [vk::PipelineColorBlendAttachmentState::default()
             .color_write_mask(vk::ColorComponentFlags::RGBA)];
@@ -178,7 +178,7 @@ impl Objects<'_> {
     fn take(
         &mut self,
         pipelines: Result<Vec<vk::Pipeline>, (Vec<vk::Pipeline>, vk::Result)>,
-    ) -> Result<(), IsaError> {
+    ) -> Result<(), LabError> {
         let (pipelines, result) = match pipelines {
             Ok(pipelines) => (pipelines, Ok(())),
             Err((pipelines, error)) => (pipelines, Err(error)),
