@@ -1,0 +1,153 @@
+//! Shaders that a user could write, for linkers to start from.
+
+use std::collections::BTreeSet;
+use std::fmt::Write;
+
+use moment_shadows::{Source, link_module, modules};
+use moment_shadows_lab::shaders;
+
+use crate::values::values;
+
+/// Where a user has the modules.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Place {
+    /// In a package of the library's name.
+    Package,
+    /// Copied into a folder of the user's own tree, where imports were spread over several lines.
+    Copied,
+}
+
+impl Place {
+    pub(crate) const ALL: [Place; 2] = [Place::Package, Place::Copied];
+
+    /// The path that the library's folders lie in.
+    pub(crate) fn path(self) -> &'static str {
+        match self {
+            Place::Package => "moment_shadows",
+            Place::Copied => "package::shadows",
+        }
+    }
+
+    /// A name that can be a folder's.
+    pub(crate) fn name(self) -> &'static str {
+        match self {
+            Place::Package => "package",
+            Place::Copied => "copied",
+        }
+    }
+}
+
+/// A shader of a user, but for the path that the modules lie in.
+pub(crate) struct Root {
+    /// A name that can be a file's.
+    pub(crate) name: String,
+    /// The text, which imports from the package.
+    text: String,
+    /// For a shader that writes values: how many words each invocation writes.
+    pub(crate) words: Option<usize>,
+}
+
+impl Root {
+    /// The text for modules that lie in `place`.
+    pub(crate) fn text(&self, place: Place) -> String {
+        match place {
+            Place::Package => self.text.clone(),
+            Place::Copied => {
+                let import = format!("import {}::", Place::Package.path());
+                let copied = self
+                    .text
+                    .replace(&import, &format!("import {}::", place.path()));
+                spread_imports(&copied)
+            }
+        }
+    }
+}
+
+/// The text with each item that it imports on a line of its own.
+pub(crate) fn spread_imports(text: &str) -> String {
+    let spread = |line: &str| match line.starts_with("import ") {
+        true => line
+            .replace('{', "{\n    ")
+            .replace(", ", ",\n    ")
+            .replace('}', ",\n}"),
+        false => line.to_owned(),
+    };
+    text.lines().map(|line| spread(line) + "\n").collect()
+}
+
+/// For each module a shader that calls every function and, where it has values to write, one that writes them; and the example.
+pub(crate) fn roots() -> Vec<Root> {
+    let mut roots = Vec::new();
+    for module in modules() {
+        let (name, text) = (module.name, module.source);
+        roots.push(Root {
+            name: format!("calls_{name}"),
+            text: with_imports(&shaders::calls(text, "")),
+            words: None,
+        });
+        let linked = link_module(Source { name, text }).unwrap();
+        let values = values(text, linked.wgsl());
+        if values.words > 0 {
+            roots.push(Root {
+                name: format!("values_{name}"),
+                text: with_imports(&values.wgsl),
+                words: Some(values.words),
+            });
+        }
+    }
+    roots.push(Root {
+        name: "forward_shading".to_owned(),
+        text: include_str!("../../examples/forward_shading.wgsl").to_owned(),
+        words: None,
+    });
+    roots
+}
+
+/// `code` below imports of what it uses of the library.
+fn with_imports(code: &str) -> String {
+    let used: BTreeSet<&str> = code
+        .split(|c: char| !c.is_alphanumeric() && c != '_')
+        .collect();
+    let mut text = String::new();
+    for module in modules() {
+        let items: Vec<_> = items(module.source)
+            .filter(|item| used.contains(item))
+            .collect();
+        if !items.is_empty() {
+            let (folder, name, items) = (module.folder, module.name, items.join(", "));
+            writeln!(
+                text,
+                "import moment_shadows::{folder}::{name}::{{{items}}};"
+            )
+            .unwrap();
+        }
+    }
+    text + code
+}
+
+/// The names that a module defines: each begins a line.
+pub(crate) fn items(source: &str) -> impl Iterator<Item = &str> {
+    source.lines().filter_map(|line| {
+        let (kind, rest) = line.split_once(' ')?;
+        let name = rest
+            .split(|c: char| !c.is_alphanumeric() && c != '_')
+            .next();
+        name.filter(|_| ["fn", "struct", "alias", "const"].contains(&kind))
+    })
+}
+
+#[test]
+fn functions_have_values_unless_they_take_a_texture_a_sampler_or_a_pointer() {
+    for module in modules() {
+        let (name, text) = (module.name, module.source);
+        let linked = link_module(Source { name, text }).unwrap();
+        let signatures = text.lines().filter(|line| line.starts_with("fn "));
+        let without = ["texture_", "sampler", "ptr<"];
+        let expected = signatures.filter(|it| without.iter().any(|word| it.contains(word)));
+        assert_eq!(
+            values(text, linked.wgsl()).left_out,
+            expected.count(),
+            "{name}"
+        );
+    }
+}
