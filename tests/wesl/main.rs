@@ -1,5 +1,5 @@
 //! The modules through linkers of WESL, the language of our imports: what they make of each module is valid, and gives the
-//! same bits on the adapter as what our linker makes of it.
+//! same bits on the adapter as what our linker makes of it. The Rust crate runs with all tests, npm's package in `./run check`.
 #![allow(
     clippy::unwrap_used,
     clippy::expect_used,
@@ -8,6 +8,7 @@
 )]
 
 mod judge;
+mod npm;
 mod package;
 mod roots;
 mod rust;
