@@ -1,5 +1,6 @@
-//! The modules through linkers of WESL, the language of our imports: what they make of each module is valid, and gives the
-//! same bits on the adapter as what our linker makes of it. The Rust crate runs with all tests, npm's package in `./run check`.
+//! The modules through linkers of WESL, the language of our imports: what they make of each module and of the example of forward
+//! shading is valid, and all constants and functions have the same bits on the adapter as through our linker. The Rust crate runs
+//! with all tests, npm's package in `./run check`.
 #![allow(
     clippy::unwrap_used,
     clippy::expect_used,
@@ -7,6 +8,7 @@
     reason = "a test that fails says where"
 )]
 
+mod adapter;
 mod judge;
 mod npm;
 mod package;

@@ -21,10 +21,8 @@ fn npms_linker_links_every_module_to_the_same_bits() {
     let script = Path::new(env!("CARGO_MANIFEST_DIR")).join("check/wesl.mjs");
     let status = Command::new("node").arg(script).arg(folder.path()).status();
     assert!(status.unwrap().success());
-    let count = judge(|root, place| {
+    judge(|root, place| {
         let file = format!("{}/{}.linked", place.name(), root.name);
         fs::read_to_string(folder.path().join(file)).map_err(|error| error.to_string())
     });
-    assert_eq!(count, 2 * roots().len());
-    println!("{count} texts of npm's linker give the same bits");
 }

@@ -3,8 +3,7 @@
 use std::collections::BTreeSet;
 use std::fmt::Write;
 
-use moment_shadows::{Source, link_module, modules};
-use moment_shadows_lab::shaders;
+use moment_shadows::{Source, link, link_module, modules};
 
 use crate::values::values;
 
@@ -37,14 +36,14 @@ impl Place {
     }
 }
 
-/// A shader of a user, but for the path that the modules lie in.
+/// A shader of a user that writes values, but for the path that the modules lie in.
 pub(crate) struct Root {
     /// A name that can be a file's.
     pub(crate) name: String,
     /// The text, which imports from the package.
     text: String,
-    /// For a shader that writes values: how many words each invocation writes.
-    pub(crate) words: Option<usize>,
+    /// How many words each invocation writes.
+    pub(crate) words: usize,
 }
 
 impl Root {
@@ -75,30 +74,29 @@ pub(crate) fn spread_imports(text: &str) -> String {
     text.lines().map(|line| spread(line) + "\n").collect()
 }
 
-/// For each module a shader that calls every function and, where it has values to write, one that writes them; and the example.
+/// For each module a shader that writes the values of its constants and functions; and the example, which writes those of its own.
 pub(crate) fn roots() -> Vec<Root> {
     let mut roots = Vec::new();
     for module in modules() {
         let (name, text) = (module.name, module.source);
-        roots.push(Root {
-            name: format!("calls_{name}"),
-            text: with_imports(&shaders::calls(text, "")),
-            words: None,
-        });
         let linked = link_module(Source { name, text }).unwrap();
         let values = values(text, linked.wgsl());
-        if values.words > 0 {
-            roots.push(Root {
-                name: format!("values_{name}"),
-                text: with_imports(&values.wgsl),
-                words: Some(values.words),
-            });
-        }
+        roots.push(Root {
+            name: name.to_owned(),
+            text: with_imports(&values.wgsl),
+            words: values.words,
+        });
     }
+    let (name, text) = (
+        "forward_shading",
+        include_str!("../../examples/forward_shading.wgsl"),
+    );
+    let linked = link(Source { name, text }, &[]).unwrap();
+    let values = values(text, linked.wgsl());
     roots.push(Root {
-        name: "forward_shading".to_owned(),
-        text: include_str!("../../examples/forward_shading.wgsl").to_owned(),
-        words: None,
+        name: name.to_owned(),
+        text: format!("{text}{}", values.wgsl),
+        words: values.words,
     });
     roots
 }
@@ -137,17 +135,16 @@ pub(crate) fn items(source: &str) -> impl Iterator<Item = &str> {
 }
 
 #[test]
-fn functions_have_values_unless_they_take_a_texture_a_sampler_or_a_pointer() {
+fn every_function_has_a_value() {
     for module in modules() {
-        let (name, text) = (module.name, module.source);
-        let linked = link_module(Source { name, text }).unwrap();
-        let signatures = text.lines().filter(|line| line.starts_with("fn "));
-        let without = ["texture_", "sampler", "ptr<"];
-        let expected = signatures.filter(|it| without.iter().any(|word| it.contains(word)));
-        assert_eq!(
-            values(text, linked.wgsl()).left_out,
-            expected.count(),
-            "{name}"
-        );
+        let root = roots().into_iter().find(|it| it.name == module.name);
+        let text = root.unwrap().text;
+        let functions = module
+            .source
+            .lines()
+            .filter_map(|it| it.strip_prefix("fn "));
+        for function in functions.map(|it| it.split('(').next().unwrap()) {
+            assert!(text.contains(&format!(" = {function}(")), "{function}");
+        }
     }
 }

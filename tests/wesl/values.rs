@@ -2,7 +2,7 @@
 
 use std::fmt::Write;
 
-use naga::{Handle, Module, ScalarKind, Type, TypeInner};
+use naga::{Handle, ImageClass, Module, ScalarKind, Type, TypeInner};
 
 use crate::roots::items;
 
@@ -49,17 +49,42 @@ fn drawn_i32(state: ptr<function, u32>) -> i32 {
 fn drawn_bool(state: ptr<function, u32>) -> bool {
     return drawn_word(state) % 2u == 0u;
 }
-";
 
-/// The shader's text without imports, and how many words each invocation writes.
-pub(crate) struct Values {
-    pub(crate) wgsl: String,
-    pub(crate) words: usize,
-    /// Functions that are not called, since they take a texture, a sampler or a pointer.
-    pub(crate) left_out: usize,
+fn small_f32(state: ptr<function, u32>) -> f32 {
+    return clamp(drawn_f32(state), -16.0, 16.0);
 }
 
-/// The values of the module `source`; `linked` is the module with what it imports.
+fn small_u32(state: ptr<function, u32>) -> u32 {
+    return drawn_u32(state) % 16u;
+}
+
+fn small_i32(state: ptr<function, u32>) -> i32 {
+    return drawn_i32(state) % 16;
+}
+
+fn small_bool(state: ptr<function, u32>) -> bool {
+    return drawn_bool(state);
+}
+";
+
+/// The resources that functions may take, by binding in group 1: the first two are those of the example.
+pub(crate) const RESOURCES: [&str; 6] = [
+    "texture_2d_array<f32>",
+    "sampler",
+    "texture_2d<f32>",
+    "texture_2d_array<u32>",
+    "texture_depth_2d_array",
+    "sampler_comparison",
+];
+
+/// The shader's text without imports and without what `source` defines.
+pub(crate) struct Values {
+    pub(crate) wgsl: String,
+    /// How many words each invocation writes.
+    pub(crate) words: usize,
+}
+
+/// The values of `source`, a module or a shader; `linked` is `source` with what it imports.
 pub(crate) fn values(source: &str, linked: &str) -> Values {
     let module = naga::front::wgsl::parse_str(linked).unwrap();
     let mut writer = Writer {
@@ -67,7 +92,6 @@ pub(crate) fn values(source: &str, linked: &str) -> Values {
         body: String::new(),
         words: 0,
     };
-    let mut left_out = 0;
     for (index, item) in items(source).enumerate() {
         let named = |name: &Option<String>| name.as_deref() == Some(item);
         if let Some((_, constant)) = module.constants.iter().find(|(_, it)| named(&it.name)) {
@@ -76,32 +100,31 @@ pub(crate) fn values(source: &str, linked: &str) -> Values {
         }
         if let Some((_, function)) = module.functions.iter().find(|(_, it)| named(&it.name)) {
             let types: Vec<_> = function.arguments.iter().map(|it| it.ty).collect();
-            match &function.result {
-                Some(result) if types.iter().all(|&ty| writer.is_plain(ty)) => {
-                    writer.call(index, item, &types);
-                    writer.store(&format!("value_{index}"), result.ty);
-                }
-                _ => left_out += 1,
-            }
+            writer.call(index, item, &types);
+            let result = function.result.as_ref().unwrap();
+            writer.store(&format!("value_{index}"), result.ty);
         }
     }
     let Writer { body, words, .. } = writer;
+    let mut resources = String::new();
+    for (binding, ty) in RESOURCES.iter().enumerate() {
+        let name = format!("resource_{binding}");
+        if body.contains(&name) {
+            writeln!(resources, "@group(1) @binding({binding}) var {name}: {ty};").unwrap();
+        }
+    }
     let wgsl = format!(
         "{DRAWN}
-@group(0) @binding(0) var<storage, read_write> written: array<u32>;
+{resources}@group(2) @binding(0) var<storage, read_write> written: array<u32>;
 
 @compute @workgroup_size(64)
-fn main(@builtin(global_invocation_id) id: vec3u) {{
+fn write_values(@builtin(global_invocation_id) id: vec3u) {{
     var state = id.x;
     let first = {words}u * id.x;
 {body}}}
 "
     );
-    Values {
-        wgsl,
-        words,
-        left_out,
-    }
+    Values { wgsl, words }
 }
 
 struct Writer<'a> {
@@ -115,26 +138,45 @@ impl Writer<'_> {
         &self.module.types[ty].inner
     }
 
-    /// Whether values of the type are made of numbers and truth values.
-    fn is_plain(&self, ty: Handle<Type>) -> bool {
-        match self.inner(ty) {
-            TypeInner::Scalar(_) | TypeInner::Vector { .. } | TypeInner::Matrix { .. } => true,
-            TypeInner::Array { base, size, .. } => {
-                matches!(size, naga::ArraySize::Constant(_)) && self.is_plain(*base)
-            }
-            TypeInner::Struct { members, .. } => members.iter().all(|it| self.is_plain(it.ty)),
-            _ => false,
-        }
+    /// The binding of a texture or sampler.
+    fn resource(&self, ty: Handle<Type>) -> Option<usize> {
+        let kind = match self.inner(ty) {
+            TypeInner::Sampler { comparison: false } => "sampler",
+            TypeInner::Sampler { comparison: true } => "sampler_comparison",
+            TypeInner::Image { arrayed, class, .. } => match (arrayed, class) {
+                (_, ImageClass::Depth { .. }) => "texture_depth_2d_array",
+                (false, _) => "texture_2d<f32>",
+                (true, ImageClass::Sampled { kind, .. }) if *kind == ScalarKind::Uint => {
+                    "texture_2d_array<u32>"
+                }
+                (true, _) => "texture_2d_array<f32>",
+            },
+            _ => return None,
+        };
+        RESOURCES.iter().position(|&it| it == kind)
     }
 
-    /// Declares `value_<index>`, the result of a function for arguments that are drawn.
+    /// Declares `value_<index>`, the result of a function for arguments that are drawn: small ones for a function that reads
+    /// textures, which may read as many texels as an argument says.
     fn call(&mut self, index: usize, function: &str, types: &[Handle<Type>]) {
+        let reads = types.iter().any(|&ty| self.resource(ty).is_some());
+        let draw = if reads { "small" } else { "drawn" };
+        let mut arguments = Vec::new();
         for (argument, &ty) in types.iter().enumerate() {
-            let drawn = self.drawn(ty);
-            writeln!(self.body, "    let argument_{index}_{argument} = {drawn};").unwrap();
+            let name = format!("argument_{index}_{argument}");
+            let (keyword, passed, ty) = match (self.resource(ty), self.inner(ty)) {
+                (Some(binding), _) => {
+                    arguments.push(format!("resource_{binding}"));
+                    continue;
+                }
+                (None, TypeInner::Pointer { base, .. }) => ("var", format!("&{name}"), *base),
+                (None, _) => ("let", name.clone(), ty),
+            };
+            let drawn = self.drawn(draw, ty);
+            writeln!(self.body, "    {keyword} {name} = {drawn};").unwrap();
+            arguments.push(passed);
         }
-        let names = (0..types.len()).map(|argument| format!("argument_{index}_{argument}"));
-        let arguments = names.collect::<Vec<_>>().join(", ");
+        let arguments = arguments.join(", ");
         writeln!(
             self.body,
             "    let value_{index} = {function}({arguments});"
@@ -142,26 +184,27 @@ impl Writer<'_> {
         .unwrap();
     }
 
-    /// An expression that draws a value of a type.
-    fn drawn(&self, ty: Handle<Type>) -> String {
+    /// An expression for a value of a type by the functions `<draw>_<scalar>`.
+    fn drawn(&self, draw: &str, ty: Handle<Type>) -> String {
         let several = |count: usize, one: &str| vec![one; count].join(", ");
         match self.inner(ty) {
-            TypeInner::Scalar(scalar) => format!("drawn_{}(&state)", name(scalar.kind)),
+            TypeInner::Scalar(scalar) => format!("{draw}_{}(&state)", name(scalar.kind)),
             TypeInner::Vector { size, scalar } => {
                 let (size, name) = (*size as usize, name(scalar.kind));
-                let components = several(size, &format!("drawn_{name}(&state)"));
+                let components = several(size, &format!("{draw}_{name}(&state)"));
                 format!("vec{size}<{name}>({components})")
             }
             TypeInner::Matrix { columns, rows, .. } => {
                 let (columns, rows) = (*columns as usize, *rows as usize);
-                let components = several(columns * rows, "drawn_f32(&state)");
+                let components = several(columns * rows, &format!("{draw}_f32(&state)"));
                 format!("mat{columns}x{rows}<f32>({components})")
             }
             TypeInner::Array { base, .. } => {
-                format!("array({})", several(self.count(ty), &self.drawn(*base)))
+                let elements = several(self.count(ty), &self.drawn(draw, *base));
+                format!("array({elements})")
             }
             TypeInner::Struct { members, .. } => {
-                let members: Vec<_> = members.iter().map(|it| self.drawn(it.ty)).collect();
+                let members: Vec<_> = members.iter().map(|it| self.drawn(draw, it.ty)).collect();
                 let name = self.module.types[ty].name.as_ref().unwrap();
                 format!("{name}({})", members.join(", "))
             }
