@@ -33,23 +33,23 @@ pub struct AreaLight {
 pub struct SoftRadii {
     /// At least 0; 0.5 and more softens the edges of texels near contacts.
     pub smallest: f64,
-    /// At least `smallest`, above 0, at most 4096. With n taps on a disk their distance is 1.8 times the radius over sqrt(n); of
-    /// a summed-area table it is half of the largest kernel's side.
+    /// At least `smallest`, above 0, at most 4096. n taps on a disk are 1.8 times the radius over sqrt(n) apart; for a
+    /// summed-area table the radius is half of the largest kernel's side.
     pub largest: f64,
 }
 
-/// A light that no soft shadows can be made of.
+/// An area light whose parameters are out of range.
 #[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
 #[non_exhaustive]
 pub enum AreaLightError {
     /// A number is out of range.
     #[error("a light's soft shadows: {name} is {value}, but must be {range}")]
     Value {
-        /// What is wrong.
+        /// The number's name.
         name: &'static str,
-        /// What was given.
+        /// The value that was given.
         value: f64,
-        /// What it may be.
+        /// The range that it has to be in.
         range: &'static str,
     },
     /// The range of moment depth is empty.
@@ -69,9 +69,9 @@ impl AreaLight {
         rectangular: 0,
     };
 
-    /// A light with parallel rays that is seen as a disk under `angular_diameter` radians, at least 0 and below pi; the
-    /// sun's is 0.0093. `texel` is a texel's width and height in scene units, `range` that of the map's moment depth. A
-    /// light without size has shadows as hard as `radii` allow.
+    /// A light with parallel rays that appears as a disk of `angular_diameter` radians, at least 0 and below pi; the sun's is
+    /// 0.0093. `texel` is a texel's width and height in scene units, `range` that of the map's moment depth. A light without
+    /// size has shadows as hard as `radii` allow.
     ///
     /// # Errors
     /// [`AreaLightError`], which names the number that is out of range.
@@ -111,7 +111,8 @@ impl AreaLight {
         })
     }
 
-    /// The same with a rectangle of the given width and height in scene units, each at least 0, along the map's x and y.
+    /// A light with rays from a point: a rectangle of the given width and height in scene units, each at least 0, along the
+    /// map's x and y. `texel` and `range` are as in [`AreaLight::spot`].
     ///
     /// # Errors
     /// [`AreaLightError`], which names the number that is out of range.
@@ -159,7 +160,7 @@ impl AreaLight {
             "above 0 and at most 4096 texels",
         )?;
         let texels = [size[0] / texel[0], size[1] / texel[1]];
-        // Sizes that single precision cannot hold come from units that do not fit together.
+        // Sizes beyond single precision come from units that do not fit together.
         for value in texels {
             let single = value as f32;
             check(

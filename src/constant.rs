@@ -1,13 +1,13 @@
 //! Numbers that stand in WGSL, read from there while the crate is compiled.
 
-/// The value of `const <name>: <type> = <number>;` in the text of a module. Does not compile where there is none.
+/// The value of `const <name>: <type> = <number>;` in the text of a module. Does not compile if it is missing.
 pub(crate) const fn number(text: &str, name: &str) -> f64 {
     let [value] = numbers(text, name);
     value
 }
 
-/// The first numbers in the value of a constant, names left out: of `Bias(TARGET, 1e-4)` it is 1e-4. Does not compile where there
-/// are fewer.
+/// The first numbers in the value of a constant, names left out: for `Bias(TARGET, 1e-4)` it is 1e-4. Does not compile if
+/// there are fewer.
 pub(crate) const fn numbers<const N: usize>(text: &str, name: &str) -> [f64; N] {
     let bytes = text.as_bytes();
     let mut at = after(bytes, 0, b"const ", name.as_bytes());

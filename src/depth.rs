@@ -14,7 +14,7 @@ pub struct DepthRange {
     pub far: f64,
 }
 
-/// A depth convention that no conversion exists for.
+/// A depth convention for which no conversion exists.
 #[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
 #[non_exhaustive]
 pub enum DepthError {
@@ -36,7 +36,7 @@ pub enum DepthError {
     InvalidPlanes {
         /// Distance of the near plane.
         near: f64,
-        /// Distance of the far plane; infinite where there is none.
+        /// Distance of the far plane; infinite for a projection without one.
         far: f64,
     },
 }
@@ -110,7 +110,7 @@ impl DepthConversion {
         })
     }
 
-    /// The same light with stored depth reversed.
+    /// The conversion of the same light with stored depth reversed.
     #[must_use]
     fn reversed(self) -> Self {
         Self {
@@ -138,7 +138,7 @@ impl DepthConversion {
 }
 
 impl DepthRange {
-    /// Whether the range is finite and not empty.
+    /// Checks that the range is finite and not empty.
     pub fn check(self) -> Result<(), DepthError> {
         let valid = self.near.is_finite() && self.far.is_finite() && self.near < self.far;
         if valid {

@@ -6,7 +6,7 @@ use serde::{Deserialize, Serialize};
 
 use crate::Profile;
 
-/// A texture format that nodes and hosts exchange. Named as in WebGPU; no graphics library's own type.
+/// A texture format that nodes and hosts exchange. Named as in WebGPU, and independent of graphics libraries.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord, Serialize, Deserialize)]
 #[serde(rename_all = "lowercase")]
 #[non_exhaustive]
@@ -155,7 +155,7 @@ impl TextureFormat {
         };
         match self {
             TextureFormat::R8Unorm | TextureFormat::Rgb10a2Unorm => colour,
-            // To be written as storage they need what an adapter adds of its own.
+            // Only features that an adapter adds let them be written as storage.
             TextureFormat::R16Float | TextureFormat::Rg16Float => FormatSupport {
                 storage_write: profile == Profile::NativeAdapter,
                 ..colour

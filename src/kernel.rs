@@ -15,14 +15,14 @@ const WEIGHT_UNIT: f64 = 1.0 / (1 << 18) as f64;
 
 /// Weights of 2 radius + 1 texels along one direction: not negative, multiples of 2^-18 that sum to exactly 1.
 ///
-/// Moments stay valid under no other filters.
+/// Only filters with such weights keep moments valid.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(transparent)]
 pub struct Kernel {
     weights: Vec<f32>,
 }
 
-/// Weights or a shape that no kernel can be made of.
+/// Weights or a shape that make no kernel.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 #[non_exhaustive]
 pub enum KernelError {
@@ -112,7 +112,7 @@ impl Kernel {
         &self.weights
     }
 
-    /// The kernel's own standard deviation in texels: smaller than a Gaussian's sigma, which the radius cuts off.
+    /// The kernel's standard deviation in texels: smaller than the sigma of a Gaussian, which the radius cuts off.
     #[must_use]
     pub fn standard_deviation(&self) -> f32 {
         let positions = || {
@@ -131,8 +131,8 @@ impl Kernel {
     }
 
     /// Scales to a sum of 1 and rounds to multiples of [`WEIGHT_UNIT`] that sum to exactly 1: a sum that is off by one unit
-    /// acts like an error of that size in every moment. What is rounded are the sums so far, so that no weight gets all of
-    /// the residue.
+    /// acts like an error of that size in every moment. The partial sums are rounded, so that no weight gets all of the
+    /// residue.
     fn normalised(weights: &[f64]) -> Self {
         let total: f64 = weights.iter().sum();
         let mut sum = 0.0;

@@ -3,13 +3,13 @@
 use bytemuck::{Pod, Zeroable};
 use serde::{Deserialize, Serialize};
 
-/// What is done about light leaking after the bound: the uniform struct of the WGSL module `leak_reduction`.
+/// The reduction of light leaking after the bound: the uniform struct of the WGSL module `leak_reduction`.
 #[derive(Clone, Copy, Debug, PartialEq, Pod, Zeroable, Serialize, Deserialize)]
 #[repr(C)]
 pub struct LeakReduction {
     /// Shadow intensity that counts as full shadow, in (0, 1]; 0.98 hides weak leaks (Peters, GDC 2016).
     pub full_shadow: f32,
-    /// Visibility that counts as none, in [0, 1) (Lauritzen, thesis 2008, section 3.4).
+    /// Visibility that counts as zero, in [0, 1) (Lauritzen, thesis 2008, section 3.4).
     pub bleed_reduction: f32,
     /// Exponent of visibility, above 0.
     pub visibility_exponent: f32,
@@ -17,15 +17,15 @@ pub struct LeakReduction {
     pub padding: f32,
 }
 
-/// A leak reduction that would not give a shadow intensity.
+/// A leak reduction with a field out of range.
 #[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
 #[error("leak reduction: {name} is {value}, but must be {range}")]
 pub struct LeakReductionError {
-    /// The field.
+    /// The field's name.
     pub name: &'static str,
-    /// What it holds.
+    /// The field's value.
     pub value: f32,
-    /// What it may hold.
+    /// The range that the value has to be in.
     pub range: &'static str,
 }
 
@@ -38,13 +38,13 @@ impl LeakReduction {
         padding: 0.0,
     };
 
-    /// The bound as it is.
+    /// No reduction: the bound as it is.
     pub const NONE: LeakReduction = LeakReduction {
         full_shadow: 1.0,
         ..LeakReduction::DEFAULT
     };
 
-    /// Whether every field is in its range.
+    /// Checks that every field is in its range.
     pub fn check(self) -> Result<(), LeakReductionError> {
         let fields = [
             (

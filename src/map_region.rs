@@ -5,7 +5,7 @@ use serde::{Deserialize, Serialize};
 
 /// A rectangle of a map's layer, in texels of mip level 0; the struct `MapRegion` of `map_region.wgsl`.
 ///
-/// No filter, mip level or lookup reads across its edge. One without texels stands for no region at all.
+/// No filter, mip level or lookup reads across its edge. A rectangle without texels stands for no region at all.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, Pod, Zeroable, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 #[repr(C)]

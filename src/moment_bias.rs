@@ -1,4 +1,4 @@
-//! Moment biases: what pulls moments that rounding has made impossible back among the possible ones.
+//! Moment biases: they make moments valid again that rounding has made invalid.
 
 use serde::{Deserialize, Serialize};
 
@@ -62,9 +62,9 @@ const fn of_six(name: &str) -> SixMomentsBias {
 
 impl Storage {
     /// The smallest moment bias that covers a resolve and a two-pass blur, every stage rounded to the storage. With 8 or 10
-    /// bits it leaks so far that no technique stores four moments like that. That of float32 relies on sums as exact as those of the
-    /// WGSL module `split_sum`, which blurs of any width have then. That of a summed-area table depends on
-    /// its largest kernel ([`SummedAreaTable::moment_bias`]); here it is that of the largest possible.
+    /// bits it leaks so far that no technique stores four moments like that. The bias of float32 relies on sums as exact as
+    /// those of the WGSL module `split_sum`, which blurs of any width use then. The bias of a summed-area table depends on
+    /// its largest kernel ([`SummedAreaTable::moment_bias`]); here it is that of the largest possible kernel.
     #[must_use]
     pub fn moment_bias(self) -> FourMomentsBias {
         const UNORM16: FourMomentsBias = of_four(FOUR_MOMENTS, "FOUR_MOMENTS_BIAS_UNORM16");
@@ -78,8 +78,9 @@ impl Storage {
         }
     }
 
-    /// [`moment_bias`](Self::moment_bias) for distributions on the depth interval (Hausdorff): their moments lie in a smaller set, so
-    /// that the target is another one and the step longer.
+    /// The smallest moment bias for distributions on the depth interval (Hausdorff), under the conditions of
+    /// [`moment_bias`](Self::moment_bias): their moments lie in a smaller set, so that the target differs and the step is
+    /// longer.
     #[must_use]
     pub fn hausdorff_moment_bias(self) -> FourMomentsBias {
         const UNORM16: FourMomentsBias = of_four(HAUSDORFF4, "HAUSDORFF4_BIAS_UNORM16");
@@ -93,9 +94,10 @@ impl Storage {
         }
     }
 
-    /// The smallest bias of six moments that covers a resolve and a two-pass blur, every stage rounded to the storage; none
-    /// for storages that six moments cannot have. All hold the optimised basis, floats less one half in every channel. That of
-    /// float32 is what the evaluation in f32 needs rather than the storage, and that of unorm10 covers the worst patches that are known.
+    /// The smallest bias of six moments that covers a resolve and a two-pass blur, every stage rounded to the storage; `None`
+    /// for storages that cannot hold six moments. All hold the optimised basis, floats less one half in every channel. The
+    /// bias of float32 is what the evaluation in f32 needs rather than the storage, and the bias of unorm10 covers the worst
+    /// patches that are known.
     #[must_use]
     pub fn six_moments_bias(self) -> Option<SixMomentsBias> {
         match self {

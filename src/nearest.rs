@@ -1,4 +1,4 @@
-//! The names most like a misspelt one, for the next step in an error.
+//! The names closest to a misspelt one, for the next step in an error.
 
 /// Up to three of `candidates`, those with the fewest edits from `name` first, quoted and joined by commas.
 #[must_use]
@@ -13,7 +13,7 @@ pub fn nearest<'a>(name: &str, candidates: impl IntoIterator<Item = &'a str>) ->
     quoted.collect::<Vec<_>>().join(", ")
 }
 
-/// Levenshtein's distance. Long names are cut, so that the cost stays bounded whatever stands in a file.
+/// Levenshtein's distance. Long names are cut, so that the cost stays bounded whatever a file contains.
 fn edits(a: &str, b: &str) -> usize {
     const LONGEST: usize = 64;
     let b: Vec<char> = b.chars().take(LONGEST).collect();

@@ -22,8 +22,8 @@ const VARIANCE_OF_SAMPLING: f32 = 1.0 / 12.0 + 1.0 / 4.0;
 /// The steepest slope against the light that is still biased in full: 85 degrees.
 const STEEPEST_TANGENT: f32 = 11.43;
 
-/// What stored depths and reconstructed positions may be off by, in moment depth: half a step of 16-bit depth is 1.5e-5,
-/// and about as much again is lost on the way to the light's space and back.
+/// The error of stored depths and reconstructed positions, in moment depth: half a step of 16-bit depth is 1.5e-5, and about
+/// as much again is lost on the way to the light's space and back.
 const DEPTH_ERROR: f32 = 3e-5;
 
 /// The receiver bias: the uniform struct of the WGSL module `receiver_bias`.

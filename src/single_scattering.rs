@@ -20,16 +20,16 @@ pub struct SingleScattering {
     pub padding: f32,
 }
 
-/// A medium that there is not.
+/// Parameters that describe no physical medium.
 #[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
 #[error("single scattering: {name} is {value}, but must be {range}")]
 #[non_exhaustive]
 pub struct SingleScatteringError {
-    /// What is wrong.
+    /// The parameter's name.
     pub name: &'static str,
-    /// What was given.
+    /// The value that was given.
     pub value: f32,
-    /// What it may be.
+    /// The range that it has to be in.
     pub range: &'static str,
 }
 
@@ -89,5 +89,5 @@ impl SingleScattering {
     }
 }
 
-/// Products of three numbers and a distance stay finite.
+/// The largest parameter: products of three numbers up to this and a distance stay finite.
 const LARGEST: f32 = 1e9;

@@ -37,8 +37,8 @@ pub enum Storage {
     Float32,
     /// 8-bit normalised channels: for bounded functions of depth, not for moments.
     Unorm8,
-    /// 10-bit normalised channels, three to a texel: for six moments alone. No device need write the format from compute
-    /// shaders, so that such maps are [drawn](Storage::is_drawn).
+    /// 10-bit normalised channels, three to a texel: for six moments alone. Devices need not be able to write the format from
+    /// compute shaders, so such maps are [drawn](Storage::is_drawn).
     Unorm10,
     /// Sums of 32-bit integers: a summed-area table, see [`SummedAreaTable`](crate::SummedAreaTable).
     Fixed32,
@@ -51,7 +51,7 @@ pub enum Storage {
      use storage '{alternative}' instead"
 )]
 pub struct UnsupportedStorage {
-    /// What was asked for.
+    /// The storage that was asked for.
     pub storage: Storage,
     /// The format it needs.
     pub format: TextureFormat,
@@ -102,7 +102,7 @@ impl Storage {
         }
     }
 
-    /// The format of a texture with 1, 2 or 4 channels, where there is one.
+    /// The format of a texture with 1, 2 or 4 channels, if there is one.
     #[must_use]
     pub fn format_of(self, channels: u32) -> Option<TextureFormat> {
         match (self, channels) {
@@ -174,7 +174,7 @@ impl Storage {
         }
     }
 
-    /// Whether every device of the profile can write the storage, or which one to use instead.
+    /// Checks that every device of the profile can write the storage; the error names one to use instead.
     pub fn check(self, profile: Profile) -> Result<(), UnsupportedStorage> {
         if self.can_write(self.format(), profile) {
             return Ok(());

@@ -18,7 +18,7 @@ pub struct SummedAreaTable {
     largest_kernel: [u32; 2],
 }
 
-/// As it is written in files.
+/// The table's form in files.
 #[derive(Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 struct Written {
@@ -26,7 +26,7 @@ struct Written {
     largest_kernel: [u32; 2],
 }
 
-/// A summed-area table that cannot be.
+/// An invalid description of a summed-area table.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
 #[non_exhaustive]
 pub enum SummedAreaTableError {
@@ -40,7 +40,7 @@ pub enum SummedAreaTableError {
         /// Texels in y.
         height: u32,
     },
-    /// A kernel whose sum would not be known.
+    /// A kernel so large that its sum may wrap around.
     #[error(
         "a largest kernel of {width}x{height} texels covers more than the {} whose sum 32 bits hold; next to a width of {} the \
          height is at most {}, and a square has at most {} texels along each side",
@@ -53,7 +53,7 @@ pub enum SummedAreaTableError {
         /// Texels in y.
         height: u32,
     },
-    /// A map that no table is made of.
+    /// A map from which no table can be made.
     #[error(
         "no summed-area table is made of a map stored as {source_storage}; one is of unorm16, float16 or float32"
     )]
@@ -66,8 +66,8 @@ pub enum SummedAreaTableError {
 const MODULE: &str = include_str!("../wgsl/filter/summed_area_encoding.wgsl");
 const UNIT_UNORM16: u32 = number(MODULE, "SUMMED_AREA_ENCODING_UNIT_UNORM16") as u32;
 
-/// What rounding costs, as the constants of the WGSL module say it: `per_error` times the error of a channel and what f32 adds, but
-/// no less than `smallest`.
+/// The cost of rounding, from the constants of the WGSL module: `per_error` times the error of a channel and what f32 adds,
+/// but no less than `smallest`.
 struct Cost {
     per_error: f32,
     of_f32: f32,
@@ -80,7 +80,7 @@ const BIAS: Cost = Cost {
     smallest: number(MODULE, "SUMMED_AREA_ENCODING_SMALLEST_BIAS") as f32,
 };
 
-/// The same for distributions on the depth interval.
+/// The cost of rounding for distributions on the depth interval, as a moment bias.
 const HAUSDORFF_BIAS: Cost = Cost {
     per_error: 6.14,
     of_f32: 6e-7,
@@ -102,11 +102,11 @@ impl Cost {
 }
 
 impl SummedAreaTable {
-    /// The most texels that a kernel can cover: 65537 channels of 65535 units are
-    /// just below 2^32. Tables of float maps keep to it, too, so that none is less exact than 16 bits.
+    /// The most texels that a kernel can cover: 65537 channels of 65535 units are just below 2^32. Tables of float maps keep
+    /// to it, too, so that no table is less exact than 16 bits.
     pub const LARGEST_AREA: u32 = number(MODULE, "SUMMED_AREA_ENCODING_LARGEST_AREA") as u32;
 
-    /// The one with the greatest error.
+    /// The table with the greatest error.
     pub(crate) const COARSEST: Self = Self {
         source: Storage::Unorm16,
         largest_kernel: [Self::LARGEST_AREA, 1],
@@ -132,7 +132,7 @@ impl SummedAreaTable {
         })
     }
 
-    /// How the map was stored that the table is made of.
+    /// The storage of the map that the table is made of.
     #[must_use]
     pub fn source(&self) -> Storage {
         self.source
@@ -144,15 +144,15 @@ impl SummedAreaTable {
         self.largest_kernel
     }
 
-    /// Its area in texels.
+    /// The area of the largest kernel in texels.
     #[must_use]
     pub fn largest_area(&self) -> u32 {
         // At most `LARGEST_AREA`.
         self.largest_kernel[0] * self.largest_kernel[1]
     }
 
-    /// The integer that a channel of 1 is: divide a sum by this and by the rectangle's area. That of unorm16 maps is 65535, their
-    /// own; of others floor((2^32 - 1) / largest area), less the bits that f32 would round.
+    /// The integer that a channel of 1 is: divide a sum by this and by the rectangle's area. It is 65535 for unorm16 maps, as
+    /// in the maps themselves; for others floor((2^32 - 1) / largest area), less the bits that f32 would round.
     #[must_use]
     pub fn unit(&self) -> u32 {
         match self.source {
@@ -165,7 +165,7 @@ impl SummedAreaTable {
         }
     }
 
-    /// The largest error of a mean's channels, but for f32: half a unit, and what the source's storage had rounded.
+    /// The largest error of a mean's channels, apart from that of f32: half a unit, and the rounding of the source's storage.
     #[must_use]
     pub fn error(&self) -> f32 {
         let source = match self.source {
@@ -175,8 +175,8 @@ impl SummedAreaTable {
         0.5 / self.unit() as f32 + source
     }
 
-    /// The smallest safe moment bias for four moments on the real line: of a float32 map 1e-6 for kernels up to 27x27 texels and
-    /// 2.8e-6 for 65x65; of a unorm16 map 3.8e-5, since the resolve rounded once; of a float16 map 6e-4.
+    /// The smallest safe moment bias for four moments on the real line: for a float32 map 1e-6 for kernels up to 27x27 texels
+    /// and 2.8e-6 for 65x65; for a unorm16 map 3.8e-5, since the resolve rounded once; for a float16 map 6e-4.
     ///
     /// With the error e of a channel, alpha >= 4.88 e suffices to first order; arithmetic in f32 adds to it. The map is meant to
     /// come from a resolve: each blur in between rounds again.
@@ -189,7 +189,7 @@ impl SummedAreaTable {
         }
     }
 
-    /// The same for distributions on the depth interval (Hausdorff).
+    /// The smallest safe moment bias for four moments on the depth interval (Hausdorff).
     #[must_use]
     pub fn hausdorff_moment_bias(&self) -> FourMomentsBias {
         FourMomentsBias {

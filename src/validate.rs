@@ -1,4 +1,4 @@
-//! Validation: whether a shader that imports our modules can be used everywhere that a profile promises.
+//! Validation: whether a shader that imports modules of the library can be used everywhere that a profile promises.
 
 mod backend;
 mod constants;
@@ -53,9 +53,9 @@ impl ValidationReport {
 /// texture formats and accesses that every device has; `native` the 16-bit normalised ones as well; `native-adapter` every
 /// format that naga knows.
 ///
-/// The WGSL compiler runs on a thread of its own with a large stack; [`LONGEST_SHADER`], [`LONGEST_DEFINITION`],
-/// [`LONGEST_CHAIN`], [`LARGEST_CONSTANT`], [`MOST_CONSTANTS`], [`LARGEST_VALUE`], [`MOST_VALUES`] and
-/// [`MOST_EXPRESSIONS`] bound what it is given, so that an answer takes seconds at most.
+/// The WGSL compiler runs on a separate thread with a large stack; [`LONGEST_SHADER`], [`LONGEST_DEFINITION`],
+/// [`LONGEST_CHAIN`], [`LARGEST_CONSTANT`], [`MOST_CONSTANTS`], [`LARGEST_VALUE`], [`MOST_VALUES`] and [`MOST_EXPRESSIONS`]
+/// bound what it is given, so that an answer takes seconds at most.
 ///
 /// # Errors
 /// [`ValidateError`], which points at the line of the file before linking.
@@ -70,7 +70,7 @@ pub fn validate(
     validate_linked(source.name, &link(source, generated)?, profile)
 }
 
-/// As [`validate()`], for a file that is written as a module of the library ([`link_module()`]).
+/// Validates a file that is written as a module of the library ([`link_module()`]), otherwise as [`validate()`].
 ///
 /// # Errors
 /// [`ValidateError`], which points at the line of the file before linking.
@@ -131,7 +131,7 @@ fn check(
         .map_err(Box::new)
 }
 
-/// What naga may accept under `profile`. The three of the core are no optional features: sample shading, cube array
+/// What naga may accept under `profile`. The three of the core are not optional features: sample shading, cube array
 /// textures, and packing of 16-bit floats.
 fn capabilities(profile: Profile) -> Capabilities {
     let core = Capabilities::MULTISAMPLED_SHADING

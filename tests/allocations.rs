@@ -13,8 +13,7 @@ use moment_shadows_graph::record::{
     Bindings, ImportedResource, Layers, PipelineOptions, Pipelines, Recording, Resources,
 };
 use moment_shadows_graph::{
-    Access, BindingResource, Capabilities, Direction, Imports, NodeDesc, ParameterBlock, Pass,
-    Plan, Stage, Work, compile,
+    Capabilities, Imports, NodeDesc, ParameterBlock, Pass, Plan, Stage, TextureRule, bind, compile,
 };
 use moment_shadows_lab::gpu::Gpu;
 use pollster::block_on;
@@ -27,7 +26,7 @@ use wgpu::util::DeviceExt as _;
 #[path = "support/host_node.rs"]
 mod host_node;
 
-use host_node::{bindings, compute, empty, graph, made, output, storage};
+use host_node::{SIDE, graph};
 
 const STAGE: Stage = Stage::AfterShadowMaps;
 const LAYERS: u32 = 3;
@@ -49,47 +48,19 @@ const DRAW: &str = "
 
 /// A node of one pass per layer that writes its parameter to the output `to`.
 fn node(draws: bool) -> NodeDesc {
-    let (slot, pass) = if draws {
-        let work = Work::Fullscreen {
-            target: "to".to_owned(),
-            each_layer: true,
-        };
-        let pass = Pass {
-            work,
-            bindings: bindings([BindingResource::Parameters]),
-            ..compute(DRAW, "to", true, [])
-        };
-        (
-            made(
-                "to",
-                Direction::Out,
-                Access::RENDER_TARGET,
-                TextureFormat::R32Float,
-                LAYERS,
-            ),
-            pass,
-        )
+    let (format, pass) = if draws {
+        let pass = Pass::fullscreen("main", "to").shader(DRAW, "main");
+        (TextureFormat::R32Float, pass)
     } else {
-        let pass = compute(
-            COMPUTE,
-            "to",
-            true,
-            [BindingResource::Parameters, storage("to")],
-        );
-        (output("to", LAYERS), pass)
+        let pass = Pass::compute("main", "to", [8, 8]).shader(COMPUTE, "main");
+        let pass = pass.bind("filled", bind::store("to"));
+        (TextureFormat::Rgba32Float, pass)
     };
-    NodeDesc {
-        slots: vec![slot],
-        passes: vec![pass],
-        parameters: Some(ParameterBlock {
-            name: "Value".to_owned(),
-            size: 16,
-            elements: 1,
-            each_layer_of: None,
-            initial: Vec::new(),
-        }),
-        ..empty(STAGE)
-    }
+    let square = TextureRule::new(format).extent([SIDE, SIDE]).layers(LAYERS);
+    NodeDesc::new("host", STAGE)
+        .output("to", "The value.", square)
+        .pass(pass.each_layer().bind("value", bind::parameters()))
+        .parameters(ParameterBlock::of::<[f32; 4]>("Value"))
 }
 
 fn plan(gpu: &Gpu, draws: bool) -> Plan {
@@ -157,8 +128,8 @@ fn texture(gpu: &Gpu, format: wgpu::TextureFormat, usage: wgpu::TextureUsages) -
     gpu.device.create_texture(&wgpu::TextureDescriptor {
         label: None,
         size: wgpu::Extent3d {
-            width: host_node::SIDE,
-            height: host_node::SIDE,
+            width: SIDE,
+            height: SIDE,
             depth_or_array_layers: LAYERS,
         },
         mip_level_count: 1,

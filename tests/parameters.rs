@@ -13,8 +13,7 @@ use moment_shadows::{
     FourMomentsBias, IntegrateScatteringParameters, Kernel, LARGEST_RADIUS, LayerSplits,
     LeakReduction, MapRegion, PcfTaps, Pcss, PercentageCloserKernel, Profile, ReceiverBias,
     RectifiedFrame, RectifyMomentsParameters, STANDARD_DEVIATIONS, SingleScattering,
-    SixMomentsBias, Source, Storage, SummedAreaTable, Technique, TextureFormat, ViewParameters,
-    link,
+    SixMomentsBias, Storage, SummedAreaTable, Technique, TextureFormat, ViewParameters, modules,
 };
 use moment_shadows_graph::nodes::{
     Blur, BlurParameters, CompositeScattering, IntegrateScattering, KernelProperty, RectifyMoments,
@@ -204,7 +203,7 @@ fn structs_of_single_scattering_are_laid_out_alike() {
         }),
     );
     assert_same_layout(
-        &of(&IntegrateScattering::default()),
+        &of(&IntegrateScattering),
         "IntegrateScatteringParameters",
         size_of::<IntegrateScatteringParameters>(),
         &fields!(IntegrateScatteringParameters {
@@ -309,16 +308,12 @@ fn nodes_declare_the_structs_that_their_shaders_bind() {
                 .bindings
                 .iter()
                 .find(|binding| binding.resource == BindingResource::Parameters);
-            let index = declared.unwrap().binding;
+            let name = Some(declared.unwrap().variable.as_str());
             let parsed = parse(&pass.wgsl);
             let (_, bound) = parsed
                 .global_variables
                 .iter()
-                .find(|(_, variable)| {
-                    variable
-                        .binding
-                        .is_some_and(|binding| binding.binding == index)
-                })
+                .find(|(_, variable)| variable.name.as_deref() == name)
                 .unwrap();
             let whole = &parsed.types[bound.ty];
             let kind = match whole.inner {
@@ -568,16 +563,10 @@ fn the_largest_kernel_fits_its_uniform_struct() {
         );
     }
     // The plain form of the filter in the library clamps to the same radius.
-    let text = link(
-        Source {
-            name: "user.wgsl",
-            text: "import moment_shadows::filter::gaussian::{gaussian_filter};\n",
-        },
-        &[],
-    )
-    .unwrap();
-    assert!(
-        text.wgsl()
-            .contains(&format!("clamp(radius, 0, {LARGEST_RADIUS})"))
-    );
+    let gaussian = modules()
+        .iter()
+        .find(|module| module.name == "gaussian")
+        .unwrap();
+    let clamped = format!("clamp(radius, 0, {LARGEST_RADIUS})");
+    assert!(gaussian.source.contains(&clamped));
 }

@@ -4,6 +4,7 @@ use moment_shadows::nearest;
 use serde::Deserialize;
 use serde_json::value::RawValue;
 
+use crate::nodes::REFUSED;
 use crate::version_1::Renamed;
 use crate::{GraphError, GraphErrorKind, Node, NodeRegistry, Position, ResourceDesc};
 
@@ -283,7 +284,9 @@ fn read_node(
         .ok_or_else(|| unknown_type(type_name, registry))
         .and_then(|result| {
             result.map_err(|error| match header.properties {
-                Some(_) => syntax(text, properties, &error),
+                Some(_) => {
+                    refused(type_name, &error).unwrap_or_else(|| syntax(text, properties, &error))
+                }
                 None => GraphError::new(
                     GraphErrorKind::Syntax,
                     format!("{}; give it in the node's 'properties'", sentence(&error)),
@@ -296,6 +299,18 @@ fn read_node(
         node,
         position: Some(position),
     })
+}
+
+/// The reason why a node does not have a property that a file gives it, if one is known.
+fn refused(type_name: &str, error: &serde_json::Error) -> Option<GraphError> {
+    let message = error.to_string();
+    let (_, key, reason) = REFUSED.into_iter().find(|(of, key, _)| {
+        *of == type_name && message.starts_with(&format!("unknown field `{key}`"))
+    })?;
+    Some(GraphError::new(
+        GraphErrorKind::Property,
+        format!("'{key}' is refused: {reason}"),
+    ))
 }
 
 /// The name of a node whose description is wrong elsewhere.

@@ -22,17 +22,23 @@ mod registry;
 mod resource;
 mod version_1;
 
+/// How a host writes a node of its own.
+#[cfg(any(doc, doctest))]
+#[doc = include_str!("../docs/write_a_node.md")]
+pub mod write_a_node {}
+
 pub use capabilities::Capabilities;
-pub use compile::{Imports, compile};
+pub use compile::{Imports, compile, describe};
 pub use error::{GraphError, GraphErrorKind, Position};
 pub use graph::{Edge, Endpoint, Graph, GraphNode, Import, Output, VERSION};
 pub use node::{
     Binding, BindingResource, Connected, CountRule, Direction, ExtentRule, FormatRule, Lifetime,
-    MipLevel, Node, NodeDesc, ParameterBlock, Pass, RegionTable, Slot, SlotResource, Stage, Work,
+    MipLevel, Node, NodeDesc, ParameterBlock, Pass, RegionTable, SameAs, Slot, SlotResource, Stage,
+    TextureRule, Work, bind, same_as,
 };
 pub use plan::{
-    Home, ParameterError, ParameterLayout, Plan, PlanError, PlannedBinding, PlannedBindingResource,
-    PlannedImport, PlannedMemory, PlannedOutput, PlannedParameters, PlannedPass, PlannedRegions,
+    Home, NamedResource, ParameterError, ParameterLayout, Plan, PlanError, PlannedBinding,
+    PlannedBindingResource, PlannedMemory, PlannedParameters, PlannedPass, PlannedRegions,
     PlannedResource, PlannedWork, RegionError, SampleType,
 };
 pub use registry::NodeRegistry;

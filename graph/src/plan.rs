@@ -29,9 +29,9 @@ pub struct Plan {
     /// The textures and buffers to create; resources whose lives do not overlap share one.
     pub memory: Vec<PlannedMemory>,
     /// What the host gives, in the order of the graph file; only what a pass touches.
-    pub imports: Vec<PlannedImport>,
+    pub imports: Vec<NamedResource>,
     /// What the host takes.
-    pub outputs: Vec<PlannedOutput>,
+    pub outputs: Vec<NamedResource>,
     /// Where each node's uniform data lies in a view's block.
     pub parameters: ParameterLayout,
 }
@@ -229,21 +229,11 @@ pub struct PlannedMemory {
     pub exported: bool,
 }
 
-/// A resource that the host gives.
+/// A resource that the host gives or takes, by name.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
-pub struct PlannedImport {
-    /// The name.
-    pub name: String,
-    /// Index into [`Plan::resources`].
-    pub resource: usize,
-}
-
-/// A resource that the host takes.
-#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
-#[serde(deny_unknown_fields)]
-pub struct PlannedOutput {
-    /// The name.
+pub struct NamedResource {
+    /// The name of the import or output.
     pub name: String,
     /// Index into [`Plan::resources`].
     pub resource: usize,

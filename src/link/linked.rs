@@ -101,8 +101,8 @@ impl Linked {
             .iter()
             .flat_map(|import| import.lines.clone())
             .collect();
-        // Of several blank lines, which removed text leaves, one is kept.
-        let mut blank = false;
+        // Of several blank lines, which removed text leaves, one is kept, and none at the ends of a part.
+        let mut blank = !is_root;
         for (line, text) in (1..).zip(text.lines()) {
             let was_blank = core::mem::replace(&mut blank, text.trim().is_empty());
             if imports.contains(&line) {
@@ -110,6 +110,10 @@ impl Linked {
             } else if !(blank && was_blank) {
                 self.push_line(if blank { "" } else { text }, Some((index, line)));
             }
+        }
+        if !is_root && self.wgsl.ends_with("\n\n") {
+            self.wgsl.pop();
+            self.lines.pop();
         }
     }
 

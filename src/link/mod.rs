@@ -50,8 +50,8 @@ impl Source<'_> {
 /// - Every item is defined at top level by its module, and imported once; a file imports every item that it uses.
 ///
 /// The result holds `source` whole, and of each module what `source` reaches: the declarations whose names stand in what is linked,
-/// and entry points, with the comments above them. Files come once, each after those that it imports, headed by a comment
-/// that names it; `source` comes last, but its directives come first. Names are not changed, so no two of the files may define
+/// and entry points, with the comments above them; other comments stay in their files. Files come once, each after those that it
+/// imports, headed by a comment that names it; `source` comes last, but its directives come first. Names are not changed, so no two of the files may define
 /// the same name, linked or not.
 /// The same input always gives the same text.
 ///

@@ -112,7 +112,8 @@ fn with_comment_behind(text: &str, end: usize, next: usize) -> usize {
     }
 }
 
-/// Marks in each of `files` but the last, which is the one that was given to the linker, what that one does not reach.
+/// Marks in each of `files` but the last, which is the one that was given to the linker, what that one does not reach, and the comments
+/// that belong to no declaration: the file's name above its part says where to read them.
 /// Entry points are reached from outside; what has no name (`const_assert`) by anything of its file.
 pub(crate) fn prune(files: &mut [File<'_>]) {
     let Some(root) = files.len().checked_sub(1) else {
@@ -153,11 +154,25 @@ pub(crate) fn prune(files: &mut [File<'_>]) {
         waiting.extend(reached.flatten());
     }
     for (file, of) in files.iter_mut().enumerate() {
-        let declarations = of.declarations.iter().enumerate();
-        let unreached = declarations.filter(|(index, _)| !kept.contains(&(file, *index)));
-        of.unreached = unreached
-            .map(|(_, unreached)| unreached.range.clone())
-            .collect();
         of.is_reached = file == root || entered.contains(&file);
+        of.unreached = if file == root {
+            Vec::new()
+        } else {
+            let declarations = of.declarations.iter().enumerate();
+            let kept = declarations.filter(|(index, _)| kept.contains(&(file, *index)));
+            gaps(kept.map(|(_, kept)| &kept.range), of.text.len())
+        };
     }
+}
+
+/// What lies between ranges in order, from 0 to `length`: what is not reached, and comments that belong to no declaration.
+fn gaps<'a>(ranges: impl Iterator<Item = &'a Range<usize>>, length: usize) -> Vec<Range<usize>> {
+    let mut gaps = Vec::new();
+    let mut end = 0;
+    for range in ranges {
+        gaps.push(end..range.start);
+        end = range.end;
+    }
+    gaps.push(end..length);
+    gaps
 }

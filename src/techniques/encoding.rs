@@ -17,7 +17,7 @@ pub struct MapEncoding {
     table: Option<SummedAreaTable>,
 }
 
-/// As it is written in files.
+/// The encoding's form in files.
 #[derive(Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 struct Pair {
@@ -55,7 +55,7 @@ impl MapEncoding {
         })
     }
 
-    /// The summed-area table of a map with this technique: of four moments or two.
+    /// The encoding of a summed-area table of a map with this technique, which stores four moments or two.
     pub fn of_table(technique: Technique, table: SummedAreaTable) -> Result<Self, TechniqueError> {
         let row = technique.row();
         let format = Storage::Fixed32
@@ -72,7 +72,7 @@ impl MapEncoding {
         })
     }
 
-    /// Four moments, which both `hamburger4` and `hausdorff4` read.
+    /// The encoding of four moments in this format, which both `hamburger4` and `hausdorff4` read.
     #[must_use]
     pub fn of_four_moments(format: TextureFormat) -> Option<Self> {
         Storage::of_format(format).map(|storage| Self {
@@ -95,7 +95,7 @@ impl MapEncoding {
         self.storage
     }
 
-    /// What the integers mean, if this is a summed-area table.
+    /// The meaning of the integers, if this is a summed-area table.
     #[must_use]
     pub fn table(&self) -> Option<&SummedAreaTable> {
         self.table.as_ref()
@@ -126,7 +126,7 @@ impl MapEncoding {
         self.format.bytes_per_texel() * 8 * self.planes()
     }
 
-    /// Whether every device of the profile can write the map, or which storage to use instead.
+    /// Checks that every device of the profile can write the map; the error names a storage to use instead.
     pub fn check(&self, profile: Profile) -> Result<(), UnsupportedStorage> {
         if self.storage.can_write(self.format, profile) {
             return Ok(());
@@ -143,7 +143,7 @@ impl MapEncoding {
     }
 }
 
-/// Whether the exponents are within the range of the storage.
+/// Checks that the exponents are within the range of the storage.
 fn check_exponents(row: &Row, storage: Storage) -> Result<(), TechniqueError> {
     let Some(largest) = row.largest_exponent else {
         return Ok(());

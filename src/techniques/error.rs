@@ -3,7 +3,7 @@
 use super::Finite;
 use crate::Storage;
 
-/// A technique, or its combination with a storage, that makes no sense.
+/// A technique, or its combination with a storage, that is invalid.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 #[non_exhaustive]
 pub enum TechniqueError {
@@ -14,7 +14,7 @@ pub enum TechniqueError {
         technique: &'static str,
         /// The storage.
         storage: Storage,
-        /// Those that it can use.
+        /// The storages that it can use.
         legal: &'static [Storage],
     },
     /// A technique whose map has no summed-area table.
@@ -25,9 +25,9 @@ pub enum TechniqueError {
         /// The technique's name.
         technique: &'static str,
     },
-    /// A table that is said to be stored like another map.
+    /// A summed-area table with the storage of another map.
     #[error(
-        "a summed-area table is stored as fixed32, not as {storage}; leave out 'table' for a map that is none"
+        "a summed-area table is stored as fixed32, not as {storage}; leave out 'table' for a map that is not a table"
     )]
     NotATable {
         /// The storage.
@@ -50,9 +50,9 @@ pub enum TechniqueError {
         technique: &'static str,
         /// The storage.
         storage: Storage,
-        /// What was given.
+        /// The exponent that was given.
         exponent: Finite,
-        /// The largest that the storage's range and precision allow.
+        /// The largest exponent that the storage's range and precision allow.
         largest: f32,
     },
     /// A number out of range.
@@ -62,22 +62,22 @@ pub enum TechniqueError {
         technique: &'static str,
         /// What is counted.
         what: &'static str,
-        /// What was given.
+        /// The count that was given.
         count: u32,
         /// The fewest.
         smallest: u32,
         /// The most.
         largest: u32,
     },
-    /// Splits that are no splits of so many layers.
+    /// Splits that do not fit the layers.
     #[error(
         "the splits of {layers} layers are {} ascending moment depths between -1 and 1, all but the overlap apart; \
          these {given} are not", layers - 1
     )]
     Splits {
-        /// Layers.
+        /// The number of layers.
         layers: u32,
-        /// Splits that were given.
+        /// The number of splits that were given.
         given: usize,
     },
     /// A setting out of range.
@@ -85,19 +85,19 @@ pub enum TechniqueError {
     Setting {
         /// The technique's name.
         technique: &'static str,
-        /// The setting.
+        /// The setting's name.
         what: &'static str,
-        /// What was given.
+        /// The value that was given.
         value: Finite,
-        /// What it can be.
+        /// The range that it has to be in.
         range: String,
     },
-    /// Weights that are no filter.
+    /// Weights that make no filter.
     #[error(
         "{count} weights are no filter: an odd number from 1 to 129 is, none of them negative and not all of them zero"
     )]
     Weights {
-        /// How many were given.
+        /// The number of weights that were given.
         count: usize,
     },
 }

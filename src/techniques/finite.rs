@@ -19,7 +19,7 @@ impl Finite {
     /// Zero.
     pub const ZERO: Finite = Finite(0.0);
 
-    /// The number.
+    /// Wraps a number that is finite.
     pub fn new(value: f32) -> Result<Self, NotFinite> {
         if value.is_finite() {
             // Adding zero turns -0 into 0.
@@ -29,7 +29,7 @@ impl Finite {
         }
     }
 
-    /// As a plain number.
+    /// The value as a plain number.
     #[must_use]
     pub fn get(self) -> f32 {
         self.0

@@ -58,7 +58,7 @@ pub(super) fn row(layers: u32, overlap: Finite, splits: &LayerSplits) -> Row {
     }
 }
 
-/// The splits in two vectors; those that there are not are the far end.
+/// The splits in two vectors; missing ones are at the far end.
 fn of_splits(known: &[f32]) -> [Constant; 2] {
     let vector = |first: usize| {
         let of = |index: usize| known.get(first + index).copied().unwrap_or(1.0);

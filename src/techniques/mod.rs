@@ -1,4 +1,4 @@
-//! What can be asked of a map, and how it has to be encoded for that.
+//! Techniques: what can be asked of a map, and how it has to be encoded for that.
 
 mod convolution;
 mod depth_tests;
@@ -8,6 +8,7 @@ mod esm;
 mod evsm;
 mod finite;
 mod lvsm;
+mod modules;
 mod moments;
 mod reference;
 mod row;
@@ -20,7 +21,7 @@ pub use encoding::MapEncoding;
 pub use error::TechniqueError;
 pub use finite::{Finite, NotFinite};
 pub use reference::{PcfTaps, Pcss};
-pub use row::{Constant, Contents, Encoding, Row, Snippet};
+pub use row::{Contents, Row};
 use serde::{Deserialize, Serialize};
 pub use settings::{EsmFiltering, LayerSplits};
 
@@ -67,7 +68,7 @@ pub enum Technique {
         /// The exponent of e^(c z).
         exponent: Finite,
     },
-    /// The same with both warps.
+    /// Exponential variance shadow maps with both warps (Lauritzen & McCool, GI 2008).
     Evsm4 {
         /// The exponent of e^(c z).
         positive: Finite,
@@ -97,7 +98,7 @@ pub enum Technique {
     /// The sharp lower bound from four moments on the real line (Peters & Klein, i3D 2015).
     #[default]
     Hamburger4,
-    /// The sharp lower bound from four moments on the light's range (the same).
+    /// The sharp lower bound from four moments on the light's range (Peters & Klein, i3D 2015).
     Hausdorff4,
     /// The sharp lower bound from six moments on the real line (Peters et al., JCGT 6(1) 2017): reproduces three surfaces, where
     /// four moments reproduce two.
@@ -109,7 +110,7 @@ fn yes() -> bool {
 }
 
 impl Technique {
-    /// What the library knows of the technique with these settings. Everything else about techniques is read from here.
+    /// What the library knows about the technique with these settings. Everything else about techniques is read from here.
     #[must_use]
     pub fn row(&self) -> Row {
         match self {
@@ -135,7 +136,7 @@ impl Technique {
         }
     }
 
-    /// Whether the settings are within their ranges, whatever the storage.
+    /// Checks that the settings are within their ranges, whatever the storage.
     pub fn check(&self) -> Result<(), TechniqueError> {
         self.row().settings
     }
@@ -152,14 +153,13 @@ impl Technique {
         self.row().reads_depth()
     }
 
-    /// The storages of the technique's map, the one with the least error per bit first. None where it reads depth.
+    /// The storages of the technique's map, the one with the least error per bit first. Empty if the technique reads depth.
     #[must_use]
     pub fn storages(&self) -> &'static [Storage] {
         self.row().storages
     }
 
-    /// The first of [`Technique::storages`] that every device of the profile can write; none where the technique reads
-    /// depth.
+    /// The first of [`Technique::storages`] that every device of the profile can write; `None` if the technique reads depth.
     #[must_use]
     pub fn best_storage(&self, profile: Profile) -> Option<Storage> {
         let row = self.row();
@@ -181,14 +181,14 @@ impl Technique {
         self.row().shares_map_with(&other.row())
     }
 
-    /// The largest exponent that a storage's range and precision allow; none for techniques without one.
+    /// The largest exponent that a storage's range and precision allow; `None` for techniques without one.
     #[must_use]
     pub fn largest_exponent(&self, storage: Storage) -> Option<f32> {
         self.row().largest_exponent.map(|largest| largest(storage))
     }
 }
 
-/// A number of things between one and the most that there can be.
+/// Checks a number of things: at least one, at most `largest`.
 fn count(
     technique: &'static str,
     what: &'static str,

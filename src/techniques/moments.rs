@@ -28,6 +28,7 @@ pub(super) fn hamburger4() -> Row {
     };
     Row {
         soft: Some(soft),
+        both_bounds: true,
         ..Row::of_map(
             "hamburger4",
             Contents::FourMoments,
@@ -39,7 +40,7 @@ pub(super) fn hamburger4() -> Row {
     }
 }
 
-/// The sharp lower bound from four moments on the light's range (the same).
+/// The sharp lower bound from four moments on the light's range (Peters & Klein, i3D 2015).
 pub(super) fn hausdorff4() -> Row {
     let evaluation = Snippet {
         imports: &["bounds::hausdorff4::{hausdorff4_shadow_intensity_of_texel}"],
@@ -73,6 +74,7 @@ pub(super) fn hamburger6() -> Row {
     let storages = &[Unorm16, Float16, Float32, Unorm10];
     Row {
         planes: 2,
+        both_bounds: true,
         ..Row::of_map(
             "hamburger6",
             Contents::SixMoments,

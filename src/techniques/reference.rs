@@ -8,23 +8,24 @@ use super::Finite;
 #[derive(Clone, Debug, PartialEq, Eq, Hash, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case", deny_unknown_fields)]
 pub enum PcfTaps {
-    /// A square of 2 radius + 1 texels per side, all alike, and bilinear in between.
+    /// A square of 2 radius + 1 texels per side with equal weights, and bilinear in between.
     Box {
         /// 0 to 64.
         radius: u32,
     },
-    /// The same with Gaussian weights.
+    /// A square of 2 radius + 1 texels per side with Gaussian weights, and bilinear in between.
     Gaussian {
         /// 0 to 64.
         radius: u32,
         /// Standard deviation in texels, positive.
         sigma: Finite,
     },
-    /// The same with any weights, those of a row or column from end to end: an odd number of them, up to 129, none negative.
+    /// A square with any weights, bilinear in between: those of a row or column from end to end, an odd number of them, up to
+    /// 129, none negative.
     Weights(Vec<Finite>),
     /// 16 places in a disk, rotated from pixel to pixel.
     Poisson {
-        /// Of the disk, from 0 to 4096.
+        /// The radius of the disk, from 0 to 4096.
         radius: Finite,
     },
     /// A square of bilinear comparisons by a comparison sampler.

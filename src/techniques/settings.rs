@@ -11,8 +11,8 @@ pub enum EsmFiltering {
     /// The map holds the mean of e^(c z), which any filter averages.
     #[default]
     Linear,
-    /// The map holds its logarithm, which takes fewer bits; every filter decodes texels before it averages them, so there
-    /// are no lookups by a sampler and no mip levels.
+    /// The map holds the logarithm of that mean, which takes fewer bits; every filter decodes texels before it averages them,
+    /// so samplers and mip levels cannot be used.
     Logarithmic,
 }
 

@@ -59,8 +59,8 @@ impl fmt::Display for Backend {
 pub enum Outcome {
     /// Every entry point and function was written.
     Written,
-    /// The language lacks something that the shader uses, which is no error: the two GLSL versions have no place in any
-    /// profile. The reason names the entry point.
+    /// The language lacks something that the shader uses, which is not an error: no profile includes the two GLSL versions.
+    /// The reason names the entry point.
     CannotExpress(String),
 }
 
@@ -68,7 +68,7 @@ pub enum Outcome {
 pub(super) struct Shader {
     module: Module,
     info: ModuleInfo,
-    /// Why no entry point could be made, for a module that has none.
+    /// Why no entry point could be made, for a module without any.
     no_entry_point: Option<String>,
 }
 
@@ -125,7 +125,7 @@ fn write(backend: Backend, shader: &Shader) -> Result<Outcome, String> {
     Ok(Outcome::Written)
 }
 
-/// The value 1 for each override that has none: it is a legal workgroup size, array length and factor.
+/// The value 1 for each override without a default: it is a legal workgroup size, array length and factor.
 fn missing_overrides(module: &Module) -> PipelineConstants {
     let missing = module.overrides.iter().filter(|(_, of)| of.init.is_none());
     let key = |of: &naga::Override| match of.id {

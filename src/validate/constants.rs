@@ -16,11 +16,11 @@ struct Constant<'a> {
     name: Token<'a>,
     /// Words, numbers and symbols.
     length: usize,
-    /// The constants that it names, as often as it does.
+    /// The constants that it names, each as often as it is named.
     names: Vec<&'a str>,
 }
 
-/// Where it becomes too much.
+/// The place where constants become too large.
 pub(super) struct TooLarge<'a> {
     pub(super) limit: usize,
     pub(super) what: &'static str,

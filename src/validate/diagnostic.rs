@@ -18,7 +18,7 @@ pub struct Diagnostic {
     pub file: String,
     /// What is wrong.
     pub message: String,
-    /// The places, the most telling one first. Empty where the compiler names none.
+    /// The places, the most telling one first. Empty if the compiler gives none.
     pub labels: Vec<Label>,
     /// Further sentences: causes, and next steps.
     pub notes: Vec<String>,
@@ -128,7 +128,7 @@ fn find(linked: &Linked, word: &str) -> Option<Label> {
 }
 
 impl Label {
-    /// The bytes `range` of the linked text. None for text that is in no file.
+    /// The bytes `range` of the linked text. `None` for text that comes from no file.
     pub(super) fn new(linked: &Linked, range: Range<usize>, text: &str) -> Option<Self> {
         Some(Self {
             at: linked.location(range)?,

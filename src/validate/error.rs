@@ -22,20 +22,20 @@ pub enum ValidateError {
     /// [`LARGEST_VALUE`](super::LARGEST_VALUE) or [`MOST_VALUES`](super::MOST_VALUES) allows.
     #[error("more than {limit} {what}; split the shader\n{at}")]
     TooMany {
-        /// How much there may be.
+        /// The limit.
         limit: usize,
-        /// What there is too much of.
+        /// What exceeds the limit.
         what: &'static str,
-        /// Where it becomes too much.
+        /// The place where the limit is exceeded.
         at: Box<Location>,
     },
     /// The imports are wrong.
     #[error(transparent)]
     Link(#[from] LinkError),
-    /// The text is no WGSL, or uses an extension that the profile does not have.
+    /// The text is not WGSL, or uses an extension that the profile does not have.
     #[error("{0}")]
     Parse(Diagnostic),
-    /// The text is no valid shader, or uses a feature that the profile does not have.
+    /// The text is not a valid shader, or uses a feature that the profile does not have.
     #[error("{0}")]
     Invalid(Diagnostic),
     /// A storage texture has a format or access that the profile does not have.
@@ -56,7 +56,7 @@ pub enum ValidateError {
         file: String,
         /// The backend.
         backend: Backend,
-        /// What the backend says.
+        /// The backend's message.
         message: String,
     },
 }

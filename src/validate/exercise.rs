@@ -1,4 +1,4 @@
-//! Entry points for text that has none, so that every backend translates every function as a shader would call it.
+//! Entry points for text without any, so that every backend translates every function as a shader would call it.
 
 use naga::valid::{Capabilities, ModuleInfo};
 use naga::{
@@ -9,7 +9,7 @@ use naga::{
 use super::backend::Shader;
 
 /// `module` with an entry point per function that does nothing but call it: in a fragment shader, or in a compute shader
-/// where a function is only valid there. Where no argument can be made for a function, `module` as it was, with the reason.
+/// where a function is only valid there. If no argument can be made for a function, `module` as it was, with the reason.
 pub(super) fn exercise(module: &Module, info: ModuleInfo, capabilities: Capabilities) -> Shader {
     let mut failure = String::from("the text has neither functions nor entry points");
     if !module.functions.is_empty() {

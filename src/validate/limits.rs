@@ -20,7 +20,7 @@ pub const LONGEST_CHAIN: usize = 2_000;
 /// A level of the longest chain takes up to 2 KiB in an optimised build, and several times that in others.
 const STACK_BYTES: usize = 64 << 20;
 
-/// Runs `work` on a thread with room for the longest chain. None if the thread cannot be started, or `work` panics.
+/// Runs `work` on a thread with room for the longest chain. `None` if the thread cannot be started, or `work` panics.
 pub(super) fn on_large_stack<T: Send>(work: impl FnOnce() -> T + Send) -> Option<T> {
     std::thread::scope(|scope| {
         let thread = std::thread::Builder::new().stack_size(STACK_BYTES);

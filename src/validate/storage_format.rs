@@ -41,7 +41,7 @@ pub(super) fn check(
     Ok(())
 }
 
-/// What speaks against the format under the profile, with the next step.
+/// The objection to the format under the profile, with the next step.
 fn objection(
     format: StorageFormat,
     access: StorageAccess,

@@ -12,14 +12,14 @@ use crate::{Linked, Location};
 /// buffers may be larger, as long as it is not loaded as a whole.
 pub const LARGEST_VALUE: u64 = 16_384;
 
-/// The most numbers in all values of a shader that are no scalars, vectors or matrices.
+/// The most numbers in all values of a shader that are not scalars, vectors or matrices.
 pub const MOST_VALUES: u64 = 1 << 20;
 
-/// The most expressions of a shader, counted once for each entry point: one that the text has, or one made for a function
-/// where it has none.
+/// The most expressions of a shader, counted once for each entry point: each that the text has, or, in a text without any,
+/// one made for each function.
 pub const MOST_EXPRESSIONS: u64 = 1 << 24;
 
-/// The most numbers of a matrix: of values with so few there may be any number.
+/// The most numbers of a matrix. The number of values this small is not limited.
 const SMALL: u64 = 16;
 
 /// Refuses a valid module with a value that is too large, or with too many large ones.
@@ -97,7 +97,7 @@ impl Total<'_> {
         self.numbers.get(ty.index()).copied().unwrap_or_default()
     }
 
-    /// A pointer, a texture or an array without a fixed size is no value.
+    /// A pointer, a texture or an array without a fixed size is not a value.
     fn of(&self, inner: &TypeInner) -> u64 {
         match inner {
             TypeInner::Scalar(_) | TypeInner::Atomic(_) => 1,

@@ -1,8 +1,8 @@
-//! Cameras and lights that no parameters can be made for.
+//! Cameras and lights for which no parameters can be made.
 
 use crate::DepthError;
 
-/// A camera or a light that no parameters can be made for.
+/// A camera or a light for which no parameters can be made.
 #[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
 #[non_exhaustive]
 pub enum ViewError {
@@ -38,7 +38,7 @@ pub enum ScatteringViewError {
          with"
     )]
     SingularLight,
-    /// There are no rectified coordinates of this camera and light.
+    /// This camera and light have no rectified coordinates.
     #[error(transparent)]
     Frame(#[from] RectifiedFrameError),
 }
@@ -63,7 +63,7 @@ pub enum RectifiedFrameError {
         "the far distance is {far}, but must be above 0 and finite: how far along the camera's axis light is scattered"
     )]
     FarDistance {
-        /// What was given.
+        /// The distance that was given.
         far: f64,
     },
     /// The light has no direction.
@@ -72,7 +72,7 @@ pub enum RectifiedFrameError {
         direction[0], direction[1], direction[2]
     )]
     LightDirection {
-        /// What was given.
+        /// The direction that was given.
         direction: [f64; 3],
     },
     /// A number of the frame does not fit into single precision.

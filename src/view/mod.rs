@@ -25,10 +25,11 @@ fn wide(columns: &[[f32; 4]; 4]) -> DMat4 {
     DMat4::from_cols_array_2d(&columns.map(|column| column.map(f64::from)))
 }
 
-/// The most that the product of a matrix and its inverse may miss the identity by: beyond it the inverse is rounding error.
+/// The largest difference between the identity and the product of a matrix and its inverse: beyond it the inverse is rounding
+/// error.
 const LARGEST_RESIDUAL: f64 = 1e-6;
 
-/// The inverse; `None` where there is none, or where entries are not finite.
+/// The inverse; `None` if the matrix has none, or if entries are not finite.
 fn inverse(matrix: DMat4) -> Option<DMat4> {
     // Rows of very different size, as projections have them, are scaled to a largest entry of 1.
     let rows = matrix.transpose();

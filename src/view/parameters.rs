@@ -18,15 +18,15 @@ pub struct ViewParameters {
     pub scene_w_from_camera: [f32; 4],
     /// How far fragments move towards the light.
     pub receiver_bias: ReceiverBias,
-    /// What is done about light leaking after the bound.
+    /// The reduction of light leaking after the bound.
     pub leak_reduction: LeakReduction,
-    /// Where the view lies in its layer; [`MapRegion::NONE`] where there is no such view.
+    /// Where the view lies in its layer; [`MapRegion::NONE`] if there is no such view.
     pub region: MapRegion,
-    /// The stored depth of pixels that show no surface: 0 for reversed depth. That of the first view counts for all.
+    /// The stored depth of pixels that show no surface: 0 for reversed depth. The first view's counts for all.
     pub far_depth: f32,
     /// The map's layer.
     pub layer: u32,
-    /// The light's channel in the output, 0 to 3. Of the views of a channel the first that contains a pixel shades it.
+    /// The light's channel in the output, 0 to 3. The first view of a channel that contains a pixel shades it.
     pub channel: u32,
     /// Unused; keeps the WGSL layout.
     pub padding: f32,

@@ -13,11 +13,11 @@ use super::{RectifiedFrameError, inverse, wide};
 #[derive(Clone, Copy, Debug, PartialEq, Pod, Zeroable)]
 #[repr(C)]
 pub struct RectifiedFrame {
-    /// What the direction of a pixel changes by per unit of x in normalised device coordinates.
+    /// The change of a pixel's direction per unit of x in normalised device coordinates.
     pub along_x: [f32; 3],
     /// The largest radius of the frustum.
     pub largest_radius: f32,
-    /// The same per unit of y.
+    /// The change of a pixel's direction per unit of y in normalised device coordinates.
     pub along_y: [f32; 3],
     /// The azimuth of the first row of a map, in radians.
     pub first_azimuth: f32,
@@ -27,7 +27,7 @@ pub struct RectifiedFrame {
     pub azimuth_extent: f32,
     /// The linear function of clip coordinates (x, y, stored depth, 1) that divides directions.
     pub scene_w: [f32; 4],
-    /// The smallest such divisor: that of the far end.
+    /// The smallest such divisor, at the far end.
     pub farthest_w: f32,
     /// The inclination of depth 1 in radians, at least 0.
     pub smallest_inclination: f32,
@@ -44,11 +44,11 @@ pub struct RectifiedView {
     pub camera: [f64; 3],
     /// The frame's axes in the scene, orthonormal and right-handed; the last is the direction in which light travels.
     pub axes: [[f64; 3]; 3],
-    /// What shaders are given.
+    /// The uniform struct that shaders are given.
     pub frame: RectifiedFrame,
 }
 
-/// By how much bounds grow, so that coordinates in f32 stay inside: relative for radii, in radians for angles.
+/// The margin by which bounds grow, so that coordinates in f32 stay inside: relative for radii, in radians for angles.
 const MARGIN: f64 = 2e-6;
 
 /// A direction this close to a side plane (the sine of the angle) counts as inside: too many rows are harmless.
@@ -57,7 +57,7 @@ const INSIDE: f64 = 1e-6;
 impl RectifiedView {
     /// The frame of a perspective camera and a light that travels along `light_direction` (of any length). `clip_from_world`
     /// is by columns in wgpu's clip space, reversed and infinite depth included; `far` is the finite distance along the
-    /// camera's axis up to which light is scattered, which sky is then at.
+    /// camera's axis up to which light is scattered, and at which sky counts as being.
     ///
     /// # Errors
     /// [`RectifiedFrameError`], which names what is wrong.
@@ -120,7 +120,7 @@ impl RectifiedView {
     }
 }
 
-/// The vector of length 1; `None` where there is none.
+/// The vector scaled to length 1; `None` if it is zero or not finite.
 fn normalized(vector: DVec3) -> Option<DVec3> {
     let largest = vector.abs().max_element();
     if !(largest > 0.0 && vector.is_finite()) {
@@ -131,7 +131,7 @@ fn normalized(vector: DVec3) -> Option<DVec3> {
 
 /// Right-handed axes, the last of which is `light`.
 fn axes_of(light: DVec3) -> [DVec3; 3] {
-    // Of the scene's axes the one that is least along the light.
+    // The axis of the scene that is least along the light.
     let smallest = light.abs().min_position();
     let other = DVec3::AXES[smallest];
     // Before it is normalised its length is at least sqrt(2 / 3).
@@ -147,7 +147,7 @@ struct Bounds {
 }
 
 impl Bounds {
-    /// Of the frustum whose far plane is spanned by what positions there change by along x and y, and their middle.
+    /// The bounds of the frustum whose far plane is spanned by the changes of position there along x and y, and their middle.
     fn new(along: [DVec3; 3]) -> Self {
         let corners = [[-1.0, -1.0], [1.0, -1.0], [1.0, 1.0], [-1.0, 1.0]]
             .map(|[x, y]| x * along[0] + y * along[1] + along[2]);

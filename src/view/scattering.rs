@@ -1,4 +1,4 @@
-//! What the nodes of single scattering are told about camera, light and medium.
+//! The parameters of the nodes of single scattering: camera, light and medium.
 
 use bytemuck::{Pod, Zeroable};
 use glam::{DVec3, DVec4};
@@ -8,7 +8,7 @@ use super::{
 };
 use crate::{MapRegion, SingleScattering};
 
-/// What a `rectify_moments` node needs to know: the uniform struct of its shader.
+/// The parameters of a `rectify_moments` node: the uniform struct of its shader.
 #[derive(Clone, Copy, Debug, PartialEq, Pod, Zeroable)]
 #[repr(C)]
 pub struct RectifyMomentsParameters {
@@ -16,13 +16,13 @@ pub struct RectifyMomentsParameters {
     pub frame: RectifiedFrame,
     /// Where the light ray through the camera meets the light's map, from 0 to 1 across the region.
     pub map_at_camera: [f32; 2],
-    /// By how much that changes along the frame's first axis per scene unit.
+    /// The change of that place along the frame's first axis per scene unit.
     pub map_along_first: [f32; 2],
-    /// The same along its second axis.
+    /// The change of that place along the frame's second axis per scene unit.
     pub map_along_second: [f32; 2],
     /// The light's moment depth at the camera.
     pub depth_at_camera: f32,
-    /// By how much moment depth grows along the light per scene unit.
+    /// The growth of moment depth along the light per scene unit.
     pub depth_per_length: f32,
     /// Where the light's view lies in its map.
     pub region: MapRegion,
@@ -32,7 +32,7 @@ pub struct RectifyMomentsParameters {
     pub padding: [u32; 3],
 }
 
-/// What an `integrate_scattering` node needs to know: the uniform struct of its shader.
+/// The parameters of an `integrate_scattering` node: the uniform struct of its shader.
 #[derive(Clone, Copy, Debug, PartialEq, Pod, Zeroable)]
 #[repr(C)]
 pub struct IntegrateScatteringParameters {
@@ -44,7 +44,7 @@ pub struct IntegrateScatteringParameters {
     pub padding: [f32; 3],
 }
 
-/// What a `composite_scattering` node needs to know: the uniform struct of its shader.
+/// The parameters of a `composite_scattering` node: the uniform struct of its shader.
 #[derive(Clone, Copy, Debug, PartialEq, Pod, Zeroable)]
 #[repr(C)]
 pub struct CompositeScatteringParameters {
@@ -57,16 +57,17 @@ pub struct CompositeScatteringParameters {
 /// The parameters of the three nodes of single scattering, for one camera, light and medium.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct ScatteringParameters {
-    /// For `rectify_moments`.
+    /// The parameters of `rectify_moments`.
     pub rectify: RectifyMomentsParameters,
-    /// For `integrate_scattering`.
+    /// The parameters of `integrate_scattering`.
     pub integrate: IntegrateScatteringParameters,
-    /// For `composite_scattering`.
+    /// The parameters of `composite_scattering`.
     pub composite: CompositeScatteringParameters,
 }
 
 impl ScatteringParameters {
-    /// Of a perspective camera with surfaces and sky up to the distance `far` along its axis, a directional light and a medium.
+    /// The parameters for a perspective camera with surfaces and sky up to the distance `far` along its axis, a directional
+    /// light and a medium.
     ///
     /// # Errors
     /// [`ScatteringViewError`], which names what is wrong.

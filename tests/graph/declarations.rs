@@ -4,13 +4,11 @@ use moment_shadows::TextureFormat::{R8Unorm, Rgba32Float};
 use moment_shadows_graph::GraphErrorKind::{Declaration, DuplicateName, Size};
 use moment_shadows_graph::{
     Access, BindingResource, CountRule, Direction, ExtentRule, FormatRule, GraphError, Imports,
-    NodeDesc, ParameterBlock, SlotResource, Stage, Work, compile,
+    NodeDesc, ParameterBlock, Slot, SlotResource, Stage, TextureRule, Work, bind, compile,
 };
 
 use crate::example::{assert_error, native};
-use crate::host_node::{
-    COPY, compute, copy, graph, input, layer, made, output, rgba32, slot, storage,
-};
+use crate::host_node::{COPY, compute, copy, from_and_to, graph, input, made, output, rgba32};
 
 /// The error of a node `host` with the input `from` and the output `to`.
 #[track_caller]
@@ -70,7 +68,7 @@ fn outputs_that_leave_something_open() {
     let cases: [(Change, &str); 5] = [
         (
             |resource| {
-                if let SlotResource::Texture { format, .. } = resource {
+                if let SlotResource::Texture(TextureRule { format, .. }) = resource {
                     *format = FormatRule::OneOf(vec![Rgba32Float])
                 }
             },
@@ -78,7 +76,7 @@ fn outputs_that_leave_something_open() {
         ),
         (
             |resource| {
-                if let SlotResource::Texture { extent, .. } = resource {
+                if let SlotResource::Texture(TextureRule { extent, .. }) = resource {
                     *extent = ExtentRule::Any
                 }
             },
@@ -86,7 +84,7 @@ fn outputs_that_leave_something_open() {
         ),
         (
             |resource| {
-                if let SlotResource::Texture { layers, .. } = resource {
+                if let SlotResource::Texture(TextureRule { layers, .. }) = resource {
                     *layers = CountRule::Any
                 }
             },
@@ -94,7 +92,7 @@ fn outputs_that_leave_something_open() {
         ),
         (
             |resource| {
-                if let SlotResource::Texture { samples, .. } = resource {
+                if let SlotResource::Texture(TextureRule { samples, .. }) = resource {
                     *samples = CountRule::OneOf(vec![1])
                 }
             },
@@ -102,7 +100,7 @@ fn outputs_that_leave_something_open() {
         ),
         (
             |resource| {
-                if let SlotResource::Texture { extent, .. } = resource {
+                if let SlotResource::Texture(TextureRule { extent, .. }) = resource {
                     *extent = ExtentRule::SameAs("form".to_owned())
                 }
             },
@@ -149,12 +147,17 @@ fn inputs_that_are_written() {
 
 #[test]
 fn passes_that_use_what_is_not_there() {
-    let pass = |resources: [BindingResource; 2]| NodeDesc {
-        passes: vec![compute(COPY, "to", true, resources)],
+    let pass = |source: BindingResource| NodeDesc {
+        passes: vec![compute(
+            COPY,
+            "to",
+            true,
+            [("source", source), ("copied", bind::store("to"))],
+        )],
         ..base()
     };
     assert_error(
-        &refused(pass([layer("form"), storage("to")])),
+        &refused(pass(bind::layer("form"))),
         Declaration,
         "host",
         "",
@@ -162,7 +165,7 @@ fn passes_that_use_what_is_not_there() {
         "uses slot 'form', which the node does not have",
     );
     assert_error(
-        &refused(pass([BindingResource::Parameters, storage("to")])),
+        &refused(pass(bind::parameters())),
         Declaration,
         "host",
         "",
@@ -170,12 +173,7 @@ fn passes_that_use_what_is_not_there() {
         "uses parameters, but the node has none",
     );
     let covers = NodeDesc {
-        passes: vec![compute(
-            COPY,
-            "nothing",
-            true,
-            [layer("from"), storage("to")],
-        )],
+        passes: vec![compute(COPY, "nothing", true, from_and_to())],
         ..base()
     };
     assert_error(
@@ -190,16 +188,24 @@ fn passes_that_use_what_is_not_there() {
         slots: vec![
             input("from"),
             output("to", 1),
-            slot(
+            Slot::internal(
                 "data",
-                Direction::Internal,
+                "Numbers.",
                 SlotResource::Buffer {
                     access: Access::READ,
                     size: 16,
                 },
             ),
         ],
-        passes: vec![compute(COPY, "to", true, [layer("data"), storage("to")])],
+        passes: vec![compute(
+            COPY,
+            "to",
+            true,
+            [
+                ("source", bind::layer("data")),
+                ("copied", bind::store("to")),
+            ],
+        )],
         ..base()
     };
     assert_error(
@@ -237,7 +243,12 @@ fn passes_that_read_what_they_write() {
             input("from"),
             made("to", Direction::Out, access, Rgba32Float, 1),
         ],
-        passes: vec![compute(COPY, "to", true, [layer("to"), storage("to")])],
+        passes: vec![compute(
+            COPY,
+            "to",
+            true,
+            [("source", bind::layer("to")), ("copied", bind::store("to"))],
+        )],
         ..base()
     };
     assert_error(
@@ -271,7 +282,7 @@ fn workgroups_that_cover_nothing() {
 #[test]
 fn multisampled_arrays() {
     let mut to = made("to", Direction::Out, Access::RENDER_TARGET, R8Unorm, 2);
-    if let SlotResource::Texture { samples, .. } = &mut to.resource {
+    if let SlotResource::Texture(TextureRule { samples, .. }) = &mut to.resource {
         *samples = CountRule::Exact(4);
     }
     let node = NodeDesc {
@@ -291,9 +302,9 @@ fn multisampled_arrays() {
 #[test]
 fn buffers_of_no_size() {
     for size in [0, 6] {
-        let data = slot(
+        let data = Slot::internal(
             "data",
-            Direction::Internal,
+            "Numbers.",
             SlotResource::Buffer {
                 access: Access::READ,
                 size,
@@ -360,5 +371,19 @@ fn parameters_that_do_not_fit() {
         "",
         "",
         "more than a uniform binding of this device holds (65536 bytes); at most 0 of them",
+    );
+}
+
+#[test]
+fn slots_without_a_description() {
+    let mut node = base();
+    node.slots[1].description = " ".to_owned();
+    assert_error(
+        &refused(node),
+        Declaration,
+        "host",
+        "to",
+        "",
+        "the slot has no description; say in a sentence what it is for",
     );
 }

@@ -150,7 +150,7 @@ fn prefix_sums_are_not_drawn() {
     let error = described(&rectify, "map", four).unwrap_err();
     assert_eq!(error.kind, GraphErrorKind::Property, "{error}");
     let rectified = map(Technique::Hamburger6, Storage::Unorm10);
-    let other = described(&IntegrateScattering::default(), "rectified", rectified).unwrap_err();
+    let other = described(&IntegrateScattering, "rectified", rectified).unwrap_err();
     assert_eq!(other.kind, GraphErrorKind::Format, "{other}");
     assert_eq!(other.slot.as_deref(), Some("rectified"));
     let integrated = map(Technique::Hamburger6, Storage::Unorm10);

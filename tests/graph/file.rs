@@ -381,6 +381,22 @@ fn moment_scale_is_refused_with_the_reason() {
 }
 
 #[test]
+fn media_that_are_not_homogeneous_are_refused_with_the_reason() {
+    let text = edited(
+        "\"type\": \"shade_hard\"",
+        "\"type\": \"integrate_scattering\", \"properties\": { \"medium\": \"inhomogeneous\" }",
+    );
+    assert_error(
+        &refused(&text),
+        Property,
+        "shade",
+        "",
+        "10:5",
+        "'medium' is refused: all view rays of a row share its sums",
+    );
+}
+
+#[test]
 fn shadow_intensity_has_a_channel_per_light() {
     let text = edited(
         "\"type\": \"shade_hard\"",

@@ -1,13 +1,12 @@
 //! Which resources share memory, and which never do.
 
 use moment_shadows_graph::{
-    Access, Direction, Home, Imports, Lifetime, NodeDesc, Plan, Slot, Stage, compile,
+    Access, Direction, Home, Imports, Lifetime, NodeDesc, Plan, Slot, Stage, bind, compile,
 };
 
 use crate::example::{TEXT, compiled, native};
 use crate::host_node::{
-    COPY, compute, copy, copy_every_time, copy_of_all, graph, input, layer, made, output, rgba32,
-    storage,
+    COPY, compute, copy, copy_every_time, copy_of_all, graph, input, made, output, rgba32,
 };
 use moment_shadows::TextureFormat::Rgba32Float;
 
@@ -271,8 +270,24 @@ fn a_node_that_changes_in_place_makes_no_memory() {
             output("to", 3),
         ],
         passes: vec![
-            compute(COPY, "from", true, [layer("other"), storage("from")]),
-            compute(COPY, "to", true, [layer("other"), storage("to")]),
+            compute(
+                COPY,
+                "from",
+                true,
+                [
+                    ("source", bind::layer("other")),
+                    ("copied", bind::store("from")),
+                ],
+            ),
+            compute(
+                COPY,
+                "to",
+                true,
+                [
+                    ("source", bind::layer("other")),
+                    ("copied", bind::store("to")),
+                ],
+            ),
         ],
         ..copy(EARLY, 3)
     };

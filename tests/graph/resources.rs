@@ -8,7 +8,7 @@ use moment_shadows_graph::{
 };
 
 use crate::example::{TEXT, assert_error, compiled, edited, native, refused};
-use crate::host_node::{compute, copy, empty, graph, input, made, output, rgba32, slot, storage};
+use crate::host_node::{compute, copy, empty, graph, input, made, output, rgba32};
 use moment_shadows::TextureFormat;
 
 const LIGHT: &str = "{ \"format\": \"depth32float\", \"size\": [1024, 1024], \"samples\": 4 }";
@@ -120,9 +120,9 @@ fn buffers_and_textures_are_not_mixed_up() {
         "a buffer is connected, but this input takes a texture",
     );
     let node = NodeDesc {
-        slots: vec![slot(
+        slots: vec![Slot::input(
             "data",
-            Direction::In,
+            "Numbers.",
             SlotResource::Buffer {
                 access: Access::READ,
                 size: 64,
@@ -393,10 +393,7 @@ fn an_input_of_an_exact_size_takes_no_other() {
             crate::host_node::COPY,
             "to",
             true,
-            [
-                moment_shadows_graph::BindingResource::Layer("from".to_owned()),
-                storage("to"),
-            ],
+            crate::host_node::from_and_to(),
         )],
         ..empty(Stage::AfterShadowMaps)
     };

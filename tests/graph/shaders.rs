@@ -5,13 +5,12 @@ use moment_shadows::{Profile, TextureFormat};
 use moment_shadows_graph::GraphErrorKind::{Capability, Shader};
 use moment_shadows_graph::{
     Access, BindingResource, Capabilities, Direction, GraphError, Imports, NodeDesc,
-    ParameterBlock, Pass, Plan, SlotResource, Stage, Work, compile,
+    ParameterBlock, Pass, Plan, Slot, SlotResource, Stage, bind, compile,
 };
 
 use crate::example::{assert_error, native};
 use crate::host_node::{
-    COPY, bindings, compute, copy, empty, graph, input, layer, layers, made, output, rgba32, slot,
-    storage,
+    COPY, compute, copy, empty, from_and_to, graph, input, made, output, rgba32,
 };
 
 fn compiled(node: NodeDesc, capabilities: &Capabilities) -> Result<Plan, GraphError> {
@@ -28,11 +27,14 @@ fn base() -> NodeDesc {
     copy(Stage::AfterShadowMaps, 1)
 }
 
+/// A variable and what it holds.
+type Bound = (&'static str, BindingResource);
+
 /// The copying node with another shader or other bindings.
 #[track_caller]
-fn assert_refused(wgsl: &str, resources: impl IntoIterator<Item = BindingResource>, says: &str) {
+fn assert_refused(wgsl: &str, variables: impl IntoIterator<Item = Bound>, says: &str) {
     let node = NodeDesc {
-        passes: vec![compute(wgsl, "to", true, resources)],
+        passes: vec![compute(wgsl, "to", true, variables)],
         ..base()
     };
     assert_error(
@@ -43,10 +45,6 @@ fn assert_refused(wgsl: &str, resources: impl IntoIterator<Item = BindingResourc
         "",
         says,
     );
-}
-
-fn from_and_to() -> [BindingResource; 2] {
-    [layer("from"), storage("to")]
 }
 
 fn changed(from: &str, to: &str) -> String {
@@ -82,21 +80,21 @@ fn entry_points_have_the_right_name_and_stage() {
 fn bindings_that_are_missing_superfluous_or_doubled() {
     assert_refused(
         COPY,
-        [layer("from")],
-        "the shader uses binding 1 ('copied'), which the node does not declare",
+        [("source", bind::layer("from"))],
+        "the shader uses the variable 'copied', which the node does not describe",
     );
-    let extra = [
-        layer("from"),
-        storage("to"),
-        BindingResource::Sampler {
-            filtering: true,
-            anisotropy: 1,
-        },
-    ];
+    let [source, copied] = from_and_to();
+    let misspelt = [("sauce", source.1.clone()), copied.clone()];
+    assert_refused(
+        COPY,
+        misspelt,
+        "'source', which the node does not describe; what it describes and the shader does not use: `sauce`",
+    );
+    let extra = [source, copied, ("copies", bind::sampler(true))];
     assert_refused(
         COPY,
         extra,
-        "the node declares binding 2, which the shader does not use",
+        "the node describes the variable 'copies', which the entry point 'main' does not use; what it uses: `copied`, `source`",
     );
     let mut node = base();
     let again = node.passes[0].bindings[0].clone();
@@ -107,7 +105,7 @@ fn bindings_that_are_missing_superfluous_or_doubled() {
         "host",
         "",
         "",
-        "declares binding 0 twice",
+        "describes the variable 'source' twice",
     );
 }
 
@@ -137,12 +135,15 @@ fn bindings_of_another_class() {
     assert_refused(
         &changed("texture_2d<f32>", "texture_2d_array<f32>").replace("id.xy, 0)", "id.xy, 0, 0)"),
         from_and_to(),
-        "binding 0 ('source') is not a two-dimensional float texture",
+        "the variable 'source' is not a two-dimensional float texture",
     );
     assert_refused(
         COPY,
-        [layers("from"), storage("to")],
-        "binding 0 ('source') is not a two-dimensional array float texture",
+        [
+            ("source", bind::layers("from")),
+            ("copied", bind::store("to")),
+        ],
+        "the variable 'source' is not a two-dimensional array float texture",
     );
     assert_refused(
         &changed("texture_2d<f32>", "texture_depth_2d").replace(
@@ -150,7 +151,7 @@ fn bindings_of_another_class() {
             "vec4f(textureLoad(source, id.xy, 0))",
         ),
         from_and_to(),
-        "binding 0 ('source') is not a two-dimensional float texture",
+        "the variable 'source' is not a two-dimensional float texture",
     );
     assert_refused(
         &changed("texture_2d<f32>", "texture_2d<u32>").replace(
@@ -158,28 +159,25 @@ fn bindings_of_another_class() {
             "vec4f(textureLoad(source, id.xy, 0))",
         ),
         from_and_to(),
-        "binding 0",
+        "the variable 'source' is not a two-dimensional float texture",
     );
     assert_refused(
         &changed("rgba32float", "rgba16float"),
         from_and_to(),
-        "binding 1 ('copied') is not a two-dimensional storage texture of format rgba32float",
+        "the variable 'copied' is not a two-dimensional storage texture of format rgba32float",
     );
     assert_refused(
         &changed("rgba32float, write", "rgba32float, read_write"),
         from_and_to(),
-        "binding 1 ('copied') is not a two-dimensional storage texture of format rgba32float, written only",
+        "the variable 'copied' is not a two-dimensional storage texture of format rgba32float, written only",
     );
     assert_refused(
         COPY,
         [
-            BindingResource::Sampler {
-                filtering: false,
-                anisotropy: 1,
-            },
-            storage("to"),
+            ("source", bind::sampler(false)),
+            ("copied", bind::store("to")),
         ],
-        "binding 0 ('source') is not a sampler",
+        "the variable 'source' is not a sampler",
     );
 }
 
@@ -202,7 +200,9 @@ fn uniform_structs_of_another_size() {
                 SCALE,
                 "to",
                 true,
-                [layer("from"), storage("to"), BindingResource::Parameters],
+                from_and_to()
+                    .into_iter()
+                    .chain([("scale", bind::parameters())]),
             )],
             parameters: Some(ParameterBlock {
                 name: "Scale".to_owned(),
@@ -222,7 +222,7 @@ fn uniform_structs_of_another_size() {
         "host",
         "",
         "",
-        "binding 2 ('scale') is not a uniform struct of 32 bytes",
+        "the variable 'scale' is not a uniform struct of 32 bytes",
     );
 }
 
@@ -239,9 +239,9 @@ fn storage_buffers_of_another_access_or_size() {
             slots: vec![
                 input("from"),
                 output("to", 1),
-                slot(
+                Slot::internal(
                     "data",
-                    Direction::Internal,
+                    "Numbers.",
                     SlotResource::Buffer { access, size: 64 },
                 ),
             ],
@@ -249,7 +249,10 @@ fn storage_buffers_of_another_access_or_size() {
                 &shader(declaration),
                 "to",
                 true,
-                [BindingResource::Buffer("data".to_owned()), storage("to")],
+                [
+                    ("data", bind::buffer("data")),
+                    ("copied", bind::store("to")),
+                ],
             )],
             ..empty(Stage::AfterShadowMaps)
         };
@@ -257,7 +260,7 @@ fn storage_buffers_of_another_access_or_size() {
     };
     with("var<storage, read> data: array<vec4f>", Access::READ).unwrap();
     with("var<storage, read> data: array<vec4f, 4>", Access::READ).unwrap();
-    let says = "binding 0 ('data') is not a read-only storage buffer of at most 64 bytes";
+    let says = "the variable 'data' is not a read-only storage buffer of at most 64 bytes";
     for declaration in [
         "var<storage, read_write> data: array<vec4f>",
         "var<storage, read> data: array<vec4f, 5>",
@@ -327,26 +330,22 @@ fn constants_that_match_no_override() {
 }
 
 /// A fullscreen pass that samples `from`.
-fn fullscreen(wgsl: &str, format: TextureFormat, resources: Vec<BindingResource>) -> NodeDesc {
-    NodeDesc {
-        slots: vec![
+fn fullscreen(
+    wgsl: &str,
+    format: TextureFormat,
+    variables: impl IntoIterator<Item = Bound>,
+) -> NodeDesc {
+    let pass = Pass::fullscreen("draw", "to").shader(wgsl, "main");
+    empty(Stage::AfterMainPass)
+        .slots([
             input("from"),
             made("to", Direction::Out, Access::RENDER_TARGET, format, 1),
-        ],
-        passes: vec![Pass {
-            label: "draw".to_owned(),
-            wgsl: wgsl.to_owned(),
-            entry_point: "main".to_owned(),
-            bindings: bindings(resources),
-            constants: [].into(),
-            plane: 0,
-            work: Work::Fullscreen {
-                target: "to".to_owned(),
-                each_layer: false,
-            },
-        }],
-        ..empty(Stage::AfterMainPass)
-    }
+        ])
+        .pass(
+            variables
+                .into_iter()
+                .fold(pass, |pass, (name, resource)| pass.bind(name, resource)),
+        )
 }
 
 const SAMPLE: &str = "
@@ -360,13 +359,10 @@ const SAMPLE: &str = "
 }
 ";
 
-fn sampled(filtering: bool) -> Vec<BindingResource> {
-    vec![
-        layer("from"),
-        BindingResource::Sampler {
-            filtering,
-            anisotropy: 1,
-        },
+fn sampled(filtering: bool) -> [Bound; 2] {
+    [
+        ("source", bind::layer("from")),
+        ("linear", bind::sampler(filtering)),
     ]
 }
 
@@ -379,7 +375,7 @@ fn filtering_what_the_device_cannot_filter() {
         "host",
         "",
         "",
-        "binding 0 samples 'map', rgba32float 16x16, which this device cannot filter",
+        "samples 'map', rgba32float 16x16, which this device cannot filter",
     );
     compiled(fullscreen(SAMPLE, R8Unorm, sampled(false)), &native()).unwrap();
     let filterable = Capabilities {

@@ -4,7 +4,7 @@ use moment_shadows::TextureFormat::{Depth32Float, R8Unorm, R32Float};
 use moment_shadows_graph::GraphErrorKind::{Capability, Declaration, Size};
 use moment_shadows_graph::{
     Access, Direction, ExtentRule, GraphError, Imports, NodeDesc, Pass, Plan, Slot, SlotResource,
-    Stage, Work, compile,
+    Stage, TextureRule, compile,
 };
 
 use crate::example::{assert_error, native};
@@ -29,23 +29,9 @@ fn refused(node: NodeDesc) -> GraphError {
 fn drawn(slots: Vec<Slot>, targets: &[&str], blend: bool, depth: Option<&str>) -> NodeDesc {
     let mut all = vec![input("from")];
     all.extend(slots);
-    NodeDesc {
-        slots: all,
-        passes: vec![Pass {
-            label: "draw".to_owned(),
-            wgsl: String::new(),
-            entry_point: String::new(),
-            bindings: Vec::new(),
-            constants: [].into(),
-            plane: 0,
-            work: Work::Host {
-                targets: targets.iter().map(|&target| target.to_owned()).collect(),
-                blend,
-                depth: depth.map(str::to_owned),
-            },
-        }],
-        ..empty(Stage::AfterShadowMaps)
-    }
+    let pass = Pass::host("draw", targets, depth);
+    let pass = if blend { pass.blended() } else { pass };
+    empty(Stage::AfterShadowMaps).slots(all).pass(pass)
 }
 
 #[test]
@@ -88,7 +74,7 @@ fn targets_that_a_host_cannot_draw_to() {
         "draws to nothing",
     );
     let mut small = target("small", Depth32Float);
-    if let SlotResource::Texture { extent, .. } = &mut small.resource {
+    if let SlotResource::Texture(TextureRule { extent, .. }) = &mut small.resource {
         *extent = ExtentRule::Exact([8, 8]);
     }
     let sizes = drawn(

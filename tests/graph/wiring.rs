@@ -3,12 +3,12 @@
 use moment_shadows_graph::GraphErrorKind::{
     Cycle, DuplicateName, MissingImport, MissingInput, StageOrder, TwoWriters, UnknownName,
 };
-use moment_shadows_graph::{Access, Direction, GraphError, Imports, ResourceDesc, Stage, compile};
+use moment_shadows_graph::{
+    Access, Direction, GraphError, Imports, ResourceDesc, Stage, bind, compile,
+};
 
 use crate::example::{TEXT, assert_error, edited, native, parse, refused};
-use crate::host_node::{
-    COPY, compute, copy, empty, graph, input, layer, made, output, rgba32, storage,
-};
+use crate::host_node::{COPY, compute, copy, empty, graph, input, made, output, rgba32};
 use moment_shadows::TextureFormat::Rgba32Float;
 
 fn compile_error(graph: &moment_shadows_graph::Graph) -> GraphError {
@@ -249,7 +249,15 @@ fn what_is_changed_in_place_is_taken_by_nobody_else() {
             ),
             input("from"),
         ],
-        passes: vec![compute(COPY, "map", true, [layer("from"), storage("map")])],
+        passes: vec![compute(
+            COPY,
+            "map",
+            true,
+            [
+                ("source", bind::layer("from")),
+                ("copied", bind::store("map")),
+            ],
+        )],
         ..empty(Stage::AfterShadowMaps)
     };
     let nodes = || {

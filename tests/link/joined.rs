@@ -43,7 +43,7 @@ fn joins_the_closure_once_in_dependency_order() {
 fn removed_imports_leave_one_blank_line() {
     let text = "// a\n\nimport node::m::{m};\n\n\n\nconst b = m;\n";
     let linked = link_with(text, &[("m", "\nconst m = 1;\n\n\n")]).unwrap();
-    let expected = "// m\n\nconst m = 1;\n\n\n// user.wgsl\n// a\n\nconst b = m;\n";
+    let expected = "// m\nconst m = 1;\n\n// user.wgsl\n// a\n\nconst b = m;\n";
     assert_eq!(linked.wgsl(), expected);
 }
 

@@ -118,32 +118,29 @@ fn comments_go_with_what_they_stand_above() {
         let text = format!("import node::m::{{{item}}};\nfn f() {{ _ = {item}; }}");
         link_with(&text, &[("m", module)]).unwrap()
     };
-    let head = "// m\n// What the file computes.\n\n";
+    let head = "// m\n";
     let end = |item: &str| format!("\n// user.wgsl\nfn f() {{ _ = {item}; }}\n");
-    let a = "// Of a.\n// More.\nfn a() {} // behind a\n\n// Of neither.\n\n";
+    let a = "// Of a.\n// More.\nfn a() {} // behind a\n";
     assert_eq!(linked("a").wgsl(), format!("{head}{a}{}", end("a")));
-    let b = "// Of b.\nfn b() {}\n\n// Of neither.\n\n";
+    let b = "// Of b.\nfn b() {}\n";
     assert_eq!(linked("b").wgsl(), format!("{head}{b}{}", end("b")));
     let d = linked("d");
     let d_line = "             const d = 2;\n";
-    assert_eq!(
-        d.wgsl(),
-        format!("{head}// Of neither.\n\n{d_line}{}", end("d"))
-    );
+    assert_eq!(d.wgsl(), format!("{head}{d_line}{}", end("d")));
     // Lines and columns are those of the file.
     let start = d.wgsl().find("d = 2").unwrap();
     assert_eq!(place(&d.location(start..start + 1).unwrap()), (12, 20, 1));
 }
 
 #[test]
-fn the_only_comment_of_a_file_is_the_file_s() {
+fn the_comment_of_a_file_stays_behind() {
     let linked = link_with(
         "import node::m::{b};\nconst c = b;",
         &[("m", "// Both.\nconst a = 1;\nconst b = 2;\n")],
     );
     assert_eq!(
         linked.unwrap().wgsl(),
-        "// m\n// Both.\n\nconst b = 2;\n\n// user.wgsl\nconst c = b;\n"
+        "// m\nconst b = 2;\n\n// user.wgsl\nconst c = b;\n"
     );
 }
 

@@ -5,14 +5,14 @@ use moment_shadows_graph::record::{
     Bindings, ImportedResource, PipelineOptions, Pipelines, RecordError, Resources,
 };
 use moment_shadows_graph::{
-    Access, BindingResource, Direction, Imports, NodeDesc, Plan, PlanError, SlotResource, Stage,
-    TextureDesc, compile,
+    Access, Imports, NodeDesc, Plan, PlanError, Slot, SlotResource, Stage, TextureDesc, bind,
+    compile,
 };
 use moment_shadows_lab::gpu::Gpu;
 use pollster::block_on;
 
 use crate::depth_map;
-use crate::host_node::{compute, copy, graph, output, slot, storage};
+use crate::host_node::{compute, copy, graph, output};
 use crate::recording::bound;
 use crate::setup::{EXAMPLE, capabilities, compiled, gpu, try_bind, uniform};
 
@@ -130,9 +130,9 @@ fn a_buffer_import_has_the_size_and_usage_of_storage() {
     let gpu = gpu();
     let node = NodeDesc {
         slots: vec![
-            slot(
+            Slot::input(
                 "data",
-                Direction::In,
+                "Numbers.",
                 SlotResource::Buffer {
                     access: Access::READ,
                     size: 64,
@@ -144,7 +144,10 @@ fn a_buffer_import_has_the_size_and_usage_of_storage() {
             READS,
             "to",
             true,
-            [BindingResource::Buffer("data".to_owned()), storage("to")],
+            [
+                ("data", bind::buffer("data")),
+                ("copied", bind::store("to")),
+            ],
         )],
         ..copy(Stage::AfterShadowMaps, 1)
     };

@@ -2,15 +2,13 @@
 
 use moment_shadows::TextureFormat::{R32Float, Rgba32Float};
 use moment_shadows_graph::{
-    Access, Binding, BindingResource, Connected, Direction, Graph, GraphError, Imports, Node,
-    NodeDesc, NodeRegistry, ParameterBlock, Pass, SlotResource, Stage, Work, compile,
+    Access, Connected, Direction, Graph, GraphError, Imports, Node, NodeDesc, NodeRegistry,
+    ParameterBlock, Pass, Slot, SlotResource, Stage, TextureRule, bind, compile,
 };
 use moment_shadows_lab::gpu::Gpu;
 use serde::Deserialize;
 
-use crate::host_node::{
-    COPY, SIDE, bindings, compute, empty, graph, layer, made, output, slot, storage,
-};
+use crate::host_node::{COPY, SIDE, compute, empty, graph, made, output};
 use crate::setup::{Bound, bind, capabilities, gpu};
 
 const EARLY: Stage = Stage::AfterShadowMaps;
@@ -36,26 +34,21 @@ fn main(@builtin(global_invocation_id) id: vec3u) {
 
 impl Node for Fill {
     fn describe(&self, _: &Connected<'_>) -> Result<NodeDesc, GraphError> {
-        let mut pass = compute(
-            FILL,
-            "filled",
-            true,
-            [BindingResource::Parameters, storage("filled")],
-        );
-        pass.constants = [("value".to_owned(), f64::from(self.value))].into();
-        Ok(NodeDesc {
-            name: "fill".to_owned(),
-            slots: vec![output("filled", self.layers)],
-            passes: vec![pass],
-            parameters: Some(ParameterBlock {
-                name: "Factor".to_owned(),
-                size: 16,
-                elements: 1,
-                each_layer_of: Some("filled".to_owned()),
-                initial: bytemuck::bytes_of(&[1.0_f32; 4]).to_vec(),
-            }),
-            ..empty(EARLY)
-        })
+        Ok(NodeDesc::new("fill", EARLY)
+            .slots([output("filled", self.layers)])
+            .pass(
+                Pass::compute("fill", "filled", [8, 8])
+                    .each_layer()
+                    .shader(FILL, "main")
+                    .bind("parameters", bind::parameters())
+                    .bind("filled", bind::store("filled"))
+                    .constant("value", self.value),
+            )
+            .parameters(
+                ParameterBlock::of::<[f32; 4]>("Factor")
+                    .each_layer_of("filled")
+                    .initial(&[1.0_f32; 4]),
+            ))
     }
 }
 
@@ -107,8 +100,16 @@ fn an_internal_slot_connects_passes() {
 fn main(@builtin(global_invocation_id) id: vec3u) { textureStore(place, id.xy, vec4f(vec4u(id, 7u))); }
 ";
     let access = Access::READ.union(Access::STORAGE_WRITE);
-    let first = compute(place, "between", true, [storage("between")]);
-    let second = compute(COPY, "to", true, [layer("between"), storage("to")]);
+    let first = compute(place, "between", true, [("place", bind::store("between"))]);
+    let second = compute(
+        COPY,
+        "to",
+        true,
+        [
+            ("source", bind::layer("between")),
+            ("copied", bind::store("to")),
+        ],
+    );
     let node = NodeDesc {
         slots: vec![
             made("between", Direction::Internal, access, Rgba32Float, 1),
@@ -148,7 +149,7 @@ fn main(@builtin(global_invocation_id) id: vec3u) {
     textureStore(copied, id.xy, vec4f(f32(squares[id.y * 16u + id.x])));
 }
 ";
-    let buffer = || BindingResource::Buffer("squares".to_owned());
+    let buffer = || ("squares", bind::buffer("squares"));
     let squares = SlotResource::Buffer {
         access: Access::READ.union(Access::STORAGE_WRITE),
         size: 4 * 256,
@@ -156,13 +157,21 @@ fn main(@builtin(global_invocation_id) id: vec3u) {
     // A pass has one declared access per slot, so both passes bind the buffer writable.
     let read = read.replace("<storage, read>", "<storage, read_write>");
     let node = NodeDesc {
-        slots: vec![slot("squares", Direction::Out, squares), output("to", 1)],
+        slots: vec![
+            Slot::output("squares", "Square numbers.", squares),
+            output("to", 1),
+        ],
         passes: vec![
             Pass {
                 label: "write".to_owned(),
                 ..compute(write, "to", false, [buffer()])
             },
-            compute(&read, "to", false, [buffer(), storage("to")]),
+            compute(
+                &read,
+                "to",
+                false,
+                [buffer(), ("copied", bind::store("to"))],
+            ),
         ],
         ..empty(EARLY)
     };
@@ -199,35 +208,16 @@ struct Value { value: vec4f }
 
 /// A fullscreen pass per layer of an r32float target, with a value per layer.
 pub(crate) fn fullscreen_by_layer(layers: u32) -> NodeDesc {
-    NodeDesc {
-        slots: vec![made(
-            "to",
-            Direction::Out,
-            Access::RENDER_TARGET,
-            R32Float,
-            layers,
-        )],
-        passes: vec![Pass {
-            label: "draw".to_owned(),
-            wgsl: LAYER_COLOUR.to_owned(),
-            entry_point: "main".to_owned(),
-            bindings: bindings([BindingResource::Parameters]),
-            constants: [].into(),
-            plane: 0,
-            work: Work::Fullscreen {
-                target: "to".to_owned(),
-                each_layer: true,
-            },
-        }],
-        parameters: Some(ParameterBlock {
-            name: "Value".to_owned(),
-            size: 16,
-            elements: 1,
-            each_layer_of: Some("to".to_owned()),
-            initial: Vec::new(),
-        }),
-        ..empty(EARLY)
-    }
+    let square = TextureRule::new(R32Float).extent([SIDE, SIDE]);
+    NodeDesc::new("host", EARLY)
+        .output("to", "A value per layer.", square.layers(layers))
+        .pass(
+            Pass::fullscreen("draw", "to")
+                .each_layer()
+                .shader(LAYER_COLOUR, "main")
+                .bind("parameters", bind::parameters()),
+        )
+        .parameters(ParameterBlock::of::<[f32; 4]>("Value").each_layer_of("to"))
 }
 
 #[test]
@@ -266,21 +256,17 @@ fn a_fullscreen_pass_is_drawn_to_every_dirty_layer() {
 #[test]
 fn bindings_may_have_gaps() {
     let gpu = gpu();
-    let mut node = NodeDesc {
+    let node = NodeDesc {
         slots: vec![output("to", 1)],
         passes: vec![compute(
             "@group(0) @binding(5) var copied: texture_storage_2d<rgba32float, write>;
              @compute @workgroup_size(8, 8) fn main(@builtin(global_invocation_id) id: vec3u) { textureStore(copied, id.xy, vec4f(5.0)); }",
             "to",
             true,
-            [],
+            [("copied", bind::store("to"))],
         )],
         ..empty(EARLY)
     };
-    node.passes[0].bindings = vec![Binding {
-        binding: 5,
-        resource: storage("to"),
-    }];
     assert!(
         run(&gpu, node)
             .read_floats(&gpu, "out", 0)

@@ -2,46 +2,20 @@
 
 use moment_shadows::TextureFormat::{Depth32Float, R32Float};
 use moment_shadows_graph::record::{RecordError, Recording};
-use moment_shadows_graph::{
-    Access, Direction, Imports, NodeDesc, Pass, Plan, Slot, Stage, Work, compile,
-};
+use moment_shadows_graph::{Imports, NodeDesc, Pass, Plan, Stage, TextureRule, compile};
 
-use crate::host_node::{bindings, compute, empty, graph, input, layer, made, output, storage};
+use crate::host_node::{SIDE, compute, from_and_to, graph, input, output};
 use crate::setup::{bind, capabilities, gpu};
 
 const EARLY: Stage = Stage::AfterShadowMaps;
 
 /// A host draws to an r32float and a depth target; a node after it reads what was drawn.
 fn plan(capabilities: &moment_shadows_graph::Capabilities) -> Plan {
-    let drawn = NodeDesc {
-        slots: vec![
-            made("colour", Direction::Out, Access::RENDER_TARGET, R32Float, 1),
-            Slot {
-                direction: Direction::Internal,
-                ..made(
-                    "depth",
-                    Direction::Internal,
-                    Access::RENDER_TARGET,
-                    Depth32Float,
-                    1,
-                )
-            },
-        ],
-        passes: vec![Pass {
-            label: "casters".to_owned(),
-            wgsl: String::new(),
-            entry_point: String::new(),
-            bindings: bindings([]),
-            constants: [].into(),
-            plane: 0,
-            work: Work::Host {
-                targets: vec!["colour".to_owned()],
-                blend: false,
-                depth: Some("depth".to_owned()),
-            },
-        }],
-        ..empty(EARLY)
-    };
+    let square = |format| TextureRule::new(format).extent([SIDE, SIDE]);
+    let drawn = NodeDesc::new("drawn", EARLY)
+        .output("colour", "What the host draws.", square(R32Float))
+        .internal("depth", "What it tests.", square(Depth32Float))
+        .pass(Pass::host("casters", &["colour"], Some("depth")));
     let doubled = "
 @group(0) @binding(0) var source: texture_2d<f32>;
 @group(0) @binding(1) var copied: texture_storage_2d<rgba32float, write>;
@@ -50,11 +24,9 @@ fn main(@builtin(global_invocation_id) id: vec3u) {
     textureStore(copied, id.xy, vec4f(2.0 * textureLoad(source, id.xy, 0).x));
 }
 ";
-    let after = NodeDesc {
-        slots: vec![input("from"), output("to", 1)],
-        passes: vec![compute(doubled, "to", true, [layer("from"), storage("to")])],
-        ..empty(EARLY)
-    };
+    let after = NodeDesc::new("after", EARLY)
+        .slots([input("from"), output("to", 1)])
+        .pass(compute(doubled, "to", true, from_and_to()));
     let graph = graph(
         &[],
         vec![("host", drawn), ("after", after)],

@@ -5,7 +5,7 @@ use moment_shadows_graph::record::{
     Bindings, ImportedResource, PipelineOptions, Pipelines, RecordError, Recording, Resources,
 };
 use moment_shadows_graph::{
-    Access, CountRule, Direction, ExtentRule, Imports, SlotResource, Stage, compile,
+    Access, CountRule, Direction, ExtentRule, Imports, SlotResource, Stage, TextureRule, compile,
 };
 use pollster::block_on;
 
@@ -81,11 +81,11 @@ fn too_little_memory_is_an_error() {
         Rgba32Float,
         layers,
     );
-    if let SlotResource::Texture {
+    if let SlotResource::Texture(TextureRule {
         extent,
         layers: count,
         ..
-    } = &mut huge.resource
+    }) = &mut huge.resource
     {
         *extent = ExtentRule::Exact([side, side]);
         *count = CountRule::Exact(layers);

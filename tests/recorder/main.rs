@@ -32,5 +32,7 @@ mod shade;
 mod shade_regions;
 mod six_moments;
 mod techniques;
+mod threshold;
+mod threshold_node;
 mod timestamps;
 mod views;

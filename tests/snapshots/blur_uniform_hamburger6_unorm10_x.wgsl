@@ -14,21 +14,16 @@ const STORAGE = 5u;
 const REGIONS = 1u;
 
 // map_filtering
-
-// Texels that any filter averages.
-
 fn filtering_value(texel: vec4f) -> vec4f {
     return texel;
 }
 
+// The texel for such an average.
 fn filtering_texel(value: vec4f) -> vec4f {
     return storage_round_texel(value, STORAGE);
 }
 
 // blur_texel
-
-// One texel of a blur along AXIS with weights that a host can change per frame. Beyond `low` and `last`, the corners of the
-// region, its texels repeat.
 fn blur_texel(map: texture_2d<f32>, texel: vec2i, low: vec2i, last: vec2i) -> vec4f {
     // 40 vectors of weights hold no larger kernel.
     let radius = min(parameters.radius, 64u);

@@ -16,19 +16,16 @@ const STORAGE = 0u;
 const REGIONS = 1u;
 
 // map_filtering
-
-// Texels that any filter averages.
-
 fn filtering_value(texel: vec4f) -> vec4f {
     return texel;
 }
 
+// The texel for such an average.
 fn filtering_texel(value: vec4f) -> vec4f {
     return storage_round_texel(value, STORAGE);
 }
 
 // blur_unrolled
-
 const OUTPUTS = 16;
 struct BlurSums {
     o0: vec4f,

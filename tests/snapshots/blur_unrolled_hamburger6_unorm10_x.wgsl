@@ -13,19 +13,16 @@ const STORAGE = 5u;
 const REGIONS = 1u;
 
 // map_filtering
-
-// Texels that any filter averages.
-
 fn filtering_value(texel: vec4f) -> vec4f {
     return texel;
 }
 
+// The texel for such an average.
 fn filtering_texel(value: vec4f) -> vec4f {
     return storage_round_texel(value, STORAGE);
 }
 
 // blur_texel
-
 fn blur_texel(map: texture_2d<f32>, texel: vec2i, low: vec2i, last: vec2i) -> vec4f {
     var sum = vec4f(0.0);
     sum = fma(vec4f(0.16637802), filtering_value(textureLoad(map, clamp(texel + -1 * AXIS, low, last), 0)), sum);

@@ -15,19 +15,16 @@ const STORAGE = 0u;
 const REGIONS = 1u;
 
 // map_filtering
-
-// Texels that any filter averages.
-
 fn filtering_value(texel: vec4f) -> vec4f {
     return texel;
 }
 
+// The texel for such an average.
 fn filtering_texel(value: vec4f) -> vec4f {
     return storage_round_texel(value, STORAGE);
 }
 
 // blur_unrolled
-
 const OUTPUTS = 8;
 fn blur_block(map: texture_2d<f32>, first: vec2i, low: vec2i, last: vec2i) -> array<vec4f, 8> {
     let t0 = filtering_value(textureLoad(map, clamp(first + -1 * AXIS, low, last), 0));

@@ -7,7 +7,8 @@
 // moments_lookup: moments_map moments_sampler moments_lookup
 // moment_shadows/air/rectified_frame.wgsl: RectifiedFrame rectified_frame_ray rectified_frame_depth
 // rectified_texel: rectified_texel
-// moment_shadows/maths/two_diracs.wgsl: TwoDiracs TWO_DIRACS_SMALLEST_VARIANCE two_diracs_of_moments
+// moment_shadows/maths/two_diracs.wgsl: TwoDiracs
+// much.: TWO_DIRACS_SMALLEST_VARIANCE two_diracs_of_moments
 // rectify_moments.wgsl: RectifyMomentsParameters parameters rectified_map FAR_END rectified rectify
 
 // specialization

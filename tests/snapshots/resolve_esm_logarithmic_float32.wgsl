@@ -18,13 +18,11 @@ const LOGARITHMIC = true;
 const REGIONS = 1u;
 
 // map_encoding
-
-// The exponential of depth: what is averaged for a moment depth, and the texel for the mean.
-
 fn encoding_channels(z: f32) -> vec4f {
     return exponential_channels(z, EXPONENT);
 }
 
+// The texel for the mean.
 fn encoding_texel(mean: vec4f) -> vec4f {
     return exponential_to_texel(mean, STORAGE, EXPONENT, LOGARITHMIC);
 }

@@ -18,13 +18,11 @@ const EXPONENTS = vec2f(40.0, 0.0);
 const REGIONS = 1u;
 
 // map_encoding
-
-// Two moments of each exponential warp: what is averaged for a moment depth, and the texel for the mean.
-
 fn encoding_channels(z: f32) -> vec4f {
     return exponential_variance_channels(z, EXPONENTS);
 }
 
+// The texel for the mean.
 fn encoding_texel(mean: vec4f) -> vec4f {
     return exponential_variance_to_texel(mean, STORAGE);
 }

@@ -16,13 +16,11 @@ const STORAGE = 1u;
 const REGIONS = 1u;
 
 // map_encoding
-
-// Four moments: what is averaged for a moment depth, and the texel for the mean.
-
 fn encoding_channels(z: f32) -> vec4f {
     return four_moments_from_depth(z);
 }
 
+// The texel for the mean.
 fn encoding_texel(mean: vec4f) -> vec4f {
     return four_moments_to_texel(mean, STORAGE);
 }

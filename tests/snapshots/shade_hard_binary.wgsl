@@ -19,9 +19,7 @@ const VIEWS = 1u;
 const LIGHTS = 1u;
 const ANISOTROPY = 8.0;
 
-
 // technique
-
 fn technique_shadow_intensity(receiver: TechniqueReceiver) -> f32 {
     let plane = receiver_plane_through(receiver.uv, receiver.depth, receiver.gradient, receiver.steepest, depth_of_light(receiver.conversion));
     return percentage_closer_binary(depth_map, receiver.layer, receiver.region, plane, receiver.conversion);

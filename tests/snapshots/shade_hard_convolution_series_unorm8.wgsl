@@ -27,7 +27,6 @@ const TERMS = 8u;
 const LOWER_BOUND = false;
 
 // technique
-
 fn technique_shadow_intensity(receiver: TechniqueReceiver) -> f32 {
     let place = convolution_receiver(receiver.fragment_depth, TERMS, LOWER_BOUND);
     var sum = 0.0;

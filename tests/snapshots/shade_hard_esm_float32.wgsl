@@ -25,9 +25,7 @@ const PLANES = 1u;
 const STORAGE = 2u;
 const EXPONENT = f32(80.0);
 
-
 // technique
-
 fn technique_shadow_intensity(receiver: TechniqueReceiver) -> f32 {
     return exponential_shadow_intensity_of_texel(map_texel(receiver, 0u), receiver.fragment_depth, STORAGE, EXPONENT, false);
 }

@@ -28,7 +28,6 @@ const EXPONENTS = vec2f(40.0, 0.0);
 const BOTH_WARPS = false;
 
 // technique
-
 fn technique_shadow_intensity(receiver: TechniqueReceiver) -> f32 {
     return exponential_variance_shadow_intensity_of_texel(map_texel(receiver, 0u), receiver.fragment_depth, STORAGE, EXPONENTS, BOTH_WARPS);
 }

@@ -8,8 +8,10 @@
 // moment_shadows/shade/receiver_bias.wgsl: RECEIVER_BIAS_STANDARD_DEVIATIONS RECEIVER_BIAS_EDGE_ON ReceiverBias receiver_bias_plane receiver_bias_depth receiver_bias_depth_minified
 // moment_shadows/maths/hankel.wgsl: HankelFactor HANKEL_SMALLEST_VARIANCE HANKEL_SMALLEST_RESIDUE hankel_factor hankel_second_polynomial
 // moment_shadows/map/storage.wgsl: STORAGE_FLOAT16 STORAGE_FLOAT32 STORAGE_UNORM10 storage_is_float
-// moment_shadows/moments/six_moments.wgsl: SixMoments SixMomentsBias SIX_MOMENTS_BIAS_TARGET SIX_MOMENTS_BIAS_UNORM16 SIX_MOMENTS_BIAS_FLOAT16 SIX_MOMENTS_BIAS_FLOAT32 SIX_MOMENTS_BIAS_UNORM10 SIX_MOMENTS_ODD_OFFSET SIX_MOMENTS_EVEN_OFFSET SIX_MOMENTS_ODD_INVERSE SIX_MOMENTS_EVEN_INVERSE six_moments_affine six_moments_middle six_moments_from_texels six_moments_bias_of six_moments_apply_bias
-// moment_shadows/bounds/hamburger6.wgsl: Hamburger6Factor Hamburger6Polynomials HAMBURGER6_SMALLEST_PIVOT HAMBURGER6_LARGEST_SHIFT HAMBURGER6_LARGEST_RATIO HAMBURGER6_FARTHEST_SUPPORT HAMBURGER6_STEPS HAMBURGER6_LARGE_ALPHA HAMBURGER6_STEPS_OF_LARGE_ALPHA hamburger6_factor hamburger6_polynomials hamburger6_nodes_below hamburger6_lone_weight hamburger6_bounds hamburger6_lower_bound hamburger6_shadow_intensity hamburger6_shadow_intensity_of_texels
+// moment_shadows/moments/six_moments.wgsl: SixMoments SixMomentsBias SIX_MOMENTS_BIAS_TARGET SIX_MOMENTS_BIAS_UNORM16 SIX_MOMENTS_BIAS_FLOAT16 SIX_MOMENTS_BIAS_FLOAT32 SIX_MOMENTS_BIAS_UNORM10 SIX_MOMENTS_ODD_OFFSET SIX_MOMENTS_EVEN_OFFSET SIX_MOMENTS_ODD_INVERSE SIX_MOMENTS_EVEN_INVERSE six_moments_affine six_moments_middle
+// clamped.: six_moments_from_texels six_moments_bias_of six_moments_apply_bias
+// moment_shadows/bounds/hamburger6.wgsl: Hamburger6Factor Hamburger6Polynomials HAMBURGER6_SMALLEST_PIVOT HAMBURGER6_LARGEST_SHIFT HAMBURGER6_LARGEST_RATIO HAMBURGER6_FARTHEST_SUPPORT HAMBURGER6_STEPS HAMBURGER6_LARGE_ALPHA HAMBURGER6_STEPS_OF_LARGE_ALPHA hamburger6_factor hamburger6_polynomials hamburger6_nodes_below hamburger6_lone_weight hamburger6_bounds hamburger6_lower_bound hamburger6_shadow_intensity
+// storage.: hamburger6_shadow_intensity_of_texels
 // moment_shadows/map/map_load.wgsl: map_load_bilinear map_load_trilinear map_load_footprint
 // moments_lookup: moments_map moments_lookup
 // technique_receiver: TechniqueReceiver
@@ -27,7 +29,6 @@ const PLANES = 2u;
 const STORAGE = 2u;
 
 // technique
-
 fn technique_shadow_intensity(receiver: TechniqueReceiver) -> f32 {
     let texels = array<vec4f, 2>(map_texel(receiver, 0u), map_texel(receiver, 1u));
     return hamburger6_shadow_intensity_of_texels(texels, receiver.fragment_depth, STORAGE);

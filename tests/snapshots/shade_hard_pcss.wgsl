@@ -25,7 +25,6 @@ const SEARCH_TAPS = 16u;
 const FILTER_TAPS = 32u;
 
 // technique
-
 fn technique_shadow_intensity(receiver: TechniqueReceiver) -> f32 {
     let plane = receiver_plane_through(receiver.uv, receiver.depth, receiver.gradient, receiver.steepest, depth_of_light(receiver.conversion));
     return percentage_closer_soft_intensity(depth_map, receiver.layer, receiver.region, plane, receiver.conversion, receiver.light, SEARCH_TAPS, FILTER_TAPS, disk_samples_angle(receiver.pixel));

@@ -31,7 +31,6 @@ const SEARCH_INTERPOLATED = false;
 const FILTER_INTERPOLATED = true;
 
 // technique
-
 fn technique_shadow_intensity(receiver: TechniqueReceiver) -> f32 {
     let bias = summed_area_encoding_moment_bias(TABLE_ERROR);
     return moment_soft_shadows_intensity(table_sums, soft_table(receiver), bias, soft_receiver(receiver), receiver.light);

@@ -31,7 +31,6 @@ const SEARCH_INTERPOLATED = false;
 const FILTER_INTERPOLATED = true;
 
 // technique
-
 fn technique_shadow_intensity(receiver: TechniqueReceiver) -> f32 {
     let variance = summed_area_encoding_smallest_variance(TABLE_ERROR);
     return moment_soft_shadows_variance_intensity(table_sums, soft_table(receiver), variance, soft_receiver(receiver), receiver.light);

@@ -19,7 +19,6 @@ const WORKGROUP = vec2u(8u, 8u);
 const REGIONS = 1u;
 
 // tile_columns
-
 @group(GROUP) @binding(0) var moments_map: texture_2d<f32>;
 
 struct TileColumns {

@@ -2,9 +2,9 @@
 
 use moment_shadows::TextureFormat;
 use moment_shadows_graph::{
-    Access, Binding, BindingResource, Connected, CountRule, Direction, Edge, Endpoint, ExtentRule,
-    FormatRule, Graph, GraphError, GraphNode, Import, Lifetime, Node, NodeDesc, Output, Pass,
-    ResourceDesc, Slot, SlotResource, Stage, TextureDesc, Work,
+    Access, BindingResource, Connected, CountRule, Direction, Edge, Endpoint, Graph, GraphError,
+    GraphNode, Import, Node, NodeDesc, Output, Pass, ResourceDesc, Slot, Stage, TextureDesc,
+    TextureRule, bind,
 };
 
 /// Side of the textures that host nodes make.
@@ -22,39 +22,16 @@ impl Node for HostNode {
 
 /// A node without slots and passes.
 pub(crate) fn empty(stage: Stage) -> NodeDesc {
-    NodeDesc {
-        name: "host".to_owned(),
-        stage,
-        slots: Vec::new(),
-        passes: Vec::new(),
-        parameters: None,
-    }
-}
-
-pub(crate) fn slot(name: &str, direction: Direction, resource: SlotResource) -> Slot {
-    Slot {
-        name: name.to_owned(),
-        direction,
-        lifetime: Lifetime::Frame,
-        optional: false,
-        resource,
-    }
+    NodeDesc::new("host", stage)
 }
 
 /// An input that takes any texture.
 pub(crate) fn input(name: &str) -> Slot {
-    slot(
-        name,
-        Direction::In,
-        SlotResource::Texture {
-            access: Access::READ,
-            format: FormatRule::OneOf(TextureFormat::ALL.to_vec()),
-            extent: ExtentRule::Any,
-            layers: CountRule::Any,
-            mips: CountRule::Any,
-            samples: CountRule::Any,
-        },
-    )
+    let rule = TextureRule::new(TextureFormat::ALL.as_slice())
+        .layers(CountRule::Any)
+        .mips(CountRule::Any)
+        .samples(CountRule::Any);
+    Slot::input(name, "Any texture.", rule.access(Access::READ))
 }
 
 /// A square texture of the node's own.
@@ -65,18 +42,14 @@ pub(crate) fn made(
     format: TextureFormat,
     layers: u32,
 ) -> Slot {
-    slot(
-        name,
+    let rule = TextureRule::new(format)
+        .extent([SIDE, SIDE])
+        .layers(layers)
+        .access(access);
+    Slot {
         direction,
-        SlotResource::Texture {
-            access,
-            format: FormatRule::Exact(format),
-            extent: ExtentRule::Exact([SIDE, SIDE]),
-            layers: CountRule::Exact(layers),
-            mips: CountRule::Exact(1),
-            samples: CountRule::Exact(1),
-        },
-    )
+        ..Slot::output(name, "A square texture.", rule)
+    }
 }
 
 /// An rgba32float output that a compute pass writes.
@@ -90,61 +63,17 @@ pub(crate) fn output(name: &str, layers: u32) -> Slot {
     )
 }
 
-/// The same, of the extent and the regions of the input `from`.
-fn like_from(name: &str, layers: u32) -> Slot {
-    slot(
-        name,
-        Direction::Out,
-        SlotResource::Texture {
-            access: Access::STORAGE_WRITE,
-            format: FormatRule::Exact(TextureFormat::Rgba32Float),
-            extent: ExtentRule::SameAs("from".to_owned()),
-            layers: CountRule::Exact(layers),
-            mips: CountRule::Exact(1),
-            samples: CountRule::Exact(1),
-        },
-    )
-}
-
-pub(crate) fn bindings(resources: impl IntoIterator<Item = BindingResource>) -> Vec<Binding> {
-    (0..)
-        .zip(resources)
-        .map(|(binding, resource)| Binding { binding, resource })
-        .collect()
-}
-
-pub(crate) fn layer(slot: &str) -> BindingResource {
-    BindingResource::Layer(slot.to_owned())
-}
-
-pub(crate) fn layers(slot: &str) -> BindingResource {
-    BindingResource::Layers(slot.to_owned())
-}
-
-pub(crate) fn storage(slot: &str) -> BindingResource {
-    BindingResource::StorageLayer(slot.to_owned())
-}
-
 /// A compute pass over `covers` with the entry point `main` and workgroups of 8 x 8.
 pub(crate) fn compute(
     wgsl: &str,
     covers: &str,
     each_layer: bool,
-    resources: impl IntoIterator<Item = BindingResource>,
+    variables: impl IntoIterator<Item = (&'static str, BindingResource)>,
 ) -> Pass {
-    Pass {
-        label: "main".to_owned(),
-        wgsl: wgsl.to_owned(),
-        entry_point: "main".to_owned(),
-        bindings: bindings(resources),
-        constants: [].into(),
-        plane: 0,
-        work: Work::Compute {
-            covers: covers.to_owned(),
-            texels_per_workgroup: [8, 8],
-            each_layer,
-        },
-    }
+    let pass = Pass::compute("main", covers, [8, 8]).shader(wgsl, "main");
+    let pass = if each_layer { pass.each_layer() } else { pass };
+    let variables = variables.into_iter();
+    variables.fold(pass, |pass, (name, resource)| pass.bind(name, resource))
 }
 
 /// Copies a layer of an rgba32float texture to another.
@@ -171,36 +100,42 @@ fn main(@builtin(global_invocation_id) id: vec3u) {
 }
 ";
 
+/// `from` to `to`, rgba32float, of its extent and regions.
+fn copying(stage: Stage, layers: u32, pass: Pass) -> NodeDesc {
+    let rule = TextureRule::new(TextureFormat::Rgba32Float)
+        .like("from")
+        .layers(layers);
+    empty(stage)
+        .slots([input("from"), Slot::output("to", "The copy.", rule)])
+        .pass(pass)
+}
+
+/// What [`COPY`] binds.
+pub(crate) fn from_and_to() -> [(&'static str, BindingResource); 2] {
+    [
+        ("source", bind::layer("from")),
+        ("copied", bind::store("to")),
+    ]
+}
+
 /// `from` to `to`, rgba32float, by layer.
 pub(crate) fn copy(stage: Stage, layers: u32) -> NodeDesc {
-    NodeDesc {
-        slots: vec![input("from"), like_from("to", layers)],
-        passes: vec![compute(COPY, "to", true, [layer("from"), storage("to")])],
-        ..empty(stage)
-    }
+    copying(stage, layers, compute(COPY, "to", true, from_and_to()))
 }
 
 /// As [`copy`], but once for all layers.
 pub(crate) fn copy_every_time(stage: Stage) -> NodeDesc {
-    NodeDesc {
-        slots: vec![input("from"), like_from("to", 1)],
-        passes: vec![compute(COPY, "to", false, [layer("from"), storage("to")])],
-        ..empty(stage)
-    }
+    copying(stage, 1, compute(COPY, "to", false, from_and_to()))
 }
 
 /// As [`copy`], but every pass binds all layers of the source.
 pub(crate) fn copy_of_all(stage: Stage, layers_made: u32, each_layer: bool) -> NodeDesc {
-    NodeDesc {
-        slots: vec![input("from"), like_from("to", layers_made)],
-        passes: vec![compute(
-            COPY_OF_ALL,
-            "to",
-            each_layer,
-            [layers("from"), storage("to")],
-        )],
-        ..empty(stage)
-    }
+    let variables = [
+        ("source", bind::layers("from")),
+        ("copied", bind::store("to")),
+    ];
+    let pass = compute(COPY_OF_ALL, "to", each_layer, variables);
+    copying(stage, layers_made, pass)
 }
 
 /// A texture as an import is described.

@@ -1,6 +1,6 @@
 //! Library modules as naga reads them, and the numbers in them.
 
-use moment_shadows::{Source, link, modules};
+use moment_shadows::{Source, link_module, modules};
 use naga::{Expression, Literal, Module};
 
 pub(crate) fn parse(wgsl: &str) -> Module {
@@ -8,15 +8,15 @@ pub(crate) fn parse(wgsl: &str) -> Module {
         .unwrap_or_else(|error| panic!("{}", error.emit_to_string(wgsl)))
 }
 
-/// The closure of one item of a library module.
+/// A library module, whole, with what it imports. `item` is one that it defines.
 pub(crate) fn module(name: &str, item: &str) -> Module {
-    let folder = modules().iter().find(|it| it.name == name).unwrap().folder;
-    let text = format!("import moment_shadows::{folder}::{name}::{{{item}}};\n");
+    let module = modules().iter().find(|it| it.name == name).unwrap();
+    assert!(module.source.contains(item), "{name} has no {item}");
     let source = Source {
-        name: "user.wgsl",
-        text: &text,
+        name,
+        text: module.source,
     };
-    parse(link(source, &[]).unwrap().wgsl())
+    parse(link_module(source).unwrap().wgsl())
 }
 
 /// The numbers that a constant of a module is made of.

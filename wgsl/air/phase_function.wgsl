@@ -1,15 +1,16 @@
-// Phase functions: which part of the light that a medium scatters goes on per steradian of a direction.
+// Phase functions: the part of a medium's scattered light that goes on in a direction, per steradian.
 //
-// `cosine` is that of the angle between the directions of the light before and after; each integrates to 1 over the sphere.
+// `cosine` is the cosine of the angle between the light's directions before and after. Each function integrates to 1 over the
+// sphere.
 
-// The same in all directions: 1 / (4 pi).
+// The isotropic phase function: 1 / (4 pi) in all directions.
 const PHASE_FUNCTION_ISOTROPIC: f32 = 0.07957747;
 
-// The strongest anisotropy, where a lobe is still resolved in f32.
+// The strongest anisotropy: f32 still resolves its lobe.
 const PHASE_FUNCTION_LARGEST_ANISOTROPY: f32 = 0.99;
 
-// Henyey & Greenstein, "Diffuse radiation in the galaxy", 1941: forwards for anisotropies above 0, backwards below, and
-// isotropic to the bit at 0. `cosine` is in [-1, 1].
+// The phase function of Henyey & Greenstein ("Diffuse radiation in the galaxy", 1941): forwards for anisotropies above 0,
+// backwards below, and isotropic to the bit at 0. `cosine` is in [-1, 1].
 fn phase_function_henyey_greenstein(cosine: f32, anisotropy: f32) -> f32 {
     let g = clamp(anisotropy, -PHASE_FUNCTION_LARGEST_ANISOTROPY, PHASE_FUNCTION_LARGEST_ANISOTROPY);
     // (1 - g)^2 + 2 g (1 - cosine), each term as far from cancellation as the sign of g allows.

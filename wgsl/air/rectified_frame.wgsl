@@ -10,8 +10,8 @@ import super::super::maths::angle::{ANGLE_PI, angle_atan2, angle_finite, angle_s
 
 // Filled by the host-side `RectifiedFrame`.
 struct RectifiedFrame {
-    // The direction of the pixel at (x, y) in normalised device coordinates is x along_x + y along_y + along_middle, divided
-    // by the homogeneous coordinate of the scene its position.
+    // The direction of the pixel at (x, y) in normalised device coordinates is x along_x + y along_y + along_middle. Divided
+    // by the homogeneous coordinate of the scene, it is the pixel's position.
     along_x: vec3f,
     // The largest radius of the frustum; positive.
     largest_radius: f32,
@@ -30,13 +30,13 @@ struct RectifiedFrame {
     padding: f32,
 }
 
-// A component of a position, finite and not so large that squares overflow.
+// A component of a position, made finite and limited so that squares do not overflow.
 fn rectified_frame_component(value: f32) -> f32 {
     return clamp(angle_finite(value), -1e18, 1e18);
 }
 
-// Radius, azimuth in [-pi, pi] and inclination in [0, pi] of a position. The camera itself and components that are no finite
-// numbers count as 0.
+// Radius, azimuth in [-pi, pi] and inclination in [0, pi] of a position. The camera itself and non-finite components count as
+// 0.
 fn rectified_frame_coordinates(position: vec3f) -> vec3f {
     let x = rectified_frame_component(position.x);
     let y = rectified_frame_component(position.y);
@@ -48,24 +48,24 @@ fn rectified_frame_coordinates(position: vec3f) -> vec3f {
     return vec3f(radius, angle_atan2(y, x), angle_atan2(radius, z));
 }
 
-// The position of coordinates. On the light ray through the camera (inclination 0 or pi) the distance is unknown; the camera's
-// own position stands for all of it.
+// The position that has the coordinates. On the light ray through the camera (inclination 0 or pi) the distance is unknown;
+// the camera's position stands for all of it.
 fn rectified_frame_position(coordinates: vec3f) -> vec3f {
     let around = angle_sin_cos(coordinates.y);
     let inclined = angle_sin_cos(clamp(angle_finite(coordinates.z), 0.0, ANGLE_PI));
     let radius = rectified_frame_component(coordinates.x);
-    // sin(theta) of the nearest f32 to pi is -9e-8; below that there is no such inclination.
+    // sin(theta) of the f32 nearest to pi is -9e-8; no inclination has a smaller sine.
     let along = select(0.0, radius * inclined.y / inclined.x, inclined.x > 1e-7);
     return vec3f(radius * around.y, radius * around.x, along);
 }
 
-// How far across the map's columns and rows coordinates lie, from 0 to 1. Azimuths outside of the frame take its nearer end.
+// The place of coordinates across the map's columns and rows, from 0 to 1. Azimuths outside the frame take its nearer end.
 fn rectified_frame_place(frame: RectifiedFrame, coordinates: vec3f) -> vec2f {
     let turn = 2.0 * ANGLE_PI;
     let turned = coordinates.y - frame.first_azimuth;
     let offset = turned - turn * floor(turned / turn);
     let beyond = offset - frame.azimuth_extent;
-    // Of what the frame leaves of a turn, the second half is nearer to its beginning.
+    // Outside the frame, the second half of the rest of a turn is nearer to the frame's beginning.
     let before = beyond > 0.5 * (turn - frame.azimuth_extent);
     let row = select(offset / frame.azimuth_extent, 0.0, before);
     return saturate(vec2f(coordinates.x / frame.largest_radius, row));
@@ -87,21 +87,22 @@ fn rectified_frame_inclination(frame: RectifiedFrame, depth: f32) -> f32 {
     return mix(frame.largest_inclination, frame.smallest_inclination, 0.5 * depth + 0.5);
 }
 
-// The position of a pixel's surface, or where its view ray ends at the far end. `device` are normalised device coordinates.
+// The position of a pixel's surface, or of the point where its view ray reaches the far end. `device` is in normalised device
+// coordinates.
 fn rectified_frame_surface(frame: RectifiedFrame, device: vec2f, stored_depth: f32) -> vec3f {
     let direction = fma(vec3f(device.x), frame.along_x, fma(vec3f(device.y), frame.along_y, frame.along_middle));
     let scene_w = angle_finite(dot(frame.scene_w, vec4f(device, stored_depth, 1.0)));
     return direction / max(scene_w, frame.farthest_w);
 }
 
-// Where in a map of so many rows a row lies, from 0 to 1: the first and last rows are the ends of the frame.
+// The place of a row in a map of `rows` rows, from 0 to 1: the first and last rows are the ends of the frame.
 fn rectified_frame_row(row: f32, rows: f32) -> f32 {
     return fma(row, rows - 1.0, 0.5) / rows;
 }
 
-// Where in a map of so many columns the prefix sums up to one lie, from 0 to 1: a texel holds the sum up to its far edge, and is
-// right for view rays that end at the next column's middle. So no column is counted whose middle lies beyond a ray's end, where
-// what the ray ends at no longer shadows it.
+// The place, from 0 to 1, of the prefix sums up to a column in a map of `columns` columns: a texel holds the sum up to its
+// far edge, and is right for view rays that end at the next column's middle. So no column is counted whose middle lies beyond
+// a ray's end, where what the ray ends at no longer shadows it.
 fn rectified_frame_prefix(column: f32, columns: f32) -> f32 {
     return column - 1.0 / columns;
 }

@@ -5,8 +5,8 @@ import super::super::air::rectified_frame::{RectifiedFrame};
 //
 // A view ray of inclination theta reaches radius r after the distance r / sin(theta), so a column's transmittance is
 // exp(-extinction r / sin(theta)) and depends on the view ray, while a row of prefix sums serves all view rays of its
-// azimuth. The papers leave open which of them it is made for. Weights for another sine are off in the rate of their
-// exponentials alone, by the ratio of the sines; where nothing is extinguished there is no error.
+// azimuth. The papers leave open for which of them it is made. Weights for another sine are off only in the rate of their
+// exponentials, by the ratio of the sines; without extinction there is no error.
 //
 // Here that sine is the mean of the smallest and largest one of the row's view rays, which is best in a thin medium and
 // nearly so in a thick one. The largest error of the shadowed share of a ray, over all view rays of a row and all
@@ -18,10 +18,10 @@ import super::super::air::rectified_frame::{RectifiedFrame};
 //         1:2       0.004   0.041   0.076   0.133
 //         1:4       0.008   0.074   0.140   0.263
 //
-// Without any transmittance it is 0.012, 0.123, 0.237 and 0.484 whatever the sines.
+// Without transmittance in the weights it is 0.012, 0.123, 0.237 and 0.484 whatever the sines.
 
-// The part of the inclinations in [low, high] at which directions of an azimuth are on the inner side of a plane through the
-// camera with a normal, where the azimuth has the given cosine and sine.
+// The part of the inclinations in [low, high] at which directions of an azimuth, given by its cosine and sine, are on the
+// inner side of a plane through the camera with a normal.
 fn scattering_weights_clip(range: vec2f, normal: vec3f, around: vec2f) -> vec2f {
     // sin(theta) a + cos(theta) b >= 0: a half turn about the angle of (b, a), one end of which is in [0, pi].
     let middle = angle_atan2(dot(normal.xy, around), normal.z);
@@ -34,7 +34,7 @@ fn scattering_weights_clip(range: vec2f, normal: vec3f, around: vec2f) -> vec2f 
     return vec2f(max(range.x, middle - ANGLE_HALF_PI), range.y);
 }
 
-// The smallest and largest inclination of the frustum's view rays of an azimuth.
+// The smallest and largest inclination among the frustum's view rays at an azimuth.
 fn scattering_weights_inclinations(frame: RectifiedFrame, azimuth: f32) -> vec2f {
     let turn = angle_sin_cos(azimuth);
     let around = turn.yx;
@@ -58,7 +58,7 @@ fn scattering_weights_reference_sine(frame: RectifiedFrame, azimuth: f32) -> f32
     let ends = vec2f(angle_sin_cos(range.x).x, angle_sin_cos(range.y).x);
     let across = range.x <= ANGLE_HALF_PI && range.y >= ANGLE_HALF_PI;
     let largest = select(max(ends.x, ends.y), 1.0, across);
-    // Rows that see nothing but the light's own direction have no columns to weight.
+    // Rows that see only the light's direction have no columns to weight.
     return max(0.5 * (min(ends.x, ends.y) + largest), 1e-6);
 }
 

@@ -1,16 +1,17 @@
 import super::super::air::phase_function::{phase_function_henyey_greenstein};
 
-// Light of a directional source that a homogeneous medium scatters once on its way along a view ray.
+// Light of a directional source that a homogeneous medium scatters once, along a view ray.
 //
-// Without shadows the radiance is a closed form of the ray's length, for each colour its own. Shadows enter as one number: the
-// share of the ray's transmittance-weighted length that is shadowed, which prefix sums of moments in rectified coordinates
-// bound for one lookup per pixel (Peters et al., JCGT 6(1) 2017, section 7).
+// Without shadows the radiance of each colour is a closed form of the ray's length. Shadows enter as one number: the share of
+// the ray's transmittance-weighted length that is shadowed, which prefix sums of moments in rectified coordinates bound for
+// one lookup per pixel (Peters et al., JCGT 6(1) 2017, section 7).
 
-// Filled by the host-side `SingleScattering`. All of it is at least 0 and finite, but for the anisotropy in [-1, 1].
+// Filled by the host-side `SingleScattering`. All values are finite and at least 0, except the anisotropy, which is in [-1,
+// 1].
 struct SingleScattering {
     // Extinction per scene unit, by colour.
     extinction: vec3f,
-    // Of the phase function of Henyey and Greenstein; 0 is isotropic, forwards is positive.
+    // The anisotropy of Henyey and Greenstein's phase function; 0 is isotropic, forwards is positive.
     anisotropy: f32,
     // Scattering per scene unit, by colour.
     scattering: vec3f,
@@ -34,54 +35,55 @@ fn single_scattering_mean_transmittance(x: vec3f) -> vec3f {
     return select(direct, series, x < vec3f(0.5));
 }
 
-// The most radiance of a pixel: what float16 holds.
+// The largest radiance of a pixel: what float16 holds.
 const SINGLE_SCATTERING_LARGEST: f32 = 65504.0;
 
-// Transmittance of a stretch of the medium, by colour: what is left of the light behind it. 1 to the bit where nothing is
-// extinguished.
+// Transmittance of a stretch of the medium, by colour: the share that is left of the light behind it. 1 to the bit where
+// nothing is extinguished.
 fn single_scattering_transmittance(medium: SingleScattering, distance: f32) -> vec3f {
     let thickness = medium.extinction * distance;
     return select(exp(-thickness), vec3f(1.0), thickness <= vec3f(0.0));
 }
 
-// Radiance scattered into a view ray of some length of which a part is shadowed. `cosine` is that of the angle between the
-// direction of the light and of the view ray, both as they travel away from light and camera.
+// Radiance scattered into a view ray of some length of which a part is shadowed. `cosine` is the cosine of the angle between
+// the directions of the light and the view ray, which lead away from light and camera.
 fn single_scattering_radiance(medium: SingleScattering, distance: f32, cosine: f32, shadow: f32) -> vec3f {
-    // Light that reaches the camera has turned from the light's direction to that against the view ray.
+    // Light that reaches the camera has turned from the light's direction to the reverse of the view ray's.
     let phase = phase_function_henyey_greenstein(-cosine, medium.anisotropy);
     let lit = phase * (1.0 - shadow) * distance;
     let thickness = max(medium.extinction * distance, vec3f(0.0));
     return lit * medium.irradiance * medium.scattering * single_scattering_mean_transmittance(thickness);
 }
 
-// What a pixel is given: radiance, and the mean of the colours' transmittance, which is 1 to the bit where all of them are.
-// Where one of them is no finite number, since one of the parameters is none, there is no medium; less than no light is none.
+// The output of a pixel: radiance, and the mean of the colours' transmittance, which is 1 to the bit where all of them are.
+// If one of them is non-finite because a parameter is invalid, there is no medium. Negative light counts as 0.
 fn single_scattering_pixel(radiance: vec3f, transmittance: vec3f) -> vec4f {
     let others = (transmittance.y - transmittance.x) + (transmittance.z - transmittance.x);
     let pixel = vec4f(radiance, fma(others, 1.0 / 3.0, transmittance.x));
-    // By their bits: a compiler may assume that there is neither.
+    // By their bits: a compiler may assume that neither NaN nor infinity occurs.
     let exponent = bitcast<vec4u>(pixel) & vec4u(0x7f800000u);
     let impossible = any(exponent == vec4u(0x7f800000u));
     let lit = clamp(pixel.xyz, vec3f(0.0), vec3f(SINGLE_SCATTERING_LARGEST));
     return select(vec4f(lit, saturate(pixel.w)), vec4f(0.0, 0.0, 0.0, 1.0), impossible);
 }
 
-// By which part of its distance from the near end of the range a view ray is moved there before it is compared with occluders.
+// The part of its distance from the near end of the range by which a view ray is moved there before it is compared with
+// occluders.
 const SINGLE_SCATTERING_DEPTH_BIAS: f32 = 0.05;
 
-// The rectified depth in [-1, 1] at which a view ray is compared. A lit surface that the ray ends at is an occluder just behind it,
-// ever nearer towards the ray's end; moments cannot tell it from one just before it, so that the air above lit ground would be too
-// dark. Occluders at -1 stay in front of all view rays. The bias is fitted: with more of it light leaks behind casters near the
-// ray, without any 16 steps of marching are better where little of what is seen is in shadow.
+// The rectified depth in [-1, 1] at which a view ray is compared. A lit surface at which the ray ends is an occluder just
+// behind it, ever nearer towards the ray's end. Moments cannot tell it from an occluder just before the ray, so the air above
+// lit ground would be too dark. Occluders at -1 stay in front of all view rays. The bias is fitted: with a larger one light
+// leaks behind casters near the ray; without any, 16 steps of marching are better where little of what is seen is in shadow.
 fn single_scattering_fragment_depth(depth: f32) -> f32 {
     return fma(-SINGLE_SCATTERING_DEPTH_BIAS, depth + 1.0, depth);
 }
 
-// The shadow that is shown, between its bounds (x <= y): overestimation that adapts to the direction. Where a view ray runs
-// with the light it leans to the lower bound, whose light leaks into shadow; against it to the upper one, whose error is
-// darkness (GDC 2016, where the weight of the lower bound is beta; the supplement of i3D 2016 calls its complement so). Both
-// sources go all the way; here `overestimation` says how strongly, x against the light and y with it, each in [0, 1]. With 0 it
-// is the middle of the bounds, which is too dark looking away from the light.
+// The shadow to show, between its bounds (x <= y): overestimation that adapts to the direction. Where a view ray runs with
+// the light, it leans to the lower bound, whose error is light that leaks into shadow; where it runs against the light, to
+// the upper bound, whose error is darkness (GDC 2016, where the weight of the lower bound is beta; the supplement of i3D 2016
+// calls its complement beta). Both sources go all the way; here `overestimation` says how strongly, x against the light and y
+// with it, each in [0, 1]. With 0 it is the middle of the bounds, which is too dark looking away from the light.
 fn single_scattering_shadow(bounds: vec2f, cosine: f32, overestimation: vec2f) -> f32 {
     let strength = select(overestimation.x, overestimation.y, cosine > 0.0);
     return mix(bounds.y, bounds.x, saturate(fma(0.5 * strength, cosine, 0.5)));

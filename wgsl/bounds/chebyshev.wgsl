@@ -18,7 +18,8 @@ fn chebyshev_lower_bound(moments: vec2f, fragment_depth: f32, smallest_variance:
     return square / (variance + square);
 }
 
-// sup S(z <= fragment_depth) likewise; 1 exactly for fragments that are not in front of the mean.
+// sup S(z <= fragment_depth) over all distributions S with the mean and mean square `moments`; 1 exactly for fragments that
+// are not in front of the mean. Units are as in `chebyshev_lower_bound`.
 fn chebyshev_upper_bound(moments: vec2f, fragment_depth: f32, smallest_variance: f32) -> f32 {
     return 1.0 - chebyshev_lower_bound(vec2f(-moments.x, moments.y), -fragment_depth, smallest_variance);
 }

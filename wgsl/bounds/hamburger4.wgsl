@@ -58,7 +58,7 @@ fn hamburger4_bounds_at(factor: HankelFactor, x: f32, polynomial: f32) -> vec2f 
     return saturate(vec2f(below, 1.0 - above));
 }
 
-// The lower one of them; where it is 0 the result is below 1e-8.
+// The lower bound for a fragment at x = z - b1, where P2(x) is `polynomial`; where the bound is 0 the result is below 1e-8.
 fn hamburger4_lower_bound_at(factor: HankelFactor, x: f32, polynomial: f32) -> f32 {
     let support = hamburger4_support(factor, x, polynomial);
     // One Christoffel number serves all cases: at the fragment itself where it is above the Gauss nodes, or else at the
@@ -79,23 +79,24 @@ fn hamburger4_bounds(biased: vec4f, fragment_depth: f32, alpha: f32) -> vec2f {
     return hamburger4_bounds_at(factor, x, hankel_second_polynomial(factor, x));
 }
 
-// The lower one of `hamburger4_bounds`, with fragment depths beyond the light's range counting as its ends; where the
-// bound is 0 the result is below 1e-8.
+// The lower bound of `hamburger4_bounds`, with fragment depths beyond the light's range counting as its ends; where the bound
+// is 0 the result is below 1e-8.
 fn hamburger4_lower_bound(biased: vec4f, fragment_depth: f32, alpha: f32) -> f32 {
     let factor = hankel_factor(biased, alpha);
     let x = clamp(fragment_depth, -1.0, 1.0) - biased.x;
     return hamburger4_lower_bound_at(factor, x, hankel_second_polynomial(factor, x));
 }
 
-// Shadow intensity in [0, 1] (1 = shadowed) of a fragment at `fragment_depth` (moment depth) under the filtered moments
-// of its map: the lower bound, never darker than the truth but for the bias. Moments may be anything finite; fragment
+// Shadow intensity in [0, 1] (1 = shadowed) of a fragment at `fragment_depth` (moment depth) under the filtered moments of
+// its map: the lower bound, never darker than the truth except by the bias. Moments may be any finite numbers; fragment
 // depths beyond the light's range count as its ends.
 fn hamburger4_shadow_intensity(moments: vec4f, fragment_depth: f32, bias: FourMomentsBias) -> f32 {
     return hamburger4_lower_bound(four_moments_apply_bias(four_moments_clamp(moments), bias), fragment_depth, bias.alpha);
 }
 
-// The same for a filtered texel of a storage, with the bias of the storage. Cheaper, since decoding and bias are one step
-// and a texel of unorm storage needs no clamping.
+// Shadow intensity in [0, 1] (1 = shadowed) of a fragment under a filtered texel of a storage, with the bias of the storage.
+// Cheaper than `hamburger4_shadow_intensity`, since decoding and bias are one step and a texel of unorm storage needs no
+// clamping.
 fn hamburger4_shadow_intensity_of_texel(texel: vec4f, fragment_depth: f32, storage: u32) -> f32 {
     let bias = four_moments_bias_of(storage);
     return hamburger4_lower_bound(four_moments_biased_from_texel(texel, storage, bias), fragment_depth, bias.alpha);

@@ -16,7 +16,7 @@ import super::super::moments::six_moments::{SixMoments, SixMomentsBias, six_mome
 
 // The Hankel matrix of six moments, factorised.
 struct Hamburger6Factor {
-    // That of the first four moments.
+    // The factorised Hankel matrix of the first four moments.
     four: HankelFactor,
     // By how much x is shifted in the recurrence that makes P3.
     offset: f32,
@@ -24,7 +24,7 @@ struct Hamburger6Factor {
     inverse_norms: vec3f,
 }
 
-// P1, P2 and P3 at one place, and these over their squared norms.
+// P1, P2 and P3 at one place, and the same divided by their squared norms.
 struct Hamburger6Polynomials {
     values: vec3f,
     coefficients: vec3f,
@@ -32,22 +32,22 @@ struct Hamburger6Polynomials {
     weight: f32,
 }
 
-// The last pivot of valid moments stays above this multiple of the moment bias alpha, that of the bias' target being 0.049.
+// The last pivot of valid moments stays above this multiple of the moment bias alpha; that of the bias' target is 0.049.
 const HAMBURGER6_SMALLEST_PIVOT: f32 = 0.004;
 
-// Coefficients of the recurrence are those of a distribution on [-1, 1] and below these, but for moments that are none or
-// have lost all digits. They keep what follows from overflowing: with coefficients in these ranges and positive norms the
-// polynomials are orthogonal for some distribution, so that everything below holds for them too.
+// The largest coefficients of the recurrence. Those of a distribution on [-1, 1] are below these, except for moments that are
+// invalid or have lost all digits. The limits keep what follows from overflowing: with coefficients in these ranges and
+// positive norms the polynomials are orthogonal for some distribution, so everything below holds for them too.
 const HAMBURGER6_LARGEST_SHIFT: f32 = 8.0;
 const HAMBURGER6_LARGEST_RATIO: f32 = 4.0;
 
-// Support points and fragments farther out than this have a weight below 1e-8 or count as being there.
+// Support points farther out than this have a weight below 1e-8, and fragments farther out count as being there.
 const HAMBURGER6_FARTHEST_SUPPORT: f32 = 1e4;
 
-// Steps of Laguerre's method; without enough of them errors of 0.1 remain in one of 10^4 cases.
+// Steps of Laguerre's method; with too few, errors of 0.1 remain in one of 10^4 cases.
 const HAMBURGER6_STEPS: u32 = 6u;
 
-// With a moment bias of at least this so many steps do.
+// With a moment bias of at least this, fewer steps suffice.
 const HAMBURGER6_LARGE_ALPHA: f32 = 1e-3;
 const HAMBURGER6_STEPS_OF_LARGE_ALPHA: u32 = 4u;
 
@@ -59,7 +59,7 @@ fn hamburger6_factor(biased: SixMoments, alpha: f32) -> Hamburger6Factor {
     four.ratio = min(four.ratio, HAMBURGER6_LARGEST_RATIO);
     four.residue = min(four.residue, HAMBURGER6_LARGEST_RATIO * four.variance);
     let inverse = 1.0 / vec2f(four.variance, four.residue);
-    // What the regressions of z^3 on 1 and z, and on z^2 besides, leave.
+    // What the regressions of z^3 on 1 and z, and on 1, z and z^2, leave.
     let third = fma(-b.x, b.z, b.w);
     let third_slope = third * inverse.x;
     let fourth = fma(-fma(-b.x, b.y, b.z), third_slope, fma(-b.y, b.z, biased.odd.z));
@@ -81,7 +81,7 @@ fn hamburger6_polynomials(factor: Hamburger6Factor, x: f32) -> Hamburger6Polynom
     return Hamburger6Polynomials(values, coefficients, 1.0 / (1.0 + dot(values, coefficients)));
 }
 
-// How many Gauss nodes, the roots of P3, are below the place of the polynomials: agreements of neighbours' signs.
+// The number of Gauss nodes, the roots of P3, below the place of the polynomials: the agreements of neighbours' signs.
 fn hamburger6_nodes_below(polynomials: Hamburger6Polynomials) -> u32 {
     let positive = vec4<bool>(true, polynomials.values >= vec3f(0.0));
     let agree = positive.xyz == positive.yzw;
@@ -101,7 +101,7 @@ fn hamburger6_lone_weight(factor: Hamburger6Factor, x: f32, fragment: Hamburger6
     let e2 = side * fragment.weight * fma(x, fma(3.0 * k.z, x, 2.0 * second), first);
     let e1 = fragment.weight * fma(3.0 * k.z, x, second);
     let e0 = side * fragment.weight * k.z;
-    // The only negative root, from a place that is left of all roots. Steps only lead towards it.
+    // Finds the only negative root, from a place that is left of all roots. Steps only lead towards it.
     const nearest_to_zero: f32 = -1.0 / HAMBURGER6_FARTHEST_SUPPORT;
     var y = min(-(e2 + 2.0 * sqrt(max(fma(e2, e2, -3.0 * e1), 0.0))) / 3.0, nearest_to_zero);
     let steps = select(HAMBURGER6_STEPS, HAMBURGER6_STEPS_OF_LARGE_ALPHA, alpha >= HAMBURGER6_LARGE_ALPHA);
@@ -138,19 +138,20 @@ fn hamburger6_bounds(biased: SixMoments, fragment_depth: f32, alpha: f32) -> vec
     return saturate(select(vec2f(1.0 - sum, 1.0 - weight), vec2f(weight, sum), below == 1u));
 }
 
-// The lower one of `hamburger6_bounds`, with fragment depths beyond the light's range counting as its ends.
+// The lower bound of `hamburger6_bounds`, with fragment depths beyond the light's range counting as its ends.
 fn hamburger6_lower_bound(biased: SixMoments, fragment_depth: f32, alpha: f32) -> f32 {
     return hamburger6_bounds(biased, clamp(fragment_depth, -1.0, 1.0), alpha).x;
 }
 
-// Shadow intensity in [0, 1] (1 = shadowed) of a fragment at `fragment_depth` (moment depth) under the filtered moments
-// of its map: the lower bound, never darker than the truth but for the bias. Moments lie within [-2, 2], as those from
+// Shadow intensity in [0, 1] (1 = shadowed) of a fragment at `fragment_depth` (moment depth) under the filtered moments of
+// its map: the lower bound, never darker than the truth except by the bias. Moments lie within [-2, 2], as those from
 // `six_moments_from_texels` do, valid or not; fragment depths beyond the light's range count as its ends.
 fn hamburger6_shadow_intensity(moments: SixMoments, fragment_depth: f32, bias: SixMomentsBias) -> f32 {
     return hamburger6_lower_bound(six_moments_apply_bias(moments, bias), fragment_depth, bias.alpha);
 }
 
-// The same for the two filtered texels of a storage, with the bias of the storage.
+// Shadow intensity in [0, 1] (1 = shadowed) of a fragment under the two filtered texels of a storage, with the bias of the
+// storage.
 fn hamburger6_shadow_intensity_of_texels(texels: array<vec4f, 2>, fragment_depth: f32, storage: u32) -> f32 {
     return hamburger6_shadow_intensity(six_moments_from_texels(texels, storage), fragment_depth, six_moments_bias_of(storage));
 }

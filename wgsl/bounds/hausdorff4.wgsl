@@ -7,26 +7,27 @@ import super::super::map::storage::{STORAGE_FLOAT16, STORAGE_FLOAT32, storage_fi
 // Hausdorff four-moment shadow mapping: the sharpest bounds on shadow intensity that four moments allow when all depths
 // are known to lie in [-1, 1].
 //
-// Among these fewer distributions the extremal one through the fragment is still the one of the whole real line
-// (`hamburger`) if the support of that lies in [-1, 1]. If not, its support is -1, the fragment, 1 and one more point y
-// (Peters & Klein, "Moment Shadow Mapping", i3D 2015, section 2.4; Krein & Nudelman 1977). That point follows from
-// (1 - z^2) dS(z), which has the moments m_j = b_j - b_(j+2) and only the two points z_f and y: two points with given
-// mean mu = m1/m0 and variance v, of which one is known.
+// Among these fewer distributions the extremal one through the fragment is still that of the whole real line (`hamburger4`)
+// if its support lies in [-1, 1]. If not, the support is -1, the fragment, 1 and one more point y (Peters & Klein, "Moment
+// Shadow Mapping", i3D 2015, section 2.4; Krein & Nudelman 1977). That point follows from (1 - z^2) dS(z), which has the
+// moments m_j = b_j - b_(j+2) and only the two points z_f and y: two points with given mean mu = m1/m0 and variance v, of
+// which one is known.
 //
 // The published evaluation divides by z_f - mu. Here the weights in front of the fragment are summed before they are
 // evaluated, which leaves sums of positive terms in all denominators; the support point y itself is not needed.
 
-// (0, second, 0, fourth) has to lie inside the moments of distributions on [-1, 1], which that of `moments` does not: on
-// its boundary no bias repairs all vectors. The targets minimise the longest step that a rounding error needs, which is
-// 6.14 times the error of a channel in the optimised basis and 18.4 times that of raw moments, against 4.88 and 9.9 for
-// the real line. The steps alpha are those that `moment-shadows bias` finds by search: they cover 99.999 % of filter regions.
-// That of float32 is longer than the 2e-6 found: a factorisation in f32 loses its last pivot in some regions with that.
+// The target (0, second, 0, fourth) has to lie inside the moments of distributions on [-1, 1], unlike that of `four_moments`,
+// which lies on their boundary, where no bias repairs all vectors. The targets minimise the longest step that a rounding
+// error needs, which is 6.14 times the error of a channel in the optimised basis and 18.4 times that of raw moments, against
+// 4.88 and 9.9 for the real line. The steps alpha are those that `moment-shadows bias` finds by search: they cover 99.999 %
+// of filter regions. The step for float32 is longer than the 2e-6 found, with which a factorisation in f32 loses its last
+// pivot in some regions.
 const HAUSDORFF4_BIAS_UNORM16: FourMomentsBias = FourMomentsBias(8e-5, 0.6036, 0.4875);
 const HAUSDORFF4_BIAS_FLOAT16: FourMomentsBias = FourMomentsBias(1.5e-3, 0.6036, 0.4875);
 const HAUSDORFF4_BIAS_FLOAT32: FourMomentsBias = FourMomentsBias(2.8e-6, 0.4403, 0.3124);
 
-// m0 and the Schur complement m2 - m1^2/m0 of valid biased moments stay above 0.39 and 0.11 times alpha. As in `hankel`
-// the guards bind only where rounding has left neither a correct digit.
+// m0 and the Schur complement m2 - m1^2/m0 of valid biased moments stay above 0.39 and 0.11 times alpha. As in `hankel`, the
+// guards act only where rounding has left no correct digit in either.
 const HAUSDORFF4_SMALLEST_MASS: f32 = 0.03;
 const HAUSDORFF4_SMALLEST_RESIDUE: f32 = 0.01;
 
@@ -41,9 +42,9 @@ fn hausdorff4_bias_of(storage: u32) -> FourMomentsBias {
     return HAUSDORFF4_BIAS_UNORM16;
 }
 
-// Whether the distribution on the real line through x = z - b1, where P2(x) is `polynomial`, lies in [-1, 1]. The kernel
-// 1 + x t / variance + P2(x) P2(t) / residue vanishes at its other support points t, so its signs at both ends tell: they
-// are that of P2(x), which it has at infinity.
+// Whether the distribution on the real line through x = z - b1, where P2(x) is `polynomial`, lies in [-1, 1]. The kernel 1 +
+// x t / variance + P2(x) P2(t) / residue vanishes at the other support points t, so its signs at both ends decide: both have
+// to be the sign of P2(x), which the kernel has at infinity.
 fn hausdorff4_contains_support(factor: HankelFactor, mean: f32, x: f32, polynomial: f32) -> bool {
     let near = -1.0 - mean;
     let far = 1.0 - mean;
@@ -54,7 +55,7 @@ fn hausdorff4_contains_support(factor: HankelFactor, mean: f32, x: f32, polynomi
     return (polynomial >= 0.0) == (at_near >= 0.0) && (polynomial >= 0.0) == (at_far >= 0.0);
 }
 
-// Both bounds by the distribution with support at both ends, for z = `fragment_depth` in [-1, 1].
+// Both bounds from the distribution with support at both ends, for z = `fragment_depth` in [-1, 1].
 fn hausdorff4_bounds_with_ends(biased: vec4f, fragment_depth: f32, alpha: f32) -> vec2f {
     // 1 - b2, b1 - b3 and b2 - b4.
     let m = vec3f(1.0, biased.xy) - biased.yzw;
@@ -72,7 +73,7 @@ fn hausdorff4_bounds_with_ends(biased: vec4f, fragment_depth: f32, alpha: f32) -
     let beyond = inverse * square * distance / fma(room, distance, variance);
     let rest = select(-beyond, beyond, above);
     let at_fragment = inverse * variance;
-    // -1 and, if it lies in front of the fragment, y; and the same from behind. At an end itself nothing lies beyond it.
+    // In front are -1 and, if it lies in front of the fragment, y; likewise behind. Nothing lies beyond a fragment at an end.
     let front = 1.0 - biased.x - at_fragment / max(1.0 + fragment_depth, 1e-30) + rest;
     let behind = 1.0 + biased.x - at_fragment / max(1.0 - fragment_depth, 1e-30) - rest;
     let lower = select(saturate(0.5 * front), 0.0, fragment_depth <= -1.0);
@@ -94,7 +95,7 @@ fn hausdorff4_bounds(biased: vec4f, fragment_depth: f32, alpha: f32) -> vec2f {
     return hausdorff4_bounds_with_ends(biased, depth, alpha);
 }
 
-// The lower one of `hausdorff4_bounds`; where it is 0 the result is below 1e-8.
+// The lower bound of `hausdorff4_bounds`; where it is 0 the result is below 1e-8.
 fn hausdorff4_lower_bound(biased: vec4f, fragment_depth: f32, alpha: f32) -> f32 {
     let depth = depth_of_fragment(fragment_depth);
     let factor = hankel_factor(biased, alpha);
@@ -106,13 +107,14 @@ fn hausdorff4_lower_bound(biased: vec4f, fragment_depth: f32, alpha: f32) -> f32
     return hausdorff4_bounds_with_ends(biased, depth, alpha).x;
 }
 
-// Shadow intensity in [0, 1] (1 = shadowed) of a fragment at `fragment_depth` (moment depth) under the filtered moments
-// of its map: the lower bound, never darker than the truth but for the bias. Moments may be anything finite.
+// Shadow intensity in [0, 1] (1 = shadowed) of a fragment at `fragment_depth` (moment depth) under the filtered moments of
+// its map: the lower bound, never darker than the truth except by the bias. Moments may be any finite numbers.
 fn hausdorff4_shadow_intensity(moments: vec4f, fragment_depth: f32, bias: FourMomentsBias) -> f32 {
     return hausdorff4_lower_bound(four_moments_apply_bias(four_moments_clamp(moments), bias), fragment_depth, bias.alpha);
 }
 
-// The same for a filtered texel of a storage, as `four_moments_to_texel` writes it, with the bias of the storage.
+// Shadow intensity in [0, 1] (1 = shadowed) of a fragment under a filtered texel of a storage, as `four_moments_to_texel`
+// writes it, with the bias of the storage.
 fn hausdorff4_shadow_intensity_of_texel(texel: vec4f, fragment_depth: f32, storage: u32) -> f32 {
     let bias = hausdorff4_bias_of(storage);
     let biased = four_moments_biased_from_texel(storage_finite_texel(texel, storage), storage, bias);

@@ -1,9 +1,8 @@
 // Gaussian filter weights, and the plain form of the separable filter.
 //
-// Filters of moments need weights that are not negative and sum to one; the Gaussian, cut off at a radius and
-// normalised, is the one that the moment shadow mapping papers use (9 x 9 texels with sigma 2.4; i3D 2015, section 4).
-// Render-graph nodes filter with blocks of texels held in registers; this form is for shaders of one's own, and is what
-// those are compared with.
+// Filters of moments need weights that are not negative and sum to one; the Gaussian, cut off at a radius and normalised, is
+// the one that the moment shadow mapping papers use (9 x 9 texels with sigma 2.4; i3D 2015, section 4). Render-graph nodes
+// filter with blocks of texels held in registers; the form here is for other shaders, and the nodes are compared with it.
 
 // Gaussian at `offset` texels from the centre, not normalised. `sigma` > 0 in texels; smaller values count as 1e-3.
 fn gaussian_weight(offset: f32, sigma: f32) -> f32 {

@@ -3,9 +3,9 @@ import super::super::map::map_region::{MapRegion};
 // Summed-area tables: the mean over any rectangle of a map, at a cost that does not depend on its size.
 //
 // A texel of the table is the sum of all texels of its region that lie neither below it nor to its right (Crow, SIGGRAPH
-// 1984). Sums are integers modulo 2^32: they wrap around, and a rectangle's own sum is right nevertheless as long as it
-// is below 2^32 (Hensley et al., Eurographics 2005). Channels are those of the storage unorm16, in [0, 1] times a `unit`.
-// Places are in texels of the layer; texel i covers [i, i + 1].
+// 1984). Sums are integers modulo 2^32: they wrap around, but the sum over a rectangle is right as long as it is below 2^32
+// (Hensley et al., Eurographics 2005). Channels are those of the storage unorm16, in [0, 1] times a `unit`. Places are in
+// texels of the layer; texel i covers [i, i + 1].
 
 // A rectangle as `summed_area_table_rectangle` makes it: within its region, and at least a texel wide.
 struct SummedAreaTableRectangle {
@@ -20,7 +20,7 @@ struct SummedAreaTableRectangle {
 fn summed_area_table_rectangle(region: MapRegion, centre: vec2f, half_extent: vec2f, largest: vec2f) -> SummedAreaTableRectangle {
     let first = vec2f(region.origin);
     let end = vec2f(region.origin + region.extent);
-    // A compiler may assume that there is no NaN, so it is found by its bits.
+    // A compiler may assume that no NaN occurs, so NaN is found by its bits.
     let no_place = (bitcast<vec2u>(centre) & vec2u(0x7fffffffu)) > vec2u(0x7f800000u);
     let no_extent = (bitcast<vec2u>(half_extent) & vec2u(0x7fffffffu)) > vec2u(0x7f800000u);
     let middle = select(centre, first, no_place);
@@ -30,19 +30,19 @@ fn summed_area_table_rectangle(region: MapRegion, centre: vec2f, half_extent: ve
 }
 
 // The four corners of a rectangle of whole texels, and what they are in the table. Before the region's first row or column
-// the sum is 0, but no texel says so, and to replace what was loaded would take a selection per channel. Instead all
-// corners on a missing row (or column) are the one texel `nowhere`, so that they cancel each other out in the sum
-// p11 - p10 - p01 + p00. Where both are missing it is subtracted twice; `twice` makes up for that.
+// the sum is 0, but no texel holds that 0, and to replace what was loaded would take a selection per channel. Instead all
+// corners on a missing row (or column) are the one texel `nowhere`, so that they cancel each other out in the sum p11 - p10 -
+// p01 + p00. Where both are missing it is subtracted twice; `twice` makes up for that.
 struct SummedAreaTableOrigin {
     // The texel before the rectangle's first, as far as there is one.
     nowhere: vec2i,
     // Whether there is no column (x) or no row (y) before the rectangle.
     is_missing: vec2<bool>,
-    // 1 where neither is there, otherwise 0: by how much the first corner is shifted left.
+    // 1 where both are missing, otherwise 0: by how much the first corner is shifted left.
     twice: u32,
 }
 
-// Of a rectangle that begins with the texel `low`.
+// The origin of a rectangle that begins with the texel `low`.
 fn summed_area_table_origin(region: MapRegion, low: vec2i) -> SummedAreaTableOrigin {
     let origin = vec2i(region.origin);
     let is_missing = low <= origin;
@@ -80,7 +80,7 @@ fn summed_area_table_mean_interpolated(table: texture_2d_array<u32>, layer: u32,
     let low_part = 1.0 - (rectangle.low - first);
     let high_part = rectangle.high - last;
     let extent = rectangle.high - rectangle.low;
-    // The texels that end where the strips do; behind the region's last one is none.
+    // The texels that end where the strips do; none lies behind the region's last one.
     let low = vec2i(first);
     let high = vec2i(last);
     let after = min(high, vec2i(region.origin + region.extent) - 1);
@@ -100,8 +100,8 @@ fn summed_area_table_mean_interpolated(table: texture_2d_array<u32>, layer: u32,
     return saturate(sum * (1.0 / (unit * extent.x * extent.y)));
 }
 
-// The same for the rectangle whose edges are rounded to whole texels: 4 loads. It jumps where an edge passes the middle
-// of a texel, which shows as bands in wide penumbrae.
+// The mean of the channels, in [0, 1], over the rectangle whose edges are rounded to whole texels: 4 loads. It jumps where an
+// edge passes the middle of a texel, which shows as bands in wide penumbrae.
 fn summed_area_table_mean_plain(table: texture_2d_array<u32>, layer: u32, region: MapRegion, rectangle: SummedAreaTableRectangle, unit: f32) -> vec4f {
     let low = round(rectangle.low);
     // Where both edges are halfway between texels they may be rounded to the same.

@@ -40,14 +40,14 @@ fn depth_to_moment_depth(stored: f32, conversion: DepthConversion) -> f32 {
     return select(clamp(ratio, -1.0, 1.0), 1.0, depth_is_nan(stored));
 }
 
-// The depth of a fragment in [-1, 1]: beyond the light's range it counts as the nearer end, and NaN as the near end, where
-// every lower bound is 0.
+// The depth of a fragment in [-1, 1]: a depth beyond the light's range counts as the nearer end, and NaN as the near end,
+// where every lower bound is 0.
 fn depth_of_fragment(fragment_depth: f32) -> f32 {
     return select(clamp(fragment_depth, -1.0, 1.0), -1.0, depth_is_nan(fragment_depth));
 }
 
-// The stored depth of a moment depth: the inverse of the above, as the reference value of a comparison sampler. Moment
-// depths that the stored interval does not reach count as its nearer end, NaN as the far end.
+// The stored depth of a moment depth, the inverse of `depth_to_moment_depth`: the reference value for a comparison sampler.
+// Moment depths that the stored interval does not reach count as its nearer end, NaN as the far end.
 fn depth_from_moment_depth(moment_depth: f32, conversion: DepthConversion) -> f32 {
     let z = select(clamp(moment_depth, -1.0, 1.0), 1.0, depth_is_nan(moment_depth));
     let numerator = conversion.numerator;
@@ -61,10 +61,10 @@ fn depth_from_moment_depth(moment_depth: f32, conversion: DepthConversion) -> f3
     return clamp((d - conversion.offset) / scale, -3e38, 3e38);
 }
 
-// The moment depth of a light's own place, below -1; DEPTH_INFINITELY_FAR where the stored depth is linear, as parallel rays
-// have it.
+// The moment depth of the light's position, below -1; DEPTH_INFINITELY_FAR where the stored depth is linear, as it is for
+// parallel rays.
 fn depth_of_light(conversion: DepthConversion) -> f32 {
-    // A perspective conversion tends to it where d grows without bounds.
+    // A perspective conversion tends to it as d grows without bound.
     let divisor = conversion.denominator.y - conversion.denominator.x;
     if abs(divisor) < DEPTH_SMALLEST_DENOMINATOR {
         return DEPTH_INFINITELY_FAR;

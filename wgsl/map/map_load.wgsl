@@ -1,8 +1,8 @@
 import super::super::map::map_region::{MapRegion, map_region_at_level, map_region_last_level, map_region_place};
 import super::super::map::minification::{MinificationFootprint, minification_probe};
 
-// Lookups in a map that a device cannot filter, and where a sampler would read across the edge of a region: bilinear,
-// trilinear, averaged over a footprint. `uv`, `levels` and regions are those of `map_lookup`.
+// Lookups that load texels, for maps that a device cannot filter and for places where a sampler would read across the edge of
+// a region: bilinear, trilinear, averaged over a footprint. `uv`, `levels` and regions are as in `map_lookup`.
 //
 // Texels are loaded and blended here, in f32, while hardware may use weights of as few as 8 bits. Blending texels of moments
 // is a convex combination, so it keeps moments valid.
@@ -20,7 +20,8 @@ fn map_load_bilinear(map: texture_2d_array<f32>, layer: u32, region: MapRegion, 
     return mix(top, bottom, weight.y);
 }
 
-// The same, blended between the two mip levels next to `level` >= 0, as far as the region has texels there.
+// The trilinearly filtered texel: bilinear ones, blended between the two mip levels next to `level` >= 0, as far as the
+// region has texels there.
 fn map_load_trilinear(map: texture_2d_array<f32>, layer: u32, region: MapRegion, levels: u32, uv: vec2f, level: f32) -> vec4f {
     let last = map_region_last_level(region, levels);
     let fine = min(u32(clamp(level, 0.0, 31.0)), last);

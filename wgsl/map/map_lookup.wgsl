@@ -2,7 +2,7 @@ import super::super::map::map_load::{map_load_footprint};
 import super::super::map::map_region::{MapRegion, map_region_at_level, map_region_place};
 import super::super::map::minification::{minification_footprint, minification_gradients};
 
-// Lookups in a filterable map by a sampler: bilinear, and averaged over a pixel. None reads across the edge of a region.
+// Lookups in a filterable map by a sampler: bilinear, and averaged over a pixel. Neither reads across the edge of a region.
 //
 // `uv` runs from 0 to 1 across the region, v downwards; places are in texels of mip level 0. `levels` is the number of mip
 // levels of the map. Samplers filter linearly within and between levels and clamp to the edge. `map_load` has lookups for
@@ -15,11 +15,11 @@ fn map_lookup_bilinear(map: texture_2d_array<f32>, linear: sampler, layer: u32, 
     return textureSampleLevel(map, linear, place / vec2f(textureDimensions(map, level)), layer, f32(level));
 }
 
-// The average over a pixel, from the differences of place to its neighbours in x and y, in texels, each component at
-// most 1e9 in magnitude. Where the pixel's footprint lies well within a region that hardware would divide into the same
-// mip levels, hardware takes the probes, at most as many as the clamp of the sampler `anisotropic`; elsewhere at most
-// `anisotropy` are taken here, from loaded texels. Regions are read by hardware for the most part if their edges and the
-// size of the map are multiples of a texel of the coarsest level.
+// The average over a pixel, from the differences of place to its neighbours in x and y, in texels, each component at most 1e9
+// in magnitude. Where the pixel's footprint lies well within a region that hardware would divide into the same mip levels,
+// hardware takes the probes, at most as many as the clamp of the sampler `anisotropic`; elsewhere at most `anisotropy` are
+// taken here, from loaded texels. Hardware reads most of a region if the region's edges and the size of the map are multiples
+// of a texel of the coarsest level.
 fn map_lookup_gradient(map: texture_2d_array<f32>, anisotropic: sampler, layer: u32, region: MapRegion, levels: u32, uv: vec2f, difference_x: vec2f, difference_y: vec2f, anisotropy: f32) -> vec4f {
     let footprint = minification_footprint(difference_x, difference_y, anisotropy);
     let size = textureDimensions(map);

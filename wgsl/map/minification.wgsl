@@ -7,9 +7,10 @@
 //
 // A pixel averages a box: over w texels its variance is w^2 / 12. A trilinear lookup on a mip level whose texels are t wide
 // averages boxes of t and blends neighbours that are t apart: (1/12 + 1/6) t^2. Lookups are as wide as pixels if their
-// variances are equal, t = w / sqrt(3); a level with t = w, as colour textures take it, would filter three times as much.
+// variances are equal, t = w / sqrt(3); a level with t = w, as is usual for colour textures, would filter three times as
+// much.
 
-// Probes along the major axis, at most.
+// The largest number of probes along the major axis.
 const MINIFICATION_LARGEST_ANISOTROPY: f32 = 16.0;
 
 // The width of a mip level's texels that makes trilinear lookups as wide as a box: 1 / sqrt(3).
@@ -24,9 +25,9 @@ struct MinificationFootprint {
     level: f32,
 }
 
-// The footprint of a pixel from the differences of place, in texels, to its neighbours in x and y; each component at
-// most 1e9 in magnitude. `anisotropy`, from 1 to 16, is the largest number of probes; where more were needed, the minor
-// axis is taken for longer than it is.
+// The footprint of a pixel from the differences of place, in texels, to its neighbours in x and y; each component at most 1e9
+// in magnitude. `anisotropy`, from 1 to 16, is the largest number of probes; where more would be needed, the minor axis
+// counts as longer than it is.
 fn minification_footprint(difference_x: vec2f, difference_y: vec2f, anisotropy: f32) -> MinificationFootprint {
     let xx = difference_x.x * difference_x.x + difference_y.x * difference_y.x;
     let xy = difference_x.x * difference_x.y + difference_y.x * difference_y.y;
@@ -40,7 +41,7 @@ fn minification_footprint(difference_x: vec2f, difference_y: vec2f, anisotropy: 
     let minor_length = area / max(major_length, 1e-20);
     // Both rows of the matrix less its smaller eigenvalue point along the major axis; this is the one that does not cancel.
     let along = select(vec2f(xy, root - half_difference), vec2f(root + half_difference, xy), half_difference >= 0.0);
-    // A circle has no direction; its probes number one.
+    // A circle has no direction, and a single probe.
     let direction = along / max(max(abs(along.x), abs(along.y)), 1e-30);
     let unit = direction / max(length(direction), 1e-6);
     let largest = clamp(anisotropy, 1.0, MINIFICATION_LARGEST_ANISOTROPY);
@@ -58,7 +59,7 @@ fn minification_probe(footprint: MinificationFootprint, index: f32) -> vec2f {
     return ((index + 0.5) / footprint.probes - 0.5) * footprint.major;
 }
 
-// The two axes of a footprint as the differences of place, in texels, that make a sampler with anisotropy take just these
+// The two axes of a footprint as the differences of place, in texels, that make a sampler with anisotropy take exactly these
 // probes: x is the column of the line, at least as long as the other one.
 fn minification_gradients(footprint: MinificationFootprint) -> mat2x2f {
     let texel = exp2(footprint.level);

@@ -1,7 +1,8 @@
 // Storages: how the channels of a texel lie in memory, whatever they mean.
 //
-// Every technique filters linearly and writes after each filter, so each write is a rounding error that its bound has to
-// cover. Nothing here depends on a technique: how one spreads its quantities over the range of a storage is its own.
+// Every technique filters linearly and writes after each filter, so each write is a rounding error that the technique's bound
+// has to cover. Nothing here depends on a technique: each technique has its way to spread its quantities over the range of a
+// storage.
 
 // Storages, as a shader's specialisation names them.
 const STORAGE_UNORM16: u32 = 0u;
@@ -32,13 +33,14 @@ fn storage_round_to_float16(value: vec4f) -> vec4f {
     return select(rounded, small, abs(value) < vec4f(6.103515625e-5));
 }
 
-// What to draw so that a target of 10 bits per channel holds the nearest number to each component, for any finite value. A driver
-// may round down, or round to 16 bits and drop the last six (lavapipe does): a little above that number they give it all the same.
+// The value to draw so that a target of 10 bits per channel holds the number nearest to each component, for any finite value.
+// A driver may round down, or round to 16 bits and drop the last six (lavapipe does); the value is a little above that
+// number, which they all store then.
 fn storage_round_to_unorm10(value: vec4f) -> vec4f {
     return (round(saturate(value) * 1023.0) + 0.00390625) / 1023.0;
 }
 
-// A filtered combination of texels, as it has to be written back to the same storage.
+// A filtered combination of texels, rounded for writing back to the same storage.
 fn storage_round_texel(texel: vec4f, storage: u32) -> vec4f {
     if storage == STORAGE_FLOAT16 {
         return storage_round_to_float16(texel);
@@ -49,8 +51,8 @@ fn storage_round_texel(texel: vec4f, storage: u32) -> vec4f {
     return texel;
 }
 
-// A texel in which channels that are NaN or infinite count as 0, found by their bits since a compiler may assume that
-// there is neither. Unorm texels pass as they are.
+// A texel whose NaN or infinite channels count as 0. They are found by their bits, since a compiler may assume that neither
+// occurs. Unorm texels pass unchanged.
 fn storage_finite_texel(texel: vec4f, storage: u32) -> vec4f {
     if !storage_is_float(storage) {
         return texel;

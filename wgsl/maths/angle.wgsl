@@ -1,9 +1,9 @@
 // Angles, to 4 units in the last place on every device.
 //
-// WGSL allows its own `atan2`, `sin` and `cos` errors of thousands of units, which is no sound base for coordinates that are
-// made of angles. These are polynomials on reduced ranges (Moshier, Cephes mathematical library, single precision).
+// WGSL allows its built-in `atan2`, `sin` and `cos` errors of thousands of units, too much for coordinates that are made of
+// angles. The functions here are polynomials on reduced ranges (Moshier, Cephes mathematical library, single precision).
 
-// pi, and what its f32 lacks of it.
+// pi rounded to f32, and the remainder.
 const ANGLE_PI: f32 = 3.1415927;
 const ANGLE_PI_REST: f32 = -8.742278e-8;
 const ANGLE_HALF_PI: f32 = 1.5707964;
@@ -11,7 +11,7 @@ const ANGLE_HALF_PI_REST: f32 = -4.371139e-8;
 const ANGLE_QUARTER_PI: f32 = 0.7853982;
 const ANGLE_QUARTER_PI_REST: f32 = -2.1855695e-8;
 
-// tan(pi / 8): up to here the polynomial of the arc tangent holds.
+// tan(pi / 8): the polynomial of the arc tangent holds up to here.
 const ANGLE_TAN_EIGHTH_PI: f32 = 0.41421357;
 
 // pi / 2 in three parts, the first two with so few digits that their products with small integers are exact.
@@ -19,17 +19,17 @@ const ANGLE_HALF_PI_FIRST: f32 = 1.5703125;
 const ANGLE_HALF_PI_SECOND: f32 = 4.837512969970703125e-4;
 const ANGLE_HALF_PI_THIRD: f32 = 7.54978995489188216e-8;
 
-// Angles beyond this, about 1,500 turns, count as this.
+// Angles beyond this, about 1,500 turns, count as this angle.
 const ANGLE_LARGEST: f32 = 1e4;
 
-// A number, or 0 in place of NaN and infinities. By its bits: a compiler may assume that there are none.
+// The number itself, or 0 for NaN and infinities. They are found by their bits: a compiler may assume that neither occurs.
 fn angle_finite(value: f32) -> f32 {
     let exponent = bitcast<u32>(value) & 0x7f800000u;
     return select(value, 0.0, exponent == 0x7f800000u);
 }
 
-// The angle in [-pi, pi] from the x-axis to (x, y). 0 for the zero vector and for components that are no finite numbers;
-// pi for x < 0 and y = 0, whatever the sign of y.
+// The angle in [-pi, pi] from the x-axis to (x, y). 0 for the zero vector and for non-finite components; pi for x < 0 and y =
+// 0, whatever the sign of y.
 fn angle_atan2(y: f32, x: f32) -> f32 {
     let finite = vec2f(angle_finite(x), angle_finite(y));
     let magnitudes = abs(finite);

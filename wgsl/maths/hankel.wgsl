@@ -20,8 +20,8 @@ struct HankelFactor {
     shift: f32,
 }
 
-// Pivots of valid moments stay above these multiples of the moment bias alpha, so the guards bind only where rounding
-// has left the pivots without a correct digit (or the moments are none). They also bound all that is divided by a pivot:
+// Pivots of valid moments stay above these multiples of the moment bias alpha, so the guards act only where rounding has left
+// no correct digit in the pivots, or where the moments are invalid. They also bound everything that is divided by a pivot:
 // with alpha >= 1e-7 nothing below overflows on the way to a weight, whatever the moments.
 const HANKEL_SMALLEST_VARIANCE: f32 = 0.03;
 const HANKEL_SMALLEST_RESIDUE: f32 = 0.02;

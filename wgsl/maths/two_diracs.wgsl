@@ -1,8 +1,8 @@
-// Two depths with weights that have given first three moments: what a filtered texel of a shadow map is resampled as.
+// Two weighted depths that have three given moments: they stand for a filtered texel of a shadow map when it is resampled.
 //
-// There is exactly one such pair (Peters et al., supplement of "Beyond Hard Shadows", i3D 2016, theorem 1). About the mean,
-// with the variance c and half of the regression slope's excess d, the depths are d -+ sqrt(d^2 + c): nothing cancels, where
-// the published form takes the root of a difference.
+// There is exactly one such pair (Peters et al., supplement of "Beyond Hard Shadows", i3D 2016, theorem 1). Relative to the
+// mean, with c the variance and d half of the regression slope's excess, the depths are d -+ sqrt(d^2 + c): nothing cancels,
+// unlike in the published form, which takes the root of a difference.
 
 // Two depths and their weights, which sum to one.
 struct TwoDiracs {
@@ -12,11 +12,12 @@ struct TwoDiracs {
     weights: vec2f,
 }
 
-// The variance that rounding of f32 moments leaves no digit of; smaller ones count as this. It moves moments by as much.
+// The smallest variance: rounding of f32 moments leaves no digit of it. Smaller ones count as this, which moves moments by as
+// much.
 const TWO_DIRACS_SMALLEST_VARIANCE: f32 = 1e-7;
 
-// Of the moments b1, b2, b3 of depths in [-1, 1]. Moments that no distribution has, if they are finite, give finite depths,
-// which may lie outside of [-1, 1].
+// Two weighted depths with the moments b1, b2, b3 of depths in [-1, 1]. Invalid moments, if they are finite, give finite
+// depths, which may lie outside [-1, 1].
 fn two_diracs_of_moments(moments: vec3f) -> TwoDiracs {
     let b = clamp(moments, vec3f(-1.0, 0.0, -1.0), vec3f(1.0));
     let variance = max(fma(-b.x, b.x, b.y), TWO_DIRACS_SMALLEST_VARIANCE);

@@ -2,30 +2,31 @@ import super::super::bounds::hamburger6::{hamburger6_bounds};
 import super::super::moments::six_moments::{SIX_MOMENTS_EVEN_BASIS, SIX_MOMENTS_EVEN_INVERSE, SIX_MOMENTS_EVEN_OFFSET, SIX_MOMENTS_ODD_BASIS, SIX_MOMENTS_ODD_INVERSE, SIX_MOMENTS_ODD_OFFSET, SixMoments, SixMomentsBias, six_moments_affine, six_moments_apply_bias, six_moments_bias_of, six_moments_from_depth, six_moments_middle};
 import super::super::map::storage::{STORAGE_FLOAT16, storage_finite_texel, storage_is_float, storage_round_to_float16};
 
-// Six moments of the occluders between the ends of a range, and apart from them how much lies before and behind it.
+// Six moments of the occluders between the ends of a range, with the weights of what lies before and behind it kept apart.
 //
 // In rectified coordinates much of a view ray has no occluder at all, or one that shadows every view ray of the frustum. As
-// depths at the very ends of the range these take part in the moment problem, though it is known exactly what they do, and the
-// bounds of everything else become looser by it. Six moments leave the fourth channel of both texels free, which is room for
-// both weights. What is stored is linear in all of it and commutes with filtering and prefix sums.
+// depths at the very ends of the range, these take part in the moment problem, although their effect is known exactly, and
+// loosen the bounds of everything else. Six moments leave the fourth channel of both texels free, which is room for both
+// weights. The stored values are linear in all of this and commute with filtering and prefix sums.
 
-// Sums over the occluders of a texel, each times its weight; all weights together are one.
+// Weighted sums over the occluders of a texel. All weights together are one.
 struct EnclosedMoments {
-    // Of those at depths between -1 and 1.
+    // The moments of occluders at depths between -1 and 1.
     moments: SixMoments,
-    // Their weight.
+    // The weight of these occluders.
     weight: f32,
-    // The weight of those at -1 and before. What is left of one is behind the range: no occluder.
+    // The weight of occluders at -1 and before. The rest, up to one, is behind the range: no occluder.
     front: f32,
 }
 
-// With less weight than this between the ends, where in between does not matter, and float16 has few digits left for it.
+// The smallest weight between the ends: below it the depths in between do not matter, and float16 has few digits left for
+// them.
 const ENCLOSED_MOMENTS_SMALLEST_WEIGHT: f32 = 0.001953125;
 
-// Beyond this a moment bias leaves nothing of the moments.
+// The largest moment bias: a larger one leaves nothing of the moments.
 const ENCLOSED_MOMENTS_LARGEST_ALPHA: f32 = 0.5;
 
-// One occluder.
+// The sums of one occluder.
 fn enclosed_moments_of_occluder(depth: f32, weight: f32) -> EnclosedMoments {
     let inner = select(0.0, weight, depth > -1.0 && depth < 1.0);
     let powers = six_moments_from_depth(clamp(depth, -1.0, 1.0));
@@ -36,13 +37,13 @@ fn enclosed_moments_of_occluder(depth: f32, weight: f32) -> EnclosedMoments {
     );
 }
 
-// Two occluders together.
+// The sums of two sets of occluders together.
 fn enclosed_moments_sum(a: EnclosedMoments, b: EnclosedMoments) -> EnclosedMoments {
     let moments = SixMoments(a.moments.odd + b.moments.odd, a.moments.even + b.moments.even);
     return EnclosedMoments(moments, a.weight + b.weight, a.front + b.front);
 }
 
-// Three channels of the optimised basis times the weight, and one more.
+// A texel of three channels of the optimised basis times the weight, and one more channel.
 fn enclosed_moments_texel(channels: vec3f, last: f32, weight: f32, storage: u32) -> vec4f {
     let middle = six_moments_middle(storage);
     let inside = saturate(weight);
@@ -53,15 +54,15 @@ fn enclosed_moments_texel(channels: vec3f, last: f32, weight: f32, storage: u32)
     return texel;
 }
 
-// What to write to the first texel of the storage: the odd moments, and what does not lie in front of the range. Moments of
-// whole distributions, as `six_moments_to_odd_texel` has them, look the same.
+// The first texel to write in the storage: the odd moments, and the weight of what does not lie in front of the range.
+// Moments of whole distributions, as `six_moments_to_odd_texel` writes them, have the same form.
 fn enclosed_moments_to_odd_texel(sums: EnclosedMoments, storage: u32) -> vec4f {
     let offset = sums.weight * (SIX_MOMENTS_ODD_OFFSET - six_moments_middle(storage));
     let channels = six_moments_affine(SIX_MOMENTS_ODD_BASIS, sums.moments.odd, offset);
     return enclosed_moments_texel(channels, 1.0 - sums.front, sums.weight, storage);
 }
 
-// What to write to the second one: the even moments, and the weight between the ends.
+// The second texel to write in the storage: the even moments, and the weight between the ends.
 fn enclosed_moments_to_even_texel(sums: EnclosedMoments, storage: u32) -> vec4f {
     let offset = sums.weight * (SIX_MOMENTS_EVEN_OFFSET - six_moments_middle(storage));
     let channels = six_moments_affine(SIX_MOMENTS_EVEN_BASIS, sums.moments.even, offset);
@@ -81,8 +82,8 @@ fn enclosed_moments_means(texels: array<vec4f, 2>, weight: f32, storage: u32) ->
     );
 }
 
-// The moment bias of means: that of the storage, which floats keep whatever the weight is, as they are finest around zero; the
-// step of others is the same for small weights.
+// The moment bias of means. Floats keep that of the storage whatever the weight is, as they are finest around zero; the step
+// of other storages does not shrink for small weights.
 fn enclosed_moments_bias(weight: f32, storage: u32) -> SixMomentsBias {
     let bias = six_moments_bias_of(storage);
     let scale = select(1.0 / max(weight, ENCLOSED_MOMENTS_SMALLEST_WEIGHT), 1.0, storage_is_float(storage));

@@ -7,9 +7,9 @@ import super::super::map::storage::{STORAGE_FLOAT16, STORAGE_FLOAT32, storage_ro
 // negative and sum to one. Storage with few bits holds an affine image of the moments that spreads them over the range
 // of every channel (Peters, GDC 2016; JCGT 6(1) 2017, section 3); affine maps commute with filtering.
 
-// A moment bias: b is moved by alpha towards (0, second, 0, fourth), which pulls moments that rounding has made
-// impossible back among the possible ones. With one number beta for both these are the moments of occluders at the near
-// end, the middle and the far end with the weights beta/2, 1 - beta and beta/2.
+// A moment bias: b is moved by alpha towards (0, second, 0, fourth), which makes moments valid again that rounding has made
+// invalid. If second and fourth are one number beta, these are the moments of occluders at the near end, the middle and the
+// far end with the weights beta/2, 1 - beta and beta/2.
 struct FourMomentsBias {
     alpha: f32,
     second: f32,
@@ -18,12 +18,13 @@ struct FourMomentsBias {
 
 // The bias belongs to a storage's rounding error, not to a scene. Each value covers a resolve and a two-pass blur, every
 // stage rounded to the storage, for 99.999 % of filter regions (found by search: `moment-shadows bias`). Sums of many texels
-// in f32 are off by more than the bias of float32 covers, unless they are made as in `split_sum`. The target is optimal for the basis and for distributions on the real line (JCGT 6(1) 2017, section 3).
+// in f32 are off by more than the bias of float32 covers, unless they are made as in `split_sum`. The target is optimal for
+// the basis and for distributions on the real line (JCGT 6(1) 2017, section 3).
 const FOUR_MOMENTS_BIAS_UNORM16: FourMomentsBias = FourMomentsBias(6e-5, 0.628, 0.628);
 const FOUR_MOMENTS_BIAS_FLOAT16: FourMomentsBias = FourMomentsBias(1e-3, 0.628, 0.628);
 const FOUR_MOMENTS_BIAS_FLOAT32: FourMomentsBias = FourMomentsBias(1.5e-6, 0.375, 0.375);
 
-// sqrt(3), which the optimised basis and its inverse are made of.
+// sqrt(3), a factor in the optimised basis and its inverse.
 const FOUR_MOMENTS_SQRT_3: f32 = 1.7320508075688772;
 
 // The moments of a single depth z in [-1, 1]: its powers (i3D 2015, equation 2).
@@ -53,13 +54,13 @@ fn four_moments_dequantize(channels: vec4f) -> vec4f {
     );
 }
 
-// Moments that certainly lie in their ranges: odd ones in [-1, 1], even ones in [0, 1]. Float storage can hold
-// anything, and finite values beyond 1e15 would overflow further on.
+// Moments clamped to their ranges: odd ones to [-1, 1], even ones to [0, 1]. Float storage can hold anything, and finite
+// values beyond 1e15 would overflow further on.
 fn four_moments_clamp(b: vec4f) -> vec4f {
     return clamp(b, vec4f(-1.0, 0.0, -1.0, 0.0), vec4f(1.0));
 }
 
-// What to write to a texel of the storage.
+// The texel to write in the storage.
 fn four_moments_to_texel(b: vec4f, storage: u32) -> vec4f {
     if storage == STORAGE_FLOAT32 {
         return b;
@@ -101,8 +102,8 @@ fn four_moments_apply_bias(b: vec4f, bias: FourMomentsBias) -> vec4f {
     return fma(vec4f(bias.alpha), vec4f(0.0, bias.second, 0.0, bias.fourth) - b, b);
 }
 
-// The biased moments in a (filtered) texel of the storage, within [-2.1, 2.1]: for unorm storage if the channels are in
-// [0, 1], as no texture can help, and for float storage whatever finite numbers it holds.
+// The biased moments in a (filtered) texel of the storage, within [-2.1, 2.1]: for unorm storage if the channels are in [0,
+// 1], as those of every texture are, and for float storage whatever finite numbers it holds.
 fn four_moments_biased_from_texel(texel: vec4f, storage: u32, bias: FourMomentsBias) -> vec4f {
     if storage == STORAGE_FLOAT32 {
         return four_moments_apply_bias(four_moments_clamp(texel), bias);

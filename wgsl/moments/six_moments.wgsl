@@ -4,7 +4,7 @@ import super::super::map::storage::{STORAGE_FLOAT16, STORAGE_FLOAT32, STORAGE_UN
 //
 // A map holds b = (E[z], ..., E[z^6]) of the moment depths z in [-1, 1] that a texel covers, in two texels: the odd moments
 // in one, the even ones in the other, since the optimised basis mixes neither with the other (Peters, GDC 2016; Peters et
-// al., JCGT 6(1) 2017). Like that of four moments it spreads the moments over the range of every channel, and commutes
+// al., JCGT 6(1) 2017). Like the basis of four moments, it spreads the moments over the range of every channel and commutes
 // with filtering.
 
 // The moments of one distribution.
@@ -15,7 +15,7 @@ struct SixMoments {
     even: vec3f,
 }
 
-// A moment bias: b is moved by alpha towards moments whose odd ones are 0.
+// A moment bias: b is moved by alpha towards a target whose odd moments are 0.
 struct SixMomentsBias {
     // The target's E[z^2], E[z^4], E[z^6].
     even: vec3f,
@@ -23,8 +23,8 @@ struct SixMomentsBias {
 }
 
 // The bias belongs to a storage's rounding error, not to a scene. Each value covers a resolve and a two-pass blur, every
-// stage rounded to the storage, for 99.999 % of filter regions. 3e-6 would do so for float32, but below 8e-6 what is left of
-// the last pivot of `hamburger6` in f32 can be nothing but rounding. 5e-3 would do so for unorm10, but a search for the worst regions
+// stage rounded to the storage, for 99.999 % of filter regions. 3e-6 would suffice for float32, but below 8e-6 the last pivot
+// of `hamburger6` in f32 can consist of rounding alone. 5e-3 would suffice for unorm10, but a search for the worst regions
 // finds some that need up to 6.5e-3, and with 5.5e-3 the bound exceeds the truth of one of them by 2.7e-2. The target is the
 // one published for moment-based transparency (Muenstermann et al., "Moment-Based Order-Independent Transparency", i3D 2018).
 const SIX_MOMENTS_BIAS_TARGET: vec3f = vec3f(0.5566, 0.489, 0.47869382);
@@ -48,7 +48,7 @@ const SIX_MOMENTS_EVEN_BASIS: mat3x3f = mat3x3f(
 const SIX_MOMENTS_ODD_OFFSET: vec3f = vec3f(0.5);
 const SIX_MOMENTS_EVEN_OFFSET: vec3f = vec3f(0.0, 0.0, 0.018888946);
 
-// Their inverses, by columns.
+// The inverses of both bases, by columns.
 const SIX_MOMENTS_ODD_INVERSE: mat3x3f = mat3x3f(
     -0.02877789191977914, 0.09995235706024454, 0.25893353755023666,
     0.4763555042123262, 0.8453258093069343, 0.907796166567316,
@@ -73,7 +73,7 @@ fn six_moments_from_depth(z: f32) -> SixMoments {
     return SixMoments(z * powers, square * powers);
 }
 
-// What is subtracted from channels before they are stored: floats are finest around zero.
+// The value that is subtracted from channels before they are stored: floats are finest around zero.
 fn six_moments_middle(storage: u32) -> f32 {
     return select(0.0, 0.5, storage_is_float(storage));
 }
@@ -83,24 +83,24 @@ fn six_moments_texel(channels: vec3f, storage: u32) -> vec4f {
     return storage_round_texel(vec4f(saturate(channels) - six_moments_middle(storage), 1.0), storage);
 }
 
-// What to write to the first texel of the storage: the odd moments.
+// The first texel to write in the storage: the odd moments.
 fn six_moments_to_odd_texel(odd: vec3f, storage: u32) -> vec4f {
     return six_moments_texel(six_moments_affine(SIX_MOMENTS_ODD_BASIS, odd, SIX_MOMENTS_ODD_OFFSET), storage);
 }
 
-// What to write to the second one: the even moments.
+// The second texel to write in the storage: the even moments.
 fn six_moments_to_even_texel(even: vec3f, storage: u32) -> vec4f {
     return six_moments_texel(six_moments_affine(SIX_MOMENTS_EVEN_BASIS, even, SIX_MOMENTS_EVEN_OFFSET), storage);
 }
 
-// What is averaged for a moment depth z in [-1, 1], for one of the two texels: three odd moments for plane 0, three even ones for
-// plane 1.
+// The channels to average for a moment depth z in [-1, 1], in one of the two texels: three odd moments for plane 0, three
+// even ones for plane 1.
 fn six_moments_channels(z: f32, plane: u32) -> vec4f {
     let moments = six_moments_from_depth(z);
     return vec4f(select(moments.even, moments.odd, plane == 0u), 1.0);
 }
 
-// What to write to a texel of the storage for averaged channels of a plane.
+// The texel to write in the storage for averaged channels of a plane.
 fn six_moments_to_texel(mean: vec4f, plane: u32, storage: u32) -> vec4f {
     if plane == 0u {
         return six_moments_to_odd_texel(mean.xyz, storage);
@@ -108,14 +108,15 @@ fn six_moments_to_texel(mean: vec4f, plane: u32, storage: u32) -> vec4f {
     return six_moments_to_even_texel(mean.xyz, storage);
 }
 
-// Both texels.
+// Both texels to write in the storage.
 fn six_moments_to_texels(b: SixMoments, storage: u32) -> array<vec4f, 2> {
     return array<vec4f, 2>(six_moments_to_odd_texel(b.odd, storage), six_moments_to_even_texel(b.even, storage));
 }
 
 // The moments in the two (filtered) texels of the storage, |b| < 1.05. Float storage can hold anything: channels beyond their
-// range count as its ends. Channels and not moments are clamped, since the bias covers errors of channels; moments at the ends
-// of their ranges, of which rounding has moved one inwards, would need one ten times as large if the others were clamped.
+// range count as its ends. Channels are clamped rather than moments, since the bias covers errors of channels; moments at the
+// ends of their ranges, one of which rounding has moved inwards, would need a bias ten times as large if the others were
+// clamped.
 fn six_moments_from_texels(texels: array<vec4f, 2>, storage: u32) -> SixMoments {
     let middle = six_moments_middle(storage);
     var odd = texels[0].xyz;

@@ -2,7 +2,7 @@
 //
 // The light's outline, projected from the receiver through the blocker onto the map, is what a filter has to average for a
 // penumbra (Fernando, "Percentage-Closer Soft Shadows", SIGGRAPH 2005 sketches). It is exact for one blocker parallel to the
-// map. Filters of another shape than the light take one of the same variance, which makes penumbrae equally wide.
+// map. A filter whose shape differs from the light's has the same variance, which makes penumbrae equally wide.
 
 // Filled by the host-side `AreaLight`.
 struct AreaLight {
@@ -25,13 +25,13 @@ struct AreaLight {
 // The largest half width in texels.
 const AREA_LIGHT_LARGEST_RADIUS: f32 = 4096.0;
 
-// A box of half width h has the variance h^2 / 3 along an axis, a disk of radius r r^2 / 4: half widths of a box, of which
-// the disk's radius is 1, and the reverse.
+// The half width of the box that stands for a disk of radius 1, and the radius of the disk that stands for a box of half
+// width 1: along an axis a box of half width h has the variance h^2 / 3, a disk of radius r the variance r^2 / 4.
 const AREA_LIGHT_BOX_OF_DISK: f32 = 0.8660254;
 const AREA_LIGHT_DISK_OF_BOX: f32 = 1.1547005;
 
 // Half the light's width and height in texels as a receiver sees it through a blocker, projected onto the map. Both depths
-// are moment depths; 0 for a blocker that is not in front.
+// are moment depths; the result is 0 for a blocker that is not in front.
 fn area_light_half_extent(light: AreaLight, blocker_depth: f32, receiver_depth: f32) -> vec2f {
     let ends = clamp(vec2f(blocker_depth, receiver_depth), vec2f(-1.0), vec2f(1.0));
     let distances = clamp(mix(vec2f(light.near), vec2f(light.far), 0.5 * ends + 0.5), vec2f(-1e15), vec2f(1e15));
@@ -44,7 +44,7 @@ fn area_light_half_extent(light: AreaLight, blocker_depth: f32, receiver_depth: 
     return 0.5 * clamp(light.size, vec2f(0.0), vec2f(1e15)) * clamp(apart, 0.0, 1e18);
 }
 
-// Half widths in texels between the light's smallest and largest one.
+// Half widths in texels, limited to the light's smallest and largest half width.
 fn area_light_limited(light: AreaLight, half_extent: vec2f) -> vec2f {
     let smallest = vec2f(clamp(light.smallest_radius, 0.0, AREA_LIGHT_LARGEST_RADIUS));
     let largest = vec2f(clamp(light.largest_radius, 0.0, AREA_LIGHT_LARGEST_RADIUS));

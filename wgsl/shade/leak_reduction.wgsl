@@ -1,4 +1,4 @@
-// Light leaking, reduced after the bound: none of this touches the moments.
+// Reduction of light leaking after the bound: it leaves the moments alone.
 //
 // Multiplying the moments by a constant before solving ("moment scale" in some samples) is not offered: it makes the
 // total weight differ from one, so that the result bounds nothing.
@@ -7,7 +7,7 @@
 struct LeakReduction {
     // Shadow intensity that counts as full shadow, in (0, 1]; 0.98 hides weak leaks (Peters, GDC 2016).
     full_shadow: f32,
-    // Visibility that counts as none, in [0, 1) (light bleeding reduction; Lauritzen, thesis 2008, section 3.4).
+    // Visibility that counts as zero, in [0, 1) (light bleeding reduction; Lauritzen, thesis 2008, section 3.4).
     bleed_reduction: f32,
     // Exponent of visibility, > 0; above 1 darkens penumbrae.
     visibility_exponent: f32,

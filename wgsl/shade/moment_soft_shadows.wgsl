@@ -16,9 +16,9 @@ import super::super::moments::two_moments::{two_moments_from_texel};
 // the moments there give mean blocker depth and shadow intensity (Peters et al., JCGT 6(1) 2017, section 5; with two
 // moments: Yang et al., "Variance Soft Shadow Mapping", Pacific Graphics 2010). The number of loads is fixed.
 //
-// One mean depth stands for all blockers: an occluder far from the receiver softens the shadow of one that is near it.
+// One mean depth stands for all blockers: an occluder far from the receiver softens the shadow of one near it.
 
-// Half of the box that a lookup between texels averages.
+// Half the width of the box that a lookup between texels averages.
 const MOMENT_SOFT_SHADOWS_SMALLEST_EXTENT: f32 = 0.5;
 
 // The table of a map.
@@ -28,7 +28,7 @@ struct MomentSoftShadowTable {
     region: MapRegion,
     // Width and height of its largest kernel in texels.
     largest_kernel: vec2f,
-    // What the sums are in units of.
+    // The unit of the sums.
     unit: f32,
     // Whether queries weight texels by the part that they cover, rather than counting whole ones.
     search_interpolated: bool,
@@ -39,11 +39,11 @@ struct MomentSoftShadowTable {
 struct MomentSoftShadowReceiver {
     // Its place in texels of the layer.
     place: vec2f,
-    // Half of what a pixel covers of the map, in texels: no filter is smaller.
+    // Half the part of the map that a pixel covers, in texels: no filter is smaller.
     footprint: vec2f,
-    // Its moment depth, less what depths are rounded by and no bias beyond that.
+    // Its moment depth, less the rounding error of depths and without any further bias.
     depth: f32,
-    // The gradient of moment depth per texel on its plane, and the steepest one that is no edge.
+    // The gradient of moment depth per texel on its plane, and the steepest gradient that does not count as an edge.
     gradient: vec2f,
     steepest: f32,
 }
@@ -68,8 +68,8 @@ fn moment_soft_shadows_filter(table: MomentSoftShadowTable, receiver: MomentSoft
     return summed_area_table_rectangle(table.region, receiver.place, half_extent, table.largest_kernel);
 }
 
-// The depth that a filter compares with: in front of the receiver by what its own plane varies within the rectangle, so
-// that the bias is as wide as the filter is and nothing about it has to be tuned.
+// The depth that a filter compares with. It lies in front of the receiver by the variation of the receiver's plane within the
+// rectangle, so that the bias is as wide as the filter and nothing about it has to be tuned.
 fn moment_soft_shadows_fragment_depth(receiver: MomentSoftShadowReceiver, rectangle: SummedAreaTableRectangle) -> f32 {
     let half_extent = 0.5 * (rectangle.high - rectangle.low) + MOMENT_SOFT_SHADOWS_SMALLEST_EXTENT;
     // The standard deviation of a box is its half width over sqrt(3).
@@ -89,7 +89,8 @@ fn moment_soft_shadows_intensity(sums: texture_2d_array<u32>, table: MomentSoftS
     return hamburger4_lower_bound(four_moments_apply_bias(filtered, bias), depth, bias.alpha);
 }
 
-// The same from a table of two moments; `smallest_variance` is the table's (`summed_area_encoding_smallest_variance`).
+// Shadow intensity in [0, 1] (1 = shadowed) of a receiver, from a table of two moments. `smallest_variance` is the table's
+// (`summed_area_encoding_smallest_variance`). The loads are those of `moment_soft_shadows_intensity`.
 fn moment_soft_shadows_variance_intensity(sums: texture_2d_array<u32>, table: MomentSoftShadowTable, smallest_variance: f32, receiver: MomentSoftShadowReceiver, light: AreaLight) -> f32 {
     let search = moment_soft_shadows_search(table, receiver, light);
     let searched = two_moments_from_texel(moment_soft_shadows_mean(sums, table, search, table.search_interpolated), STORAGE_UNORM16).xy;

@@ -7,10 +7,10 @@
 // distribution lies one standard deviation in front of the mean. So a slope-scaled bias of somewhat more than one
 // standard deviation removes self-shadowing on planes, and nothing about it has to be tuned to a scene.
 
-// Standard deviations of depth under the filter by which a receiver moves: one, and what covers moment bias and rounding.
+// How many standard deviations of depth under the filter a receiver moves: one, and more to cover moment bias and rounding.
 const RECEIVER_BIAS_STANDARD_DEVIATIONS: f32 = 1.25;
 
-// A gradient steeper than any surface that a light sees; its square is still finite.
+// A gradient steeper than that of any surface that a light sees; its square is still finite.
 const RECEIVER_BIAS_EDGE_ON: f32 = 1e15;
 
 // Filled by the host-side `ReceiverBias`.
@@ -47,19 +47,19 @@ fn receiver_bias_depth(bias: ReceiverBias, gradient: f32) -> f32 {
     return clamp(fma(bias.slope_scale, gradient, bias.constant), 0.0, bias.maximum);
 }
 
-// The receiver bias where a lookup averages more of the map than its filter kernel: `variance` is the variance that this
-// adds to the depths of a plane with that gradient (`minification_depth_variance`). Variances of filters add up.
+// The receiver bias where a lookup averages more of the map than its filter kernel: `variance` is what this adds to the
+// variance of the depths of a plane with that gradient (`minification_depth_variance`). Variances of filters add up.
 fn receiver_bias_depth_minified(bias: ReceiverBias, gradient: f32, variance: f32) -> f32 {
     let kernel = bias.slope_scale * gradient;
     let added = RECEIVER_BIAS_STANDARD_DEVIATIONS * sqrt(max(variance, 0.0));
     let deviation = length(vec2f(kernel, added));
-    // The limit is one of slope, not of depth: a filter that is wider by a factor may move by that factor more.
+    // The slope is limited, not the depth: a filter that is wider by a factor may move the receiver farther by that factor.
     let limit = (bias.maximum - bias.constant) * deviation / max(kernel, 1e-30);
     return max(bias.constant + min(deviation, max(limit, 0.0)), 0.0);
 }
 
 // The part of the bias that grows with the slope, under a kernel with the standard deviation `deviation` in texels along x
-// and y, on a plane with the gradient of moment depth per texel; that counts up to the length `steepest`.
+// and y, on a plane with the gradient `gradient` of moment depth per texel, which counts up to the length `steepest`.
 fn receiver_bias_depth_of_kernel(gradient: vec2f, deviation: vec2f, steepest: f32) -> f32 {
     let full = clamp(gradient, vec2f(-RECEIVER_BIAS_EDGE_ON), vec2f(RECEIVER_BIAS_EDGE_ON));
     let steepness = length(full);

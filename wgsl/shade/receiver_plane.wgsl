@@ -19,7 +19,7 @@ struct ReceiverPlane {
     inverse_reach: f32,
 }
 
-// Above every gradient and depth that matters; products of it with distances in texels are finite.
+// A number above every gradient and depth that matters; products of it with distances in texels are finite.
 const RECEIVER_PLANE_LARGEST: f32 = 1e15;
 
 // The plane of a receiver. `uv` outside of [0, 1] counts as the nearer edge, a `depth` that is NaN as the far end.
@@ -36,16 +36,16 @@ fn receiver_plane_through(uv: vec2f, depth: f32, gradient: vec2f, steepest: f32,
 }
 
 // A plane moved by `bias` in moment depth towards the light, as a whole: its distances from a light with rays from a point
-// all shrink by the same factor. One through the biased depth with the unbiased gradient would be too steep, and cross the
-// receiver's own where that recedes. `bias` is less than the distance from the light.
+// all shrink by the same factor. A plane through the biased depth with the unbiased gradient would be too steep, and cross
+// the receiver's plane where that recedes. `bias` is less than the distance from the light.
 fn receiver_plane_biased(plane: ReceiverPlane, bias: f32) -> ReceiverPlane {
     let towards = clamp(bias, -4.0, 4.0);
     let shrunk = clamp(1.0 - towards * plane.inverse_reach, 1e-6, 1e7);
     return ReceiverPlane(plane.uv, plane.gradient * shrunk, plane.depth - towards, plane.inverse_reach / shrunk);
 }
 
-// The moment depth in [-1, 1] of the plane at `offset` texels from the receiver. It ends at the far end, which texels without a
-// caster hold: they never shadow.
+// The moment depth in [-1, 1] of the plane at `offset` texels from the receiver. It is cut off at the far end, the depth of
+// texels without a caster, so that these never shadow.
 fn receiver_plane_depth(plane: ReceiverPlane, offset: vec2f) -> f32 {
     let rise = dot(plane.gradient, offset);
     let divisor = 1.0 - rise * plane.inverse_reach;

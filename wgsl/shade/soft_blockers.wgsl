@@ -8,7 +8,7 @@ import super::super::maths::hankel::{hankel_christoffel_number, hankel_factor, h
 // comes without the published quotient of roots: outside of the Gauss nodes all support points lie on one side of the
 // fragment, so that the mean of the whole distribution gives it, and between them one lies in front.
 //
-// The fragment depth carries no receiver bias: one would take the blockers at a contact for the receiver.
+// The fragment depth has no receiver bias: with one, the blockers at a contact would be taken for the receiver.
 
 // What lies in front of a receiver.
 struct SoftBlockers {
@@ -18,7 +18,7 @@ struct SoftBlockers {
     depth: f32,
 }
 
-// With a share far below this the mean is the receiver's own depth (GDC 2016): what little rounding leaves in front of an
+// With a share far below this the mean is the receiver's depth (GDC 2016): the little that rounding leaves in front of an
 // unshadowed receiver has no meaningful depth.
 const SOFT_BLOCKERS_SMALLEST_SHARE: f32 = 1e-3;
 
@@ -30,7 +30,7 @@ fn soft_blockers_from(z: f32, share: f32, distance: f32) -> SoftBlockers {
     return SoftBlockers(weight, clamp(mean, -1.0, 1.0));
 }
 
-// From four moments that are already biased by `alpha` >= 1e-7 and lie within [-2.1, 2.1].
+// Blockers from four moments that are already biased by `alpha` >= 1e-7 and lie within [-2.1, 2.1].
 fn soft_blockers_of_four_moments(biased: vec4f, fragment_depth: f32, alpha: f32) -> SoftBlockers {
     let z = clamp(fragment_depth, -1.0, 1.0);
     let factor = hankel_factor(biased, alpha);
@@ -53,7 +53,7 @@ fn soft_blockers_of_four_moments(biased: vec4f, fragment_depth: f32, alpha: f32)
     return soft_blockers_from(z, share, x / max(share, 1e-6));
 }
 
-// From two moments with a variance of at least `smallest_variance`: the canonical distribution has one more point.
+// Blockers from two moments with a variance of at least `smallest_variance`: the canonical distribution has one more point.
 fn soft_blockers_of_two_moments(moments: vec2f, fragment_depth: f32, smallest_variance: f32) -> SoftBlockers {
     let z = clamp(fragment_depth, -1.0, 1.0);
     let variance = max(fma(-moments.x, moments.x, moments.y), smallest_variance);

@@ -9,11 +9,11 @@ import super::super::map::storage::{STORAGE_FLOAT16, storage_finite_texel, stora
 // texel holds sine and cosine of two terms, so M terms take (M + 1) / 2 planes. Damping the terms by exp(-a (k / M)^2)
 // suppresses the ringing of the truncated series.
 //
-// That series f(d - z) is a step with a ramp around 0 and ripples beside it, and periodic: it falls again towards
-// d - z = 1. The plain series is an estimate. As a lower bound the receiver moves towards the light by the ramp's half
-// width and the largest ripple is subtracted; it is not sharp, and full shadow reads as a little less than 1.
+// That series f(d - z) is a step with a ramp around 0 and ripples beside it, and periodic: it falls again towards d - z = 1.
+// The plain series is an estimate. For a lower bound the receiver moves towards the light by the ramp's half width and the
+// largest ripple is subtracted; the bound is not sharp, and full shadow comes out a little below 1.
 
-// Up to this many terms.
+// The largest number of terms.
 const CONVOLUTION_LARGEST_TERMS: u32 = 16u;
 
 // The damping a that the lower bound is made for.
@@ -51,8 +51,8 @@ fn convolution_bound(terms: u32) -> vec2f {
     return bounds[convolution_terms(terms) - 1u];
 }
 
-// The place of a depth z in [-1, 1] on the axis of the series. It ends two shifts before 1, so that the series, which is
-// periodic, is nowhere evaluated where it turns, neither for the lower bound nor else.
+// The place of a depth z in [-1, 1] on the axis of the series. It ends two shifts before 1, so that the periodic series is
+// never evaluated where it turns, with or without the lower bound.
 fn convolution_place(z: f32, terms: u32) -> f32 {
     return fma(0.5, z, 0.5) * (1.0 - 2.0 * convolution_bound(terms).x);
 }
@@ -65,12 +65,12 @@ fn convolution_waves(place: f32, plane: u32) -> vec4f {
     return vec4f(sin(angle), cos(angle)).xzyw;
 }
 
-// What is averaged for a depth z in [-1, 1] in a plane of the map: (sin, cos, sin, cos).
+// The channels to average for a depth z in [-1, 1] in a plane of the map: (sin, cos, sin, cos).
 fn convolution_channels(z: f32, plane: u32, terms: u32) -> vec4f {
     return convolution_waves(convolution_place(z, terms), plane);
 }
 
-// What to write for averaged channels.
+// The texel to write for averaged channels.
 fn convolution_to_texel(channels: vec4f, storage: u32) -> vec4f {
     if !storage_is_float(storage) {
         return saturate(fma(vec4f(0.5), channels, vec4f(0.5)));

@@ -9,12 +9,12 @@ import super::super::map::storage::{STORAGE_FLOAT16, STORAGE_FLOAT32, STORAGE_LA
 // inequality: any depth behind the fragment makes it leak.
 //
 // A texel holds the mean itself (plain), or v = log(mean) / c in [-1, 1] (logarithmic), which spreads the error of rounding
-// evenly over depth. Plain texels are filtered like any. The linear mean of v is darker than the mean that it stands for:
-// to filter logarithmic texels without that, average `exponential_mean_of_texel` of the taps and write the result with
-// `exponential_to_texel`. With e^(-87) to e^87 all normal numbers no maximum has to be taken out of the sum before.
+// evenly over depth. Plain texels are filtered like any. The linear mean of v is darker than the mean that it stands for: to
+// filter logarithmic texels without that, average `exponential_mean_of_texel` of the taps and write the result with
+// `exponential_to_texel`. Since e^(-87) to e^87 are normal numbers, no maximum has to be taken out of the sum before.
 
-// The largest exponents c, so that rounding in a resolve and a two-pass blur darkens by at most 1 % (float32: that means
-// stay normal numbers). Larger ones make no NaN, but what they give is no bound.
+// The largest exponents c, so that rounding in a resolve and a two-pass blur darkens by at most 1 % (float32: that means stay
+// normal numbers). Larger ones make no NaN, but their results are not bounds.
 //   float32: e^-c >= 2^-126, so c <= 126 log 2 = 87.3
 //   float16, plain: e^-c >= 2^-14 (below the steps are constant), so c <= 14 log 2 = 9.70; e^c < 65504 asks for less
 //   unorm16, plain: e^(c (z - 1)) is off by 3 / 2^17 while it falls to e^(-2 c), so e^(2 c) <= 0.01 2^17 / 3 and c <= 3.04
@@ -40,17 +40,17 @@ fn exponential_largest_exponent(storage: u32, logarithmic: bool) -> f32 {
     return select(EXPONENTIAL_LARGEST_EXPONENT, EXPONENTIAL_LARGEST_EXPONENT_UNORM16, plain_unorm);
 }
 
-// The exponent as all functions here take it: everything stays finite.
+// The exponent, limited as in all functions here: everything stays finite.
 fn exponential_exponent(exponent: f32) -> f32 {
     return clamp(exponent, EXPONENTIAL_SMALLEST_EXPONENT, EXPONENTIAL_LARGEST_EXPONENT);
 }
 
-// What is averaged for a depth z in [-1, 1], in x.
+// The channels to average for a depth z in [-1, 1], in x.
 fn exponential_channels(z: f32, exponent: f32) -> vec4f {
     return vec4f(exp(exponential_exponent(exponent) * z), 0.0, 0.0, 0.0);
 }
 
-// What to write for averaged channels, in x. Unorm storage holds e^(c (z - 1)), or (v + 1) / 2.
+// The texel to write for averaged channels, in x. Unorm storage holds e^(c (z - 1)), or (v + 1) / 2.
 fn exponential_to_texel(channels: vec4f, storage: u32, exponent: f32, logarithmic: bool) -> vec4f {
     let c = exponential_exponent(exponent);
     let mean = max(channels.x, EXPONENTIAL_SMALLEST_MEAN);

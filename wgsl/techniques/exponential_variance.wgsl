@@ -4,10 +4,10 @@ import super::super::bounds::chebyshev::{chebyshev_lower_bound};
 
 // Exponential variance shadow mapping: the bound of two moments for warped depth.
 //
-// Warping depth by an increasing function keeps every lower bound one. w+ = e^(c+ z) pulls all occluders but the last ones
-// together, so that less light bleeds behind them, w- = -e^(-c- z) does the same for receivers; the darker bound of both is
-// taken (Lauritzen & McCool, "Layered Variance Shadow Maps", GI 2008, section 6; Lauritzen, thesis 2008, section 4.2). The
-// minus sign in w- is what makes it increase. With w+ alone two channels do (EVSM2), with both four (EVSM4).
+// A lower bound stays one if depth is warped by an increasing function. w+ = e^(c+ z) pulls all occluders but the last ones
+// together, so that less light bleeds behind them, and w- = -e^(-c- z) does the same for receivers; the darker bound of both
+// is taken (Lauritzen & McCool, "Layered Variance Shadow Maps", GI 2008, section 6; Lauritzen, thesis 2008, section 4.2). The
+// minus sign in w- is what makes it increase. w+ alone takes two channels (EVSM2), both take four (EVSM4).
 //
 // Warps are not normalised: e^(c z) for signed z spends the exponent range of a float evenly on both sides of 1, while
 // e^(c (z - 1)) would leave the upper half of it unused.
@@ -16,17 +16,17 @@ import super::super::bounds::chebyshev::{chebyshev_lower_bound};
 //   float32: both stay normal numbers, e^(2 c) <= 2^126, so c <= 63 log 2 = 43.67. Two such squares may be added, which
 //            those of 44.36 = log(largest float32) / 2 may not.
 //   float16: w^2 <= 65504, so c <= 5.54. Far squares then are subnormal, which the smallest variance covers.
-// Larger exponents make no NaN, but what they give is no bound.
+// Larger exponents make no NaN, but their results are not bounds.
 const EXPONENTIAL_VARIANCE_LARGEST_EXPONENT_FLOAT16: f32 = 5.54;
 const EXPONENTIAL_VARIANCE_LARGEST_EXPONENT_FLOAT32: f32 = 43.6;
 
 // 2^63, above e^43.6.
 const EXPONENTIAL_VARIANCE_LARGEST_WARP: f32 = 9.223372036854776e18;
 
-// The smallest variance is x * E[w^2] + y. It is the error that rounding in a resolve and a two-pass blur leaves in
-// E[w^2] - E[w]^2: with the relative error u = 2^-11 or 2^-24 of a rounding at most 3 (u + 2 u) E[w^2] = 4.4e-3 or 5.4e-7
-// times E[w^2]. In depth, where w has the slope c w, that is a variance of x / c^2. As in `variance` half of it covers
-// 99.999 % of kernels in float16. y covers numbers below the normal ones: 3 steps of 2^-25, or what float32 flushes to zero.
+// The smallest variance is x * E[w^2] + y. It is the error that rounding in a resolve and a two-pass blur leaves in E[w^2] -
+// E[w]^2: with the relative error u = 2^-11 or 2^-24 of a rounding at most 3 (u + 2 u) E[w^2] = 4.4e-3 or 5.4e-7 times
+// E[w^2]. In depth, where w has the slope c w, that is a variance of x / c^2. As in `two_moments`, half of it covers 99.999 %
+// of kernels in float16. y covers numbers below the normal ones: 3 steps of 2^-25, or what float32 flushes to zero.
 const EXPONENTIAL_VARIANCE_SMALLEST_FLOAT16: vec2f = vec2f(2.2e-3, 9e-8);
 const EXPONENTIAL_VARIANCE_SMALLEST_FLOAT32: vec2f = vec2f(6e-7, 1e-37);
 
@@ -46,13 +46,13 @@ fn exponential_variance_warp(z: f32, exponents: vec2f) -> vec2f {
     return vec2f(exp(limited.x * z), -exp(-limited.y * z));
 }
 
-// What is averaged for a depth z in [-1, 1]: (w+, w+^2, w-, w-^2). EVSM2 stores the first two.
+// The channels to average for a depth z in [-1, 1]: (w+, w+^2, w-, w-^2). EVSM2 stores the first two.
 fn exponential_variance_channels(z: f32, exponents: vec2f) -> vec4f {
     let warped = exponential_variance_warp(z, exponents);
     return vec4f(warped, warped * warped).xzyw;
 }
 
-// What to write for averaged channels.
+// The texel to write for averaged channels.
 fn exponential_variance_to_texel(channels: vec4f, storage: u32) -> vec4f {
     if storage == STORAGE_FLOAT16 {
         let largest = vec4f(STORAGE_LARGEST_FLOAT16);
@@ -86,6 +86,6 @@ fn exponential_variance_shadow_intensity_of_texel(
     if !both {
         return positive;
     }
-    // A mean of w- is negative; positive garbage would put the mean behind every fragment, which is no harm.
+    // A mean of w- is negative; positive garbage would put the mean behind every fragment, which does no harm.
     return max(positive, exponential_variance_lower_bound(moments.zw, warped.y, storage));
 }

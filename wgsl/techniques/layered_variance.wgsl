@@ -7,13 +7,14 @@ import super::super::moments::two_moments::{two_moments_from_texel, two_moments_
 // Layer [p, q] warps depth by t -> clamp((t - p) / (q - p), 0, 1) before its two moments are taken, so that occluders in
 // front of it all coincide: light bleeds only between occluders within the layer that contains the fragment (Lauritzen &
 // McCool, "Layered Variance Shadow Maps", GI 2008, section 4; Lauritzen, thesis 2008, section 4.1). The warp here goes to
-// [-1, 1] instead of [0, 1], so that encoding, smallest variance and bound are those of `variance`; one layer is the same
-// technique, to the bit. A texel holds two layers, so n of them take (n + 1) / 2 planes.
+// [-1, 1] instead of [0, 1], so that encoding and smallest variance are those of `two_moments` and the bound that of
+// `chebyshev`; one layer equals variance shadow mapping to the bit. A texel holds two layers, so n of them take (n + 1) / 2
+// planes.
 
-// Up to this many layers.
+// The largest number of layers.
 const LAYERED_VARIANCE_LARGEST_COUNT: u32 = 8u;
 
-// No layer is narrower.
+// The smallest width of a layer.
 const LAYERED_VARIANCE_SMALLEST_HALF_WIDTH: f32 = 1e-4;
 
 // The layers, front to back.
@@ -27,7 +28,7 @@ struct LayeredVarianceLayers {
     padding: vec2f,
 }
 
-// Where to look a fragment up.
+// The layers in which a fragment is looked up.
 struct LayeredVarianceChoice {
     // The layer that contains the fragment.
     layer: u32,
@@ -69,15 +70,15 @@ fn layered_variance_warp(z: f32, interval: vec2f) -> f32 {
     return clamp((z - 0.5 * (interval.x + interval.y)) / half_width, -1.0, 1.0);
 }
 
-// What is averaged for a depth z in [-1, 1] in a plane, which holds the layers 2 * plane and 2 * plane + 1; to be written
-// with `two_moments_to_texel`.
+// The channels to average for a depth z in [-1, 1] in a plane, which holds the layers 2 * plane and 2 * plane + 1; to be
+// written with `two_moments_to_texel`.
 fn layered_variance_channels(z: f32, layers: LayeredVarianceLayers, plane: u32) -> vec4f {
     let near = layered_variance_warp(z, layered_variance_interval(layers, 2u * plane));
     let far = layered_variance_warp(z, layered_variance_interval(layers, 2u * plane + 1u));
     return vec4f(near, near * near, far, far * far);
 }
 
-// The layer of a fragment and how it blends with a neighbor: linearly over the overlap, half of each at the split.
+// The layer of a fragment and how it blends with a neighbour: linearly over the overlap, half of each at the split.
 fn layered_variance_choice(layers: LayeredVarianceLayers, fragment_depth: f32) -> LayeredVarianceChoice {
     let depth = depth_of_fragment(fragment_depth);
     let last = layered_variance_count(layers) - 1u;
@@ -101,7 +102,7 @@ fn layered_variance_choice(layers: LayeredVarianceLayers, fragment_depth: f32) -
 }
 
 // Shadow intensity in [0, 1] (1 = shadowed) of a fragment by one layer, for the filtered texel of the plane `layer / 2`: a
-// lower bound. Fragments out of the layer count as its ends.
+// lower bound. Fragments outside the layer count as its ends.
 fn layered_variance_shadow_intensity_of_texel(
     texel: vec4f,
     fragment_depth: f32,

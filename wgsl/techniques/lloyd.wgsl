@@ -2,13 +2,13 @@ import super::super::techniques::layered_variance::{LayeredVarianceLayers, layer
 
 // Lloyd relaxation: moves the splits of layers to where light would bleed.
 //
-// Behind an edge between two surfaces light bleeds onto receivers behind the second one, and a split at that second
-// occluder prevents it. In a small footprint of the map with mean mu and standard deviation sigma the second occluder is
-// at mu + sigma where each covers half, and the bleeding grows with sigma^2 (Lauritzen & McCool, "Layered Variance Shadow
-// Maps", GI 2008, section 5; Lauritzen, thesis 2008, section 4.1.3). A third moment gives it for any coverage. So the
-// second occluders of all 2x2 footprints, weighted by their variance, are clustered: the cell of a split reaches halfway to the splits beside
-// it, and a split moves to the mean of its cell. Two splits per frame suffice, so their sums fit one texel. A split whose
-// cell is empty is of no use: its two layers merge, and the layer beside the split of greatest weight is split instead.
+// Behind an edge between two surfaces light bleeds onto receivers behind the second one, and a split at that second occluder
+// prevents it. In a small footprint of the map with mean mu and standard deviation sigma the second occluder is at mu + sigma
+// where each covers half, and the bleeding grows with sigma^2 (Lauritzen & McCool, "Layered Variance Shadow Maps", GI 2008,
+// section 5; Lauritzen, thesis 2008, section 4.1.3). A third moment gives it for any coverage. So the second occluders of all
+// 2x2 footprints, weighted by their variance, are clustered: the cell of a split reaches halfway to the splits beside it, and
+// a split moves to the mean of its cell. Two splits per frame suffice, so their sums fit one texel. A split whose cell is
+// empty is of no use: its two layers merge, and the layer beside the split of greatest weight is split instead.
 
 // The layers, and the weight that the cell of each split had when it was last summed. Zeroed weights are a valid start.
 struct LloydState {
@@ -16,11 +16,11 @@ struct LloydState {
     weights: array<vec4f, 2>,
 }
 
-// The second occluder of the four depths of a footprint and its weight, the variance. Of a distribution on two depths the
-// farther one is mu + (h + sqrt(h^2 + 4 sigma^2)) / 2, where h is the third central moment over the variance: two depths
-// have the first three moments of any distribution (the sparse representation of Peters et al., JCGT 6(1) 2017). It is
-// mu + sigma where h is 0; on a diagonal edge, of which footprints see one or three quarters, mu + sigma alone is 7 % of
-// the gap too near.
+// The second occluder of the four depths of a footprint and its weight, the variance. The farther depth of a distribution on
+// two depths is mu + (h + sqrt(h^2 + 4 sigma^2)) / 2, where h is the third central moment over the variance: two depths have
+// the first three moments of any distribution (the sparse representation of Peters et al., JCGT 6(1) 2017). It is mu + sigma
+// where h is 0; on a diagonal edge, of which footprints see one or three quarters, mu + sigma alone is 7 % of the gap too
+// near.
 fn lloyd_second_occluder(depths: vec4f) -> vec2f {
     let mean = dot(depths, vec4f(0.25));
     let deviations = depths - mean;
@@ -31,7 +31,7 @@ fn lloyd_second_occluder(depths: vec4f) -> vec2f {
     return vec2f(mean + 0.5 * (skew + sqrt(fma(skew, skew, 4.0 * variance))), variance);
 }
 
-// The split that is moved together with split `first`; the same one if there is no other.
+// The split that is moved together with split `first`; `first` itself if there is no other.
 fn lloyd_second_split(layers: LayeredVarianceLayers, first: u32) -> u32 {
     return (first + 1u) % max(layered_variance_count(layers) - 1u, 1u);
 }
@@ -74,7 +74,7 @@ fn lloyd_moved(state: LloydState, split: u32, sums: vec2f) -> LloydState {
     return moved;
 }
 
-// Takes an empty split to the wider half of the cell of greatest weight, keeping the order; each gets half of the weight.
+// Moves an empty split to the wider half of the cell of greatest weight, keeping the order; each gets half of the weight.
 fn lloyd_teleported(state: LloydState, empty: u32) -> LloydState {
     let splits = layered_variance_count(state.layers) - 1u;
     var moved = state;
@@ -111,8 +111,8 @@ fn lloyd_teleported(state: LloydState, empty: u32) -> LloydState {
     return moved;
 }
 
-// One step: moves split `first` and its second by the sums of `lloyd_contribution` over all footprints, and takes one of
-// them elsewhere if its cell is empty. With one layer there is nothing to move.
+// One step: moves split `first` and its second by the sums of `lloyd_contribution` over all footprints, and moves one of them
+// elsewhere if its cell is empty. With one layer there is nothing to move.
 fn lloyd_step(state: LloydState, first: u32, sums: vec4f) -> LloydState {
     let splits = layered_variance_count(state.layers) - 1u;
     if splits == 0u {

@@ -7,10 +7,10 @@ import super::super::shade::receiver_plane::{ReceiverPlane, receiver_plane_depth
 // Percentage closer filtering: tests against the plain depth map, whose results are filtered (Reeves, Salesin and Cook,
 // "Rendering Antialiased Shadows with Depth Maps", SIGGRAPH 1987).
 //
-// Each tap compares one texel with the depth of the receiver's plane at that very texel and is 1 where the map is
-// nearer to the light, 0 where it is not or equal. A receiver without gradient is compared with its own depth. Beyond the
-// edge of its region (within the map, see `map_region_within`) the last texel repeats; a region without texels does not
-// shadow. All intensities are in [0, 1]. The cost grows with the square of the kernel; filterable maps are there to avoid that.
+// Each tap compares one texel with the depth of the receiver's plane at that very texel and is 1 where the map is nearer to
+// the light, 0 where it is farther or equal. A receiver without gradient is compared with its own depth. Beyond the edge of
+// its region (within the map, see `map_region_within`) the last texel repeats; a region without texels does not shadow. All
+// intensities are in [0, 1]. The cost grows with the square of the kernel, which filterable maps avoid.
 
 // The largest radius of a kernel in texels.
 const PERCENTAGE_CLOSER_LARGEST_RADIUS: i32 = 64;
@@ -62,7 +62,7 @@ fn percentage_closer_binary(map: texture_depth_2d_array, layer: u32, region: Map
     return percentage_closer_tap(map, layer, region, plane, conversion, vec2i(plane.uv * vec2f(region.extent)));
 }
 
-// Where a kernel is centred: at the nearest texel, or, interpolated as in a bilinear lookup, between the four next ones.
+// Where a kernel is centred: at the nearest texel, or, interpolated as in a bilinear lookup, between the four nearest ones.
 fn percentage_closer_place(region: MapRegion, plane: ReceiverPlane, interpolated: bool) -> PercentageCloserPlace {
     let extent = max(vec2f(region.extent), vec2f(1.0));
     let place = clamp(plane.uv * extent, vec2f(0.5), extent - 0.5);
@@ -90,13 +90,13 @@ fn percentage_closer_box(map: texture_depth_2d_array, layer: u32, region: MapReg
     return percentage_closer_filter(map, layer, region, plane, conversion, radius, 0.0, interpolated);
 }
 
-// The same with the weights of a Gaussian of standard deviation `sigma` > 0 texels, cut off at `radius`; a smaller sigma
-// counts as 1e-3.
+// Shadow intensity with the weights of a Gaussian of standard deviation `sigma` > 0 texels, cut off at `radius`; a smaller
+// sigma counts as 1e-3. `radius` and `interpolated` are as in `percentage_closer_box`.
 fn percentage_closer_gaussian(map: texture_depth_2d_array, layer: u32, region: MapRegion, plane: ReceiverPlane, conversion: DepthConversion, radius: i32, sigma: f32, interpolated: bool) -> f32 {
     return percentage_closer_filter(map, layer, region, plane, conversion, radius, max(sigma, 1e-3), interpolated);
 }
 
-// Both of them: a sigma of 0 stands for equal weights.
+// Shadow intensity with equal weights or those of a Gaussian: a sigma of 0 stands for equal weights.
 fn percentage_closer_filter(map: texture_depth_2d_array, layer: u32, region: MapRegion, plane: ReceiverPlane, conversion: DepthConversion, radius: i32, sigma: f32, interpolated: bool) -> f32 {
     let reach = clamp(radius, 0, PERCENTAGE_CLOSER_LARGEST_RADIUS);
     let place = percentage_closer_place(region, plane, interpolated);
@@ -124,7 +124,7 @@ fn percentage_closer_kernel_weight(weights: ptr<function, array<vec4f, 33>>, off
     return clamp((*weights)[index / 4u][index % 4u], 0.0, 1e9);
 }
 
-// The same with any separable kernel. Without a positive weight nothing is shadowed.
+// Shadow intensity with any separable kernel. Without a positive weight nothing is shadowed.
 fn percentage_closer_kernel(map: texture_depth_2d_array, layer: u32, region: MapRegion, plane: ReceiverPlane, conversion: DepthConversion, kernel: PercentageCloserKernel, interpolated: bool) -> f32 {
     let reach = i32(min(kernel.radius, u32(PERCENTAGE_CLOSER_LARGEST_RADIUS)));
     var weights = kernel.weights;
@@ -148,8 +148,8 @@ fn percentage_closer_texel_at(region: MapRegion, plane: ReceiverPlane, offset: v
     return vec2i(floor(plane.uv * vec2f(region.extent) + offset));
 }
 
-// Shadow intensity with a Poisson disk of 16 taps: `radius` in texels, 0 to 4096, turned by `angle` in radians, another
-// one in each pixel (`disk_samples_angle`).
+// Shadow intensity with a Poisson disk of 16 taps: `radius` in texels, 0 to 4096, turned by `angle` in radians, which differs
+// from pixel to pixel (`disk_samples_angle`).
 fn percentage_closer_poisson(map: texture_depth_2d_array, layer: u32, region: MapRegion, plane: ReceiverPlane, conversion: DepthConversion, radius: f32, angle: f32) -> f32 {
     let rotation = disk_samples_rotation(angle) * clamp(radius, 0.0, PERCENTAGE_CLOSER_LARGEST_DISK);
     var sum = 0.0;

@@ -12,26 +12,26 @@ import super::super::shade::receiver_plane::{ReceiverPlane, receiver_plane_depth
 const PERCENTAGE_CLOSER_HARDWARE_LARGEST_RADIUS: i32 = 64;
 
 // How far, in texels, taps keep from the border of a region beyond the half texel that a filter reaches: coordinates are
-// rounded, and by less than that in maps of up to 16384 texels. Where a region is a single texel wide, there is no room for it.
+// rounded, and by less than that in maps of up to 16384 texels. A region a single texel wide has no room for it.
 const PERCENTAGE_CLOSER_HARDWARE_INSET: f32 = 0.001953125;
 
 // One tap at `place`, in texels from the region's origin, at least half a texel inside of the region: the share in [0, 1] of
 // the four texels around it, weighted bilinearly, that are nearer to the light than the receiver's plane.
 //
-// All four are compared with the least depth of the plane at their centres: a slope does not shadow itself, and what stands
-// closer than the plane rises over a texel is missed.
+// All four are compared with the least depth of the plane at their centres: a slope does not shadow itself, but an occluder
+// closer to the plane than it rises over a texel is missed.
 fn percentage_closer_hardware_tap(map: texture_depth_2d_array, comparison: sampler_comparison, layer: u32, region: MapRegion, plane: ReceiverPlane, conversion: DepthConversion, place: vec2f) -> f32 {
     let centre = floor(place - 0.5) + select(vec2f(0.5), vec2f(1.5), plane.gradient < vec2f(0.0));
     let depth = receiver_plane_depth(plane, centre - plane.uv * vec2f(region.extent));
     let uv = (vec2f(region.origin) + place) / vec2f(textureDimensions(map));
     let nearer = textureSampleCompareLevel(map, comparison, uv, layer, depth_from_moment_depth(depth, conversion));
-    // Nothing is nearer than the near end, also what is stored in front of it.
+    // Nothing is nearer than the near end, not even what is stored in front of it.
     return select(clamp(nearer, 0.0, 1.0), 0.0, depth <= -1.0);
 }
 
-// Shadow intensity in [0, 1] by n x n such taps of equal weight, n = 2 radius + 1, one texel apart: an interpolated box
-// of n x n texels (`percentage_closer_box`). `radius` from 0 to 64. Beyond the edge of its region, which lies within the
-// map, the last texel repeats; one without texels does not shadow.
+// Shadow intensity in [0, 1] by n x n taps (`percentage_closer_hardware_tap`) of equal weight, n = 2 radius + 1, one texel
+// apart: an interpolated box of n x n texels (`percentage_closer_box`). `radius` from 0 to 64. Beyond the edge of its region,
+// which lies within the map, the last texel repeats; a region without texels does not shadow.
 fn percentage_closer_hardware_box(map: texture_depth_2d_array, comparison: sampler_comparison, layer: u32, region: MapRegion, plane: ReceiverPlane, conversion: DepthConversion, radius: i32) -> f32 {
     if any(region.extent == vec2u(0u)) {
         return 0.0;

@@ -13,9 +13,9 @@ import super::super::shade::receiver_plane::{ReceiverPlane};
 // filtered with a second set. It is exact for a disk-shaped light and one blocker parallel to the map.
 //
 // The plane, regions and what lies beyond their edge are those of `percentage_closer`. Taps lie on disks of any number of
-// samples, which each pixel turns by another angle.
+// samples, which each pixel turns by a different angle.
 
-// What the search has found.
+// The result of the search.
 struct PercentageCloserSoftBlockers {
     // The share of taps that are blockers, in [0, 1].
     share: f32,

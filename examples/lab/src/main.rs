@@ -716,11 +716,11 @@ fn run(command: Command) -> Result<ExitCode, Box<dyn std::error::Error>> {
             json,
             profile,
         } => {
-            let (file, compiled) = graph::check(&file, profile.into())?;
+            let (summary, compiled) = graph::check(&file, profile.into())?;
             if json {
                 println!("{}", serde_json::to_string_pretty(&compiled)?);
             } else {
-                println!("{}", graph::summary(&file));
+                println!("{}", summary);
                 if plan {
                     println!("\n{compiled}");
                 }

@@ -1,6 +1,7 @@
 //! From a graph to a plan: names, formats, sizes and shaders are checked before anything is created.
 
 mod bytes;
+mod limits;
 mod memory;
 mod parameters;
 mod passes;
@@ -10,15 +11,17 @@ mod slots;
 mod touch;
 mod usage;
 mod wiring;
+mod work;
 mod workgroups;
 
 use std::collections::BTreeMap;
 
 use crate::graph::VERSION;
 use crate::{
-    Access, Capabilities, Connected, Direction, Graph, GraphError, GraphErrorKind, Home, NodeDesc,
-    Plan, PlannedOutput, PlannedResource, ResourceDesc, Slot,
+    Access, Capabilities, Connected, Direction, Graph, GraphError, GraphErrorKind, Home,
+    NamedResource, NodeDesc, Plan, PlannedResource, ResourceDesc, Slot,
 };
+pub(crate) use reflect::numbers as binding_numbers;
 use wiring::{Source, Wiring};
 
 /// The imports that a host gives, by name.
@@ -45,7 +48,7 @@ pub fn compile(
     let wiring = Wiring::of(graph)?;
     let mut resources = import_resources(graph, imports)?;
     let mut roots: Vec<usize> = (0..resources.len()).collect();
-    let described = describe(graph, &wiring, capabilities, &mut resources, &mut roots)?;
+    let described = describe_all(graph, &wiring, capabilities, &mut resources, &mut roots)?;
     let outputs = outputs(graph, &described)?;
     let needed = wiring.needed(graph)?;
     let mut kept: Vec<&Described> = described
@@ -76,11 +79,12 @@ pub fn compile(
             capabilities,
         };
         for pass in &described.desc.passes {
-            let planned = planner.plan(pass, &mut resources).map_err(placed)?;
+            let mut planned = planner.plan(pass, &mut resources).map_err(placed)?;
             usage::check_pass(&planned, &resources, capabilities).map_err(placed)?;
             shaders
-                .check(
-                    &planned,
+                .bind(
+                    pass,
+                    &mut planned,
                     &resources,
                     capabilities.profile,
                     capabilities.bind_group,
@@ -101,6 +105,24 @@ pub fn compile(
         parameters: places.layout,
     };
     Ok(settle::settle(plan, &kept, &roots))
+}
+
+/// What every node of a graph says about itself for these imports, in the order of the graph: slots with their
+/// descriptions, passes and parameters. Nodes are described whether or not their outputs are taken.
+pub fn describe(
+    graph: &Graph,
+    capabilities: &Capabilities,
+    imports: &Imports,
+) -> Result<Vec<NodeDesc>, GraphError> {
+    let mut resources = import_resources(graph, imports)?;
+    let mut roots = (0..resources.len()).collect();
+    let wiring = Wiring::of(graph)?;
+    let mut described = describe_all(graph, &wiring, capabilities, &mut resources, &mut roots)?;
+    described.sort_by_key(|described| described.node);
+    Ok(described
+        .into_iter()
+        .map(|described| described.desc)
+        .collect())
 }
 
 /// Resources of the imports, in the order of the graph.
@@ -143,7 +165,7 @@ fn import_resources(graph: &Graph, imports: &Imports) -> Result<Vec<PlannedResou
 
 /// Lets every node describe itself, upstream first, and makes the resources of its slots. `roots` gets, for each, the
 /// resource whose layers and regions it follows: itself, or that of the slot whose extent it takes.
-fn describe(
+fn describe_all(
     graph: &Graph,
     wiring: &Wiring,
     capabilities: &Capabilities,
@@ -254,7 +276,7 @@ fn find(graph: &Graph, described: &[Described], source: &Source) -> Result<usize
     }
 }
 
-fn outputs(graph: &Graph, described: &[Described]) -> Result<Vec<PlannedOutput>, GraphError> {
+fn outputs(graph: &Graph, described: &[Described]) -> Result<Vec<NamedResource>, GraphError> {
     graph
         .outputs
         .iter()
@@ -262,7 +284,7 @@ fn outputs(graph: &Graph, described: &[Described]) -> Result<Vec<PlannedOutput>,
             let resource = wiring::source(graph, &output.from)
                 .and_then(|source| find(graph, described, &source))
                 .map_err(|error| error.at_position(output.position))?;
-            Ok(PlannedOutput {
+            Ok(NamedResource {
                 name: output.name.clone(),
                 resource,
             })
@@ -343,4 +365,9 @@ fn changed_in_place_by_one(
         }
     }
     Ok(())
+}
+
+/// A node that contradicts itself.
+fn declaration(message: String) -> GraphError {
+    GraphError::new(GraphErrorKind::Declaration, message)
 }

@@ -4,7 +4,7 @@ use std::collections::BTreeMap;
 
 use moment_shadows::MapRegion;
 
-use super::Described;
+use super::{Described, declaration};
 use crate::{
     BindingResource, Capabilities, Graph, GraphError, GraphErrorKind, ParameterLayout,
     PlannedParameters, PlannedRegions, PlannedResource,
@@ -191,8 +191,4 @@ impl Places {
         self.layout.size = u32::try_from(end).map_err(too_large)?;
         Ok((offset, stride))
     }
-}
-
-fn declaration(message: String) -> GraphError {
-    GraphError::new(GraphErrorKind::Declaration, message)
 }

@@ -2,11 +2,11 @@
 
 use super::parameters::Places;
 use super::touch::{Touch, touched};
-use super::{Described, bytes, workgroups};
+use super::work::Resolved;
+use super::{Described, bytes, declaration};
 use crate::{
     Access, BindingResource, Capabilities, GraphError, GraphErrorKind, MipLevel, Pass,
-    PlannedBinding, PlannedBindingResource, PlannedPass, PlannedResource, PlannedWork, SampleType,
-    SlotResource, TextureDesc, Work,
+    PlannedBinding, PlannedBindingResource, PlannedPass, PlannedResource, SampleType, TextureDesc,
 };
 
 /// What a node's passes are resolved with.
@@ -40,7 +40,8 @@ impl Planner<'_> {
             .iter()
             .map(|binding| {
                 Ok(PlannedBinding {
-                    binding: binding.binding,
+                    // The shader's declaration has it.
+                    binding: 0,
                     resource: self.binding(pass, &binding.resource, filtered, resources)?,
                 })
             })
@@ -99,7 +100,7 @@ impl Planner<'_> {
         })
     }
 
-    fn texture<'r>(
+    pub(super) fn texture<'r>(
         &self,
         pass: &Pass,
         slot: &str,
@@ -116,7 +117,7 @@ impl Planner<'_> {
     }
 
     /// The same, for a mip level that the texture has to have.
-    fn level<'r>(
+    pub(super) fn level<'r>(
         &self,
         pass: &Pass,
         slot: &str,
@@ -206,10 +207,8 @@ impl Planner<'_> {
                     size: self.places.layout.regions[*table].size() as u32,
                 })
             }
-            BindingResource::Layer(slot) => loaded(slot, true, 0),
             BindingResource::Level(MipLevel { slot, level }) => loaded(slot, true, *level),
             BindingResource::Layers(slot) => loaded(slot, false, 0),
-            BindingResource::StorageLayer(slot) => stored(slot, 0),
             BindingResource::StorageLevel(MipLevel { slot, level }) => stored(slot, *level),
             BindingResource::Buffer(slot) => Ok(PlannedBindingResource::Buffer {
                 resource: self.resource(pass, slot)?,
@@ -234,108 +233,6 @@ impl Planner<'_> {
             BindingResource::ComparisonSampler { reversed } => {
                 Ok(PlannedBindingResource::ComparisonSampler {
                     reversed: *reversed,
-                })
-            }
-        }
-    }
-
-    fn work(&self, pass: &Pass, resources: &[PlannedResource]) -> Result<Resolved, GraphError> {
-        match &pass.work {
-            Work::Compute {
-                covers,
-                texels_per_workgroup,
-                each_layer,
-            } => {
-                let (followed, covered) = self.texture(pass, covers, resources)?;
-                let groups =
-                    workgroups::grid(covered.size, *texels_per_workgroup, self.capabilities)
-                        .map_err(|error| error.at_slot(covers))?;
-                Ok(Resolved {
-                    work: PlannedWork::Compute { workgroups: groups },
-                    followed,
-                    layers: covered.layers,
-                    each_layer: *each_layer,
-                })
-            }
-            Work::ComputeRegions {
-                covers,
-                level,
-                texels_per_workgroup,
-            } => {
-                let (followed, covered) = self.level(pass, covers, *level, resources)?;
-                let groups = workgroups::for_regions(
-                    covered.size_at(*level),
-                    covered.regions,
-                    *texels_per_workgroup,
-                    self.capabilities,
-                )
-                .map_err(|error| error.at_slot(covers))?;
-                Ok(Resolved {
-                    work: PlannedWork::Compute { workgroups: groups },
-                    followed,
-                    layers: covered.layers,
-                    each_layer: true,
-                })
-            }
-            Work::Fullscreen {
-                target: slot,
-                each_layer,
-            } => {
-                let (index, target) = self.texture(pass, slot, resources)?;
-                Ok(Resolved {
-                    work: PlannedWork::Fullscreen {
-                        target: index,
-                        level: 0,
-                        plane: plane(pass, slot, target)?,
-                        keeps: false,
-                    },
-                    followed: index,
-                    layers: target.layers,
-                    each_layer: *each_layer,
-                })
-            }
-            Work::FullscreenRegions {
-                target: slot,
-                level,
-            } => {
-                let (index, target) = self.level(pass, slot, *level, resources)?;
-                Ok(Resolved {
-                    work: PlannedWork::Fullscreen {
-                        target: index,
-                        level: *level,
-                        plane: plane(pass, slot, target)?,
-                        keeps: true,
-                    },
-                    followed: index,
-                    layers: target.layers,
-                    each_layer: true,
-                })
-            }
-            Work::Host {
-                targets,
-                blend,
-                depth,
-            } => {
-                let targets = targets
-                    .iter()
-                    .map(|slot| Ok(self.texture(pass, slot, resources)?.0))
-                    .collect::<Result<Vec<usize>, GraphError>>()?;
-                let depth = depth
-                    .as_ref()
-                    .map(|slot| Ok::<_, GraphError>(self.texture(pass, slot, resources)?.0))
-                    .transpose()?;
-                let followed = targets.first().copied().or(depth).ok_or_else(|| {
-                    declaration(format!("pass '{}' draws to nothing", pass.label))
-                })?;
-                Ok(Resolved {
-                    work: PlannedWork::Host {
-                        targets,
-                        blend: *blend,
-                        depth,
-                    },
-                    followed,
-                    layers: 1,
-                    each_layer: false,
                 })
             }
         }
@@ -382,25 +279,12 @@ impl Planner<'_> {
         slots
             .iter()
             .find(|candidate| candidate.name == slot)
-            .map_or(Access::default(), |slot| match &slot.resource {
-                SlotResource::Texture { access, .. } | SlotResource::Buffer { access, .. } => {
-                    *access
-                }
-            })
+            .map_or(Access::default(), |slot| slot.resource.access())
     }
 }
 
-/// A pass's work with its slots replaced.
-struct Resolved {
-    work: PlannedWork,
-    /// The resource whose layers it is recorded for.
-    followed: usize,
-    layers: u32,
-    each_layer: bool,
-}
-
 /// The plane that a pass means of a slot's texture.
-fn plane(pass: &Pass, slot: &str, texture: &TextureDesc) -> Result<u32, GraphError> {
+pub(super) fn plane(pass: &Pass, slot: &str, texture: &TextureDesc) -> Result<u32, GraphError> {
     match texture.planes {
         1 => Ok(0),
         planes if pass.plane < planes => Ok(pass.plane),
@@ -410,8 +294,4 @@ fn plane(pass: &Pass, slot: &str, texture: &TextureDesc) -> Result<u32, GraphErr
         ))
         .at_slot(slot)),
     }
-}
-
-fn declaration(message: String) -> GraphError {
-    GraphError::new(GraphErrorKind::Declaration, message)
 }

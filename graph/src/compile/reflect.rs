@@ -1,15 +1,15 @@
-//! Shaders against what their nodes declare: the text is parsed and validated, and every binding compared.
+//! Shaders against what their nodes describe: the text is parsed and validated, every variable found by its name and compared.
 
 use std::collections::BTreeMap;
 
-use moment_shadows::Profile;
+use moment_shadows::{Profile, nearest};
 use naga::valid::{
     Capabilities as NagaCapabilities, FunctionInfo, ModuleInfo, ValidationFlags, Validator,
 };
 use naga::{AddressSpace, ImageClass, ImageDimension, ScalarKind, ShaderStage, TypeInner};
 
 use crate::{
-    GraphError, GraphErrorKind, PlannedBinding, PlannedBindingResource, PlannedPass,
+    GraphError, GraphErrorKind, Pass, PlannedBinding, PlannedBindingResource, PlannedPass,
     PlannedResource, PlannedWork, SampleType,
 };
 
@@ -20,15 +20,19 @@ pub(super) struct Shaders {
 }
 
 impl Shaders {
-    /// Compares a pass with its shader.
-    pub(super) fn check(
+    /// Compares a pass with its shader, and gives its bindings the numbers that the shader's variables have.
+    pub(super) fn bind(
         &mut self,
-        pass: &PlannedPass,
+        described: &Pass,
+        pass: &mut PlannedPass,
         resources: &[PlannedResource],
         profile: Profile,
         bind_group: u32,
     ) -> Result<(), GraphError> {
         if matches!(pass.work, PlannedWork::Host { .. }) {
+            for (number, binding) in (0..).zip(&mut pass.bindings) {
+                binding.binding = number;
+            }
             return Ok(());
         }
         let (module, info) = match self.parsed.get(&pass.wgsl) {
@@ -41,14 +45,9 @@ impl Shaders {
         if matches!(pass.work, PlannedWork::Fullscreen { .. }) {
             let vertex =
                 info.get_entry_point(entry_point(module, "fullscreen", ShaderStage::Vertex)?);
-            let used = |(handle, variable): &(
-                naga::Handle<naga::GlobalVariable>,
-                &naga::GlobalVariable,
-            )| { variable.binding.is_some() && !vertex[*handle].is_empty() };
-            if let Some((_, variable)) = module.global_variables.iter().find(used) {
+            if let Some((name, ..)) = variables(module, vertex).next() {
                 return Err(mismatch(format!(
-                    "the vertex entry point 'fullscreen' uses '{}'; bindings are the fragment entry point's",
-                    variable.name.as_deref().unwrap_or("?")
+                    "the vertex entry point 'fullscreen' uses '{name}'; bindings are the fragment entry point's"
                 )));
             }
         }
@@ -57,66 +56,99 @@ impl Shaders {
             PlannedWork::Compute { .. } => ShaderStage::Compute,
             _ => ShaderStage::Fragment,
         };
-        let index = entry_point(module, &pass.entry_point, stage)?;
-        let uses = info.get_entry_point(index);
-        let mut declared: BTreeMap<u32, &PlannedBinding> = BTreeMap::new();
-        for binding in &pass.bindings {
-            if declared.insert(binding.binding, binding).is_some() {
+        let uses = info.get_entry_point(entry_point(module, &pass.entry_point, stage)?);
+        let mut open: BTreeMap<&str, &mut PlannedBinding> = BTreeMap::new();
+        for (binding, planned) in described.bindings.iter().zip(&mut pass.bindings) {
+            if open.insert(&binding.variable, planned).is_some() {
                 return Err(mismatch(format!(
-                    "the node declares binding {} twice",
-                    binding.binding
+                    "the node describes the variable '{}' twice",
+                    binding.variable
                 )));
             }
         }
-        for (handle, variable) in module.global_variables.iter() {
-            let Some(binding) = &variable.binding else {
-                continue;
-            };
-            if uses[handle].is_empty() {
-                continue;
-            }
-            let name = variable.name.as_deref().unwrap_or("?");
-            if binding.group != bind_group {
+        for (name, variable, number) in variables(module, uses) {
+            if number.group != bind_group {
                 return Err(mismatch(format!(
                     "'{name}' is in bind group {}, but the plan has group {bind_group}; take the group from the specialisation",
-                    binding.group
+                    number.group
                 )));
             }
-            let planned = declared.remove(&binding.binding).ok_or_else(|| {
-                mismatch(format!(
-                    "the shader uses binding {} ('{name}'), which the node does not declare",
-                    binding.binding
-                ))
-            })?;
+            let Some(planned) = open.remove(name) else {
+                return Err(mismatch(format!(
+                    "the shader uses the variable '{name}', which the node does not describe; {}",
+                    among(
+                        "what it describes and the shader does not use",
+                        name,
+                        open.keys().copied()
+                    )
+                )));
+            };
+            planned.binding = number.binding;
             let actual = &module.types[variable.ty].inner;
             if let Some(expected) = difference(module, variable.space, actual, planned, resources) {
                 return Err(mismatch(format!(
-                    "binding {} ('{name}') is not {expected}, which the node declares",
-                    binding.binding
+                    "the variable '{name}' is not {expected}, which the node describes"
                 )));
             }
         }
-        check_filtering(module, uses, pass, resources)?;
-        match declared.keys().next() {
-            Some(binding) => Err(mismatch(format!(
-                "the node declares binding {binding}, which the shader does not use"
-            ))),
-            None => Ok(()),
+        if let Some(name) = open.keys().next() {
+            let used = variables(module, uses).map(|(name, ..)| name);
+            return Err(mismatch(format!(
+                "the node describes the variable '{name}', which the entry point '{}' does not use; {}",
+                pass.entry_point,
+                among("what it uses", name, used)
+            )));
         }
+        pass.bindings.sort_by_key(|planned| planned.binding);
+        check_filtering(module, uses, pass, resources)
     }
+}
+
+/// The names nearest to one, after what they are.
+fn among<'a>(what: &str, name: &str, known: impl Iterator<Item = &'a str>) -> String {
+    match nearest(name, known) {
+        none if none.is_empty() => format!("{what}: nothing"),
+        nearest => format!("{what}: {nearest}"),
+    }
+}
+
+/// The bound variables that an entry point uses, with their names and places.
+fn variables<'m>(
+    module: &'m naga::Module,
+    uses: &'m FunctionInfo,
+) -> impl Iterator<Item = (&'m str, &'m naga::GlobalVariable, naga::ResourceBinding)> {
+    module
+        .global_variables
+        .iter()
+        .filter(|(handle, _)| !uses[*handle].is_empty())
+        .filter_map(|(_, variable)| Some((variable.name.as_deref()?, variable, variable.binding?)))
+}
+
+/// The binding numbers of a shader's variables, by name.
+pub(crate) fn numbers(wgsl: &str) -> Result<BTreeMap<String, u32>, GraphError> {
+    let module = module(wgsl)?;
+    let numbers = module
+        .global_variables
+        .iter()
+        .filter_map(|(_, variable)| Some((variable.name.clone()?, variable.binding?.binding)));
+    Ok(numbers.collect())
 }
 
 fn mismatch(message: String) -> GraphError {
     GraphError::new(GraphErrorKind::Shader, message)
 }
 
-fn parse(wgsl: &str, profile: Profile) -> Result<(naga::Module, ModuleInfo), GraphError> {
-    let module = naga::front::wgsl::parse_str(wgsl).map_err(|error| {
+fn module(wgsl: &str) -> Result<naga::Module, GraphError> {
+    naga::front::wgsl::parse_str(wgsl).map_err(|error| {
         mismatch(format!(
             "the shader does not parse:\n{}",
             error.emit_to_string(wgsl)
         ))
-    })?;
+    })
+}
+
+fn parse(wgsl: &str, profile: Profile) -> Result<(naga::Module, ModuleInfo), GraphError> {
+    let module = module(wgsl)?;
     // What every WebGPU device has, though naga asks for it: sample shading, cube arrays, packing of 16-bit floats.
     let core = NagaCapabilities::MULTISAMPLED_SHADING
         | NagaCapabilities::CUBE_ARRAY_TEXTURES
@@ -178,9 +210,13 @@ fn check_filtering(
             return Err(GraphError::new(
                 GraphErrorKind::Capability,
                 format!(
-                    "binding {} samples '{}', {}, which this device cannot filter; load its texels and blend them in the \
-                     shader",
-                    image.binding, resources[resource].name, resources[resource].desc
+                    "'{}' samples '{}', {}, which this device cannot filter; load its texels and blend them in the shader",
+                    module.global_variables[key.image]
+                        .name
+                        .as_deref()
+                        .unwrap_or("?"),
+                    resources[resource].name,
+                    resources[resource].desc
                 ),
             ));
         }

@@ -5,7 +5,7 @@ use std::collections::BTreeMap;
 use super::Described;
 use super::memory::{self, Life};
 use super::touch::touched;
-use crate::{Home, Lifetime, Plan, PlannedImport, PlannedPass};
+use crate::{Home, Lifetime, NamedResource, Plan, PlannedPass};
 
 /// Gives every resource its home and drops those that no pass touches.
 pub(super) fn settle(mut plan: Plan, kept: &[&Described], roots: &[usize]) -> Plan {
@@ -66,7 +66,7 @@ pub(super) fn settle(mut plan: Plan, kept: &[&Described], roots: &[usize]) -> Pl
     for &resource in &used {
         if let Home::Import(_) = plan.resources[resource].home {
             let import = plan.imports.len();
-            plan.imports.push(PlannedImport {
+            plan.imports.push(NamedResource {
                 name: plan.resources[resource].name.clone(),
                 resource,
             });
@@ -85,7 +85,7 @@ fn renumber(mut plan: Plan, used: &[usize]) -> Plan {
             keep.push(output.resource);
             if matches!(plan.resources[output.resource].home, Home::Import(_)) {
                 plan.resources[output.resource].home = Home::Import(plan.imports.len());
-                plan.imports.push(PlannedImport {
+                plan.imports.push(NamedResource {
                     name: plan.resources[output.resource].name.clone(),
                     resource: output.resource,
                 });

@@ -2,11 +2,12 @@
 
 use std::collections::{BTreeMap, BTreeSet};
 
-use moment_shadows::{Storage, TextureFormat};
+use moment_shadows::TextureFormat;
 
+use super::limits::{limits, usable};
 use crate::{
-    Access, Capabilities, CountRule, Direction, ExtentRule, FormatRule, GraphError, GraphErrorKind,
-    NodeDesc, ResourceDesc, Slot, SlotResource, TextureDesc,
+    Capabilities, CountRule, Direction, ExtentRule, FormatRule, GraphError, GraphErrorKind,
+    NodeDesc, ResourceDesc, Slot, SlotResource, TextureDesc, TextureRule,
 };
 
 /// A number of a texture that a [`CountRule`] is about.
@@ -27,9 +28,14 @@ pub(super) fn resolve(
             )
             .at_slot(&slot.name));
         }
-        let (SlotResource::Texture { access, .. } | SlotResource::Buffer { access, .. }) =
-            &slot.resource;
-        if slot.direction == Direction::In && access.writes() {
+        if slot.description.trim().is_empty() {
+            return Err(GraphError::new(
+                GraphErrorKind::Declaration,
+                "the slot has no description; say in a sentence what it is for",
+            )
+            .at_slot(&slot.name));
+        }
+        if slot.direction == Direction::In && slot.resource.access().writes() {
             return Err(GraphError::new(
                 GraphErrorKind::Declaration,
                 "the node writes to an input; declare it as changed in place ('in_out')",
@@ -84,14 +90,14 @@ fn make(
     };
     match &slot.resource {
         SlotResource::Buffer { size, .. } => Ok(ResourceDesc::Buffer { size: *size }),
-        SlotResource::Texture {
+        SlotResource::Texture(TextureRule {
             format,
             extent,
             layers,
             mips,
             samples,
             ..
-        } => {
+        }) => {
             let count = |rule: &CountRule, what: &str, of: Count| match rule {
                 CountRule::Exact(count) => Ok(*count),
                 CountRule::SameAs(other) => Ok(of(texture_of(slot, other, resolved)?)),
@@ -136,10 +142,10 @@ fn make(
 /// The slot whose width, height and regions a slot takes.
 pub(super) fn extent_from(slot: &Slot) -> Option<&str> {
     match &slot.resource {
-        SlotResource::Texture {
+        SlotResource::Texture(TextureRule {
             extent: ExtentRule::SameAs(other),
             ..
-        } => Some(other),
+        }) => Some(other),
         _ => None,
     }
 }
@@ -191,19 +197,19 @@ fn check(
             GraphErrorKind::Format,
             "a texture is connected, but this input takes a buffer".to_owned(),
         ),
-        (SlotResource::Texture { .. }, ResourceDesc::Buffer { .. }) => fail(
+        (SlotResource::Texture(_), ResourceDesc::Buffer { .. }) => fail(
             GraphErrorKind::Format,
             "a buffer is connected, but this input takes a texture".to_owned(),
         ),
         (
-            SlotResource::Texture {
+            SlotResource::Texture(TextureRule {
                 access,
                 format,
                 extent,
                 layers,
                 mips,
                 samples,
-            },
+            }),
             ResourceDesc::Texture(texture),
         ) => {
             let formats: Vec<TextureFormat> = match format {
@@ -275,123 +281,3 @@ fn check(
 
 /// Sizes of storage buffers are multiples of this in WebGPU.
 const BUFFER_ALIGNMENT: u64 = 4;
-
-/// Whether the device can have such a texture.
-fn limits(texture: &TextureDesc, capabilities: &Capabilities) -> Result<(), GraphError> {
-    let largest = capabilities.max_texture_size;
-    let counts = [
-        texture.layers,
-        texture.mips,
-        texture.regions,
-        texture.planes,
-    ];
-    if texture.size.contains(&0) || counts.contains(&0) {
-        return Err(GraphError::new(
-            GraphErrorKind::Size,
-            format!(
-                "the texture is empty ({texture}); it has at least one layer, plane, mip level and region, and sides from 1 to {largest}"
-            ),
-        ));
-    }
-    if texture.size.iter().any(|&side| side > largest) {
-        return Err(GraphError::new(
-            GraphErrorKind::Size,
-            format!(
-                "the texture has {}x{} texels; the device allows {largest} per side",
-                texture.size[0], texture.size[1]
-            ),
-        ));
-    }
-    if texture.array_layers() > capabilities.max_texture_layers {
-        return Err(GraphError::new(
-            GraphErrorKind::Size,
-            format!(
-                "the texture has {} layers; the device allows {}",
-                texture.array_layers(),
-                capabilities.max_texture_layers
-            ),
-        ));
-    }
-    if let Some(encoding) = &texture.encoding
-        && (encoding.format(), encoding.planes()) != (texture.format, texture.planes)
-    {
-        return Err(GraphError::new(
-            GraphErrorKind::Format,
-            format!(
-                "the texture is to hold {encoding}, but has {} planes of {}; that takes {} of {}",
-                texture.planes,
-                texture.format,
-                encoding.planes(),
-                encoding.format()
-            ),
-        ));
-    }
-    let most_mips = texture.size[0].max(texture.size[1]).ilog2() + 1;
-    if texture.mips > most_mips {
-        return Err(GraphError::new(
-            GraphErrorKind::Size,
-            format!(
-                "the texture has {} mip levels; {}x{} texels have at most {most_mips}",
-                texture.mips, texture.size[0], texture.size[1]
-            ),
-        ));
-    }
-    if texture.samples > 1 && texture.mips > 1 {
-        return Err(GraphError::new(
-            GraphErrorKind::Format,
-            "the texture is multisampled and has mip levels; no device has both".to_owned(),
-        ));
-    }
-    if texture.samples != 1 && !capabilities.depth_samples.contains(&texture.samples) {
-        let counts: Vec<String> = capabilities
-            .depth_samples
-            .iter()
-            .map(u32::to_string)
-            .collect();
-        return Err(GraphError::new(
-            GraphErrorKind::Capability,
-            format!(
-                "the texture has {} samples per texel; the device allows {}",
-                texture.samples,
-                counts.join(" or ")
-            ),
-        ));
-    }
-    Ok(())
-}
-
-/// Whether the profile allows what passes do with the format.
-fn usable(
-    texture: &TextureDesc,
-    access: Access,
-    capabilities: &Capabilities,
-) -> Result<(), GraphError> {
-    let format = texture.format;
-    let support = capabilities.support(format);
-    let missing = if access.storage_write && !support.storage_write {
-        Some("written as a storage texture")
-    } else if access.render_target && !support.renderable {
-        Some("drawn to")
-    } else {
-        None
-    };
-    let Some(missing) = missing else {
-        return Ok(());
-    };
-    let of_moments = Storage::of_format(format).map(|_| Storage::best_for(capabilities.profile));
-    let storage = match &texture.encoding {
-        Some(encoding) => encoding.technique().best_storage(capabilities.profile),
-        None => of_moments,
-    };
-    let alternative = storage.map_or_else(
-        || "use another format".to_owned(),
-        |storage| format!("use storage '{storage}', which works there"),
-    );
-    Err(GraphError::new(
-        GraphErrorKind::Capability,
-        format!(
-            "{format} cannot be {missing} under the profile {}; {alternative}",
-            capabilities.profile
-        ),
-    ))
-}

@@ -1,7 +1,7 @@
 //! What a pass may do with the resources that it touches.
 
-use super::Described;
 use super::touch::touched;
+use super::{Described, declaration};
 use crate::{
     Capabilities, Direction, GraphError, GraphErrorKind, PlannedPass, PlannedResource, PlannedWork,
     TextureDesc,
@@ -117,8 +117,4 @@ pub(super) fn check_outputs(
         }
     }
     Ok(())
-}
-
-fn declaration(message: String) -> GraphError {
-    GraphError::new(GraphErrorKind::Declaration, message)
 }

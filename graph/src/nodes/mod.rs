@@ -1,37 +1,61 @@
-//! The library's nodes. Each is a pair: a declaration here, and thin WGSL entry points beside it.
+//! The library's nodes. Each is a folder: its description in Rust, and its WGSL. What several nodes share lies in `shared`.
 
 mod blur;
 mod composite_scattering;
 mod debug_moments;
 mod downsample;
-mod drawn_map;
 mod integrate_scattering;
-mod kernel_property;
-mod mip_levels;
-mod moments_input;
-mod moments_lookup;
 mod place_layers;
 mod rectify_moments;
-mod region_tiles;
 mod resolve;
 mod shade_hard;
 mod shade_soft;
-mod shading;
-mod specialization;
+mod shared;
 mod summed_area_table;
 mod techniques;
-mod unrolled;
 
 pub use blur::{Blur, BlurParameters};
 pub use composite_scattering::{CompositeScattering, Overestimation};
 pub use debug_moments::{DebugMoments, Show};
 pub use downsample::Downsample;
-pub use integrate_scattering::{IntegrateScattering, Medium};
-pub use kernel_property::KernelProperty;
-pub use mip_levels::{AllLevels, MipLevels};
+pub use integrate_scattering::IntegrateScattering;
 pub use place_layers::PlaceLayers;
 pub use rectify_moments::RectifyMoments;
 pub use resolve::Resolve;
 pub use shade_hard::{ShadeHard, TechniqueShader};
 pub use shade_soft::{Interpolation, ShadeSoft};
+pub use shared::{KernelProperty, MipLevels};
 pub use summed_area_table::{LargestKernel, SummedAreaTable};
+
+use crate::NodeRegistry;
+
+/// Registers the nodes by the names that graph files use.
+pub(crate) fn register(registry: &mut NodeRegistry) {
+    registry.register::<Resolve>("resolve");
+    registry.register::<PlaceLayers>("place_layers");
+    registry.register::<Blur>("blur");
+    registry.register::<Downsample>("downsample");
+    registry.register::<SummedAreaTable>("summed_area_table");
+    registry.register::<DebugMoments>("debug_moments");
+    registry.register::<ShadeHard>("shade_hard");
+    registry.register::<ShadeSoft>("shade_soft");
+    registry.register::<RectifyMoments>("rectify_moments");
+    registry.register::<IntegrateScattering>("integrate_scattering");
+    registry.register::<CompositeScattering>("composite_scattering");
+}
+
+/// Properties that nodes do not have, with the reason: what a file asks by them cannot be had.
+pub(crate) const REFUSED: [(&str, &str, &str); 2] = [
+    (
+        "shade_hard",
+        "moment_scale",
+        "moments times a constant are the moments of no distribution, so that the result bounds nothing; use the leak \
+         reduction of the node's parameters instead",
+    ),
+    (
+        "integrate_scattering",
+        "medium",
+        "all view rays of a row share its sums, which they can in a homogeneous medium alone: leave it out, or march the \
+         scattering of a density that differs from place to place",
+    ),
+];

@@ -32,7 +32,7 @@ fn blur(map: &MapEncoding, radius: u32, per_frame: bool) -> Variant {
 
 /// Every level but the first has a pass with the same shader, so that two levels are enough.
 fn downsample(map: &MapEncoding) -> Variant {
-    Variant::new(Downsample::default(), map).mips(2)
+    Variant::new(Downsample, map).mips(2)
 }
 
 /// Maps of four moments.
@@ -181,8 +181,8 @@ fn by_drawing(map: &MapEncoding, suffix: &str) -> Vec<Variant> {
             .file(format!("resolve_{suffix}"), false),
         super::shade::in_mip_levels(map, suffix),
         blur(map, 4, false).row(true, format!("{map}, radius 4"), &[1]),
-        // A loop over all taps.
-        blur(map, 32, false).row(true, format!("{map}, radius 32"), &[65]),
+        // A loop that looks for the region, and one over all taps.
+        blur(map, 32, false).row(true, format!("{map}, radius 32"), &[1, 65]),
     ];
     for regions in [1, REGIONS] {
         let one = regions == 1;

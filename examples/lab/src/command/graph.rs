@@ -3,29 +3,29 @@
 use std::path::Path;
 
 use moment_shadows::Profile;
-use moment_shadows_graph::{Capabilities, Imports, Plan, compile};
+use moment_shadows_graph::{
+    Capabilities, Direction, Graph, Imports, NodeDesc, Plan, compile, describe,
+};
 
 use crate::error::LabError;
 use crate::graph_file::GraphFile;
 
-/// Compiles a graph file for a profile, with its imports as the file expects them, without a device.
-pub fn check(path: &Path, profile: Profile) -> Result<(GraphFile, Plan), LabError> {
+/// Compiles a graph file for a profile, with its imports as the file expects them, without a device. Gives its plan, and
+/// the graph as text.
+pub fn check(path: &Path, profile: Profile) -> Result<(String, Plan), LabError> {
     let file = GraphFile::read(path, None)?;
-    let plan = compile(
-        &file.graph,
-        &Capabilities::of_profile(profile),
-        &Imports::new(),
-    )
-    .map_err(|error| LabError::Graph {
+    let capabilities = Capabilities::of_profile(profile);
+    let failed = |error| LabError::Graph {
         file: file.name.clone(),
         error,
-    })?;
-    Ok((file, plan))
+    };
+    let plan = compile(&file.graph, &capabilities, &Imports::new()).map_err(failed)?;
+    let nodes = describe(&file.graph, &capabilities, &Imports::new()).map_err(failed)?;
+    Ok((summary(&file.graph, &nodes), plan))
 }
 
-/// The graph as text: imports, nodes, edges and outputs.
-pub fn summary(file: &GraphFile) -> String {
-    let graph = &file.graph;
+/// The graph as text: imports, nodes with their slots, edges and outputs.
+fn summary(graph: &Graph, described: &[NodeDesc]) -> String {
     let mut lines = Vec::new();
     for import in &graph.imports {
         let expected = import
@@ -34,8 +34,21 @@ pub fn summary(file: &GraphFile) -> String {
             .map_or("anything".to_owned(), ToString::to_string);
         lines.push(format!("import  {:<24} {expected}", import.name));
     }
-    for node in &graph.nodes {
+    for (node, desc) in graph.nodes.iter().zip(described) {
         lines.push(format!("node    {:<24} {:?}", node.name, node.node));
+        for slot in &desc.slots {
+            let arrow = match slot.direction {
+                Direction::In => "<-",
+                Direction::Out => "->",
+                Direction::InOut => "<->",
+                Direction::Internal => continue,
+            };
+            lines.push(format!(
+                "        {:<24} {arrow} {}",
+                format!("{}.{}", node.name, slot.name),
+                slot.description
+            ));
+        }
     }
     for edge in &graph.edges {
         lines.push(format!(

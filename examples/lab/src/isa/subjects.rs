@@ -5,7 +5,7 @@ use std::collections::BTreeMap;
 use moment_shadows::{Source, TextureFormat, link};
 use moment_shadows_graph::{
     Binding, BindingResource, Direction, FormatRule, NodeDesc, Pass, ResourceDesc, SlotResource,
-    Work,
+    TextureRule, Work,
 };
 
 use super::error::IsaError;
@@ -173,7 +173,7 @@ impl Formats<'_> {
         if matches!(slot.direction, Direction::In | Direction::InOut) {
             return connected(&slot.name);
         }
-        let SlotResource::Texture { format, .. } = &slot.resource else {
+        let SlotResource::Texture(TextureRule { format, .. }) = &slot.resource else {
             return None;
         };
         match format {
@@ -187,9 +187,7 @@ impl Formats<'_> {
     /// Bytes of the widest texel that a pass touches through a binding.
     fn widest(&self, pass: &Pass) -> u32 {
         let slot = |binding: &Binding| match &binding.resource {
-            BindingResource::Layer(slot)
-            | BindingResource::Layers(slot)
-            | BindingResource::StorageLayer(slot) => self.of(slot),
+            BindingResource::Layers(slot) => self.of(slot),
             BindingResource::Level(level) | BindingResource::StorageLevel(level) => {
                 self.of(&level.slot)
             }

@@ -236,8 +236,8 @@ fn map_layout(
             filterable: sampled,
         }
     };
-    let bindings = shader.bindings.iter().map(|binding| {
-        let ty = match &binding.resource {
+    let bindings = shader.bindings.iter().map(|(binding, resource)| {
+        let ty = match resource {
             BindingResource::ComparisonSampler { .. } => {
                 wgpu::BindingType::Sampler(wgpu::SamplerBindingType::Comparison)
             }
@@ -250,7 +250,7 @@ fn map_layout(
                 multisampled: false,
             },
         };
-        (binding.binding, ty)
+        (*binding, ty)
     });
     group_layout(device, bindings)
 }
@@ -268,7 +268,7 @@ fn map_bindings(
     let compare = shader
         .bindings
         .iter()
-        .find_map(|binding| match binding.resource {
+        .find_map(|(_, resource)| match resource {
             BindingResource::ComparisonSampler { reversed: true } => {
                 Some(wgpu::CompareFunction::Less)
             }
@@ -285,14 +285,14 @@ fn map_bindings(
     let entries: Vec<_> = shader
         .bindings
         .iter()
-        .map(|binding| {
-            let resource = match binding.resource {
+        .map(|(binding, resource)| {
+            let resource = match resource {
                 BindingResource::ComparisonSampler { .. } | BindingResource::Sampler { .. } => {
                     wgpu::BindingResource::Sampler(&sampler)
                 }
                 _ => wgpu::BindingResource::TextureView(&view),
             };
-            entry(binding.binding, resource)
+            entry(*binding, resource)
         })
         .collect();
     device.create_bind_group(&wgpu::BindGroupDescriptor {

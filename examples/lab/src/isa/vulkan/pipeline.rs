@@ -188,7 +188,7 @@ impl Objects<'_> {
     }
 }
 
-/// Formats that a shader exports to; the others are never targets.
+/// The formats of targets, and of textures, which are bound without one.
 fn format(format: TextureFormat) -> vk::Format {
     match format {
         TextureFormat::R8Unorm => vk::Format::R8_UNORM,
@@ -198,6 +198,7 @@ fn format(format: TextureFormat) -> vk::Format {
         TextureFormat::Rgba16Unorm => vk::Format::R16G16B16A16_UNORM,
         TextureFormat::Rgba16Float => vk::Format::R16G16B16A16_SFLOAT,
         TextureFormat::Rgba32Float => vk::Format::R32G32B32A32_SFLOAT,
+        TextureFormat::Rgb10a2Unorm => vk::Format::A2B10G10R10_UNORM_PACK32,
         _ => vk::Format::UNDEFINED,
     }
 }

@@ -1,0 +1,74 @@
+//! Shows a map of moments as a picture.
+
+use moment_shadows::{Storage, TextureFormat};
+use serde::{Deserialize, Serialize};
+
+use super::shared::{FULLSCREEN, Specialization, map_input, wgsl};
+use crate::{
+    Connected, GraphError, GraphErrorKind, Node, NodeDesc, Pass, Stage, TextureRule, bind,
+};
+
+/// What [`DebugMoments`] shows.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Show {
+    /// The first three moments as red, green and blue; odd ones from -1 to 1, black to full.
+    Moments,
+    /// The mean depth: black at the light's near end, white at the far end.
+    #[default]
+    Mean,
+    /// The standard deviation of depth: white is 1, the most there can be.
+    Deviation,
+    /// Whether any distribution has these moments: green if so; yellow if it takes the storage's moment bias, as rounding
+    /// commonly does; red if even that does not help; magenta where a channel is infinite or NaN; blue where there is
+    /// nothing but the far end.
+    Validity,
+}
+
+/// Node `debug_moments`: `map` to `picture`, rgba8unorm, of the map's size and layers.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct DebugMoments {
+    /// What is shown.
+    #[serde(default)]
+    pub show: Show,
+    /// The mip level, magnified to the size of the map.
+    #[serde(default)]
+    pub level: u32,
+}
+
+impl Node for DebugMoments {
+    fn describe(&self, upstream: &Connected<'_>) -> Result<NodeDesc, GraphError> {
+        let (map, encoding) = map_input::of_four_moments(upstream, "shows")?;
+        if self.level >= map.mips {
+            return Err(GraphError::new(
+                GraphErrorKind::Property,
+                format!(
+                    "'level' is {}, but the map has {} mip levels, counted from 0",
+                    self.level, map.mips
+                ),
+            ));
+        }
+        let wgsl = Specialization::new(upstream.capabilities())
+            .unsigned("STORAGE", encoding.storage().wgsl_index())
+            .unsigned("SHOW", self.show as u32)
+            .link(wgsl!("debug_moments.wgsl"), &[FULLSCREEN])?;
+        Ok(NodeDesc::new("debug_moments", Stage::AfterShadowMaps)
+            .input(
+                "map",
+                "The map to show.",
+                map_input::rule(&Storage::OF_FOUR_MOMENTS.map(Storage::format)),
+            )
+            .output(
+                "picture",
+                "A colour per texel of the map.",
+                TextureRule::new(TextureFormat::Rgba8Unorm).like("map"),
+            )
+            .pass(
+                Pass::fullscreen("debug", "picture")
+                    .each_layer()
+                    .shader(wgsl, "debug")
+                    .bind("moments_level", bind::level("map", self.level)),
+            ))
+    }
+}

@@ -1,0 +1,112 @@
+//! Places the layers of a layered variance shadow map where light would bleed.
+
+use moment_shadows::{DepthConversion, LayerSplits, Technique, TextureFormat};
+use serde::{Deserialize, Serialize};
+
+use super::shared::{self, Specialization, regions, wgsl};
+use super::techniques;
+use crate::{
+    Connected, GraphError, Node, NodeDesc, ParameterBlock, Pass, Slot, Stage, TextureRule, bind,
+    same_as,
+};
+
+/// Footprints that a workgroup sums up, along each side (`TILE` in the shader).
+const TILE: u32 = 32;
+
+/// Texels of the state (see the shader).
+const STATE: [u32; 2] = [5, 1];
+
+/// Node `place_layers`: `depth` (as `resolve` takes it) to `splits`, for nodes that make or read a map of the
+/// technique `lvsm` whose splits are `lloyd`. The regions of a layer of the map share its splits.
+///
+/// Each time a layer is dirty, Lloyd relaxation moves two of its splits towards the surfaces behind which light would bleed
+/// (Lauritzen & McCool, "Layered Variance Shadow Maps", GI 2008, section 5). It starts from layers of equal depth and goes on
+/// from where it was: `splits` and its state are persistent, and all zeros at first. Edges against the far end, where no caster
+/// is, do not count. Parameters: a [`DepthConversion`] per
+/// layer and region, the same as those of `resolve`.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct PlaceLayers {
+    /// Layers of the technique, 1 to 8: as many as the map has.
+    #[serde(default = "four")]
+    pub layers: u32,
+}
+
+fn four() -> u32 {
+    4
+}
+
+impl Default for PlaceLayers {
+    fn default() -> Self {
+        Self { layers: four() }
+    }
+}
+
+impl Node for PlaceLayers {
+    fn describe(&self, upstream: &Connected<'_>) -> Result<NodeDesc, GraphError> {
+        let technique = Technique::Lvsm {
+            layers: self.layers,
+            overlap: Default::default(),
+            splits: LayerSplits::Lloyd,
+        };
+        technique.check().map_err(techniques::property)?;
+        let depth = upstream.texture("depth")?;
+        let specialization = Specialization::new(upstream.capabilities())
+            .alias("DepthTexture", shared::depth_texture(depth))
+            .unsigned("LAYERS", self.layers);
+        let wgsl =
+            regions::specialize(specialization, depth).link(wgsl!("place_layers.wgsl"), &[])?;
+        // All passes follow the layers of the depth map; those of a single workgroup cover it whole.
+        let pass = |label: &str, entry_point: &str, texels| {
+            Pass::compute(label, "depth", texels)
+                .each_layer()
+                .shader(wgsl.as_str(), entry_point)
+        };
+        let made = |size: [u32; 2]| {
+            TextureRule::new(TextureFormat::Rgba32Float)
+                .extent(size)
+                .layers(same_as("depth"))
+        };
+        let state = "Where the relaxation is, layer by layer.";
+        let next = "Where it is after this step.";
+        let sums = "What each tile says about the splits.";
+        Ok(NodeDesc::new("place_layers", Stage::AfterShadowMaps)
+            .input("depth", "The light's depth map.", shared::light_depth())
+            .slots([
+                Slot::output("splits", "Where the layers lie.", made([2, 1])).persistent(),
+                Slot::internal("state", state, made(STATE)).persistent(),
+                Slot::internal("next", next, made(STATE)),
+                Slot::internal(
+                    "sums",
+                    sums,
+                    made(depth.size.map(|side| side.div_ceil(TILE))),
+                ),
+            ])
+            .pass(
+                pass("sum tiles", "sum_tiles", [TILE; 2])
+                    .bind("conversions", bind::parameters())
+                    .bind("depth_map", bind::layer("depth"))
+                    .bind("state_map", bind::layer("state"))
+                    .bind("target_map", bind::store("sums"))
+                    .bind("regions", bind::regions("depth", 1)),
+            )
+            .pass(
+                pass("step splits", "step_splits", depth.size)
+                    .bind("state_map", bind::layer("state"))
+                    .bind("target_map", bind::store("next"))
+                    .bind("sums_map", bind::layer("sums")),
+            )
+            .pass(
+                pass("keep splits", "keep_splits", depth.size)
+                    .bind("state_map", bind::layer("next"))
+                    .bind("target_map", bind::store("state"))
+                    .bind("splits_map", bind::store("splits")),
+            )
+            .parameters(
+                ParameterBlock::of::<DepthConversion>("DepthConversion")
+                    .elements(depth.regions)
+                    .each_layer_of("depth")
+                    .initial(&DepthConversion::orthographic()),
+            ))
+    }
+}
