@@ -32,15 +32,26 @@ write_shaders() {
   lab shaders --out "$work/shaders"
 }
 
-# Tint, the compiler of Chromium, in Dawn for Node.
-run_tint() {
+# What the checks in JavaScript import.
+need_npm_packages() {
   need_packages node nodejs
   need_packages npm npm
   if [ ! check/node_modules/.package-lock.json -nt check/package-lock.json ]; then
     # The package's script serves macOS alone.
     (cd check && npm ci --ignore-scripts --no-audit --no-fund --loglevel=error)
   fi
+}
+
+# Tint, the compiler of Chromium, in Dawn for Node.
+run_tint() {
+  need_npm_packages
   node check/tint.mjs "$work/shaders"
+}
+
+# Another linker: npm's package for WESL, the language of our imports.
+run_wesl() {
+  need_npm_packages
+  cargo test --release --locked --test wesl npm -- --ignored --nocapture
 }
 
 run_spirv_val() {
@@ -169,6 +180,7 @@ check() {
   step "The library crates for wasm32" check_wasm
   step "Every linked shader as WGSL and SPIR-V" write_shaders
   step "A second compiler: Tint" run_tint
+  step "A second linker: npm's wesl" run_wesl
   step "The SPIR-V: spirv-val" run_spirv_val
   step "What the code costs: instructions for two AMD chips" run_isa
   step "A second rasteriser: the tests of numerics on SwiftShader" numerics_on_swiftshader

@@ -66,7 +66,10 @@ fn a_module_of_the_library_imports_its_siblings() {
     let source = Source { text, ..source };
     assert!(!source.is_library_module());
     // A folder's own files are imported from the root too: one form is enough.
-    for text in [text, "import super::hankel::{hankel_factor};\n"] {
+    let short = "import super::hankel::{hankel_factor};\n";
+    // In a copy this would be a path from the root of the user's tree.
+    let package = "import package::maths::hankel::{hankel_factor};\n";
+    for text in [text, short, package] {
         match link_module(Source { text, ..source }).unwrap_err() {
             LinkError::WrongForm { reason, form, .. } => {
                 assert_eq!(form, "import super::super::folder::file::{item, item};");
