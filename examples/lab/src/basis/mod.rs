@@ -10,7 +10,7 @@ mod published_bias;
 mod subsets;
 
 pub use function::{Basis, Function};
-pub use plot::{PlotError, save as save_plot};
+pub use plot::save as save_plot;
 pub use published::{Quantisation, published_quantisations};
 pub use published_bias::{PublishedBias, published_biases};
 pub use subsets::{CANDIDATES, Subset, SubsetError, Subsets};

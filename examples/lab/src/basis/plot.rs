@@ -3,21 +3,19 @@
 use core::ops::Range;
 use std::path::{Path, PathBuf};
 
-use plotters::backend::{BitMapBackend, DrawingBackend, SVGBackend};
+use plotters::backend::DrawingBackend;
 use plotters::chart::ChartBuilder;
 use plotters::coord::Shift;
-use plotters::drawing::{DrawingArea, IntoDrawingArea};
+use plotters::drawing::DrawingArea;
 use plotters::element::{PathElement, Rectangle, Text};
 use plotters::style::text_anchor::{HPos, Pos, VPos};
-use plotters::style::{Color, FontStyle, IntoFont, RGBColor, ShapeStyle, WHITE, register_font};
+use plotters::style::{Color, IntoFont, RGBColor, ShapeStyle};
 
 use super::subsets::{CANDIDATES, Subsets};
-use crate::picture::{PictureError, save_atomically, save_rgba};
+use crate::plot::{self, Drawn, FONT, Plot, PlotError};
 
 /// Pixels.
 const SIZE: (u32, u32) = (1000, 560);
-
-const FONT: &str = "sans-serif";
 
 const BARS: usize = 40;
 
@@ -25,54 +23,26 @@ const BARS: usize = 40;
 const BAR: RGBColor = RGBColor(86, 180, 233);
 const MARKS: [RGBColor; 2] = [RGBColor(213, 94, 0), RGBColor(0, 114, 178)];
 
-/// Why there is no plot.
-#[derive(Debug, thiserror::Error)]
-#[non_exhaustive]
-pub enum PlotError {
-    /// It could not be drawn.
-    #[error("the histogram of bases cannot be drawn: {0}")]
-    Drawing(String),
-    /// It could not be saved.
-    #[error(transparent)]
-    Picture(#[from] PictureError),
-}
-
 /// Draws the histogram as `bases.svg` and as `bases.png` into a folder, and gives their paths.
 pub fn save(subsets: &Subsets, folder: &Path) -> Result<[PathBuf; 2], PlotError> {
-    let [svg, png] = ["svg", "png"].map(|extension| folder.join(format!("bases.{extension}")));
-    let mut text = String::new();
-    draw(
-        SVGBackend::with_string(&mut text, SIZE).into_drawing_area(),
-        subsets,
-    )?;
-    save_atomically(&svg, |file| file.write_all(text.as_bytes()))?;
-    let mut rgb = vec![255; 3 * (SIZE.0 * SIZE.1) as usize];
-    draw(
-        BitMapBackend::with_buffer(&mut rgb, SIZE).into_drawing_area(),
-        subsets,
-    )?;
-    let rgba: Vec<u8> = rgb
-        .chunks_exact(3)
-        .flat_map(|pixel| [pixel[0], pixel[1], pixel[2], 255])
-        .collect();
-    save_rgba(&png, SIZE.0, SIZE.1, &rgba)?;
-    Ok([svg, png])
+    plot::save(subsets, folder, "bases")
 }
 
-fn draw<B: DrawingBackend>(
-    area: DrawingArea<B, Shift>,
-    subsets: &Subsets,
-) -> Result<(), PlotError> {
-    register_font(FONT, FontStyle::Normal, epaint_default_fonts::UBUNTU_LIGHT)
-        .map_err(|_| PlotError::Drawing("its font cannot be read".to_owned()))?;
-    draw_chart(&area, subsets).map_err(|error| PlotError::Drawing(error.to_string()))
-}
+impl Plot for Subsets {
+    fn title(&self) -> &str {
+        "Sets of four functions by the error of their lower bound"
+    }
 
-type Drawn<B> =
-    Result<(), plotters::drawing::DrawingAreaErrorKind<<B as DrawingBackend>::ErrorType>>;
+    fn size(&self) -> (u32, u32) {
+        SIZE
+    }
+
+    fn draw<B: DrawingBackend>(&self, area: &DrawingArea<B, Shift>) -> Drawn<B> {
+        draw_chart(area, self)
+    }
+}
 
 fn draw_chart<B: DrawingBackend>(area: &DrawingArea<B, Shift>, subsets: &Subsets) -> Drawn<B> {
-    area.fill(&WHITE)?;
     let percents: Vec<f64> = subsets
         .ranked
         .iter()
@@ -81,10 +51,7 @@ fn draw_chart<B: DrawingBackend>(area: &DrawingArea<B, Shift>, subsets: &Subsets
     let (bars, range) = histogram(&percents);
     let highest = bars.iter().copied().max().unwrap_or(1);
     let top = 1.25 * f64::from(highest);
-    let below = area.titled(
-        "Sets of four functions by the error of their lower bound",
-        (FONT, 24),
-    )?;
+    let below = area.titled(subsets.title(), (FONT, 24))?;
     let names: Vec<String> = CANDIDATES.iter().map(ToString::to_string).collect();
     let setting = format!(
         "{} distributions of four surfaces, {} receivers, margin {}; functions: {}",
@@ -144,7 +111,7 @@ fn draw_chart<B: DrawingBackend>(area: &DrawingArea<B, Shift>, subsets: &Subsets
             .pos(Pos::new(side, VPos::Top));
         chart.draw_series([Text::new(text, (x + away, height), style)])?;
     }
-    area.present()
+    Ok(())
 }
 
 /// How many values each bar stands for, and the range of all bars.

@@ -2,7 +2,8 @@
 
 use std::path::{Path, PathBuf};
 
-use crate::basis::{PlotError, SubsetError, Subsets, save_plot};
+use crate::basis::{SubsetError, Subsets, save_plot};
+use crate::plot::PlotError;
 use crate::progress;
 
 /// Of the random distributions.

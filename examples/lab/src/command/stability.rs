@@ -5,7 +5,7 @@ use std::path::Path;
 use moment_shadows::{MapEncoding, Profile};
 
 use crate::gpu::Gpu;
-use crate::picture::{PictureError, save_atomically, save_rgba};
+use crate::picture::{PictureError, save_atomically};
 use crate::progress;
 use crate::stability::report::Report;
 use crate::stability::{self, Effort, StabilityError, plot};
@@ -80,13 +80,7 @@ pub fn run(
         save_atomically(&out.join("stability.json"), |file| {
             file.write_all(json.as_bytes())
         })?;
-        let plot = plot::draw(&report)?;
-        save_rgba(
-            &out.join("stability.png"),
-            plot.width,
-            plot.height,
-            &plot.rgba,
-        )?;
+        plot::save(&report, out)?;
     }
     Ok(report)
 }

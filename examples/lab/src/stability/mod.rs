@@ -24,6 +24,7 @@ use rayon::prelude::*;
 use crate::batch::BatchError;
 use crate::gpu::{Gpu, GpuError};
 use crate::picture::PictureError;
+use crate::plot::PlotError;
 pub use climb::CLIMBS;
 use input::Input;
 use judge::Tally;
@@ -54,8 +55,8 @@ pub enum StabilityError {
     #[error("the figures cannot be written as JSON: {0}")]
     Json(#[from] serde_json::Error),
     /// The picture cannot be drawn.
-    #[error("the plot of the stability report cannot be drawn: {0}")]
-    Plot(String),
+    #[error(transparent)]
+    Plot(#[from] PlotError),
     /// No pair was asked for.
     #[error("'{technique}' is not stored as {storage}; it is as {legal}")]
     NoPair {
