@@ -66,6 +66,15 @@ impl Frame {
         Ok(frame)
     }
 
+    /// Draws the same with as many samples per texel of the light's map, and with one.
+    pub fn pair(gpu: &Gpu, scene: &Scene, desc: FrameDesc) -> Result<[Self; 2], LabError> {
+        let plain = FrameDesc { samples: 1, ..desc };
+        Ok([
+            Self::draw(gpu, scene, desc)?,
+            Self::draw(gpu, scene, plain)?,
+        ])
+    }
+
     /// Draws it again with another light and camera, all of the same sizes.
     pub fn redraw(&mut self, gpu: &Gpu, scene: &Scene, desc: FrameDesc) -> Result<(), LabError> {
         let mut encoder = gpu

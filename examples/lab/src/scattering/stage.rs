@@ -119,21 +119,18 @@ impl ScatteringStage {
         camera.aspect = f64::from(desc.width) / f64::from(desc.height.max(1));
         let far = far(scene, camera.eye);
         let air = Air::new(desc.thickness, desc.anisotropy, far)?;
-        let frame = |samples| {
-            let desc = FrameDesc {
-                picture: [desc.width, desc.height],
-                map,
-                samples,
-                format: wgpu::TextureFormat::Depth32Float,
-                light,
-                shape: LightShape::Directional {
-                    angular_diameter: 0.0,
-                },
-                camera,
-            };
-            Frame::draw(gpu, scene, desc)
+        let drawn = FrameDesc {
+            picture: [desc.width, desc.height],
+            map,
+            samples: SAMPLES,
+            format: wgpu::TextureFormat::Depth32Float,
+            light,
+            shape: LightShape::Directional {
+                angular_diameter: 0.0,
+            },
+            camera,
         };
-        let frames = [frame(SAMPLES)?, frame(1)?];
+        let frames = Frame::pair(gpu, scene, drawn)?;
         let ends = ends(gpu, &frames[1].desc, &frames[1].surface, far)?;
         let depth = read_depth_samples(gpu, &frames[1].light_map.texture)?;
         let rays = Rays {

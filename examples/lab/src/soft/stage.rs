@@ -1,6 +1,7 @@
 //! A scene under an area light, drawn, with the truth of what the camera sees.
 
 use glam::DVec3;
+use wgpu::util::DeviceExt;
 
 use super::candidate::SoftCandidate;
 use super::light::{LightSize, SoftLightChoice};
@@ -102,19 +103,16 @@ impl SoftStage {
         let (light, shape) = desc.light.light(scene, &view, map, MARGIN, desc.size)?;
         let mut camera = view.camera;
         camera.aspect = f64::from(desc.width) / f64::from(desc.height.max(1));
-        let frame = |samples| {
-            let desc = FrameDesc {
-                picture: [desc.width, desc.height],
-                map,
-                samples,
-                format: wgpu::TextureFormat::Depth32Float,
-                light,
-                shape,
-                camera,
-            };
-            Frame::draw(gpu, scene, desc)
+        let drawn = FrameDesc {
+            picture: [desc.width, desc.height],
+            map,
+            samples: SAMPLES,
+            format: wgpu::TextureFormat::Depth32Float,
+            light,
+            shape,
+            camera,
         };
-        let frames = [frame(SAMPLES)?, frame(1)?];
+        let frames = Frame::pair(gpu, scene, drawn)?;
         let pixels = read_gbuffer(gpu, &frames[0].surface)?;
         let truth = AreaLight::new(scene, &light, shape, map, desc.places)?.picture(&pixels)?;
         let mut judged = facing(&light, &pixels);
@@ -141,31 +139,23 @@ impl SoftStage {
     /// The lit picture of the truth, sRGB bytes with alpha.
     fn lit_truth(&self, gpu: &Gpu) -> Result<Vec<u8>, LabError> {
         let [width, height] = self.desc().picture;
-        let size = wgpu::Extent3d {
-            width,
-            height,
-            depth_or_array_layers: 1,
-        };
-        let texture = gpu.device.create_texture(&wgpu::TextureDescriptor {
+        let desc = wgpu::TextureDescriptor {
             label: Some("lab/area light"),
-            size,
+            size: wgpu::Extent3d {
+                width,
+                height,
+                depth_or_array_layers: 1,
+            },
             mip_level_count: 1,
             sample_count: 1,
             dimension: wgpu::TextureDimension::D2,
             format: wgpu::TextureFormat::R32Float,
-            usage: wgpu::TextureUsages::TEXTURE_BINDING | wgpu::TextureUsages::COPY_DST,
+            usage: wgpu::TextureUsages::TEXTURE_BINDING,
             view_formats: &[],
-        });
-        gpu.queue.write_texture(
-            texture.as_image_copy(),
-            bytemuck::cast_slice(&self.truth),
-            wgpu::TexelCopyBufferLayout {
-                offset: 0,
-                bytes_per_row: Some(4 * width),
-                rows_per_image: None,
-            },
-            size,
-        );
+        };
+        let texels = bytemuck::cast_slice(&self.truth);
+        let texture =
+            (gpu.device).create_texture_with_data(&gpu.queue, &desc, Default::default(), texels);
         self.frames[0].picture(gpu, &texture)
     }
 
