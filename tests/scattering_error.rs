@@ -4,6 +4,7 @@
 use glam::DVec3;
 use moment_shadows::{Kernel, SingleScattering};
 use moment_shadows_graph::nodes::Overestimation;
+use moment_shadows_lab::compare::Stage;
 use moment_shadows_lab::gpu::Gpu;
 use moment_shadows_lab::host::DepthSamples;
 use moment_shadows_lab::light::{DirectionalFit, LightView};
@@ -127,7 +128,10 @@ fn stage(gpu: &Gpu, name: &str, steps: u32) -> ScatteringStage {
         anisotropy: 0.4,
         map: 512,
         radius: 2,
-        picture: [160, 90],
+        columns: 512,
+        rows: 512,
+        width: 160,
+        height: 90,
         steps,
     };
     ScatteringStage::new(gpu, &scene::load(name).unwrap(), &desc).unwrap()
@@ -139,7 +143,7 @@ fn the_device_marches_like_the_truth_in_as_many_steps() {
     let stage = stage(&gpu, "hall", 64);
     let all = candidates(&gpu, 2, [256; 2], Overestimation::default()).unwrap();
     let march = all.iter().find(|it| it.name == "march 64").unwrap();
-    let picture = march.bind(&gpu, &stage).unwrap().picture(&gpu).unwrap();
+    let picture = stage.picture(&gpu, march).unwrap();
     let error = ScatteringError::of(&picture, &stage.truth);
     // Float16, and steps at edges of texels that fall to either side in single precision.
     assert!(error.overall() <= 6e-4, "{error:?}");
@@ -155,7 +159,7 @@ fn six_moments_beat_sixteen_steps() {
         let stage = stage(&gpu, name, 512);
         let error = |of: &str| {
             let candidate = candidates.iter().find(|it| it.name == of).unwrap();
-            let picture = candidate.bind(&gpu, &stage).unwrap().picture(&gpu).unwrap();
+            let picture = stage.picture(&gpu, candidate).unwrap();
             let plain = ScatteringError::of(&picture, &stage.truth);
             let filtered = ScatteringError::of(&picture, &stage.filtered);
             assert_eq!(plain.not_finite, 0, "{name}, {of}");

@@ -3,15 +3,9 @@
 
 use moment_shadows_lab::gpu::Gpu;
 use moment_shadows_lab::scattering::{
-    Chain, Change, FRAMES, FlickerDesc, GOAL, Look, LookDesc, PROFILE, Path, STILL, flicker,
-    static_region,
+    Chain, Change, FRAMES, FlickerDesc, GOAL, PROFILE, Path, STILL, flicker, static_region,
 };
 use moment_shadows_lab::scene;
-
-const LOOK: LookDesc = LookDesc {
-    look: Look::Numbered(0),
-    elevation: None,
-};
 
 #[test]
 fn a_pixel_is_static_while_its_truth_and_that_of_frames_around_is() {
@@ -62,7 +56,7 @@ fn changes_are_those_of_the_region_alone() {
 #[test]
 fn a_path_is_slow_and_closed() {
     let scene = scene::load("hall").unwrap();
-    let path = Path::new(&scene, &LOOK);
+    let path = Path::new(&scene);
     let radius = scene.bounds().radius();
     let (first, last) = (path.view(0), path.view(FRAMES));
     assert!((first.camera.eye - last.camera.eye).length() < 1e-9 * radius);
@@ -95,13 +89,12 @@ fn filtered_resampling_flickers_a_third_as_much_as_none() {
     let gpu = Gpu::open(PROFILE).unwrap();
     let scene = scene::load("hall").unwrap();
     let desc = FlickerDesc {
-        look: LOOK,
         frames: 8,
-        thickness: 0.7,
-        anisotropy: 0.4,
         map: 512,
-        extent: [256, 256],
-        picture: [128, 72],
+        columns: 256,
+        rows: 256,
+        width: 128,
+        height: 72,
         truth_map: 1024,
         steps: 256,
     };

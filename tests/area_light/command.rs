@@ -1,6 +1,7 @@
 //! `soft-error` from end to end.
 
-use moment_shadows_lab::command::soft_error::{SoftErrorOptions, run, save_json};
+use moment_shadows_lab::command::soft_error::{SoftErrorOptions, run};
+use moment_shadows_lab::compare::Options;
 use moment_shadows_lab::cost::CostError;
 use moment_shadows_lab::error::LabError;
 use moment_shadows_lab::soft::{NamedGraph, SoftLightChoice, StageDesc};
@@ -10,14 +11,12 @@ fn options() -> SoftErrorOptions {
         stage: StageDesc {
             light: SoftLightChoice::Rectangle,
             map: 256,
-            picture: [64, 36],
+            width: 64,
+            height: 36,
             places: 64,
             ..StageDesc::default()
         },
-        graphs: Vec::new(),
-        only: Vec::new(),
-        rounds: None,
-        out: None,
+        ..SoftErrorOptions::default()
     }
 }
 
@@ -25,19 +24,22 @@ fn options() -> SoftErrorOptions {
 fn it_compares_candidates_and_writes_pictures_and_figures() {
     let folder = tempfile::tempdir().unwrap();
     let graph = concat!(env!("CARGO_MANIFEST_DIR"), "/examples/hard_shadows.json");
+    let json = folder.path().join("figures.json");
     let options = SoftErrorOptions {
-        graphs: vec![NamedGraph {
+        graph: vec![NamedGraph {
             name: "mine".to_owned(),
             path: graph.to_owned(),
         }],
-        only: ["hard", "pcss 32+64", "mine"].map(str::to_owned).to_vec(),
-        rounds: Some(9),
-        out: Some(folder.path().to_owned()),
+        compare: Options {
+            scene: ["edge", "hole"].map(str::to_owned).to_vec(),
+            only: ["hard", "pcss 32+64", "mine"].map(str::to_owned).to_vec(),
+            cost: Some(9),
+            out: Some(folder.path().to_owned()),
+            json: Some(json.clone()),
+        },
         ..options()
     };
-    let reports = run(&["edge".to_owned(), "hole".to_owned()], &options).unwrap();
-    let json = folder.path().join("figures.json");
-    save_json(&json, &reports).unwrap();
+    let reports = run(&options).unwrap();
     let read: serde_json::Value =
         serde_json::from_str(&std::fs::read_to_string(json).unwrap()).unwrap();
     assert_eq!(read[1]["rows"][1]["name"], "pcss 32+64");
@@ -46,14 +48,17 @@ fn it_compares_candidates_and_writes_pictures_and_figures() {
             panic!("{report}");
         };
         // The same graph under another name.
-        assert_eq!(hard.error, mine.error);
-        assert_ne!(hard.error, soft.error);
-        assert_eq!(hard.error.nan_pixels + soft.error.nan_pixels, 0);
+        assert_eq!(hard.errors.error, mine.errors.error);
+        assert_ne!(hard.errors.error, soft.errors.error);
+        assert_eq!(
+            hard.errors.error.nan_pixels + soft.errors.error.nan_pixels,
+            0
+        );
         let cost = soft.cost.as_ref().unwrap();
-        assert!(cost.shading.median > 0.0 && cost.preparation.is_none());
+        assert!(cost.pixels.median > 0.0 && cost.map.is_none());
         // 96 taps against one lookup.
-        assert!(cost.shading_ratio.median > 1.0, "{report}");
-        assert!(hard.cost.unwrap().preparation.is_some());
+        assert!(cost.pixels_ratio.median > 1.0, "{report}");
+        assert!(hard.cost.unwrap().map.is_some());
         for what in [
             "",
             "-truth",
@@ -61,7 +66,7 @@ fn it_compares_candidates_and_writes_pictures_and_figures() {
             "-pcss-32-64",
             "-pcss-32-64-difference",
         ] {
-            let name = format!("{}-rectangle{what}.png", report.scene);
+            let name = format!("{}-rectangle{what}.png", report.setting.scene);
             let bytes = std::fs::read(folder.path().join(&name)).unwrap();
             let picture = image::load_from_memory(&bytes).unwrap();
             let size = if what.is_empty() {
@@ -72,22 +77,24 @@ fn it_compares_candidates_and_writes_pictures_and_figures() {
             assert_eq!([picture.width(), picture.height()], size, "{name}");
         }
     }
-    assert!(reports[0].edges.is_some() && reports[1].edges.is_none());
+    assert!(reports[0].setting.edges.is_some() && reports[1].setting.edges.is_none());
 }
 
 #[test]
 fn unknown_names_and_scenes_are_refused() {
-    let unknown = SoftErrorOptions {
-        only: vec!["pcss".to_owned()],
-        ..options()
+    let of = |scene: &str, only: &[&str]| {
+        let mut options = options();
+        options.compare.scene = vec![scene.to_owned()];
+        options.compare.only = only.iter().map(|name| (*name).to_owned()).collect();
+        run(&options)
     };
-    match run(&["edge".to_owned()], &unknown) {
+    match of("edge", &["pcss"]) {
         Err(CostError::Lab(LabError::Unsuitable { file, reason })) => {
             assert_eq!(file, "pcss");
             assert!(reason.contains("pcss 32+64"), "{reason}");
         }
         other => panic!("{other:?}"),
     }
-    let result = run(&["edges".to_owned()], &options());
+    let result = of("edges", &[]);
     assert!(matches!(result, Err(CostError::Lab(LabError::Scene(_)))));
 }

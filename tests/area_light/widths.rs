@@ -1,5 +1,6 @@
 //! Widths of penumbrae in pictures of straight edges: of the sampled light and of percentage closer soft shadows.
 
+use moment_shadows_lab::compare::Stage;
 use moment_shadows_lab::scene;
 use moment_shadows_lab::soft::{LightSize, SoftLightChoice, SoftStage, StageDesc, candidates};
 
@@ -11,7 +12,8 @@ fn stage(light: SoftLightChoice, size: [f64; 2]) -> StageDesc {
         size: Some(LightSize(size)),
         // The narrowest penumbra is ten texels wide: these edges run along texels, so that widths come in steps of one.
         map: 2048,
-        picture: [480, 270],
+        width: 480,
+        height: 270,
         ..StageDesc::default()
     }
 }

@@ -1,6 +1,7 @@
 //! Pictures of soft shadows against geometry, the sampled light and hard shadows.
 
 use moment_shadows::Profile;
+use moment_shadows_lab::compare::Stage;
 use moment_shadows_lab::gpu::Gpu;
 use moment_shadows_lab::graph_file::GraphFile;
 use moment_shadows_lab::scene;
@@ -45,7 +46,8 @@ fn stage(light: SoftLightChoice, size: [f64; 2]) -> StageDesc {
         size: Some(LightSize(size)),
         // As wide penumbrae as the table's largest kernel has room for, the narrowest some texels wide.
         map: 1024,
-        picture: [480, 270],
+        width: 480,
+        height: 270,
         ..StageDesc::default()
     }
 }

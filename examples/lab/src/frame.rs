@@ -35,6 +35,7 @@ pub struct Frame {
     /// The camera's G-buffer.
     pub surface: Surface,
     renderer: Renderer,
+    model: Model,
     lighting: Lighting,
 }
 
@@ -42,7 +43,7 @@ impl Frame {
     /// Draws the light's depth and the G-buffer of a scene, and waits for the device's verdict.
     pub fn draw(gpu: &Gpu, scene: &Scene, desc: FrameDesc) -> Result<Self, LabError> {
         let renderer = Renderer::new(gpu)?;
-        let model: Model = renderer.upload(gpu, scene)?;
+        let model = renderer.upload(gpu, scene)?;
         let light_map = renderer.light_map(
             gpu,
             &LightMapDesc {
@@ -53,22 +54,42 @@ impl Frame {
             },
         )?;
         let surface = renderer.surface(gpu, desc.picture)?;
-        let mut encoder = gpu
-            .device
-            .create_command_encoder(&wgpu::CommandEncoderDescriptor {
-                label: Some("lab/frame"),
-            });
-        renderer.draw_light_depth(gpu, &mut encoder, &model, &light_map, &desc.light);
-        renderer.draw_surface(gpu, &mut encoder, &model, &surface, &desc.camera)?;
-        gpu.queue.submit([encoder.finish()]);
-        gpu.check()?;
-        Ok(Self {
+        let mut frame = Self {
             lighting: Lighting::new(scene, &desc.camera, &desc.light)?,
             desc,
             light_map,
             surface,
             renderer,
-        })
+            model,
+        };
+        frame.redraw(gpu, scene, desc)?;
+        Ok(frame)
+    }
+
+    /// Draws the same with as many samples per texel of the light's map, and with one.
+    pub fn pair(gpu: &Gpu, scene: &Scene, desc: FrameDesc) -> Result<[Self; 2], LabError> {
+        let plain = FrameDesc { samples: 1, ..desc };
+        Ok([
+            Self::draw(gpu, scene, desc)?,
+            Self::draw(gpu, scene, plain)?,
+        ])
+    }
+
+    /// Draws it again with another light and camera, all of the same sizes.
+    pub fn redraw(&mut self, gpu: &Gpu, scene: &Scene, desc: FrameDesc) -> Result<(), LabError> {
+        let mut encoder = gpu
+            .device
+            .create_command_encoder(&wgpu::CommandEncoderDescriptor {
+                label: Some("lab/frame"),
+            });
+        let (renderer, model) = (&self.renderer, &self.model);
+        renderer.draw_light_depth(gpu, &mut encoder, model, &self.light_map, &desc.light);
+        renderer.draw_surface(gpu, &mut encoder, model, &self.surface, &desc.camera)?;
+        gpu.queue.submit([encoder.finish()]);
+        gpu.check()?;
+        self.lighting = Lighting::new(scene, &desc.camera, &desc.light)?;
+        self.desc = desc;
+        Ok(())
     }
 
     /// The picture, as sRGB bytes with alpha, for a texture of shadow intensity.

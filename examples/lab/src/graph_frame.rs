@@ -40,6 +40,7 @@ pub struct GraphFrame {
     pub plan: Plan,
     /// The bound plan.
     pub bindings: Bindings,
+    parameters: wgpu::Buffer,
     /// Recordings until what is kept from frame to frame has settled.
     frames: u32,
 }
@@ -77,11 +78,6 @@ impl GraphFrame {
             usage: wgpu::BufferUsages::UNIFORM | wgpu::BufferUsages::COPY_DST,
             mapped_at_creation: false,
         });
-        let mut bytes = parameter_bytes(&plan, desc, file)?;
-        if let Some(air) = air {
-            fill_scattering(&plan, &mut bytes, &scattering_parameters(desc, air)?)?;
-        }
-        gpu.queue.write_buffer(&parameters, 0, &bytes);
         let bindings = block_on(Bindings::create(
             &gpu.device,
             &plan,
@@ -99,11 +95,30 @@ impl GraphFrame {
             ],
             Some(&parameters),
         ))?;
-        Ok(Self {
+        let graph = Self {
             plan,
             bindings,
+            parameters,
             frames: file.frames(),
-        })
+        };
+        graph.fill(gpu, desc, file, air)?;
+        Ok(graph)
+    }
+
+    /// Fills in the parameters for a light and a camera.
+    pub fn fill(
+        &self,
+        gpu: &Gpu,
+        desc: &FrameDesc,
+        file: &GraphFile,
+        air: Option<&Air>,
+    ) -> Result<(), LabError> {
+        let mut bytes = parameter_bytes(&self.plan, desc, file)?;
+        if let Some(air) = air {
+            fill_scattering(&self.plan, &mut bytes, &scattering_parameters(desc, air)?)?;
+        }
+        gpu.queue.write_buffer(&self.parameters, 0, &bytes);
+        Ok(())
     }
 
     /// Records all stages and submits them, until what is kept from frame to frame has settled.

@@ -8,6 +8,7 @@ pub mod bias;
 pub mod candidate;
 pub mod catalogue;
 pub mod command;
+pub mod compare;
 pub mod cost;
 pub mod dense;
 pub mod error;

@@ -1,22 +1,16 @@
 //! The `moment-shadows` command.
 
-use std::path::PathBuf;
+use std::fmt::Display;
 use std::process::ExitCode;
 
-use clap::{Parser, Subcommand, ValueEnum};
-use moment_shadows_graph::nodes::Overestimation;
+use clap::{Parser, Subcommand};
 use moment_shadows_lab::command::cost::CostOptions;
-use moment_shadows_lab::command::scattering_error::ScatteringErrorOptions;
-use moment_shadows_lab::command::soft_error::SoftErrorOptions;
 use moment_shadows_lab::command::{
     CommandResult, adapter, bias, contacts, error, error_table, graph, isa, measure, minification,
     print, render, scattering_error, scattering_flicker, shaders, soft_error, stability,
     technique_pictures, validate, vectors,
 };
 use moment_shadows_lab::isa::child;
-use moment_shadows_lab::scattering::{FRAMES, FlickerDesc, Look, LookDesc, ScatteringStageDesc};
-use moment_shadows_lab::soft::{LightSize, NamedGraph, SoftLightChoice, StageDesc};
-use moment_shadows_lab::truth::area_light::{MOST_PLACES, USUAL_PLACES};
 
 /// Filterable shadows: validate shaders, check graphs, render, and measure.
 #[derive(Parser)]
@@ -56,12 +50,12 @@ enum Command {
     Contacts(contacts::Options),
     /// Prints how far soft shadows are from those of an area light that is sampled at many places: hard moment shadows,
     /// percentage closer soft shadows, and graphs of your own.
-    SoftError(SoftErrorArguments),
+    SoftError(soft_error::SoftErrorOptions),
     /// Renders the light that a medium scatters by every technique beside marched rays, and prints errors and costs.
-    ScatteringError(ScatteringErrorArguments),
+    ScatteringError(scattering_error::ScatteringErrorOptions),
     /// Walks a slow path of camera and light, and prints how much the air flickers with filtered resampling and without. Fails
     /// where it is more than a third as much. Takes minutes.
-    ScatteringFlicker(ScatteringFlickerArguments),
+    ScatteringFlicker(scattering_flicker::FlickerOptions),
     /// Times the passes of a graph, blurs of several radii, summed-area tables or single scattering, as ratios to copies, and counts
     /// their bytes.
     Cost(CostOptions),
@@ -76,196 +70,6 @@ enum Command {
     /// The process that compiles for one chip, which its environment names.
     #[command(name = child::COMMAND, hide = true)]
     IsaChip(isa::ChildOptions),
-}
-
-#[derive(clap::Args)]
-struct SoftErrorArguments {
-    /// glTF or GLB files, or procedural scenes: fence-and-foliage, hall, chairs, edge, hole.
-    #[arg(required = true)]
-    scene: Vec<String>,
-    /// The light.
-    #[arg(long, value_enum, default_value = "directional")]
-    light: SoftLightArgument,
-    /// The light's size: degrees for a directional one, a diameter in scene units for a spot, WIDTHxHEIGHT for a rectangle. 0
-    /// gives hard shadows.
-    #[arg(long)]
-    size: Option<LightSize>,
-    /// One of the numbered viewpoints and light directions.
-    #[arg(long, default_value_t = 0)]
-    view: u32,
-    /// Texels per side of the light's map.
-    #[arg(long, default_value_t = 1024, value_parser = clap::value_parser!(u32).range(16..=8192))]
-    map: u32,
-    /// Width of the picture.
-    #[arg(long, default_value_t = 640, value_parser = clap::value_parser!(u32).range(16..=8192))]
-    width: u32,
-    /// Height of the picture.
-    #[arg(long, default_value_t = 360, value_parser = clap::value_parser!(u32).range(16..=8192))]
-    height: u32,
-    /// Places on the light that the truth is the mean of.
-    #[arg(long, default_value_t = USUAL_PLACES, value_parser = clap::value_parser!(u32).range(1..=i64::from(MOST_PLACES)))]
-    samples: u32,
-    /// Another technique: a graph file, with a name before it if you like (NAME=FILE). Several may be given.
-    #[arg(long)]
-    graph: Vec<NamedGraph>,
-    /// Only the techniques of these names.
-    #[arg(long)]
-    only: Vec<String>,
-    /// Also times the techniques, in so many rounds, at least 9.
-    #[arg(long, value_name = "ROUNDS", num_args = 0..=1, require_equals = true, default_missing_value = "9", value_parser = clap::value_parser!(u32).range(9..=1000))]
-    cost: Option<u32>,
-    /// A folder for pictures of the truth and of each technique with its difference; it is made if need be.
-    #[arg(long)]
-    out: Option<PathBuf>,
-    /// A file for the figures as JSON.
-    #[arg(long)]
-    json: Option<PathBuf>,
-}
-
-#[derive(clap::Args)]
-struct ScatteringErrorArguments {
-    /// glTF or GLB files, or procedural scenes: fence-and-foliage, hall, chairs, edge, hole.
-    #[arg(required = true)]
-    scene: Vec<String>,
-    /// A numbered viewpoint, or how the camera looks: towards the light, away from it, straight into it, or straight along it.
-    #[arg(
-        long,
-        default_value = "0",
-        value_name = "NUMBER|towards|away|into|along"
-    )]
-    view: Look,
-    /// The light's height above the horizon in degrees, in place of the viewpoint's own.
-    #[arg(long)]
-    elevation: Option<f64>,
-    /// Optical thickness between the camera and the far end.
-    #[arg(long, default_value_t = 0.7)]
-    thickness: f64,
-    /// Of the phase function, from -0.99 (backwards) to 0.99 (forwards).
-    #[arg(long, default_value_t = 0.4, allow_negative_numbers = true)]
-    anisotropy: f32,
-    /// Texels per side of the light's map.
-    #[arg(long, default_value_t = 1024, value_parser = clap::value_parser!(u32).range(16..=8192))]
-    map: u32,
-    /// Radius in texels of the blur of the light's map.
-    #[arg(long, default_value_t = 2, value_parser = clap::value_parser!(u32).range(1..=64))]
-    radius: u32,
-    /// Columns of rectified maps.
-    #[arg(long, default_value_t = 512, value_parser = clap::value_parser!(u32).range(2..=8192))]
-    columns: u32,
-    /// Rows of rectified maps.
-    #[arg(long, default_value_t = 512, value_parser = clap::value_parser!(u32).range(2..=8192))]
-    rows: u32,
-    /// How strongly our nodes lean towards a bound, looking towards the light and away from it: from 0, the middle of the bounds,
-    /// to 1, as published.
-    #[arg(long, num_args = 2, value_names = ["TOWARDS", "AWAY"])]
-    overestimation: Option<Vec<f32>>,
-    /// Width of the picture.
-    #[arg(long, default_value_t = 640, value_parser = clap::value_parser!(u32).range(16..=8192))]
-    width: u32,
-    /// Height of the picture.
-    #[arg(long, default_value_t = 360, value_parser = clap::value_parser!(u32).range(16..=8192))]
-    height: u32,
-    /// Steps of the truth.
-    #[arg(long, default_value_t = 1024, value_parser = clap::value_parser!(u32).range(1..=65_536))]
-    steps: u32,
-    /// Only the techniques of these names.
-    #[arg(long)]
-    only: Vec<String>,
-    /// Also times the techniques, in so many rounds, at least 9.
-    #[arg(long, value_name = "ROUNDS", num_args = 0..=1, require_equals = true, default_missing_value = "9", value_parser = clap::value_parser!(u32).range(9..=1000))]
-    cost: Option<u32>,
-    /// A folder for pictures of the truth and of each technique with its difference; it is made if need be.
-    #[arg(long)]
-    out: Option<PathBuf>,
-    /// A file for the figures as JSON.
-    #[arg(long)]
-    json: Option<PathBuf>,
-}
-
-#[derive(clap::Args)]
-struct ScatteringFlickerArguments {
-    /// glTF or GLB files, or procedural scenes: fence-and-foliage, hall, chairs, edge, hole.
-    #[arg(long, required = true, num_args = 1..)]
-    scene: Vec<String>,
-    /// A numbered viewpoint, or how the camera looks: towards the light, away from it, straight into it, or straight along it.
-    #[arg(
-        long,
-        default_value = "0",
-        value_name = "NUMBER|towards|away|into|along"
-    )]
-    view: Look,
-    /// The light's height above the horizon in degrees, in place of the viewpoint's own.
-    #[arg(long)]
-    elevation: Option<f64>,
-    /// Frames from the beginning of the path on; all of it has 240.
-    #[arg(long, default_value_t = FRAMES, value_parser = clap::value_parser!(u32).range(2..=10_000))]
-    frames: u32,
-    /// Optical thickness between the camera and the far end.
-    #[arg(long, default_value_t = 0.7)]
-    thickness: f64,
-    /// Of the phase function, from -0.99 (backwards) to 0.99 (forwards).
-    #[arg(long, default_value_t = 0.4, allow_negative_numbers = true)]
-    anisotropy: f32,
-    /// Texels per side of the light's map.
-    #[arg(long, default_value_t = 1024, value_parser = clap::value_parser!(u32).range(16..=8192))]
-    map: u32,
-    /// Columns of rectified maps.
-    #[arg(long, default_value_t = 512, value_parser = clap::value_parser!(u32).range(2..=8192))]
-    columns: u32,
-    /// Rows of rectified maps.
-    #[arg(long, default_value_t = 512, value_parser = clap::value_parser!(u32).range(2..=8192))]
-    rows: u32,
-    /// Width of the picture.
-    #[arg(long, default_value_t = 320, value_parser = clap::value_parser!(u32).range(16..=8192))]
-    width: u32,
-    /// Height of the picture.
-    #[arg(long, default_value_t = 180, value_parser = clap::value_parser!(u32).range(16..=8192))]
-    height: u32,
-    /// Texels per side of the map that the truth is marched through.
-    #[arg(long, default_value_t = 2048, value_parser = clap::value_parser!(u32).range(16..=8192))]
-    truth_map: u32,
-    /// Steps of the truth.
-    #[arg(long, default_value_t = 256, value_parser = clap::value_parser!(u32).range(1..=65_536))]
-    steps: u32,
-    /// Prints JSON.
-    #[arg(long)]
-    json: bool,
-}
-
-impl ScatteringFlickerArguments {
-    fn desc(&self) -> FlickerDesc {
-        FlickerDesc {
-            look: LookDesc {
-                look: self.view,
-                elevation: self.elevation,
-            },
-            frames: self.frames,
-            thickness: self.thickness,
-            anisotropy: self.anisotropy,
-            map: self.map,
-            extent: [self.columns, self.rows],
-            picture: [self.width, self.height],
-            truth_map: self.truth_map,
-            steps: self.steps,
-        }
-    }
-}
-
-#[derive(Clone, Copy, ValueEnum)]
-enum SoftLightArgument {
-    Directional,
-    Spot,
-    Rectangle,
-}
-
-impl From<SoftLightArgument> for SoftLightChoice {
-    fn from(argument: SoftLightArgument) -> Self {
-        match argument {
-            SoftLightArgument::Directional => SoftLightChoice::Directional,
-            SoftLightArgument::Spot => SoftLightChoice::Spot,
-            SoftLightArgument::Rectangle => SoftLightChoice::Rectangle,
-        }
-    }
 }
 
 fn main() -> ExitCode {
@@ -293,15 +97,16 @@ fn run(command: Command) -> CommandResult {
         Command::Error(options) => options.run(),
         Command::ErrorTable(options) => options.run(),
         Command::Contacts(options) => options.run(),
-        Command::SoftError(arguments) => run_soft_error(arguments),
-        Command::ScatteringError(arguments) => run_scattering_error(arguments),
-        Command::ScatteringFlicker(arguments) => {
-            let report = scattering_flicker::run(&arguments.scene, &arguments.desc())?;
-            print(&report, arguments.json)?;
-            if !report.passed() {
-                return Ok(ExitCode::FAILURE);
-            }
-            Ok(ExitCode::SUCCESS)
+        Command::SoftError(options) => print_all(&soft_error::run(&options)?),
+        Command::ScatteringError(options) => print_all(&scattering_error::run(&options)?),
+        Command::ScatteringFlicker(options) => {
+            let report = scattering_flicker::run(&options)?;
+            let printed = print(&report, options.json)?;
+            Ok(if report.passed() {
+                printed
+            } else {
+                ExitCode::FAILURE
+            })
         }
         Command::Cost(options) => options.run(),
         Command::Bias(options) => options.run(),
@@ -311,60 +116,9 @@ fn run(command: Command) -> CommandResult {
     }
 }
 
-fn run_soft_error(arguments: SoftErrorArguments) -> CommandResult {
-    let options = SoftErrorOptions {
-        stage: StageDesc {
-            light: arguments.light.into(),
-            size: arguments.size,
-            view: arguments.view,
-            map: arguments.map,
-            picture: [arguments.width, arguments.height],
-            places: arguments.samples,
-        },
-        graphs: arguments.graph,
-        only: arguments.only,
-        rounds: arguments.cost,
-        out: arguments.out,
-    };
-    let reports = soft_error::run(&arguments.scene, &options)?;
-    for report in &reports {
+fn print_all(reports: &[impl Display]) -> CommandResult {
+    for report in reports {
         println!("{report}");
-    }
-    if let Some(path) = &arguments.json {
-        soft_error::save_json(path, &reports)?;
-    }
-    Ok(ExitCode::SUCCESS)
-}
-
-fn run_scattering_error(arguments: ScatteringErrorArguments) -> CommandResult {
-    let options = ScatteringErrorOptions {
-        stage: ScatteringStageDesc {
-            look: LookDesc {
-                look: arguments.view,
-                elevation: arguments.elevation,
-            },
-            thickness: arguments.thickness,
-            anisotropy: arguments.anisotropy,
-            map: arguments.map,
-            radius: arguments.radius,
-            picture: [arguments.width, arguments.height],
-            steps: arguments.steps,
-        },
-        extent: [arguments.columns, arguments.rows],
-        overestimation: match arguments.overestimation.as_deref() {
-            Some(&[towards, away]) => Overestimation { towards, away },
-            _ => Overestimation::default(),
-        },
-        only: arguments.only,
-        rounds: arguments.cost,
-        out: arguments.out,
-    };
-    let reports = scattering_error::run(&arguments.scene, &options)?;
-    for report in &reports {
-        println!("{report}");
-    }
-    if let Some(path) = &arguments.json {
-        scattering_error::save_json(path, &reports)?;
     }
     Ok(ExitCode::SUCCESS)
 }

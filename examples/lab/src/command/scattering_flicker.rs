@@ -10,6 +10,20 @@ use crate::progress;
 use crate::scattering::{Flicker, FlickerDesc, GOAL, PROFILE, STILL, WINDOW, flicker};
 use crate::scene;
 
+/// Which scenes, and what is drawn of them.
+#[derive(Clone, Debug, PartialEq, clap::Args)]
+pub struct FlickerOptions {
+    /// glTF or GLB files, or procedural scenes: fence-and-foliage, hall, chairs, edge, hole.
+    #[arg(long, required = true, num_args = 1..)]
+    pub scene: Vec<String>,
+    /// What is drawn.
+    #[command(flatten)]
+    pub desc: FlickerDesc,
+    /// Prints JSON.
+    #[arg(long)]
+    pub json: bool,
+}
+
 /// What flickers in several scenes.
 #[derive(Clone, Debug, Serialize)]
 pub struct FlickerReport {
@@ -18,10 +32,10 @@ pub struct FlickerReport {
 }
 
 /// Walks the path in each scene: glTF files or names of procedural scenes.
-pub fn run(scenes: &[String], desc: &FlickerDesc) -> Result<FlickerReport, LabError> {
+pub fn run(options: &FlickerOptions) -> Result<FlickerReport, LabError> {
     let gpu = Gpu::open(PROFILE)?;
-    let scenes = scenes
-        .iter()
+    let desc = &options.desc;
+    let scenes = (options.scene.iter())
         .map(|name| {
             let scene = scene::load(name)?;
             let bar = progress::bar(u64::from(desc.frames), name);

@@ -8,7 +8,7 @@ use moment_shadows::{MapEncoding, Profile, Storage, nearest};
 use super::CommandResult;
 use crate::error::LabError;
 use crate::gpu::Gpu;
-use crate::picture::{PictureError, save_atomically, save_rgba};
+use crate::picture::{PictureError, save_atomically};
 use crate::progress;
 use crate::stability::report::Report;
 use crate::stability::{self, Effort, plot};
@@ -125,13 +125,7 @@ fn report(pairs: &[MapEncoding], effort: Effort, out: Option<&Path>) -> Result<R
         save_atomically(&out.join("stability.json"), |file| {
             file.write_all(json.as_bytes())
         })?;
-        let plot = plot::draw(&report)?;
-        save_rgba(
-            &out.join("stability.png"),
-            plot.width,
-            plot.height,
-            &plot.rgba,
-        )?;
+        plot::save(&report, out)?;
     }
     Ok(report)
 }

@@ -82,7 +82,7 @@ pub(super) fn mark(time: &Time, clock: ClockKind) -> &'static str {
     }
 }
 
-pub(super) fn percent(part: f64) -> String {
+pub(crate) fn percent(part: f64) -> String {
     format!("{:.0} %", 100.0 * part)
 }
 

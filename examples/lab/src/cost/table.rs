@@ -22,7 +22,7 @@ pub const FEWEST_TEXELS: u64 = 64 * 64;
 pub struct Facts(pub Vec<(&'static str, Value)>);
 
 /// A cell of a table's text, after the name of its column.
-pub(super) type Cell<'a> = (&'a str, String);
+pub(crate) type Cell<'a> = (&'a str, String);
 
 /// What a subject may cost on a software adapter.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize)]
@@ -292,7 +292,7 @@ pub(super) fn between(texts: &[String], joint: &str) -> String {
 }
 
 /// Rows of named cells below their names, words to the left and figures to the right; a column without a figure is left out.
-pub(super) fn columns(f: &mut fmt::Formatter<'_>, rows: &[Vec<Cell<'_>>]) -> fmt::Result {
+pub(crate) fn columns(f: &mut fmt::Formatter<'_>, rows: &[Vec<Cell<'_>>]) -> fmt::Result {
     let Some(first) = rows.first() else {
         return Ok(());
     };

@@ -1,6 +1,18 @@
 //! What is in the air of a scene.
 
+use glam::DVec3;
 use moment_shadows::{SingleScattering, SingleScatteringError};
+
+use crate::scene::Scene;
+
+/// Optical thickness between the camera and the far end, unless another one is asked for.
+pub(super) const THICKNESS: f64 = 0.7;
+
+/// Of the phase function, unless another one is asked for.
+pub(super) const ANISOTROPY: f32 = 0.4;
+
+/// How far behind the scene's middle the air ends, in parts of its radius.
+const BEHIND: f64 = 1.5;
 
 /// A homogeneous medium, and how far away it ends.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -34,4 +46,10 @@ impl Air {
             far,
         })
     }
+}
+
+/// Where the air of a scene ends, seen from a camera.
+pub(super) fn far(scene: &Scene, eye: DVec3) -> f64 {
+    let bounds = scene.bounds();
+    (bounds.centre() - eye).length() + BEHIND * bounds.radius()
 }

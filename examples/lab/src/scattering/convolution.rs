@@ -1,7 +1,10 @@
 //! The rectified convolution shadow map of Klehm et al., "Prefiltered single scattering", i3D 2014: 256 bits per texel.
 
+use moment_shadows_graph::Stage;
+
 use super::draw::{Bound, Draw, RADIANCE, group, linked, sampler, target};
 use super::stage::ScatteringStage;
+use crate::compare::Technique;
 use crate::error::LabError;
 use crate::gpu::Gpu;
 
@@ -100,25 +103,30 @@ impl ConvolutionRows {
             radiance,
         })
     }
+}
 
-    /// Records what is done per texel of the map.
-    pub(super) fn record_map(&self, encoder: &mut wgpu::CommandEncoder) {
-        let mut pass = encoder.begin_compute_pass(&wgpu::ComputePassDescriptor {
-            label: Some("convolution/rows"),
-            timestamp_writes: None,
-        });
-        pass.set_pipeline(&self.sum);
-        pass.set_bind_group(0, &self.group, &[]);
-        pass.dispatch_workgroups(self.rows.div_ceil(ROWS), 1, 1);
+impl Technique for ConvolutionRows {
+    fn works_in(&self, _: Stage) -> bool {
+        true
     }
 
-    /// Records what is done per pixel.
-    pub(super) fn record_pixels(&self, encoder: &mut wgpu::CommandEncoder) {
-        self.composite.record(encoder);
+    fn record(&self, stage: Stage, encoder: &mut wgpu::CommandEncoder) -> Result<(), LabError> {
+        match stage {
+            Stage::AfterShadowMaps => {
+                let mut pass = encoder.begin_compute_pass(&wgpu::ComputePassDescriptor {
+                    label: Some("convolution/rows"),
+                    timestamp_writes: None,
+                });
+                pass.set_pipeline(&self.sum);
+                pass.set_bind_group(0, &self.group, &[]);
+                pass.dispatch_workgroups(self.rows.div_ceil(ROWS), 1, 1);
+            }
+            Stage::AfterMainPass => self.composite.record(encoder),
+        }
+        Ok(())
     }
 
-    /// The radiance.
-    pub(super) fn radiance(&self) -> &wgpu::Texture {
-        &self.radiance
+    fn output(&self) -> Result<&wgpu::Texture, LabError> {
+        Ok(&self.radiance)
     }
 }

@@ -23,11 +23,18 @@ pub enum Look {
 }
 
 /// A viewpoint whose light can be lowered.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, clap::Args)]
 pub struct LookDesc {
-    /// What the camera looks at; the light is that of the numbered viewpoint, of number 0 for the others.
+    /// A numbered viewpoint, or how the camera looks: towards the light, away from it, straight into it, or straight along it.
+    /// The light is that of the numbered viewpoint, of number 0 for the others.
+    #[arg(
+        long = "view",
+        default_value = "0",
+        value_name = "NUMBER|towards|away|into|along"
+    )]
     pub look: Look,
     /// The light's height above the horizon in degrees, in place of the viewpoint's own.
+    #[arg(long)]
     pub elevation: Option<f64>,
 }
 
@@ -86,17 +93,23 @@ fn aside(direction: DVec3) -> DVec3 {
     glam::DQuat::from_axis_angle(across, ASIDE) * direction
 }
 
+/// The words for what the camera looks at.
+const WORDS: [(&str, Look); 4] = [
+    ("towards", Look::Towards),
+    ("away", Look::Away),
+    ("into", Look::Into),
+    ("along", Look::Along),
+];
+
 impl Look {
     /// A part of files' names.
     #[must_use]
     pub fn name(self) -> String {
-        match self {
-            Look::Numbered(number) => format!("{number}"),
-            Look::Towards => "towards".to_owned(),
-            Look::Away => "away".to_owned(),
-            Look::Into => "into".to_owned(),
-            Look::Along => "along".to_owned(),
+        if let Look::Numbered(number) = self {
+            return number.to_string();
         }
+        let word = WORDS.iter().find(|(_, look)| *look == self);
+        word.map_or(String::new(), |(word, _)| (*word).to_owned())
     }
 }
 
@@ -104,14 +117,11 @@ impl FromStr for Look {
     type Err = String;
 
     fn from_str(text: &str) -> Result<Self, String> {
-        match text {
-            "towards" => Ok(Look::Towards),
-            "away" => Ok(Look::Away),
-            "into" => Ok(Look::Into),
-            "along" => Ok(Look::Along),
-            _ => text.parse().map(Look::Numbered).map_err(|_| {
-                format!("'{text}' is no viewpoint; give a number, towards, away, into or along")
-            }),
+        if let Some((_, look)) = WORDS.iter().find(|(word, _)| *word == text) {
+            return Ok(*look);
         }
+        text.parse().map(Look::Numbered).map_err(|_| {
+            format!("'{text}' is no viewpoint; give a number, towards, away, into or along")
+        })
     }
 }

@@ -2,8 +2,8 @@
 
 mod air;
 mod candidate;
+mod chain;
 mod convolution;
-mod cost;
 mod draw;
 mod flicker;
 mod look;
@@ -14,12 +14,11 @@ mod truth;
 
 pub use air::Air;
 pub use candidate::{PROFILE, ScatteringCandidate, candidates};
-pub use cost::{ScatteringCost, costs};
 pub use flicker::{
     Chain, Change, FRAMES, Flicker, FlickerDesc, GOAL, Path, RectifyNearest, STILL, WINDOW,
     flicker, static_region,
 };
 pub use look::{Look, LookDesc};
-pub use report::{ScatteringError, ScatteringReport, ScatteringRow};
+pub use report::{ScatteringError, ScatteringErrors, ScatteringSetting};
 pub use stage::{ScatteringStage, ScatteringStageDesc};
 pub use truth::{MarchedRays, Rays, marched, marched_filtered};

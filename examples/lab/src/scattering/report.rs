@@ -1,16 +1,15 @@
-//! Errors and costs of single scattering, as text and as JSON.
+//! What a report tells of single scattering.
 
 use core::fmt;
 
 use serde::Serialize;
 
-use super::cost::ScatteringCost;
 use super::truth::MarchedRays;
-use crate::cost::report::Conditions;
+use crate::compare::{Row, Setting, Table};
 
-/// How ways to light the air of a scene compare.
+/// A scene with something in its air.
 #[derive(Clone, Debug, Serialize)]
-pub struct ScatteringReport {
+pub struct ScatteringSetting {
     /// The scene's name.
     pub scene: String,
     /// The viewpoint's name.
@@ -29,19 +28,11 @@ pub struct ScatteringReport {
     pub unshadowed: [f64; 3],
     /// The share of it that shadows take.
     pub shadowed: f64,
-    /// Seconds that the truths took.
-    pub truth_seconds: f64,
-    /// The candidates.
-    pub rows: Vec<ScatteringRow>,
-    /// How costs were taken, if they were.
-    pub conditions: Option<Conditions>,
 }
 
-/// A candidate.
+/// How far a picture is off.
 #[derive(Clone, Debug, Serialize)]
-pub struct ScatteringRow {
-    /// Its name.
-    pub name: String,
+pub struct ScatteringErrors {
     /// Whether it is made of the library's nodes.
     pub ours: bool,
     /// Fetches of maps per pixel.
@@ -52,8 +43,6 @@ pub struct ScatteringRow {
     pub filtered: ScatteringError,
     /// Steps through the plain map at full resolution, if that is what it does.
     pub steps: Option<u32>,
-    /// What it costs, if that was measured.
-    pub cost: Option<ScatteringCost>,
 }
 
 /// Errors of in-scattered radiance over all pixels, as parts of the mean radiance without shadows, by colour.
@@ -101,113 +90,76 @@ impl ScatteringError {
     }
 }
 
-impl ScatteringReport {
-    /// How many steps through the plain map at full resolution have the same error, by interpolation of logarithms: a number
-    /// and -1, 0 or 1 where it is below, among or above those that were measured.
-    #[must_use]
-    pub fn equal_steps(&self, error: f64) -> Option<(f64, i32)> {
-        let marched: Vec<(f64, f64)> = self
-            .rows
-            .iter()
-            .filter_map(|row| Some((f64::from(row.steps?), row.plain.overall())))
-            .collect();
-        let (first, last) = (marched.first()?, marched.last()?);
-        if error >= first.1 {
-            return Some((first.0, -1));
-        }
-        if error <= last.1 {
-            return Some((last.0, 1));
-        }
-        let pair = marched
-            .windows(2)
-            .find(|pair| error <= pair[0].1 && error >= pair[1].1)?;
-        let part = (pair[0].1 / error).ln() / (pair[0].1 / pair[1].1).ln();
-        Some((pair[0].0 * (pair[1].0 / pair[0].0).powf(part), 0))
-    }
-}
-
-impl fmt::Display for ScatteringReport {
+impl fmt::Display for ScatteringSetting {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let ([columns, rows], [width, height], map) = (self.extent, self.picture, self.map);
-        writeln!(
+        write!(
             f,
             "{}, view {}: map {map}x{map}, rectified {columns}x{rows}, picture {width}x{height}, optical thickness {}; {:.0} % in \
-             shadow; truths of {} steps in {:.1} s",
+             shadow; errors are parts of the mean radiance without shadows; truths of {} steps",
             self.scene,
             self.look,
             self.thickness,
             100.0 * self.shadowed,
             self.steps,
-            self.truth_seconds,
-        )?;
-        writeln!(
-            f,
-            "{:<18} {:>7} {:>23} {:>8} {:>8} {:>9} {:>9} {:>6}",
-            "mean absolute",
-            "fetches",
-            "red, green, blue",
-            "bias",
-            "largest",
-            "filtered",
-            "steps",
-            "NaN"
-        )?;
-        for row in &self.rows {
-            let [red, green, blue] = row.plain.mean_absolute;
-            let bias = row.plain.mean.iter().sum::<f64>() / 3.0;
-            let steps = match self.equal_steps(row.plain.overall()) {
-                Some(_) if !row.ours => String::new(),
-                Some((steps, -1)) => format!("< {steps:.0}"),
-                Some((steps, 1)) => format!("> {steps:.0}"),
-                Some((steps, _)) => format!("{steps:.0}"),
-                None => String::new(),
-            };
-            writeln!(
-                f,
-                "{:<18} {:>7} {red:>7.4} {green:>7.4} {blue:>7.4} {bias:>+8.4} {:>8.3} {:>9.4} {steps:>9} {:>6}",
-                row.name,
-                row.fetches,
-                row.plain.largest,
-                row.filtered.overall(),
-                row.plain.not_finite,
-            )?;
-        }
-        if let Some(conditions) = &self.conditions {
-            self.costs(f, conditions)?;
-        }
-        Ok(())
+        )
     }
 }
 
-impl ScatteringReport {
-    fn costs(&self, f: &mut fmt::Formatter<'_>, conditions: &Conditions) -> fmt::Result {
-        let first = self.rows.first().map_or("", |row| row.name.as_str());
-        writeln!(f, "\n{conditions}")?;
-        writeln!(
-            f,
-            "{:<18} {:>12} {:>6} {:>15} {:>6} {:>24}",
-            "cost",
-            "ns per pixel",
-            "IQR",
-            "ns per map texel",
-            "IQR",
-            format!("total x {first}")
-        )?;
-        let percent = |spread: f64| format!("{:.0} %", 100.0 * spread);
-        for row in &self.rows {
-            let Some(cost) = &row.cost else { continue };
-            let map = cost.map;
-            writeln!(
-                f,
-                "{:<18} {:>12.2} {:>6} {:>15} {:>6} {:>24.3}",
-                row.name,
-                cost.pixels.median,
-                percent(cost.pixels.spread()),
-                map.map_or("-".to_owned(), |map| format!("{:.2}", map.median)),
-                map.map_or(String::new(), |map| percent(map.spread())),
-                cost.total_ratio.median
-            )?;
-        }
-        Ok(())
+impl Setting for ScatteringSetting {
+    type Errors = ScatteringErrors;
+    const MAP_COST: &'static str = "map, per texel";
+
+    fn stem(&self) -> String {
+        format!("{}-{}", self.scene, self.look)
     }
+
+    fn tables(&self, rows: &[Row<ScatteringErrors>]) -> Vec<Table> {
+        let cells = |row: &Row<ScatteringErrors>| {
+            let errors = &row.errors;
+            let [red, green, blue] = errors.plain.mean_absolute.map(|it| format!("{it:.4}"));
+            let bias = errors.plain.mean.iter().sum::<f64>() / 3.0;
+            let steps = equal_steps(rows, errors.plain.overall()).filter(|_| errors.ours);
+            let steps = steps.map(|(steps, side)| match side {
+                -1 => format!("< {steps:.0}"),
+                1 => format!("> {steps:.0}"),
+                _ => format!("{steps:.0}"),
+            });
+            vec![
+                ("mean absolute", row.name.clone()),
+                ("fetches", errors.fetches.to_string()),
+                ("red", red),
+                ("green", green),
+                ("blue", blue),
+                ("bias", format!("{bias:+.4}")),
+                ("largest", format!("{:.3}", errors.plain.largest)),
+                ("filtered", format!("{:.4}", errors.filtered.overall())),
+                ("steps", steps.unwrap_or("-".to_owned())),
+                ("NaN", errors.plain.not_finite.to_string()),
+            ]
+        };
+        vec![rows.iter().map(cells).collect()]
+    }
+}
+
+/// How many steps through the plain map at full resolution have the same error, by interpolation of logarithms: a number
+/// and -1, 0 or 1 where it is below, among or above those that were measured.
+fn equal_steps(rows: &[Row<ScatteringErrors>], error: f64) -> Option<(f64, i32)> {
+    let marched: Vec<(f64, f64)> = rows
+        .iter()
+        .map(|row| &row.errors)
+        .filter_map(|errors| Some((f64::from(errors.steps?), errors.plain.overall())))
+        .collect();
+    let (first, last) = (marched.first()?, marched.last()?);
+    if error >= first.1 {
+        return Some((first.0, -1));
+    }
+    if error <= last.1 {
+        return Some((last.0, 1));
+    }
+    let pair = marched
+        .windows(2)
+        .find(|pair| error <= pair[0].1 && error >= pair[1].1)?;
+    let part = (pair[0].1 / error).ln() / (pair[0].1 / pair[1].1).ln();
+    Some((pair[0].0 * (pair[1].0 / pair[0].0).powf(part), 0))
 }

@@ -5,15 +5,20 @@ use glam::DVec3;
 use moment_shadows::{Kernel, RectifiedFrame, ScatteringParameters, SingleScattering};
 use wgpu::util::DeviceExt;
 
-use super::air::Air;
+use super::air::{ANISOTROPY, Air, THICKNESS, far};
+use super::candidate::ScatteringCandidate;
 use super::look::LookDesc;
+use super::report::{ScatteringError, ScatteringErrors, ScatteringSetting};
 use super::truth::{MarchedRays, Rays, marched, marched_filtered};
+use crate::compare::{Shown, Stage, Technique};
 use crate::error::LabError;
 use crate::frame::{Frame, FrameDesc};
 use crate::gpu::Gpu;
-use crate::graph_frame::scattering_parameters;
+use crate::graph_file::GraphFile;
+use crate::graph_frame::{GraphFrame, scattering_parameters};
 use crate::host::{Surface, read_depth_samples, read_gbuffer};
 use crate::light::LightShape;
+use crate::picture::signed_difference;
 use crate::scene::Scene;
 use crate::truth::kernel::TapPattern;
 
@@ -23,26 +28,56 @@ const SAMPLES: u32 = 4;
 /// Texels that the map leaves free around the casters beyond the blur's radius.
 const MARGIN: f64 = 2.0;
 
-/// How far behind the scene's middle the air ends, in parts of its radius.
-const BEHIND: f64 = 1.5;
+/// A difference that is shown in full colour, in parts of the mean radiance without shadows.
+const FULL_DIFFERENCE: f32 = 0.5;
+
+/// What the mean radiance without shadows is in pictures, on a scale from black to white.
+const EXPOSURE: f64 = 0.35;
+
+/// The chain that lights the surfaces of pictures.
+const SURFACES: &str = include_str!("../../../hard_shadows.json");
 
 /// What is drawn.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, clap::Args)]
 pub struct ScatteringStageDesc {
     /// The viewpoint.
+    #[command(flatten)]
     pub look: LookDesc,
     /// Optical thickness between the camera and the far end.
+    #[arg(long, default_value_t = THICKNESS)]
     pub thickness: f64,
-    /// Of the phase function.
+    /// Of the phase function, from -0.99 (backwards) to 0.99 (forwards).
+    #[arg(long, default_value_t = ANISOTROPY, allow_negative_numbers = true)]
     pub anisotropy: f32,
     /// Texels per side of the light's map.
+    #[arg(long, default_value_t = 1024, value_parser = clap::value_parser!(u32).range(16..=8192))]
     pub map: u32,
-    /// Of the blur that the filtered map has.
+    /// Radius in texels of the blur of the light's map.
+    #[arg(long, default_value_t = 2, value_parser = clap::value_parser!(u32).range(1..=64))]
     pub radius: u32,
-    /// Width and height of the picture.
-    pub picture: [u32; 2],
+    /// Columns of rectified maps.
+    #[arg(long, default_value_t = 512, value_parser = clap::value_parser!(u32).range(2..=8192))]
+    pub columns: u32,
+    /// Rows of rectified maps.
+    #[arg(long, default_value_t = 512, value_parser = clap::value_parser!(u32).range(2..=8192))]
+    pub rows: u32,
+    /// Width of the picture.
+    #[arg(long, default_value_t = 640, value_parser = clap::value_parser!(u32).range(16..=8192))]
+    pub width: u32,
+    /// Height of the picture.
+    #[arg(long, default_value_t = 360, value_parser = clap::value_parser!(u32).range(16..=8192))]
+    pub height: u32,
     /// Steps of the truth.
+    #[arg(long, default_value_t = 1024, value_parser = clap::value_parser!(u32).range(1..=65_536))]
     pub steps: u32,
+}
+
+impl ScatteringStageDesc {
+    /// Columns and rows of rectified maps.
+    #[must_use]
+    pub fn extent(&self) -> [u32; 2] {
+        [self.columns, self.rows]
+    }
 }
 
 /// A drawn scene with its truth.
@@ -56,6 +91,8 @@ pub struct ScatteringStage {
     /// With [`SAMPLES`] samples per texel, and with one.
     frames: [Frame; 2],
     uniform: ScatteringView,
+    scene: String,
+    desc: ScatteringStageDesc,
 }
 
 /// What competitors are told: the uniform struct of `view.wgsl`.
@@ -79,25 +116,21 @@ impl ScatteringStage {
         let margin = f64::from(desc.radius) + MARGIN;
         let light = view.sun(scene, map, margin, false)?;
         let mut camera = view.camera;
-        camera.aspect = f64::from(desc.picture[0]) / f64::from(desc.picture[1].max(1));
-        let bounds = scene.bounds();
-        let far = (bounds.centre() - camera.eye).length() + BEHIND * bounds.radius();
+        camera.aspect = f64::from(desc.width) / f64::from(desc.height.max(1));
+        let far = far(scene, camera.eye);
         let air = Air::new(desc.thickness, desc.anisotropy, far)?;
-        let frame = |samples| {
-            let desc = FrameDesc {
-                picture: desc.picture,
-                map,
-                samples,
-                format: wgpu::TextureFormat::Depth32Float,
-                light,
-                shape: LightShape::Directional {
-                    angular_diameter: 0.0,
-                },
-                camera,
-            };
-            Frame::draw(gpu, scene, desc)
+        let drawn = FrameDesc {
+            picture: [desc.width, desc.height],
+            map,
+            samples: SAMPLES,
+            format: wgpu::TextureFormat::Depth32Float,
+            light,
+            shape: LightShape::Directional {
+                angular_diameter: 0.0,
+            },
+            camera,
         };
-        let frames = [frame(SAMPLES)?, frame(1)?];
+        let frames = Frame::pair(gpu, scene, drawn)?;
         let ends = ends(gpu, &frames[1].desc, &frames[1].surface, far)?;
         let depth = read_depth_samples(gpu, &frames[1].light_map.texture)?;
         let rays = Rays {
@@ -116,6 +149,8 @@ impl ScatteringStage {
             air,
             frames,
             uniform: ScatteringView::of(&parameters),
+            scene: scene.name.clone(),
+            desc: *desc,
         })
     }
 
@@ -140,6 +175,123 @@ impl ScatteringStage {
                 usage: wgpu::BufferUsages::UNIFORM,
             })
     }
+}
+
+impl Stage for ScatteringStage {
+    type Candidate = ScatteringCandidate;
+    type Picture = Vec<[f32; 4]>;
+    type Setting = ScatteringSetting;
+    const COSTS: [&'static str; 4] = ["pixels", "pixels_ratio", "map", "total_ratio"];
+
+    fn name(candidate: &ScatteringCandidate) -> &str {
+        &candidate.name
+    }
+
+    fn bind(
+        &self,
+        gpu: &Gpu,
+        candidate: &ScatteringCandidate,
+    ) -> Result<Box<dyn Technique>, LabError> {
+        candidate.bind(gpu, self)
+    }
+
+    fn read(&self, gpu: &Gpu, output: &wgpu::Texture) -> Result<Vec<[f32; 4]>, LabError> {
+        read_radiance(gpu, output)
+    }
+
+    fn errors(
+        &self,
+        candidate: &ScatteringCandidate,
+        picture: &Vec<[f32; 4]>,
+    ) -> Result<ScatteringErrors, LabError> {
+        Ok(ScatteringErrors {
+            ours: candidate.is_ours(),
+            fetches: candidate.fetches,
+            plain: ScatteringError::of(picture, &self.truth),
+            filtered: ScatteringError::of(picture, &self.filtered),
+            steps: candidate.steps(),
+        })
+    }
+
+    fn show(&self, gpu: &Gpu, pictures: &[Vec<[f32; 4]>]) -> Result<Shown, LabError> {
+        let file = GraphFile::parse("hard_shadows.json", SURFACES.to_owned(), None)?;
+        let graph = GraphFrame::new(gpu, self.frame(), &file)?;
+        graph.run(gpu)?;
+        let surfaces = self.frame().picture(gpu, graph.shadow(&file)?)?;
+        let brightness = mean(&self.truth.unshadowed).iter().sum::<f64>() / 3.0;
+        // The truth has no alpha; that of any candidate is exact.
+        let dimming = pictures.first().map_or(&[][..], Vec::as_slice);
+        let truth: Vec<[f32; 4]> = (self.truth.radiance.iter().zip(dimming))
+            .map(|(&[red, green, blue], dimming)| [red, green, blue, dimming[3]])
+            .collect();
+        let grey = |picture: &[[f32; 4]]| -> Vec<f32> {
+            let mean = |pixel: &[f32; 4]| (pixel[0] + pixel[1] + pixel[2]) / 3.0;
+            (picture.iter().map(mean))
+                .map(|mean| mean / brightness as f32)
+                .collect()
+        };
+        let exposure = EXPOSURE / brightness;
+        let shown = |picture: &Vec<[f32; 4]>| {
+            // Too bright is blue, as too little shadow is.
+            let difference = signed_difference(&grey(&truth), &grey(picture), FULL_DIFFERENCE);
+            [lit(&surfaces, picture, exposure), difference]
+        };
+        Ok(Shown {
+            pictures: pictures.iter().map(shown).collect(),
+            truth: lit(&surfaces, &truth, exposure),
+        })
+    }
+
+    fn setting(&self) -> ScatteringSetting {
+        let [unshadowed, lit] = [&self.truth.unshadowed, &self.truth.radiance].map(|it| mean(it));
+        ScatteringSetting {
+            scene: self.scene.clone(),
+            look: self.desc.look.look.name(),
+            map: self.desc.map,
+            extent: self.desc.extent(),
+            picture: self.frame().desc.picture,
+            steps: self.desc.steps,
+            thickness: self.desc.thickness,
+            unshadowed,
+            shadowed: 1.0 - lit.iter().sum::<f64>() / unshadowed.iter().sum::<f64>().max(1e-300),
+        }
+    }
+
+    fn sizes(&self) -> [[u32; 2]; 2] {
+        [self.frame().desc.picture, self.frame().desc.map]
+    }
+}
+
+/// By colour.
+fn mean(values: &[[f32; 3]]) -> [f64; 3] {
+    [0, 1, 2].map(|colour| {
+        let sum: f64 = values.iter().map(|value| f64::from(value[colour])).sum();
+        sum / values.len().max(1) as f64
+    })
+}
+
+/// Radiance and transmittance per pixel, the top row first.
+pub(super) fn read_radiance(gpu: &Gpu, texture: &wgpu::Texture) -> Result<Vec<[f32; 4]>, LabError> {
+    let bytes = gpu.read_texture(texture, 0, "radiance")?;
+    let halves = bytes.chunks_exact(8).map(|pixel| {
+        std::array::from_fn(|channel| {
+            half::f16::from_le_bytes([pixel[2 * channel], pixel[2 * channel + 1]]).to_f32()
+        })
+    });
+    Ok(halves.collect())
+}
+
+/// Radiance in front of a picture of sRGB bytes.
+fn lit(surfaces: &[u8], radiance: &[[f32; 4]], exposure: f64) -> Vec<u8> {
+    let mut picture = surfaces.to_vec();
+    for (pixel, light) in picture.chunks_exact_mut(4).zip(radiance) {
+        for (byte, &colour) in pixel.iter_mut().zip(&light[..3]) {
+            let behind = (f64::from(*byte) / 255.0).powf(2.2) * f64::from(light[3]);
+            let sum = behind + exposure * f64::from(colour);
+            *byte = (sum.clamp(0.0, 1.0).powf(1.0 / 2.2) * 255.0).round() as u8;
+        }
+    }
+    picture
 }
 
 impl ScatteringView {

@@ -35,59 +35,30 @@ pub struct SoftCandidate {
 /// moments, and the graphs that are given.
 pub fn candidates(given: &[NamedGraph]) -> Result<Vec<SoftCandidate>, LabError> {
     let hard = GraphFile::parse("hard_shadows.json", HARD.to_owned(), None)?;
+    let soft = GraphFile::parse("soft_shadows.json", SOFT.to_owned(), None)?;
     let mut all = Vec::new();
     for (name, search_taps, filter_taps) in TAPS {
         let technique = Technique::Pcss(Pcss {
             search_taps,
             filter_taps,
         });
-        all.push(SoftCandidate {
-            name: name.to_owned(),
-            file: hard.with_technique(&technique, None)?,
-        });
+        all.push((name.to_owned(), hard.with_technique(&technique, None)?));
     }
-    all.insert(
-        0,
-        SoftCandidate {
-            name: "hard".to_owned(),
-            file: hard,
-        },
-    );
-    let soft = GraphFile::parse("soft_shadows.json", SOFT.to_owned(), None)?;
+    all.insert(0, ("hard".to_owned(), hard));
     for (name, technique) in [
         ("moment soft", Technique::Hamburger4),
         ("variance soft", Technique::Vsm),
     ] {
-        all.push(SoftCandidate {
-            name: name.to_owned(),
-            file: soft.with_technique(&technique, None)?,
-        });
+        all.push((name.to_owned(), soft.with_technique(&technique, None)?));
     }
     for NamedGraph { name, path } in given {
-        all.push(SoftCandidate {
-            name: name.clone(),
-            file: GraphFile::read(Path::new(path), None)?,
-        });
+        all.push((name.clone(), GraphFile::read(Path::new(path), None)?));
     }
-    for candidate in &mut all {
-        candidate.file = candidate.file.in_single_precision()?;
-    }
-    Ok(all)
-}
-
-impl SoftCandidate {
-    /// The name as a part of a file's name.
-    #[must_use]
-    pub fn file_stem(&self) -> String {
-        let plain = |letter: char| {
-            if letter.is_alphanumeric() {
-                letter
-            } else {
-                '-'
-            }
-        };
-        self.name.chars().map(plain).collect()
-    }
+    let candidates = all.into_iter().map(|(name, file)| {
+        let file = file.in_single_precision()?;
+        Ok(SoftCandidate { name, file })
+    });
+    candidates.collect()
 }
 
 /// A graph file that a command line adds to the candidates: `NAME=FILE`, or a file that is its own name.

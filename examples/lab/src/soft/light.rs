@@ -11,7 +11,7 @@ use crate::scene::Scene;
 use crate::view::View;
 
 /// What kind of area light.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, clap::ValueEnum)]
 #[serde(rename_all = "lowercase")]
 pub enum SoftLightChoice {
     /// A sun of an angular diameter.

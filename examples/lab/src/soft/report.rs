@@ -1,19 +1,18 @@
-//! Errors and costs of soft shadows, as text and as JSON.
+//! What a report tells of soft shadows.
 
 use core::fmt;
 
 use serde::Serialize;
 
-use super::cost::SoftCost;
 use super::light::SoftLightChoice;
-use crate::cost::report::Conditions;
+use crate::compare::{Row, Setting, Table};
 use crate::light::LightShape;
-use crate::metric::Comparison;
+use crate::metric::{Comparison, ErrorFigures};
 use crate::scene::EDGE_HEIGHTS;
 
-/// How soft shadows of a scene compare.
+/// A scene under an area light.
 #[derive(Clone, Debug, Serialize)]
-pub struct SoftReport {
+pub struct SoftSetting {
     /// The scene's name.
     pub scene: String,
     /// What kind of area light.
@@ -30,14 +29,8 @@ pub struct SoftReport {
     pub picture: [u32; 2],
     /// Places on the light that the truth is the mean of.
     pub places: u32,
-    /// Seconds that the truth took.
-    pub truth_seconds: f64,
     /// Widths of the penumbrae of straight edges, 10 % to 90 %, in scene units: as geometry has them, and on the truth.
     pub edges: Option<SoftEdges>,
-    /// The candidates.
-    pub rows: Vec<SoftRow>,
-    /// How costs were taken, if they were.
-    pub conditions: Option<Conditions>,
 }
 
 /// Penumbrae of straight edges.
@@ -49,29 +42,24 @@ pub struct SoftEdges {
     pub truth: [Option<f64>; EDGE_HEIGHTS.len()],
 }
 
-/// A candidate.
+/// How far a picture is off.
 #[derive(Clone, Debug, Serialize)]
-pub struct SoftRow {
-    /// Its name.
-    pub name: String,
+pub struct SoftErrors {
     /// Its error over the pixels that face the light within its map, and over those of them in a penumbra.
     pub error: Comparison,
     /// Penumbrae of straight edges.
     pub edges: Option<[Option<f64>; EDGE_HEIGHTS.len()]>,
-    /// What it costs, if that was measured.
-    pub cost: Option<SoftCost>,
 }
 
 /// The size of a light as reports have it.
-#[must_use]
-pub(crate) fn size(shape: LightShape) -> [f64; 2] {
+pub(super) fn size(shape: LightShape) -> [f64; 2] {
     match shape {
         LightShape::Directional { angular_diameter } => [angular_diameter.to_degrees(); 2],
         _ => shape.extent(),
     }
 }
 
-impl fmt::Display for SoftReport {
+impl fmt::Display for SoftSetting {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let [width, height] = self.light_size;
         let light = match self.light {
@@ -80,116 +68,65 @@ impl fmt::Display for SoftReport {
             SoftLightChoice::Rectangle => format!("{width:.3} x {height:.3}"),
         };
         let ([columns, rows], map) = (self.picture, self.map);
-        writeln!(
+        write!(
             f,
-            "{}: {} light, {light}; map {map}x{map}, picture {columns}x{rows}; truth of {} places in {:.1} s",
+            "{}: {} light, {light}; map {map}x{map}, picture {columns}x{rows}; truth of {} places",
             self.scene,
             self.light.name(),
-            self.places,
-            self.truth_seconds
-        )?;
-        self.errors(f)?;
-        if let Some(edges) = &self.edges {
-            self.widths(f, edges)?;
-        }
-        if let Some(conditions) = &self.conditions {
-            self.costs(f, conditions)?;
-        }
-        Ok(())
+            self.places
+        )
     }
 }
 
-impl SoftReport {
-    fn errors(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let count =
-            |of: fn(&Comparison) -> usize| self.rows.first().map_or(0, |row| of(&row.error));
-        writeln!(
-            f,
-            "{:<14} {:>38}   {:>38} {:>5}",
-            "mean absolute",
-            format!("facing, {} pixels", count(|error| error.facing.samples)),
-            format!("penumbra, {} pixels", count(|error| error.penumbra.samples)),
-            ""
-        )?;
-        writeln!(
-            f,
-            "{:<14} {:>9} {:>9} {:>9} {:>8}   {:>9} {:>9} {:>9} {:>8} {:>5}",
-            "error",
-            "mean",
-            "leaking",
-            "95 %",
-            "maximum",
-            "mean",
-            "leaking",
-            "95 %",
-            "maximum",
-            "NaN"
-        )?;
-        for row in &self.rows {
-            write!(f, "{:<14}", row.name)?;
-            for (space, figures) in [(" ", &row.error.facing), ("   ", &row.error.penumbra)] {
-                write!(
-                    f,
-                    "{space}{:>9.5} {:>9.5} {:>9.5} {:>8.4}",
-                    figures.mean_absolute, figures.leaking, figures.percentile_95, figures.maximum
-                )?;
-            }
-            writeln!(f, " {:>5}", row.error.nan_pixels)?;
-        }
-        Ok(())
+impl Setting for SoftSetting {
+    type Errors = SoftErrors;
+    const MAP_COST: &'static str = "map, per pixel";
+
+    fn stem(&self) -> String {
+        format!("{}-{}", self.scene, self.light.name())
     }
 
-    fn widths(&self, f: &mut fmt::Formatter<'_>, edges: &SoftEdges) -> fmt::Result {
-        write!(f, "penumbra 10 % to 90 %")?;
-        for height in EDGE_HEIGHTS {
-            write!(f, " {:>20}", format!("edge at {height}"))?;
-        }
-        writeln!(f)?;
-        let measured = self.rows.iter().map(|row| (row.name.as_str(), row.edges));
-        let exact = ("exact", Some(edges.exact.map(Some)));
-        for (name, widths) in [exact, ("truth", Some(edges.truth))]
-            .into_iter()
-            .chain(measured)
-        {
-            write!(f, "{name:<21}")?;
-            for (width, exact) in widths.unwrap_or_default().iter().zip(edges.exact) {
-                let text = width.map_or("-".to_owned(), |width| {
-                    format!("{width:.4} ({:+.1} %)", 100.0 * (width / exact - 1.0))
+    fn tables(&self, rows: &[Row<SoftErrors>]) -> Vec<Table> {
+        type Figures = fn(&Comparison) -> &ErrorFigures;
+        let sets: [(&str, Figures); 2] = [
+            ("facing", |error| &error.facing),
+            ("penumbra", |error| &error.penumbra),
+        ];
+        let errors = sets.map(|(name, figures)| {
+            let cells = |row: &Row<SoftErrors>| {
+                let (error, figure) = (&row.errors.error, |value: f64| format!("{value:.5}"));
+                let of = figures(error);
+                vec![
+                    (name, row.name.clone()),
+                    ("pixels", of.samples.to_string()),
+                    ("mean absolute", figure(of.mean_absolute)),
+                    ("leaking", figure(of.leaking)),
+                    ("95 %", figure(of.percentile_95)),
+                    ("maximum", figure(of.maximum)),
+                    ("NaN", error.nan_pixels.to_string()),
+                ]
+            };
+            rows.iter().map(cells).collect()
+        });
+        let widths = self.edges.iter().flat_map(|edges| {
+            let measured = rows.iter().map(|row| (row.name.as_str(), row.errors.edges));
+            let exact = ("exact", Some(edges.exact.map(Some)));
+            let known = [exact, ("truth", Some(edges.truth))];
+            known.into_iter().chain(measured).map(|(name, widths)| {
+                let widths = widths.unwrap_or_default().into_iter().zip(edges.exact);
+                let cells = widths.zip(EDGES).map(|((width, exact), edge)| {
+                    let text = width.map(|width| {
+                        format!("{width:.4} ({:+.1} %)", 100.0 * (width / exact - 1.0))
+                    });
+                    (edge, text.unwrap_or("-".to_owned()))
                 });
-                write!(f, " {text:>20}")?;
-            }
-            writeln!(f)?;
-        }
-        Ok(())
-    }
-
-    fn costs(&self, f: &mut fmt::Formatter<'_>, conditions: &Conditions) -> fmt::Result {
-        let first = self.rows.first().map_or("", |row| row.name.as_str());
-        writeln!(f, "\n{conditions}")?;
-        writeln!(
-            f,
-            "{:<14} {:>14} {:>10} {:>6} {:>14} {:>12}",
-            "cost",
-            "shading, ns/px",
-            format!("x {first}"),
-            "IQR",
-            "map, ns/px",
-            format!("total x {first}")
-        )?;
-        for row in &self.rows {
-            let Some(cost) = &row.cost else { continue };
-            let map = cost.preparation;
-            writeln!(
-                f,
-                "{:<14} {:>14.2} {:>10.3} {:>6} {:>14} {:>12.3}",
-                row.name,
-                cost.shading.median,
-                cost.shading_ratio.median,
-                format!("{:.0} %", 100.0 * cost.shading_ratio.spread()),
-                map.map_or("-".to_owned(), |map| format!("{:.2}", map.median)),
-                cost.total_ratio.median
-            )?;
-        }
-        Ok(())
+                let name = ("penumbra 10 % to 90 %", name.to_owned());
+                std::iter::once(name).chain(cells).collect()
+            })
+        });
+        errors.into_iter().chain([widths.collect()]).collect()
     }
 }
+
+/// What the columns of straight edges are called.
+const EDGES: [&str; EDGE_HEIGHTS.len()] = ["lowest edge", "middle edge", "highest edge"];

@@ -1,20 +1,23 @@
 //! A scene under an area light, drawn, with the truth of what the camera sees.
 
 use glam::DVec3;
+use wgpu::util::DeviceExt;
 
 use super::candidate::SoftCandidate;
 use super::light::{LightSize, SoftLightChoice};
+use super::report::{SoftEdges, SoftErrors, SoftSetting, size};
+use crate::compare::{Shown, Stage, Technique};
 use crate::error::LabError;
 use crate::frame::{Frame, FrameDesc};
 use crate::gpu::Gpu;
-use crate::graph_file::GraphFile;
-use crate::graph_frame::GraphFrame;
+use crate::graph_frame::{GraphFrame, read_intensity};
 use crate::host::{SurfacePixels, read_gbuffer};
 use crate::judgement::facing;
 use crate::metric::{Comparison, compare};
 use crate::penumbra::{Profile, edge_widths};
+use crate::picture::signed_difference;
 use crate::scene::{EDGE, EDGE_HEIGHTS, Scene};
-use crate::truth::area_light::{AreaLight, USUAL_PLACES};
+use crate::truth::area_light::{AreaLight, MOST_PLACES, USUAL_PLACES};
 use crate::view::View;
 
 /// Samples per texel of the map, for techniques that can have several.
@@ -26,20 +29,33 @@ const MARGIN: f64 = 6.0;
 /// Intervals over which profiles are averaged, per width of the penumbra.
 const BINS: f64 = 40.0;
 
+/// A difference of shadow intensity that is shown in full colour.
+const FULL_DIFFERENCE: f32 = 0.5;
+
 /// What is drawn, under which light.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, clap::Args)]
 pub struct StageDesc {
-    /// What kind of area light.
+    /// The light.
+    #[arg(long, value_enum, default_value = "directional")]
     pub light: SoftLightChoice,
-    /// Its size; the usual one where it is not given.
+    /// The light's size: degrees for a directional one, a diameter in scene units for a spot, WIDTHxHEIGHT for a rectangle. 0
+    /// gives hard shadows.
+    #[arg(long)]
     pub size: Option<LightSize>,
-    /// The numbered viewpoint.
+    /// One of the numbered viewpoints and light directions.
+    #[arg(long, default_value_t = 0)]
     pub view: u32,
     /// Texels per side of the light's map.
+    #[arg(long, default_value_t = 1024, value_parser = clap::value_parser!(u32).range(16..=8192))]
     pub map: u32,
-    /// Width and height of the picture.
-    pub picture: [u32; 2],
+    /// Width of the picture.
+    #[arg(long, default_value_t = 640, value_parser = clap::value_parser!(u32).range(16..=8192))]
+    pub width: u32,
+    /// Height of the picture.
+    #[arg(long, default_value_t = 360, value_parser = clap::value_parser!(u32).range(16..=8192))]
+    pub height: u32,
     /// Places on the light that the truth is the mean of.
+    #[arg(long = "samples", default_value_t = USUAL_PLACES, value_parser = clap::value_parser!(u32).range(1..=i64::from(MOST_PLACES)))]
     pub places: u32,
 }
 
@@ -50,7 +66,8 @@ impl Default for StageDesc {
             size: None,
             view: 0,
             map: 1024,
-            picture: [1280, 720],
+            width: 640,
+            height: 360,
             places: USUAL_PLACES,
         }
     }
@@ -64,8 +81,8 @@ pub struct SoftStage {
     pub judged: Vec<bool>,
     /// What the camera sees.
     pub pixels: SurfacePixels,
-    /// Whether it is the scene of straight edges.
-    edges: bool,
+    scene: String,
+    choice: StageDesc,
     /// With [`SAMPLES`] samples per texel, and with one.
     frames: [Frame; 2],
 }
@@ -85,20 +102,17 @@ impl SoftStage {
         let map = [desc.map; 2];
         let (light, shape) = desc.light.light(scene, &view, map, MARGIN, desc.size)?;
         let mut camera = view.camera;
-        camera.aspect = f64::from(desc.picture[0]) / f64::from(desc.picture[1].max(1));
-        let frame = |samples| {
-            let desc = FrameDesc {
-                picture: desc.picture,
-                map,
-                samples,
-                format: wgpu::TextureFormat::Depth32Float,
-                light,
-                shape,
-                camera,
-            };
-            Frame::draw(gpu, scene, desc)
+        camera.aspect = f64::from(desc.width) / f64::from(desc.height.max(1));
+        let drawn = FrameDesc {
+            picture: [desc.width, desc.height],
+            map,
+            samples: SAMPLES,
+            format: wgpu::TextureFormat::Depth32Float,
+            light,
+            shape,
+            camera,
         };
-        let frames = [frame(SAMPLES)?, frame(1)?];
+        let frames = Frame::pair(gpu, scene, drawn)?;
         let pixels = read_gbuffer(gpu, &frames[0].surface)?;
         let truth = AreaLight::new(scene, &light, shape, map, desc.places)?.picture(&pixels)?;
         let mut judged = facing(&light, &pixels);
@@ -110,15 +124,10 @@ impl SoftStage {
             truth,
             judged,
             pixels,
-            edges: scene.name == EDGE,
+            scene: scene.name.clone(),
+            choice: *desc,
             frames,
         })
-    }
-
-    /// The frame that a graph reads: with several samples per texel where it can have them.
-    #[must_use]
-    pub fn frame(&self, file: &GraphFile) -> &Frame {
-        &self.frames[usize::from(file.reads_depth())]
     }
 
     /// What was drawn, under which light.
@@ -127,45 +136,26 @@ impl SoftStage {
         &self.frames[0].desc
     }
 
-    /// Runs a candidate.
-    pub fn picture(&self, gpu: &Gpu, candidate: &SoftCandidate) -> Result<SoftPicture, LabError> {
-        let frame = self.frame(&candidate.file);
-        let graph_frame = GraphFrame::new(gpu, frame, &candidate.file)?;
-        graph_frame.run(gpu)?;
-        Ok(SoftPicture {
-            shadow: graph_frame.read_shadow(gpu, &candidate.file)?,
-            lit: frame.picture(gpu, graph_frame.shadow(&candidate.file)?)?,
-        })
-    }
-
     /// The lit picture of the truth, sRGB bytes with alpha.
-    pub fn lit_truth(&self, gpu: &Gpu) -> Result<Vec<u8>, LabError> {
+    fn lit_truth(&self, gpu: &Gpu) -> Result<Vec<u8>, LabError> {
         let [width, height] = self.desc().picture;
-        let size = wgpu::Extent3d {
-            width,
-            height,
-            depth_or_array_layers: 1,
-        };
-        let texture = gpu.device.create_texture(&wgpu::TextureDescriptor {
+        let desc = wgpu::TextureDescriptor {
             label: Some("lab/area light"),
-            size,
+            size: wgpu::Extent3d {
+                width,
+                height,
+                depth_or_array_layers: 1,
+            },
             mip_level_count: 1,
             sample_count: 1,
             dimension: wgpu::TextureDimension::D2,
             format: wgpu::TextureFormat::R32Float,
-            usage: wgpu::TextureUsages::TEXTURE_BINDING | wgpu::TextureUsages::COPY_DST,
+            usage: wgpu::TextureUsages::TEXTURE_BINDING,
             view_formats: &[],
-        });
-        gpu.queue.write_texture(
-            texture.as_image_copy(),
-            bytemuck::cast_slice(&self.truth),
-            wgpu::TexelCopyBufferLayout {
-                offset: 0,
-                bytes_per_row: Some(4 * width),
-                rows_per_image: None,
-            },
-            size,
-        );
+        };
+        let texels = bytemuck::cast_slice(&self.truth);
+        let texture =
+            (gpu.device).create_texture_with_data(&gpu.queue, &desc, Default::default(), texels);
         self.frames[0].picture(gpu, &texture)
     }
 
@@ -178,7 +168,7 @@ impl SoftStage {
     #[must_use]
     pub fn exact_widths(&self) -> Option<[f64; EDGE_HEIGHTS.len()]> {
         let desc = self.desc();
-        self.edges.then(|| edge_widths(&desc.light, desc.shape))
+        (self.scene == EDGE).then(|| edge_widths(&desc.light, desc.shape))
     }
 
     /// The same measured on a picture of shadow intensity; none where the profile does not lead from light to shadow.
@@ -190,5 +180,74 @@ impl SoftStage {
             let bin = (exact[number] / BINS).max(1e-3);
             Profile::of_edge(&self.pixels, shadow, number, bin).width()
         }))
+    }
+}
+
+impl Stage for SoftStage {
+    type Candidate = SoftCandidate;
+    type Picture = SoftPicture;
+    type Setting = SoftSetting;
+    const COSTS: [&'static str; 4] = ["shading", "shading_ratio", "preparation", "total_ratio"];
+
+    fn name(candidate: &SoftCandidate) -> &str {
+        &candidate.name
+    }
+
+    fn bind(&self, gpu: &Gpu, candidate: &SoftCandidate) -> Result<Box<dyn Technique>, LabError> {
+        // Several samples per texel where it can have them.
+        let frame = &self.frames[usize::from(candidate.file.reads_depth())];
+        let graph = GraphFrame::new(gpu, frame, &candidate.file)?;
+        graph.shadow(&candidate.file)?;
+        Ok(Box::new(graph))
+    }
+
+    fn read(&self, gpu: &Gpu, output: &wgpu::Texture) -> Result<SoftPicture, LabError> {
+        Ok(SoftPicture {
+            shadow: read_intensity(gpu, output)?,
+            lit: self.frames[0].picture(gpu, output)?,
+        })
+    }
+
+    fn errors(&self, _: &SoftCandidate, picture: &SoftPicture) -> Result<SoftErrors, LabError> {
+        Ok(SoftErrors {
+            error: self.judge(&picture.shadow)?,
+            edges: self.widths(&picture.shadow),
+        })
+    }
+
+    fn show(&self, gpu: &Gpu, pictures: &[SoftPicture]) -> Result<Shown, LabError> {
+        let shown = |picture: &SoftPicture| {
+            // Elsewhere there is no shadow that could be wrong.
+            let pixels = picture.shadow.iter().zip(&self.truth).zip(&self.judged);
+            let shadow: Vec<f32> = pixels
+                .map(|((shadow, truth), judged)| if *judged { *shadow } else { *truth })
+                .collect();
+            let difference = signed_difference(&shadow, &self.truth, FULL_DIFFERENCE);
+            [picture.lit.clone(), difference]
+        };
+        Ok(Shown {
+            truth: self.lit_truth(gpu)?,
+            pictures: pictures.iter().map(shown).collect(),
+        })
+    }
+
+    fn setting(&self) -> SoftSetting {
+        let (drawn, choice) = (self.desc(), &self.choice);
+        let edges = self.exact_widths().zip(self.widths(&self.truth));
+        SoftSetting {
+            scene: self.scene.clone(),
+            light: choice.light,
+            light_size: size(drawn.shape),
+            light_range: drawn.light.range,
+            texel: drawn.light.texel_size(drawn.map),
+            map: choice.map,
+            picture: drawn.picture,
+            places: choice.places,
+            edges: edges.map(|(exact, truth)| SoftEdges { exact, truth }),
+        }
+    }
+
+    fn sizes(&self) -> [[u32; 2]; 2] {
+        [self.desc().picture; 2]
     }
 }

@@ -1,15 +1,16 @@
 //! The picture of the report.
 
-use plotters::backend::{BitMapBackend, DrawingBackend};
+use std::path::{Path, PathBuf};
+
+use plotters::backend::DrawingBackend;
 use plotters::coord::Shift;
-use plotters::drawing::{DrawingArea, DrawingAreaErrorKind, IntoDrawingArea};
+use plotters::drawing::DrawingArea;
 use plotters::element::{PathElement, Rectangle, Text};
-use plotters::style::{BLACK, Color, FontStyle, IntoFont, RGBColor, WHITE, register_font};
+use plotters::style::{BLACK, Color, IntoFont, RGBColor};
 
 use super::report::{Report, Row};
 use crate::error::LabError;
-
-const FONT: &str = "sans-serif";
+use crate::plot::{self, Drawn, FONT, Plot};
 
 /// Pixels.
 const WIDTH: u32 = 1280;
@@ -31,38 +32,23 @@ const COLOURS: [(&str, RGBColor); 6] = [
     ("climbed", RGBColor(204, 121, 167)),
 ];
 
-/// Width and height in pixels, and four bytes per pixel.
-pub struct Plot {
-    /// Pixels per row.
-    pub width: u32,
-    /// Rows.
-    pub height: u32,
-    /// Red, green, blue, alpha.
-    pub rgba: Vec<u8>,
+/// Draws the excess over the truth of every row: quantiles, the largest, and what is allowed.
+pub fn save(report: &Report, folder: &Path) -> Result<[PathBuf; 2], LabError> {
+    plot::save(report, folder, "stability")
 }
 
-/// Draws the excess over the truth of every row: quantiles, the largest, and what is allowed.
-pub fn draw(report: &Report) -> Result<Plot, LabError> {
-    let failed = |reason: String| LabError::Plot {
-        title: "stability".to_owned(),
-        reason,
-    };
-    register_font(FONT, FontStyle::Normal, epaint_default_fonts::UBUNTU_LIGHT)
-        .map_err(|_| failed("its font cannot be read".to_owned()))?;
-    let height = TOP as u32 + report.rows.len() as u32 * ROW as u32 + 46;
-    let mut rgb = vec![255; 3 * (WIDTH * height) as usize];
-    let area = BitMapBackend::with_buffer(&mut rgb, (WIDTH, height)).into_drawing_area();
-    draw_rows(&area, report).map_err(|error| failed(error.to_string()))?;
-    drop(area);
-    let rgba = rgb
-        .chunks_exact(3)
-        .flat_map(|pixel| [pixel[0], pixel[1], pixel[2], 255])
-        .collect();
-    Ok(Plot {
-        width: WIDTH,
-        height,
-        rgba,
-    })
+impl Plot for Report {
+    fn title(&self) -> &str {
+        "shadow intensity above the truth"
+    }
+
+    fn size(&self) -> (u32, u32) {
+        (WIDTH, TOP as u32 + self.rows.len() as u32 * ROW as u32 + 46)
+    }
+
+    fn draw<B: DrawingBackend>(&self, area: &DrawingArea<B, Shift>) -> Drawn<B> {
+        draw_rows(area, self)
+    }
 }
 
 /// The place of an excess; what is below the scale is at its left end.
@@ -71,15 +57,11 @@ fn place(excess: f64) -> i32 {
     LEFT + (share * f64::from(RIGHT - LEFT)).round() as i32
 }
 
-type Drawn<B> = Result<(), DrawingAreaErrorKind<<B as DrawingBackend>::ErrorType>>;
-
 fn draw_rows<B: DrawingBackend>(area: &DrawingArea<B, Shift>, report: &Report) -> Drawn<B> {
     let text = |text: String, at: (i32, i32), size: i32| {
         Text::new(text, at, (FONT, size).into_font().color(&BLACK))
     };
-    area.fill(&WHITE)?;
     let effort = report.effort;
-    let title = "shadow intensity above the truth";
     let setting = format!(
         "{}, {} inputs per technique and storage, {} hill-climbs, seed {}; bars end at what is allowed for filters up to 9 texels wide",
         report.adapter,
@@ -87,7 +69,7 @@ fn draw_rows<B: DrawingBackend>(area: &DrawingArea<B, Shift>, report: &Report) -
         super::CLIMBS,
         effort.seed
     );
-    area.draw(&text(title.to_owned(), (16, 12), 24))?;
+    area.draw(&text(report.title().to_owned(), (16, 12), 24))?;
     area.draw(&text(setting, (16, 42), 14))?;
     for (index, (name, colour)) in (0..).zip(COLOURS) {
         let x = LEFT + 130 * index;
@@ -113,7 +95,7 @@ fn draw_rows<B: DrawingBackend>(area: &DrawingArea<B, Shift>, report: &Report) -
         area.draw(&text(name, (16, y + 2), 15))?;
         draw_row(area, row, y)?;
     }
-    area.present()
+    Ok(())
 }
 
 fn draw_row<B: DrawingBackend>(area: &DrawingArea<B, Shift>, row: &Row, y: i32) -> Drawn<B> {

@@ -1,14 +1,14 @@
 //! The chains whose flicker is compared.
 
-use moment_shadows_graph::{Graph, NodeRegistry};
-use serde_json::{Value, json};
+use moment_shadows::Storage;
+use serde_json::json;
 
-use super::nearest::RectifyNearest;
 use crate::error::LabError;
 use crate::graph_file::GraphFile;
+use crate::scattering::chain::{Link, graph};
 
-/// The example's own graph.
-const EXAMPLE: &str = include_str!("../../../../volumetric_scattering.json");
+/// Texels, as in the example's graph.
+const RADIUS: u32 = 2;
 
 /// A chain of nodes from the light's depth to radiance.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, serde::Serialize)]
@@ -50,90 +50,38 @@ impl Chain {
         matches!(self, Chain::Bilinear | Chain::Unfiltered)
     }
 
-    fn change(self, node: &mut Value, extent: [u32; 2]) {
-        match node["type"].as_str() {
-            Some("rectify_moments") => {
-                node["properties"]["extent"] = json!(extent);
-                if self == Chain::Unfiltered {
-                    node["type"] = json!("rectify_nearest");
-                }
-            }
-            Some("blur") if self == Chain::MipLevels => {
-                node["properties"]["mip_levels"] = json!("all");
-            }
-            Some("resolve") if self.is_plain() => {
-                node["properties"]["storage"] = json!("float32");
-            }
-            _ => {}
-        }
-    }
-
     /// The graph, with rectified maps of this extent.
     pub fn graph(self, extent: [u32; 2]) -> Result<GraphFile, LabError> {
-        let mut file: Value = serde_json::from_str(EXAMPLE).unwrap_or_default();
-        // Textures are those of the frame.
-        edit(&mut file, "imports", |imports| {
-            for import in imports {
-                *import = json!({ "name": import["name"] });
+        let rectify = match self {
+            Chain::Unfiltered => "rectify_nearest",
+            Chain::Filtered | Chain::MipLevels | Chain::Bilinear => "rectify_moments",
+        };
+        let properties =
+            json!({ "technique": "hamburger6", "storage": "float16", "extent": extent });
+        let mut links = match self {
+            Chain::Filtered => {
+                vec![Link::resolve(Storage::Float16), Link::blur(RADIUS, None)]
             }
-        });
-        remove(&mut file, "shade");
-        edit(&mut file, "outputs", |outputs| {
-            outputs.retain(|output| output["name"] == "scattering");
-        });
-        edit(&mut file, "nodes", |nodes| {
-            for node in nodes {
-                self.change(node, extent);
-            }
-        });
-        match self {
-            Chain::Filtered => {}
-            Chain::MipLevels => {
-                redirect(&mut file, "blur.blurred", "mips.map");
-                edit(&mut file, "nodes", |nodes| {
-                    nodes.push(json!({ "name": "mips", "type": "downsample" }));
-                });
-                edit(&mut file, "edges", |edges| {
-                    edges.push(json!({ "from": "blur.blurred", "to": "mips.map" }));
-                });
-            }
-            Chain::Bilinear | Chain::Unfiltered => {
-                remove(&mut file, "blur");
-                redirect(&mut file, "blur.blurred", "resolve.map");
-            }
-        }
-        let mut registry = NodeRegistry::new();
-        registry.register::<RectifyNearest>("rectify_nearest");
-        let (name, text) = (self.name().to_owned(), file.to_string());
-        match Graph::parse(&text, &registry) {
-            Ok(graph) => Ok(GraphFile { name, text, graph }),
-            Err(error) => Err(LabError::Graph { file: name, error }),
-        }
+            Chain::MipLevels => vec![
+                Link::resolve(Storage::Float16),
+                Link::blur(RADIUS, Some("all")),
+                Link("downsample", json!({}), ["map", "map"]),
+            ],
+            Chain::Bilinear | Chain::Unfiltered => vec![Link::resolve(Storage::Float32)],
+        };
+        links.extend([
+            Link(rectify, properties, ["map", "rectified"]),
+            Link(
+                "integrate_scattering",
+                json!({}),
+                ["rectified", "integrated"],
+            ),
+            Link(
+                "composite_scattering",
+                json!({}),
+                ["integrated", "scattering"],
+            ),
+        ]);
+        graph(self.name(), &links)
     }
-}
-
-/// Changes a list of the file.
-fn edit(file: &mut Value, name: &str, change: impl FnOnce(&mut Vec<Value>)) {
-    if let Some(items) = file[name].as_array_mut() {
-        change(items);
-    }
-}
-
-/// Takes a node out, with the edges that lead to it.
-fn remove(file: &mut Value, node: &str) {
-    edit(file, "nodes", |nodes| {
-        nodes.retain(|other| other["name"] != node)
-    });
-    let slot = format!("{node}.");
-    let leads = |edge: &Value| edge["to"].as_str().is_some_and(|to| to.starts_with(&slot));
-    edit(file, "edges", |edges| edges.retain(|edge| !leads(edge)));
-}
-
-/// Edges from one slot start at another.
-fn redirect(file: &mut Value, from: &str, to: &str) {
-    edit(file, "edges", |edges| {
-        for edge in edges.iter_mut().filter(|edge| edge["from"] == from) {
-            edge["from"] = json!(to);
-        }
-    });
 }

@@ -16,7 +16,7 @@ pub use nearest::RectifyNearest;
 pub use path::{FRAMES, Path};
 use walk::Walk;
 
-use super::look::LookDesc;
+use crate::cost::table::columns as write_columns;
 use crate::error::LabError;
 use crate::gpu::Gpu;
 use crate::scene::Scene;
@@ -31,27 +31,39 @@ pub const WINDOW: usize = 1;
 /// The largest change of filtered pictures, at most this part of that of unfiltered ones.
 pub const GOAL: f64 = 1.0 / 3.0;
 
-/// What moves, and how it is drawn.
-#[derive(Clone, Copy, Debug, PartialEq)]
+/// What is drawn.
+#[derive(Clone, Copy, Debug, PartialEq, clap::Args)]
 pub struct FlickerDesc {
-    /// The viewpoint in the middle of the path.
-    pub look: LookDesc,
-    /// Frames from the beginning of the path on, at least 2; all of it has [`FRAMES`].
+    /// Frames from the beginning of the path on; all of it has 240.
+    #[arg(long, default_value_t = FRAMES, value_parser = clap::value_parser!(u32).range(2..=10_000))]
     pub frames: u32,
-    /// Optical thickness between the camera and the far end.
-    pub thickness: f64,
-    /// Of the phase function.
-    pub anisotropy: f32,
     /// Texels per side of the light's map.
+    #[arg(long, default_value_t = 1024, value_parser = clap::value_parser!(u32).range(16..=8192))]
     pub map: u32,
-    /// Columns and rows of rectified maps.
-    pub extent: [u32; 2],
-    /// Width and height of the picture.
-    pub picture: [u32; 2],
-    /// Texels per side of the map that the truth is marched through, much finer than `map`.
+    /// Columns of rectified maps.
+    #[arg(long, default_value_t = 512, value_parser = clap::value_parser!(u32).range(2..=8192))]
+    pub columns: u32,
+    /// Rows of rectified maps.
+    #[arg(long, default_value_t = 512, value_parser = clap::value_parser!(u32).range(2..=8192))]
+    pub rows: u32,
+    /// Width of the picture.
+    #[arg(long, default_value_t = 320, value_parser = clap::value_parser!(u32).range(16..=8192))]
+    pub width: u32,
+    /// Height of the picture.
+    #[arg(long, default_value_t = 180, value_parser = clap::value_parser!(u32).range(16..=8192))]
+    pub height: u32,
+    /// Texels per side of the map that the truth is marched through, much finer than the light's map.
+    #[arg(long, default_value_t = 2048, value_parser = clap::value_parser!(u32).range(16..=8192))]
     pub truth_map: u32,
     /// Steps of the truth.
+    #[arg(long, default_value_t = 256, value_parser = clap::value_parser!(u32).range(1..=65_536))]
     pub steps: u32,
+}
+
+impl FlickerDesc {
+    fn extent(&self) -> [u32; 2] {
+        [self.columns, self.rows]
+    }
 }
 
 /// What flickers by how much.
@@ -89,7 +101,7 @@ pub fn flicker(
     desc: &FlickerDesc,
     mut progress: impl FnMut(),
 ) -> Result<Flicker, LabError> {
-    let walk = Walk::new(gpu, scene, desc)?;
+    let mut walk = Walk::new(gpu, scene, desc)?;
     let mut frames = Frames {
         truth: Vec::new(),
         unshadowed: Vec::new(),
@@ -122,8 +134,8 @@ impl Flicker {
             scene: scene.name.clone(),
             frames: desc.frames,
             map: desc.map,
-            extent: desc.extent,
-            picture: desc.picture,
+            extent: desc.extent(),
+            picture: [desc.width, desc.height],
             region: inside.count() as f64 / pixels.max(1) as f64,
             truth: of(&frames.truth),
             chains: Chain::ALL
@@ -158,27 +170,22 @@ impl fmt::Display for Flicker {
             self.frames,
             100.0 * self.region
         )?;
-        writeln!(
-            f,
-            "{:<22} {:>9} {:>9} {:>9} {:>9} {:>13}",
-            "change per frame", "largest", "part", "1/1000", "mean", "less truth's"
-        )?;
         let rows = self
             .chains
             .iter()
             .map(|(chain, change)| (chain.name(), change));
-        let unfiltered = self.change(Chain::Unfiltered);
-        for (name, change) in [("truth", &self.truth)].into_iter().chain(rows) {
-            writeln!(
-                f,
-                "{name:<22} {:>9.5} {:>9.3} {:>9.5} {:>9.6} {:>13.5}",
-                change.largest,
-                change.largest / unfiltered.largest,
-                change.thousandth,
-                change.mean,
-                change.largest_less_truth
-            )?;
-        }
-        Ok(())
+        let unfiltered = self.change(Chain::Unfiltered).largest;
+        let cells = |(name, change): (&str, &Change)| {
+            vec![
+                ("change per frame", name.to_owned()),
+                ("largest", format!("{:.5}", change.largest)),
+                ("part", format!("{:.3}", change.largest / unfiltered)),
+                ("1/1000", format!("{:.5}", change.thousandth)),
+                ("mean", format!("{:.6}", change.mean)),
+                ("less truth's", format!("{:.5}", change.largest_less_truth)),
+            ]
+        };
+        let rows = [("truth", &self.truth)].into_iter().chain(rows);
+        write_columns(f, &rows.map(cells).collect::<Vec<_>>())
     }
 }

@@ -4,7 +4,6 @@ use core::f64::consts::TAU;
 
 use glam::DVec3;
 
-use crate::scattering::LookDesc;
 use crate::scene::Scene;
 use crate::view::View;
 
@@ -17,7 +16,7 @@ const SWAY: f64 = 0.01;
 /// How far the light turns to either side, in radians.
 const TURN: f64 = 0.01;
 
-/// A closed path about a viewpoint of a scene.
+/// A closed path about a scene's first viewpoint.
 #[derive(Clone, Copy, Debug)]
 pub struct Path {
     start: View,
@@ -25,11 +24,11 @@ pub struct Path {
 }
 
 impl Path {
-    /// About a viewpoint.
+    /// Through a scene.
     #[must_use]
-    pub fn new(scene: &Scene, look: &LookDesc) -> Self {
+    pub fn new(scene: &Scene) -> Self {
         Self {
-            start: look.view(scene),
+            start: View::numbered(scene, 0),
             radius: scene.bounds().radius(),
         }
     }
