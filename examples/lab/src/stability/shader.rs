@@ -35,7 +35,7 @@ impl<'gpu> Evaluator<'gpu> {
 
     /// The shadow intensities.
     pub fn run(&self, inputs: &[Input]) -> Result<Vec<f32>, LabError> {
-        Ok(self.batch.run(inputs)?)
+        self.batch.run(inputs)
     }
 
     /// The kernels of patches.
