@@ -181,8 +181,8 @@ fn by_drawing(map: &MapEncoding, suffix: &str) -> Vec<Variant> {
             .file(format!("resolve_{suffix}"), false),
         super::shade::in_mip_levels(map, suffix),
         blur(map, 4, false).row(true, format!("{map}, radius 4"), &[1]),
-        // A loop over all taps.
-        blur(map, 32, false).row(true, format!("{map}, radius 32"), &[65]),
+        // A loop that looks for the region, and one over all taps.
+        blur(map, 32, false).row(true, format!("{map}, radius 32"), &[1, 65]),
     ];
     for regions in [1, REGIONS] {
         let one = regions == 1;
