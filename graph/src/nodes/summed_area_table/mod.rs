@@ -1,7 +1,5 @@
 //! Sums of a map of moments over rectangles, in constant time: a summed-area table.
 
-mod tile_columns;
-
 use moment_shadows::{MapEncoding, Storage, SummedAreaTable as TableEncoding, Technique};
 use serde::{Deserialize, Serialize};
 
@@ -90,12 +88,17 @@ impl Node for SummedAreaTable {
         } else {
             OF_HARDWARE
         };
+        let channels = match source.technique() {
+            Technique::Vsm => 2,
+            _ => 4,
+        };
         let pair = |[x, y]: [u32; 2]| format!("vec2u({x}u, {y}u)");
         let storage = format!("texture_storage_2d<{}, write>", encoding.format());
         let specialization = Specialization::new(upstream.capabilities())
             .alias("SumsStorage", &storage)
             .unsigned("STORAGE", source.storage().wgsl_index())
             .unsigned("UNIT", table.unit())
+            .unsigned("CHANNELS", channels)
             .constant("TILE", &pair(tiles.tile))
             .constant("WORKGROUP", &pair(tiles.workgroup));
         let specialization = regions::specialize(specialization, map);
@@ -139,7 +142,7 @@ impl Node for SummedAreaTable {
                 "The sum of all texels of a region that lie neither below nor to the right.",
                 TextureRule::new(encoding.clone()).like("map"),
             )
-            .passes(tiles.passes(&specialization, &source, &encoding)?))
+            .passes(tiles.passes(&specialization, &source)?))
     }
 }
 
@@ -148,15 +151,12 @@ impl Tiles {
         &self,
         specialization: &Specialization,
         source: &MapEncoding,
-        encoding: &MapEncoding,
     ) -> Result<[Pass; 4], GraphError> {
-        let columns = tile_columns::columns(self.tile[0]);
         let modules = [
             regions::TILE,
-            ("sums", sums(encoding)),
+            ("sums", include_str!("sums.wgsl")),
             ("source", source_integers(source)),
-            ("sums_target", include_str!("sums_target.wgsl")),
-            (tile_columns::MODULE, &columns),
+            ("tile_columns", include_str!("tile_columns.wgsl")),
         ];
         let tile = [0, 1].map(|axis| self.tile[axis] * self.workgroup[axis]);
         let pass = |label: &str, shader, entry_point: &str, texels| {
@@ -176,7 +176,7 @@ impl Tiles {
                 [ENDLESS, LINES],
             )?
             .bind("row_sums", bind::layer("row_sums"))
-            .bind("row_prefixes", bind::store("row_prefixes")),
+            .bind("target_map", bind::store("row_prefixes")),
             pass(
                 "sum columns",
                 wgsl!("column_prefixes.wgsl"),
@@ -184,7 +184,7 @@ impl Tiles {
                 [LINES, ENDLESS],
             )?
             .bind("column_sums", bind::layer("column_sums"))
-            .bind("column_prefixes", bind::store("column_prefixes"))
+            .bind("target_map", bind::store("column_prefixes"))
             .bind("row_prefixes", bind::layer("row_prefixes")),
             pass("make table", wgsl!("table.wgsl"), "make_table", tile)?
                 .bind("moments_map", bind::layer("map"))
@@ -192,14 +192,6 @@ impl Tiles {
                 .bind("row_prefixes", bind::layer("row_prefixes"))
                 .bind("column_prefixes", bind::layer("column_prefixes")),
         ])
-    }
-}
-
-/// How many channels are summed up.
-fn sums(encoding: &MapEncoding) -> &'static str {
-    match encoding.technique() {
-        Technique::Vsm => include_str!("two_channels.wgsl"),
-        _ => include_str!("four_channels.wgsl"),
     }
 }
 
