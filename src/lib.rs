@@ -62,8 +62,8 @@ pub use single_scattering::{SingleScattering, SingleScatteringError};
 pub use storage::{Storage, UnsupportedStorage};
 pub use summed_area_table::{SummedAreaTable, SummedAreaTableError};
 pub use techniques::{
-    Constant, Contents, Encoding, EsmFiltering, Finite, LayerSplits, MapEncoding, NotFinite,
-    PcfTaps, Pcss, Row, Snippet, Technique, TechniqueError,
+    Contents, EsmFiltering, Finite, LayerSplits, MapEncoding, NotFinite, PcfTaps, Pcss, Row,
+    Technique, TechniqueError,
 };
 #[cfg(feature = "validate")]
 pub use validate::{

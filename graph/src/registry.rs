@@ -5,11 +5,7 @@ use std::sync::Arc;
 
 use serde::de::DeserializeOwned;
 
-use crate::Node;
-use crate::nodes::{
-    Blur, CompositeScattering, DebugMoments, Downsample, IntegrateScattering, PlaceLayers,
-    RectifyMoments, Resolve, ShadeHard, ShadeSoft, SummedAreaTable,
-};
+use crate::{Node, nodes};
 
 /// Makes a node of its properties, which are JSON text.
 type Factory = Arc<dyn Fn(&str) -> Result<Box<dyn Node>, serde_json::Error> + Send + Sync>;
@@ -27,17 +23,7 @@ impl NodeRegistry {
         let mut registry = Self {
             factories: BTreeMap::new(),
         };
-        registry.register::<Resolve>("resolve");
-        registry.register::<PlaceLayers>("place_layers");
-        registry.register::<Blur>("blur");
-        registry.register::<Downsample>("downsample");
-        registry.register::<SummedAreaTable>("summed_area_table");
-        registry.register::<DebugMoments>("debug_moments");
-        registry.register::<ShadeHard>("shade_hard");
-        registry.register::<ShadeSoft>("shade_soft");
-        registry.register::<RectifyMoments>("rectify_moments");
-        registry.register::<IntegrateScattering>("integrate_scattering");
-        registry.register::<CompositeScattering>("composite_scattering");
+        nodes::register(&mut registry);
         registry
     }
 

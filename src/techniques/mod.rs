@@ -8,6 +8,7 @@ mod esm;
 mod evsm;
 mod finite;
 mod lvsm;
+mod modules;
 mod moments;
 mod reference;
 mod row;
@@ -20,7 +21,7 @@ pub use encoding::MapEncoding;
 pub use error::TechniqueError;
 pub use finite::{Finite, NotFinite};
 pub use reference::{PcfTaps, Pcss};
-pub use row::{Constant, Contents, Encoding, Row, Snippet};
+pub use row::{Contents, Row};
 use serde::{Deserialize, Serialize};
 pub use settings::{EsmFiltering, LayerSplits};
 

@@ -28,6 +28,7 @@ pub(super) fn hamburger4() -> Row {
     };
     Row {
         soft: Some(soft),
+        both_bounds: true,
         ..Row::of_map(
             "hamburger4",
             Contents::FourMoments,
@@ -73,6 +74,7 @@ pub(super) fn hamburger6() -> Row {
     let storages = &[Unorm16, Float16, Float32, Unorm10];
     Row {
         planes: 2,
+        both_bounds: true,
         ..Row::of_map(
             "hamburger6",
             Contents::SixMoments,

@@ -57,7 +57,7 @@ impl Contents {
 
 /// A piece of a shader that a row supplies: statements, and the items of the library that they use.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct Snippet {
+pub(super) struct Snippet {
     /// Items by path, as after `moment_shadows::` in an import: `maths::hankel::{hankel_factor}`.
     pub imports: &'static [&'static str],
     /// The body of a function. The comment on that function says what the body can use besides the imports.
@@ -66,7 +66,7 @@ pub struct Snippet {
 
 /// How a map is made and filtered.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct Encoding {
+pub(super) struct Encoding {
     /// Items that both pieces use.
     pub imports: &'static [&'static str],
     /// The channels to average for a moment depth `z`, a vec4f.
@@ -93,7 +93,7 @@ pub(super) const LINEAR: Encoding = Encoding {
 
 /// A constant of the generated module that a row's pieces import.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Constant {
+pub(super) struct Constant {
     /// Its name.
     pub name: &'static str,
     /// Its value, a WGSL expression.
@@ -134,26 +134,28 @@ pub struct Row {
     /// Texture layers that a layer of the map consists of.
     pub planes: u32,
     /// Whether the settings are within their ranges, whatever the storage.
-    pub settings: Result<(), TechniqueError>,
+    pub(super) settings: Result<(), TechniqueError>,
     /// Exponents, which are at least 1 and at most what `largest_exponent` says.
-    pub exponents: Vec<Finite>,
+    pub(super) exponents: Vec<Finite>,
     /// The largest exponent that a storage's range and precision allow.
-    pub largest_exponent: Option<fn(Storage) -> f32>,
+    pub(super) largest_exponent: Option<fn(Storage) -> f32>,
     /// Constants of the pieces below.
-    pub constants: Vec<Constant>,
+    pub(super) constants: Vec<Constant>,
     /// How the map is made and filtered; `None` where the plain depth map is read.
-    pub encoding: Option<Encoding>,
+    pub(super) encoding: Option<Encoding>,
     /// Whether samplers and mip levels can average texels.
     pub averaged_by_samplers: bool,
+    /// Whether both bounds of shadow intensity are there, as single scattering needs them.
+    pub both_bounds: bool,
     /// Whether a comparison sampler reads the depth map, and whether that stores 1 at the near plane.
     pub comparison: Option<bool>,
     /// Whether the layers of the map are placed on the device (node `place_layers`).
     pub places_layers: bool,
     /// Shadow intensity of a `receiver`, by `map_texel(receiver, plane)` or on the plane `plane` of the plain depth map
     /// `depth_map`.
-    pub evaluation: Snippet,
+    pub(super) evaluation: Snippet,
     /// Soft shadow intensity of a `receiver` from the summed-area table of the map, by `soft_table` and `soft_receiver`.
-    pub soft: Option<Snippet>,
+    pub(super) soft: Option<Snippet>,
 }
 
 impl Row {
@@ -178,6 +180,7 @@ impl Row {
             constants: Vec::new(),
             encoding: Some(encoding),
             averaged_by_samplers: true,
+            both_bounds: false,
             comparison: None,
             places_layers: false,
             evaluation,

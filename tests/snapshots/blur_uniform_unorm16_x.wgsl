@@ -20,6 +20,7 @@ fn filtering_value(texel: vec4f) -> vec4f {
     return texel;
 }
 
+// The texel for such an average.
 fn filtering_texel(value: vec4f) -> vec4f {
     return storage_round_texel(value, STORAGE);
 }

@@ -12,6 +12,7 @@ const STORAGE = 0u;
 const REGIONS = 1u;
 
 // map_filtering
+// The texel for such an average.
 fn filtering_texel(value: vec4f) -> vec4f {
     return storage_round_texel(value, STORAGE);
 }

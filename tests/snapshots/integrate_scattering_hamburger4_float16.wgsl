@@ -12,6 +12,7 @@ alias MomentsStorage = texture_storage_2d<rgba16float, write>;
 const STORAGE = 1u;
 
 // map_filtering
+// The texel for such an average.
 fn filtering_texel(value: vec4f) -> vec4f {
     return storage_round_texel(value, STORAGE);
 }

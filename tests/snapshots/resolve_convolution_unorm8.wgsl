@@ -18,13 +18,14 @@ const TERMS = 8u;
 const REGIONS = 1u;
 
 // map_encoding
-// The plane that is made.
 override PLANE: u32;
 
+// What is averaged for a moment depth.
 fn encoding_channels(z: f32) -> vec4f {
     return convolution_channels(z, PLANE, TERMS);
 }
 
+// The texel for the mean.
 fn encoding_texel(mean: vec4f) -> vec4f {
     return convolution_to_texel(mean, STORAGE);
 }

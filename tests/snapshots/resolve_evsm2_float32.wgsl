@@ -22,6 +22,7 @@ fn encoding_channels(z: f32) -> vec4f {
     return exponential_variance_channels(z, EXPONENTS);
 }
 
+// The texel for the mean.
 fn encoding_texel(mean: vec4f) -> vec4f {
     return exponential_variance_to_texel(mean, STORAGE);
 }

@@ -20,6 +20,7 @@ fn encoding_channels(z: f32) -> vec4f {
     return four_moments_from_depth(z);
 }
 
+// The texel for the mean.
 fn encoding_texel(mean: vec4f) -> vec4f {
     return four_moments_to_texel(mean, STORAGE);
 }

@@ -3,7 +3,7 @@
 // region_tile: regions RegionTile region_tile
 // moment_shadows/map/depth.wgsl: DepthConversion DEPTH_SMALLEST_DENOMINATOR depth_is_nan depth_to_moment_depth
 // moment_shadows/map/storage.wgsl: STORAGE_FLOAT16 STORAGE_FLOAT32 STORAGE_UNORM10 storage_is_float storage_round_to_float16 storage_round_to_unorm10 storage_round_texel
-// moment_shadows/moments/six_moments.wgsl: SixMoments SIX_MOMENTS_ODD_BASIS SIX_MOMENTS_EVEN_BASIS SIX_MOMENTS_ODD_OFFSET SIX_MOMENTS_EVEN_OFFSET six_moments_affine six_moments_from_depth six_moments_middle six_moments_texel six_moments_to_odd_texel six_moments_to_even_texel
+// moment_shadows/moments/six_moments.wgsl: SixMoments SIX_MOMENTS_ODD_BASIS SIX_MOMENTS_EVEN_BASIS SIX_MOMENTS_ODD_OFFSET SIX_MOMENTS_EVEN_OFFSET six_moments_affine six_moments_from_depth six_moments_middle six_moments_texel six_moments_to_odd_texel six_moments_to_even_texel six_moments_channels six_moments_to_texel
 // resolve_texel: conversions depth_map resolve_texel
 // resolve.wgsl: moments_map resolve
 
@@ -16,18 +16,15 @@ const STORAGE = 2u;
 const REGIONS = 1u;
 
 // map_encoding
-// The plane that is made: 0 for odd moments, 1 for even ones.
 override PLANE: u32;
 
+// What is averaged for a moment depth.
 fn encoding_channels(z: f32) -> vec4f {
-    let moments = six_moments_from_depth(z);
-    return vec4f(select(moments.even, moments.odd, PLANE == 0u), 1.0);
+    return six_moments_channels(z, PLANE);
 }
 
+// The texel for the mean.
 fn encoding_texel(mean: vec4f) -> vec4f {
-    if PLANE == 0u {
-        return six_moments_to_odd_texel(mean.xyz, STORAGE);
-    }
-    return six_moments_to_even_texel(mean.xyz, STORAGE);
+    return six_moments_to_texel(mean, PLANE, STORAGE);
 }
 

@@ -20,13 +20,14 @@ const LAYER_OVERLAP = f32(0.0);
 const REGIONS = 1u;
 
 // map_encoding
-// The plane that is made.
 override PLANE: u32;
 
+// What is averaged for a moment depth.
 fn encoding_channels(z: f32) -> vec4f {
     return layered_variance_channels(z, technique_layers(0u), PLANE);
 }
 
+// The texel for the mean.
 fn encoding_texel(mean: vec4f) -> vec4f {
     return two_moments_to_texel(mean, STORAGE);
 }

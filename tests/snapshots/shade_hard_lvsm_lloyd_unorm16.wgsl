@@ -30,18 +30,16 @@ const LAYERS = 4u;
 const LAYER_OVERLAP = f32(0.0);
 
 // technique
-fn intensity_of_layer(receiver: TechniqueReceiver, layers: LayeredVarianceLayers, layer: u32) -> f32 {
-    let texel = map_texel(receiver, layer / 2u);
-    return layered_variance_shadow_intensity_of_texel(texel, receiver.fragment_depth, STORAGE, layers, layer);
-}
-
 fn technique_shadow_intensity(receiver: TechniqueReceiver) -> f32 {
     let layers = technique_layers(receiver.layer);
     let choice = layered_variance_choice(layers, receiver.fragment_depth);
-    let intensity = intensity_of_layer(receiver, layers, choice.layer);
+    let texel = map_texel(receiver, choice.layer / 2u);
+    let intensity = layered_variance_shadow_intensity_of_texel(texel, receiver.fragment_depth, STORAGE, layers, choice.layer);
     if choice.neighbor_share <= 0.0 {
         return intensity;
     }
-    return mix(intensity, intensity_of_layer(receiver, layers, choice.neighbor), choice.neighbor_share);
+    let next = map_texel(receiver, choice.neighbor / 2u);
+    let other = layered_variance_shadow_intensity_of_texel(next, receiver.fragment_depth, STORAGE, layers, choice.neighbor);
+    return mix(intensity, other, choice.neighbor_share);
 }
 

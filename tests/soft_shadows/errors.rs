@@ -90,3 +90,42 @@ fn lights_views_and_formats_are_those_of_hard_shadows() {
         assert!(message.contains(named), "{properties}: {message}");
     }
 }
+
+#[test]
+fn a_technique_without_soft_shadows_is_refused_by_name() {
+    let text = TEXT.replace(
+        r#""properties": { "storage": "float32" }"#,
+        r#""properties": { "technique": "hausdorff4", "storage": "float32" }"#,
+    );
+    let error = error(&text);
+    assert_eq!(error.kind, GraphErrorKind::Format);
+    assert_eq!(
+        (error.node.as_deref(), error.slot.as_deref()),
+        (Some("shade"), Some("table"))
+    );
+    let message = error.to_string();
+    assert!(
+        message.contains("no soft shadows by 'hausdorff4'"),
+        "{message}"
+    );
+    // Hamburger's bound of the same map is evaluated, and so is that of two moments.
+    for technique in ["hamburger4", "vsm"] {
+        let text = TEXT.replace(
+            r#""properties": { "storage": "float32" }"#,
+            &format!(r#""properties": {{ "technique": "{technique}", "storage": "float32" }}"#),
+        );
+        let graph = Graph::parse(&text, &NodeRegistry::new()).unwrap();
+        let capabilities = Capabilities::of_profile(Profile::Native);
+        let plan = compile(&graph, &capabilities, &Imports::new()).unwrap();
+        let shade = plan
+            .passes
+            .iter()
+            .find(|pass| pass.node == "shade")
+            .unwrap();
+        assert!(
+            shade
+                .wgsl
+                .contains(&format!("by the technique '{technique}'"))
+        );
+    }
+}

@@ -27,6 +27,23 @@ pub use shade_soft::{Interpolation, ShadeSoft};
 pub use shared::{KernelProperty, MipLevels};
 pub use summed_area_table::{LargestKernel, SummedAreaTable};
 
+use crate::NodeRegistry;
+
+/// Registers the nodes by the names that graph files use.
+pub(crate) fn register(registry: &mut NodeRegistry) {
+    registry.register::<Resolve>("resolve");
+    registry.register::<PlaceLayers>("place_layers");
+    registry.register::<Blur>("blur");
+    registry.register::<Downsample>("downsample");
+    registry.register::<SummedAreaTable>("summed_area_table");
+    registry.register::<DebugMoments>("debug_moments");
+    registry.register::<ShadeHard>("shade_hard");
+    registry.register::<ShadeSoft>("shade_soft");
+    registry.register::<RectifyMoments>("rectify_moments");
+    registry.register::<IntegrateScattering>("integrate_scattering");
+    registry.register::<CompositeScattering>("composite_scattering");
+}
+
 /// Properties that nodes do not have, with the reason: what a file asks by them cannot be had.
 pub(crate) const REFUSED: [(&str, &str, &str); 2] = [
     (

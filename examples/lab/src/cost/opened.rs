@@ -112,7 +112,7 @@ impl OpenedGraph {
 
     /// Each mip level against the one before it, as that is stored.
     fn of_downsample(&self, gpu: &Gpu, node: &str) -> Checked {
-        let output = format!("{node} moments");
+        let output = format!("{node} map");
         let mips = self
             .frame
             .plan

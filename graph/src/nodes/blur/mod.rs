@@ -207,7 +207,6 @@ impl Along {
             ("blur_source", include_str!("blur_source.wgsl")),
             ("blur_target", include_str!("blur_target.wgsl")),
             ("blur_parameters", include_str!("blur_parameters.wgsl")),
-            techniques::filtering(encoding.technique()),
         ];
         modules.extend(body);
         modules.extend(regions::modules(encoding));

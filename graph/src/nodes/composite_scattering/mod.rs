@@ -1,11 +1,11 @@
 //! Light that a medium scatters into each pixel's view ray.
 
-use moment_shadows::{CompositeScatteringParameters, Technique, TextureFormat};
+use moment_shadows::{CompositeScatteringParameters, TextureFormat};
 use serde::{Deserialize, Serialize};
 
 use super::shared::lookup::moments_lookup;
 use super::shared::{self, FULLSCREEN, Specialization, map_input, regions, wgsl};
-use super::techniques;
+use super::techniques::{self, Bounded};
 use crate::{
     Connected, GraphError, GraphErrorKind, Node, NodeDesc, ParameterBlock, Pass, Stage,
     TextureRule, bind, same_as,
@@ -90,10 +90,10 @@ impl Node for CompositeScattering {
         let (integrated, encoding) = map_input::connected(upstream, "integrated")?;
         regions::refuse_prefix_sums(&encoding, GraphErrorKind::Format)
             .map_err(|error| error.at_slot("integrated"))?;
-        let bounds = match encoding.technique() {
-            Technique::Hamburger4 => include_str!("bounds_four_moments.wgsl"),
-            Technique::Hamburger6 => include_str!("bounds_six_moments.wgsl"),
-            _ => {
+        let bounds = match techniques::both_bounds(encoding.technique()) {
+            Some(Bounded::Four) => include_str!("bounds_four_moments.wgsl"),
+            Some(Bounded::Six) => include_str!("bounds_six_moments.wgsl"),
+            None => {
                 return Err(GraphError::new(
                     GraphErrorKind::Format,
                     format!(

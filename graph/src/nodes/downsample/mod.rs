@@ -37,10 +37,7 @@ impl Node for Downsample {
         } else {
             wgsl!("downsample.wgsl")
         };
-        let mut modules = vec![
-            ("downsample_texel", include_str!("downsample_texel.wgsl")),
-            techniques::filtering(encoding.technique()),
-        ];
+        let mut modules = vec![("downsample_texel", include_str!("downsample_texel.wgsl"))];
         modules.extend(regions::modules(&encoding));
         let wgsl = regions::specialize(specialization, map).link(shader, &modules)?;
         let each = (1..map.mips).flat_map(|level| (0..map.planes).map(move |plane| (level, plane)));

@@ -37,13 +37,8 @@ impl Node for IntegrateScattering {
             (wgsl!("integrate_scattering_parallel.wgsl"), 1)
         };
         let target = include_str!("integrate_scattering_target.wgsl");
-        let wgsl = techniques::specialize_map(Specialization::new(capabilities), &encoding).link(
-            shader,
-            &[
-                ("integrate_target", target),
-                techniques::filtering(encoding.technique()),
-            ],
-        )?;
+        let wgsl = techniques::specialize_map(Specialization::new(capabilities), &encoding)
+            .link(shader, &[("integrate_target", target)])?;
         let passes = (0..rectified.planes).map(|plane| {
             let label = match rectified.planes {
                 1 => "integrate".to_owned(),

@@ -5,7 +5,7 @@ use serde::{Deserialize, Serialize};
 
 use super::shared::lookup::moments_lookup;
 use super::shared::{Specialization, map_input, regions, wgsl};
-use super::techniques;
+use super::techniques::{self, Bounded};
 use crate::{
     Connected, GraphError, GraphErrorKind, Node, NodeDesc, ParameterBlock, Pass, Stage,
     TextureRule, bind,
@@ -41,11 +41,7 @@ const ANISOTROPY: u16 = 8;
 impl Node for RectifyMoments {
     fn describe(&self, upstream: &Connected<'_>) -> Result<NodeDesc, GraphError> {
         let (map, source) = map_input::of_four_moments(upstream, "resamples")?;
-        let encoding = self.encoding()?;
-        let texel = match self.technique {
-            Technique::Hamburger6 => include_str!("rectified_six_moments.wgsl"),
-            _ => include_str!("rectified_four_moments.wgsl"),
-        };
+        let (encoding, texel) = self.encoding()?;
         let capabilities = upstream.capabilities();
         let (lookup, sampler) =
             moments_lookup(map.format, map.mips, ANISOTROPY, true, capabilities);
@@ -95,17 +91,19 @@ impl Node for RectifyMoments {
 }
 
 impl RectifyMoments {
-    fn encoding(&self) -> Result<MapEncoding, GraphError> {
+    /// How the two depths of a texel are encoded, and the text that does it.
+    fn encoding(&self) -> Result<(MapEncoding, &'static str), GraphError> {
         let property = |message: String| GraphError::new(GraphErrorKind::Property, message);
-        if !matches!(
-            self.technique,
-            Technique::Hamburger4 | Technique::Hamburger6
-        ) {
-            return Err(property(format!(
-                "'technique' is '{}'; single scattering has both bounds of 'hamburger4' and 'hamburger6' alone",
-                self.technique
-            )));
-        }
+        let texel = match techniques::both_bounds(&self.technique) {
+            Some(Bounded::Four) => include_str!("rectified_four_moments.wgsl"),
+            Some(Bounded::Six) => include_str!("rectified_six_moments.wgsl"),
+            None => {
+                return Err(property(format!(
+                    "'technique' is '{}'; single scattering has both bounds of 'hamburger4' and 'hamburger6' alone",
+                    self.technique
+                )));
+            }
+        };
         if self.extent.iter().any(|side| !(2..=8192).contains(side)) {
             return Err(property(format!(
                 "'extent' is {}x{}; columns and rows are 2 to 8192 each",
@@ -115,6 +113,6 @@ impl RectifyMoments {
         let encoding =
             MapEncoding::new(self.technique.clone(), self.storage).map_err(techniques::property)?;
         regions::refuse_prefix_sums(&encoding, GraphErrorKind::Property)?;
-        Ok(encoding)
+        Ok((encoding, texel))
     }
 }

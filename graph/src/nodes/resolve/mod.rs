@@ -43,7 +43,6 @@ impl Node for Resolve {
         };
         let mut modules = vec![
             ("resolve_texel", include_str!("resolve_texel.wgsl")),
-            techniques::encoding(technique),
             ("technique_layers", techniques::layers(technique, true)),
         ];
         modules.extend(regions::modules(&encoding));

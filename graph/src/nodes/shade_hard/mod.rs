@@ -1,6 +1,6 @@
 //! Turns a filtered map and the camera's depth into shadow intensity on the screen.
 
-use moment_shadows::{MapEncoding, PcfTaps, Technique, TextureFormat};
+use moment_shadows::{MapEncoding, Technique, TextureFormat};
 use serde::{Deserialize, Serialize};
 
 use super::shared::lookup::{self, moments_lookup};
@@ -128,9 +128,9 @@ impl ShadeHard {
         if let Some(storage) = map.storage {
             specialization = specialization.unsigned("STORAGE", storage);
         }
-        let mut modules = techniques::evaluation(technique);
+        let (specialization, mut modules) = techniques::evaluation(specialization, technique);
         modules.push(map.lookup);
-        (techniques::specialize(specialization, technique), modules)
+        (specialization, modules)
     }
 
     /// The technique, and the map that it reads: `map`, or the plain depth map.
@@ -193,15 +193,10 @@ impl ShadeHard {
 
 /// The plain depth map.
 fn depth_map(technique: &Technique) -> Map {
-    let sampler = match technique {
-        Technique::Pcf(PcfTaps::Hardware { reversed, .. }) => Some(Binding::new(
-            "comparison_sampler",
-            BindingResource::ComparisonSampler {
-                reversed: *reversed,
-            },
-        )),
-        _ => None,
-    };
+    let sampler = technique.row().comparison.map(|reversed| {
+        let resource = BindingResource::ComparisonSampler { reversed };
+        Binding::new("comparison_sampler", resource)
+    });
     Map {
         slot: "depth",
         formats: &DEPTHS,

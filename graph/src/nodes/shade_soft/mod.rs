@@ -1,9 +1,10 @@
 //! Soft shadow intensity of every pixel from a summed-area table.
 
-use moment_shadows::{MapEncoding, SummedAreaTable, Technique, TextureFormat};
+use moment_shadows::{MapEncoding, SummedAreaTable, TextureFormat};
 use serde::{Deserialize, Serialize};
 
-use super::shared::{FULLSCREEN, Specialization, VirtualModule, shading};
+use super::shared::{FULLSCREEN, Specialization, shading};
+use super::techniques;
 use crate::{
     Binding, Connected, CountRule, GraphError, GraphErrorKind, Node, NodeDesc, Slot, TextureRule,
     bind,
@@ -77,9 +78,12 @@ impl Node for ShadeSoft {
     fn describe(&self, upstream: &Connected<'_>) -> Result<NodeDesc, GraphError> {
         let format = shading::target_format(self.format, self.lights, self.views)?;
         let (encoding, table) = table_input(upstream)?;
-        let wgsl = self
-            .specialization(upstream, table)
-            .link(shading::SHADER, &modules(encoding.technique()))?;
+        let specialization = self.specialization(upstream, table);
+        let (specialization, modules) =
+            techniques::soft_evaluation(specialization, encoding.technique())
+                .map_err(|error| error.at_slot("table"))?;
+        let [map, soft, receiver] = modules;
+        let wgsl = specialization.link(shading::SHADER, &[FULLSCREEN, map, soft, receiver])?;
         let rule = TextureRule::new(encoding.format())
             .layers(CountRule::Any)
             .mips(CountRule::Any);
@@ -123,24 +127,4 @@ fn table_input(upstream: &Connected<'_>) -> Result<(MapEncoding, SummedAreaTable
         )
         .at_slot("table")
     })
-}
-
-fn modules(technique: &Technique) -> [VirtualModule; 5] {
-    let technique = match technique {
-        Technique::Vsm => include_str!("../techniques/soft_variance.wgsl"),
-        _ => include_str!("../techniques/soft_four_moments.wgsl"),
-    };
-    [
-        FULLSCREEN,
-        ("technique", technique),
-        (
-            "technique_map",
-            include_str!("../techniques/map_table.wgsl"),
-        ),
-        ("technique_soft", include_str!("../techniques/soft.wgsl")),
-        (
-            "technique_receiver",
-            include_str!("../techniques/receiver.wgsl"),
-        ),
-    ]
 }

@@ -1,7 +1,7 @@
 //! The generated module `specialization`: what a node's shader imports because it cannot be an ordinary value.
 //!
-//! Formats of storage textures are literals of a type, bind groups are attributes, unrolled loops are text. Nothing else
-//! is generated.
+//! Formats of storage textures are literals of a type, bind groups are attributes, unrolled loops are text. What else is generated
+//! comes from the rows of techniques.
 
 use core::fmt::Write;
 
@@ -13,6 +13,7 @@ use crate::{Capabilities, GraphError, GraphErrorKind};
 #[derive(Clone, Debug)]
 pub(in crate::nodes) struct Specialization {
     text: String,
+    modules: Vec<(&'static str, String)>,
 }
 
 impl Specialization {
@@ -20,6 +21,7 @@ impl Specialization {
     pub(in crate::nodes) fn new(capabilities: &Capabilities) -> Self {
         Self {
             text: format!("const GROUP = {};\n", capabilities.bind_group),
+            modules: Vec::new(),
         }
     }
 
@@ -39,8 +41,9 @@ impl Specialization {
         self.constant(name, &format!("{value}u"))
     }
 
-    pub(in crate::nodes) fn text(mut self, text: &str) -> Self {
-        self.text.push_str(text);
+    /// A further generated module.
+    pub(in crate::nodes) fn module(mut self, name: &'static str, text: String) -> Self {
+        self.modules.push((name, text));
         self
     }
 
@@ -54,6 +57,8 @@ impl Specialization {
             name: "specialization",
             text: &self.text,
         }];
+        let own = self.modules.iter();
+        generated.extend(own.map(|(name, text)| Source { name, text }));
         generated.extend(others.iter().map(|&(name, text)| Source { name, text }));
         let linked = link(Source { name, text }, &generated)
             .map_err(|error| GraphError::new(GraphErrorKind::Shader, error.to_string()))?;

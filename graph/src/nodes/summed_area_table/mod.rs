@@ -1,6 +1,8 @@
 //! Sums of a map of moments over rectangles, in constant time: a summed-area table.
 
-use moment_shadows::{MapEncoding, Storage, SummedAreaTable as TableEncoding, Technique};
+use moment_shadows::{
+    Contents, MapEncoding, Storage, SummedAreaTable as TableEncoding, TechniqueError,
+};
 use serde::{Deserialize, Serialize};
 
 use super::shared::{Specialization, map_input, regions, wgsl};
@@ -88,10 +90,7 @@ impl Node for SummedAreaTable {
         } else {
             OF_HARDWARE
         };
-        let channels = match source.technique() {
-            Technique::Vsm => 2,
-            _ => 4,
-        };
+        let (channels, integers) = sums(&source)?;
         let pair = |[x, y]: [u32; 2]| format!("vec2u({x}u, {y}u)");
         let storage = format!("texture_storage_2d<{}, write>", encoding.format());
         let specialization = Specialization::new(upstream.capabilities())
@@ -142,7 +141,7 @@ impl Node for SummedAreaTable {
                 "The sum of all texels of a region that lie neither below nor to the right.",
                 TextureRule::new(encoding.clone()).like("map"),
             )
-            .passes(tiles.passes(&specialization, &source)?))
+            .passes(tiles.passes(&specialization, integers)?))
     }
 }
 
@@ -150,12 +149,12 @@ impl Tiles {
     fn passes(
         &self,
         specialization: &Specialization,
-        source: &MapEncoding,
+        integers: &str,
     ) -> Result<[Pass; 4], GraphError> {
         let modules = [
             regions::TILE,
             ("sums", include_str!("sums.wgsl")),
-            ("source", source_integers(source)),
+            ("source", integers),
             ("tile_columns", include_str!("tile_columns.wgsl")),
         ];
         let tile = [0, 1].map(|axis| self.tile[axis] * self.workgroup[axis]);
@@ -195,11 +194,25 @@ impl Tiles {
     }
 }
 
-/// How a texel becomes integers.
-fn source_integers(source: &MapEncoding) -> &'static str {
-    match (source.storage(), source.technique()) {
-        (Storage::Unorm16, _) => include_str!("source_unorm16.wgsl"),
-        (_, Technique::Vsm) => include_str!("source_variance.wgsl"),
-        _ => include_str!("source_four_moments.wgsl"),
-    }
+/// How many channels are summed up, and how a texel becomes integers. The table of another map is refused before.
+fn sums(source: &MapEncoding) -> Result<(u32, &'static str), GraphError> {
+    let (channels, fixed) = match source.technique().row().contents {
+        Contents::TwoMoments => (2, include_str!("source_variance.wgsl")),
+        Contents::FourMoments => (4, include_str!("source_four_moments.wgsl")),
+        Contents::Depth
+        | Contents::Exponential
+        | Contents::WarpedMoments
+        | Contents::LayeredMoments
+        | Contents::FourierTerms
+        | Contents::SixMoments => {
+            let technique = source.technique().name();
+            return Err(techniques::property(TechniqueError::NoTable { technique }).at_slot("map"));
+        }
+    };
+    let integers = if source.storage() == Storage::Unorm16 {
+        include_str!("source_unorm16.wgsl")
+    } else {
+        fixed
+    };
+    Ok((channels, integers))
 }

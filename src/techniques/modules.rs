@@ -1,0 +1,153 @@
+//! The modules that a technique supplies to a node's shader, made of the pieces of its row by one template each.
+//!
+//! They are imported as `node::map_encoding`, `node::map_filtering` and `node::technique`, and import the row's constants from
+//! `node::specialization`.
+
+use core::fmt::Write;
+
+use super::Contents;
+use super::row::{Row, Snippet};
+
+/// What the pieces of a row can use beside the library and the row's own constants: the module and the item.
+const NODE_ITEMS: [(&str, &str); 12] = [
+    ("map_texel", "map_texel"),
+    ("moments_lookup", "moments_map"),
+    ("specialization", "PLANES"),
+    ("specialization", "STORAGE"),
+    ("specialization", "TABLE_ERROR"),
+    ("technique_layers", "technique_layers"),
+    ("technique_map", "comparison_sampler"),
+    ("technique_map", "depth_map"),
+    ("technique_map", "table_sums"),
+    ("technique_receiver", "TechniqueReceiver"),
+    ("technique_soft", "soft_receiver"),
+    ("technique_soft", "soft_table"),
+];
+
+/// The text of a module with these functions, and the imports that they need.
+fn module(row: &Row, imports: &[&str], functions: &str) -> String {
+    let uses = |item: &str| {
+        let mut words = functions.split(|c: char| !c.is_alphanumeric() && c != '_');
+        words.any(|word| word == item)
+    };
+    let mut text = String::new();
+    // Writing to a string cannot fail.
+    for import in imports {
+        let _ = writeln!(text, "import moment_shadows::{import};");
+    }
+    let constants = row.constants.iter();
+    let constants = constants.map(|constant| ("specialization", constant.name));
+    for (module, item) in NODE_ITEMS.into_iter().chain(constants) {
+        if uses(item) {
+            let _ = writeln!(text, "import node::{module}::{{{item}}};");
+        }
+    }
+    if encodes_plane(functions) {
+        text.push_str("\n// The plane that is made.\noverride PLANE: u32;\n");
+    }
+    text.push_str(functions);
+    text
+}
+
+fn encodes_plane(text: &str) -> bool {
+    text.contains("PLANE,") || text.contains("PLANE)")
+}
+
+impl Row {
+    /// Whether the encoding has an `override` constant `PLANE`, the plane that it makes.
+    #[must_use]
+    pub fn encodes_planes(&self) -> bool {
+        self.encoding
+            .is_some_and(|it| encodes_plane(it.channels) || encodes_plane(it.texel))
+    }
+
+    /// How a map is encoded: `encoding_channels` and `encoding_texel`, the module `map_encoding`. Empty where the plain depth map is read.
+    #[must_use]
+    pub fn map_encoding(&self) -> String {
+        let Some(encoding) = self.encoding else {
+            return String::new();
+        };
+        let functions = format!(
+            "
+// What is averaged for a moment depth.
+fn encoding_channels(z: f32) -> vec4f {{
+    return {};
+}}
+
+// The texel for the mean.
+fn encoding_texel(mean: vec4f) -> vec4f {{
+    return {};
+}}
+",
+            encoding.channels, encoding.texel
+        );
+        module(self, encoding.imports, &functions)
+    }
+
+    /// How texels are averaged: `filtering_value` and `filtering_texel`, the module `map_filtering`. Empty where the plain depth map is read.
+    #[must_use]
+    pub fn map_filtering(&self) -> String {
+        let Some(encoding) = self.encoding else {
+            return String::new();
+        };
+        let functions = format!(
+            "
+// What a filter averages of a texel.
+fn filtering_value(texel: vec4f) -> vec4f {{
+    return {};
+}}
+
+// The texel for such an average.
+fn filtering_texel(value: vec4f) -> vec4f {{
+    return {};
+}}
+",
+            encoding.filter_value, encoding.filter_texel
+        );
+        module(self, encoding.filter_imports, &functions)
+    }
+
+    /// How a fragment is shaded: `technique_shadow_intensity`, the module `technique`.
+    #[must_use]
+    pub fn technique(&self) -> String {
+        intensity(self, &self.evaluation)
+    }
+
+    /// How a fragment is shaded softly from the summed-area table of the map: another module `technique`. None where the technique has no
+    /// soft shadows.
+    #[must_use]
+    pub fn soft_technique(&self) -> Option<String> {
+        self.soft.as_ref().map(|soft| intensity(self, soft))
+    }
+
+    /// Names and values of the constants that these modules import, WGSL expressions.
+    pub fn constants(&self) -> impl Iterator<Item = (&'static str, &str)> {
+        self.constants
+            .iter()
+            .map(|constant| (constant.name, constant.value.as_str()))
+    }
+}
+
+/// `technique_shadow_intensity` by a piece of a row.
+fn intensity(row: &Row, snippet: &Snippet) -> String {
+    let mut imports = snippet.imports.to_vec();
+    let mut plane = "";
+    if row.contents == Contents::Depth {
+        imports.extend([
+            "map::depth::{depth_of_light}",
+            "shade::receiver_plane::{receiver_plane_through}",
+        ]);
+        plane = "let plane = receiver_plane_through(receiver.uv, receiver.depth, receiver.gradient, receiver.steepest, \
+                 depth_of_light(receiver.conversion));\n    ";
+    }
+    let functions = format!(
+        "
+// Shadow intensity by the technique '{}'.
+fn technique_shadow_intensity(receiver: TechniqueReceiver) -> f32 {{
+    {plane}{}
+}}
+",
+        row.name, snippet.body
+    );
+    module(row, &imports, &functions)
+}

@@ -1,0 +1,128 @@
+//! What documents say of the tree is so: paths, modules, techniques.
+#![allow(
+    clippy::unwrap_used,
+    clippy::expect_used,
+    clippy::panic,
+    reason = "a test that fails says where"
+)]
+
+use std::collections::BTreeSet;
+use std::path::Path;
+
+use moment_shadows::modules;
+use moment_shadows_lab::techniques::{filterable, reading_depth};
+
+fn read(file: &str) -> String {
+    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join(file);
+    std::fs::read_to_string(&path).unwrap_or_else(|error| panic!("{file}: {error}"))
+}
+
+/// What stands between backticks.
+fn quoted(text: &str) -> Vec<&str> {
+    text.split('`').skip(1).step_by(2).collect()
+}
+
+/// The names of all techniques.
+fn techniques() -> BTreeSet<&'static str> {
+    let filterable = filterable().into_iter();
+    let names = filterable.map(|encoding| encoding.technique().name());
+    names
+        .chain(reading_depth().iter().map(|technique| technique.name()))
+        .collect()
+}
+
+#[test]
+fn paths_are_there() {
+    let root = Path::new(env!("CARGO_MANIFEST_DIR"));
+    let mut missing = Vec::new();
+    for file in ["docs/architecture.md", "CONTRIBUTING.md"] {
+        for path in quoted(&read(file)) {
+            let is_path = path.contains('/') && !path.contains([' ', '<', '$', ':']);
+            if is_path && !path.starts_with("./") && !root.join(path).exists() {
+                missing.push(format!("{file}: {path}"));
+            }
+        }
+    }
+    assert_eq!(missing, Vec::<String>::new());
+}
+
+#[test]
+fn the_walk_opens_no_file_twice() {
+    let text = read("docs/architecture.md");
+    let walk = text.split("## The walk of a texel").nth(1).unwrap();
+    let walk = walk.split("\n## ").next().unwrap();
+    let steps: Vec<&str> = walk
+        .lines()
+        .filter(|line| line.starts_with(|first: char| first.is_ascii_digit()))
+        .map(|line| quoted(line)[0])
+        .collect();
+    let distinct: BTreeSet<_> = steps.iter().collect();
+    assert_eq!(distinct.len(), steps.len(), "{steps:?}");
+    assert!((1..=14).contains(&steps.len()), "{} files", steps.len());
+}
+
+#[test]
+fn every_module_that_is_named_exists_and_every_folder_is_listed() {
+    let text = read("docs/architecture.md");
+    let known: BTreeSet<String> = modules()
+        .iter()
+        .map(|module| format!("{}::{}", module.folder, module.name))
+        .collect();
+    let folders: BTreeSet<&str> = modules().iter().map(|module| module.folder).collect();
+    for name in quoted(&text) {
+        let folder = name.split("::").next().unwrap();
+        if name.contains("::") && folders.contains(folder) {
+            assert!(known.contains(name), "there is no module {name}");
+        }
+    }
+    for folder in folders {
+        assert!(
+            text.contains(&format!("`wgsl/{folder}`")),
+            "{folder} is not listed"
+        );
+    }
+}
+
+#[test]
+fn every_technique_is_in_every_table_of_techniques() {
+    for file in [
+        "README.md",
+        "docs/architecture.md",
+        "docs/techniques/README.md",
+    ] {
+        let text = read(file);
+        let names: BTreeSet<&str> = quoted(&text).into_iter().collect();
+        for technique in techniques() {
+            assert!(
+                names.contains(technique),
+                "{file} does not name {technique}"
+            );
+        }
+    }
+}
+
+#[test]
+fn the_table_of_the_documentation_says_what_rows_say() {
+    let text = read("src/techniques/mod.rs");
+    let cells: Vec<Vec<&str>> = text
+        .lines()
+        .filter_map(|line| line.strip_prefix("/// | `"))
+        .map(|row| row.split('|').map(str::trim).collect())
+        .collect();
+    for encoding in filterable() {
+        let row = encoding.technique().row();
+        let of_it = cells
+            .iter()
+            .find(|cells| format!("`{}", cells[0]).contains(&format!("`{}`", row.name)));
+        let cells = of_it.unwrap_or_else(|| panic!("{} is not in the table", row.name));
+        assert_eq!(cells[1], row.channels.to_string(), "{}", row.name);
+        let said: BTreeSet<&str> = cells[3].split(", ").collect();
+        let held = said.contains(encoding.storage().name());
+        assert!(
+            held,
+            "{} as {} is not in the table",
+            row.name,
+            encoding.storage()
+        );
+    }
+}
