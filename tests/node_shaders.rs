@@ -58,14 +58,13 @@ fn snapshot(name: &str) -> PathBuf {
 }
 
 /// Modules that are made by Rust code; the text of the others is a file.
-const GENERATED: [&str; 7] = [
+const GENERATED: [&str; 6] = [
     "blur_texel",
     "blur_unrolled",
     "map_encoding",
     "map_filtering",
     "specialization",
     "technique",
-    "tile_columns",
 ];
 
 /// The name that a comment line gives to the part of a linked text that follows it.

@@ -35,7 +35,7 @@ const MODULES: &[Module] = modules![
     "moments": ["enclosed_moments", "four_moments", "six_moments", "two_moments"],
     "bounds": ["chebyshev", "hamburger4", "hamburger6", "hausdorff4"],
     "techniques": ["convolution", "exponential", "exponential_variance", "layered_variance", "lloyd", "percentage_closer", "percentage_closer_hardware", "percentage_closer_soft"],
-    "filter": ["gaussian", "summed_area_encoding", "summed_area_table"],
+    "filter": ["gaussian", "prefix_sum", "separable", "summed_area_encoding", "summed_area_table"],
     "shade": ["area_light", "leak_reduction", "moment_soft_shadows", "receiver_bias", "receiver_plane", "soft_blockers"],
     "air": ["phase_function", "rectified_frame", "scattering_weights", "single_scattering"],
 ];

@@ -1,5 +1,6 @@
+import moment_shadows::filter::separable::{separable_add};
 import node::blur_parameters::{parameters};
-import node::map_filtering::{filtering_value};
+import node::blur_source::{blur_source};
 import node::specialization::{AXIS};
 
 // One texel of a blur along AXIS with weights that a host can change per frame. Beyond `low` and `last`, the corners of the
@@ -12,8 +13,8 @@ fn blur_texel(map: texture_2d<f32>, texel: vec2i, low: vec2i, last: vec2i) -> ve
         // 15 zeros come first.
         let place = tap + 15u;
         let weight = parameters.weights[place / 4u][place % 4u];
-        let source = clamp(texel + (i32(tap) - i32(radius)) * AXIS, low, last);
-        sum = fma(vec4f(weight), filtering_value(textureLoad(map, source, 0)), sum);
+        let source = blur_source(map, texel + (i32(tap) - i32(radius)) * AXIS, low, last);
+        sum = separable_add(sum, weight, source, false);
     }
     return sum;
 }

@@ -1,12 +1,25 @@
+import moment_shadows::filter::separable::{SeparableSixteen, separable_add_to_sixteen};
 import node::blur_parameters::{parameters};
+import node::blur_source::{blur_source};
 import node::blur_target::{blur_store, blurred_map, moments_map};
-import node::blur_unrolled::{BlurSums, OUTPUTS, blur_outputs, blur_taps};
 import node::region_tile::{region_tile};
-import node::specialization::{AXIS, WORKGROUP_X, WORKGROUP_Y};
+import node::specialization::{AXIS, OUTPUTS, SPLIT_SUMS, WORKGROUP_X, WORKGROUP_Y};
 
 // One direction of a separable filter over the regions of one layer, with weights that a host can change per frame.
 // An invocation makes OUTPUTS texels in a row along AXIS; it runs through the texels in blocks of 16 and through the
 // weights in step, keeping the half that the next block needs again.
+
+// Adds the four texels from `texel` on, whose weights begin in `w0`.
+fn blur_four(sums: SeparableSixteen, texel: vec2i, low: vec2i, last: vec2i, w0: vec4f, w1: vec4f, w2: vec4f, w3: vec4f, w4: vec4f) -> SeparableSixteen {
+    let t0 = blur_source(moments_map, texel, low, last);
+    let s0 = separable_add_to_sixteen(sums, t0, w0, w1, w2, w3, SPLIT_SUMS);
+    let t1 = blur_source(moments_map, texel + AXIS, low, last);
+    let s1 = separable_add_to_sixteen(s0, t1, vec4f(w0.yzw, w1.x), vec4f(w1.yzw, w2.x), vec4f(w2.yzw, w3.x), vec4f(w3.yzw, w4.x), SPLIT_SUMS);
+    let t2 = blur_source(moments_map, texel + 2 * AXIS, low, last);
+    let s2 = separable_add_to_sixteen(s1, t2, vec4f(w0.zw, w1.xy), vec4f(w1.zw, w2.xy), vec4f(w2.zw, w3.xy), vec4f(w3.zw, w4.xy), SPLIT_SUMS);
+    let t3 = blur_source(moments_map, texel + 3 * AXIS, low, last);
+    return separable_add_to_sixteen(s2, t3, vec4f(w0.w, w1.xyz), vec4f(w1.w, w2.xyz), vec4f(w2.w, w3.xyz), vec4f(w3.w, w4.xyz), SPLIT_SUMS);
+}
 
 @compute @workgroup_size(WORKGROUP_X, WORKGROUP_Y)
 fn blur(@builtin(local_invocation_id) local: vec3u, @builtin(workgroup_id) workgroup: vec3u, @builtin(num_workgroups) workgroups: vec3u) {
@@ -19,7 +32,7 @@ fn blur(@builtin(local_invocation_id) local: vec3u, @builtin(workgroup_id) workg
     let low = vec2i(tile.region.origin);
     let last = low + vec2i(tile.region.extent) - 1;
     let first = low + vec2i(place);
-    var sums: BlurSums;
+    var sums: SeparableSixteen;
     var w0 = parameters.weights[0];
     var w1 = parameters.weights[1];
     var w2 = parameters.weights[2];
@@ -31,28 +44,16 @@ fn blur(@builtin(local_invocation_id) local: vec3u, @builtin(workgroup_id) workg
         let w5 = parameters.weights[4u * block + 5u];
         let w6 = parameters.weights[4u * block + 6u];
         let w7 = parameters.weights[4u * block + 7u];
-        let tap = i32(16u * block) - i32(parameters.radius);
-        sums = blur_taps(moments_map, first + tap * AXIS, low, last, sums, w0, w1, w2, w3, w4, w5, w6, w7);
+        let texel = first + (i32(16u * block) - i32(parameters.radius)) * AXIS;
+        sums = blur_four(sums, texel, low, last, w0, w1, w2, w3, w4);
+        sums = blur_four(sums, texel + 4 * AXIS, low, last, w1, w2, w3, w4, w5);
+        sums = blur_four(sums, texel + 8 * AXIS, low, last, w2, w3, w4, w5, w6);
+        sums = blur_four(sums, texel + 12 * AXIS, low, last, w3, w4, w5, w6, w7);
         w0 = w4;
         w1 = w5;
         w2 = w6;
         w3 = w7;
     }
-    let block = blur_outputs(sums);
-    blur_store(first, last, block[0]);
-    blur_store(first + AXIS, last, block[1]);
-    blur_store(first + 2 * AXIS, last, block[2]);
-    blur_store(first + 3 * AXIS, last, block[3]);
-    blur_store(first + 4 * AXIS, last, block[4]);
-    blur_store(first + 5 * AXIS, last, block[5]);
-    blur_store(first + 6 * AXIS, last, block[6]);
-    blur_store(first + 7 * AXIS, last, block[7]);
-    blur_store(first + 8 * AXIS, last, block[8]);
-    blur_store(first + 9 * AXIS, last, block[9]);
-    blur_store(first + 10 * AXIS, last, block[10]);
-    blur_store(first + 11 * AXIS, last, block[11]);
-    blur_store(first + 12 * AXIS, last, block[12]);
-    blur_store(first + 13 * AXIS, last, block[13]);
-    blur_store(first + 14 * AXIS, last, block[14]);
-    blur_store(first + 15 * AXIS, last, block[15]);
+    blur_store(first, last, sums.first);
+    blur_store(first + 8 * AXIS, last, sums.second);
 }

@@ -12,7 +12,12 @@ use crate::{
     Connected, GraphError, GraphErrorKind, Node, NodeDesc, ParameterBlock, Pass, Stage,
     TextureDesc, TextureRule, bind, same_as,
 };
-use unrolled::Sums;
+
+/// Outputs per invocation where weights are literals.
+const OUTPUTS_LITERAL: u32 = 8;
+
+/// Outputs per invocation where weights are uniform.
+const OUTPUTS_UNIFORM: u32 = 16;
 
 /// Up to this radius the weights are literals and every load is unrolled; beyond it the code would leave the instruction
 /// cache.
@@ -58,21 +63,21 @@ pub struct BlurParameters {
 
 /// 16-tap blocks of the largest kernel, and one more that the last outputs reach into.
 const BLUR_WEIGHT_VECTORS: usize =
-    4 * (LARGEST_RADIUS as usize * 2 + unrolled::OUTPUTS_UNIFORM).div_ceil(16) + 4;
+    4 * (LARGEST_RADIUS as usize * 2 + OUTPUTS_UNIFORM as usize).div_ceil(16) + 4;
 
 impl BlurParameters {
     /// The parameters that stand for a kernel.
     #[must_use]
     pub fn new(kernel: &Kernel) -> Self {
         let mut flat = [0.0; BLUR_WEIGHT_VECTORS * 4];
-        let before = unrolled::OUTPUTS_UNIFORM - 1;
+        let before = OUTPUTS_UNIFORM as usize - 1;
         for (slot, &weight) in flat[before..].iter_mut().zip(kernel.weights()) {
             *slot = weight;
         }
-        let taps = 2 * kernel.radius() as usize + unrolled::OUTPUTS_UNIFORM;
+        let taps = 2 * kernel.radius() + OUTPUTS_UNIFORM;
         Self {
             radius: kernel.radius(),
-            blocks: taps.div_ceil(16) as u32,
+            blocks: taps.div_ceil(16),
             padding: [0; 2],
             weights: bytemuck::cast(flat),
         }
@@ -169,47 +174,45 @@ impl Along {
         } else {
             WORKGROUP
         };
-        let specialization = Specialization::new(upstream.capabilities())
-            .constant("WORKGROUP_X", &workgroup[0].to_string())
-            .constant("WORKGROUP_Y", &workgroup[1].to_string())
-            .constant("AXIS", self.step);
-        let specialization = techniques::specialize_map(specialization, encoding);
-        let specialization = regions::specialize(specialization, moments);
-        let sums = if encoding.has_split_sums() {
-            Sums::Split
-        } else {
-            Sums::Plain
-        };
         let text;
-        let (shader, (name, body), outputs) = match (encoding.storage().is_drawn(), unrolled) {
+        let (shader, body, outputs) = match (encoding.storage().is_drawn(), unrolled) {
             (true, true) => {
-                text = unrolled::literal_texel(kernel.weights());
-                (wgsl!("blur_drawn.wgsl"), ("blur_texel", text.as_str()), 1)
+                text = unrolled::texel(kernel.weights());
+                (
+                    wgsl!("blur_drawn.wgsl"),
+                    Some(("blur_texel", text.as_str())),
+                    1,
+                )
             }
             (true, false) => {
                 let uniform = include_str!("blur_texel_uniform.wgsl");
-                (wgsl!("blur_drawn.wgsl"), ("blur_texel", uniform), 1)
+                (wgsl!("blur_drawn.wgsl"), Some(("blur_texel", uniform)), 1)
             }
             (false, true) => {
-                text = unrolled::literal_weights(kernel.weights(), sums);
-                let body = (unrolled::MODULE, text.as_str());
-                (wgsl!("blur_unrolled.wgsl"), body, unrolled::OUTPUTS_LITERAL)
+                text = unrolled::block(kernel.weights());
+                let body = Some((unrolled::MODULE, text.as_str()));
+                (wgsl!("blur_unrolled.wgsl"), body, OUTPUTS_LITERAL)
             }
-            (false, false) => {
-                text = unrolled::uniform_weights(sums);
-                let body = (unrolled::MODULE, text.as_str());
-                (wgsl!("blur_uniform.wgsl"), body, unrolled::OUTPUTS_UNIFORM)
-            }
+            (false, false) => (wgsl!("blur_uniform.wgsl"), None, OUTPUTS_UNIFORM),
         };
+        let specialization = Specialization::new(upstream.capabilities())
+            .constant("WORKGROUP_X", &workgroup[0].to_string())
+            .constant("WORKGROUP_Y", &workgroup[1].to_string())
+            .constant("AXIS", self.step)
+            .constant("OUTPUTS", &outputs.to_string())
+            .constant("SPLIT_SUMS", &encoding.has_split_sums().to_string());
+        let specialization = techniques::specialize_map(specialization, encoding);
+        let specialization = regions::specialize(specialization, moments);
         let mut modules = vec![
-            (name, body),
+            ("blur_source", include_str!("blur_source.wgsl")),
             ("blur_target", include_str!("blur_target.wgsl")),
             ("blur_parameters", include_str!("blur_parameters.wgsl")),
         ];
+        modules.extend(body);
         modules.extend(regions::modules(encoding));
         let wgsl = specialization.link(shader, &modules)?;
         let mut texels_per_workgroup = workgroup;
-        texels_per_workgroup[self.axis] *= outputs as u32;
+        texels_per_workgroup[self.axis] *= outputs;
         // A region holds at least a kernel, so that no texel is repeated at two edges.
         let smallest = 2 * kernel.radius() + 1;
         let target = (self.to, 0);

@@ -1,20 +1,19 @@
 import node::region_tile::{region_tile};
-import node::specialization::{GROUP, SumsStorage, TILE};
-import node::sums::{Sums, sums_of, sums_texel};
+import node::specialization::{GROUP, TILE};
+import node::sums::{sums_texel, target_map};
 
 // Third pass: the rows of the table at the lower edges of tiles, one column of a region per invocation. To a tile's own sums
 // up to the column those of the tiles to its left are added: the last of their row prefixes.
 
 @group(GROUP) @binding(0) var column_sums: texture_2d<u32>;
-@group(GROUP) @binding(1) var column_prefixes: SumsStorage;
 @group(GROUP) @binding(2) var row_prefixes: texture_2d<u32>;
 
 const LINES = 64u;
 
 // The sums of a row of tiles, up to the column x.
-fn tile_row_sum(x: u32, slot: u32, left: u32, last_row: u32, is_first: bool) -> Sums {
+fn tile_row_sum(x: u32, slot: u32, left: u32, last_row: u32, is_first: bool) -> vec4u {
     let before = select(textureLoad(row_prefixes, vec2u(left, last_row), 0), vec4u(0u), is_first);
-    return sums_of(textureLoad(column_sums, vec2u(x, slot), 0) + before);
+    return textureLoad(column_sums, vec2u(x, slot), 0) + before;
 }
 
 @compute @workgroup_size(LINES)
@@ -34,16 +33,16 @@ fn sum_columns(@builtin(local_invocation_id) local: vec3u, @builtin(workgroup_id
     let first = (lines.region.origin.y + TILE.y - 1u) / TILE.y;
     let end = first + (lines.region.extent.y - 1u) / TILE.y;
     var last_row = lines.region.origin.y + TILE.y - 1u;
-    var sum: Sums;
+    var sum: vec4u;
     // Two tiles at a time, with two loads each, hide each other's latency.
     for (var y = first; y < end; y += 2u) {
         let s0 = tile_row_sum(x, y, left, last_row, is_first);
         let s1 = tile_row_sum(x, y + 1u, left, last_row + TILE.y, is_first);
         sum += s0;
-        textureStore(column_prefixes, vec2u(x, y), sums_texel(sum));
+        textureStore(target_map, vec2u(x, y), sums_texel(sum));
         sum += s1;
         if y + 1u < end {
-            textureStore(column_prefixes, vec2u(x, y + 1u), sums_texel(sum));
+            textureStore(target_map, vec2u(x, y + 1u), sums_texel(sum));
         }
         last_row += 2u * TILE.y;
     }

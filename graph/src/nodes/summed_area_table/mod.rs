@@ -1,7 +1,5 @@
 //! Sums of a map of moments over rectangles, in constant time: a summed-area table.
 
-mod tile_columns;
-
 use moment_shadows::{
     Contents, MapEncoding, Storage, SummedAreaTable as TableEncoding, TechniqueError,
 };
@@ -92,12 +90,14 @@ impl Node for SummedAreaTable {
         } else {
             OF_HARDWARE
         };
+        let (channels, integers) = sums(&source)?;
         let pair = |[x, y]: [u32; 2]| format!("vec2u({x}u, {y}u)");
         let storage = format!("texture_storage_2d<{}, write>", encoding.format());
         let specialization = Specialization::new(upstream.capabilities())
             .alias("SumsStorage", &storage)
             .unsigned("STORAGE", source.storage().wgsl_index())
             .unsigned("UNIT", table.unit())
+            .unsigned("CHANNELS", channels)
             .constant("TILE", &pair(tiles.tile))
             .constant("WORKGROUP", &pair(tiles.workgroup));
         let specialization = regions::specialize(specialization, map);
@@ -141,7 +141,7 @@ impl Node for SummedAreaTable {
                 "The sum of all texels of a region that lie neither below nor to the right.",
                 TextureRule::new(encoding.clone()).like("map"),
             )
-            .passes(tiles.passes(&specialization, &source)?))
+            .passes(tiles.passes(&specialization, integers)?))
     }
 }
 
@@ -149,16 +149,13 @@ impl Tiles {
     fn passes(
         &self,
         specialization: &Specialization,
-        source: &MapEncoding,
+        integers: &str,
     ) -> Result<[Pass; 4], GraphError> {
-        let columns = tile_columns::columns(self.tile[0]);
-        let [sums, integers] = sums(source)?;
         let modules = [
             regions::TILE,
-            sums,
-            integers,
-            ("sums_target", include_str!("sums_target.wgsl")),
-            (tile_columns::MODULE, &columns),
+            ("sums", include_str!("sums.wgsl")),
+            ("source", integers),
+            ("tile_columns", include_str!("tile_columns.wgsl")),
         ];
         let tile = [0, 1].map(|axis| self.tile[axis] * self.workgroup[axis]);
         let pass = |label: &str, shader, entry_point: &str, texels| {
@@ -178,7 +175,7 @@ impl Tiles {
                 [ENDLESS, LINES],
             )?
             .bind("row_sums", bind::layer("row_sums"))
-            .bind("row_prefixes", bind::store("row_prefixes")),
+            .bind("target_map", bind::store("row_prefixes")),
             pass(
                 "sum columns",
                 wgsl!("column_prefixes.wgsl"),
@@ -186,7 +183,7 @@ impl Tiles {
                 [LINES, ENDLESS],
             )?
             .bind("column_sums", bind::layer("column_sums"))
-            .bind("column_prefixes", bind::store("column_prefixes"))
+            .bind("target_map", bind::store("column_prefixes"))
             .bind("row_prefixes", bind::layer("row_prefixes")),
             pass("make table", wgsl!("table.wgsl"), "make_table", tile)?
                 .bind("moments_map", bind::layer("map"))
@@ -198,17 +195,10 @@ impl Tiles {
 }
 
 /// How many channels are summed up, and how a texel becomes integers. The table of another map is refused before.
-fn sums(source: &MapEncoding) -> Result<[(&'static str, &'static str); 2], GraphError> {
-    let exact = include_str!("source_unorm16.wgsl");
-    let (sums, fixed) = match source.technique().row().contents {
-        Contents::TwoMoments => (
-            include_str!("two_channels.wgsl"),
-            include_str!("source_variance.wgsl"),
-        ),
-        Contents::FourMoments => (
-            include_str!("four_channels.wgsl"),
-            include_str!("source_four_moments.wgsl"),
-        ),
+fn sums(source: &MapEncoding) -> Result<(u32, &'static str), GraphError> {
+    let (channels, fixed) = match source.technique().row().contents {
+        Contents::TwoMoments => (2, include_str!("source_variance.wgsl")),
+        Contents::FourMoments => (4, include_str!("source_four_moments.wgsl")),
         Contents::Depth
         | Contents::Exponential
         | Contents::WarpedMoments
@@ -220,9 +210,9 @@ fn sums(source: &MapEncoding) -> Result<[(&'static str, &'static str); 2], Graph
         }
     };
     let integers = if source.storage() == Storage::Unorm16 {
-        exact
+        include_str!("source_unorm16.wgsl")
     } else {
         fixed
     };
-    Ok([("sums", sums), ("source", integers)])
+    Ok((channels, integers))
 }

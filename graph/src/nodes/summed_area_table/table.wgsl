@@ -1,7 +1,6 @@
 import node::region_tile::{region_tile};
 import node::specialization::{GROUP, TILE, WORKGROUP};
-import node::sums::{Sums, sums_of};
-import node::sums_target::{target_map};
+import node::sums::{target_map};
 import node::tile_columns::{TileColumns, add_row, load_columns, store_columns};
 
 // Last pass: the table, one tile per invocation. It begins with the row of the table above the tile; each row adds its own
@@ -28,9 +27,9 @@ fn make_table(@builtin(local_invocation_id) local: vec3u, @builtin(workgroup_id)
     for (var row = 0u; row < size.y; row++) {
         let y = first.y + row;
         columns = add_row(vec2u(first.x, y), columns);
-        var left: Sums;
+        var left: vec4u;
         if place.x > 0u {
-            left = sums_of(textureLoad(row_prefixes, vec2u(before.x, y), 0));
+            left = textureLoad(row_prefixes, vec2u(before.x, y), 0);
         }
         store_columns(vec2u(first.x, y), size.x, columns, left);
     }

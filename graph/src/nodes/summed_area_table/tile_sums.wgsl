@@ -1,6 +1,6 @@
 import node::region_tile::{region_tile};
 import node::specialization::{GROUP, SumsStorage, TILE, WORKGROUP};
-import node::sums::{Sums, sums_texel};
+import node::sums::{sums_texel};
 import node::tile_columns::{TileColumns, last_column, add_row, moments_map, store_columns};
 
 // First pass: the sums of tiles, one tile per invocation.
@@ -31,6 +31,6 @@ fn sum_tiles(@builtin(local_invocation_id) local: vec3u, @builtin(workgroup_id) 
         }
     }
     if !is_last.y {
-        store_columns(vec2u(first.x, slot.y), min(TILE.x, tile.region.extent.x - place.x), columns, Sums());
+        store_columns(vec2u(first.x, slot.y), min(TILE.x, tile.region.extent.x - place.x), columns, vec4u(0u));
     }
 }
