@@ -1,6 +1,8 @@
 // What is linked of files:
+// moment_shadows/filter/separable.wgsl: separable_add
 // blur_parameters: BlurParameters parameters
 // moment_shadows/map/storage.wgsl: STORAGE_FLOAT16 STORAGE_UNORM10 storage_round_to_float16 storage_round_to_unorm10 storage_round_texel
+// blur_source: blur_source
 // fullscreen: Covered fullscreen
 // moment_shadows/map/map_region.wgsl: MapRegion map_region_within map_region_at_level
 // region_pixel: regions RegionPixel region_pixel
@@ -10,6 +12,7 @@
 const GROUP = 0;
 
 const AXIS = vec2i(1, 0);
+
 const STORAGE = 5u;
 const REGIONS = 1u;
 
@@ -32,8 +35,8 @@ fn blur_texel(map: texture_2d<f32>, texel: vec2i, low: vec2i, last: vec2i) -> ve
         // 15 zeros come first.
         let place = tap + 15u;
         let weight = parameters.weights[place / 4u][place % 4u];
-        let source = clamp(texel + (i32(tap) - i32(radius)) * AXIS, low, last);
-        sum = fma(vec4f(weight), filtering_value(textureLoad(map, source, 0)), sum);
+        let source = blur_source(map, texel + (i32(tap) - i32(radius)) * AXIS, low, last);
+        sum = separable_add(sum, weight, source, false);
     }
     return sum;
 }

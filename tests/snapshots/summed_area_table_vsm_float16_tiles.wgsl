@@ -1,12 +1,13 @@
 // What is linked of files:
 // moment_shadows/map/map_region.wgsl: MapRegion map_region_within map_region_at_level
 // region_tile: regions RegionTile region_tile
-// sums: Sums sums_of sums_texel
+// moment_shadows/filter/prefix_sum.wgsl: PrefixSumFour prefix_sum_along prefix_sum_across
+// sums: target_map sums_texel sums_store_four
 // moment_shadows/map/storage.wgsl: STORAGE_UNORM16 STORAGE_FLOAT16 STORAGE_FLOAT32 storage_is_float storage_round_to_float16 storage_finite_texel
 // moment_shadows/filter/summed_area_encoding.wgsl: summed_area_encoding_of_channels
 // moment_shadows/moments/two_moments.wgsl: two_moments_to_texel
 // source: source_integers
-// sums_target: target_map
+// tile_columns: moments_map TileColumns load_texel load_four_texels add_row last_column store_columns
 // tile_sums.wgsl: row_sums sum_tiles
 
 // specialization
@@ -14,64 +15,8 @@ const GROUP = 0;
 alias SumsStorage = texture_storage_2d<rg32uint, write>;
 const STORAGE = 1u;
 const UNIT = 1016560u;
+const CHANNELS = 2u;
 const TILE = vec2u(8u, 16u);
 const WORKGROUP = vec2u(8u, 8u);
 const REGIONS = 1u;
-
-// tile_columns
-@group(GROUP) @binding(0) var moments_map: texture_2d<f32>;
-
-struct TileColumns {
-    c0: Sums,
-    c1: Sums,
-    c2: Sums,
-    c3: Sums,
-    c4: Sums,
-    c5: Sums,
-    c6: Sums,
-    c7: Sums,
-}
-
-fn add_row(first: vec2u, columns: TileColumns) -> TileColumns {
-    let t0 = sums_of(source_integers(textureLoad(moments_map, first + vec2u(0u, 0u), 0)));
-    let t1 = t0 + sums_of(source_integers(textureLoad(moments_map, first + vec2u(1u, 0u), 0)));
-    let t2 = t1 + sums_of(source_integers(textureLoad(moments_map, first + vec2u(2u, 0u), 0)));
-    let t3 = t2 + sums_of(source_integers(textureLoad(moments_map, first + vec2u(3u, 0u), 0)));
-    let t4 = t3 + sums_of(source_integers(textureLoad(moments_map, first + vec2u(4u, 0u), 0)));
-    let t5 = t4 + sums_of(source_integers(textureLoad(moments_map, first + vec2u(5u, 0u), 0)));
-    let t6 = t5 + sums_of(source_integers(textureLoad(moments_map, first + vec2u(6u, 0u), 0)));
-    let t7 = t6 + sums_of(source_integers(textureLoad(moments_map, first + vec2u(7u, 0u), 0)));
-    return TileColumns(columns.c0 + t0, columns.c1 + t1, columns.c2 + t2, columns.c3 + t3, columns.c4 + t4, columns.c5 + t5, columns.c6 + t6, columns.c7 + t7);
-}
-
-fn last_column(columns: TileColumns) -> Sums {
-    return columns.c7;
-}
-
-fn store_columns(first: vec2u, count: u32, columns: TileColumns, added: Sums) {
-    if 0u < count {
-        textureStore(target_map, first + vec2u(0u, 0u), sums_texel(columns.c0 + added));
-    }
-    if 1u < count {
-        textureStore(target_map, first + vec2u(1u, 0u), sums_texel(columns.c1 + added));
-    }
-    if 2u < count {
-        textureStore(target_map, first + vec2u(2u, 0u), sums_texel(columns.c2 + added));
-    }
-    if 3u < count {
-        textureStore(target_map, first + vec2u(3u, 0u), sums_texel(columns.c3 + added));
-    }
-    if 4u < count {
-        textureStore(target_map, first + vec2u(4u, 0u), sums_texel(columns.c4 + added));
-    }
-    if 5u < count {
-        textureStore(target_map, first + vec2u(5u, 0u), sums_texel(columns.c5 + added));
-    }
-    if 6u < count {
-        textureStore(target_map, first + vec2u(6u, 0u), sums_texel(columns.c6 + added));
-    }
-    if 7u < count {
-        textureStore(target_map, first + vec2u(7u, 0u), sums_texel(columns.c7 + added));
-    }
-}
 
