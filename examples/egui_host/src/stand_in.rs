@@ -5,7 +5,10 @@ use std::error::Error;
 
 use eframe::egui_wgpu::RenderState;
 use eframe::{egui, wgpu};
-use moment_shadows::{CameraView, Kernel, LeakReduction, LightDepth, LightView, MapRegion, ReceiverBias, ViewParameters};
+use moment_shadows::{
+    CameraView, Kernel, LeakReduction, LightDepth, LightView, MapRegion, ReceiverBias,
+    ViewParameters,
+};
 use moment_shadows_graph::Plan;
 use moment_shadows_graph::record::ImportedResource;
 use moment_shadows_lab::command::render::RenderOptions;
