@@ -13,7 +13,7 @@ use moment_shadows::{
     FourMomentsBias, IntegrateScatteringParameters, Kernel, LARGEST_RADIUS, LayerSplits,
     LeakReduction, MapRegion, PcfTaps, Pcss, PercentageCloserKernel, Profile, ReceiverBias,
     RectifiedFrame, RectifyMomentsParameters, STANDARD_DEVIATIONS, SingleScattering,
-    SixMomentsBias, Storage, SummedAreaTable, Technique, TextureFormat, ViewParameters, modules,
+    SixMomentsBias, Storage, SummedAreaTable, Technique, TextureFormat, ViewParameters,
 };
 use moment_shadows_graph::nodes::{
     Blur, BlurParameters, CompositeScattering, IntegrateScattering, KernelProperty, RectifyMoments,
@@ -562,4 +562,7 @@ fn the_largest_kernel_fits_its_uniform_struct() {
             "radius {radius}"
         );
     }
+    // The drawn blur, which loops over the weights, clamps to the same radius.
+    let drawn = include_str!("../graph/src/nodes/blur/blur_texel_uniform.wgsl");
+    assert!(drawn.contains(&format!("min(parameters.radius, {LARGEST_RADIUS}u)")));
 }
