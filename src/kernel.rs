@@ -5,7 +5,7 @@ use serde::{Deserialize, Serialize};
 use crate::constant::number;
 
 /// The largest radius of a kernel, in texels.
-pub const LARGEST_RADIUS: u32 = number(
+const LARGEST_RADIUS: u32 = number(
     include_str!("../wgsl/techniques/percentage_closer.wgsl"),
     "PERCENTAGE_CLOSER_LARGEST_RADIUS",
 ) as u32;
@@ -60,6 +60,9 @@ pub enum KernelError {
 }
 
 impl Kernel {
+    /// The largest radius of a kernel, in texels.
+    pub const LARGEST_RADIUS: u32 = LARGEST_RADIUS;
+
     /// A Gaussian of standard deviation `sigma` texels, cut off at `radius` texels.
     pub fn gaussian(radius: u32, sigma: f32) -> Result<Self, KernelError> {
         if radius == 0 || radius > LARGEST_RADIUS {

@@ -2,10 +2,10 @@
 
 use bytemuck::{Pod, Zeroable};
 
-use crate::{Kernel, LARGEST_RADIUS};
+use crate::Kernel;
 
 /// Vectors of four weights that hold the largest kernel.
-const WEIGHT_VECTORS: usize = (2 * LARGEST_RADIUS as usize + 1).div_ceil(4);
+const WEIGHT_VECTORS: usize = (2 * Kernel::LARGEST_RADIUS as usize + 1).div_ceil(4);
 
 /// A separable kernel of percentage closer filtering: the uniform struct of the WGSL module `percentage_closer`.
 #[derive(Clone, Copy, Debug, PartialEq, Pod, Zeroable)]

@@ -5,16 +5,6 @@ use serde::{Deserialize, Serialize};
 
 use crate::constant::number;
 
-/// How many standard deviations of depth under the kernel a receiver moves towards the light.
-///
-/// One suffices for a symmetric distribution: a fragment in front of the lower Gauss node, which then lies one standard
-/// deviation in front of the mean, has a lower bound of exactly 0 (Peters & Klein, i3D 2015, Algorithm 3). The rest
-/// covers the moment bias and the rounding of storage.
-pub const STANDARD_DEVIATIONS: f32 = number(
-    include_str!("../wgsl/shade/receiver_bias.wgsl"),
-    "RECEIVER_BIAS_STANDARD_DEVIATIONS",
-) as f32;
-
 /// The variance, in squared texels along either axis, that multisampling and bilinear lookup add to a kernel's: 1/12 for
 /// samples spread evenly over a texel, at most 1/4 for a lookup half-way between texels.
 const VARIANCE_OF_SAMPLING: f32 = 1.0 / 12.0 + 1.0 / 4.0;
@@ -41,6 +31,16 @@ pub struct ReceiverBias {
 }
 
 impl ReceiverBias {
+    /// How many standard deviations of depth under the kernel a receiver moves towards the light.
+    ///
+    /// One suffices for a symmetric distribution: a fragment in front of the lower Gauss node, which then lies one standard
+    /// deviation in front of the mean, has a lower bound of exactly 0 (Peters & Klein, i3D 2015, Algorithm 3). The rest
+    /// covers the moment bias and the rounding of storage.
+    pub const STANDARD_DEVIATIONS: f32 = number(
+        include_str!("../wgsl/shade/receiver_bias.wgsl"),
+        "RECEIVER_BIAS_STANDARD_DEVIATIONS",
+    ) as f32;
+
     /// No bias at all: for maps whose casters are not receivers.
     pub const NONE: ReceiverBias = ReceiverBias {
         constant: 0.0,
@@ -57,7 +57,7 @@ impl ReceiverBias {
     #[must_use]
     pub fn for_kernel(standard_deviation: f32, depth_per_texel: f32) -> Self {
         let variance = standard_deviation * standard_deviation + VARIANCE_OF_SAMPLING;
-        let slope_scale = STANDARD_DEVIATIONS * variance.sqrt();
+        let slope_scale = Self::STANDARD_DEVIATIONS * variance.sqrt();
         Self {
             constant: DEPTH_ERROR,
             slope_scale,

@@ -10,10 +10,10 @@ use std::mem::offset_of;
 
 use moment_shadows::{
     AreaLight, CompositeScatteringParameters, DepthConversion, EsmFiltering, Finite,
-    FourMomentsBias, IntegrateScatteringParameters, Kernel, LARGEST_RADIUS, LayerSplits,
-    LeakReduction, MapRegion, PcfTaps, Pcss, PercentageCloserKernel, Profile, ReceiverBias,
-    RectifiedFrame, RectifyMomentsParameters, STANDARD_DEVIATIONS, SingleScattering,
-    SixMomentsBias, Storage, SummedAreaTable, Technique, TextureFormat, ViewParameters,
+    FourMomentsBias, IntegrateScatteringParameters, Kernel, LayerSplits, LeakReduction, MapRegion,
+    PcfTaps, Pcss, PercentageCloserKernel, Profile, ReceiverBias, RectifiedFrame,
+    RectifyMomentsParameters, SingleScattering, SixMomentsBias, Storage, SummedAreaTable,
+    Technique, TextureFormat, ViewParameters,
 };
 use moment_shadows_graph::nodes::{
     Blur, BlurParameters, CompositeScattering, IntegrateScattering, KernelProperty, RectifyMoments,
@@ -514,14 +514,14 @@ fn techniques_have_the_limits_of_their_modules() {
 fn the_receiver_bias_moves_by_as_many_standard_deviations_on_both_sides() {
     let name = "RECEIVER_BIAS_STANDARD_DEVIATIONS";
     let found = constant(&module("receiver_bias", name), name);
-    assert_eq!(found, [f64::from(STANDARD_DEVIATIONS)]);
+    assert_eq!(found, [f64::from(ReceiverBias::STANDARD_DEVIATIONS)]);
 }
 
 #[test]
 fn the_largest_kernel_of_percentage_closer_filtering_fits_its_uniform_struct() {
-    let kernel = Kernel::gaussian(LARGEST_RADIUS, 20.0).unwrap();
+    let kernel = Kernel::gaussian(Kernel::LARGEST_RADIUS, 20.0).unwrap();
     let uniform = PercentageCloserKernel::new(&kernel);
-    assert_eq!(uniform.radius, LARGEST_RADIUS);
+    assert_eq!(uniform.radius, Kernel::LARGEST_RADIUS);
     let flat = uniform.weights.as_flattened();
     assert_eq!(flat[..kernel.weights().len()], *kernel.weights());
     assert!(
@@ -537,13 +537,13 @@ fn the_largest_kernel_of_percentage_closer_filtering_fits_its_uniform_struct() {
         ),
     ] {
         let found = constant(&module(name, item), item);
-        assert_eq!(found, [f64::from(LARGEST_RADIUS)]);
+        assert_eq!(found, [f64::from(Kernel::LARGEST_RADIUS)]);
     }
 }
 
 #[test]
 fn the_largest_kernel_fits_its_uniform_struct() {
-    for radius in [1, 12, 13, LARGEST_RADIUS] {
+    for radius in [1, 12, 13, Kernel::LARGEST_RADIUS] {
         let kernel = KernelProperty::gaussian(radius, radius as f32 * 0.6)
             .kernel()
             .unwrap();
@@ -564,5 +564,8 @@ fn the_largest_kernel_fits_its_uniform_struct() {
     }
     // The drawn blur, which loops over the weights, clamps to the same radius.
     let drawn = include_str!("../graph/src/nodes/blur/blur_texel_uniform.wgsl");
-    assert!(drawn.contains(&format!("min(parameters.radius, {LARGEST_RADIUS}u)")));
+    assert!(drawn.contains(&format!(
+        "min(parameters.radius, {}u)",
+        Kernel::LARGEST_RADIUS
+    )));
 }

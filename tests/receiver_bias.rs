@@ -9,7 +9,7 @@
 //! far below the width that the moment bias gives; the third is what asks for 1.25 standard deviations.
 #![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic)]
 
-use moment_shadows::{Kernel, ReceiverBias, STANDARD_DEVIATIONS, Storage};
+use moment_shadows::{Kernel, ReceiverBias, Storage};
 use moment_shadows_lab::truth::exact_bound::{lower_bound, lower_bound_of_moments};
 use moment_shadows_lab::truth::kernel::sample_positions;
 
@@ -151,7 +151,7 @@ fn worst(
         let bias = ReceiverBias::for_kernel(kernel.standard_deviation(), depth_per_texel as f32);
         for tilt in (0..=80).step_by(10) {
             let gradient = depth_per_texel * f64::from(tilt).to_radians().tan();
-            let relative = standard_deviations / f64::from(STANDARD_DEVIATIONS);
+            let relative = standard_deviations / f64::from(ReceiverBias::STANDARD_DEVIATIONS);
             let receiver_bias =
                 relative * (f64::from(bias.slope_scale) * gradient).min(f64::from(bias.maximum));
             for direction in [0.0f64, 30.0, 45.0, 180.0] {
@@ -208,7 +208,7 @@ fn planes_are_lit_in_every_storage() {
     for storage in Storage::OF_FOUR_MOMENTS {
         for (radius, sigma) in [(1, 0.6), (2, 1.2), (4, 2.4), (8, 4.8)] {
             let kernel = Kernel::gaussian(radius, sigma).unwrap();
-            let bias = f64::from(STANDARD_DEVIATIONS);
+            let bias = f64::from(ReceiverBias::STANDARD_DEVIATIONS);
             let bound = worst(storage, &kernel, &[Beyond::Endless], bias, 0.0);
             assert!(bound <= LARGEST, "{storage}, radius {radius}: {bound}");
         }
@@ -223,7 +223,7 @@ fn planes_are_lit_at_borders_and_edges() {
         .flat_map(|end| [Beyond::Border(end), Beyond::Edge(end)])
         .collect();
     for storage in Storage::OF_FOUR_MOMENTS {
-        let bias = f64::from(STANDARD_DEVIATIONS);
+        let bias = f64::from(ReceiverBias::STANDARD_DEVIATIONS);
         let bound = worst(storage, &kernel, &beyond, bias, 0.0);
         assert!(bound <= LARGEST, "{storage}: {bound}");
     }
@@ -238,7 +238,7 @@ fn fragment_depths_may_be_off_by_their_rounding() {
     // of positions in single precision is less than that, so that no constant bias is needed for the shader's bound.
     let kernel = Kernel::gaussian(4, 2.4).unwrap();
     for storage in Storage::OF_FOUR_MOMENTS {
-        let bias = f64::from(STANDARD_DEVIATIONS);
+        let bias = f64::from(ReceiverBias::STANDARD_DEVIATIONS);
         let bound = worst(storage, &kernel, &[Beyond::Endless], bias, 5e-5);
         assert!(bound <= LARGEST, "{storage}: {bound}");
     }

@@ -1,7 +1,7 @@
 //! The variance that lookups add to the depths of a plane, and the bias that follows from it.
 
 use bytemuck::{Pod, Zeroable};
-use moment_shadows::{Profile, ReceiverBias, STANDARD_DEVIATIONS};
+use moment_shadows::{Profile, ReceiverBias};
 use moment_shadows_lab::batch::Batch;
 use moment_shadows_lab::gpu::Gpu;
 use rand::{RngExt as _, SeedableRng as _};
@@ -146,7 +146,7 @@ fn the_bias_moves_by_the_deviation_of_kernel_and_lookup_together() {
         let [x, y] = input.gradient.map(f64::from);
         let constant = f64::from(input.bias.constant);
         let kernel = f64::from(input.bias.slope_scale) * x.hypot(y);
-        let added = f64::from(STANDARD_DEVIATIONS) * f64::from(found.variance).sqrt();
+        let added = f64::from(ReceiverBias::STANDARD_DEVIATIONS) * f64::from(found.variance).sqrt();
         let expected = constant + (kernel * kernel + added * added).sqrt();
         let minified = f64::from(found.minified);
         // These slopes are far from the steepest one.
@@ -188,7 +188,7 @@ fn its_limit_is_one_of_slope() {
     let (limit, beyond) = (at(1.0), at(1000.0));
     for ((input, limit), beyond) in limit.iter().zip(run(&limit)).zip(run(&beyond)) {
         let kernel = f64::from(input.bias.maximum - input.bias.constant);
-        let added = f64::from(STANDARD_DEVIATIONS) * f64::from(limit.variance).sqrt();
+        let added = f64::from(ReceiverBias::STANDARD_DEVIATIONS) * f64::from(limit.variance).sqrt();
         let expected = f64::from(input.bias.constant) + kernel.hypot(added);
         for found in [limit.minified, beyond.minified].map(f64::from) {
             assert!(

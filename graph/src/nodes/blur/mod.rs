@@ -3,7 +3,7 @@
 mod unrolled;
 
 use bytemuck::{Pod, Zeroable};
-use moment_shadows::{Kernel, LARGEST_RADIUS, MapEncoding};
+use moment_shadows::{Kernel, MapEncoding};
 use serde::{Deserialize, Serialize};
 
 use super::shared::{KernelProperty, MipLevels, Specialization, map_input, regions, wgsl};
@@ -63,7 +63,7 @@ pub struct BlurParameters {
 
 /// 16-tap blocks of the largest kernel, and one more that the last outputs reach into.
 const BLUR_WEIGHT_VECTORS: usize =
-    4 * (LARGEST_RADIUS as usize * 2 + OUTPUTS_UNIFORM as usize).div_ceil(16) + 4;
+    4 * (Kernel::LARGEST_RADIUS as usize * 2 + OUTPUTS_UNIFORM as usize).div_ceil(16) + 4;
 
 impl BlurParameters {
     /// The parameters that stand for a kernel.
@@ -239,7 +239,7 @@ fn check_fits(kernel: &Kernel, moments: &TextureDesc) -> Result<(), GraphError> 
     if 2 * kernel.radius() < shortest {
         return Ok(());
     }
-    let largest = (shortest.saturating_sub(1) / 2).min(LARGEST_RADIUS);
+    let largest = (shortest.saturating_sub(1) / 2).min(Kernel::LARGEST_RADIUS);
     Err(GraphError::new(
         GraphErrorKind::Size,
         format!(
