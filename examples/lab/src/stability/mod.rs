@@ -7,6 +7,7 @@
 mod climb;
 mod gauss_node;
 pub mod input;
+mod invalid;
 pub mod judge;
 pub mod kernels;
 pub mod limits;
