@@ -58,7 +58,7 @@ pub struct ErrorSeries {
 /// A technique in a storage.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct ErrorPoint {
-    /// Of a texel, all planes.
+    /// Bits of a texel, all planes.
     pub bits: u32,
     /// Mean absolute error in percent.
     pub percent: f64,

@@ -62,9 +62,9 @@ pub struct Comparison {
 /// quarter more. `None` where the exact bound has no error that a ratio could be formed with.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub struct Excess {
-    /// Of the mean absolute error over facing pixels.
+    /// Excess of the mean absolute error over facing pixels.
     pub error: Option<f64>,
-    /// Of its leaking part.
+    /// Excess of the leaking part of that error.
     pub leaking: Option<f64>,
 }
 

@@ -29,7 +29,7 @@ pub trait Setting: Serialize + fmt::Display {
 #[derive(Clone, Debug, Serialize)]
 #[serde(bound = "")]
 pub struct Report<S: Setting> {
-    /// Of the stage.
+    /// Setting of the stage.
     #[serde(flatten)]
     pub setting: S,
     /// Seconds that the truth took.

@@ -81,7 +81,7 @@ impl fmt::Display for Difference {
 /// How a driver compares with the one that made a table.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Comparison {
-    /// The same version of the driver, built another time: figures should be the same.
+    /// Whether the driver is another build of the same version: figures should be the same.
     pub other_build: bool,
     /// Everything that differs by more than [`TOLERANCE`], for the chips that were compiled now.
     pub differences: Vec<Difference>,

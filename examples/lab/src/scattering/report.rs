@@ -54,12 +54,12 @@ pub struct ScatteringError {
     pub mean: [f64; 3],
     /// The largest absolute error.
     pub largest: f64,
-    /// Pixels that are no finite number.
+    /// Pixels that are non-finite.
     pub not_finite: usize,
 }
 
 impl ScatteringError {
-    /// Of a picture against marched rays.
+    /// The error of a picture against marched rays.
     #[must_use]
     pub fn of(found: &[[f32; 4]], truth: &MarchedRays) -> Self {
         let mut error = Self::default();

@@ -27,15 +27,15 @@ pub enum Stratum {
     AtSurface,
     /// A fragment at a Gauss node of four biased moments, or a few units in the last place beside it.
     AtGaussNode,
-    /// The same of six.
+    /// A fragment at a Gauss node of six biased moments, or a few units in the last place beside it.
     AtGaussNodeOfSix,
     /// A resolve and a two-pass blur, 3 to 9 texels wide.
     Filtered,
-    /// The same, 17 to 129 texels wide.
+    /// A resolve and a two-pass blur, 17 to 129 texels wide.
     FilteredWide,
     /// Texels of random bits, of moments that rounding made impossible, of negative variance.
     InvalidTexel,
-    /// Subnormal, infinite and no numbers as depths and fragments.
+    /// Subnormal numbers, infinities and NaN as depths and fragments.
     NotFinite,
 }
 
@@ -325,7 +325,7 @@ fn not_finite(random: &mut ChaCha8Rng) -> Input {
         1 => input.depths[0],
         _ => random.random_range(0.0..=1.0),
     };
-    // As a moment depth that nothing has clamped.
+    // A moment depth that nothing has clamped.
     if random.random_range(0..4) == 0 {
         input.converted = 0;
         input.depths = input.depths.map(|depth| {

@@ -45,7 +45,7 @@ pub fn shares(input: &Input, kernels: &[Kernel]) -> Option<[f64; 8]> {
     Some(shares.map(|share| share / sum))
 }
 
-/// Moment depth of a stored depth by the definition of `DepthConversion`; no number counts as the far end.
+/// Moment depth of a stored depth by the definition of `DepthConversion`; NaN counts as the far end.
 fn converted(stored: f32, conversion: &DepthConversion) -> f64 {
     if stored.is_nan() {
         return 1.0;

@@ -81,9 +81,9 @@ pub struct Flicker {
     pub picture: [u32; 2],
     /// The part of all pixels of all pairs of frames that is static.
     pub region: f64,
-    /// Of the truth in the region.
+    /// Change of the truth in the region.
     pub truth: Change,
-    /// Of each chain there.
+    /// Change of each chain in the region.
     pub chains: Vec<(Chain, Change)>,
 }
 
