@@ -1,4 +1,4 @@
-//! `shade_hard`: where there is shadow, and where there is none whatever the map holds.
+//! `shade_hard`: where there is shadow, and where there is light whatever the map holds.
 
 use moment_shadows::{Profile, TextureFormat, ViewParameters};
 use moment_shadows_graph::record::ImportedResource;
