@@ -45,7 +45,7 @@ const EDITED: &str = "MOMENT_SHADOWS_WGSL";
 
 /// Every WGSL module of the library, folder by folder in the order of the work, by name within each.
 ///
-/// While one works on a module, nothing has to be built anew: in debug builds the environment variable `MOMENT_SHADOWS_WGSL`
+/// Work on a module needs no new build: in debug builds the environment variable `MOMENT_SHADOWS_WGSL`
 /// may name a folder like `wgsl/`, whose files are read at each call, and each time something is linked. A file that is
 /// missing there, or cannot be read, keeps the text that is part of the crate; a new file is no module. Release builds
 /// ignore the variable.

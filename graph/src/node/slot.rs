@@ -84,13 +84,13 @@ pub struct TextureRule {
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum FormatRule {
-    /// This one.
+    /// This format.
     Exact(TextureFormat),
-    /// That of a filterable map with this encoding, which the texture then has.
+    /// The format of a filterable map with this encoding, which the texture then has.
     Encoded(MapEncoding),
-    /// One of these. Only for inputs.
+    /// One of these formats. Only for inputs.
     OneOf(Vec<TextureFormat>),
-    /// That of another slot, with its planes and encoding.
+    /// The format of another slot, with its planes and encoding.
     SameAs(String),
 }
 
@@ -102,7 +102,7 @@ pub enum ExtentRule {
     Exact([u32; 2]),
     /// Any. Only for inputs.
     Any,
-    /// Those of another slot.
+    /// The width and height of another slot.
     SameAs(String),
 }
 
@@ -112,7 +112,7 @@ pub enum ExtentRule {
 pub enum CountRule {
     /// This number.
     Exact(u32),
-    /// One of these. Only for inputs.
+    /// One of these counts. Only for inputs.
     OneOf(Vec<u32>),
     /// Any. Only for inputs.
     Any,

@@ -1,4 +1,4 @@
-//! Shaders of one's own that shade with a technique as the node does.
+//! Users' shaders that shade with a technique as the node does.
 
 use super::super::shared::map_input;
 use super::super::techniques;
