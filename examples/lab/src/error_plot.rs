@@ -33,7 +33,7 @@ pub struct ErrorPlot {
     pub title: String,
     /// How it was measured.
     pub setting: String,
-    /// From left to right. All have the same series, in the same order.
+    /// Panels from left to right. All have the same series, in the same order.
     pub panels: Vec<ErrorPanel>,
 }
 
@@ -51,7 +51,7 @@ pub struct ErrorPanel {
 pub struct ErrorSeries {
     /// Its name.
     pub name: String,
-    /// From few bits to many.
+    /// Points from few bits to many.
     pub points: Vec<ErrorPoint>,
 }
 

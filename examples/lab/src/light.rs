@@ -185,7 +185,7 @@ impl LightView {
         }
     }
 
-    /// From world space to clip space.
+    /// The matrix from world space to clip space.
     pub fn clip_from_world(&self) -> DMat4 {
         self.clip_from_view * self.view_from_world
     }

@@ -48,9 +48,9 @@ pub struct ErrorFigures {
 /// An estimate of shadow intensities against the truth.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize)]
 pub struct Comparison {
-    /// Over the pixels whose surface faces the light.
+    /// Errors over the pixels whose surface faces the light.
     pub facing: ErrorFigures,
-    /// Over those of them that lie in the penumbra band.
+    /// Errors over those of the facing pixels that lie in the penumbra band.
     pub penumbra: ErrorFigures,
     /// Mean absolute error over all pixels of the picture, sky included.
     pub picture_mean_absolute: f64,

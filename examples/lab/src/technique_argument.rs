@@ -11,7 +11,7 @@ use crate::techniques;
 pub enum TechniqueArgument {
     /// The usual settings under a name of [`names`].
     Usual(String),
-    /// These settings.
+    /// A technique with these settings.
     Given(Technique),
 }
 

@@ -47,7 +47,7 @@ pub struct TableBiases {
     pub samples: usize,
     /// Seed of the random numbers.
     pub seed: u64,
-    /// Per storage and kernel.
+    /// A row per storage and kernel.
     pub rows: Vec<TableBiasRow>,
 }
 

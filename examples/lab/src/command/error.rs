@@ -76,9 +76,9 @@ pub struct GraphErrors {
     pub storage: Option<Storage>,
     /// Bits per texel of the map, all planes.
     pub bits_per_texel: u32,
-    /// Over all surfaces.
+    /// Errors over all surfaces.
     pub surfaces: SurfaceErrors,
-    /// Over the pixels of the picture.
+    /// Errors over the pixels of the picture.
     pub picture: Comparison,
 }
 

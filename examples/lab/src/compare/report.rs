@@ -18,7 +18,7 @@ pub trait Setting: Serialize + fmt::Display {
     /// What the column of the map's cost is called, with its unit.
     const MAP_COST: &'static str;
 
-    /// With what names of files begin.
+    /// What names of files begin with.
     fn stem(&self) -> String;
 
     /// The errors of all candidates.

@@ -79,13 +79,13 @@ pub struct Row {
 /// What a list of subjects costs.
 #[derive(Clone, Debug, Serialize)]
 pub struct CostTable {
-    /// Where and how.
+    /// Where and how the subjects were measured.
     pub conditions: Conditions,
     /// What is measured.
     pub title: &'static str,
     /// Texels per side of the largest map.
     pub size: u32,
-    /// Per size and subject.
+    /// A row per size and subject.
     pub rows: Vec<Row>,
     /// Whether gates hold here: on software adapters.
     pub bounded: bool,

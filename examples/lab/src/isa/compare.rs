@@ -28,13 +28,13 @@ pub enum Change {
     New,
     /// Only the table has the shader.
     Gone,
-    /// A figure is another one.
+    /// A figure has changed.
     Figure {
         /// Its name.
         name: &'static str,
         /// What the table says.
         table: f64,
-        /// What it is now.
+        /// What the figure is now.
         now: f64,
     },
 }

@@ -37,7 +37,7 @@ pub struct Subject {
 pub enum SubjectWork {
     /// Texels of a storage texture.
     Compute {
-        /// Per workgroup.
+        /// Texels per workgroup.
         texels_per_workgroup: u32,
     },
     /// A pixel of the target.

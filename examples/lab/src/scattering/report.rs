@@ -37,9 +37,9 @@ pub struct ScatteringErrors {
     pub ours: bool,
     /// Fetches of maps per pixel.
     pub fetches: f64,
-    /// Against rays through the plain map.
+    /// Errors against rays through the plain map.
     pub plain: ScatteringError,
-    /// Against rays through the filtered map.
+    /// Errors against rays through the filtered map.
     pub filtered: ScatteringError,
     /// Steps through the plain map at full resolution, if that is what it does.
     pub steps: Option<u32>,

@@ -88,7 +88,7 @@ pub struct ScatteringStage {
     pub truth: MarchedRays,
     /// Rays that are marched through the filtered map.
     pub filtered: MarchedRays,
-    /// With [`SAMPLES`] samples per texel, and with one.
+    /// Frames with [`SAMPLES`] samples per texel, and with one.
     frames: [Frame; 2],
     uniform: ScatteringView,
     scene: String,

@@ -83,7 +83,7 @@ pub struct SoftStage {
     pub pixels: SurfacePixels,
     scene: String,
     choice: StageDesc,
-    /// With [`SAMPLES`] samples per texel, and with one.
+    /// Frames with [`SAMPLES`] samples per texel, and with one.
     frames: [Frame; 2],
 }
 

@@ -40,7 +40,7 @@ pub enum Stratum {
 }
 
 impl Stratum {
-    /// All of them, each of which gets an equal share of the inputs.
+    /// All strata, each of which gets an equal share of the inputs.
     pub const ALL: [Stratum; 12] = [
         Stratum::Diracs,
         Stratum::NearCoincident,

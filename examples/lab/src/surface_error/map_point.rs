@@ -24,7 +24,7 @@ pub struct MapPoint {
 }
 
 impl MapPoint {
-    /// At a place, with a gradient that may be infinite.
+    /// The point at a place, with a gradient that may be infinite.
     #[must_use]
     pub fn new(uv: DVec2, moment_depth: f64, gradient: DVec2) -> Self {
         let limit = DVec2::splat(LARGEST_GRADIENT);

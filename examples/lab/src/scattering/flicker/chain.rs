@@ -25,7 +25,7 @@ pub enum Chain {
 }
 
 impl Chain {
-    /// All of them.
+    /// All chains.
     pub const ALL: [Chain; 4] = [
         Chain::Filtered,
         Chain::MipLevels,

@@ -25,7 +25,7 @@ use crate::scene::Scene;
 /// the mean radiance without shadows. What an edge or a shaft passes changes by ten times that and more.
 pub const STILL: f32 = 5e-3;
 
-/// For so many frames before and after, too.
+/// A pixel has to be static for this many frames before and after, too.
 pub const WINDOW: usize = 1;
 
 /// The largest change of filtered pictures, at most this part of that of unfiltered ones.

@@ -34,7 +34,7 @@ pub(super) struct Walk<'a> {
     desc: FlickerDesc,
     path: Path,
     air: Air,
-    /// With several samples per texel, with one, and that of the truth.
+    /// Frames with several samples per texel, with one, and that of the truth.
     frames: [Frame; 3],
     chains: Vec<(Chain, GraphFile, GraphFrame)>,
 }
