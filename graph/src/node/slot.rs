@@ -11,7 +11,7 @@ use crate::Access;
 pub struct Slot {
     /// The name, unique within the node.
     pub name: String,
-    /// What it is for: a sentence.
+    /// What the slot is for: a sentence.
     pub description: String,
     /// Whether edges lead in, out, both or nowhere.
     pub direction: Direction,
@@ -19,7 +19,7 @@ pub struct Slot {
     pub lifetime: Lifetime,
     /// Whether the node can do without it. Only inputs are optional.
     pub optional: bool,
-    /// What it is.
+    /// What the slot carries.
     pub resource: SlotResource,
 }
 
@@ -98,9 +98,9 @@ pub enum FormatRule {
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum ExtentRule {
-    /// These.
+    /// This width and height.
     Exact([u32; 2]),
-    /// Any. Only for inputs.
+    /// Any value. Only for inputs.
     Any,
     /// The width and height of another slot.
     SameAs(String),
@@ -114,7 +114,7 @@ pub enum CountRule {
     Exact(u32),
     /// One of these counts. Only for inputs.
     OneOf(Vec<u32>),
-    /// Any. Only for inputs.
+    /// Any value. Only for inputs.
     Any,
     /// The number that another slot has.
     SameAs(String),
