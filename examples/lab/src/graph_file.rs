@@ -174,7 +174,7 @@ impl GraphFile {
             .map_or(Value::Null, |found| found[entry].clone())
     }
 
-    /// The kernel of the graph's blur; `None` where it has none.
+    /// The kernel of the graph's blur; `None` for a graph without a blur.
     pub fn kernel(&self) -> Result<Option<Kernel>, LabError> {
         let kernels: Vec<KernelProperty> = nodes(&self.text)
             .iter()

@@ -151,7 +151,7 @@ impl Row {
         1e9 * self.time.seconds.median / self.texels as f64
     }
 
-    /// Whether the time is within its bounds; true where there are none.
+    /// Whether the time is within its bounds, if it has any.
     #[must_use]
     pub fn passed(&self) -> bool {
         let Gate {
@@ -250,7 +250,7 @@ impl CostTable {
         }
     }
 
-    /// Whether every row is within its bounds; true where there are none.
+    /// Whether every row is within its bounds, if it has any.
     #[must_use]
     pub fn passed(&self) -> bool {
         self.rows.iter().all(Row::passed)

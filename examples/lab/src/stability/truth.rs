@@ -68,7 +68,7 @@ fn moment_depth(depth: f32, input: &Input) -> f64 {
     }
 }
 
-/// The share of surfaces strictly in front of the fragment; none where texel or fragment are no result of surfaces.
+/// The share of surfaces strictly in front of the fragment; `None` where texel or fragment do not result from surfaces.
 #[must_use]
 pub fn truth(input: &Input, kernels: &[Kernel]) -> Option<f64> {
     if !input.fragment_depth.is_finite() {

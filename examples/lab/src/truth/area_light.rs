@@ -153,7 +153,7 @@ impl<'a> AreaLight<'a> {
     }
 
     /// The shadow intensity of a point of a surface with a unit normal: the share of hidden places among those in front of
-    /// it; 1 if there are none.
+    /// it; 1 if no place is in front of it.
     #[must_use]
     pub fn intensity(&self, position: DVec3, normal: DVec3) -> f64 {
         self.intensity_with(position, normal, &mut Scratch::default())
