@@ -68,7 +68,7 @@ fn an_occluder_shades_what_lies_behind_it_and_nothing_else() {
         );
         for (index, &intensity) in picture.iter().enumerate() {
             let x = index as u32 % PICTURE[0];
-            // The kernel reaches 4 texels, which are 3 pixels, beyond the edge. Half-covered, the bound is no step.
+            // The kernel reaches 4 texels, which are 3 pixels, beyond the edge. Half-covered, the bound is not a step.
             if x < 20 {
                 assert!(intensity > 0.99, "{storage}, pixel {index}: {intensity}");
             } else if x >= 28 {
