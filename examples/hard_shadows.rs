@@ -1,4 +1,4 @@
-//! Hard shadows in a renderer of one's own: a graph file between the renderer's depth maps and its lighting.
+//! Hard shadows in your renderer: a graph file between the renderer's depth maps and its lighting.
 //!
 //! `cargo run --release --example hard_shadows [SCENE [PICTURE]]`. The small renderer of `examples/lab` stands in for
 //! yours: it draws the light's depth and a G-buffer, and lights the picture with the shadow intensity.

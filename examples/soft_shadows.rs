@@ -1,4 +1,4 @@
-//! Soft shadows in a renderer of one's own: a sun and a lamp of some size, in constant time per pixel.
+//! Soft shadows in your renderer: a sun and a lamp of some size, in constant time per pixel.
 //!
 //! `cargo run --release --example soft_shadows [SCENE [FOLDER]]`. As in `hard_shadows` the small renderer of `examples/lab`
 //! stands in for yours: it draws each light's depth and a G-buffer, and lights the picture with the shadow intensity.

@@ -1,4 +1,4 @@
-//! Shafts of light in a renderer of one's own: a sun in thin fog, for two texture fetches per pixel.
+//! Shafts of light in your renderer: a sun in thin fog, for two texture fetches per pixel.
 //!
 //! `cargo run --release --example volumetric_scattering [SCENE [FOLDER]]`. As in `hard_shadows` the small renderer of
 //! `examples/lab` stands in for yours: it draws the light's depth and a G-buffer, and lights the picture. The shadow map then

@@ -15,7 +15,7 @@ pub enum Profile {
     WebgpuCore,
     /// Native devices with 16-bit normalised formats (`TEXTURE_FORMAT_16BIT_NORM` in wgpu).
     Native,
-    /// As [`Profile::Native`], with the texture usages and sample counts that the adapter at hand reports
+    /// [`Profile::Native`] with the texture usages and sample counts that the adapter at hand reports
     /// (`TEXTURE_ADAPTER_SPECIFIC_FORMAT_FEATURES` in wgpu).
     NativeAdapter,
 }

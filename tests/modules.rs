@@ -204,7 +204,7 @@ fn modules_hold_functions_structs_aliases_and_constants_only() {
     assert_none(&failures);
 }
 
-/// The hexadecimal numbers in a text that are no integers.
+/// The hexadecimal numbers in a text that are not integers.
 fn hexadecimal_floats(code: &str) -> Vec<&str> {
     code.split(|c: char| !c.is_alphanumeric() && c != '_' && c != '.')
         .filter(|word| word.starts_with("0x") || word.starts_with("0X"))
@@ -307,7 +307,7 @@ fn files_and_functions_open_with_a_comment() {
 }
 
 /// Modules that test the plain depth map texel by texel. GLSL samples depth textures through comparison samplers only, so
-/// on OpenGL they are not to be had; `percentage_closer_hardware` is.
+/// on OpenGL they are not available; `percentage_closer_hardware` is.
 const LOADS_DEPTH: [&str; 2] = ["percentage_closer", "percentage_closer_soft"];
 
 #[test]

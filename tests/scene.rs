@@ -52,7 +52,7 @@ impl Files {
         load_gltf(&path)
     }
 
-    /// The same as one binary file.
+    /// The scene as one binary file.
     fn glb(&self) -> Vec<u8> {
         let mut document = self.document.clone();
         document["buffers"][0]["uri"] = Value::Null;

@@ -12,7 +12,7 @@ fn changed(change: impl FnOnce(&mut Value)) -> (tempfile::TempDir, PathBuf) {
     changed_of(4, change)
 }
 
-/// The same of the first one with `count` moments.
+/// The first published vector with `count` moments, alone in a file, as `change` leaves it.
 fn changed_of(count: usize, change: impl FnOnce(&mut Value)) -> (tempfile::TempDir, PathBuf) {
     let published = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/vectors/moment_problem.json");
     let text = std::fs::read_to_string(published).unwrap();

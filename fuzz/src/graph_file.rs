@@ -75,7 +75,7 @@ fn mutate(data: &[u8], seeds: &[Vec<u8>], random: &mut Random) -> Vec<u8> {
     }
 }
 
-/// Words of graph files, and names that are none.
+/// Words of graph files, and invalid names.
 const FURTHER_WORDS: &str = " . .. a.b.c \u{0} \u{1f312} properties version texture buffer_size samples layers mips size format \
     kernel radius sigma weights storage unorm16 float16 float32 technique hamburger4 mip_levels all per_frame views lights \
     anisotropy show level deviation";

@@ -51,7 +51,7 @@ impl Random {
         self.below(below).min(most)
     }
 
-    /// One of `items`; none where there are none.
+    /// One of `items`; `None` if `items` is empty.
     pub fn pick<'a, T>(&mut self, items: &'a [T]) -> Option<&'a T> {
         items.get(self.below(items.len()))
     }

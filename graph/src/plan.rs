@@ -74,7 +74,7 @@ pub struct PlannedPass {
 pub struct PlannedBinding {
     /// The binding's index.
     pub binding: u32,
-    /// What it holds.
+    /// What the binding holds.
     pub resource: PlannedBindingResource,
 }
 
@@ -197,7 +197,7 @@ pub enum PlannedWork {
 pub struct PlannedResource {
     /// `node.slot`, or the import's name.
     pub name: String,
-    /// What it is.
+    /// The description of the texture or buffer.
     pub desc: ResourceDesc,
     /// How passes touch it.
     pub access: Access,
@@ -221,9 +221,9 @@ pub enum Home {
 pub struct PlannedMemory {
     /// The names of the resources that live in it, one after the other.
     pub label: String,
-    /// What it is.
+    /// The description of the texture or buffer.
     pub desc: ResourceDesc,
-    /// What it has to allow.
+    /// The access that it has to allow.
     pub access: Access,
     /// Whether the host takes it as an output, and may copy from it.
     pub exported: bool,

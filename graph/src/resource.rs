@@ -209,7 +209,7 @@ impl Access {
         render_target: true,
     };
 
-    /// Both together.
+    /// Both accesses together.
     #[must_use]
     pub fn union(self, other: Access) -> Access {
         Access {

@@ -123,7 +123,7 @@ pub enum LinkError {
     NoFolder {
         /// The environment variable.
         variable: &'static str,
-        /// What it names.
+        /// The path that the variable names.
         folder: PathBuf,
     },
     /// A block comment without its end.

@@ -101,7 +101,7 @@ impl Linked {
             .iter()
             .flat_map(|import| import.lines.clone())
             .collect();
-        // Of several blank lines, which removed text leaves, one is kept, and none at the ends of a part.
+        // Removed text leaves several blank lines: one of them is kept, and none at the ends of a part.
         let mut blank = !is_root;
         for (line, text) in (1..).zip(text.lines()) {
             let was_blank = core::mem::replace(&mut blank, text.trim().is_empty());

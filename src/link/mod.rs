@@ -53,7 +53,7 @@ impl Source<'_> {
 /// and entry points, with the comments above them; other comments stay in their files. Files come once, each after those that it
 /// imports, headed by a comment that names it; `source` comes last, but its directives come first. Names are not changed, so no two of the files may define
 /// the same name, linked or not.
-/// The same input always gives the same text.
+/// The result depends on the input alone: equal input always gives equal text.
 ///
 /// # Errors
 /// [`LinkError`] where a rule is broken, in `source`, in a generated module, or between files.

@@ -45,10 +45,9 @@ const EDITED: &str = "MOMENT_SHADOWS_WGSL";
 
 /// Every WGSL module of the library, folder by folder in the order of the work, by name within each.
 ///
-/// While one works on a module, nothing has to be built anew: in debug builds the environment variable `MOMENT_SHADOWS_WGSL`
-/// may name a folder like `wgsl/`, whose files are read at each call, and each time something is linked. A file that is
-/// missing there, or cannot be read, keeps the text that is part of the crate; a new file is no module. Release builds
-/// ignore the variable.
+/// Work on a module needs no new build: in debug builds the environment variable `MOMENT_SHADOWS_WGSL` may name a folder like
+/// `wgsl/`, whose files are read at each call, and each time something is linked. A file that is missing there, or cannot be
+/// read, keeps the text that is part of the crate; a new file does not become a module. Release builds ignore the variable.
 #[must_use]
 pub fn modules() -> &'static [Module] {
     edited_folder().map_or(MODULES, |folder| edited(&folder))

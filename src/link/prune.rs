@@ -13,7 +13,7 @@ use super::tokens::{Kind, Token};
 pub(crate) struct Declaration<'a> {
     /// The bytes that go if nothing reaches it: those of its comments too.
     range: Range<usize>,
-    /// The names it defines: one, but for `const_assert` and for text that is no WGSL.
+    /// The names it defines: one, but for `const_assert` and for text that is not WGSL.
     names: Vec<&'a str>,
     /// Every word in it that may name another.
     words: BTreeSet<&'a str>,

@@ -47,7 +47,7 @@ fn it_compares_candidates_and_writes_pictures_and_figures() {
         let [hard, soft, mine] = report.rows.as_slice() else {
             panic!("{report}");
         };
-        // The same graph under another name.
+        // `mine` is the graph of `hard` under another name.
         assert_eq!(hard.errors.error, mine.errors.error);
         assert_ne!(hard.errors.error, soft.errors.error);
         assert_eq!(

@@ -28,7 +28,7 @@ fn pairs(pairs: Vec<(&str, NodeDesc, NodeDesc)>) -> Plan {
     compile(&graph, &native(), &Imports::new()).unwrap()
 }
 
-/// The labels of the memory that is no output: who lives together.
+/// The labels of the memory that is not an output: who lives together.
 fn homes(plan: &Plan) -> Vec<&str> {
     let memory = plan.memory.iter().filter(|memory| !memory.exported);
     memory.map(|memory| memory.label.as_str()).collect()

@@ -40,7 +40,7 @@ fn fewer_regions_leave_none_of_the_frame_before() {
             layout
                 .write_regions(&mut block, "light_depth", layer, regions)
                 .unwrap();
-            // A region without texels is none.
+            // A region without texels is invalid.
             let mut expected = [MapRegion::NONE; 4];
             expected[..count].copy_from_slice(regions);
             assert_eq!(

@@ -398,7 +398,7 @@ fn degenerate_views_are_refused() {
             Err(ViewError::SingularLight)
         );
     }
-    // A near plane at or behind the light, and ranges that are none.
+    // A near plane at or behind the light, and invalid ranges.
     for (near, range) in [
         (0.0, [1.0, 10.0]),
         (-1.0, [1.0, 10.0]),

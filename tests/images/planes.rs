@@ -75,7 +75,7 @@ fn spot(map: u32, depth_per_texel: f64) -> Setup {
     let [near, far] = [1.0, 9.0];
     let along = ALONG.normalize();
     let (right, up) = along.any_orthonormal_pair();
-    // Of a texel at distance 1.
+    // The width of a texel at distance 1.
     let width = 0.5 * depth_per_texel * (far - near) / far;
     let angle = 2.0 * (0.5 * width * f64::from(map)).atan();
     let origin = DVec3::new(3.0, 40.0, -7.0);

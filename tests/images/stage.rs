@@ -117,7 +117,7 @@ impl Stage {
             .unwrap();
         let surface = renderer.surface(&gpu, desc.picture).unwrap();
         let capabilities = Capabilities::of_device(&gpu.adapter, &gpu.device);
-        // The parameters of a light are none of the imports.
+        // The parameters of a light are not an import.
         let (light, camera) = (any_light(desc.reversed), any_camera());
         let frame = frame_desc(&desc, light, camera);
         let plan = compile(&file.graph, &capabilities, &imports(&frame)).unwrap();

@@ -229,7 +229,7 @@ fn refuses_paths_conditions_and_public_in_code() {
         LinkError::Public { at } => assert_eq!(place(&at), (1, 1, 6)),
         other => panic!("another error: {other}"),
     }
-    // A plain `if` is no attribute.
+    // A plain `if` is not an attribute.
     link_user("fn f() { if true { return; } else { return; } }").unwrap();
 }
 

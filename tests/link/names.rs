@@ -191,7 +191,7 @@ fn refuses_names_that_are_used_without_being_imported() {
         }
         other => panic!("another error: {other}"),
     }
-    // A parameter, a variable and a member of that name are one's own.
+    // A parameter, a variable and a member of that name belong to the shader itself.
     for code in [
         "fn f(hankel_factor: f32) -> f32 { return hankel_factor; }",
         "fn f() -> f32 { let hankel_factor = 1.0; return hankel_factor; }",

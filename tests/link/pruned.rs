@@ -89,7 +89,7 @@ fn what_is_reached_is_linked_in_the_order_of_the_file() {
             "fn f() { _ = write(1); }",
             &["@must_use fn write(FIRST: u32) -> f32 "],
         ),
-        // A member of that name is no use; a local variable may be one.
+        // A member of that name does not count as a use; a local variable may.
         (
             "struct S { a: f32 }\nfn f(s: S) { let SECOND = s.Sums; }",
             &["const SECOND = FIRST"],

@@ -1,4 +1,4 @@
-//! Six moments: the shader's bounds against the exact ones, against those of four moments, and on moments that are none.
+//! Six moments: the shader's bounds against the exact ones, against those of four moments, and on invalid moments.
 
 use bytemuck::{Pod, Zeroable};
 use moment_shadows::{Profile, SixMomentsBias, Storage, Technique};

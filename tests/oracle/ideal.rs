@@ -143,7 +143,7 @@ fn layers_separate_occluders() {
     };
     assert!(bound(&Ideal::Vsm, &atoms, 0.5) < 0.43);
     assert!(bound(&layered, &atoms, 0.5) > bound(&Ideal::Vsm, &atoms, 0.5));
-    // One layer of the whole range is no layer at all.
+    // One layer of the whole range is as no layers at all.
     let one = Ideal::Lvsm {
         layers: 1,
         overlap: 0.0,

@@ -33,7 +33,7 @@ fn hausdorff_is_never_looser_than_hamburger_nor_that_than_variance() {
     assert!(tighter > 30, "{tighter}");
 }
 
-/// The same for a million distributions in f64.
+/// The order of the bounds holds for a million distributions in f64.
 #[test]
 fn the_order_holds_for_very_many() {
     let mut random = ChaCha8Rng::seed_from_u64(15);

@@ -59,7 +59,7 @@ fn in_f64_up_to_three_surfaces_are_reproduced_and_a_fourth_is_not() {
             let weights: Vec<f64> = (0..count).map(|_| random.random_range(0.1..=1.0)).collect();
             let fragment: f64 = random.random_range(-1.0..=1.0);
             depths.sort_by(f64::total_cmp);
-            // Of surfaces or a fragment closer than this, moments in f64 lose what tells them apart.
+            // Moments in f64 cannot tell surfaces or a fragment apart that are closer than this.
             let apart = depths.windows(2).all(|pair| pair[1] - pair[0] > 0.1)
                 && depths.iter().all(|depth| (depth - fragment).abs() > 0.05);
             if !apart {

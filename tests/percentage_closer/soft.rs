@@ -84,7 +84,7 @@ fn width(
     crossing(0.1) - crossing(0.9)
 }
 
-/// The same for a disk of a diameter: where a segment of it has a tenth of its area.
+/// The width from 10 % to 90 % of a disk of a diameter: a segment has a tenth of its area there.
 fn disk_width(diameter: f64) -> f64 {
     let (mut low, mut high) = (0.0, 1.0);
     for _ in 0..60 {

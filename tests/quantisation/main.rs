@@ -207,7 +207,7 @@ fn the_moment_bias_is_applied_with_a_single_rounding() {
 }
 
 /// The moment bias of a storage covers its rounding in a resolve and a two-pass blur: the Hankel matrix stays positive definite.
-/// Of random and adversarial patches 99.999 % are covered by design; a hundredth of that share is what this sample can show.
+/// By design 99.999 % of random and adversarial patches are covered; a hundredth of that share is what this sample can show.
 #[test]
 fn the_moment_bias_covers_three_roundings_to_each_storage() {
     const PATCHES: u64 = 100_000;
@@ -240,7 +240,8 @@ fn the_moment_bias_covers_three_roundings_to_each_storage() {
     }
 }
 
-/// The same for distributions on the depth interval, where the Hankel matrix of E[z^j (1 - z^2)] has to be positive as well.
+/// The Hausdorff bias of a storage covers its rounding as the moment bias does, for distributions on the depth interval, where
+/// the Hankel matrix of E[z^j (1 - z^2)] has to be positive as well.
 #[test]
 fn the_hausdorff_bias_covers_three_roundings_to_each_storage() {
     const PATCHES: u64 = 100_000;

@@ -105,7 +105,7 @@ fn before_any_edge_is_seen_layers_have_equal_depth() {
         map.run(&gpu, 3, Layers::All);
         let found = splits(&gpu, &map.bound, 0);
         assert_eq!(found[..expected.len()], expected, "{layers} layers");
-        // Nothing lies behind the far end, so an edge against it is none.
+        // Nothing lies behind the far end, so an edge against it does not count.
         map.draw(&gpu, 0, edge(0.7, [-0.2, 1.0]));
         map.run(&gpu, 3, Layers::All);
         assert_eq!(splits(&gpu, &map.bound, 0), found, "{layers} layers");
@@ -351,9 +351,9 @@ fn placed_layers_do_not_bleed_where_layers_of_equal_depth_do() {
     );
     // Two layers that meet at the second occluder: what is left is the rounding of unorm16.
     assert!(placed >= 0.999, "{placed}");
-    // Of two layers the receiver's is [0, 1]: occluders at -1 and -0.2 of it, the receiver at -0.04. Chebyshev at equal shares
-    // is 1 - 0.4^2 / (0.4^2 + 0.56^2) = 0.66. Of four it is [0, 0.5]: -1, 0.6 and 0.92, so 1 - 0.64 / (0.64 + 1.12^2) = 0.66.
+    // With two layers the receiver's is [0, 1]: occluders at -1 and -0.2 of it, the receiver at -0.04. Chebyshev at equal shares
+    // is 1 - 0.4^2 / (0.4^2 + 0.56^2) = 0.66. With four it is [0, 0.5]: -1, 0.6 and 0.92, so 1 - 0.64 / (0.64 + 1.12^2) = 0.66.
     assert!(uniform[..2].iter().all(|&lightest| lightest <= 0.67));
-    // Of eight it is [0.25, 0.5]: -1, 0.2 and 0.84, so 1 - 0.36 / (0.36 + 1.24^2) = 0.81.
+    // With eight it is [0.25, 0.5]: -1, 0.2 and 0.84, so 1 - 0.36 / (0.36 + 1.24^2) = 0.81.
     assert!(uniform[2] <= 0.82);
 }

@@ -117,7 +117,7 @@ impl Bound {
         gpu.read_texture(texture, layer, output).unwrap()
     }
 
-    /// The same for 32-bit floating-point formats.
+    /// The channels of a layer of an output in a 32-bit floating-point format.
     pub(crate) fn read_floats(&self, gpu: &Gpu, output: &str, layer: u32) -> Vec<f32> {
         bytemuck::pod_collect_to_vec(&self.read(gpu, output, layer))
     }

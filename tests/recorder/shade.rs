@@ -1,4 +1,4 @@
-//! `shade_hard`: where there is shadow, and where there is none whatever the map holds.
+//! `shade_hard`: where there is shadow, and where there is light whatever the map holds.
 
 use moment_shadows::{Profile, TextureFormat, ViewParameters};
 use moment_shadows_graph::record::ImportedResource;
@@ -68,7 +68,7 @@ fn an_occluder_shades_what_lies_behind_it_and_nothing_else() {
         );
         for (index, &intensity) in picture.iter().enumerate() {
             let x = index as u32 % PICTURE[0];
-            // The kernel reaches 4 texels, which are 3 pixels, beyond the edge. Half-covered, the bound is no step.
+            // The kernel reaches 4 texels, which are 3 pixels, beyond the edge. Half-covered, the bound is not a step.
             if x < 20 {
                 assert!(intensity > 0.99, "{storage}, pixel {index}: {intensity}");
             } else if x >= 28 {

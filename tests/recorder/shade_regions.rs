@@ -414,7 +414,7 @@ fn a_minified_lookup_is_the_mean_over_the_pixel() {
             let share = 1.0 - (5.0 / 8.0) * (5.0 / 6.0);
             for [intensity, ..] in shading.run(&gpu) {
                 // The bound of two surfaces this far apart is their share, less the leak of the moment bias. Levels whose
-                // texels are no whole number of stripes add their own deviation.
+                // texels are not a whole number of stripes add their own deviation.
                 assert!(
                     (intensity - share).abs() < 0.06,
                     "{storage}, anisotropy {anisotropy}: {intensity} for {share}"

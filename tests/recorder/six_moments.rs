@@ -397,7 +397,7 @@ fn shade(gpu: &Gpu, capabilities: &Capabilities, storage: Storage) -> Vec<f32> {
     );
     let size = [64, 48];
     let picture = [32, 24];
-    // Of the four texels below a pixel one, two or three show the caster, where it is not all or none of them.
+    // One, two or three of the four texels below a pixel show the caster, where it is not all or none of them.
     let light = depth_map::of(gpu, size, |x, y| match x {
         0..20 => 0.25,
         20..44 if (x + y) % 2 == 0 || (x > 32 && y % 2 == 0) => 0.25,

@@ -1,4 +1,4 @@
-//! Parameters filled by hand with numbers that are none, or that no camera, light or medium has.
+//! Parameters filled by hand with NaN, infinities, or numbers that no camera, light or medium has.
 
 use bytemuck::bytes_of;
 use moment_shadows::{

@@ -50,8 +50,8 @@ fn rectified(scene: &Scene, texels: &[[f32; 4]]) -> Vec<[f32; 4]> {
     bytemuck::pod_collect_to_vec(&layers[0])
 }
 
-/// Of each texel of a rectified map, the radius of its ray and where that meets the plane through the camera, in the light's clip
-/// space. Columns are looked up in their middles, the first and the last row at the ends of the frame.
+/// The radius of the ray of each texel of a rectified map, and where that ray meets the plane through the camera, in the light's
+/// clip space. Columns are looked up in their middles, the first and the last row at the ends of the frame.
 fn rays(scene: &Scene, view: &RectifiedView) -> Vec<(f64, DVec3)> {
     let matrix = scene.light().clip_from_world;
     let matrix = DMat4::from_cols_array_2d(&matrix.map(|column| column.map(f64::from)));

@@ -20,7 +20,7 @@ pub(crate) fn graph(technique: &str, storage: &str) -> String {
     graph_of([256, 256], technique, storage)
 }
 
-/// The same for a rectified map of some extent.
+/// The graph of a technique and storage with a rectified map of some extent.
 pub(crate) fn graph_of([columns, rows]: [u32; 2], technique: &str, storage: &str) -> String {
     format!(
         r#"{{
@@ -236,7 +236,7 @@ fn picture(
     picture_of(gpu, &parameters, moments, [technique, storage])
 }
 
-/// The same with parameters of any kind.
+/// The picture that the nodes make with any parameters.
 fn picture_of(
     gpu: &Gpu,
     parameters: &ScatteringParameters,

@@ -32,7 +32,7 @@ pub(crate) fn upload(
     upload_layers(gpu, encoding, size, 1, channels)
 }
 
-/// The same for a map of several layers.
+/// A map of several layers with the given channels.
 pub(crate) fn upload_layers(
     gpu: &Gpu,
     encoding: &MapEncoding,
@@ -164,7 +164,7 @@ fn contents(plan: &Plan, blocks: &[Block<'_>]) -> Vec<u8> {
     bytes
 }
 
-/// The same graph with the pass `composite/composite` drawn into a host's pass of rgba16float, which holds `behind`.
+/// Runs a graph with the pass `composite/composite` drawn into a host's pass of rgba16float, which holds `behind`.
 pub(crate) fn draw_over(
     gpu: &Gpu,
     graph: &str,

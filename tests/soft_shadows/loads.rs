@@ -22,7 +22,7 @@ fn loads(module: &Module, name: &str) -> usize {
         .sum::<usize>()
 }
 
-/// What a block calls; a loop is none of what may be there.
+/// What a block calls; a loop must not be there.
 fn calls(block: &Block) -> Vec<naga::Handle<naga::Function>> {
     block
         .iter()

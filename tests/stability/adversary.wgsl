@@ -12,7 +12,7 @@ struct BatchInput {
 struct BatchOutput {
     // Results that are NaN or outside [0, 1].
     faults: u32,
-    // The same of one result per invocation that is NaN, and one that is just above 1: 2 if faults are seen at all.
+    // Faults counted among two planted results per invocation, one NaN and one just above 1: 2 if faults are seen at all.
     control: u32,
     // The first failing input: its kind, which of the results failed, its bits.
     first_class: u32,
@@ -58,7 +58,7 @@ fn random_huge() -> f32 {
     return bitcast<f32>((bits & 0x80000000u) | (exponent << 23u) | (random_bits() >> 9u));
 }
 
-// What no finite number is: infinities and NaN of every payload.
+// Non-finite numbers: infinities and NaN of every payload.
 fn random_not_finite() -> f32 {
     let payload = select(random_bits() >> 9u, 0u, random_unit() < 0.3);
     return bitcast<f32>((random_bits() & 0x80000000u) | 0x7f800000u | payload);

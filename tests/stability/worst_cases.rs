@@ -300,7 +300,7 @@ fn hamburger4_float32_under_129_equal_weights() {
     assert!(excess("hamburger4", "float32", input) <= 1.5e-6);
 }
 
-/// The same on the interval; 0.49 with plain sums.
+/// The excess with 129 equal weights on the interval; 0.49 with plain sums.
 #[test]
 fn hausdorff4_float32_under_129_equal_weights() {
     let input = Input {

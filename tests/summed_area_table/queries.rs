@@ -240,7 +240,7 @@ fn both_queries_agree_at_whole_texels() {
     }
 }
 
-/// Numbers that are none, and rectangles that are nowhere: a mean of texels of the region all the same.
+/// NaN or infinite numbers, and rectangles that are nowhere: a mean of texels of the region all the same.
 #[test]
 fn hostile_rectangles_stay_in_their_region() {
     let gpu = gpu();

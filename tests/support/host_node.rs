@@ -88,7 +88,7 @@ fn main(@builtin(global_invocation_id) id: vec3u) {
 }
 ";
 
-/// The same, with all layers of the source bound.
+/// Copies a layer of an rgba32float texture to another, with all layers of the source bound.
 pub(crate) const COPY_OF_ALL: &str = "
 @group(0) @binding(0) var source: texture_2d_array<f32>;
 @group(0) @binding(1) var copied: texture_storage_2d<rgba32float, write>;

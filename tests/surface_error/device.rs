@@ -16,7 +16,7 @@ use moment_shadows_lab::truth::peel::Peeler;
 
 use crate::setup::{graph, open, options, subject};
 
-/// Of the texels whose centre has been peeled, the share in which the first surface is not what the device's map of one
+/// The share of the texels whose centre has been peeled in which the first surface is not what the device's map of one
 /// sample holds.
 fn disagreement(name: &str, light: LightChoice) -> f64 {
     let gpu = open();
@@ -202,6 +202,6 @@ fn percentage_closer_filtering_has_hardly_an_error_on_the_truth_s_own_map() {
     assert!(filtered.shading.leaking < 1e-4);
     // At a surface's own depth nothing is taken off; the truth takes no surface for its own occluder.
     assert!(filtered.distribution.leaking < 1e-6);
-    // One texel is no kernel.
+    // One texel does not make a kernel.
     assert!(binary.surfaces.shading.mean_absolute > 5.0 * filtered.shading.mean_absolute);
 }

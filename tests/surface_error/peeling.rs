@@ -138,7 +138,7 @@ fn a_ray_through_an_edge_meets_one_of_its_triangles() {
     for surface in &surfaces {
         on_ray[surface.texel[1] as usize][surface.texel[0] as usize] += 1;
     }
-    // Of two opposite borders one belongs to the plate, as with every rasteriser: 14 rays either way. The light is fitted
+    // One of two opposite borders belongs to the plate, as with every rasteriser: 14 rays either way. The light is fitted
     // to a plate that ends where the map does, so the texels are where they were laid out.
     let covered = on_ray.as_flattened().iter().filter(|&&count| count == 1);
     assert_eq!(covered.count(), 14 * 14);

@@ -45,8 +45,8 @@ fn the_moment_bias_keeps_shadows_from_being_too_dark_and_leaks() {
         let subject = subject(&gpu, &scene, &options(256, 4), 4);
         for storage in Storage::OF_FOUR_MOMENTS {
             let own = storage.moment_bias();
-            // As good as none, the storage's own, and ten times that. 0 itself is no bias that the shader takes: its guards
-            // against moments that belong to no distribution are multiples of it.
+            // Almost no bias, the storage's own, and ten times that. The shader does not take 0 itself: its guards against
+            // moments that belong to no distribution are multiples of the bias.
             let [removed, recommended, tenfold] = [1e-7, 1.0, 10.0].map(|factor| {
                 let bias = FourMomentsBias {
                     alpha: own.alpha * factor,
@@ -59,8 +59,8 @@ fn the_moment_bias_keeps_shadows_from_being_too_dark_and_leaks() {
             for errors in [&removed, &recommended, &tenfold] {
                 println!("  {:?}\n  {:?}", errors.shading, errors.distribution);
             }
-            // Without it rounding decides what the moments say, and a bound on what they say is none on the truth. With it
-            // the bound is one, to what single precision can add.
+            // Without it rounding decides what the moments say, and a bound on what they say does not bound the truth. With it
+            // the bound holds for the truth, to what single precision can add.
             let too_dark = |errors: &SurfaceErrors| errors.distribution.overdarkening;
             assert!(too_dark(&recommended) < 2e-6, "{name} {storage}");
             assert!(too_dark(&removed) > 2e-4, "{name} {storage}");

@@ -44,8 +44,8 @@ fn techniques_rank_as_published() {
     // 2015, figures 1 and 6).
     let evsm = of(evsm2, Float32).min(of(evsm4, Float16));
     assert!(of(hamburger, Unorm16) < evsm && evsm < of(vsm, Float32));
-    // Of the same two moments and two more, the sharp bound is never farther from the truth. What a moment bias costs
-    // grows with the rounding error that it covers.
+    // The sharp bound of two moments and two more is never farther from the truth than that of the two alone. What a moment
+    // bias costs grows with the rounding error that it covers.
     for storage in [Unorm16, Float16, Float32] {
         assert!(of(hamburger, storage) < of(vsm, storage), "{storage}");
     }

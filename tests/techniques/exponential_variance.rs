@@ -50,8 +50,8 @@ fn both_bounds_are_chebyshevs_for_the_warped_depths() {
                 let square = input.mean(|depth| warp(depth).powi(2));
                 let distance = warp(f64::from(input.fragment_depth)) - mean;
                 // Relative errors of the mean (and of the fragment's own warp) and of the mean square: one rounding, eight sums.
-                // The same exponential warps all depths, so its own error of up to (3 + 2 c) units is none of the moments'; as
-                // an error of the warp it moves a depth by that over c, at most 6 units.
+                // One exponential warps all depths, so its own error of up to (3 + 2 c) units does not count as an error of the
+                // moments; as an error of the warp it moves a depth by that over c, at most 6 units.
                 let error = rounding + 12.0 * HALF_ULP;
                 let depth_error = (3.0 + 2.0 * exponent) * 2.0 * HALF_ULP;
                 // Below 2^-14 a float16 is off by 2^-25, and float32 flushes below 2^-126.

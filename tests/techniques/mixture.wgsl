@@ -16,7 +16,7 @@ struct BatchInput {
     depths: array<vec4f, 2>,
     weights: array<vec4f, 2>,
     layers: LayeredVarianceLayers,
-    // Of the exponential technique (plain, logarithmic) and of the exponential variance technique.
+    // Exponents of the exponential technique (plain, logarithmic) and of the exponential variance technique.
     exponents: vec4f,
     fragment_depth: f32,
     storage: u32,

@@ -91,7 +91,7 @@ fn the_bound_is_chebyshevs_and_nothing_in_front_of_the_mean() {
             let mean = input.mean(|depth| depth);
             let variance = input.mean(|depth| (depth - mean).powi(2));
             let distance = f64::from(input.fragment_depth) - mean;
-            // The same bound for the moments that rounding can have made of these.
+            // The bound for the moments that rounding can have made of these.
             let loss = second + 2.0 * first + first * first;
             let slack = 8.0 * HALF_ULP;
             let lower = chebyshev((variance + loss).max(floor), distance - first) - slack;

@@ -137,7 +137,7 @@ fn rows<const N: usize>(rows: [[f64; N]; N]) -> Vec<Vec<f64>> {
     rows.map(Vec::from).into()
 }
 
-/// All of them.
+/// All published quantisations.
 #[must_use]
 pub fn published_quantisations() -> Vec<Quantisation> {
     let root = 3.0_f64.sqrt();

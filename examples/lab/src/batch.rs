@@ -47,8 +47,8 @@ impl<'gpu, I: Pod, O: Pod> Batch<'gpu, I, O> {
         Self::build(gpu, label, wgsl, None)
     }
 
-    /// The same for a shader that reads `table`, at least one number, as the `batch_table: array<f32>` that all its
-    /// invocations share.
+    /// Links and compiles, as [`new`](Self::new) does, a shader that also reads `table`, at least one number, as the
+    /// `batch_table: array<f32>` that all its invocations share.
     pub fn with_table(
         gpu: &'gpu Gpu,
         label: &str,

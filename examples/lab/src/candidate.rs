@@ -117,7 +117,7 @@ impl TechniqueChoice {
         }
     }
 
-    /// The one in a storage; in its best one if none is given. Techniques that read depth have none.
+    /// The candidate in a storage; in its best one if none is given. Techniques that read depth have no storage.
     pub fn in_storage(&self, storage: Option<Storage>) -> Result<Candidate, TechniqueError> {
         let Self::Technique(argument) = self else {
             return Ok(Candidate::PercentageCloser);

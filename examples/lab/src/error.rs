@@ -126,7 +126,7 @@ pub enum LabError {
     /// A camera or light whose scattering cannot be prefiltered.
     #[error(transparent)]
     ScatteringView(#[from] moment_shadows::ScatteringViewError),
-    /// A medium that there is not.
+    /// Parameters that describe no physical medium.
     #[error(transparent)]
     SingleScattering(#[from] moment_shadows::SingleScatteringError),
     /// A kernel.

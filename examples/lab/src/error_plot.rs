@@ -33,7 +33,7 @@ pub struct ErrorPlot {
     pub title: String,
     /// How it was measured.
     pub setting: String,
-    /// From left to right. All have the same series, in the same order.
+    /// Panels from left to right. All have the same series, in the same order.
     pub panels: Vec<ErrorPanel>,
 }
 
@@ -51,14 +51,14 @@ pub struct ErrorPanel {
 pub struct ErrorSeries {
     /// Its name.
     pub name: String,
-    /// From few bits to many.
+    /// Points from few bits to many.
     pub points: Vec<ErrorPoint>,
 }
 
 /// A technique in a storage.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct ErrorPoint {
-    /// Of a texel, all planes.
+    /// Bits of a texel, all planes.
     pub bits: u32,
     /// Mean absolute error in percent.
     pub percent: f64,

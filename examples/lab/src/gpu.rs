@@ -4,7 +4,7 @@ use std::sync::{Arc, Mutex};
 
 use moment_shadows::Profile;
 
-/// Why no device could be had, or why it stopped working.
+/// Why no device is available, or why it stopped working.
 #[derive(Debug, thiserror::Error)]
 #[non_exhaustive]
 pub enum GpuError {
@@ -154,7 +154,7 @@ impl Gpu {
         self.read_level(texture, layer, 0, label)
     }
 
-    /// The same for another mip level.
+    /// Copies layer `layer` of any mip level to the processor, as [`read_texture`](Self::read_texture) does of mip 0.
     pub fn read_level(
         &self,
         texture: &wgpu::Texture,

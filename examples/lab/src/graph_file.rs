@@ -64,7 +64,7 @@ impl GraphFile {
         })
     }
 
-    /// The same graph whose shadow intensity is written in single precision, so that it can be measured.
+    /// This graph with its shadow intensity written in single precision, so that it can be measured.
     pub fn in_single_precision(&self) -> Result<Self, LabError> {
         let mut text = self.text.clone();
         for node_type in ["shade_hard", "shade_soft"] {
@@ -81,7 +81,7 @@ impl GraphFile {
             .any(|node| node["type"] == node_type)
     }
 
-    /// The same graph without mip levels: what read a downsampled map reads the map itself.
+    /// This graph without mip levels: what read a downsampled map reads the map itself.
     pub fn without_mip_levels(&self) -> Result<Self, LabError> {
         let mut file: Value = serde_json::from_str(&self.text).unwrap_or_default();
         let mut sources = std::collections::BTreeMap::new();
@@ -123,7 +123,7 @@ impl GraphFile {
         Self::parse(&self.name, file.to_string(), None)
     }
 
-    /// The same graph with a Gaussian of this radius and 0.6 times that as its standard deviation in place of its kernel.
+    /// This graph with a Gaussian of this radius and 0.6 times that as its standard deviation in place of its kernel.
     pub fn with_radius(&self, radius: u32) -> Result<Self, LabError> {
         if self.kernel()?.is_none() {
             return Err(LabError::unsuitable(
@@ -138,7 +138,7 @@ impl GraphFile {
         Ok(file)
     }
 
-    /// The same graph, which also gives out the filtered map that its `shade_hard` node looks up, and the output's name.
+    /// This graph with the filtered map that its `shade_hard` node looks up as a further output, and that output's name.
     pub fn with_filtered_map(&self) -> Result<(Self, String), LabError> {
         let unsuitable = |reason: &str| self.unsuitable(reason.to_owned());
         let shade = nodes(&self.text)
@@ -165,7 +165,7 @@ impl GraphFile {
         Ok((Self::parse(&self.name, file.to_string(), None)?, name))
     }
 
-    /// An entry of a node as the file has it, such as its type; null where there is none.
+    /// An entry of a node as the file has it, such as its type; null where it is missing.
     #[must_use]
     pub fn node_entry(&self, node: &str, entry: &str) -> Value {
         nodes(&self.text)
@@ -174,7 +174,7 @@ impl GraphFile {
             .map_or(Value::Null, |found| found[entry].clone())
     }
 
-    /// The kernel of the graph's blur; `None` where it has none.
+    /// The kernel of the graph's blur; `None` for a graph without a blur.
     pub fn kernel(&self) -> Result<Option<Kernel>, LabError> {
         let kernels: Vec<KernelProperty> = nodes(&self.text)
             .iter()

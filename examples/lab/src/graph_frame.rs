@@ -51,7 +51,7 @@ impl GraphFrame {
         Self::in_air(gpu, frame, file, None)
     }
 
-    /// The same, with something in the air for nodes that light it.
+    /// Compiles the graph as [`new`](Self::new) does, with something in the air for nodes that light it.
     pub fn in_air(
         gpu: &Gpu,
         frame: &Frame,
@@ -169,7 +169,7 @@ pub fn read_intensity(gpu: &Gpu, texture: &wgpu::Texture) -> Result<Vec<f32>, La
     })
 }
 
-/// What the host gives, as the compiler wants it described.
+/// What the host gives, described for the compiler.
 pub fn imports(desc: &FrameDesc) -> Imports {
     let light_format = match desc.format {
         wgpu::TextureFormat::Depth16Unorm => TextureFormat::Depth16Unorm,

@@ -52,7 +52,7 @@ pub struct Unfiltered {
 
 /// Brute-force shadow intensity of a picture.
 pub struct PictureTruth {
-    /// Per pixel.
+    /// Shadow intensity per pixel.
     pub shadow: Vec<f32>,
     /// Pixels whose surface faces the light.
     pub facing: Vec<bool>,

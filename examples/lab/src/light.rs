@@ -160,7 +160,7 @@ impl LightView {
         })
     }
 
-    /// The same light whose moment depth ends at `distance` along its axis, if that is beyond its end: soft shadows need
+    /// This light with moment depth that ends at `distance` along its axis, if that is beyond its end: soft shadows need
     /// to know how far behind their casters receivers lie, which hard ones do not.
     #[must_use]
     pub fn reaching(mut self, distance: f64) -> Self {
@@ -185,7 +185,7 @@ impl LightView {
         }
     }
 
-    /// From world space to clip space.
+    /// The matrix from world space to clip space.
     pub fn clip_from_world(&self) -> DMat4 {
         self.clip_from_view * self.view_from_world
     }

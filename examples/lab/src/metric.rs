@@ -48,9 +48,9 @@ pub struct ErrorFigures {
 /// An estimate of shadow intensities against the truth.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize)]
 pub struct Comparison {
-    /// Over the pixels whose surface faces the light.
+    /// Errors over the pixels whose surface faces the light.
     pub facing: ErrorFigures,
-    /// Over those of them that lie in the penumbra band.
+    /// Errors over those of the facing pixels that lie in the penumbra band.
     pub penumbra: ErrorFigures,
     /// Mean absolute error over all pixels of the picture, sky included.
     pub picture_mean_absolute: f64,
@@ -62,9 +62,9 @@ pub struct Comparison {
 /// quarter more. `None` where the exact bound has no error that a ratio could be formed with.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub struct Excess {
-    /// Of the mean absolute error over facing pixels.
+    /// Excess of the mean absolute error over facing pixels.
     pub error: Option<f64>,
-    /// Of its leaking part.
+    /// Excess of the leaking part of that error.
     pub leaking: Option<f64>,
 }
 

@@ -33,10 +33,10 @@ pub(crate) type Drawn<B> =
 
 /// Something that can be drawn.
 pub(crate) trait Plot {
-    /// Of the whole plot.
+    /// Title of the whole plot.
     fn title(&self) -> &str;
 
-    /// In pixels.
+    /// Size in pixels.
     fn size(&self) -> (u32, u32);
 
     /// Draws everything, on white.

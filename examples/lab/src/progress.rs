@@ -4,7 +4,7 @@ use std::io::IsTerminal;
 
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
 
-/// A bar over `length` steps on standard error; hidden when that is no terminal, so that piped output stays quiet.
+/// A bar over `length` steps on standard error; hidden when that is not a terminal, so that piped output stays quiet.
 pub fn bar(length: u64, message: &str) -> ProgressBar {
     let target = if std::io::stderr().is_terminal() {
         ProgressDrawTarget::stderr()

@@ -78,7 +78,7 @@ pub struct SurfaceTruth {
     lit: Arc<LitSurfaces>,
     /// Shadow intensity in front of the plane of each surface.
     in_front_of_plane: Vec<f32>,
-    /// The same in front of its own depth.
+    /// Shadow intensity in front of each surface's own depth.
     in_front_of_depth: Vec<f32>,
 }
 
@@ -92,13 +92,14 @@ pub struct SurfaceErrors {
     pub caster_rays: u64,
     /// The most surfaces on one ray: how many peels it takes until nothing is left.
     pub peels: u32,
-    /// As a renderer shades: against the surface's plane.
+    /// Errors against the surface's plane, as a renderer shades.
     pub shading: ErrorFigures,
-    /// The same over those that show the light their front: a renderer needs no map to know that the others are dark.
+    /// Errors against the planes of surfaces that show the light their front: a renderer needs no map to know that the others
+    /// are dark.
     pub shading_facing: ErrorFigures,
-    /// The same over all surfaces of all rays, those that meet nothing but the ground among them.
+    /// Errors against the planes of all surfaces of all rays, including rays that meet nothing but the ground.
     pub shading_all_rays: ErrorFigures,
-    /// The moments alone: against the surface's own depth.
+    /// Errors of the moments alone: against the surface's own depth.
     pub distribution: ErrorFigures,
     /// Surfaces whose estimate is NaN. Each counts as an error of 1, too dark.
     pub nan: usize,
@@ -250,7 +251,7 @@ impl SurfaceTruth {
 }
 
 impl Evaluation {
-    /// That of `shade_hard` in a graph on a frame.
+    /// The evaluation of `shade_hard` in a graph on a frame.
     pub fn shading(frame: &Frame, file: &GraphFile) -> Result<Self, LabError> {
         let parameters = shade_parameters(&frame.desc, file)?;
         Ok(Self {

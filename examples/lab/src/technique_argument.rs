@@ -11,11 +11,11 @@ use crate::techniques;
 pub enum TechniqueArgument {
     /// The usual settings under a name of [`names`].
     Usual(String),
-    /// These settings.
+    /// A technique with these settings.
     Given(Technique),
 }
 
-/// Text that is no technique.
+/// Text that is not a technique.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 #[non_exhaustive]
 pub enum TechniqueArgumentError {
@@ -30,7 +30,7 @@ pub enum TechniqueArgumentError {
         /// Names like it.
         nearest: String,
     },
-    /// JSON that is no technique.
+    /// JSON that is not a technique.
     #[error("this is no technique as a graph file has it: {reason}")]
     Json {
         /// What the parser says.

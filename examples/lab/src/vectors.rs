@@ -23,7 +23,7 @@ pub use report::{ALLOWED_SHARE, ClassReport, HARD_TOLERANCE, TOLERANCE, VectorRe
 /// Evaluates on the best adapter all Hamburger records of two, four and six moments in a file, by `chebyshev_lower_bound` and
 /// `chebyshev_upper_bound`, `hamburger4_bounds` and `hamburger6_bounds`, and all Hausdorff records of four, by `hausdorff4_bounds`.
 ///
-/// A biased record is fed bit for bit and compared with the file's bounds. An unbiased one is no input for the solver, which
+/// A biased record is fed bit for bit and compared with the file's bounds. An unbiased one cannot go to the solver, which
 /// takes moments after the moment bias: its f32 moments go through `four_moments_apply_bias` or `six_moments_apply_bias` with the bias
 /// of each storage on the device, and the result is compared with the oracle's bounds for exactly the biased moments that the
 /// device made. Two moments have no bias: their variance is raised to the smallest one of each storage, and so it is for the oracle.

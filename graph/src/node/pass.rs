@@ -33,7 +33,7 @@ pub struct Pass {
 pub struct Binding {
     /// The WGSL variable's name. Bind group and binding number are those that its declaration has.
     pub variable: String,
-    /// What it holds.
+    /// What the variable holds.
     pub resource: BindingResource,
 }
 

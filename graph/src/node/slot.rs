@@ -11,7 +11,7 @@ use crate::Access;
 pub struct Slot {
     /// The name, unique within the node.
     pub name: String,
-    /// What it is for: a sentence.
+    /// What the slot is for: a sentence.
     pub description: String,
     /// Whether edges lead in, out, both or nowhere.
     pub direction: Direction,
@@ -19,7 +19,7 @@ pub struct Slot {
     pub lifetime: Lifetime,
     /// Whether the node can do without it. Only inputs are optional.
     pub optional: bool,
-    /// What it is.
+    /// What the slot carries.
     pub resource: SlotResource,
 }
 
@@ -84,13 +84,13 @@ pub struct TextureRule {
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum FormatRule {
-    /// This one.
+    /// This format.
     Exact(TextureFormat),
-    /// That of a filterable map with this encoding, which the texture then has.
+    /// The format of a filterable map with this encoding, which the texture then has.
     Encoded(MapEncoding),
-    /// One of these. Only for inputs.
+    /// One of these formats. Only for inputs.
     OneOf(Vec<TextureFormat>),
-    /// That of another slot, with its planes and encoding.
+    /// The format of another slot, with its planes and encoding.
     SameAs(String),
 }
 
@@ -98,11 +98,11 @@ pub enum FormatRule {
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum ExtentRule {
-    /// These.
+    /// This width and height.
     Exact([u32; 2]),
-    /// Any. Only for inputs.
+    /// Any value. Only for inputs.
     Any,
-    /// Those of another slot.
+    /// The width and height of another slot.
     SameAs(String),
 }
 
@@ -112,9 +112,9 @@ pub enum ExtentRule {
 pub enum CountRule {
     /// This number.
     Exact(u32),
-    /// One of these. Only for inputs.
+    /// One of these counts. Only for inputs.
     OneOf(Vec<u32>),
-    /// Any. Only for inputs.
+    /// Any value. Only for inputs.
     Any,
     /// The number that another slot has.
     SameAs(String),

@@ -20,11 +20,11 @@ pub enum PlanError {
     Index {
         /// What refers.
         what: String,
-        /// What it refers to.
+        /// The kind of thing that it refers to.
         of: &'static str,
         /// The number.
         index: usize,
-        /// How many there are.
+        /// How many of these the plan has.
         count: usize,
     },
     /// A texture where a buffer is needed, or a buffer where a texture is.
@@ -34,7 +34,7 @@ pub enum PlanError {
         what: String,
         /// The resource's name.
         resource: String,
-        /// What it is.
+        /// What the resource is.
         desc: String,
     },
     /// A map's regions that do not lie within the view's block.

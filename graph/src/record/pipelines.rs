@@ -85,7 +85,7 @@ impl HostTarget {
 pub struct Pipelines {
     layouts: HashMap<LayoutKey, wgpu::BindGroupLayout>,
     pipelines: HashMap<PipelineKey, Pipeline>,
-    /// Those for render passes of the host; of each shader the last that was asked for.
+    /// Pipelines for render passes of the host: for each shader the last one that was asked for.
     drawn: HashMap<PipelineKey, (HostTarget, wgpu::RenderPipeline)>,
 }
 

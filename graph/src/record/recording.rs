@@ -7,10 +7,10 @@ use crate::Stage;
 /// Which layers of the maps are to be made anew. Other layers keep their contents.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Layers<'a> {
-    /// All of them.
+    /// All layers.
     #[default]
     All,
-    /// These, of every map.
+    /// These layers of every map.
     Only(&'a [u32]),
     /// These of the maps with these names: an import's, or `node.slot` where a node makes a map of its own. Other
     /// maps are left out.
@@ -20,7 +20,7 @@ pub enum Layers<'a> {
 /// Which passes of a stage to record.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Passes<'a> {
-    /// All of them.
+    /// All passes.
     #[default]
     All,
     /// Those with these numbers in [`crate::Plan::passes`], in the plan's order: to spread a stage over frames, or to

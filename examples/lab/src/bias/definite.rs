@@ -85,7 +85,7 @@ fn outer<const M: usize>(moments: &[f64; M]) -> Outer {
     hankel(M / 2 + 1, |power| moment(moments, power))
 }
 
-/// That of the moments of (z - low)(high - z) dS.
+/// The Hankel matrix of the moments of (z - low)(high - z) dS.
 fn inner<const M: usize>(moments: &[f64; M], [low, high]: [f64; 2]) -> Inner {
     let moment = |power: usize| moment(moments, power);
     hankel(M / 2, |power| {

@@ -94,7 +94,7 @@ impl<const M: usize> Form<M> {
             None => {
                 let mut powers = [z as f32; M];
                 for index in 1..M {
-                    // Of each power the two halves, as the shader has them.
+                    // Each power is the product of its two halves, as in the shader.
                     let half = index.div_ceil(2);
                     powers[index] = powers[half - 1] * powers[index - half];
                 }

@@ -112,7 +112,7 @@ pub struct BiasTable {
     pub technique: BiasTechnique,
     /// Patches per row.
     pub samples: usize,
-    /// Of the random numbers.
+    /// Seed of the random numbers.
     pub seed: u64,
     /// The storages of the library, and published forms.
     pub rows: Vec<BiasRow>,

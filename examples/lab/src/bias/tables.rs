@@ -30,7 +30,7 @@ pub struct TableBiasRow {
     pub side: u32,
     /// The alphas from which on moments on the real line are possible.
     pub line: Quantiles,
-    /// The same on the depth interval.
+    /// The alphas from which on moments on the depth interval are possible.
     pub interval: Quantiles,
     /// What the library applies, for both.
     pub library: [f64; 2],
@@ -45,9 +45,9 @@ pub struct TableBiasRow {
 pub struct TableBiases {
     /// Patches per row.
     pub samples: usize,
-    /// Of the random numbers.
+    /// Seed of the random numbers.
     pub seed: u64,
-    /// Per storage and kernel.
+    /// A row per storage and kernel.
     pub rows: Vec<TableBiasRow>,
 }
 
@@ -195,7 +195,7 @@ fn texels(
         .collect()
 }
 
-/// As `summed_area_table_mean_interpolated`: nine exact sums, weighed in f32.
+/// The mean as `summed_area_table_mean_interpolated` computes it: nine exact sums, weighed in f32.
 fn mean(texels: &[[u32; 4]], [across, down]: &[Axis; 2], table: &SummedAreaTable) -> [f32; 4] {
     let scale = 1.0 / (table.unit() as f32 * across.extent * down.extent);
     core::array::from_fn(|channel| {

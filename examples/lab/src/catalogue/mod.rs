@@ -67,7 +67,7 @@ impl Variant {
         }
     }
 
-    /// The same with this map, or table, on the same profile.
+    /// Connects the node to this map, or table, on the same profile.
     fn connected(mut self, map: &MapEncoding) -> Self {
         self.map = TextureDesc::of_map(map.clone(), SIZE);
         self
@@ -101,7 +101,7 @@ impl Variant {
         self
     }
 
-    /// A row with these settings, if it is listed; loops of passes other than the next ones run so often.
+    /// A row with these settings, if it is listed; loops of passes that are not named next run so often.
     fn row(mut self, listed: bool, settings: impl Into<String>, trips: &[u32]) -> Self {
         self.row = listed.then(|| Row {
             settings: settings.into(),

@@ -21,7 +21,7 @@ pub struct Options {
     /// Patches per row of the table.
     #[arg(long, default_value_t = 1_000_000, value_parser = samples)]
     samples: usize,
-    /// Of the random numbers.
+    /// Seed of the random numbers.
     #[arg(long, default_value_t = 2015)]
     seed: u64,
     /// Prints JSON.

@@ -65,13 +65,13 @@ pub struct Contacts {
 /// What a technique gives of them. Means are over all points of the band, unless it is said otherwise.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct ContactErrors {
-    /// Of the Gaussian, in texels.
+    /// Radius of the Gaussian, in texels.
     pub radius: u32,
     /// What was shaded with.
     pub technique: Technique,
     /// The storage of the filtered map; none where the plain depth map is read.
     pub storage: Option<Storage>,
-    /// Of the map, all planes.
+    /// Bits per texel of the map, all planes.
     pub bits_per_texel: u32,
     /// Points of the band.
     pub points: usize,

@@ -74,11 +74,11 @@ pub struct GraphErrors {
     pub technique: Technique,
     /// The storage of the filtered map; none where the plain depth map is read.
     pub storage: Option<Storage>,
-    /// Of the map, all planes.
+    /// Bits per texel of the map, all planes.
     pub bits_per_texel: u32,
-    /// Over all surfaces.
+    /// Errors over all surfaces.
     pub surfaces: SurfaceErrors,
-    /// Over the pixels of the picture.
+    /// Errors over the pixels of the picture.
     pub picture: Comparison,
 }
 
@@ -106,7 +106,7 @@ pub struct Setting {
 pub struct KernelFigures {
     /// Texels on either side of the centre.
     pub radius: u32,
-    /// In texels.
+    /// Standard deviation in texels.
     pub standard_deviation: f32,
 }
 
@@ -177,7 +177,7 @@ impl ErrorSubject {
             .collect())
     }
 
-    /// The same frame with one sample per texel of the light's depth, as techniques want it that read it plainly.
+    /// The frame of a subject, but with one sample per texel of the light's depth, for techniques that read the plain depth map.
     pub fn plain_frame(
         gpu: &Gpu,
         scene: &Scene,
@@ -207,7 +207,8 @@ impl ErrorSubject {
         self.judge_on(gpu, &self.frame, file, moment_bias)
     }
 
-    /// The same for a graph that runs on another frame of the same light: a [`plain_frame`](Self::plain_frame).
+    /// Judges, as [`judge`](Self::judge) does, a graph that runs on another frame of the same light: a
+    /// [`plain_frame`](Self::plain_frame).
     pub fn judge_on(
         &self,
         gpu: &Gpu,
@@ -238,7 +239,7 @@ fn widest(files: &[GraphFile]) -> Result<u32, LabError> {
 }
 
 impl Setting {
-    /// That of a run with these options.
+    /// The setting of a run with these options.
     pub fn of(gpu: &Gpu, graph: &Path, options: &RenderOptions) -> Self {
         Self {
             adapter: gpu.adapter.get_info().name,

@@ -44,7 +44,7 @@ pub struct Options {
     /// same kernel.
     #[arg(long)]
     pub all: bool,
-    /// Of the map's texels one of so many along either axis counts: 2 takes a quarter of the time.
+    /// Only every Nth texel of the map along either axis counts: 2 takes a quarter of the time.
     #[arg(long, default_value_t = 1, value_parser = clap::value_parser!(u32).range(1..=64))]
     pub stride: u32,
     /// A folder for a plot of error against bits per texel, as SVG and PNG; it is made if need be.
@@ -60,7 +60,7 @@ pub struct Options {
 pub struct ErrorRow {
     /// The scene's name.
     pub scene: String,
-    /// Of the Gaussian, in texels.
+    /// Radius of the Gaussian, in texels.
     pub radius: u32,
     /// The figures.
     pub errors: GraphErrors,
@@ -71,7 +71,7 @@ pub struct ErrorRow {
 pub struct ErrorTable {
     /// How they were measured.
     pub setting: Setting,
-    /// Of the map's texels every one of so many along either axis counts.
+    /// Only every `stride`th texel of the map along either axis counts.
     pub stride: u32,
     /// Scene by scene, radius by radius, in the order of the candidates.
     pub rows: Vec<ErrorRow>,

@@ -66,7 +66,7 @@ pub struct Minification {
     pub median_texels: f64,
     /// The graph as it is.
     pub with_mips: Figures,
-    /// The same graph without mip levels.
+    /// The graph without mip levels.
     pub without_mips: Figures,
 }
 

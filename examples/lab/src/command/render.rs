@@ -115,7 +115,7 @@ impl RenderOptions {
         }
     }
 
-    /// The same for a graph: with as many samples per texel as it can read.
+    /// These options for a graph: with as many samples per texel as it can read.
     #[must_use]
     pub fn for_graph(&self, file: &GraphFile) -> Self {
         Self {

@@ -27,7 +27,7 @@ pub struct FlickerOptions {
 /// What flickers in several scenes.
 #[derive(Clone, Debug, Serialize)]
 pub struct FlickerReport {
-    /// By scene.
+    /// Flicker by scene.
     pub scenes: Vec<Flicker>,
 }
 

@@ -32,7 +32,7 @@ pub struct Options {
     /// Inputs per technique and storage in place of 10000000, or of 100000 if quick.
     #[arg(long, value_parser = clap::value_parser!(u64).range(10..=1_000_000_000))]
     samples: Option<u64>,
-    /// The same seed gives the same inputs.
+    /// Seed of the random inputs: the same seed gives the same inputs.
     #[arg(long, default_value_t = Effort::FULL.seed)]
     seed: u64,
 }

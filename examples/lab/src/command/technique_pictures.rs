@@ -147,7 +147,7 @@ struct Stage {
     scene: Scene,
     frames: [Frame; 2],
     truth: PictureTruth,
-    /// For a light of some size.
+    /// The truth for a light of some size.
     soft: Option<Vec<f32>>,
 }
 

@@ -69,7 +69,7 @@ pub fn run(files: &[PathBuf], profile: Option<Profile>) -> ExitCode {
     ExitCode::FAILURE
 }
 
-/// Validates a file: as a module of the library if its imports start with `super::`, else as a shader of one's own.
+/// Validates a file: as a module of the library if its imports start with `super::`, else as a user's shader.
 ///
 /// # Errors
 /// [`CheckError`] if it cannot be read or is not valid.

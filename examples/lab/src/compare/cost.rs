@@ -16,11 +16,11 @@ pub struct Cost {
     pub names: [&'static str; 4],
     /// Nanoseconds per pixel of all that is done per pixel.
     pub pixels: Distribution,
-    /// The same as a ratio to the first candidate's, round by round.
+    /// The time per pixel as a ratio to the first candidate's, round by round.
     pub pixels_ratio: Distribution,
     /// Nanoseconds of all that is made of the light's map, per pixel or texel. None where nothing is.
     pub map: Option<Distribution>,
-    /// Both, as a ratio to the first candidate's.
+    /// Time per pixel and time for the map together, as a ratio to the first candidate's.
     pub total_ratio: Distribution,
 }
 

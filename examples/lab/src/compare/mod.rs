@@ -44,7 +44,7 @@ pub struct Options {
 pub trait Stage {
     /// What makes the picture.
     type Candidate;
-    /// What it gives.
+    /// What a candidate gives.
     type Picture;
     /// What the report tells of the stage, and how it shows errors.
     type Setting: Setting;

@@ -18,7 +18,7 @@ pub trait Setting: Serialize + fmt::Display {
     /// What the column of the map's cost is called, with its unit.
     const MAP_COST: &'static str;
 
-    /// With what names of files begin.
+    /// What names of files begin with.
     fn stem(&self) -> String;
 
     /// The errors of all candidates.
@@ -29,7 +29,7 @@ pub trait Setting: Serialize + fmt::Display {
 #[derive(Clone, Debug, Serialize)]
 #[serde(bound = "")]
 pub struct Report<S: Setting> {
-    /// Of the stage.
+    /// Setting of the stage.
     #[serde(flatten)]
     pub setting: S,
     /// Seconds that the truth took.

@@ -15,7 +15,7 @@ pub trait Technique {
     /// Records what it does in a stage.
     fn record(&self, stage: Stage, encoder: &mut wgpu::CommandEncoder) -> Result<(), LabError>;
 
-    /// What it draws.
+    /// The texture that it draws.
     fn output(&self) -> Result<&wgpu::Texture, LabError>;
 
     /// Records everything and submits it.

@@ -12,7 +12,7 @@ use super::table::{LEGEND, Row, columns};
 /// What a graph costs.
 #[derive(Clone, Debug, Serialize)]
 pub struct GraphCost {
-    /// Where and how.
+    /// Where and how the graph was measured.
     pub conditions: Conditions,
     /// Every pass that a shader does.
     pub passes: Vec<Row>,

@@ -46,12 +46,12 @@ pub struct Measured {
     /// What all cases write.
     written: Vec<TextureDesc>,
     times: Rounds,
-    /// Of each case, its number and those of its copies.
+    /// The number of each case and those of its copies.
     numbers: Vec<(usize, CopyNumbers)>,
 }
 
 impl Difference {
-    /// That of numbers in pairs, as many as there should be; NaN if one of them is, or if there are others.
+    /// The difference between numbers in pairs, as many as there should be; NaN if one of them is, or if there are others.
     #[must_use]
     pub fn of(
         found: impl ExactSizeIterator<Item = f64>,

@@ -39,7 +39,7 @@ impl OpenedGraph {
     pub(super) fn run(gpu: &Gpu, frame: &Frame, file: &GraphFile) -> Result<Self, CostError> {
         let mut file = GraphFile::parse(&file.name, file.text.clone(), None)?;
         let given = file.graph.outputs.iter().map(|output| output.from.clone());
-        // What a node changes in place can be had only after it.
+        // What a node changes in place is available only after it.
         let edges = file.graph.edges.iter();
         let kept = edges.filter(|edge| changes_in_place(&file, &edge.to).is_none());
         let connected = kept.map(|edge| edge.from.clone());

@@ -38,7 +38,7 @@ pub struct CopyNumbers {
 
 /// Times of all subjects, round by round.
 pub struct Rounds {
-    /// Per subject and round, for one repetition.
+    /// Readings per subject and round, for one repetition.
     readings: Vec<Vec<Reading>>,
 }
 
@@ -126,7 +126,7 @@ impl Rounds {
         Distribution::of(subjects.iter().zip(to).map(|(subject, to)| subject / to))
     }
 
-    /// Per round, the sum of a figure over some subjects.
+    /// The sum of a figure over some subjects, per round.
     fn summed(&self, subjects: &[usize], figure: fn(&Reading) -> f64) -> Vec<f64> {
         let rounds = self.readings.first().map_or(0, Vec::len);
         let of = |subject: &usize, round: usize| {

@@ -128,7 +128,7 @@ fn transposed(map: &[[f64; 4]], width: usize) -> Channels {
         .collect()
 }
 
-/// As the WGSL module `depth` converts.
+/// Converts a stored depth as the WGSL module `depth` does.
 fn moment_depth(stored: f64, conversion: &DepthConversion) -> f64 {
     let scaled =
         (stored * f64::from(conversion.scale) + f64::from(conversion.offset)).clamp(0.0, 1.0);
@@ -139,7 +139,8 @@ fn moment_depth(stored: f64, conversion: &DepthConversion) -> f64 {
     (mix(conversion.numerator) / mix(conversion.denominator)).clamp(-1.0, 1.0)
 }
 
-/// As the WGSL module `moments` stores: the optimised basis (JCGT 6(1) 2017, section 3), centred for float16.
+/// The channels as the WGSL module `four_moments` stores them: the optimised basis (JCGT 6(1) 2017, section 3), centred for
+/// float16.
 pub(super) fn channels(b: [f64; 4], storage: Storage) -> [f64; 4] {
     if storage == Storage::Float32 {
         return b;

@@ -15,7 +15,7 @@ pub struct Distribution {
 }
 
 impl Distribution {
-    /// The distribution of some figures; all NaN where there are none. Quantiles between two figures are interpolated.
+    /// The distribution of some figures; all NaN without figures. Quantiles between two figures are interpolated.
     #[must_use]
     pub fn of(figures: impl IntoIterator<Item = f64>) -> Self {
         let mut sorted: Vec<f64> = figures.into_iter().collect();
@@ -48,7 +48,7 @@ impl Distribution {
     }
 }
 
-/// The quantile of ascending figures, linear between neighbours; NaN where there are none.
+/// The quantile of ascending figures, linear between neighbours; NaN without figures.
 fn quantile(sorted: &[f64], part: f64) -> f64 {
     let position = part * sorted.len().saturating_sub(1) as f64;
     let (below, above) = (position.floor() as usize, position.ceil() as usize);

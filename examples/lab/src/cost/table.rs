@@ -79,13 +79,13 @@ pub struct Row {
 /// What a list of subjects costs.
 #[derive(Clone, Debug, Serialize)]
 pub struct CostTable {
-    /// Where and how.
+    /// Where and how the subjects were measured.
     pub conditions: Conditions,
     /// What is measured.
     pub title: &'static str,
     /// Texels per side of the largest map.
     pub size: u32,
-    /// Per size and subject.
+    /// A row per size and subject.
     pub rows: Vec<Row>,
     /// Whether gates hold here: on software adapters.
     pub bounded: bool,
@@ -151,7 +151,7 @@ impl Row {
         1e9 * self.time.seconds.median / self.texels as f64
     }
 
-    /// Whether the time is within its bounds; true where there are none.
+    /// Whether the time is within its bounds, if it has any.
     #[must_use]
     pub fn passed(&self) -> bool {
         let Gate {
@@ -250,7 +250,7 @@ impl CostTable {
         }
     }
 
-    /// Whether every row is within its bounds; true where there are none.
+    /// Whether every row is within its bounds, if it has any.
     #[must_use]
     pub fn passed(&self) -> bool {
         self.rows.iter().all(Row::passed)

@@ -1,4 +1,4 @@
-//! The same graph with another technique.
+//! A graph with another technique than its own.
 
 use moment_shadows::{Kernel, MapEncoding, Profile, Storage, Technique};
 use serde_json::{Value, json};
@@ -11,7 +11,7 @@ use crate::technique_argument::TechniqueArgument;
 const PLACE: &str = "lab_place_layers";
 
 impl GraphFile {
-    /// The same graph with what a command line asks for, with the storage that [`TechniqueArgument::resolve`] chooses.
+    /// This graph with the technique that a command line asks for, in the storage that [`TechniqueArgument::resolve`] chooses.
     pub fn with_technique_argument(
         &self,
         technique: &TechniqueArgument,
@@ -24,7 +24,7 @@ impl GraphFile {
         self.with_technique(&technique, storage)
     }
 
-    /// The same graph with a technique in place of its own. A filterable one makes its map in `storage`, or in that of the
+    /// This graph with a technique in place of its own. A filterable one makes its map in `storage`, or in that of the
     /// graph. One that reads the plain depth map is connected to it; what made the filterable map has no reader then and is
     /// culled.
     pub fn with_technique(

@@ -34,7 +34,7 @@ const CONTROL: [&str; 10] = [
 ];
 
 impl Class {
-    /// The class of a mnemonic; `None` if it is none of the instruction set.
+    /// The class of a mnemonic; `None` if the instruction set does not have it.
     #[must_use]
     pub fn of(mnemonic: &str) -> Option<Class> {
         let (family, rest) = mnemonic.split_once('_').unwrap_or((mnemonic, ""));

@@ -28,13 +28,13 @@ pub enum Change {
     New,
     /// Only the table has the shader.
     Gone,
-    /// A figure is another one.
+    /// A figure has changed.
     Figure {
         /// Its name.
         name: &'static str,
         /// What the table says.
         table: f64,
-        /// What it is now.
+        /// What the figure is now.
         now: f64,
     },
 }
@@ -81,7 +81,7 @@ impl fmt::Display for Difference {
 /// How a driver compares with the one that made a table.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Comparison {
-    /// The same version of the driver, built another time: figures should be the same.
+    /// Whether the driver is another build of the same version: figures should be the same.
     pub other_build: bool,
     /// Everything that differs by more than [`TOLERANCE`], for the chips that were compiled now.
     pub differences: Vec<Difference>,

@@ -37,7 +37,7 @@ pub struct Subject {
 pub enum SubjectWork {
     /// Texels of a storage texture.
     Compute {
-        /// Per workgroup.
+        /// Texels per workgroup.
         texels_per_workgroup: u32,
     },
     /// A pixel of the target.
@@ -169,7 +169,7 @@ struct Formats<'a> {
 }
 
 impl Formats<'_> {
-    /// That of what is connected to the slot, or of what the node makes for it.
+    /// The format of what is connected to the slot, or of what the node makes for it.
     fn of(&self, slot: &str) -> Option<TextureFormat> {
         let connected = |slot: &str| Some(self.inputs.get(slot)?.texture()?.format);
         let slot = self.desc.slots.iter().find(|other| other.name == slot)?;

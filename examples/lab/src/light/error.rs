@@ -69,7 +69,7 @@ pub enum LightError {
         what: &'static str,
         /// What was given, in radians or scene units.
         value: f64,
-        /// What it may be.
+        /// The range that it may be in.
         range: &'static str,
     },
     /// A directional light has directions, and a spot light has places.
@@ -79,7 +79,7 @@ pub enum LightError {
     Shape {
         /// The shape's name.
         shape: &'static str,
-        /// What it was given to.
+        /// The light that the shape was given to.
         light: &'static str,
     },
 }

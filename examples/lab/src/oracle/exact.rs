@@ -20,7 +20,7 @@ pub enum OracleError {
          or not of the rank of its leading block; apply a larger moment bias"
     )]
     NotMoments,
-    /// A mixture without a surface is no distribution.
+    /// A mixture without a surface is not a distribution.
     #[error("the mixture has no surface of positive weight")]
     NoSurface,
     /// Not a number, or infinite.

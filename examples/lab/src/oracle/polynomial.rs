@@ -25,7 +25,7 @@ pub(super) fn evaluate(coefficients: &[RBig], x: &RBig) -> RBig {
         .fold(RBig::ZERO, |sum, coefficient| sum * x + coefficient)
 }
 
-/// As [`evaluate`], rounded.
+/// The value that [`evaluate`] gives, rounded.
 pub(super) fn evaluate_real(coefficients: &[Real], x: &Real) -> Real {
     coefficients
         .iter()

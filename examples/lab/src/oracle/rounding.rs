@@ -9,7 +9,7 @@
 pub enum Fma {
     /// Once, as a fused operation.
     Fused,
-    /// After the product and after the sum.
+    /// Twice: after the product and after the sum.
     Separate,
 }
 

@@ -1,4 +1,4 @@
-//! The same experiment on rounding with six moments.
+//! The experiment on rounding with six moments instead of four.
 
 use super::Fma;
 

@@ -8,7 +8,7 @@ use crate::scene::Scene;
 /// Optical thickness between the camera and the far end, unless another one is asked for.
 pub(super) const THICKNESS: f64 = 0.7;
 
-/// Of the phase function, unless another one is asked for.
+/// Anisotropy of the phase function, unless another one is asked for.
 pub(super) const ANISOTROPY: f32 = 0.4;
 
 /// How far behind the scene's middle the air ends, in parts of its radius.

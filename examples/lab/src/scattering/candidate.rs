@@ -35,7 +35,7 @@ enum Way {
     /// The library's nodes: a graph with an output `scattering`.
     Graph(GraphFile),
     March(Marching),
-    /// With columns and rows of the map.
+    /// A convolution map with these columns and rows.
     Convolution([u32; 2]),
 }
 

@@ -24,7 +24,7 @@ pub(super) struct ConvolutionRows {
 }
 
 impl ConvolutionRows {
-    /// With columns and rows of the rectified map.
+    /// The technique with columns and rows of the rectified map.
     pub(super) fn new(
         gpu: &Gpu,
         stage: &ScatteringStage,

@@ -41,7 +41,7 @@ pub struct LookDesc {
 /// Angle between the camera's axis and the light that is almost along it, in radians.
 const ASIDE: f64 = 0.3;
 
-/// Of the scene's radius, how far the camera is from its middle.
+/// How far the camera is from the scene's middle, in parts of the scene's radius.
 const AWAY: f64 = 1.7;
 
 impl LookDesc {

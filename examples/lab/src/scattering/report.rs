@@ -37,9 +37,9 @@ pub struct ScatteringErrors {
     pub ours: bool,
     /// Fetches of maps per pixel.
     pub fetches: f64,
-    /// Against rays through the plain map.
+    /// Errors against rays through the plain map.
     pub plain: ScatteringError,
-    /// Against rays through the filtered map.
+    /// Errors against rays through the filtered map.
     pub filtered: ScatteringError,
     /// Steps through the plain map at full resolution, if that is what it does.
     pub steps: Option<u32>,
@@ -54,12 +54,12 @@ pub struct ScatteringError {
     pub mean: [f64; 3],
     /// The largest absolute error.
     pub largest: f64,
-    /// Pixels that are no finite number.
+    /// Pixels that are non-finite.
     pub not_finite: usize,
 }
 
 impl ScatteringError {
-    /// Of a picture against marched rays.
+    /// The error of a picture against marched rays.
     #[must_use]
     pub fn of(found: &[[f32; 4]], truth: &MarchedRays) -> Self {
         let mut error = Self::default();

@@ -46,7 +46,7 @@ pub struct ScatteringStageDesc {
     /// Optical thickness between the camera and the far end.
     #[arg(long, default_value_t = THICKNESS)]
     pub thickness: f64,
-    /// Of the phase function, from -0.99 (backwards) to 0.99 (forwards).
+    /// Anisotropy of the phase function, from -0.99 (backwards) to 0.99 (forwards).
     #[arg(long, default_value_t = ANISOTROPY, allow_negative_numbers = true)]
     pub anisotropy: f32,
     /// Texels per side of the light's map.
@@ -88,7 +88,7 @@ pub struct ScatteringStage {
     pub truth: MarchedRays,
     /// Rays that are marched through the filtered map.
     pub filtered: MarchedRays,
-    /// With [`SAMPLES`] samples per texel, and with one.
+    /// Frames with [`SAMPLES`] samples per texel, and with one.
     frames: [Frame; 2],
     uniform: ScatteringView,
     scene: String,
@@ -262,7 +262,7 @@ impl Stage for ScatteringStage {
     }
 }
 
-/// By colour.
+/// The mean by colour.
 fn mean(values: &[[f32; 3]]) -> [f64; 3] {
     [0, 1, 2].map(|colour| {
         let sum: f64 = values.iter().map(|value| f64::from(value[colour])).sum();

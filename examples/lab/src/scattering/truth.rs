@@ -15,7 +15,7 @@ use crate::truth::kernel::{AxisTaps, TapPattern};
 pub struct Rays<'a> {
     /// The camera.
     pub eye: DVec3,
-    /// From the camera to where each ray ends.
+    /// Vectors from the camera to where each ray ends.
     pub ends: &'a [DVec3],
     /// A directional light.
     pub light: &'a LightView,
@@ -30,9 +30,9 @@ pub struct Rays<'a> {
 /// In-scattered radiance of view rays, by colour.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct MarchedRays {
-    /// With the shadows of the map.
+    /// Radiance with the shadows of the map.
     pub radiance: Vec<[f32; 3]>,
-    /// Without any.
+    /// Radiance without any shadows.
     pub unshadowed: Vec<[f32; 3]>,
 }
 

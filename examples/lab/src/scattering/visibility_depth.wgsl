@@ -8,6 +8,6 @@ fn visibility_shadow(uv: vec2f, depth: f32) -> f32 {
     let inside = all(uv >= vec2f(0.0)) && all(uv <= vec2f(1.0));
     let texel = vec2i(min(saturate(uv) * size, size - 1.0));
     let stored = textureLoad(light_depth, texel, 0);
-    // The lab's directional lights store depth from 0 to 1; 1 is no caster.
+    // The lab's directional lights store depth from 0 to 1; 1 means no caster.
     return select(0.0, 1.0, inside && stored < 1.0 && fma(2.0, stored, -1.0) < depth);
 }

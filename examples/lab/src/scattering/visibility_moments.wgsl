@@ -7,7 +7,7 @@ import node::scattering_storage::{STORAGE};
 @group(0) @binding(2) var moments_map: texture_2d_array<f32>;
 @group(0) @binding(3) var moments_sampler: sampler;
 
-// The shadow of a moment depth at a place of the map; outside of it there is none.
+// The shadow of a moment depth at a place of the map; nothing is in shadow outside the map.
 fn visibility_shadow(uv: vec2f, depth: f32) -> f32 {
     let inside = all(uv >= vec2f(0.0)) && all(uv <= vec2f(1.0));
     let moments = four_moments_from_texel(textureSampleLevel(moments_map, moments_sampler, uv, 0u, 0.0), STORAGE);

@@ -29,7 +29,7 @@ pub struct Bounds {
 }
 
 impl Bounds {
-    /// The box around `points`; that of the origin alone if there are none.
+    /// The box around `points`; without points the box of the origin alone.
     pub fn of(points: impl Iterator<Item = DVec3>) -> Self {
         points
             .map(|point| Self {

@@ -7,7 +7,7 @@ use super::Image;
 pub(crate) struct Mip {
     /// Width and height in texels.
     pub(crate) size: [u32; 2],
-    /// As in [`Image::rgba`].
+    /// Texels as in [`Image::rgba`].
     pub(crate) rgba: Vec<u8>,
 }
 

@@ -36,7 +36,7 @@ pub(crate) use mips::{Mip, mips};
 /// [`EDGE`] and [`HOLE`].
 pub const PROCEDURAL: [&str; 2] = ["fence-and-foliage", "hall"];
 
-/// Where to stand in a scene that is not to be looked at from all around.
+/// Where to stand in a scene that should not be looked at from every side.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Stand {
     /// The camera's position.

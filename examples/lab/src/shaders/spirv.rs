@@ -21,7 +21,7 @@ pub enum Target {
 }
 
 impl Target {
-    /// Both.
+    /// Both targets.
     pub const ALL: [Target; 2] = [Target::Vulkan11, Target::Vulkan13];
 
     /// The name that SPIRV-Tools know it by.

@@ -36,7 +36,7 @@ pub struct SoftSetting {
 /// Penumbrae of straight edges.
 #[derive(Clone, Copy, Debug, Serialize)]
 pub struct SoftEdges {
-    /// As geometry has them.
+    /// Penumbrae as geometry has them.
     pub exact: [f64; EDGE_HEIGHTS.len()],
     /// Measured on the truth.
     pub truth: [Option<f64>; EDGE_HEIGHTS.len()],

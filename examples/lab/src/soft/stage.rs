@@ -83,7 +83,7 @@ pub struct SoftStage {
     pub pixels: SurfacePixels,
     scene: String,
     choice: StageDesc,
-    /// With [`SAMPLES`] samples per texel, and with one.
+    /// Frames with [`SAMPLES`] samples per texel, and with one.
     frames: [Frame; 2],
 }
 
@@ -171,7 +171,8 @@ impl SoftStage {
         (self.scene == EDGE).then(|| edge_widths(&desc.light, desc.shape))
     }
 
-    /// The same measured on a picture of shadow intensity; none where the profile does not lead from light to shadow.
+    /// The widths of the penumbrae as measured on a picture of shadow intensity; none where the profile does not lead from light
+    /// to shadow.
     #[must_use]
     pub fn widths(&self, shadow: &[f32]) -> Option<[Option<f64>; EDGE_HEIGHTS.len()]> {
         let exact = self.exact_widths()?;

@@ -31,7 +31,7 @@ pub(super) fn of_four_moments(input: Input, random: &mut ChaCha8Rng) -> Input {
     } else {
         storage.hausdorff_moment_bias()
     };
-    // The fourth moment is no part of the nodes.
+    // The fourth moment does not determine the nodes.
     let [alpha, second] = [bias.alpha, bias.second].map(f64::from);
     let b: [f64; 3] = [
         (1.0 - alpha) * moment(&input, 1),
@@ -56,7 +56,7 @@ pub(super) fn of_six_moments(input: Input, random: &mut ChaCha8Rng) -> Input {
     };
     let alpha = f64::from(bias.alpha);
     let [second, fourth, _] = bias.even.map(f64::from);
-    // The sixth moment is no part of the nodes.
+    // The sixth moment does not determine the nodes.
     let target = [0.0, second, 0.0, fourth, 0.0];
     let b: [f64; 5] = core::array::from_fn(|index| {
         (1.0 - alpha) * moment(&input, index as i32 + 1) + alpha * target[index]

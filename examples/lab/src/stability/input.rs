@@ -47,7 +47,7 @@ impl Input {
     /// A texel that no encoding need have made.
     pub const TEXEL: u32 = 2;
 
-    /// As a Rust expression that a test can hold; fields with their defaults are left out.
+    /// The input as a Rust expression that a test can hold; fields with their defaults are left out.
     #[must_use]
     pub fn literal(&self) -> String {
         let usual = Self::default();

@@ -52,11 +52,11 @@ pub struct StratumTally {
 /// Counts over many results of one technique with one storage.
 #[derive(Clone, Debug)]
 pub struct Tally {
-    /// By stratum, in the order of [`Stratum::ALL`].
+    /// Counts by stratum, in the order of [`Stratum::ALL`].
     pub strata: Vec<StratumTally>,
     /// Results with a truth.
     pub judged: u64,
-    /// The first result that is no shadow intensity.
+    /// The first result that is not a shadow intensity.
     pub first_fault: Option<(Input, f32)>,
     leak: f64,
     /// Excesses: none, then by their logarithm.

@@ -26,7 +26,7 @@ pub fn kernels() -> Result<Vec<Kernel>, KernelError> {
     Ok(pairs?.into_iter().flatten().collect())
 }
 
-/// As the shader reads them: where the weights of each kernel begin and how many there are, then all weights.
+/// Kernels as the shader reads them: where the weights of each begin and how many there are, then all weights.
 #[must_use]
 pub fn table(kernels: &[Kernel]) -> Vec<f32> {
     let mut table = Vec::new();

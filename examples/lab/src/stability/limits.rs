@@ -70,8 +70,9 @@ pub fn allowed_excess(encoding: &MapEncoding, wide: bool) -> f64 {
     }
 }
 
-/// Of six moments: the bias, and for the finest storage what the evaluation itself rounds. The bias leaves a surface a deviation of
-/// sqrt(alpha), over which the bound rises from 0 to 1; some units in the last place of depth shift it by these over that.
+/// The limit of six moments: the bias, and for the finest storage what the evaluation itself rounds. The bias leaves a surface a
+/// deviation of sqrt(alpha), over which the bound rises from 0 to 1; some units in the last place of depth shift it by these over
+/// that.
 fn six_moments(storage: Storage, alpha: f64) -> f64 {
     match storage {
         Storage::Float32 => alpha + 16.0 * HALF_ULP / alpha.sqrt(),
@@ -85,22 +86,22 @@ fn sums(wide: bool) -> f64 {
     2.0 * WIDTHS[usize::from(wide)] * HALF_ULP * 2.0 / 3.0
 }
 
-/// Of a bound x^2 / (1 + x^2), with x the distance over the standard deviation, whose reserve is the variance `floor`. The
-/// variance is at worst floor where it is floor + loss: the bound then grows by (r - 1) / (r + 1) at most with r^2 their ratio.
-/// An error of the mean adds the steepest slope of the bound, 3 sqrt(3) / 8, times itself over the standard deviation.
+/// The limit of a bound x^2 / (1 + x^2), with x the distance over the standard deviation, whose reserve is the variance `floor`.
+/// The variance is at worst floor where it is floor + loss: the bound then grows by (r - 1) / (r + 1) at most, with r^2 their
+/// ratio. An error of the mean adds the steepest slope of the bound, 3 sqrt(3) / 8, times itself over the standard deviation.
 fn chebyshev(floor: f64, mean: f64, square: f64) -> f64 {
     let loss = square + 2.0 * mean;
     let ratio = (1.0 + loss / floor).sqrt();
     (ratio - 1.0) / (ratio + 1.0) + 3.0 * 3.0_f64.sqrt() / 8.0 * mean / floor.sqrt()
 }
 
-/// Of 1 - mean / e^(c z): relative errors of the mean are those of the visibility, which is at most 1.
+/// The limit of 1 - mean / e^(c z): relative errors of the mean are those of the visibility, which is at most 1.
 fn exponential(storage: Storage, c: f64, filtering: EsmFiltering, sums: f64) -> f64 {
     let rounding = match (storage, filtering) {
         // Absolute in a value that falls to e^(-2 c).
         (Storage::Unorm16, EsmFiltering::Linear) => 0.5 / 65535.0 * (2.0 * c).exp(),
         (Storage::Float16, EsmFiltering::Linear) => 1.0 / f64::from(1 << 11),
-        // Of a logarithm from -1 to 1, times c.
+        // The rounding of a logarithm from -1 to 1, times c.
         (Storage::Unorm16, EsmFiltering::Logarithmic) => c / 65535.0,
         (Storage::Float16, EsmFiltering::Logarithmic) => c / f64::from(1 << 12),
         // A logarithm, a quotient and their rounding.
@@ -114,7 +115,7 @@ fn exponential(storage: Storage, c: f64, filtering: EsmFiltering, sums: f64) -> 
     (STAGES * rounding + warps + sums + flushed).exp_m1()
 }
 
-/// Of a sum of amplitudes times sin(a) C - cos(a) S: sqrt(2) times the error of C and S.
+/// The limit of a sum of amplitudes times sin(a) C - cos(a) S: sqrt(2) times the error of C and S.
 fn convolution(storage: Storage, terms: u32, sums: f64) -> f64 {
     let step = match storage {
         Storage::Unorm8 => 1.0 / 255.0,

@@ -38,7 +38,7 @@ pub struct Effort {
     pub samples: u64,
     /// Steps of each hill-climb.
     pub steps: u32,
-    /// The same seed gives the same inputs.
+    /// Seed of the random inputs: the same seed gives the same inputs.
     pub seed: u64,
 }
 

@@ -40,15 +40,15 @@ pub struct Row {
     pub outside: u64,
     /// The largest excess over the truth of all inputs but those that are filtered widely; negative where all leak.
     pub excess: Excess,
-    /// Of inputs that are filtered widely.
+    /// Excess over inputs that are filtered widely.
     pub wide: Excess,
-    /// Of the inputs that were drawn, for [`SHARES`].
+    /// Quantiles of the excess over the inputs that were drawn, for [`SHARES`].
     pub quantiles: Vec<Quantile>,
     /// The mean over all truths of what is missing to them.
     pub mean_leak: f64,
     /// The input with the largest excess.
     pub worst: Option<Worst>,
-    /// The first input whose result is no shadow intensity, as Rust, and the result.
+    /// The first input whose result is not a shadow intensity, as Rust, and the result.
     pub fault: Option<(String, String)>,
     /// What was drawn from each stratum.
     pub strata: Vec<StratumRow>,
@@ -57,9 +57,9 @@ pub struct Row {
 /// The largest excess over the truth.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub struct Excess {
-    /// Of the inputs that were drawn.
+    /// Largest excess over the inputs that were drawn.
     pub drawn: f64,
-    /// Of those that hill-climbs tried.
+    /// Largest excess over the inputs that hill-climbs tried.
     pub climbed: f64,
     /// What is allowed.
     pub allowed: f64,
@@ -94,7 +94,7 @@ pub struct StratumRow {
 }
 
 impl Row {
-    /// Of the counts of drawn inputs and of hill-climbs.
+    /// The row that follows from the counts of drawn inputs and of hill-climbs.
     #[must_use]
     pub fn new(pair: &MapEncoding, drawn: &Tally, climbed: &Tally) -> Self {
         let worst = [drawn.worst(), climbed.worst()]
@@ -284,7 +284,7 @@ mod tests {
 
     #[test]
     fn planted_faults_are_reported_and_a_lower_bound_is_none() {
-        // Leaks are no faults.
+        // Leaks do not count as faults.
         assert!(row(|truth| 0.9 * truth).passed());
         let planted: [(&str, Evaluate); 4] = [
             ("darker than the truth by 1e-3", |truth| {

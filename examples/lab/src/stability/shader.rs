@@ -85,7 +85,7 @@ fn specialization(encoding: &MapEncoding, row: &Row) -> String {
         .map(|(name, value)| format!("const {name} = {value};\n"))
         .collect();
     if row.places_layers {
-        // Splits that are placed on the device are no setting; any will do to show that nothing breaks.
+        // Splits that are placed on the device are not a setting; any will do to show that nothing breaks.
         own += "const LAYER_SPLITS_LOW = vec4f(1.0);\nconst LAYER_SPLITS_HIGH = vec4f(1.0);\n";
     }
     format!(

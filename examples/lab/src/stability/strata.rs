@@ -27,20 +27,20 @@ pub enum Stratum {
     AtSurface,
     /// A fragment at a Gauss node of four biased moments, or a few units in the last place beside it.
     AtGaussNode,
-    /// The same of six.
+    /// A fragment at a Gauss node of six biased moments, or a few units in the last place beside it.
     AtGaussNodeOfSix,
     /// A resolve and a two-pass blur, 3 to 9 texels wide.
     Filtered,
-    /// The same, 17 to 129 texels wide.
+    /// A resolve and a two-pass blur, 17 to 129 texels wide.
     FilteredWide,
     /// Texels of random bits, of moments that rounding made impossible, of negative variance.
     InvalidTexel,
-    /// Subnormal, infinite and no numbers as depths and fragments.
+    /// Subnormal numbers, infinities and NaN as depths and fragments.
     NotFinite,
 }
 
 impl Stratum {
-    /// All of them, each of which gets an equal share of the inputs.
+    /// All strata, each of which gets an equal share of the inputs.
     pub const ALL: [Stratum; 12] = [
         Stratum::Diracs,
         Stratum::NearCoincident,

@@ -45,7 +45,7 @@ pub fn shares(input: &Input, kernels: &[Kernel]) -> Option<[f64; 8]> {
     Some(shares.map(|share| share / sum))
 }
 
-/// Moment depth of a stored depth by the definition of `DepthConversion`; no number counts as the far end.
+/// Moment depth of a stored depth by the definition of `DepthConversion`; NaN counts as the far end.
 fn converted(stored: f32, conversion: &DepthConversion) -> f64 {
     if stored.is_nan() {
         return 1.0;
@@ -68,7 +68,7 @@ fn moment_depth(depth: f32, input: &Input) -> f64 {
     }
 }
 
-/// The share of surfaces strictly in front of the fragment; none where texel or fragment are no result of surfaces.
+/// The share of surfaces strictly in front of the fragment; `None` where texel or fragment do not result from surfaces.
 #[must_use]
 pub fn truth(input: &Input, kernels: &[Kernel]) -> Option<f64> {
     if !input.fragment_depth.is_finite() {

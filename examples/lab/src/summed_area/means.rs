@@ -15,9 +15,9 @@ use crate::gpu::Gpu;
 pub struct Query {
     /// The region that it lies in.
     pub region: MapRegion,
-    /// In texels of the layer.
+    /// Centre of the rectangle in texels of the layer.
     pub centre: [f32; 2],
-    /// In texels.
+    /// Half the extent of the rectangle in texels.
     pub half_extent: [f32; 2],
     /// The table's largest kernel.
     pub largest: [f32; 2],
@@ -53,7 +53,7 @@ pub struct Means<'a> {
 }
 
 impl<'a> Means<'a> {
-    /// Of the table that a map has now.
+    /// The pipeline for the table that a map has now.
     pub fn new(gpu: &'a Gpu, summed: &SummedMap) -> Result<Self, LabError> {
         let table = summed.table().ok_or_else(no_table)?;
         let linked = link(

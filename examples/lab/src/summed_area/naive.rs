@@ -33,7 +33,7 @@ pub struct NaiveTable {
 }
 
 impl NaiveTable {
-    /// Of a map with these bytes.
+    /// The table of a map with these bytes.
     pub fn new(gpu: &Gpu, desc: &TextureDesc, bytes: &[u8]) -> Result<Self, LabError> {
         let moments = moments_texture(gpu, desc, bytes);
         let texture = |label| {

@@ -14,7 +14,7 @@ use crate::graph_frame::{GraphFrame, imports};
 pub struct MapRun {
     /// The graph as run: its shadow intensity is in single precision.
     pub file: GraphFile,
-    /// What it gave.
+    /// The graph after its run.
     pub graph: GraphFrame,
     /// How `shade_hard` evaluates.
     pub shading: Evaluation,
@@ -29,7 +29,7 @@ pub struct JudgedMap<'a> {
     pub name: String,
     /// The texture.
     pub texture: &'a wgpu::Texture,
-    /// What it holds.
+    /// What the texture holds.
     pub desc: TextureDesc,
     /// The technique that `shade_hard` evaluates; otherwise it is that of the map.
     pub technique: Option<Technique>,

@@ -24,7 +24,7 @@ pub struct MapPoint {
 }
 
 impl MapPoint {
-    /// At a place, with a gradient that may be infinite.
+    /// The point at a place, with a gradient that may be infinite.
     #[must_use]
     pub fn new(uv: DVec2, moment_depth: f64, gradient: DVec2) -> Self {
         let limit = DVec2::splat(LARGEST_GRADIENT);
@@ -41,7 +41,7 @@ impl MapPoint {
         }
     }
 
-    /// That of a receiver in front of a light with a map of `map` texels. Behind a spot light it lies at the map's corner.
+    /// The point of a receiver in front of a light with a map of `map` texels. Behind a spot light it lies at the map's corner.
     #[must_use]
     pub fn of_plane(light: &LightView, map: [u32; 2], receiver: &Receiver) -> Self {
         let size = DVec2::from_array(map.map(f64::from));

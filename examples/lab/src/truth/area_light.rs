@@ -41,7 +41,7 @@ const OFFSET: f64 = 1e-5;
 /// A scene under an area light.
 pub struct AreaLight<'a> {
     light: &'a LightView,
-    /// Of a light that has one.
+    /// Position of a light that has one.
     position: Option<DVec3>,
     right: DVec3,
     up: DVec3,
@@ -51,7 +51,7 @@ pub struct AreaLight<'a> {
     places: Vec<DVec2>,
     casters: Vec<Caster>,
     bvh: Bvh,
-    /// Of each material.
+    /// Opacity of each material.
     opacity: Vec<Option<Opacity>>,
     /// Half the diagonal of the scene without its ground.
     radius: f64,
@@ -153,7 +153,7 @@ impl<'a> AreaLight<'a> {
     }
 
     /// The shadow intensity of a point of a surface with a unit normal: the share of hidden places among those in front of
-    /// it; 1 if there are none.
+    /// it; 1 if no place is in front of it.
     #[must_use]
     pub fn intensity(&self, position: DVec3, normal: DVec3) -> f64 {
         self.intensity_with(position, normal, &mut Scratch::default())

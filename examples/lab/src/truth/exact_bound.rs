@@ -148,8 +148,8 @@ fn weighted_sum(depths: &[f64], weights: &[f64], value: impl Fn(f64) -> f64) -> 
     (sums[0] + sums[1]) + (sums[2] + sums[3]) + last
 }
 
-/// The same for given moments `[E z, E z^2, E z^3, E z^4]` of a distribution. They cancel where variances are small,
-/// which f64 bears down to variances of about 1e-12; moments that belong to no distribution count as the nearest
+/// The exact lower bound for given moments `[E z, E z^2, E z^3, E z^4]` of a distribution. They cancel where variances are
+/// small, which f64 bears down to variances of about 1e-12; moments that belong to no distribution count as the nearest
 /// singular one.
 pub fn lower_bound_of_moments(moments: [f64; 4], fragment_depth: f64) -> f64 {
     let [b1, b2, b3, b4] = moments;

@@ -111,7 +111,7 @@ impl Camera<'_> {
     }
 
     /// Texels and moment depth to the neighbour along `axis` (0: x, 1: y) on the side that continues the surface;
-    /// zero if there is none.
+    /// zero without such a neighbour.
     fn difference(&self, pixel: [i64; 2], axis: usize, stored: f64, receiver: &Receiver) -> DVec3 {
         let neighbour = |side: i64, steps: i64| {
             let mut at = pixel;

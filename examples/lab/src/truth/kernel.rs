@@ -18,7 +18,7 @@ pub struct AxisTaps {
 }
 
 impl TapPattern {
-    /// That of a map blurred with `kernel`. The weights are normalised once more, in f64.
+    /// The pattern of a map blurred with `kernel`. The weights are normalised once more, in f64.
     pub fn of_kernel(kernel: &Kernel) -> Self {
         let sum: f64 = kernel.weights().iter().copied().map(f64::from).sum();
         Self {
@@ -30,7 +30,7 @@ impl TapPattern {
         }
     }
 
-    /// That of a map that is not blurred: the lookup alone.
+    /// The pattern of a map that is not blurred: the lookup alone.
     pub fn unblurred() -> Self {
         Self { weights: vec![1.0] }
     }

@@ -18,7 +18,7 @@ pub(super) struct Opacity {
 }
 
 impl Opacity {
-    /// That of a material; `None` if it has no holes.
+    /// The opacity of a material; `None` if it has no holes.
     pub(super) fn of(material: &Material, images: &[Image]) -> Option<Self> {
         let image = material.texture.and_then(|texture| images.get(texture));
         Some(Self {

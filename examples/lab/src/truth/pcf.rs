@@ -70,7 +70,7 @@ pub struct Receiver {
     pub normal: DVec3,
 }
 
-/// The same for points that are known without the rounding of a G-buffer.
+/// Percentage closer filtering for points that are known without the rounding of a G-buffer.
 pub fn pcf_at(
     light: &LightView,
     depths: &MomentDepths,
@@ -96,7 +96,7 @@ pub fn pcf_at(
 struct Scratch {
     columns: AxisTaps,
     rows: AxisTaps,
-    /// Of each column, the weight of the samples in front of the plane.
+    /// The weight of the samples in front of the plane, per column.
     fronts: Vec<f64>,
 }
 
@@ -104,7 +104,7 @@ struct Filter<'a> {
     light: &'a LightView,
     depths: &'a MomentDepths,
     taps: &'a TapPattern,
-    /// By which angle normals may be off.
+    /// Angle by which normals may be off.
     normal_error: f64,
 }
 

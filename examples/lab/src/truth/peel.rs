@@ -57,7 +57,7 @@ pub struct Peeler<'a> {
     scene: &'a Scene,
     projection: Projection<'a>,
     triangles: Vec<SceneTriangle>,
-    /// Of each material.
+    /// Opacity of each material.
     opacity: Vec<Option<Opacity>>,
 }
 
@@ -220,7 +220,7 @@ pub(super) fn position(mesh: &Mesh, corner: u32) -> DVec3 {
     DVec3::from_array(mesh.positions[corner as usize].map(f64::from))
 }
 
-/// Refuses a mesh whose triangles have not all their vertices, or one at no finite place.
+/// Refuses a mesh whose triangles lack vertices, or have one at a non-finite place.
 pub(super) fn check(scene: &Scene, index: usize, mesh: &Mesh) -> Result<(), PeelError> {
     let refuse = |reason: String| {
         Err(PeelError::Mesh {

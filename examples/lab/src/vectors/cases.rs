@@ -24,7 +24,7 @@ pub(super) struct Input {
 }
 
 impl Input {
-    /// Of two, four or six moments that are biased already.
+    /// A case of two, four or six moments that are biased already.
     fn new(bound: Bound, moments: &[f32], depth: f64, alpha: f32) -> Self {
         let of = |index: usize| moments.get(index).copied().unwrap_or_default();
         Self {

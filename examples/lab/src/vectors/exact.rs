@@ -7,9 +7,9 @@ use crate::oracle::{OracleError, hamburger, hausdorff, rational, sensitivity, to
 /// Which distributions bounds are taken over.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Bound {
-    /// Those on the real line.
+    /// Distributions on the real line.
     Hamburger,
-    /// Those on [-1, 1].
+    /// Distributions on [-1, 1].
     Hausdorff,
 }
 

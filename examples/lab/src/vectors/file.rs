@@ -40,7 +40,7 @@ pub enum VectorFileError {
     },
 }
 
-/// Bounds of shadow intensity; absent where the rounded input is no moment vector.
+/// Bounds of shadow intensity; absent where the rounded input is not a moment vector.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Deserialize)]
 pub struct Bounds {
     /// inf S(z < depth).

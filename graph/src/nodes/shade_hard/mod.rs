@@ -49,7 +49,7 @@ fn one() -> u32 {
     1
 }
 
-/// As many probes as hardware commonly takes at little cost.
+/// The number of probes that hardware commonly takes at little cost.
 fn default_anisotropy() -> u16 {
     8
 }

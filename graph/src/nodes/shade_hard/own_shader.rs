@@ -1,4 +1,4 @@
-//! Shaders of one's own that shade with a technique as the node does.
+//! Users' shaders that shade with a technique as the node does.
 
 use super::super::shared::map_input;
 use super::super::techniques;
@@ -16,7 +16,7 @@ pub struct TechniqueShader {
 }
 
 impl ShadeHard {
-    /// Links a shader of one's own with the technique that this node evaluates a map with, by the same text: one that
+    /// Links a user's shader with the technique that this node evaluates a map with, by the same text: one that
     /// shades other points than the pixels of a picture.
     ///
     /// Besides the library's modules the shader imports `technique_shadow_intensity` from `node::technique`, which

@@ -110,7 +110,7 @@ impl Node for SummedAreaTable {
                 .layers(same_as("map"))
         };
         Ok(NodeDesc::new("summed_area_table", Stage::AfterShadowMaps)
-            // Of a map with mip levels the first is summed up.
+            // Only the first mip level of a map is summed up.
             .input(
                 "map",
                 "The map to sum up.",

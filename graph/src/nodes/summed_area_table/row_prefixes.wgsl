@@ -21,7 +21,7 @@ fn sum_rows(@builtin(local_invocation_id) local: vec3u, @builtin(workgroup_id) w
     }
     let y = lines.region.origin.y + line;
     let first = (lines.region.origin.x + TILE.x - 1u) / TILE.x;
-    // Beyond the last tile is none that would need its sum.
+    // No tile follows the last one and would need its sum.
     let end = first + (lines.region.extent.x - 1u) / TILE.x;
     var before = vec4u(0u);
     // Four loads at a time hide each other's latency.

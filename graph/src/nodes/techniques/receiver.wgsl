@@ -17,7 +17,7 @@ struct TechniqueReceiver {
     // Moment depth: less the receiver bias, and less what depths are rounded by alone.
     fragment_depth: f32,
     depth: f32,
-    // The steepest slope per texel that is no edge.
+    // The steepest slope per texel that does not count as an edge.
     steepest: f32,
     // How the light's map stores depth, and the light's size: for tests on the plain depth map.
     conversion: DepthConversion,

@@ -31,10 +31,10 @@ const SERIAL_GATE: f64 = 1.3;
 /// What the time per texel may be of that at a smaller size.
 const LARGEST_GROWTH: f64 = 1.3;
 
-/// Of channels of float16 below 1/2, and what f32 makes of thousands of sums.
+/// Error of float16 channels below 1/2, plus the error of thousands of sums in f32.
 const SUMS_TOLERANCE: f64 = 1.23e-4 + 1e-5;
 
-/// Of weights of float16 up to 1, and what f32 and a sampler make of two depths.
+/// Error of float16 weights up to 1, plus the error that f32 and a sampler make in two depths.
 const RECTIFIED_TOLERANCE: f64 = 2.45e-4 + 1e-4;
 
 /// Resampling of a light's map of four moments, and sums of noise by a row per invocation and by a row per workgroup.

@@ -63,8 +63,8 @@ fn azimuth(frame: &RectifiedFrame, row: u32, rows: u32) -> f64 {
 /// By how much more than the frustum is wide a frame may be, at either end, in radians.
 const MARGIN: f64 = 4e-6;
 
-/// Of the inclinations at which a half plane of this azimuth crosses the side planes of the frustum, and the ends of the frame,
-/// those between which the frustum lies.
+/// The mean sine of two inclinations: among those at which a half plane of this azimuth crosses the side planes of the
+/// frustum, and the ends of the frame, the two between which the frustum lies.
 fn mean_sine(frame: &RectifiedFrame, azimuth: f64) -> f64 {
     let wide = |vector: [f32; 3]| DVec3::from_array(vector.map(f64::from));
     let [first, extent] = [frame.first_azimuth, frame.azimuth_extent].map(f64::from);

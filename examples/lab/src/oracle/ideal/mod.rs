@@ -30,7 +30,7 @@ pub enum Ideal {
         /// c.
         exponent: f64,
     },
-    /// As [`Ideal::Evsm2`], and two moments of -e^(-d z); the darker of both.
+    /// [`Ideal::Evsm2`] and two moments of -e^(-d z); the darker of both.
     Evsm4 {
         /// c.
         positive: f64,

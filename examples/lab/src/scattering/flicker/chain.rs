@@ -14,9 +14,9 @@ const RADIUS: u32 = 2;
 #[derive(Clone, Copy, Debug, PartialEq, Eq, serde::Serialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Chain {
-    /// That of the example: several samples per texel, a blur, bilinear lookups.
+    /// The chain of the example: several samples per texel, a blur, bilinear lookups.
     Filtered,
-    /// The same with mip levels, over which lookups average what a texel of the rectified map covers.
+    /// The chain of the example with mip levels, over which lookups average what a texel of the rectified map covers.
     MipLevels,
     /// One sample per texel and no blur, but bilinear lookups.
     Bilinear,
@@ -25,7 +25,7 @@ pub enum Chain {
 }
 
 impl Chain {
-    /// All of them.
+    /// All chains.
     pub const ALL: [Chain; 4] = [
         Chain::Filtered,
         Chain::MipLevels,

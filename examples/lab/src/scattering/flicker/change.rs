@@ -2,8 +2,8 @@
 
 use serde::Serialize;
 
-/// Of pixels in a static region, and of successive frames: how much radiance changes, in parts of the mean radiance without
-/// shadows.
+/// How much the radiance of pixels in a static region changes between successive frames, in parts of the mean radiance
+/// without shadows.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize)]
 pub struct Change {
     /// The largest change.
@@ -54,7 +54,7 @@ pub fn static_region(truths: [&[Vec<f32>]; 2], still: f32, window: usize) -> Vec
 }
 
 impl Change {
-    /// Of some frames, in the region of each pair. Frames with a pixel that is no number are infinitely far off.
+    /// The change over some frames, in the region of each pair. Frames with a pixel that is not a number are infinitely far off.
     #[must_use]
     pub fn of(frames: &[Vec<f32>], truth: &[Vec<f32>], region: &[Vec<bool>]) -> Self {
         let mut changes = Vec::new();

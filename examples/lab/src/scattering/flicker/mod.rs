@@ -25,7 +25,7 @@ use crate::scene::Scene;
 /// the mean radiance without shadows. What an edge or a shaft passes changes by ten times that and more.
 pub const STILL: f32 = 5e-3;
 
-/// For so many frames before and after, too.
+/// A pixel has to be static for this many frames before and after, too.
 pub const WINDOW: usize = 1;
 
 /// The largest change of filtered pictures, at most this part of that of unfiltered ones.
@@ -81,9 +81,9 @@ pub struct Flicker {
     pub picture: [u32; 2],
     /// The part of all pixels of all pairs of frames that is static.
     pub region: f64,
-    /// Of the truth in the region.
+    /// Change of the truth in the region.
     pub truth: Change,
-    /// Of each chain there.
+    /// Change of each chain in the region.
     pub chains: Vec<(Chain, Change)>,
 }
 

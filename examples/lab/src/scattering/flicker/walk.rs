@@ -19,11 +19,11 @@ const MARGIN: f64 = 4.0;
 
 /// What a frame looks like: the mean of the colours' radiance of each pixel.
 pub(super) struct Seen {
-    /// By marched rays.
+    /// Radiance by marched rays.
     pub(super) truth: Vec<f32>,
-    /// The same without shadows.
+    /// Radiance by marched rays without shadows.
     pub(super) unshadowed: Vec<f32>,
-    /// By each chain.
+    /// Radiance by each chain.
     pub(super) chains: Vec<Vec<f32>>,
 }
 
@@ -34,7 +34,7 @@ pub(super) struct Walk<'a> {
     desc: FlickerDesc,
     path: Path,
     air: Air,
-    /// With several samples per texel, with one, and that of the truth.
+    /// Frames with several samples per texel, with one, and that of the truth.
     frames: [Frame; 3],
     chains: Vec<(Chain, GraphFile, GraphFrame)>,
 }

@@ -15,7 +15,7 @@ pub(super) struct Box3 {
 /// A node. The first child of an inner node is the next node.
 struct Node {
     bounds: Box3,
-    /// Of an inner node, its second child; of a leaf, its first item in `order`.
+    /// The second child of an inner node; the first item of a leaf in `order`.
     next: u32,
     /// Items of a leaf; 0 for an inner node.
     items: u32,

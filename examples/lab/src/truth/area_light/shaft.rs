@@ -14,7 +14,7 @@ const NARROWEST: f64 = 1e-6;
 /// to 1.
 #[derive(Clone, Copy)]
 pub(super) struct Target {
-    /// To its centre.
+    /// The vector to the light's centre.
     pub(super) base: DVec3,
     /// Unit vectors along its sides.
     pub(super) right: DVec3,
