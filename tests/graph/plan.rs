@@ -3,15 +3,15 @@
 use moment_shadows::{Profile, TextureFormat};
 use moment_shadows_graph::nodes::{Blur, KernelProperty, Resolve, ShadeHard};
 use moment_shadows_graph::{
-    Capabilities, Connected, Imports, Node, ParameterError, Plan, PlanError,
-    PlannedBindingResource, ResourceDesc, TextureDesc, compile,
+    Capabilities, Connected, Imports, Node, Plan, PlanError, PlannedBindingResource, ResourceDesc,
+    TextureDesc, compile,
 };
 
 use crate::example::{TEXT, compiled, edited, native, parse};
 use crate::host_node::{copy, graph, rgba32};
 use moment_shadows_graph::Stage;
 
-fn example() -> Plan {
+pub(crate) fn example() -> Plan {
     compiled(TEXT, &native()).unwrap()
 }
 
@@ -119,114 +119,6 @@ fn compiling_and_describing_are_repeatable() {
             "a description is data"
         );
     }
-}
-
-#[test]
-fn parameters_are_aligned_to_the_device_and_do_not_overlap() {
-    let per_frame = edited("\"sigma\": 2.4 }", "\"sigma\": 2.4 }, \"per_frame\": true");
-    let text = per_frame.replace("\"samples\": 4", "\"samples\": 4, \"layers\": 3");
-    for (alignment, spacing) in [(256, 256), (64, 64), (32, 32), (4, 16)] {
-        let device = Capabilities {
-            uniform_alignment: alignment,
-            ..native()
-        };
-        let plan = compiled(&text, &device).unwrap();
-        let blocks = plan.parameters.blocks.iter();
-        let tables = plan.parameters.regions.iter();
-        let mut places: Vec<(u32, u32, u64, u32)> = blocks
-            .map(|block| (block.offset, block.stride, block.array_size(), block.count))
-            .chain(tables.map(|table| (table.offset, table.stride, table.size(), table.layers)))
-            .collect();
-        places.sort_unstable();
-        let mut end = 0;
-        for (offset, stride, size, count) in places {
-            assert_eq!(offset % spacing, 0);
-            assert_eq!(stride % spacing, 0);
-            assert!(offset >= end && u64::from(stride) >= size);
-            end = offset + stride * count;
-        }
-        assert_eq!(plan.parameters.size, end);
-        assert_eq!(
-            plan.parameters.size % alignment,
-            0,
-            "the blocks of views follow each other"
-        );
-    }
-    let plan = compiled(&text, &native()).unwrap();
-    let blocks: Vec<(&str, u32, u32, u32)> = plan
-        .parameters
-        .blocks
-        .iter()
-        .map(|block| (block.node.as_str(), block.offset, block.size, block.count))
-        .collect();
-    // 32 bytes of a conversion for each of three layers, the regions of each, 656 of a kernel, 208 of a view.
-    assert_eq!(
-        blocks,
-        [
-            ("resolve", 0, 32, 3),
-            ("blur", 1536, 656, 1),
-            ("shade", 2304, 208, 1)
-        ]
-    );
-}
-
-#[test]
-fn initial_values_are_those_of_the_nodes() {
-    let plan = example();
-    let bytes = plan.parameters.initial();
-    assert_eq!(bytes.len(), 768);
-    let conversion = moment_shadows::DepthConversion::orthographic();
-    assert_eq!(bytes[..32], *bytemuck::bytes_of(&conversion));
-    let region = moment_shadows::MapRegion::WHOLE;
-    assert_eq!(bytes[256..272], *bytemuck::bytes_of(&region));
-    let rest = bytes[32..256].iter().chain(&bytes[272..]);
-    assert!(rest.into_iter().all(|&byte| byte == 0));
-}
-
-#[test]
-fn parameters_are_written_where_they_belong_or_not_at_all() {
-    let text = TEXT.replace("\"samples\": 4", "\"samples\": 4, \"layers\": 2");
-    let layout = compiled(&text, &native()).unwrap().parameters;
-    let mut bytes = layout.initial();
-    let conversion = moment_shadows::DepthConversion::orthographic_reversed();
-    layout.write(&mut bytes, "resolve", 1, &conversion).unwrap();
-    assert_eq!(bytes[256..288], *bytemuck::bytes_of(&conversion));
-    assert_eq!(
-        bytes[..32],
-        layout.initial()[..32],
-        "the other layer's stay"
-    );
-    let known = "resolve, shade".to_owned();
-    assert_eq!(
-        layout.write(&mut bytes, "resolv", 0, &conversion),
-        Err(ParameterError::UnknownNode {
-            node: "resolv".to_owned(),
-            known
-        })
-    );
-    assert!(matches!(
-        layout.write(&mut bytes, "resolve", 0, &[0_u32; 4]),
-        Err(ParameterError::Size {
-            expected: 32,
-            given: 16,
-            ..
-        })
-    ));
-    assert!(matches!(
-        layout.write(&mut bytes, "resolve", 2, &conversion),
-        Err(ParameterError::Layer {
-            count: 2,
-            layer: 2,
-            ..
-        })
-    ));
-    assert!(matches!(
-        layout.write(&mut bytes[..100], "resolve", 1, &conversion),
-        Err(ParameterError::Block {
-            expected: 1280,
-            given: 100
-        })
-    ));
 }
 
 #[test]

@@ -1,8 +1,7 @@
 //! Shaders against declarations: everything that would fail on the device fails when the graph is compiled.
 
-use moment_shadows::TextureFormat::R8Unorm;
-use moment_shadows::{Profile, TextureFormat};
-use moment_shadows_graph::GraphErrorKind::{Capability, Shader};
+use moment_shadows::TextureFormat;
+use moment_shadows_graph::GraphErrorKind::Shader;
 use moment_shadows_graph::{
     Access, BindingResource, Capabilities, Direction, GraphError, Imports, NodeDesc,
     ParameterBlock, Pass, Plan, Slot, SlotResource, Stage, bind, compile,
@@ -13,7 +12,7 @@ use crate::host_node::{
     COPY, compute, copy, empty, from_and_to, graph, input, made, output, rgba32,
 };
 
-fn compiled(node: NodeDesc, capabilities: &Capabilities) -> Result<Plan, GraphError> {
+pub(crate) fn compiled(node: NodeDesc, capabilities: &Capabilities) -> Result<Plan, GraphError> {
     let graph = graph(
         &[("map", rgba32(1))],
         vec![("host", node)],
@@ -23,16 +22,16 @@ fn compiled(node: NodeDesc, capabilities: &Capabilities) -> Result<Plan, GraphEr
     compile(&graph, capabilities, &Imports::new())
 }
 
-fn base() -> NodeDesc {
+pub(crate) fn base() -> NodeDesc {
     copy(Stage::AfterShadowMaps, 1)
 }
 
 /// A variable and what it holds.
-type Bound = (&'static str, BindingResource);
+pub(crate) type Bound = (&'static str, BindingResource);
 
 /// The copying node with another shader or other bindings.
 #[track_caller]
-fn assert_refused(wgsl: &str, variables: impl IntoIterator<Item = Bound>, says: &str) {
+pub(crate) fn assert_refused(wgsl: &str, variables: impl IntoIterator<Item = Bound>, says: &str) {
     let node = NodeDesc {
         passes: vec![compute(wgsl, "to", true, variables)],
         ..base()
@@ -47,7 +46,7 @@ fn assert_refused(wgsl: &str, variables: impl IntoIterator<Item = Bound>, says: 
     );
 }
 
-fn changed(from: &str, to: &str) -> String {
+pub(crate) fn changed(from: &str, to: &str) -> String {
     assert_eq!(COPY.matches(from).count(), 1);
     COPY.replace(from, to)
 }
@@ -330,7 +329,7 @@ fn constants_that_match_no_override() {
 }
 
 /// A fullscreen pass that samples `from`.
-fn fullscreen(
+pub(crate) fn fullscreen(
     wgsl: &str,
     format: TextureFormat,
     variables: impl IntoIterator<Item = Bound>,
@@ -348,7 +347,7 @@ fn fullscreen(
         )
 }
 
-const SAMPLE: &str = "
+pub(crate) const SAMPLE: &str = "
 @group(0) @binding(0) var source: texture_2d<f32>;
 @group(0) @binding(1) var linear: sampler;
 @vertex fn fullscreen(@builtin(vertex_index) index: u32) -> @builtin(position) vec4f {
@@ -358,83 +357,3 @@ const SAMPLE: &str = "
     return textureSampleLevel(source, linear, position.xy / 16.0, 0.0);
 }
 ";
-
-fn sampled(filtering: bool) -> [Bound; 2] {
-    [
-        ("source", bind::layer("from")),
-        ("linear", bind::sampler(filtering)),
-    ]
-}
-
-#[test]
-fn filtering_what_the_device_cannot_filter() {
-    let error = compiled(fullscreen(SAMPLE, R8Unorm, sampled(true)), &native()).unwrap_err();
-    assert_error(
-        &error,
-        Capability,
-        "host",
-        "",
-        "",
-        "samples 'map', rgba32float 16x16, which this device cannot filter",
-    );
-    compiled(fullscreen(SAMPLE, R8Unorm, sampled(false)), &native()).unwrap();
-    let filterable = Capabilities {
-        float32_filterable: true,
-        ..native()
-    };
-    compiled(fullscreen(SAMPLE, R8Unorm, sampled(true)), &filterable).unwrap();
-}
-
-#[test]
-fn fullscreen_passes_have_a_vertex_entry_point_of_their_own() {
-    let without = SAMPLE.replace("fn fullscreen", "fn triangle");
-    let error = compiled(fullscreen(&without, R8Unorm, sampled(false)), &native()).unwrap_err();
-    assert_error(
-        &error,
-        Shader,
-        "host",
-        "",
-        "",
-        "no Vertex entry point 'fullscreen'",
-    );
-    let binds = SAMPLE.replace(
-        "- 1.0, 0.0, 1.0",
-        "- 1.0, textureLoad(source, vec2i(0), 0).x, 1.0",
-    );
-    let error = compiled(fullscreen(&binds, R8Unorm, sampled(false)), &native()).unwrap_err();
-    assert_error(
-        &error,
-        Shader,
-        "host",
-        "",
-        "",
-        "the vertex entry point 'fullscreen' uses 'source'",
-    );
-}
-
-#[test]
-fn core_webgpu_is_allowed_and_no_more() {
-    let core = Capabilities::of_profile(Profile::WebgpuCore);
-    let packs = changed(
-        "textureLoad(source, id.xy, 0)",
-        "vec4f(unpack2x16float(pack2x16float(textureLoad(source, id.xy, 0).xy)), 0.0, 1.0)",
-    );
-    compiled(
-        NodeDesc {
-            passes: vec![compute(&packs, "to", true, from_and_to())],
-            ..base()
-        },
-        &core,
-    )
-    .unwrap();
-    let double = changed("textureLoad(source, id.xy, 0)", "vec4f(f32(f64(1.0)))");
-    let error = compiled(
-        NodeDesc {
-            passes: vec![compute(&double, "to", true, from_and_to())],
-            ..base()
-        },
-        &core,
-    )
-    .unwrap_err();
-    assert_error(&error, Shader, "host", "", "", "the shader");
-}
