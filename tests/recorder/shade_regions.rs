@@ -1,17 +1,17 @@
 //! `shade_hard` over regions, layers and mip levels: which views shade which pixels, and what their lookups read.
 
 use moment_shadows::{
-    AreaLight, CameraView, DepthRange, LeakReduction, LightDepth, LightView, MapRegion, Profile,
+    AreaLight, CameraView, DepthRange, LeakReduction, LightDepth, LightView, MapRegion,
     ReceiverBias, SoftRadii, TextureFormat, ViewParameters,
 };
-use moment_shadows_graph::record::{ImportedResource, Layers, RecordError, Recording};
-use moment_shadows_graph::{Capabilities, Stage, TextureDesc};
+use moment_shadows_graph::record::ImportedResource;
+use moment_shadows_graph::{Capabilities, TextureDesc};
 use moment_shadows_lab::gpu::Gpu;
 
 use crate::depth_map;
 use crate::setup::{Bound, IDENTITY, bind, capabilities, compiled, gpu};
 
-const MAP: [u32; 2] = [128, 96];
+pub(crate) const MAP: [u32; 2] = [128, 96];
 
 /// Resolve, a kernel of one texel, mip levels, shading.
 pub(crate) fn graph(storage: &str, mip_levels: u32, shade: &str) -> String {
@@ -46,7 +46,12 @@ pub(crate) fn graph(storage: &str, mip_levels: u32, shade: &str) -> String {
 }
 
 /// A view whose clip space the light's matrix maps the scene to; the camera looks along it, over all of the picture.
-fn view(light: [[f32; 4]; 4], layer: u32, region: MapRegion, channel: u32) -> ViewParameters {
+pub(crate) fn view(
+    light: [[f32; 4]; 4],
+    layer: u32,
+    region: MapRegion,
+    channel: u32,
+) -> ViewParameters {
     ViewParameters::new(
         &CameraView {
             clip_from_world: IDENTITY,
@@ -66,7 +71,7 @@ fn view(light: [[f32; 4]; 4], layer: u32, region: MapRegion, channel: u32) -> Vi
 }
 
 /// A light that covers the part of the picture around (`x`, `y`) in clip space, of half a picture's width and height.
-fn half_sized(x: f32, y: f32) -> [[f32; 4]; 4] {
+pub(crate) fn half_sized(x: f32, y: f32) -> [[f32; 4]; 4] {
     let mut light = IDENTITY;
     light[0][0] = 2.0;
     light[1][1] = 2.0;
@@ -74,13 +79,13 @@ fn half_sized(x: f32, y: f32) -> [[f32; 4]; 4] {
     light
 }
 
-struct Shading {
+pub(crate) struct Shading {
     bound: Bound,
     picture: [u32; 2],
 }
 
 impl Shading {
-    fn new(
+    pub(crate) fn new(
         gpu: &Gpu,
         capabilities: &Capabilities,
         text: &str,
@@ -116,7 +121,7 @@ impl Shading {
     }
 
     /// The channels of every pixel.
-    fn run(&self, gpu: &Gpu) -> Vec<[f32; 4]> {
+    pub(crate) fn run(&self, gpu: &Gpu) -> Vec<[f32; 4]> {
         self.bound.run(gpu);
         let values = self.bound.read_floats(gpu, "shadow_intensity", 0);
         assert_eq!(values.len() as u32, 4 * self.picture[0] * self.picture[1]);
@@ -127,7 +132,7 @@ impl Shading {
     }
 }
 
-fn depth(regions: u32, layers: u32) -> TextureDesc {
+pub(crate) fn depth(regions: u32, layers: u32) -> TextureDesc {
     TextureDesc {
         regions,
         layers,
@@ -136,7 +141,7 @@ fn depth(regions: u32, layers: u32) -> TextureDesc {
 }
 
 /// Sampled and loaded lookups, the former with the sampler's anisotropy whatever the adapter.
-fn devices(gpu: &Gpu) -> [(Capabilities, &'static str); 4] {
+pub(crate) fn devices(gpu: &Gpu) -> [(Capabilities, &'static str); 4] {
     let native = Capabilities {
         anisotropic_sampling: true,
         ..capabilities(gpu)
@@ -298,59 +303,6 @@ fn searches_and_filters_of_soft_shadows_end_at_their_region() {
 }
 
 #[test]
-fn lights_have_a_channel_each_and_the_first_view_that_contains_a_pixel_shades_it() {
-    let gpu = gpu();
-    let left = MapRegion::new([0, 0], [64, 96]);
-    let right = MapRegion::new([64, 0], [64, 96]);
-    // Left: a caster everywhere. Right: none.
-    let map = depth_map::of(&gpu, MAP, |x, _| if x < 64 { 0.1 } else { 1.0 });
-    let picture = [32, 32];
-    let camera = depth_map::of(&gpu, picture, |_, _| 0.8);
-    let views = [
-        // Channel 0: a cascade without casters over the middle, one with casters over everything.
-        view(half_sized(0.0, 0.0), 0, right, 0),
-        view(IDENTITY, 0, left, 0),
-        // Channel 2: shadow in the upper left quarter alone; the rest lies outside of its map.
-        view(half_sized(-0.5, 0.5), 0, left, 2),
-        // Channel 3: no such view.
-        view(IDENTITY, 0, MapRegion::NONE, 3),
-        // Channel 1: a light without casters.
-        view(IDENTITY, 0, right, 1),
-    ];
-    let text = graph(
-        "float32",
-        1,
-        r#"{ "format": "rgba32float", "lights": 4, "views": 6 }"#,
-    );
-    let shading = Shading::new(
-        &gpu,
-        &capabilities(&gpu),
-        &text,
-        (&map, depth(2, 1)),
-        (&camera, picture),
-        &views,
-        &[left, right],
-    );
-    for (index, channels) in shading.run(&gpu).into_iter().enumerate() {
-        let (x, y) = (index as u32 % 32, index as u32 / 32);
-        let middle = (8..24).contains(&x) && (8..24).contains(&y);
-        let upper_left = x < 16 && y < 16;
-        let expected = [
-            if middle { 0.0 } else { 1.0 },
-            0.0,
-            if upper_left { 1.0 } else { 0.0 },
-            0.0,
-        ];
-        for (channel, (found, expected)) in channels.into_iter().zip(expected).enumerate() {
-            assert!(
-                (found - expected).abs() < 1e-3,
-                "pixel {x}, {y}, channel {channel}: {found} for {expected}"
-            );
-        }
-    }
-}
-
-#[test]
 fn views_read_their_layers() {
     let gpu = gpu();
     let map = depth_map::texture(&gpu, wgpu::TextureFormat::Depth32Float, MAP, 3, 1);
@@ -421,106 +373,5 @@ fn a_minified_lookup_is_the_mean_over_the_pixel() {
                 );
             }
         }
-    }
-}
-
-#[test]
-fn only_the_dirty_layers_of_the_named_map_are_recorded() {
-    let gpu = gpu();
-    let text = r#"{
-  "version": 2,
-  "imports": [{ "name": "sun" }, { "name": "spots" }],
-  "nodes": [
-    { "name": "a", "type": "resolve", "properties": { "storage": "float32" } },
-    { "name": "b", "type": "resolve", "properties": { "storage": "float32" } }
-  ],
-  "edges": [{ "from": "sun", "to": "a.depth" }, { "from": "spots", "to": "b.depth" }],
-  "outputs": [{ "name": "sun", "from": "a.map" }, { "name": "spots", "from": "b.map" }]
-}"#;
-    let plan = compiled(
-        text,
-        &capabilities(&gpu),
-        &[("sun", depth(1, 2)), ("spots", depth(1, 3))],
-    );
-    let maps = [2, 3]
-        .map(|layers| depth_map::texture(&gpu, wgpu::TextureFormat::Depth32Float, MAP, layers, 1));
-    let bytes = plan.parameters.initial();
-    let imports = [
-        ("sun", ImportedResource::Texture(&maps[0])),
-        ("spots", ImportedResource::Texture(&maps[1])),
-    ];
-    let bound = bind(&gpu, plan, &imports, &bytes);
-    let clear = |value: f32| {
-        (0..2).for_each(|layer| depth_map::clear(&gpu, &maps[0], layer, value));
-        (0..3).for_each(|layer| depth_map::clear(&gpu, &maps[1], layer, value));
-    };
-    // Depth 0.25 is the moment depth -0.5, 0.75 is 0.5.
-    clear(0.25);
-    bound.run(&gpu);
-    clear(0.75);
-    bound.run_layers(&gpu, Layers::OfMaps(&[("spots", &[2]), ("sun", &[])]));
-    let first = |output: &str, layer| bound.read_floats(&gpu, output, layer)[0];
-    assert_eq!([first("sun", 0), first("sun", 1)], [-0.5, -0.5]);
-    let spots = [0, 1, 2].map(|layer| first("spots", layer));
-    assert_eq!(spots, [-0.5, -0.5, 0.5]);
-    bound.run_layers(&gpu, Layers::OfMaps(&[("sun", &[0])]));
-    assert_eq!([first("sun", 0), first("sun", 1)], [0.5, -0.5]);
-    assert_eq!(first("spots", 0), -0.5);
-
-    let mut encoder = gpu.device.create_command_encoder(&Default::default());
-    let mut refused = |layers| {
-        let recording = Recording {
-            layers,
-            ..Recording::default()
-        };
-        bound
-            .bindings
-            .record(Stage::AfterShadowMaps, &mut encoder, recording)
-            .unwrap_err()
-    };
-    assert_eq!(
-        refused(Layers::OfMaps(&[("moon", &[0])])),
-        RecordError::NoSuchMap {
-            map: "moon".to_owned(),
-            known: "spots, sun".to_owned(),
-        }
-    );
-    assert!(matches!(
-        refused(Layers::OfMaps(&[("sun", &[2])])),
-        RecordError::NoSuchLayer {
-            layer: 2,
-            layers: 2,
-            ..
-        }
-    ));
-}
-
-#[test]
-fn core_webgpu_shades_regions_too() {
-    let gpu = Gpu::open(Profile::WebgpuCore).unwrap();
-    let left = MapRegion::new([0, 0], [61, 96]);
-    let right = MapRegion::new([61, 0], [67, 96]);
-    let map = depth_map::of(&gpu, MAP, |x, _| if x < 61 { 0.1 } else { 1.0 });
-    let picture = [8, 8];
-    let camera = depth_map::of(&gpu, picture, |_, _| 0.8);
-    let text = graph(
-        "float16",
-        5,
-        r#"{ "format": "rgba32float", "lights": 2, "views": 2 }"#,
-    );
-    let views = [view(IDENTITY, 0, left, 0), view(IDENTITY, 0, right, 1)];
-    let capabilities = capabilities(&gpu);
-    let light = (&map, depth(2, 1));
-    let shading = Shading::new(
-        &gpu,
-        &capabilities,
-        &text,
-        light,
-        (&camera, picture),
-        &views,
-        &[left, right],
-    );
-    for [first, second, ..] in shading.run(&gpu) {
-        assert!(first > 0.995 && second < 5e-3, "{first}, {second}");
     }
 }

@@ -4,13 +4,13 @@ use bytemuck::bytes_of;
 use glam::{DMat4, DVec3, DVec4};
 use moment_shadows::{
     CameraView, LightDepth, LightView, MapEncoding, MapRegion, RectifiedView, ScatteringParameters,
-    ScatteringViewError, SingleScattering, Storage, Technique,
+    SingleScattering, Storage, Technique,
 };
 use moment_shadows_graph::TextureDesc;
 use moment_shadows_lab::gpu::Gpu;
 
 use crate::cameras::{Lens, Pair, looking, pair};
-use crate::stage::{capabilities, draw_over, gpu, run, sky, upload};
+use crate::stage::{capabilities, gpu, run, sky, upload};
 
 pub(crate) const PICTURE: [u32; 2] = [48, 32];
 pub(crate) const MAP: u32 = 256;
@@ -52,18 +52,18 @@ fn covered(x: f64, z: f64) -> bool {
 const ROOF: f64 = 3.0;
 
 /// A directional light and its map.
-struct Sun {
+pub(crate) struct Sun {
     direction: DVec3,
     clip_from_world: DMat4,
 }
 
 impl Sun {
-    fn new(direction: DVec3) -> Self {
+    pub(crate) fn new(direction: DVec3) -> Self {
         Self::ending(direction, 40.0)
     }
 
     /// Moment depth 1 is `end` units behind the origin, -1 always 40 units in front of it.
-    fn ending(direction: DVec3, end: f64) -> Self {
+    pub(crate) fn ending(direction: DVec3, end: f64) -> Self {
         let direction = direction.normalize();
         let first = direction.any_orthonormal_vector();
         let second = direction.cross(first);
@@ -88,13 +88,13 @@ impl Sun {
     }
 
     /// Whether light reaches a position.
-    fn lights(&self, position: DVec3) -> bool {
+    pub(crate) fn lights(&self, position: DVec3) -> bool {
         let back = (ROOF - position.y) / self.direction.y;
         let above = position + self.direction * back;
         back >= 0.0 || !covered(above.x, above.z)
     }
 
-    fn view(&self) -> LightView {
+    pub(crate) fn view(&self) -> LightView {
         let columns = self.clip_from_world.to_cols_array_2d();
         LightView {
             clip_from_world: columns.map(|column| column.map(|value| value as f32)),
@@ -106,7 +106,7 @@ impl Sun {
     }
 
     /// Raw moments of the map, each texel the mean of 16 samples.
-    fn moments(&self) -> Vec<[f32; 4]> {
+    pub(crate) fn moments(&self) -> Vec<[f32; 4]> {
         let world_from_clip = self.clip_from_world.inverse();
         let sample = |u: f64, v: f64| {
             let clip = DVec4::new(2.0 * u - 1.0, 1.0 - 2.0 * v, 0.0, 1.0);
@@ -137,7 +137,7 @@ impl Sun {
 
 pub(crate) const EYE: DVec3 = DVec3::new(0.4, 1.7, 0.3);
 
-fn camera(forward: DVec3) -> Pair {
+pub(crate) fn camera(forward: DVec3) -> Pair {
     let lens = Lens {
         field_of_view: 1.1,
         aspect: 1.5,
@@ -147,14 +147,14 @@ fn camera(forward: DVec3) -> Pair {
     pair(EYE, looking(forward, 0.2), lens, FAR, DVec3::NEG_Y)
 }
 
-fn camera_view(pair: &Pair) -> CameraView {
+pub(crate) fn camera_view(pair: &Pair) -> CameraView {
     CameraView {
         clip_from_world: pair.clip_from_world,
         far_depth: 0.0,
     }
 }
 
-fn medium(density: f32) -> SingleScattering {
+pub(crate) fn medium(density: f32) -> SingleScattering {
     let extinction = [0.08, 0.1, 0.12].map(|value| value * density);
     let scattering = [0.07, 0.09, 0.1].map(|value| value * density);
     SingleScattering::new(extinction, scattering, 0.3, [3.0; 3]).unwrap()
@@ -223,7 +223,7 @@ impl Scene {
 }
 
 /// The picture that the nodes make.
-fn picture(
+pub(crate) fn picture(
     gpu: &Gpu,
     pair: &Pair,
     sun: &Sun,
@@ -237,7 +237,7 @@ fn picture(
 }
 
 /// The picture that the nodes make with any parameters.
-fn picture_of(
+pub(crate) fn picture_of(
     gpu: &Gpu,
     parameters: &ScatteringParameters,
     moments: &[[f32; 4]],
@@ -262,7 +262,7 @@ fn picture_of(
 }
 
 /// Marched rays: radiance with shadows and without, by pixel.
-fn truth(pair: &Pair, sun: &Sun, medium: &SingleScattering) -> Vec<[[f64; 3]; 2]> {
+pub(crate) fn truth(pair: &Pair, sun: &Sun, medium: &SingleScattering) -> Vec<[[f64; 3]; 2]> {
     const STEPS: usize = 1024;
     let view = RectifiedView::new(&pair.clip_from_world, FAR, sun.direction.to_array()).unwrap();
     let eye = DVec3::from_array(view.camera);
@@ -306,7 +306,7 @@ fn truth(pair: &Pair, sun: &Sun, medium: &SingleScattering) -> Vec<[[f64; 3]; 2]
 }
 
 /// Mean absolute error by colour, as a share of the mean radiance without shadows.
-fn error(found: &[[f32; 4]], truth: &[[[f64; 3]; 2]]) -> [f64; 3] {
+pub(crate) fn error(found: &[[f32; 4]], truth: &[[[f64; 3]; 2]]) -> [f64; 3] {
     [0, 1, 2].map(|colour| {
         let sum: f64 = found
             .iter()
@@ -319,7 +319,7 @@ fn error(found: &[[f32; 4]], truth: &[[[f64; 3]; 2]]) -> [f64; 3] {
 }
 
 /// Across the light, towards it, away from it, and straight along it either way.
-fn directions(sun: &Sun) -> [(&'static str, DVec3); 5] {
+pub(crate) fn directions(sun: &Sun) -> [(&'static str, DVec3); 5] {
     let across = sun.direction.any_orthonormal_vector();
     [
         ("across", across),
@@ -366,192 +366,4 @@ fn shafts_of_light_are_those_of_marched_rays() {
         "six moments are better than four: {means:?}"
     );
     assert!(means[0] <= 0.075 && means[2] <= 0.055, "{means:?}");
-}
-
-#[test]
-fn no_density_is_no_fog_to_the_bit() {
-    let gpu = gpu();
-    let sun = Sun::new(DVec3::new(0.5, -1.0, 0.3));
-    let moments = sun.moments();
-    for (_, forward) in directions(&sun) {
-        let found = picture(
-            &gpu,
-            &camera(forward),
-            &sun,
-            medium(0.0),
-            &moments,
-            ["\"hamburger6\"", "float16"],
-        );
-        for pixel in found {
-            assert_eq!(
-                pixel.map(f32::to_bits),
-                [0.0_f32, 0.0, 0.0, 1.0].map(f32::to_bits)
-            );
-        }
-    }
-}
-
-#[test]
-fn in_a_thick_medium_sums_are_weighted_with_its_transmittance() {
-    let gpu = gpu();
-    let sun = Sun::new(DVec3::new(0.5, -1.0, 0.3));
-    let moments = sun.moments();
-    let medium = medium(4.0);
-    let kind = ["\"hamburger6\"", "float32"];
-    let mean = |errors: [f64; 3]| errors.iter().sum::<f64>() / 3.0;
-    let (mut weighted, mut unweighted) = (0.0, 0.0);
-    for (name, forward) in directions(&sun) {
-        let pair = camera(forward);
-        let truth = truth(&pair, &sun, &medium);
-        let picture = |extinction: Option<f32>| {
-            let mut parameters =
-                ScatteringParameters::new(&camera_view(&pair), FAR, &sun.view(), medium).unwrap();
-            if let Some(extinction) = extinction {
-                parameters.integrate.extinction = extinction;
-            }
-            picture_of(&gpu, &parameters, &moments, kind)
-        };
-        let errors = [None, Some(0.0)].map(|extinction| mean(error(&picture(extinction), &truth)));
-        println!("{name}: {errors:?}");
-        weighted += errors[0] / 5.0;
-        unweighted += errors[1] / 5.0;
-    }
-    assert!(weighted < 0.7 * unweighted, "{weighted} and {unweighted}");
-}
-
-#[test]
-fn without_extinction_light_is_scattered_without_loss() {
-    let gpu = gpu();
-    let sun = Sun::new(DVec3::new(0.5, -1.0, 0.3));
-    let moments = sun.moments();
-    let scattering = [0.07, 0.09, 0.1];
-    let medium = SingleScattering::new([0.0; 3], scattering, 0.3, [3.0; 3]).unwrap();
-    for (name, forward) in directions(&sun) {
-        let pair = camera(forward);
-        let kind = ["\"hamburger6\"", "float32"];
-        let found = picture(&gpu, &pair, &sun, medium, &moments, kind);
-        assert!(found.iter().all(|pixel| pixel[3] == 1.0), "{name}");
-        let errors = error(&found, &truth(&pair, &sun, &medium));
-        println!("{name}: {errors:?}");
-        // As with extinction: what six moments leave open.
-        assert!(
-            errors.iter().all(|&error| error <= 0.08),
-            "{name}: {errors:?}"
-        );
-    }
-}
-
-#[test]
-fn a_hosts_open_pass_is_dimmed_and_lit() {
-    let gpu = gpu();
-    let sun = Sun::new(DVec3::new(0.5, -1.0, 0.3));
-    let moments = sun.moments();
-    let pair = camera(DVec3::new(1.0, 0.2, 0.1));
-    let kind = ["\"hamburger6\"", "float16"];
-    let behind = [0.5, 0.25, 0.125, 0.75];
-    for density in [0.0, 1.0] {
-        let medium = medium(density);
-        let apart = picture(&gpu, &pair, &sun, medium, &moments, kind);
-        let encoding = MapEncoding::new(Technique::Hamburger4, Storage::Float32).unwrap();
-        let map = upload(&gpu, &encoding, [MAP; 2], &moments);
-        let parameters =
-            ScatteringParameters::new(&camera_view(&pair), FAR, &sun.view(), medium).unwrap();
-        let blended = draw_over(
-            &gpu,
-            &graph(kind[0], kind[1]),
-            &[("map", &map), ("camera_depth", &sky(&gpu, PICTURE))],
-            &[
-                ("rectify", bytes_of(&parameters.rectify)),
-                ("integrate", bytes_of(&parameters.integrate)),
-                ("composite", bytes_of(&parameters.composite)),
-            ],
-            PICTURE,
-            wgpu::Color {
-                r: behind[0],
-                g: behind[1],
-                b: behind[2],
-                a: behind[3],
-            },
-        );
-        for (pixel, apart) in blended.chunks_exact(8).zip(&apart) {
-            let found = [0, 1, 2, 3].map(|channel: usize| {
-                half::f16::from_le_bytes([pixel[2 * channel], pixel[2 * channel + 1]]).to_f64()
-            });
-            for colour in 0..3 {
-                let expected = behind[colour] * f64::from(apart[3]) + f64::from(apart[colour]);
-                // A float16 near 1; to the bit where there is no medium.
-                let tolerance = if density == 0.0 { 0.0 } else { 1e-3 };
-                assert!(
-                    (found[colour] - expected).abs() <= tolerance,
-                    "{found:?} {apart:?}"
-                );
-            }
-            assert_eq!(found[3], behind[3]);
-        }
-    }
-}
-
-#[test]
-fn a_map_without_casters_and_a_camera_outside_of_it_are_lit() {
-    let gpu = gpu();
-    // The light's range ends within the frustum; what has no caster is lit beyond, too.
-    let sun = Sun::ending(DVec3::new(0.5, -1.0, 0.3), 5.0);
-    let medium = medium(1.0);
-    let empty = vec![[1.0; 4]; (MAP * MAP) as usize];
-    let dark = vec![[-1.0, 1.0, -1.0, 1.0]; (MAP * MAP) as usize];
-    for (name, forward) in directions(&sun) {
-        for (eye, moments) in [(DVec3::ZERO, &empty), (DVec3::new(500.0, 0.0, 0.0), &dark)] {
-            let lens = Lens {
-                field_of_view: 1.1,
-                aspect: 1.5,
-                near: 0.1,
-                far: None,
-            };
-            let pair = pair(eye, looking(forward, 0.2), lens, FAR, DVec3::NEG_Y);
-            let kind = ["\"hamburger6\"", "float32"];
-            let found = picture(&gpu, &pair, &sun, medium, moments, kind);
-            let truth = truth(&pair, &sun, &medium);
-            for (found, truth) in found.iter().zip(&truth) {
-                for colour in 0..3 {
-                    // The bounds of moments at the far end alone; upper ones near it spread by the bias.
-                    let ratio = f64::from(found[colour]) / truth[1][colour];
-                    assert!((0.9..=1.01).contains(&ratio), "{name}, {eye}: {ratio}");
-                }
-            }
-        }
-    }
-}
-
-#[test]
-fn point_lights_and_broken_lights_are_refused() {
-    let sun = Sun::new(DVec3::NEG_Y);
-    let pair = camera(DVec3::X);
-    let of = |light: &LightView| {
-        ScatteringParameters::new(&camera_view(&pair), FAR, light, medium(1.0)).unwrap_err()
-    };
-    let mut light = sun.view();
-    light.clip_from_world = pair.clip_from_world;
-    assert_eq!(of(&light), ScatteringViewError::PerspectiveLight);
-    light.clip_from_world = [[0.0; 4]; 4];
-    assert_eq!(of(&light), ScatteringViewError::SingularLight);
-    light.clip_from_world = [[f32::NAN; 4]; 4];
-    let found = of(&light);
-    assert!(
-        matches!(
-            found,
-            ScatteringViewError::PerspectiveLight | ScatteringViewError::SingularLight
-        ),
-        "{found}"
-    );
-    light = sun.view();
-    light.depth = LightDepth::Perspective {
-        near: 0.1,
-        far: 10.0,
-        reversed: true,
-        range: moment_shadows::DepthRange {
-            near: 0.1,
-            far: 10.0,
-        },
-    };
-    assert_eq!(of(&light), ScatteringViewError::PerspectiveLight);
 }

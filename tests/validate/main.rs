@@ -1,15 +1,12 @@
 //! Validation: each kind of error with its place before linking, the profiles, and what each backend makes of a shader.
 #![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic)]
 
-use std::fs;
-use std::path::Path;
-use std::process::ExitCode;
+mod command;
 
 use moment_shadows::{
     Backend, Diagnostic, LONGEST_SHADER, LinkError, Outcome, Profile, Source, TextureFormat,
-    ValidateError, ValidationReport, modules, validate, validate_module,
+    ValidateError, ValidationReport, validate, validate_module,
 };
-use moment_shadows_lab::command::validate::{CheckError, check_file, run};
 
 fn validate_user(text: &str, profile: Profile) -> Result<ValidationReport, ValidateError> {
     validate(
@@ -390,56 +387,4 @@ fn large_values_are_validated() {
         .unwrap();
     core("fn f() -> u32 { var a: array<u32, 16384>; return a[3]; }").unwrap();
     core("@group(0) @binding(0) var<storage> b: array<vec4f, 10000000>; fn f(i: u32) -> f32 { return b[i].x; }").unwrap();
-}
-
-#[test]
-fn the_command_checks_files() {
-    let folder = tempfile::tempdir().unwrap();
-    let write = |name: &str, text: &[u8]| {
-        let path = folder.path().join(name);
-        fs::write(&path, text).unwrap();
-        path
-    };
-    let good = write(
-        "good.wgsl",
-        b"import moment_shadows::maths::hankel::{hankel_factor};\nfn f() {}\n",
-    );
-    let bad = write(
-        "bad.wgsl",
-        b"import moment_shadows::maths::hankel::{hankel_factor};\nfn f( {}\n",
-    );
-    let norm = write("norm.wgsl", storing("rgba16unorm", "write").as_bytes());
-    let binary = write("binary.wgsl", &[0xff, 0xfe, 0x00]);
-    let long = write("long.wgsl", &vec![b' '; LONGEST_SHADER + 1]);
-    let missing = folder.path().join("missing.wgsl");
-
-    check_file(&good, Profile::WebgpuCore).unwrap();
-    let error = check_file(&bad, Profile::WebgpuCore).unwrap_err();
-    let at = format!("--> {}:2:7", bad.display());
-    assert!(error.to_string().contains(&at), "{error}");
-    for path in [&binary, &long, &missing, &folder.path().to_owned()] {
-        match check_file(path, Profile::WebgpuCore).unwrap_err() {
-            CheckError::Read { path: named, .. } => assert_eq!(named, path.display().to_string()),
-            other => panic!("another error: {other}"),
-        }
-    }
-
-    let code = |code: ExitCode| format!("{code:?}");
-    let (success, failure) = (code(ExitCode::SUCCESS), code(ExitCode::FAILURE));
-    assert_eq!(code(run(std::slice::from_ref(&good), None)), success);
-    assert_eq!(code(run(&[bad, good.clone()], None)), failure);
-    assert_eq!(code(run(&[missing, good], None)), failure);
-    assert_eq!(code(run(std::slice::from_ref(&norm), None)), failure);
-    assert_eq!(code(run(&[norm], Some(Profile::Native))), success);
-}
-
-#[test]
-fn the_command_checks_modules_of_the_library() {
-    let root = Path::new(env!("CARGO_MANIFEST_DIR")).join("wgsl");
-    for module in modules() {
-        let path = root
-            .join(module.folder)
-            .join(format!("{}.wgsl", module.name));
-        check_file(&path, Profile::WebgpuCore).unwrap_or_else(|error| panic!("{error}"));
-    }
 }

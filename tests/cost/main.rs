@@ -2,28 +2,23 @@
 
 #![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic)]
 
-use std::path::{Path, PathBuf};
+mod graph;
+mod table;
 
 use moment_shadows::{DepthConversion, Profile, Storage};
-use moment_shadows_graph::nodes::KernelProperty;
-use moment_shadows_graph::record::{Passes, RecordError};
 use moment_shadows_graph::{Capabilities, TextureDesc};
-use moment_shadows_lab::command::cost;
 use moment_shadows_lab::cost::CostError;
-use moment_shadows_lab::cost::bandwidth::Memory;
-use moment_shadows_lab::cost::blur::{BOUNDS, BlurredMap};
 use moment_shadows_lab::cost::clock::{Clock, ClockKind, FEATURES};
 use moment_shadows_lab::cost::copies::{Copies, CopyWork};
 use moment_shadows_lab::cost::harness::{Case, Measured};
 use moment_shadows_lab::cost::protocol::{CopyNumbers, FEWEST_ROUNDS, Rounds, Subject};
 use moment_shadows_lab::cost::reference;
-use moment_shadows_lab::cost::report::{Conditions, Time};
+use moment_shadows_lab::cost::report::Time;
 use moment_shadows_lab::cost::scattering;
 use moment_shadows_lab::cost::statistics::Distribution;
 use moment_shadows_lab::cost::summed_area;
-use moment_shadows_lab::cost::table::{CostTable, Facts, Gate, Row};
+use moment_shadows_lab::cost::table::Gate;
 use moment_shadows_lab::cost::texels::{decode, encode, noise, step};
-use moment_shadows_lab::error::LabError;
 use moment_shadows_lab::gpu::Gpu;
 use moment_shadows_lab::host::DepthSamples;
 
@@ -59,81 +54,6 @@ fn a_wide_spread_and_no_figures_are_unreliable() {
     assert!(!time(2.0, 0.31).reliable);
     assert!(Distribution::of([]).median.is_nan());
     assert!(!Distribution::of([]).reliable());
-}
-
-/// A subject at a size that takes so many copies and so many seconds per texel.
-fn row(name: &str, size: u32, copies: f64, per_texel: f64, gate: Gate) -> Row {
-    let mut time = time(copies, 0.1);
-    time.seconds.median = per_texel * f64::from(size) * f64::from(size);
-    let facts = Facts(vec![("size", size.into())]);
-    let written = [TextureDesc::new(Storage::Unorm16.format(), [size; 2])];
-    Row {
-        gate,
-        ..Row::new((name.to_owned(), facts), &written, [0; 2], time)
-    }
-}
-
-fn table(clock: ClockKind, rows: Vec<Row>) -> CostTable {
-    let conditions = Conditions {
-        adapter: String::new(),
-        driver: String::new(),
-        device_type: String::new(),
-        clock,
-        rounds: 9,
-    };
-    CostTable::new(conditions, "it", rows)
-}
-
-#[test]
-fn a_gate_holds_on_software_adapters_alone() {
-    let gate = Gate {
-        gate: Some(4.5),
-        goal: Some(3.4),
-        largest_growth: None,
-    };
-    let passed = |clock, copies| table(clock, vec![row("it", 256, copies, 1.0, gate)]).passed();
-    assert!(passed(ClockKind::ProcessTime, 4.5));
-    assert!(!passed(ClockKind::ProcessTime, 4.51));
-    assert!(!passed(ClockKind::ProcessTime, f64::NAN));
-    assert!(passed(ClockKind::Timestamps, 100.0));
-    assert_eq!(
-        BOUNDS.map(|(radius, gate, _)| (radius, gate)),
-        [
-            (4, Some(4.5)),
-            (12, Some(8.0)),
-            (32, None),
-            (64, Some(24.0))
-        ]
-    );
-}
-
-#[test]
-fn growth_is_measured_from_512_and_bounded() {
-    let passed = |clock, gate, copies, largest| {
-        let gate = Gate {
-            gate,
-            goal: None,
-            largest_growth: Some(1.3),
-        };
-        let rows = vec![
-            row("it", 256, copies, 9.0, gate),
-            row("it", 512, copies, 1.0, gate),
-            row("other", 512, 100.0, 0.1, Gate::default()),
-            row("it", 4096, copies, largest, gate),
-        ];
-        let table = table(clock, rows);
-        assert_eq!(table.rows[0].growth, None);
-        assert_eq!(table.rows[1].growth, Some(1.0));
-        assert!((table.rows[3].growth.unwrap() - largest).abs() < 1e-12);
-        table.passed()
-    };
-    let cpu = ClockKind::ProcessTime;
-    assert!(passed(cpu, Some(1.3), 1.3, 1.29));
-    assert!(!passed(cpu, Some(1.3), 1.31, 1.0));
-    assert!(!passed(cpu, Some(1.3), 1.0, 1.31));
-    assert!(passed(cpu, None, 5.0, 1.0));
-    assert!(!passed(cpu, None, 5.0, 1.31));
-    assert!(passed(ClockKind::Timestamps, Some(1.3), 9.0, 2.0));
 }
 
 /// Each list of subjects with what the rounding of its results may be: less would mean that nothing was compared.
@@ -370,136 +290,6 @@ fn a_format_that_cannot_be_copied_is_an_error() {
     );
 }
 
-fn example(name: &str) -> PathBuf {
-    let root = Path::new(env!("CARGO_MANIFEST_DIR"));
-    root.join("examples").join(name)
-}
-
-/// Every pass of the example is found right, and its bytes are those of its textures.
-#[test]
-fn the_example_graph_is_checked_and_its_bytes_are_counted() {
-    let memories: Vec<Memory> = vec!["224:GTX 970".parse().unwrap(), "100".parse().unwrap()];
-    let cost = cost::graph(
-        &example("hard_shadows.json"),
-        256,
-        FEWEST_ROUNDS,
-        memories.clone(),
-    )
-    .unwrap();
-    let rows: Vec<_> = cost
-        .passes
-        .iter()
-        .map(|pass| {
-            assert!(pass.time.x_compute_copy.median > 0.0, "{}", pass.name);
-            assert!(pass.time.x_api_copy.median > 0.0, "{}", pass.name);
-            assert!(pass.error.is_some(), "{}", pass.name);
-            (
-                pass.name.as_str(),
-                pass.work,
-                pass.time.x_draw_copy.is_some(),
-            )
-        })
-        .collect();
-    assert_eq!(
-        rows,
-        [
-            ("resolve/resolve", CopyWork::Compute, false),
-            ("blur/blur along x", CopyWork::Compute, false),
-            ("blur/blur along y", CopyWork::Compute, false),
-            ("shade/shade", CopyWork::Fullscreen, true),
-        ]
-    );
-    // 4 samples of 4 bytes and the parameters are read, 8 bytes are written; the blur reads and writes 8 bytes.
-    let texels = 256 * 256;
-    let costs = &cost.passes;
-    assert_eq!(costs[0].bytes_written, 8 * texels);
-    assert!(costs[0].bytes_read >= 16 * texels);
-    // And the map's one region of 16 bytes.
-    assert_eq!(costs[1].bytes_read, 8 * texels + 16);
-    assert_eq!(costs[1].minimum_bytes, 16 * texels + 16);
-    let moved: u64 = costs.iter().map(|pass| pass.minimum_bytes).sum();
-    assert_eq!(cost.bytes_moved, moved);
-    // 1,048,592 bytes at 100 GB/s.
-    assert!((cost.passes[1].bounds[1].microseconds - 10.48592).abs() < 1e-9);
-    for (bound, memory) in cost.bounds.iter().zip(&memories) {
-        assert_eq!(*bound, memory.bound(moved));
-    }
-    let json = serde_json::to_value(&cost).unwrap();
-    assert!(json["conditions"]["adapter"].is_string(), "{json}");
-    assert!(json["passes"][3]["time"]["x_api_copy"]["median"].is_number());
-    assert_eq!(json["passes"][3]["pass"], "shade/shade");
-    assert_eq!(json["passes"][0]["bounds"][0]["memory"], "GTX 970");
-    let text = cost.to_string();
-    for part in [
-        "resident",
-        "total",
-        "a lower bound, not a measurement",
-        "GTX 970, 224 GB/s",
-    ] {
-        assert!(text.contains(part), "{text}");
-    }
-}
-
-/// 16 MiB at 224 GB/s: 16,777,216 / 224,000 bytes per microsecond.
-#[test]
-fn a_bandwidth_bounds_time_from_below() {
-    let memory: Memory = "224:GTX 970".parse().unwrap();
-    assert_eq!(memory.to_string(), "GTX 970, 224 GB/s");
-    let bound = memory.bound(16 << 20);
-    assert!((bound.microseconds - 74.898_285_714).abs() < 1e-6);
-    assert_eq!("448".parse::<Memory>().unwrap().name, "448 GB/s");
-    for wrong in ["", "fast", "0", "-1", "inf", "NaN", ":GTX 970"] {
-        let refused = wrong.parse::<Memory>().unwrap_err().to_string();
-        assert!(
-            refused.starts_with(&format!("'{wrong}' is no bandwidth")),
-            "{refused}"
-        );
-    }
-}
-
-/// Mip levels are compared with copies of their own size, and those below 64x64 texels are one row.
-#[test]
-fn mip_levels_are_checked_and_small_ones_are_summed() {
-    // Eight probes per pixel take a software adapter many seconds per picture.
-    let text = std::fs::read_to_string(example("mipmapped_shadows.json")).unwrap();
-    let fewer = text.replace("\"anisotropy\": 8", "\"anisotropy\": 1");
-    assert_ne!(text, fewer);
-    let folder = tempfile::tempdir().unwrap();
-    let path = folder.path().join("mipmapped.json");
-    std::fs::write(&path, fewer).unwrap();
-    let cost = cost::graph(&path, 256, FEWEST_ROUNDS, Memory::known()).unwrap();
-    let rows: Vec<_> = cost
-        .passes
-        .iter()
-        .map(|pass| (pass.name.as_str(), pass.texture.as_str(), pass.small))
-        .collect();
-    assert_eq!(
-        rows,
-        [
-            ("resolve/resolve", "rgba16unorm 256x256", false),
-            ("blur/blur along x", "rgba16unorm 256x256", false),
-            ("blur/blur along y", "rgba16unorm 256x256", false),
-            ("downsample/mip level 1", "rgba16unorm 128x128", false),
-            ("downsample/mip level 2", "rgba16unorm 64x64", false),
-            (
-                "downsample/mip level 3 to mip level 8",
-                "rgba16unorm 32x32 .. rgba16unorm 1x1",
-                true
-            ),
-            ("shade/shade", "r8unorm 1280x720", false),
-        ]
-    );
-    let checked: Vec<_> = cost
-        .passes
-        .iter()
-        .map(|pass| pass.error.is_some())
-        .collect();
-    // The reference of shading knows no mip levels.
-    assert_eq!(checked, [true, true, true, true, true, true, false]);
-    // 32 x 32 texels and a third of it, 8 bytes each.
-    assert_eq!(cost.passes[5].bytes_written, 8 * 1365);
-}
-
 /// Three texels become one, and five become two of two and a half each.
 #[test]
 fn the_downsample_reference_covers_every_texel_once() {
@@ -530,38 +320,4 @@ fn copies_have_the_layers_of_their_texture() {
         gpu.queue.submit([encoder.finish()]);
         gpu.check().unwrap();
     }
-}
-
-/// One direction of a blur alone leaves the other undone; a number beyond the plan's passes is refused.
-#[test]
-fn passes_are_recorded_one_by_one() {
-    let gpu = Gpu::open(Profile::Native).unwrap();
-    let storage = Storage::Unorm16;
-    let channels = noise(storage, 64 * 64);
-    let kernel = KernelProperty::gaussian(4, 2.4);
-    let map = BlurredMap::new(&gpu, storage, [64, 64], &channels, kernel, false).unwrap();
-    let zeros = vec![[0.0; 4]; 64 * 64];
-    let after = |passes: Passes<'_>| {
-        let mut encoder = gpu.device.create_command_encoder(&Default::default());
-        map.record(passes, &mut encoder).unwrap();
-        gpu.queue.submit([encoder.finish()]);
-        map.read(&gpu).unwrap()
-    };
-    assert_eq!(after(Passes::Only(&[])), zeros);
-    assert_eq!(after(Passes::Only(&[0])), zeros);
-    let second = after(Passes::Only(&[1]));
-    assert_ne!(second, zeros);
-    assert_eq!(after(Passes::All), second);
-    let mut encoder = gpu.device.create_command_encoder(&Default::default());
-    let refused = map.record(Passes::Only(&[0, 2]), &mut encoder).unwrap_err();
-    assert!(
-        matches!(
-            refused,
-            CostError::Lab(LabError::Record(RecordError::NoSuchPassNumber {
-                pass: 2,
-                count: 2
-            }))
-        ),
-        "{refused}"
-    );
 }
