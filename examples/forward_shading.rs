@@ -55,8 +55,8 @@ fn frame_uniform() -> Result<FrameUniform, Box<dyn Error>> {
             glam::Vec3::Y,
         );
     let light_clip_from_world = light_clip.to_cols_array_2d();
-    let moment_depth =
-        LightDepth::Orthographic { reversed: false }.moment_depth_row(&light_clip_from_world);
+    let moment_depth = LightDepth::Orthographic { reversed: false }
+        .moment_depth_row(&light_clip.as_dmat4().to_cols_array_2d());
     let depth_per_texel = 2.0 * (2.0 * LIGHT_EXTENT / MAP as f32) / LIGHT_RANGE;
     Ok(FrameUniform {
         clip_from_world: camera.to_cols_array_2d(),

@@ -7,8 +7,7 @@ use std::error::Error;
 use std::path::Path;
 
 use moment_shadows::{
-    CameraView, Kernel, LeakReduction, LightDepth, LightView, MapRegion, Profile, ReceiverBias,
-    ViewParameters,
+    CameraView, Kernel, LeakReduction, LightView, Profile, ReceiverBias, ViewParameters,
 };
 use moment_shadows_graph::record::{
     Bindings, ImportedResource, PipelineOptions, Pipelines, Recording, Resources,
@@ -75,13 +74,7 @@ fn main() -> Result<(), Box<dyn Error>> {
     let kernel = Kernel::gaussian(4, 2.4)?;
     let [width, height] = light.texel_size([MAP, MAP]);
     let depth_per_texel = 2.0 * width.max(height) / (light.range[1] - light.range[0]);
-    let light_view = LightView {
-        clip_from_world: light.clip_from_world().as_mat4().to_cols_array_2d(),
-        depth: LightDepth::Orthographic { reversed: false },
-        layer: 0,
-        region: MapRegion::WHOLE,
-        channel: 0,
-    };
+    let light_view = LightView::orthographic(light.clip_from_world().to_cols_array_2d());
     let camera_view = CameraView {
         clip_from_world: camera.clip_from_world_columns()?,
         far_depth: 0.0, // reversed depth

@@ -7,8 +7,8 @@ use std::error::Error;
 use std::path::Path;
 
 use moment_shadows::{
-    AreaLight, CameraView, DepthRange, LeakReduction, LightDepth, LightView, MapRegion, Profile,
-    ReceiverBias, SoftRadii, ViewParameters,
+    AreaLight, CameraView, DepthRange, LeakReduction, LightDepth, LightSize, LightView, MapRegion,
+    Profile, ReceiverBias, SoftRadii, ViewParameters,
 };
 use moment_shadows_graph::record::{
     Bindings, ImportedResource, PipelineOptions, Pipelines, Recording, Resources,
@@ -155,11 +155,12 @@ fn shade_parameters(desc: &FrameDesc) -> Result<ViewParameters, Box<dyn Error>> 
         far_depth: 0.0, // reversed depth
     };
     let light_view = LightView {
-        clip_from_world: light.clip_from_world().as_mat4().to_cols_array_2d(),
+        clip_from_world: light.clip_from_world().to_cols_array_2d(),
         depth,
         layer: 0,
         region: MapRegion::WHOLE,
         channel: 0,
+        size: LightSize::Point,
     };
     let depth_per_texel = 2.0 * texel[0].max(texel[1]) * spread / (far - near);
     let bias = ReceiverBias::for_kernel(0.0, depth_per_texel as f32);

@@ -8,8 +8,8 @@ use std::error::Error;
 use std::path::Path;
 
 use moment_shadows::{
-    CameraView, Kernel, LeakReduction, LightDepth, LightView, MapRegion, Profile, ReceiverBias,
-    ScatteringParameters, SingleScattering, ViewParameters,
+    CameraView, Kernel, LeakReduction, LightView, Profile, ReceiverBias, ScatteringParameters,
+    SingleScattering, ViewParameters,
 };
 use moment_shadows_graph::record::{
     Bindings, ImportedResource, PipelineOptions, Pipelines, Recording, Resources,
@@ -134,13 +134,7 @@ fn views(desc: &FrameDesc) -> Result<(CameraView, LightView), Box<dyn Error>> {
         clip_from_world: desc.camera.clip_from_world_columns()?,
         far_depth: 0.0, // reversed depth
     };
-    let light = LightView {
-        clip_from_world: desc.light.clip_from_world().as_mat4().to_cols_array_2d(),
-        depth: LightDepth::Orthographic { reversed: false },
-        layer: 0,
-        region: MapRegion::WHOLE,
-        channel: 0,
-    };
+    let light = LightView::orthographic(desc.light.clip_from_world().to_cols_array_2d());
     Ok((camera, light))
 }
 

@@ -55,6 +55,11 @@ pub enum AreaLightError {
     /// The range of moment depth is empty.
     #[error(transparent)]
     Range(#[from] DepthError),
+    /// A size of another kind of light.
+    #[error(
+        "a light with parallel rays has an angular diameter as its size, one with a perspective map is a disk or a rectangle"
+    )]
+    Shape,
 }
 
 impl AreaLight {

@@ -108,6 +108,29 @@ impl TextureFormat {
         }
     }
 
+    /// How many channels a texel has: 1, 2 or 4.
+    #[must_use]
+    pub fn channels(self) -> u32 {
+        match self {
+            TextureFormat::R8Unorm
+            | TextureFormat::R16Unorm
+            | TextureFormat::R16Float
+            | TextureFormat::R32Float
+            | TextureFormat::Depth16Unorm
+            | TextureFormat::Depth32Float => 1,
+            TextureFormat::Rg16Unorm
+            | TextureFormat::Rg16Float
+            | TextureFormat::Rg32Float
+            | TextureFormat::Rg32Uint => 2,
+            TextureFormat::Rgba8Unorm
+            | TextureFormat::Rgb10a2Unorm
+            | TextureFormat::Rgba16Unorm
+            | TextureFormat::Rgba16Float
+            | TextureFormat::Rgba32Float
+            | TextureFormat::Rgba32Uint => 4,
+        }
+    }
+
     /// Bytes of one texel (of one sample, where multisampled).
     #[must_use]
     pub fn bytes_per_texel(self) -> u32 {

@@ -76,8 +76,8 @@ pub use validate::{
 
 pub use view::{
     CameraView, CompositeScatteringParameters, IntegrateScatteringParameters, LightDepth,
-    LightView, RectifiedFrame, RectifiedFrameError, RectifiedView, RectifyMomentsParameters,
-    ScatteringParameters, ScatteringViewError, ViewError, ViewParameters,
+    LightSize, LightView, RectifiedFrame, RectifiedFrameError, RectifiedView,
+    RectifyMomentsParameters, ScatteringParameters, ScatteringViewError, ViewError, ViewParameters,
 };
 
 #[cfg(doctest)]

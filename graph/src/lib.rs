@@ -23,6 +23,8 @@ mod plan;
 pub mod record;
 mod registry;
 mod resource;
+#[cfg(feature = "wgpu")]
+mod session;
 mod version_1;
 
 /// How a host writes a node of its own.
@@ -46,4 +48,6 @@ pub use plan::{
 };
 pub use registry::NodeRegistry;
 pub use resource::{Access, ResourceDesc, TextureDesc};
+#[cfg(feature = "wgpu")]
+pub use session::{Session, SessionError};
 pub use version_1::upgrade;

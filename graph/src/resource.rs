@@ -2,7 +2,7 @@
 
 use core::fmt;
 
-use moment_shadows::{MapEncoding, TextureFormat};
+use moment_shadows::{Finite, MapEncoding, TextureFormat};
 use serde::{Deserialize, Serialize};
 
 /// A texture.
@@ -29,6 +29,10 @@ pub struct TextureDesc {
     /// What the texels of a filterable map mean. A map without it holds four moments.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub encoding: Option<MapEncoding>,
+    /// The standard deviation of the filter that a map has been through, along either axis, in texels: 0 for a map that was
+    /// not blurred. The receiver bias follows from it.
+    #[serde(default, skip_serializing_if = "is_zero")]
+    pub deviation: Finite,
     /// Samples per texel. A multisampled texture with several layers is a list of textures, one per layer.
     #[serde(default = "one")]
     pub samples: u32,
@@ -36,6 +40,10 @@ pub struct TextureDesc {
 
 fn one() -> u32 {
     1
+}
+
+fn is_zero(value: &Finite) -> bool {
+    *value == Finite::ZERO
 }
 
 impl TextureDesc {
@@ -50,6 +58,7 @@ impl TextureDesc {
             regions: 1,
             planes: 1,
             encoding: None,
+            deviation: Finite::ZERO,
             samples: 1,
         }
     }

@@ -3,14 +3,15 @@
 use glam::{DMat4, DVec4};
 use serde::{Deserialize, Serialize};
 
-use super::wide;
-use crate::{DepthConversion, DepthError, DepthRange, MapRegion};
+use crate::{
+    AreaLight, AreaLightError, DepthConversion, DepthError, DepthRange, MapRegion, SoftRadii,
+};
 
 /// A view of a light: what one region of its map was drawn with.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct LightView {
     /// From scene to clip space, by columns, as the map was drawn with.
-    pub clip_from_world: [[f32; 4]; 4],
+    pub clip_from_world: [[f64; 4]; 4],
     /// How the map stores depth.
     pub depth: LightDepth,
     /// The layer of the map of moments.
@@ -19,6 +20,129 @@ pub struct LightView {
     pub region: MapRegion,
     /// The light's channel in the node's output, 0 to 3.
     pub channel: u32,
+    /// How large the light is; for soft shadows.
+    pub size: LightSize,
+}
+
+/// How large a light is.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub enum LightSize {
+    /// Without size: all shadows are as hard as the filter allows.
+    #[default]
+    Point,
+    /// A light with parallel rays that appears as a disk of this many radians; the sun's is 0.0093.
+    AngularDiameter(f64),
+    /// A disk of this diameter in scene units, facing along the axis of a light with a perspective map.
+    Disk(f64),
+    /// A rectangle of this width and height in scene units, along x and y of a perspective map.
+    Rectangle([f64; 2]),
+}
+
+impl LightView {
+    /// A view of a sun or another light with parallel rays, which has the first layer of its map to itself and stores 0 at
+    /// the near plane.
+    #[must_use]
+    pub fn orthographic(clip_from_world: [[f64; 4]; 4]) -> Self {
+        Self {
+            clip_from_world,
+            depth: LightDepth::Orthographic { reversed: false },
+            layer: 0,
+            region: MapRegion::WHOLE,
+            channel: 0,
+            size: LightSize::Point,
+        }
+    }
+
+    /// A view of a spot or a face of a point light, which has the first layer of its map to itself. Depth is stored as by a
+    /// projection with planes at `near` and `far` (which may be infinite), 0 at the near plane; moment depth covers `range`.
+    #[must_use]
+    pub fn perspective(
+        clip_from_world: [[f64; 4]; 4],
+        near: f64,
+        far: f64,
+        range: DepthRange,
+    ) -> Self {
+        Self {
+            depth: LightDepth::Perspective {
+                near,
+                far,
+                reversed: false,
+                range,
+            },
+            ..Self::orthographic(clip_from_world)
+        }
+    }
+
+    /// Width and height of a texel in scene units, where the region has `extent` texels: with a perspective map, at distance 1
+    /// along the light's axis.
+    #[must_use]
+    pub fn texel_size(&self, extent: [u32; 2]) -> [f64; 2] {
+        let clip = DMat4::from_cols_array_2d(&self.clip_from_world);
+        let length = |row: usize| clip.row(row).truncate().length();
+        let divisor = match self.depth {
+            LightDepth::Orthographic { .. } => clip.row(3).w.abs(),
+            LightDepth::Perspective { .. } => length(3),
+        };
+        [0, 1].map(|axis| 2.0 * divisor / (length(axis) * f64::from(extent[axis])))
+    }
+
+    /// Distances along the light's axis of the moment depths -1 and 1; for a light with parallel rays from its near plane on.
+    #[must_use]
+    pub fn range(&self) -> DepthRange {
+        match self.depth {
+            LightDepth::Perspective { range, .. } => range,
+            LightDepth::Orthographic { .. } => {
+                let clip = DMat4::from_cols_array_2d(&self.clip_from_world);
+                let per_unit = self.depth.row(clip).truncate().length() / clip.row(3).w.abs();
+                DepthRange {
+                    near: 0.0,
+                    far: 2.0 / per_unit,
+                }
+            }
+        }
+    }
+
+    /// The moment depth that a texel's width corresponds to along the light's axis, as [`crate::ReceiverBias::for_kernel`]
+    /// takes it, where the region has `extent` texels: with a perspective map at the far end of the range.
+    #[must_use]
+    pub fn depth_per_texel(&self, extent: [u32; 2]) -> f64 {
+        let [width, height] = self.texel_size(extent);
+        let DepthRange { near, far } = self.range();
+        let spread = match self.depth {
+            LightDepth::Orthographic { .. } => 1.0,
+            LightDepth::Perspective { .. } => far,
+        };
+        2.0 * width.max(height) * spread / (far - near)
+    }
+
+    /// The light with its size over a map whose region has `extent` texels, as `shade_soft` and percentage-closer soft
+    /// shadows take it.
+    ///
+    /// # Errors
+    /// [`AreaLightError`], where the size does not suit the map, or a number is out of range.
+    pub fn area_light(
+        &self,
+        extent: [u32; 2],
+        radii: SoftRadii,
+    ) -> Result<AreaLight, AreaLightError> {
+        let (texel, range) = (self.texel_size(extent), self.range());
+        match (self.size, self.depth) {
+            (LightSize::Point, _) => Ok(AreaLight::NONE),
+            (LightSize::AngularDiameter(angle), LightDepth::Orthographic { .. }) => {
+                AreaLight::directional(angle, texel, range, radii)
+            }
+            (LightSize::Disk(diameter), LightDepth::Perspective { .. }) => {
+                AreaLight::spot(diameter, texel, range, radii)
+            }
+            (LightSize::Rectangle(size), LightDepth::Perspective { .. }) => {
+                AreaLight::rectangle(size, texel, range, radii)
+            }
+            (LightSize::AngularDiameter(_), LightDepth::Perspective { .. })
+            | (LightSize::Disk(_) | LightSize::Rectangle(_), LightDepth::Orthographic { .. }) => {
+                Err(AreaLightError::Shape)
+            }
+        }
+    }
 }
 
 /// How a light's depth map stores depth.
@@ -70,8 +194,10 @@ impl LightDepth {
     ///
     /// Moment depth is linear in the scene whatever the map stores, so a fragment's needs no stored depth.
     #[must_use]
-    pub fn moment_depth_row(&self, clip_from_world: &[[f32; 4]; 4]) -> [f32; 4] {
-        self.row(wide(clip_from_world)).as_vec4().to_array()
+    pub fn moment_depth_row(&self, clip_from_world: &[[f64; 4]; 4]) -> [f32; 4] {
+        self.row(DMat4::from_cols_array_2d(clip_from_world))
+            .as_vec4()
+            .to_array()
     }
 
     /// [`moment_depth_row`](Self::moment_depth_row) in f64.

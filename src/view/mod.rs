@@ -1,6 +1,7 @@
 //! Host-side mathematics: cameras, views of lights, and the uniform structs that are made of them.
 //!
-//! Matrices are plain arrays by columns outside, glam's f64 inside.
+//! Matrices are plain arrays of f64 by columns outside, glam's inside: products of f32 matrices with large translations lose
+//! digits, and shadows then move by texels. A host whose matrices are f32 makes them relative to its camera.
 
 mod camera;
 mod error;
@@ -12,18 +13,13 @@ mod scattering;
 pub use camera::CameraView;
 pub use error::{RectifiedFrameError, ScatteringViewError, ViewError};
 use glam::{DMat4, DVec4};
-pub use light::{LightDepth, LightView};
+pub use light::{LightDepth, LightSize, LightView};
 pub use parameters::ViewParameters;
 pub use rectified::{RectifiedFrame, RectifiedView};
 pub use scattering::{
     CompositeScatteringParameters, IntegrateScatteringParameters, RectifyMomentsParameters,
     ScatteringParameters,
 };
-
-/// A matrix as hosts give it, in f64: products of f32 matrices with large translations would lose digits.
-fn wide(columns: &[[f32; 4]; 4]) -> DMat4 {
-    DMat4::from_cols_array_2d(&columns.map(|column| column.map(f64::from)))
-}
 
 /// The largest difference between the identity and the product of a matrix and its inverse: beyond it the inverse is rounding
 /// error.

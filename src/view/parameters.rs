@@ -3,7 +3,7 @@
 use bytemuck::{Pod, Zeroable};
 use glam::DMat4;
 
-use super::{CameraView, LightView, ViewError, inverse, wide};
+use super::{CameraView, LightView, ViewError, inverse};
 use crate::{AreaLight, DepthConversion, LeakReduction, MapRegion, ReceiverBias};
 
 /// What nodes that shade a picture need to know of a view of a light: the uniform struct of their shader.
@@ -46,9 +46,9 @@ impl ViewParameters {
         receiver_bias: ReceiverBias,
         leak_reduction: LeakReduction,
     ) -> Result<Self, ViewError> {
-        let world_from_clip =
-            inverse(wide(&camera.clip_from_world)).ok_or(ViewError::SingularCamera)?;
-        let light_clip = wide(&light.clip_from_world);
+        let world_from_clip = inverse(DMat4::from_cols_array_2d(&camera.clip_from_world))
+            .ok_or(ViewError::SingularCamera)?;
+        let light_clip = DMat4::from_cols_array_2d(&light.clip_from_world);
         inverse(light_clip).ok_or(ViewError::SingularLight)?;
         let conversion = light.depth.conversion()?;
         let [x, y, w] = [0, 1, 3].map(|index| light_clip.row(index));

@@ -4,9 +4,9 @@ use core::f64::consts::{PI, TAU};
 
 use bytemuck::{Pod, Zeroable};
 
-use glam::{DVec3, DVec4};
+use glam::{DMat4, DVec3, DVec4};
 
-use super::{RectifiedFrameError, inverse, wide};
+use super::{RectifiedFrameError, inverse};
 
 /// The rectified coordinates of a camera and a directional light: the uniform struct of the WGSL module `rectified_frame`.
 /// Made by [`RectifiedView::new`].
@@ -62,12 +62,12 @@ impl RectifiedView {
     /// # Errors
     /// [`RectifiedFrameError`], which names what is wrong.
     pub fn new(
-        clip_from_world: &[[f32; 4]; 4],
+        clip_from_world: &[[f64; 4]; 4],
         far: f64,
         light_direction: [f64; 3],
     ) -> Result<Self, RectifiedFrameError> {
-        let world_from_clip =
-            inverse(wide(clip_from_world)).ok_or(RectifiedFrameError::SingularCamera)?;
+        let world_from_clip = inverse(DMat4::from_cols_array_2d(clip_from_world))
+            .ok_or(RectifiedFrameError::SingularCamera)?;
         if !(far > 0.0 && far.is_finite()) {
             return Err(RectifiedFrameError::FarDistance { far });
         }

@@ -1,10 +1,10 @@
 //! The parameters of the nodes of single scattering: camera, light and medium.
 
 use bytemuck::{Pod, Zeroable};
-use glam::{DVec3, DVec4};
+use glam::{DMat4, DVec3, DVec4};
 
 use super::{
-    CameraView, LightDepth, LightView, RectifiedFrame, RectifiedView, ScatteringViewError, wide,
+    CameraView, LightDepth, LightView, RectifiedFrame, RectifiedView, ScatteringViewError,
 };
 use crate::{MapRegion, SingleScattering};
 
@@ -80,7 +80,7 @@ impl ScatteringParameters {
         let LightDepth::Orthographic { .. } = light.depth else {
             return Err(ScatteringViewError::PerspectiveLight);
         };
-        let clip = wide(&light.clip_from_world);
+        let clip = DMat4::from_cols_array_2d(&light.clip_from_world);
         let last = clip.row(3);
         if last.truncate() != DVec3::ZERO {
             return Err(ScatteringViewError::PerspectiveLight);

@@ -3,8 +3,8 @@
 use crate::example::{compiled, native};
 use crate::techniques::example;
 use moment_shadows::{
-    CameraView, DepthRange, Finite, LeakReduction, LightDepth, LightView, MapRegion, ReceiverBias,
-    Technique, ViewError, ViewParameters,
+    CameraView, DepthRange, Finite, LeakReduction, LightDepth, LightSize, LightView, MapRegion,
+    ReceiverBias, Technique, ViewError, ViewParameters,
 };
 use moment_shadows_graph::GraphErrorKind;
 
@@ -91,10 +91,10 @@ fn numbers_that_are_none_are_no_settings() {
 
 #[test]
 fn degenerate_views_are_refused() {
-    let identity = glam::Mat4::IDENTITY.to_cols_array_2d();
-    let flat = glam::Mat4::from_scale(glam::Vec3::new(1.0, 1.0, 0.0)).to_cols_array_2d();
-    let not_finite = glam::Mat4::from_scale(glam::Vec3::splat(f32::NAN)).to_cols_array_2d();
-    let parameters = |camera: [[f32; 4]; 4], light: [[f32; 4]; 4], depth: LightDepth| {
+    let identity = glam::DMat4::IDENTITY.to_cols_array_2d();
+    let flat = glam::DMat4::from_scale(glam::DVec3::new(1.0, 1.0, 0.0)).to_cols_array_2d();
+    let not_finite = glam::DMat4::from_scale(glam::DVec3::splat(f64::NAN)).to_cols_array_2d();
+    let parameters = |camera: [[f64; 4]; 4], light: [[f64; 4]; 4], depth: LightDepth| {
         ViewParameters::new(
             &CameraView {
                 clip_from_world: camera,
@@ -106,6 +106,7 @@ fn degenerate_views_are_refused() {
                 layer: 0,
                 region: MapRegion::WHOLE,
                 channel: 0,
+                size: LightSize::Point,
             },
             ReceiverBias::NONE,
             LeakReduction::NONE,

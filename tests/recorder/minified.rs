@@ -1,8 +1,7 @@
 //! Shading of planes that pixels see from afar: mip levels add variance to a texel's depths, and the bias follows.
 
 use moment_shadows::{
-    CameraView, LeakReduction, LightDepth, LightView, MapRegion, ReceiverBias, TextureFormat,
-    ViewParameters,
+    CameraView, LeakReduction, LightView, ReceiverBias, TextureFormat, ViewParameters,
 };
 use moment_shadows_graph::TextureDesc;
 use moment_shadows_graph::record::ImportedResource;
@@ -41,13 +40,7 @@ fn a_sloping_plane_is_lit_however_many_texels_a_pixel_covers() {
                     clip_from_world: IDENTITY,
                     far_depth: 1.0,
                 },
-                &LightView {
-                    clip_from_world: IDENTITY,
-                    depth: LightDepth::Orthographic { reversed: false },
-                    layer: 0,
-                    region: MapRegion::WHOLE,
-                    channel: 0,
-                },
+                &LightView::orthographic(IDENTITY),
                 ReceiverBias::for_kernel(0.0, 2.0 / MAP as f32),
                 LeakReduction::NONE,
             )

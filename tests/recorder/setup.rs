@@ -1,8 +1,8 @@
 //! A plan, bound and ready.
 
 use moment_shadows::{
-    CameraView, DepthConversion, LeakReduction, LightDepth, LightView, MapRegion, Profile,
-    ReceiverBias, ViewParameters,
+    CameraView, DepthConversion, LeakReduction, LightDepth, LightSize, LightView, MapRegion,
+    Profile, ReceiverBias, ViewParameters,
 };
 use moment_shadows_graph::record::{
     Bindings, ImportedResource, PipelineOptions, Pipelines, RecordError, Recording, Resources,
@@ -16,7 +16,7 @@ use wgpu::util::DeviceExt as _;
 
 pub(crate) const EXAMPLE: &str = include_str!("../../examples/hard_shadows.json");
 
-pub(crate) const IDENTITY: [[f32; 4]; 4] = [
+pub(crate) const IDENTITY: [[f64; 4]; 4] = [
     [1.0, 0.0, 0.0, 0.0],
     [0.0, 1.0, 0.0, 0.0],
     [0.0, 0.0, 1.0, 0.0],
@@ -143,7 +143,7 @@ pub(crate) fn aligned_view(layer: u32) -> ViewParameters {
 }
 
 /// The parameters of an orthographic light without any bias or leak reduction; the camera's far depth is 1.
-pub(crate) fn view(camera: [[f32; 4]; 4], light: [[f32; 4]; 4], layer: u32) -> ViewParameters {
+pub(crate) fn view(camera: [[f64; 4]; 4], light: [[f64; 4]; 4], layer: u32) -> ViewParameters {
     ViewParameters::new(
         &CameraView {
             clip_from_world: camera,
@@ -155,6 +155,7 @@ pub(crate) fn view(camera: [[f32; 4]; 4], light: [[f32; 4]; 4], layer: u32) -> V
             layer,
             region: MapRegion::WHOLE,
             channel: 0,
+            size: LightSize::Point,
         },
         ReceiverBias::NONE,
         LeakReduction::NONE,

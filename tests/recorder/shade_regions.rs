@@ -1,7 +1,7 @@
 //! `shade_hard` over regions, layers and mip levels: which views shade which pixels, and what their lookups read.
 
 use moment_shadows::{
-    AreaLight, CameraView, DepthRange, LeakReduction, LightDepth, LightView, MapRegion,
+    AreaLight, CameraView, DepthRange, LeakReduction, LightDepth, LightSize, LightView, MapRegion,
     ReceiverBias, SoftRadii, TextureFormat, ViewParameters,
 };
 use moment_shadows_graph::record::ImportedResource;
@@ -47,7 +47,7 @@ pub(crate) fn graph(storage: &str, mip_levels: u32, shade: &str) -> String {
 
 /// A view whose clip space the light's matrix maps the scene to; the camera looks along it, over all of the picture.
 pub(crate) fn view(
-    light: [[f32; 4]; 4],
+    light: [[f64; 4]; 4],
     layer: u32,
     region: MapRegion,
     channel: u32,
@@ -63,6 +63,7 @@ pub(crate) fn view(
             layer,
             region,
             channel,
+            size: LightSize::Point,
         },
         ReceiverBias::NONE,
         LeakReduction::NONE,
@@ -71,7 +72,7 @@ pub(crate) fn view(
 }
 
 /// A light that covers the part of the picture around (`x`, `y`) in clip space, of half a picture's width and height.
-pub(crate) fn half_sized(x: f32, y: f32) -> [[f32; 4]; 4] {
+pub(crate) fn half_sized(x: f64, y: f64) -> [[f64; 4]; 4] {
     let mut light = IDENTITY;
     light[0][0] = 2.0;
     light[1][1] = 2.0;

@@ -3,8 +3,8 @@
 use crate::depth_map;
 use crate::setup::{IDENTITY, bind, capabilities, compiled};
 use moment_shadows::{
-    CameraView, LeakReduction, LightDepth, LightView, MapRegion, Profile, ReceiverBias, Storage,
-    Technique, TextureFormat, ViewParameters,
+    CameraView, LeakReduction, LightView, Profile, ReceiverBias, Storage, Technique, TextureFormat,
+    ViewParameters,
 };
 use moment_shadows_graph::record::ImportedResource;
 use moment_shadows_graph::{Capabilities, TextureDesc};
@@ -48,13 +48,7 @@ fn shade(gpu: &Gpu, capabilities: &Capabilities, storage: Storage) -> Vec<f32> {
             clip_from_world: IDENTITY,
             far_depth: 1.0,
         },
-        &LightView {
-            clip_from_world: IDENTITY,
-            depth: LightDepth::Orthographic { reversed: false },
-            layer: 0,
-            region: MapRegion::WHOLE,
-            channel: 0,
-        },
+        &LightView::orthographic(IDENTITY),
         ReceiverBias::NONE,
         LeakReduction::NONE,
     )

@@ -1,7 +1,7 @@
 //! Every technique through resolve, blur and shading on the adapter.
 
 use moment_shadows::{
-    CameraView, LeakReduction, LightDepth, LightView, MapEncoding, MapRegion, Profile,
+    CameraView, LeakReduction, LightDepth, LightSize, LightView, MapEncoding, MapRegion, Profile,
     ReceiverBias, Technique, TextureFormat, ViewParameters,
 };
 use moment_shadows_graph::record::ImportedResource;
@@ -95,6 +95,7 @@ fn shade(gpu: &Gpu, capabilities: &Capabilities, text: &str, layer: u32) -> Vec<
             layer,
             region: MapRegion::WHOLE,
             channel: 0,
+            size: LightSize::Point,
         },
         ReceiverBias::for_kernel(0.6, 0.0),
         LeakReduction::NONE,

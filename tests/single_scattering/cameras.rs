@@ -7,7 +7,7 @@ use rand_chacha::ChaCha8Rng;
 /// A camera and a light.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Pair {
-    pub(crate) clip_from_world: [[f32; 4]; 4],
+    pub(crate) clip_from_world: [[f64; 4]; 4],
     /// In f64, of the matrix in f32.
     pub(crate) world_from_clip: DMat4,
     pub(crate) far: f64,
@@ -43,13 +43,10 @@ impl Lens {
 /// A camera at `eye` whose axes are the columns of `rotation`; it looks along -z.
 pub(crate) fn pair(eye: DVec3, rotation: DMat3, lens: Lens, far: f64, light: DVec3) -> Pair {
     let view = DMat4::from_mat3(rotation.transpose()) * DMat4::from_translation(-eye);
-    let clip_from_world = (lens.projection() * view)
-        .to_cols_array_2d()
-        .map(|column| column.map(|value| value as f32));
-    let wide = clip_from_world.map(|column| column.map(f64::from));
+    let clip_from_world = lens.projection() * view;
     Pair {
-        clip_from_world,
-        world_from_clip: DMat4::from_cols_array_2d(&wide).inverse(),
+        clip_from_world: clip_from_world.to_cols_array_2d(),
+        world_from_clip: clip_from_world.inverse(),
         far,
         light: light.to_array(),
     }

@@ -5,7 +5,7 @@ use moment_shadows::{RectifiedFrameError, RectifiedView};
 
 use crate::cameras::{Lens, pair};
 
-fn camera() -> [[f32; 4]; 4] {
+fn camera() -> [[f64; 4]; 4] {
     let lens = Lens {
         field_of_view: 1.0,
         aspect: 1.5,
@@ -15,7 +15,7 @@ fn camera() -> [[f32; 4]; 4] {
     pair(DVec3::ONE, DMat3::IDENTITY, lens, 1.0, DVec3::X).clip_from_world
 }
 
-fn error(camera: [[f32; 4]; 4], far: f64, light: [f64; 3]) -> RectifiedFrameError {
+fn error(camera: [[f64; 4]; 4], far: f64, light: [f64; 3]) -> RectifiedFrameError {
     RectifiedView::new(&camera, far, light).unwrap_err()
 }
 
@@ -23,9 +23,9 @@ fn error(camera: [[f32; 4]; 4], far: f64, light: [f64; 3]) -> RectifiedFrameErro
 fn a_singular_camera_is_refused() {
     for broken in [
         [[0.0; 4]; 4],
-        [[f32::NAN; 4]; 4],
+        [[f64::NAN; 4]; 4],
         [[1.0; 4]; 4],
-        [[f32::INFINITY, 0.0, 0.0, 0.0]; 4],
+        [[f64::INFINITY, 0.0, 0.0, 0.0]; 4],
     ] {
         let found = error(broken, 10.0, [0.0, -1.0, 0.0]);
         assert_eq!(found, RectifiedFrameError::SingularCamera);
@@ -39,12 +39,7 @@ fn an_orthographic_camera_is_refused() {
         glam::DQuat::from_rotation_y(0.4),
         DVec3::new(0.3, 0.1, 0.5),
     );
-    let columns = orthographic.to_cols_array_2d();
-    let found = error(
-        columns.map(|column| column.map(|value| value as f32)),
-        10.0,
-        [0.0, -1.0, 0.0],
-    );
+    let found = error(orthographic.to_cols_array_2d(), 10.0, [0.0, -1.0, 0.0]);
     assert_eq!(found, RectifiedFrameError::OrthographicCamera);
     assert!(found.to_string().contains("orthographic"));
 }

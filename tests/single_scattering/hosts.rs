@@ -105,7 +105,7 @@ fn point_lights_and_broken_lights_are_refused() {
     assert_eq!(of(&light), ScatteringViewError::PerspectiveLight);
     light.clip_from_world = [[0.0; 4]; 4];
     assert_eq!(of(&light), ScatteringViewError::SingularLight);
-    light.clip_from_world = [[f32::NAN; 4]; 4];
+    light.clip_from_world = [[f64::NAN; 4]; 4];
     let found = of(&light);
     assert!(
         matches!(

@@ -3,8 +3,8 @@
 use bytemuck::bytes_of;
 use glam::{DMat4, DVec3, DVec4};
 use moment_shadows::{
-    CameraView, LightDepth, LightView, MapEncoding, MapRegion, RectifiedView, ScatteringParameters,
-    SingleScattering, Storage, Technique,
+    CameraView, LightView, MapEncoding, RectifiedView, ScatteringParameters, SingleScattering,
+    Storage, Technique,
 };
 use moment_shadows_graph::TextureDesc;
 use moment_shadows_lab::gpu::Gpu;
@@ -95,14 +95,7 @@ impl Sun {
     }
 
     pub(crate) fn view(&self) -> LightView {
-        let columns = self.clip_from_world.to_cols_array_2d();
-        LightView {
-            clip_from_world: columns.map(|column| column.map(|value| value as f32)),
-            depth: LightDepth::Orthographic { reversed: false },
-            layer: 0,
-            region: MapRegion::WHOLE,
-            channel: 0,
-        }
+        LightView::orthographic(self.clip_from_world.to_cols_array_2d())
     }
 
     /// Raw moments of the map, each texel the mean of 16 samples.

@@ -59,7 +59,7 @@ impl StandIn {
         let [near, far] = desc.light.range;
         let depth_per_texel = 2.0 * width.max(height) / (far - near);
         let light = LightView {
-            clip_from_world: desc.light.clip_from_world().as_mat4().to_cols_array_2d(),
+            clip_from_world: desc.light.clip_from_world().to_cols_array_2d(),
             depth: LightDepth::Orthographic { reversed: false },
             layer: 0,
             region: MapRegion::WHOLE,

@@ -1,7 +1,7 @@
 //! A graph on a frame: compiled for what the host has drawn, recorded, and read back.
 
 use moment_shadows::{
-    AreaLight, CameraView, DepthRange, LeakReduction, LightDepth, LightView, MapRegion,
+    CameraView, DepthRange, LeakReduction, LightDepth, LightSize, LightView, MapRegion,
     ReceiverBias, ScatteringParameters, SoftRadii, Technique, TextureFormat, ViewParameters,
 };
 use moment_shadows_graph::record::{
@@ -16,7 +16,7 @@ use crate::error::LabError;
 use crate::frame::{Frame, FrameDesc};
 use crate::gpu::Gpu;
 use crate::graph_file::GraphFile;
-use crate::light::{LightKind, LightShape, StoredDepth};
+use crate::light::{LightShape, StoredDepth};
 use crate::scattering::Air;
 
 /// The output that the lab shades with.
@@ -269,7 +269,8 @@ pub fn shade_parameters(desc: &FrameDesc, file: &GraphFile) -> Result<ViewParame
     )?;
     let is_percentage_closer = matches!(file.technique(), Some(Technique::Pcss(_)));
     if is_percentage_closer || file.has_node("shade_soft") {
-        parameters.light = soft_light(desc)?;
+        desc.shape.check(desc.light.kind())?;
+        parameters.light = light_view(desc).area_light(desc.map, SOFT_RADII)?;
     }
     // Without a size there is nothing to search: the binary test.
     if is_percentage_closer && !desc.shape.is_point() {
@@ -279,38 +280,12 @@ pub fn shade_parameters(desc: &FrameDesc, file: &GraphFile) -> Result<ViewParame
     Ok(parameters)
 }
 
-/// The light with its size.
-fn soft_light(desc: &FrameDesc) -> Result<AreaLight, LabError> {
-    let texel = desc.light.texel_size(desc.map);
-    let [near, far] = desc.light.range;
-    let range = DepthRange { near, far };
-    desc.shape.check(desc.light.kind())?;
-    if desc.shape.is_point() {
-        // Not even a texel wide.
-        return Ok(AreaLight::NONE);
-    }
-    Ok(match desc.shape {
-        LightShape::Directional { angular_diameter } => {
-            AreaLight::directional(angular_diameter, texel, range, SOFT_RADII)?
-        }
-        LightShape::Disk { diameter } => AreaLight::spot(diameter, texel, range, SOFT_RADII)?,
-        LightShape::Rectangle { size } => AreaLight::rectangle(size, texel, range, SOFT_RADII)?,
-    })
-}
-
 /// The receiver bias that follows from the graph's kernel and the light: the same rule for all scenes.
 pub fn receiver_bias(desc: &FrameDesc, file: &GraphFile) -> Result<ReceiverBias, LabError> {
     let deviation = file
         .kernel()?
         .map_or(0.0, |kernel| kernel.standard_deviation());
-    let [width, height] = desc.light.texel_size(desc.map);
-    let [near, far] = desc.light.range;
-    // A spot light's texels grow with distance.
-    let spread = match desc.light.kind() {
-        LightKind::Directional => 1.0,
-        LightKind::Spot => far,
-    };
-    let depth_per_texel = 2.0 * width.max(height) * spread / (far - near);
+    let depth_per_texel = light_view(desc).depth_per_texel(desc.map);
     Ok(ReceiverBias::for_kernel(deviation, depth_per_texel as f32))
 }
 
@@ -319,7 +294,7 @@ fn light_view(desc: &FrameDesc) -> LightView {
     let [near, far] = desc.light.range;
     let range = DepthRange { near, far };
     LightView {
-        clip_from_world: desc.light.clip_from_world().as_mat4().to_cols_array_2d(),
+        clip_from_world: desc.light.clip_from_world().to_cols_array_2d(),
         depth: match desc.light.depth {
             StoredDepth::Orthographic { reversed, .. } => LightDepth::Orthographic { reversed },
             StoredDepth::Perspective {
@@ -336,5 +311,13 @@ fn light_view(desc: &FrameDesc) -> LightView {
         layer: 0,
         region: MapRegion::WHOLE,
         channel: 0,
+        size: match desc.shape {
+            shape if shape.is_point() => LightSize::Point,
+            LightShape::Directional { angular_diameter } => {
+                LightSize::AngularDiameter(angular_diameter)
+            }
+            LightShape::Disk { diameter } => LightSize::Disk(diameter),
+            LightShape::Rectangle { size } => LightSize::Rectangle(size),
+        },
     }
 }

@@ -46,9 +46,9 @@ impl Camera {
         Ok(clip_from_view * self.view_from_world()?)
     }
 
-    /// [`clip_from_world`](Self::clip_from_world) by columns, as a device takes it.
-    pub fn clip_from_world_columns(&self) -> Result<[[f32; 4]; 4], LightError> {
-        Ok(self.clip_from_world()?.as_mat4().to_cols_array_2d())
+    /// [`clip_from_world`](Self::clip_from_world) by columns.
+    pub fn clip_from_world_columns(&self) -> Result<[[f64; 4]; 4], LightError> {
+        Ok(self.clip_from_world()?.to_cols_array_2d())
     }
 }
 

@@ -2,7 +2,7 @@
 
 use std::collections::{BTreeMap, BTreeSet};
 
-use moment_shadows::TextureFormat;
+use moment_shadows::{Finite, TextureFormat};
 
 use super::limits::{limits, usable};
 use crate::{
@@ -96,6 +96,7 @@ fn make(
             layers,
             mips,
             samples,
+            deviation,
             ..
         }) => {
             let count = |rule: &CountRule, what: &str, of: Count| match rule {
@@ -122,6 +123,15 @@ fn make(
                     }
                     FormatRule::Exact(_) | FormatRule::OneOf(_) => None,
                 },
+                deviation: match format {
+                    FormatRule::SameAs(other) => {
+                        let before = texture_of(slot, other, resolved)?.deviation;
+                        added(before, *deviation)
+                    }
+                    FormatRule::Encoded(_) | FormatRule::Exact(_) | FormatRule::OneOf(_) => {
+                        *deviation
+                    }
+                },
                 size: match extent {
                     ExtentRule::Exact(size) => *size,
                     ExtentRule::SameAs(other) => texture_of(slot, other, resolved)?.size,
@@ -137,6 +147,12 @@ fn make(
             }))
         }
     }
+}
+
+/// The standard deviation of two filters one after the other: variances add up.
+fn added(first: Finite, second: Finite) -> Finite {
+    let sum = first.get().hypot(second.get());
+    Finite::new(sum).unwrap_or(second)
 }
 
 /// The slot whose width, height and regions a slot takes.
@@ -209,6 +225,7 @@ fn check(
                 layers,
                 mips,
                 samples,
+                deviation: _,
             }),
             ResourceDesc::Texture(texture),
         ) => {

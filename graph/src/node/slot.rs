@@ -1,6 +1,6 @@
 //! A node's resources, and the rules for what they are.
 
-use moment_shadows::{MapEncoding, TextureFormat};
+use moment_shadows::{Finite, MapEncoding, TextureFormat};
 use serde::{Deserialize, Serialize};
 
 use crate::Access;
@@ -78,6 +78,10 @@ pub struct TextureRule {
     pub mips: CountRule,
     /// Samples per texel.
     pub samples: CountRule,
+    /// The standard deviation of the node's filter, along either axis, in texels. It adds to that of the map whose format
+    /// the texture takes; 0 where the node does not filter.
+    #[serde(default)]
+    pub deviation: Finite,
 }
 
 /// Which format a texture has.
@@ -198,6 +202,7 @@ impl TextureRule {
             layers: CountRule::Exact(1),
             mips: CountRule::Exact(1),
             samples: CountRule::Exact(1),
+            deviation: Finite::ZERO,
         }
     }
 
@@ -227,6 +232,12 @@ impl TextureRule {
     /// How many mip levels.
     pub fn mips(mut self, mips: impl Into<CountRule>) -> Self {
         self.mips = mips.into();
+        self
+    }
+
+    /// Filtered by a kernel of this standard deviation along either axis, in texels.
+    pub fn filtered(mut self, deviation: Finite) -> Self {
+        self.deviation = deviation;
         self
     }
 

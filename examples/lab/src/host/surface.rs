@@ -118,7 +118,7 @@ impl Renderer {
         camera: &Camera,
     ) -> Result<(), HostError> {
         let uniform = ViewUniform {
-            clip_from_world: camera.clip_from_world_columns()?,
+            clip_from_world: camera.clip_from_world()?.as_mat4().to_cols_array_2d(),
             eye: camera.eye.as_vec3().to_array(),
             _padding: 0.0,
         };

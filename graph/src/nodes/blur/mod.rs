@@ -3,7 +3,7 @@
 mod unrolled;
 
 use bytemuck::{Pod, Zeroable};
-use moment_shadows::{Kernel, MapEncoding};
+use moment_shadows::{Finite, Kernel, MapEncoding};
 use serde::{Deserialize, Serialize};
 
 use super::shared::{KernelProperty, MipLevels, Specialization, map_input, regions, wgsl};
@@ -90,6 +90,7 @@ impl Node for Blur {
         let kernel = self.kernel.kernel()?;
         check_fits(&kernel, map)?;
         let mips = self.mip_levels.count(map.size)?;
+        let deviation = Finite::new(kernel.standard_deviation()).map_err(techniques::property)?;
         let unrolled = !self.per_frame && kernel.radius() <= LARGEST_UNROLLED_RADIUS;
         let along = ALONG
             .iter()
@@ -120,7 +121,10 @@ impl Node for Blur {
             .output(
                 "blurred",
                 "The map, filtered along x and y.",
-                TextureRule::new(same_as("map")).like("map").mips(mips),
+                TextureRule::new(same_as("map"))
+                    .like("map")
+                    .mips(mips)
+                    .filtered(deviation),
             )
             .passes(passes);
         if unrolled {

@@ -139,7 +139,9 @@ impl Node for SummedAreaTable {
             .output(
                 "table",
                 "The sum of all texels of a region that lie neither below nor to the right.",
-                TextureRule::new(encoding.clone()).like("map"),
+                TextureRule::new(encoding.clone())
+                    .like("map")
+                    .filtered(map.deviation),
             )
             .passes(tiles.passes(&specialization, integers)?))
     }

@@ -5,8 +5,7 @@ use core::f64::consts::TAU;
 use glam::{DMat4, DVec3, DVec4};
 use half::f16;
 use moment_shadows::{
-    CameraView, LightDepth, LightView, MapRegion, RectifiedView, ScatteringParameters,
-    SingleScattering, Storage,
+    CameraView, LightView, RectifiedView, ScatteringParameters, SingleScattering, Storage,
 };
 
 use super::super::CostError;
@@ -44,8 +43,8 @@ impl ScatteringView {
             near: 0.1,
             far: None,
         };
-        let camera = single(camera.clip_from_world().map_err(LabError::from)?);
-        let light = single(light(direction));
+        let camera = camera.clip_from_world_columns().map_err(LabError::from)?;
+        let light = light(direction);
         let extinction = [EXTINCTION; 3];
         let medium = SingleScattering::new(extinction, extinction, 0.0, [1.0; 3])?;
         let parameters = ScatteringParameters::new(
@@ -54,17 +53,11 @@ impl ScatteringView {
                 far_depth: 0.0,
             },
             FAR,
-            &LightView {
-                clip_from_world: light,
-                depth: LightDepth::Orthographic { reversed: false },
-                layer: 0,
-                region: MapRegion::WHOLE,
-                channel: 0,
-            },
+            &LightView::orthographic(light.to_cols_array_2d()),
             medium,
         )?;
         Ok(Self {
-            light: DMat4::from_cols_array_2d(&light.map(|column| column.map(f64::from))),
+            light,
             rectified: RectifiedView::new(&camera, FAR, direction.to_array())?,
             parameters,
         })
@@ -81,11 +74,6 @@ fn light(direction: DVec3) -> DMat4 {
     };
     let origin = DVec4::new(0.0, 0.0, 0.5, 1.0);
     DMat4::from_cols(column(0), column(1), column(2), origin)
-}
-
-fn single(matrix: DMat4) -> [[f32; 4]; 4] {
-    let columns = matrix.to_cols_array_2d();
-    columns.map(|column| column.map(|value| value as f32))
 }
 
 /// Float16 channels of a light's map of two surfaces in each texel, which change slowly across it: their depths stay far

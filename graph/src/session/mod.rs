@@ -1,0 +1,252 @@
+//! The short path: a graph, a device and the host's textures in, shadow intensity out.
+
+mod cut;
+mod error;
+mod given;
+mod part;
+mod scratch;
+mod shading;
+
+use cut::{Cut, cut};
+pub use error::SessionError;
+use given::Given;
+use moment_shadows::{CameraView, LeakReduction, LightView, SingleScattering};
+use part::{Maker, Part};
+use scratch::{Scratch, Told};
+
+use crate::record::{Bindings, ImportedResource, PipelineOptions, Recording};
+use crate::{Capabilities, Graph, Import, Stage, describe};
+
+/// A graph at work: pipelines, textures, bindings and uniform data for one set of light maps and any number of cameras.
+///
+/// The light maps are made once for all cameras. Each camera has textures of its own for what depends on it, of its own
+/// size. The receiver bias follows from the kernel of the graph, from each light's texels and from how its depth is stored.
+///
+/// What a session keeps are the objects of [`crate::record`], which an engine can hold itself. Per frame it creates
+/// nothing, submits nothing and waits for nothing.
+#[derive(Debug)]
+pub struct Session {
+    maker: Maker,
+    /// The imports as the graph file describes them.
+    expected: Vec<Import>,
+    cut: Cut,
+    /// What all cameras share, unless a camera has its own.
+    imports: Vec<Given>,
+    maps: Part,
+    views: Vec<View>,
+    /// How light leaking is reduced after the bound; [`LeakReduction::DEFAULT`] at first.
+    pub leak_reduction: LeakReduction,
+    /// What is in the air, and up to which distance from the camera it is lit, in scene units: for graphs with single
+    /// scattering. Nothing at first.
+    pub medium: (SingleScattering, f64),
+    scratch: Scratch,
+}
+
+/// A camera.
+#[derive(Debug)]
+struct View {
+    /// What is its own of the imports.
+    imports: Vec<Given>,
+    part: Part,
+    /// Whether its parameters were ever written.
+    placed: bool,
+}
+
+impl Session {
+    /// Compiles a graph for a device and the host's textures, and makes everything that one camera, number 0, needs.
+    ///
+    /// Formats, sizes, layers and samples are those of the textures, whatever the graph file says of its imports. How many
+    /// regions a layer has is what the file says.
+    ///
+    /// # Errors
+    /// [`SessionError`], if the device or the textures do not fit the graph.
+    pub async fn new(
+        adapter: &wgpu::Adapter,
+        device: &wgpu::Device,
+        graph: Graph,
+        imports: &[(&str, ImportedResource<'_>)],
+        options: PipelineOptions<'_>,
+    ) -> Result<Self, SessionError> {
+        let capabilities = Capabilities::of_device(adapter, device);
+        let expected = graph.imports.clone();
+        let imports = given::take(imports, &expected)?;
+        let nodes = describe(&graph, &capabilities, &given::described(&imports))?;
+        let cut = cut(graph, &nodes);
+        let mut maker = Maker::new(device, capabilities, options);
+        let maps = maker.part(&cut.maps, &[&imports]).await?;
+        let mut session = Self {
+            maker,
+            expected,
+            cut,
+            imports,
+            maps,
+            views: Vec::new(),
+            leak_reduction: LeakReduction::DEFAULT,
+            medium: (SingleScattering::NONE, 1.0),
+            scratch: Scratch::default(),
+        };
+        session.add_view(&[]).await?;
+        Ok(session)
+    }
+
+    /// Adds a camera and gives its number. Imports that are not given are those of the session.
+    ///
+    /// # Errors
+    /// [`SessionError`], if the textures do not fit the graph, or the light maps are made of one of them.
+    pub async fn add_view(
+        &mut self,
+        imports: &[(&str, ImportedResource<'_>)],
+    ) -> Result<usize, SessionError> {
+        let imports = given::take(imports, &self.expected)?;
+        if let Some(shared) = imports.iter().find(|given| self.cut.of_maps(&given.name)) {
+            return Err(SessionError::unsuitable(
+                format!("import '{}'", shared.name),
+                "the light maps of all cameras are made of it; give it to 'replace'",
+            ));
+        }
+        let given: [&[Given]; 3] = [&imports, &self.imports, &self.maps.outputs()];
+        let part = self.maker.part(&self.cut.picture, &given).await?;
+        self.views.push(View {
+            imports,
+            part,
+            placed: false,
+        });
+        Ok(self.views.len() - 1)
+    }
+
+    /// Takes other textures, as after a resize. Those that light maps are made of are replaced for all cameras, others for
+    /// one. Imports that are not given stay. [`view`](Self::view) comes before the next frame.
+    ///
+    /// # Errors
+    /// [`SessionError`], if there is no such camera or the textures do not fit the graph. The session is then as before.
+    pub async fn replace(
+        &mut self,
+        view: usize,
+        imports: &[(&str, ImportedResource<'_>)],
+    ) -> Result<(), SessionError> {
+        self.checked(view)?;
+        let (shared, own): (Vec<_>, Vec<_>) = given::take(imports, &self.expected)?
+            .into_iter()
+            .partition(|given| self.cut.of_maps(&given.name));
+        let own = given::merged(&self.views[view].imports, own);
+        let made_anew = !shared.is_empty();
+        let shared = given::merged(&self.imports, shared);
+        let maps = match made_anew {
+            true => Some(self.maker.part(&self.cut.maps, &[&shared]).await?),
+            false => None,
+        };
+        let made = maps.as_ref().unwrap_or(&self.maps).outputs();
+        let mut parts = Vec::new();
+        for (number, other) in self.views.iter().enumerate() {
+            if number == view || made_anew {
+                let own = if number == view { &own } else { &other.imports };
+                let given: [&[Given]; 3] = [own, &shared, &made];
+                parts.push((number, self.maker.part(&self.cut.picture, &given).await?));
+            }
+        }
+        for (number, part) in parts {
+            self.views[number].part = part;
+            self.views[number].placed = false;
+        }
+        self.views[view].imports = own;
+        self.imports = shared;
+        if let Some(maps) = maps {
+            self.maps = maps;
+        }
+        Ok(())
+    }
+
+    /// Says where a camera and the lights are, for the frame that is recorded next. The views of lights that share a layer
+    /// are its regions, in this order; all cameras have the same lights.
+    ///
+    /// # Errors
+    /// [`SessionError`], if there is no such camera, or what is given does not suit the graph. Nothing is then written.
+    pub fn view(
+        &mut self,
+        queue: &wgpu::Queue,
+        view: usize,
+        camera: &CameraView,
+        lights: &[LightView],
+    ) -> Result<(), SessionError> {
+        self.checked(view)?;
+        self.scratch.maps(&mut self.maps, lights)?;
+        let told = Told {
+            camera,
+            lights,
+            leak_reduction: self.leak_reduction,
+            medium: self.medium,
+        };
+        let view = &mut self.views[view];
+        self.scratch.picture(&mut view.part, &told)?;
+        view.placed = true;
+        self.maps.upload(queue);
+        view.part.upload(queue);
+        Ok(())
+    }
+
+    /// Records a stage for the light maps and all cameras. A host that draws one camera after the other records the maps by
+    /// the first stage, and each camera by [`record_view`](Self::record_view).
+    ///
+    /// # Errors
+    /// [`SessionError`], if a camera was never placed by [`view`](Self::view); the encoder is then as it was.
+    pub fn record(
+        &self,
+        stage: Stage,
+        encoder: &mut wgpu::CommandEncoder,
+    ) -> Result<(), SessionError> {
+        (0..self.views.len()).try_for_each(|view| self.placed(view).map(|_| ()))?;
+        self.maps
+            .bindings
+            .record(stage, encoder, Recording::default())?;
+        (0..self.views.len()).try_for_each(|view| self.record_view(view, stage, encoder))
+    }
+
+    /// Records a stage for one camera, without the light maps.
+    ///
+    /// # Errors
+    /// [`SessionError`], if there is no such camera or it was never placed; the encoder is then as it was.
+    pub fn record_view(
+        &self,
+        view: usize,
+        stage: Stage,
+        encoder: &mut wgpu::CommandEncoder,
+    ) -> Result<(), SessionError> {
+        let bindings = &self.placed(view)?.part.bindings;
+        Ok(bindings.record(stage, encoder, Recording::default())?)
+    }
+
+    /// The texture behind an output of the graph, for a camera.
+    #[must_use]
+    pub fn output(&self, view: usize, name: &str) -> Option<&wgpu::Texture> {
+        let of_view = self.views.get(view)?.part.bindings.output(name);
+        of_view.or_else(|| self.maps.bindings.output(name))
+    }
+
+    /// The bound plan of the light maps, to record some layers or passes of it alone.
+    #[must_use]
+    pub fn maps(&self) -> &Bindings {
+        &self.maps.bindings
+    }
+
+    /// The bound plan of a camera, to draw its last pass into a render pass of the host.
+    #[must_use]
+    pub fn bindings(&self, view: usize) -> Option<&Bindings> {
+        Some(&self.views.get(view)?.part.bindings)
+    }
+
+    fn checked(&self, view: usize) -> Result<&View, SessionError> {
+        self.views.get(view).ok_or_else(|| {
+            let reason = format!("the session has {}, counted from 0", self.views.len());
+            SessionError::unsuitable(format!("camera {view}"), reason)
+        })
+    }
+
+    fn placed(&self, view: usize) -> Result<&View, SessionError> {
+        let checked = self.checked(view)?;
+        if checked.placed {
+            return Ok(checked);
+        }
+        let reason = "it was not placed since its textures were made; call 'view' before the frame";
+        Err(SessionError::unsuitable(format!("camera {view}"), reason))
+    }
+}

@@ -1,0 +1,116 @@
+//! The nodes of a part that shade, and what they are told of cameras and lights.
+
+use moment_shadows::{
+    CameraView, LeakReduction, LightView, MapRegion, ReceiverBias, SoftRadii, ViewParameters,
+};
+
+use super::SessionError;
+use crate::{Graph, Plan, TextureDesc};
+
+/// The struct that a node which shades has an array of.
+const PARAMETERS: &str = "ViewParameters";
+
+/// Half widths in texels where the map is no summed-area table, which limits them. The smallest makes shadows hard where they
+/// touch what casts them.
+const RADII: SoftRadii = SoftRadii {
+    smallest: 1.0,
+    largest: 64.5,
+};
+
+/// A node that shades.
+#[derive(Debug)]
+pub(super) struct Shading {
+    pub(super) node: String,
+    /// The map that it looks up.
+    map: TextureDesc,
+    /// Channels of its output, one per light.
+    channels: u32,
+    radii: SoftRadii,
+}
+
+impl Shading {
+    /// The nodes of a plan that shade.
+    pub(super) fn all(graph: &Graph, plan: &Plan) -> Result<Vec<Self>, SessionError> {
+        let blocks = plan.parameters.blocks.iter();
+        let nodes = blocks.filter(|block| block.name == PARAMETERS);
+        nodes
+            .map(|block| Self::of(graph, plan, &block.node))
+            .collect()
+    }
+
+    fn of(graph: &Graph, plan: &Plan, node: &str) -> Result<Self, SessionError> {
+        let unsuitable = |reason| SessionError::unsuitable(format!("node '{node}'"), reason);
+        let slots = ["map", "table", "depth"];
+        let is_map = |slot: &str| slots.contains(&slot);
+        let mut edges = graph.edges.iter();
+        let edge =
+            edges.find(|edge| edge.to.owner == node && edge.to.slot.as_deref().is_some_and(is_map));
+        let resource = edge.and_then(|edge| {
+            let name = edge.from.to_string();
+            plan.resources.iter().find(|resource| resource.name == name)
+        });
+        let map = resource.and_then(|resource| resource.desc.texture());
+        let map = map.ok_or_else(|| {
+            unsuitable("its map is made anew for each camera; record this graph with the objects of 'record'")
+        })?;
+        let target = plan.resources.iter().find_map(|resource| {
+            let of_it = resource.name.strip_prefix(node)?.starts_with('.');
+            of_it.then(|| resource.desc.texture()).flatten()
+        });
+        let channels = target.map_or(1, |target| target.format.channels());
+        let table = map.encoding.as_ref().and_then(|encoding| encoding.table());
+        let radii = table.map_or(RADII, |table| SoftRadii {
+            largest: 0.5 * f64::from(table.largest_kernel()[0].min(table.largest_kernel()[1])),
+            ..RADII
+        });
+        Ok(Self {
+            node: node.to_owned(),
+            map: map.clone(),
+            channels,
+            radii: SoftRadii {
+                smallest: radii.smallest.min(radii.largest),
+                ..radii
+            },
+        })
+    }
+
+    /// What the node is told of one view of a light, which is number `index` of those that the host gives.
+    pub(super) fn parameters(
+        &self,
+        camera: &CameraView,
+        light: &LightView,
+        index: usize,
+        leak_reduction: LeakReduction,
+    ) -> Result<ViewParameters, SessionError> {
+        let unsuitable = |reason: String| {
+            SessionError::unsuitable(
+                format!("view {index} of a light, for node '{}'", self.node),
+                reason,
+            )
+        };
+        if light.layer >= self.map.layers {
+            return Err(unsuitable(format!(
+                "its layer is {}, but the map has {}, counted from 0",
+                light.layer, self.map.layers
+            )));
+        }
+        if light.channel >= self.channels {
+            return Err(unsuitable(format!(
+                "its channel is {}, but the node's output has {}, counted from 0; give the node as many 'lights'",
+                light.channel, self.channels
+            )));
+        }
+        let extent = if light.region == MapRegion::WHOLE {
+            self.map.size
+        } else {
+            light.region.extent
+        };
+        let depth_per_texel = light.depth_per_texel(extent) as f32;
+        let bias = ReceiverBias::for_kernel(self.map.deviation.get(), depth_per_texel);
+        let parameters = ViewParameters::new(camera, light, bias, leak_reduction);
+        let mut parameters = parameters.map_err(|error| unsuitable(error.to_string()))?;
+        let light = light.area_light(extent, self.radii);
+        parameters.light = light.map_err(|error| unsuitable(error.to_string()))?;
+        Ok(parameters)
+    }
+}
