@@ -4,10 +4,9 @@ import moment_shadows::map::map_lookup::{map_lookup_gradient};
 import moment_shadows::map::map_region::{MapRegion};
 import moment_shadows::map::minification::{minification_depth_variance, minification_footprint};
 import moment_shadows::map::storage::{STORAGE_FLOAT16};
-import moment_shadows::shade::receiver_bias::{ReceiverBias, receiver_bias_depth_minified, receiver_bias_plane};
+import moment_shadows::shade::receiver_bias::{ReceiverBias, receiver_bias_depth_minified, receiver_bias_plane, receiver_bias_step};
 
-// A forward renderer's own shader: a floor with boxes on it, lit by a sun whose filtered map it samples itself, with mip
-// levels.
+// A forward renderer's own shader: boxes, lit by a sun whose filtered map it samples itself, with mip levels.
 
 struct Frame {
     clip_from_world: mat4x4f,
@@ -20,8 +19,8 @@ struct Frame {
 }
 
 @group(0) @binding(0) var<uniform> frame: Frame;
-@group(1) @binding(0) var shadow_map: texture_2d_array<f32>;
-@group(1) @binding(1) var shadow_sampler: sampler;
+@group(0) @binding(1) var shadow_map: texture_2d_array<f32>;
+@group(0) @binding(2) var shadow_sampler: sampler;
 
 // Probes of an anisotropic lookup, at most.
 const ANISOTROPY = 8.0;
@@ -33,13 +32,13 @@ struct Vertex {
     @location(2) colour: vec3f,
 }
 
-// Six faces of two triangles. Instance 0 is the floor, the others are boxes in a ring.
-fn box_vertex(index: u32, instance: u32) -> Vertex {
+// Six faces of two triangles.
+@vertex
+fn draw(@builtin(vertex_index) index: u32, @location(0) centre: vec3f, @location(1) half_size: vec3f, @location(2) colour: vec3f) -> Vertex {
     let axis = index / 12u;
     let side = f32((index / 6u) % 2u) * 2.0 - 1.0;
     let corners = array(vec2f(-1.0, -1.0), vec2f(1.0, -1.0), vec2f(1.0, 1.0), vec2f(-1.0, -1.0), vec2f(1.0, 1.0), vec2f(-1.0, 1.0));
-    let corner = corners[index % 6u];
-    var position = vec3f(side, corner);
+    var position = vec3f(side, corners[index % 6u]);
     var normal = vec3f(side, 0.0, 0.0);
     if axis == 1u {
         position = position.zxy;
@@ -48,28 +47,8 @@ fn box_vertex(index: u32, instance: u32) -> Vertex {
         position = position.yzx;
         normal = normal.yzx;
     }
-    let angle = f32(instance) * 0.7;
-    let height = 0.15 + 0.07 * f32(instance);
-    var size = vec3f(0.18, height, 0.18);
-    var centre = vec3f(1.5 * cos(angle), height, 1.5 * sin(angle));
-    var colour = 0.55 + 0.3 * vec3f(cos(angle), cos(angle + 2.1), cos(angle + 4.2));
-    if instance == 0u {
-        size = vec3f(6.0, 0.1, 6.0);
-        centre = vec3f(0.0, -0.1, 0.0);
-        colour = vec3f(0.6);
-    }
-    let world = centre + size * position;
+    let world = centre + half_size * position;
     return Vertex(frame.clip_from_world * vec4f(world, 1.0), world, normal, colour);
-}
-
-@vertex
-fn light_depth(@builtin(vertex_index) index: u32, @builtin(instance_index) instance: u32) -> @builtin(position) vec4f {
-    return frame.light_clip_from_world * vec4f(box_vertex(index, instance).world, 1.0);
-}
-
-@vertex
-fn scene(@builtin(vertex_index) index: u32, @builtin(instance_index) instance: u32) -> Vertex {
-    return box_vertex(index, instance);
 }
 
 // A scene position as the light sees it: x and y in its map from 0 to 1, z in moment depth.
@@ -86,7 +65,8 @@ fn shadow_intensity(place: vec3f, difference_x: vec3f, difference_y: vec3f) -> f
     let gradient = receiver_bias_plane(difference_x, difference_y);
     let footprint = minification_footprint(difference_x.xy, difference_y.xy, ANISOTROPY);
     let variance = minification_depth_variance(footprint, gradient);
-    let bias = receiver_bias_depth_minified(frame.receiver_bias, length(gradient), variance);
+    let step = receiver_bias_step(frame.receiver_bias, place.z);
+    let bias = step + receiver_bias_depth_minified(frame.receiver_bias, length(gradient), variance);
     let whole = MapRegion(vec2u(0u), textureDimensions(shadow_map));
     let texel = map_lookup_gradient(
         shadow_map,

@@ -1,170 +1,76 @@
 //! Soft shadows in your renderer: a sun and a lamp of some size, in constant time per pixel.
 //!
-//! `cargo run --release --example soft_shadows [SCENE [FOLDER]]`. As in `hard_shadows` the small renderer of `examples/lab`
-//! stands in for yours: it draws each light's depth and a G-buffer, and lights the picture with the shadow intensity.
+//! `cargo run --release --example soft_shadows [FOLDER]`. The small renderer in `examples/renderer` stands in for yours.
+
+mod renderer;
 
 use std::error::Error;
-use std::path::Path;
 
-use moment_shadows::{
-    AreaLight, CameraView, DepthRange, LeakReduction, LightDepth, LightSize, LightView, MapRegion,
-    Profile, ReceiverBias, SoftRadii, ViewParameters,
-};
-use moment_shadows_graph::record::{
-    Bindings, ImportedResource, PipelineOptions, Pipelines, Recording, Resources,
-};
-use moment_shadows_graph::{Capabilities, Graph, Imports, NodeRegistry, Stage, compile};
-use moment_shadows_lab::frame::{Frame, FrameDesc};
-use moment_shadows_lab::light::{LightShape, StoredDepth};
-use moment_shadows_lab::soft::SoftLightChoice;
-use moment_shadows_lab::{gpu::Gpu, picture, scene, view::View};
+use moment_shadows_graph::{CameraView, DepthRange, Graph, LightSize, LightView, Session, Stage};
 use pollster::block_on;
+use renderer::{Renderer, camera, lamp, sun};
 
-const PICTURE: [u32; 2] = [1280, 720];
-const MAP: u32 = 1024;
-
-/// Half of the largest kernel that the graph's table is made for, and next to nothing where shadows touch what casts them.
-const RADII: SoftRadii = SoftRadii {
-    smallest: 1.0,
-    largest: 64.5,
-};
+const SIZE: [u32; 2] = [1280, 720];
 
 fn main() -> Result<(), Box<dyn Error>> {
-    let mut arguments = std::env::args().skip(1);
-    let scene = arguments.next().unwrap_or("chairs".to_owned());
-    let folder = arguments.next().unwrap_or("pictures".to_owned());
+    let folder = std::env::args().nth(1).unwrap_or("pictures".to_owned());
+    let yours = Renderer::open()?;
+    let light_depth = yours.light_depth(1024);
+    let picture = yours.picture(SIZE);
 
-    // The host, and the graph compiled for what it has: once.
-    let gpu = Gpu::open(Profile::Native)?;
-    let scene = scene::load(&scene)?;
-    let graph = Graph::parse(include_str!("soft_shadows.json"), &NodeRegistry::new())?;
-    let capabilities = Capabilities::of_device(&gpu.adapter, &gpu.device);
-    let plan = compile(&graph, &capabilities, &Imports::new())?;
-    let options = PipelineOptions::default();
-    let pipelines = block_on(Pipelines::create(&gpu.device, &plan, options))?;
-    let resources = block_on(Resources::create(&gpu.device, &plan))?;
-    let parameters = gpu.device.create_buffer(&wgpu::BufferDescriptor {
-        label: Some("parameters of one view"),
-        size: u64::from(plan.parameters.size),
-        usage: wgpu::BufferUsages::UNIFORM | wgpu::BufferUsages::COPY_DST,
-        mapped_at_creation: false,
-    });
-
-    for choice in [SoftLightChoice::Directional, SoftLightChoice::Spot] {
-        let frame = draw(&gpu, &scene, choice)?;
-        let imports = [
-            (
-                "light_depth",
-                ImportedResource::Texture(&frame.light_map.texture),
-            ),
-            (
-                "camera_depth",
-                ImportedResource::Texture(&frame.surface.depth),
-            ),
-        ];
-        let bindings = block_on(Bindings::create(
-            &gpu.device,
-            &plan,
-            &pipelines,
-            &resources,
-            &imports,
-            Some(&parameters),
-        ))?;
-
-        // Every frame: where camera and light are, and how large the light is.
-        let shade = shade_parameters(&frame.desc)?;
-        let mut block = plan.parameters.initial();
-        plan.parameters
-            .write(&mut block, "resolve", 0, &shade.conversion)?;
-        plan.parameters.write(&mut block, "shade", 0, &shade)?;
-        gpu.queue.write_buffer(&parameters, 0, &block);
-
-        // Every frame: each stage after the host's own pass.
-        let mut encoder = gpu
-            .device
-            .create_command_encoder(&wgpu::CommandEncoderDescriptor::default());
-        bindings.record(Stage::AfterShadowMaps, &mut encoder, Recording::default())?;
-        bindings.record(Stage::AfterMainPass, &mut encoder, Recording::default())?;
-        gpu.queue.submit([encoder.finish()]);
-
-        let shadow = bindings
-            .output("shadow_intensity")
-            .ok_or("the graph has no such output")?;
-        let pixels = frame.picture(&gpu, shadow)?;
-        let out = Path::new(&folder).join(format!("soft_shadows_{}.png", choice.name()));
-        picture::save_rgba(&out, PICTURE[0], PICTURE[1], &pixels)?;
-        println!("{}", out.display());
-    }
-    Ok(())
-}
-
-/// The host's own passes: a light that covers the casters and whose range reaches to where their shadows fall.
-fn draw(gpu: &Gpu, scene: &scene::Scene, choice: SoftLightChoice) -> Result<Frame, Box<dyn Error>> {
-    let view = View::numbered(scene, 0);
-    let map = [MAP; 2];
-    let (light, shape) = choice.light(scene, &view, map, 4.0, None)?;
-    let mut camera = view.camera;
-    camera.aspect = f64::from(PICTURE[0]) / f64::from(PICTURE[1]);
-    let desc = FrameDesc {
-        picture: PICTURE,
-        map,
-        samples: 4,
-        format: wgpu::TextureFormat::Depth32Float,
-        light,
-        shape,
-        camera,
-    };
-    Ok(Frame::draw(gpu, scene, desc)?)
-}
-
-/// What the node is told about camera and light. Blocker search and filter widths follow from the light's size; so does the
-/// receiver bias, from the width of each pixel's own filter.
-fn shade_parameters(desc: &FrameDesc) -> Result<ViewParameters, Box<dyn Error>> {
-    let light = &desc.light;
-    let [near, far] = light.range;
-    let range = DepthRange { near, far };
-    let texel = light.texel_size(desc.map);
-    let (area_light, depth, spread) = match (desc.shape, light.depth) {
-        (LightShape::Directional { angular_diameter }, _) => (
-            AreaLight::directional(angular_diameter, texel, range, RADII)?,
-            LightDepth::Orthographic { reversed: false },
-            1.0,
-        ),
-        (
-            LightShape::Disk { diameter },
-            StoredDepth::Perspective {
-                near,
-                far,
-                reversed,
-            },
-        ) => (
-            AreaLight::spot(diameter, texel, range, RADII)?,
-            LightDepth::Perspective {
-                near,
-                far: far.unwrap_or(f64::INFINITY),
-                reversed,
-                range,
-            },
-            // Texels grow with distance.
-            range.far,
-        ),
-        _ => return Err("this example has a sun and a lamp".into()),
-    };
-    let camera_view = CameraView {
-        clip_from_world: desc.camera.clip_from_world_columns()?,
+    let graph: Graph = include_str!("soft_shadows.json").parse()?;
+    let mut session = block_on(Session::new(
+        &yours.adapter,
+        &yours.device,
+        graph,
+        &[
+            ("light_depth", (&light_depth).into()),
+            ("camera_depth", (&picture.depth).into()),
+        ],
+        Default::default(),
+    ))?;
+    let eye = CameraView {
+        clip_from_world: camera([-5.5, 2.6, 6.0], [0.2, 1.2, -0.6], SIZE),
         far_depth: 0.0, // reversed depth
     };
-    let light_view = LightView {
-        clip_from_world: light.clip_from_world().to_cols_array_2d(),
-        depth,
-        layer: 0,
-        region: MapRegion::WHOLE,
-        channel: 0,
-        size: LightSize::Point,
+
+    // A sun that appears as a disk of three degrees, and a lamp of half a unit's diameter. Blocker search, the widths of
+    // filters and the receiver bias follow from their sizes.
+    let sun = LightView {
+        size: LightSize::AngularDiameter(3f64.to_radians()),
+        ..LightView::orthographic(sun([0.55, 0.8, 0.5]))
     };
-    let depth_per_texel = 2.0 * texel[0].max(texel[1]) * spread / (far - near);
-    let bias = ReceiverBias::for_kernel(0.0, depth_per_texel as f32);
-    let mut shade = ViewParameters::new(&camera_view, &light_view, bias, LeakReduction::DEFAULT)?;
-    shade.light = area_light;
-    Ok(shade)
+    let position = [1.5, 2.6, 4.5];
+    let range = DepthRange {
+        near: 1.0,
+        far: 12.0,
+    };
+    let lamp = LightView {
+        size: LightSize::Disk(0.5),
+        ..LightView::perspective(
+            lamp(position, range.near, range.far),
+            range.near,
+            range.far,
+            range,
+        )
+    };
+    let towards = [[0.55, 0.8, 0.5, 0.0], [1.5, 2.6, 4.5, 1.0]];
+    for (name, light, towards) in [("directional", sun, towards[0]), ("spot", lamp, towards[1])] {
+        session.view(&yours.queue, 0, &eye, &[light])?;
+        let mut encoder = yours.device.create_command_encoder(&Default::default());
+        yours.draw_light(&mut encoder, &light.clip_from_world, &light_depth);
+        session.record(Stage::AfterShadowMaps, &mut encoder)?;
+        yours.draw_camera(&mut encoder, &eye.clip_from_world, towards, &picture);
+        session.record(Stage::AfterMainPass, &mut encoder)?;
+        let shadow = session
+            .output(0, "shadow_intensity")
+            .ok_or("the graph has no such output")?;
+        yours.light(&mut encoder, &picture, shadow, None);
+        yours.save(
+            encoder,
+            &picture,
+            &format!("{folder}/soft_shadows_{name}.png"),
+        )?;
+    }
+    Ok(())
 }

@@ -160,6 +160,30 @@ impl TextureFormat {
         )
     }
 
+    /// The largest step between neighbouring depths in [0, 1] of a format that stores depth; `None` for others.
+    #[must_use]
+    pub fn depth_step(self) -> Option<f64> {
+        match self {
+            TextureFormat::Depth16Unorm => Some(1.0 / 65535.0),
+            TextureFormat::Depth32Float | TextureFormat::R32Float => {
+                Some(0.5 * f64::from(f32::EPSILON))
+            }
+            TextureFormat::R8Unorm
+            | TextureFormat::Rgba8Unorm
+            | TextureFormat::R16Unorm
+            | TextureFormat::Rg16Unorm
+            | TextureFormat::R16Float
+            | TextureFormat::Rg16Float
+            | TextureFormat::Rg32Float
+            | TextureFormat::Rgb10a2Unorm
+            | TextureFormat::Rgba16Unorm
+            | TextureFormat::Rgba16Float
+            | TextureFormat::Rgba32Float
+            | TextureFormat::Rg32Uint
+            | TextureFormat::Rgba32Uint => None,
+        }
+    }
+
     /// Whether texels are integers, which no sampler filters.
     #[must_use]
     pub fn is_integer(self) -> bool {

@@ -4,6 +4,7 @@ use bytemuck::{Pod, Zeroable};
 use serde::{Deserialize, Serialize};
 
 use crate::constant::number;
+use crate::{DepthConversion, TextureFormat};
 
 /// The variance, in squared texels along either axis, that multisampling and bilinear lookup add to a kernel's: 1/12 for
 /// samples spread evenly over a texel, at most 1/4 for a lookup half-way between texels.
@@ -28,6 +29,10 @@ pub struct ReceiverBias {
     pub maximum: f32,
     /// Unused; keeps the WGSL layout.
     pub padding: f32,
+    /// One step of the light's stored depth is `(step_root[0] + step_root[1] z)^2` of moment depth, at the moment depth z.
+    pub step_root: [f32; 2],
+    /// Unused; keeps the WGSL layout.
+    pub padding_of_step: [f32; 2],
 }
 
 impl ReceiverBias {
@@ -47,6 +52,8 @@ impl ReceiverBias {
         slope_scale: 0.0,
         maximum: 0.0,
         padding: 0.0,
+        step_root: [0.0; 2],
+        padding_of_step: [0.0; 2],
     };
 
     /// The bias that follows from a kernel, for all scenes.
@@ -62,7 +69,32 @@ impl ReceiverBias {
             constant: DEPTH_ERROR,
             slope_scale,
             maximum: DEPTH_ERROR + slope_scale * STEEPEST_TANGENT * depth_per_texel,
-            padding: 0.0,
+            ..Self::NONE
+        }
+    }
+
+    /// This bias for a light whose depth map has the format `format`: 16 bits of hyperbolic depth are coarse far from the
+    /// near plane.
+    #[must_use]
+    pub fn for_stored_depth(self, format: TextureFormat, conversion: &DepthConversion) -> Self {
+        let step = match format.depth_step() {
+            Some(step) => step * f64::from(conversion.scale.abs()),
+            None => return self,
+        };
+        // z(d) = n / m with n and m linear in d, so |dz/dd| = (n' - z m')^2 / |m' n(0) - n' m(0)|.
+        let [numerator, denominator] = [conversion.numerator, conversion.denominator];
+        let change = |ends: [f32; 2]| f64::from(ends[1]) - f64::from(ends[0]);
+        let (n, m) = (change(numerator), change(denominator));
+        let determinant = m * f64::from(numerator[0]) - n * f64::from(denominator[0]);
+        let factor = (step / determinant.abs().max(f64::from(f32::MIN_POSITIVE))).sqrt();
+        let root = [n * factor, -m * factor].map(|value| value as f32);
+        Self {
+            step_root: if root.iter().all(|value| value.is_finite()) {
+                root
+            } else {
+                [0.0; 2]
+            },
+            ..self
         }
     }
 }

@@ -190,6 +190,15 @@ impl Graph {
     }
 }
 
+/// A graph file of the library's own nodes.
+impl core::str::FromStr for Graph {
+    type Err = GraphError;
+
+    fn from_str(text: &str) -> Result<Self, GraphError> {
+        Self::parse(text, &NodeRegistry::new())
+    }
+}
+
 fn each<T>(
     text: &str,
     values: &[&RawValue],

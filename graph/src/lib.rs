@@ -50,4 +50,9 @@ pub use registry::NodeRegistry;
 pub use resource::{Access, ResourceDesc, TextureDesc};
 #[cfg(feature = "wgpu")]
 pub use session::{Session, SessionError};
+
+/// What a [`Session`] is told, from the core crate.
+pub use moment_shadows::{
+    CameraView, DepthRange, LightDepth, LightSize, LightView, MapRegion, SingleScattering,
+};
 pub use version_1::upgrade;

@@ -22,7 +22,7 @@ fn a_floor_that_slopes_either_way_is_lit_and_what_lies_behind_it_is_not() {
         constant: 1e-4,
         slope_scale: 1e-3,
         maximum: 1.0,
-        padding: 0.0,
+        ..ReceiverBias::NONE
     };
     let mut view = view(false, bias);
     let range = DepthRange {

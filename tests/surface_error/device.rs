@@ -148,7 +148,7 @@ fn points_are_evaluated_as_by_shade_hard() {
                 constant: 0.0,
                 slope_scale: 2.0,
                 maximum: 1.0,
-                padding: 0.0,
+                ..ReceiverBias::NONE
             },
             ..evaluation
         };

@@ -169,12 +169,17 @@ pub fn read_intensity(gpu: &Gpu, texture: &wgpu::Texture) -> Result<Vec<f32>, La
     })
 }
 
-/// What the host gives, described for the compiler.
-pub fn imports(desc: &FrameDesc) -> Imports {
-    let light_format = match desc.format {
+/// The format of the light's depth map.
+fn stored_format(desc: &FrameDesc) -> TextureFormat {
+    match desc.format {
         wgpu::TextureFormat::Depth16Unorm => TextureFormat::Depth16Unorm,
         _ => TextureFormat::Depth32Float,
-    };
+    }
+}
+
+/// What the host gives, described for the compiler.
+pub fn imports(desc: &FrameDesc) -> Imports {
+    let light_format = stored_format(desc);
     let texture = |texture| ResourceDesc::Texture(texture);
     Imports::from([
         (
@@ -252,7 +257,8 @@ pub(crate) fn fill_scattering(
     Ok(())
 }
 
-fn camera_view(desc: &FrameDesc) -> Result<CameraView, LabError> {
+/// The camera in the library's terms.
+pub fn camera_view(desc: &FrameDesc) -> Result<CameraView, LabError> {
     Ok(CameraView {
         clip_from_world: desc.camera.clip_from_world_columns()?,
         far_depth: 0.0,
@@ -286,11 +292,12 @@ pub fn receiver_bias(desc: &FrameDesc, file: &GraphFile) -> Result<ReceiverBias,
         .kernel()?
         .map_or(0.0, |kernel| kernel.standard_deviation());
     let depth_per_texel = light_view(desc).depth_per_texel(desc.map);
-    Ok(ReceiverBias::for_kernel(deviation, depth_per_texel as f32))
+    let bias = ReceiverBias::for_kernel(deviation, depth_per_texel as f32);
+    Ok(bias.for_stored_depth(stored_format(desc), &light_view(desc).depth.conversion()?))
 }
 
 /// The light in the library's terms.
-fn light_view(desc: &FrameDesc) -> LightView {
+pub fn light_view(desc: &FrameDesc) -> LightView {
     let [near, far] = desc.light.range;
     let range = DepthRange { near, far };
     LightView {

@@ -15,6 +15,12 @@ pub enum ImportedResource<'a> {
     Buffer(&'a wgpu::Buffer),
 }
 
+impl<'a> From<&'a wgpu::Texture> for ImportedResource<'a> {
+    fn from(texture: &'a wgpu::Texture) -> Self {
+        Self::Texture(texture)
+    }
+}
+
 pub(super) fn check_parameters(
     plan: &Plan,
     parameters: Option<&wgpu::Buffer>,

@@ -14,6 +14,15 @@ pub(super) struct Cut {
 }
 
 impl Cut {
+    /// The imports that are connected as depth maps of lights.
+    pub(super) fn light_depths(&self) -> BTreeSet<&str> {
+        let edges = self.maps.edges.iter().chain(&self.picture.edges);
+        edges
+            .filter(|edge| edge.to.slot.as_deref() == Some("depth") && edge.from.slot.is_none())
+            .map(|edge| edge.from.owner.as_str())
+            .collect()
+    }
+
     /// Whether light maps are made of an import.
     pub(super) fn of_maps(&self, import: &str) -> bool {
         self.maps.imports.iter().any(|it| it.name == import)

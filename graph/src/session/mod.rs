@@ -10,7 +10,9 @@ mod shading;
 use cut::{Cut, cut};
 pub use error::SessionError;
 use given::Given;
-use moment_shadows::{CameraView, LeakReduction, LightView, SingleScattering};
+use moment_shadows::{
+    CameraView, LeakReduction, LightView, ReceiverBias, SingleScattering, TextureFormat,
+};
 use part::{Maker, Part};
 use scratch::{Scratch, Told};
 
@@ -72,6 +74,15 @@ impl Session {
         let imports = given::take(imports, &expected)?;
         let nodes = describe(&graph, &capabilities, &given::described(&imports))?;
         let cut = cut(graph, &nodes);
+        let lights = cut.light_depths();
+        if lights.len() > 1 {
+            let names: Vec<&str> = lights.into_iter().collect();
+            return Err(SessionError::unsuitable(
+                format!("the imports {}", names.join(", ")),
+                "a session has one light map, with a layer or a region per view of a light; use one map with layers, or a \
+                 session per map",
+            ));
+        }
         let mut maker = Maker::new(device, capabilities, options);
         let maps = maker.part(&cut.maps, &[&imports]).await?;
         let mut session = Self {
@@ -175,6 +186,7 @@ impl Session {
             lights,
             leak_reduction: self.leak_reduction,
             medium: self.medium,
+            depth_format: self.depth_format(),
         };
         let view = &mut self.views[view];
         self.scratch.picture(&mut view.part, &told)?;
@@ -220,6 +232,31 @@ impl Session {
     pub fn output(&self, view: usize, name: &str) -> Option<&wgpu::Texture> {
         let of_view = self.views.get(view)?.part.bindings.output(name);
         of_view.or_else(|| self.maps.bindings.output(name))
+    }
+
+    /// The receiver bias of a view of a light whose map is an output of the graph, for shaders of your own.
+    ///
+    /// # Errors
+    /// [`SessionError`], if there is no such output.
+    pub fn receiver_bias(
+        &self,
+        output: &str,
+        light: &LightView,
+    ) -> Result<ReceiverBias, SessionError> {
+        let map = self.maps.plan.output_texture(output).ok_or_else(|| {
+            SessionError::unsuitable(
+                format!("output '{output}'"),
+                "it is no map that the graph makes; name one of the graph's outputs",
+            )
+        })?;
+        shading::receiver_bias(map, light, self.depth_format())
+    }
+
+    /// How the light's depth is stored.
+    fn depth_format(&self) -> Option<TextureFormat> {
+        let name = *self.cut.light_depths().first()?;
+        let given = self.imports.iter().find(|given| given.name == name)?;
+        Some(given.desc.texture()?.format)
     }
 
     /// The bound plan of the light maps, to record some layers or passes of it alone.

@@ -2,7 +2,7 @@
 
 use moment_shadows::{
     CameraView, DepthConversion, LeakReduction, LightView, MapRegion, ScatteringParameters,
-    SingleScattering, ViewParameters,
+    SingleScattering, TextureFormat, ViewParameters,
 };
 
 use super::SessionError;
@@ -23,6 +23,7 @@ pub(super) struct Told<'a> {
     pub(super) lights: &'a [LightView],
     pub(super) leak_reduction: LeakReduction,
     pub(super) medium: (SingleScattering, f64),
+    pub(super) depth_format: Option<TextureFormat>,
 }
 
 impl Scratch {
@@ -72,7 +73,7 @@ impl Scratch {
         for shading in &part.shading {
             self.views.clear();
             for (index, light) in told.lights.iter().enumerate() {
-                let view = shading.parameters(told.camera, light, index, told.leak_reduction)?;
+                let view = shading.parameters(told, light, index)?;
                 self.views.push(view);
             }
             layout.write_all(&mut self.block, &shading.node, 0, &self.views)?;

@@ -1,10 +1,11 @@
 //! The nodes of a part that shade, and what they are told of cameras and lights.
 
 use moment_shadows::{
-    CameraView, LeakReduction, LightView, MapRegion, ReceiverBias, SoftRadii, ViewParameters,
+    LightView, MapRegion, ReceiverBias, SoftRadii, TextureFormat, ViewParameters,
 };
 
 use super::SessionError;
+use super::scratch::Told;
 use crate::{Graph, Plan, TextureDesc};
 
 /// The struct that a node which shades has an array of.
@@ -77,10 +78,9 @@ impl Shading {
     /// What the node is told of one view of a light, which is number `index` of those that the host gives.
     pub(super) fn parameters(
         &self,
-        camera: &CameraView,
+        told: &Told<'_>,
         light: &LightView,
         index: usize,
-        leak_reduction: LeakReduction,
     ) -> Result<ViewParameters, SessionError> {
         let unsuitable = |reason: String| {
             SessionError::unsuitable(
@@ -100,17 +100,35 @@ impl Shading {
                 light.channel, self.channels
             )));
         }
-        let extent = if light.region == MapRegion::WHOLE {
-            self.map.size
-        } else {
-            light.region.extent
-        };
-        let depth_per_texel = light.depth_per_texel(extent) as f32;
-        let bias = ReceiverBias::for_kernel(self.map.deviation.get(), depth_per_texel);
-        let parameters = ViewParameters::new(camera, light, bias, leak_reduction);
+        let extent = extent(&self.map, light);
+        let bias = receiver_bias(&self.map, light, told.depth_format)?;
+        let parameters = ViewParameters::new(told.camera, light, bias, told.leak_reduction);
         let mut parameters = parameters.map_err(|error| unsuitable(error.to_string()))?;
         let light = light.area_light(extent, self.radii);
         parameters.light = light.map_err(|error| unsuitable(error.to_string()))?;
         Ok(parameters)
     }
+}
+
+/// Texels of the map that a view of a light has.
+fn extent(map: &TextureDesc, light: &LightView) -> [u32; 2] {
+    if light.region == MapRegion::WHOLE {
+        map.size
+    } else {
+        light.region.extent
+    }
+}
+
+/// The receiver bias for a map and a view of a light: it follows from the filter, from the texels, and from how depth is stored.
+pub(super) fn receiver_bias(
+    map: &TextureDesc,
+    light: &LightView,
+    depth_format: Option<TextureFormat>,
+) -> Result<ReceiverBias, SessionError> {
+    let depth_per_texel = light.depth_per_texel(extent(map, light)) as f32;
+    let bias = ReceiverBias::for_kernel(map.deviation.get(), depth_per_texel);
+    let conversion = light.depth.conversion();
+    let conversion =
+        conversion.map_err(|error| SessionError::unsuitable("a view of a light", error))?;
+    Ok(depth_format.map_or(bias, |format| bias.for_stored_depth(format, &conversion)))
 }

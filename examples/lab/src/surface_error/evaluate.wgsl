@@ -4,7 +4,7 @@ import moment_shadows::map::map_region::{MapRegion};
 import moment_shadows::moments::four_moments::{FourMomentsBias};
 import moment_shadows::shade::area_light::{AreaLight};
 import node::point_intensity::{point_intensity};
-import moment_shadows::shade::receiver_bias::{ReceiverBias, receiver_bias_depth};
+import moment_shadows::shade::receiver_bias::{ReceiverBias, receiver_bias_depth, receiver_bias_step};
 import node::technique_map::{technique_map_size};
 import node::technique_receiver::{TechniqueReceiver};
 
@@ -39,7 +39,7 @@ fn evaluate(@builtin(global_invocation_id) id: vec3u) {
     }
     let point = points[id.x];
     let settings = parameters.receiver_bias;
-    let depth = min(point.moment_depth, 1.0);
+    let depth = min(point.moment_depth, 1.0) - receiver_bias_step(settings, point.moment_depth);
     // Layer 0 as a whole, and without a pixel's footprint: mip level 0.
     let intensity = point_intensity(TechniqueReceiver(
         0u,

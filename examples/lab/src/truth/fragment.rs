@@ -104,9 +104,11 @@ impl Camera<'_> {
         let [constant, slope_scale, maximum] =
             [rule.constant, rule.slope_scale, rule.maximum].map(f64::from);
         let bias = (constant + slope_scale * gradient).clamp(0.0, maximum);
+        let [root, slope] = rule.step_root.map(f64::from);
+        let step = (root + slope * receiver.moment_depth.clamp(-1.0, 1.0)).powi(2);
         Some(Lookup {
             uv: uv.to_array(),
-            fragment_depth: (receiver.moment_depth.min(1.0) - bias).clamp(-1.0, 1.0),
+            fragment_depth: (receiver.moment_depth.min(1.0) - step - bias).clamp(-1.0, 1.0),
         })
     }
 

@@ -4,7 +4,7 @@ import moment_shadows::shade::leak_reduction::{LeakReduction, leak_reduction_app
 import moment_shadows::map::map_region::{MapRegion, map_region_within};
 import moment_shadows::map::minification::{minification_depth_variance, minification_footprint};
 import moment_shadows::shade::area_light::{AreaLight};
-import moment_shadows::shade::receiver_bias::{ReceiverBias, receiver_bias_depth, receiver_bias_depth_minified, receiver_bias_plane};
+import moment_shadows::shade::receiver_bias::{ReceiverBias, receiver_bias_depth, receiver_bias_depth_minified, receiver_bias_plane, receiver_bias_step};
 import node::specialization::{ANISOTROPY, GROUP, LEVELS, LIGHTS, VIEWS};
 import node::technique::{technique_shadow_intensity};
 import node::technique_map::{technique_map_size};
@@ -123,7 +123,7 @@ fn view_shadow_intensity(view: u32, pixel: vec2i, receiver: Receiver, neighbour_
     }
     // The map holds a surface that leaves the light's range at the far end. The bias counts from there, since some of the
     // kernel may still see the surface within the range.
-    let depth = min(receiver.place.z, 1.0);
+    let depth = min(receiver.place.z, 1.0) - receiver_bias_step(settings, receiver.place.z);
     let intensity = technique_shadow_intensity(TechniqueReceiver(
         views[view].layer,
         region,

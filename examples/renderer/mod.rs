@@ -1,0 +1,441 @@
+//! A small renderer that stands in for yours: boxes with depth maps from anywhere, and a picture that is lit with shadow
+//! intensity. Nothing in here belongs to the library.
+#![allow(dead_code, reason = "each example uses a part of it")]
+
+use std::error::Error;
+use std::path::Path;
+
+use glam::dcamera::rh::proj::directx::{orthographic, perspective, perspective_infinite_reverse};
+use glam::dcamera::rh::view::look_at_mat4;
+use glam::{DMat4, DVec3};
+use pollster::block_on;
+use wgpu::util::DeviceExt as _;
+
+pub type Matrix = [[f64; 4]; 4];
+
+/// The format of linear colours in between.
+const COLOUR: wgpu::TextureFormat = wgpu::TextureFormat::Rgba16Float;
+
+pub struct Renderer {
+    pub adapter: wgpu::Adapter,
+    pub device: wgpu::Device,
+    pub queue: wgpu::Queue,
+    shader: wgpu::ShaderModule,
+    boxes: wgpu::Buffer,
+    count: u32,
+}
+
+/// What the camera sees, without shadows.
+pub struct Picture {
+    pub depth: wgpu::Texture,
+    ambient: wgpu::Texture,
+    direct: wgpu::Texture,
+    lit: wgpu::Texture,
+}
+
+/// A colonnade with a roof of slats on a wide floor.
+fn boxes() -> Vec<[[f32; 3]; 3]> {
+    let floor = [[0.0, -0.1, 0.0], [14.0, 0.1, 14.0], [0.62, 0.6, 0.56]];
+    let wall = [[0.0, 1.6, -3.3], [4.6, 1.6, 0.1], [0.7, 0.66, 0.6]];
+    let pillars = (0..10).map(|index| {
+        let x = -4.0 + 2.0 * (index / 2) as f32;
+        let z = if index % 2 == 0 { -2.4 } else { 1.6 };
+        [[x, 1.5, z], [0.16, 1.5, 0.16], [0.72, 0.64, 0.52]]
+    });
+    let slats = (0..19).map(|index| {
+        let x = -4.5 + 0.5 * index as f32;
+        [[x, 3.1, -0.4], [0.1, 0.1, 2.9], [0.45, 0.36, 0.28]]
+    });
+    let crates = [[-1.2, 0.3, 0.4], [0.9, 0.2, -0.8], [2.6, 0.35, 0.7]]
+        .map(|centre: [f32; 3]| [centre, [centre[1]; 3], [0.5, 0.58, 0.66]]);
+    [floor, wall]
+        .into_iter()
+        .chain(pillars)
+        .chain(slats)
+        .chain(crates)
+        .collect()
+}
+
+/// A sun from `towards`, whose map covers the colonnade: 0 is stored at the near plane.
+pub fn sun(towards: [f64; 3]) -> Matrix {
+    let towards = DVec3::from(towards).normalize();
+    let centre = DVec3::new(0.0, 1.4, -0.8);
+    let view = look_at_mat4(centre + 8.0 * towards, centre, DVec3::Y);
+    (orthographic(-6.5, 6.5, -6.5, 6.5, 0.0, 16.0) * view).to_cols_array_2d()
+}
+
+/// A lamp at `eye` with planes at `near` and `far`, which shines on the middle of the floor.
+pub fn lamp(eye: [f64; 3], near: f64, far: f64) -> Matrix {
+    let view = look_at_mat4(DVec3::from(eye), DVec3::ZERO, DVec3::Y);
+    (perspective(1.6, 1.0, near, far) * view).to_cols_array_2d()
+}
+
+/// A camera at `eye` with reversed, infinite depth.
+pub fn camera(eye: [f64; 3], target: [f64; 3], size: [u32; 2]) -> Matrix {
+    let aspect = f64::from(size[0]) / f64::from(size[1]);
+    let view = look_at_mat4(DVec3::from(eye), DVec3::from(target), DVec3::Y);
+    (perspective_infinite_reverse(0.8, aspect, 0.1) * view).to_cols_array_2d()
+}
+
+impl Renderer {
+    /// A device with what the adapter has of what the library can use: 16-bit normalised formats, for maps that leak least.
+    pub fn open() -> Result<Self, Box<dyn Error>> {
+        let instance = wgpu::Instance::default();
+        let adapter = block_on(instance.request_adapter(&Default::default()))?;
+        let wanted = wgpu::Features::TEXTURE_FORMAT_16BIT_NORM | wgpu::Features::FLOAT32_FILTERABLE;
+        let (device, queue) = block_on(adapter.request_device(&wgpu::DeviceDescriptor {
+            required_features: adapter.features() & wanted,
+            ..Default::default()
+        }))?;
+        let shader = device.create_shader_module(wgpu::include_wgsl!("renderer.wgsl"));
+        let boxes = boxes();
+        Ok(Self {
+            shader,
+            count: boxes.len() as u32,
+            boxes: device.create_buffer_init(&wgpu::util::BufferInitDescriptor {
+                label: None,
+                contents: bytemuck::cast_slice(&boxes),
+                usage: wgpu::BufferUsages::VERTEX,
+            }),
+            adapter,
+            device,
+            queue,
+        })
+    }
+
+    pub fn texture(
+        &self,
+        size: [u32; 2],
+        samples: u32,
+        format: wgpu::TextureFormat,
+    ) -> wgpu::Texture {
+        let mut usage =
+            wgpu::TextureUsages::RENDER_ATTACHMENT | wgpu::TextureUsages::TEXTURE_BINDING;
+        usage.set(wgpu::TextureUsages::COPY_SRC, samples == 1);
+        self.device.create_texture(&wgpu::TextureDescriptor {
+            label: None,
+            size: wgpu::Extent3d {
+                width: size[0],
+                height: size[1],
+                depth_or_array_layers: 1,
+            },
+            mip_level_count: 1,
+            sample_count: samples,
+            dimension: wgpu::TextureDimension::D2,
+            format,
+            usage,
+            view_formats: &[],
+        })
+    }
+
+    /// A light's depth map: four samples per texel.
+    pub fn light_depth(&self, side: u32) -> wgpu::Texture {
+        self.texture([side, side], 4, wgpu::TextureFormat::Depth32Float)
+    }
+
+    pub fn picture(&self, size: [u32; 2]) -> Picture {
+        Picture {
+            depth: self.texture(size, 1, wgpu::TextureFormat::Depth32Float),
+            ambient: self.texture(size, 1, COLOUR),
+            direct: self.texture(size, 1, COLOUR),
+            lit: self.texture(size, 1, wgpu::TextureFormat::Rgba8UnormSrgb),
+        }
+    }
+
+    /// The light's own pass: depth alone, 1 where nothing is.
+    pub fn draw_light(
+        &self,
+        encoder: &mut wgpu::CommandEncoder,
+        light: &Matrix,
+        depth: &wgpu::Texture,
+    ) {
+        let frame = self.frame(light, [0.0; 4]);
+        self.draw(
+            encoder,
+            &frame,
+            depth,
+            &[],
+            1.0,
+            wgpu::CompareFunction::Less,
+        );
+    }
+
+    /// The main pass: depth and colours, 0 where nothing is. `light` is the direction towards a sun and 0, or a lamp's
+    /// position and 1.
+    pub fn draw_camera(
+        &self,
+        encoder: &mut wgpu::CommandEncoder,
+        camera: &Matrix,
+        light: [f32; 4],
+        picture: &Picture,
+    ) {
+        let frame = self.frame(camera, light);
+        let colours = [&picture.ambient, &picture.direct];
+        self.draw(
+            encoder,
+            &frame,
+            &picture.depth,
+            &colours,
+            0.0,
+            wgpu::CompareFunction::Greater,
+        );
+    }
+
+    /// Lights the picture with shadow intensity, and with what the air scatters where that is given.
+    pub fn light(
+        &self,
+        encoder: &mut wgpu::CommandEncoder,
+        picture: &Picture,
+        shadow: &wgpu::Texture,
+        scattering: Option<&wgpu::Texture>,
+    ) {
+        // Without air: no radiance, and all of the surface is seen.
+        let clear = self.texture([picture.lit.width(), picture.lit.height()], 1, COLOUR);
+        if scattering.is_none() {
+            drop(pass(encoder, &[&clear], wgpu::Color::BLACK, None));
+        }
+        let pipeline = self.pipeline(
+            &self.shader,
+            ["cover", "light"],
+            &[picture.lit.format()],
+            None,
+            1,
+        );
+        let textures = [
+            &picture.ambient,
+            &picture.direct,
+            shadow,
+            scattering.unwrap_or(&clear),
+        ];
+        let views = textures.map(|texture| texture.create_view(&Default::default()));
+        let entries: Vec<_> = (1..)
+            .zip(&views)
+            .map(|(binding, view)| wgpu::BindGroupEntry {
+                binding,
+                resource: wgpu::BindingResource::TextureView(view),
+            })
+            .collect();
+        let group = self.group(&pipeline, &entries);
+        let mut pass = pass(encoder, &[&picture.lit], wgpu::Color::BLACK, None);
+        pass.set_pipeline(&pipeline);
+        pass.set_bind_group(0, &group, &[]);
+        pass.draw(0..3, 0..1);
+    }
+
+    /// Submits and writes the lit picture to a file.
+    pub fn save(
+        &self,
+        encoder: wgpu::CommandEncoder,
+        picture: &Picture,
+        file: &str,
+    ) -> Result<(), Box<dyn Error>> {
+        self.save_texture(encoder, &picture.lit, file)
+    }
+
+    pub fn save_texture(
+        &self,
+        mut encoder: wgpu::CommandEncoder,
+        texture: &wgpu::Texture,
+        file: &str,
+    ) -> Result<(), Box<dyn Error>> {
+        let (width, height) = (texture.width(), texture.height());
+        let stride = (4 * width).next_multiple_of(wgpu::COPY_BYTES_PER_ROW_ALIGNMENT);
+        let buffer = self.device.create_buffer(&wgpu::BufferDescriptor {
+            label: None,
+            size: u64::from(stride * height),
+            usage: wgpu::BufferUsages::COPY_DST | wgpu::BufferUsages::MAP_READ,
+            mapped_at_creation: false,
+        });
+        let layout = wgpu::TexelCopyBufferLayout {
+            offset: 0,
+            bytes_per_row: Some(stride),
+            rows_per_image: None,
+        };
+        encoder.copy_texture_to_buffer(
+            texture.as_image_copy(),
+            wgpu::TexelCopyBufferInfo {
+                buffer: &buffer,
+                layout,
+            },
+            texture.size(),
+        );
+        self.queue.submit([encoder.finish()]);
+        buffer.slice(..).map_async(wgpu::MapMode::Read, |_| ());
+        self.device.poll(wgpu::PollType::wait_indefinitely())?;
+        let mapped = buffer.slice(..).get_mapped_range();
+        let rows = mapped.chunks_exact(stride as usize);
+        let pixels: Vec<u8> = rows
+            .flat_map(|row| row[..4 * width as usize].to_vec())
+            .collect();
+        if let Some(folder) = Path::new(file).parent() {
+            std::fs::create_dir_all(folder)?;
+        }
+        image::save_buffer(file, &pixels, width, height, image::ColorType::Rgba8)?;
+        println!("{file}");
+        Ok(())
+    }
+
+    /// Draws all boxes with a pipeline that takes them, and group 0 of what it is given.
+    pub fn draw_boxes(&self, pass: &mut wgpu::RenderPass<'_>) {
+        pass.set_vertex_buffer(0, self.boxes.slice(..));
+        pass.draw(0..36, 0..self.count);
+    }
+
+    /// A uniform buffer.
+    pub fn uniform(&self, contents: &[u8]) -> wgpu::Buffer {
+        self.device
+            .create_buffer_init(&wgpu::util::BufferInitDescriptor {
+                label: None,
+                contents,
+                usage: wgpu::BufferUsages::UNIFORM,
+            })
+    }
+
+    pub fn group(
+        &self,
+        pipeline: &wgpu::RenderPipeline,
+        entries: &[wgpu::BindGroupEntry<'_>],
+    ) -> wgpu::BindGroup {
+        self.device.create_bind_group(&wgpu::BindGroupDescriptor {
+            label: None,
+            layout: &pipeline.get_bind_group_layout(0),
+            entries,
+        })
+    }
+
+    fn frame(&self, clip_from_world: &Matrix, light: [f32; 4]) -> wgpu::Buffer {
+        let matrix = DMat4::from_cols_array_2d(clip_from_world).as_mat4();
+        let columns = matrix.to_cols_array_2d();
+        self.uniform(bytemuck::cast_slice(&[
+            columns[0], columns[1], columns[2], columns[3], light,
+        ]))
+    }
+
+    fn draw(
+        &self,
+        encoder: &mut wgpu::CommandEncoder,
+        frame: &wgpu::Buffer,
+        depth: &wgpu::Texture,
+        colours: &[&wgpu::Texture],
+        far: f32,
+        compare: wgpu::CompareFunction,
+    ) {
+        let formats: Vec<_> = colours.iter().map(|colour| colour.format()).collect();
+        let entries = ["draw", "surface"];
+        let pipeline = self.pipeline(
+            &self.shader,
+            entries,
+            &formats,
+            Some(compare),
+            depth.sample_count(),
+        );
+        let entry = wgpu::BindGroupEntry {
+            binding: 0,
+            resource: frame.as_entire_binding(),
+        };
+        let group = self.group(&pipeline, &[entry]);
+        let sky = wgpu::Color {
+            r: 0.12,
+            g: 0.22,
+            b: 0.5,
+            a: 1.0,
+        };
+        let mut pass = pass(encoder, colours, sky, Some((depth, far)));
+        pass.set_pipeline(&pipeline);
+        pass.set_bind_group(0, &group, &[]);
+        self.draw_boxes(&mut pass);
+    }
+
+    /// A pipeline with the vertex and fragment entry points of a shader. With a depth test it draws boxes.
+    pub fn pipeline(
+        &self,
+        shader: &wgpu::ShaderModule,
+        [vertex, fragment]: [&str; 2],
+        colours: &[wgpu::TextureFormat],
+        depth: Option<wgpu::CompareFunction>,
+        samples: u32,
+    ) -> wgpu::RenderPipeline {
+        let targets: Vec<_> = colours.iter().map(|&format| Some(format.into())).collect();
+        let attributes = wgpu::vertex_attr_array![0 => Float32x3, 1 => Float32x3, 2 => Float32x3];
+        let boxes = Some(wgpu::VertexBufferLayout {
+            array_stride: 36,
+            step_mode: wgpu::VertexStepMode::Instance,
+            attributes: &attributes,
+        });
+        let buffers: &[_] = if depth.is_some() { &[boxes] } else { &[] };
+        self.device
+            .create_render_pipeline(&wgpu::RenderPipelineDescriptor {
+                label: None,
+                layout: None,
+                vertex: wgpu::VertexState {
+                    module: shader,
+                    entry_point: Some(vertex),
+                    compilation_options: Default::default(),
+                    buffers,
+                },
+                primitive: wgpu::PrimitiveState::default(),
+                depth_stencil: depth.map(|compare| wgpu::DepthStencilState {
+                    format: wgpu::TextureFormat::Depth32Float,
+                    depth_write_enabled: Some(true),
+                    depth_compare: Some(compare),
+                    stencil: Default::default(),
+                    bias: Default::default(),
+                }),
+                multisample: wgpu::MultisampleState {
+                    count: samples,
+                    ..Default::default()
+                },
+                fragment: (!targets.is_empty()).then_some(wgpu::FragmentState {
+                    module: shader,
+                    entry_point: Some(fragment),
+                    compilation_options: Default::default(),
+                    targets: &targets,
+                }),
+                multiview_mask: None,
+                cache: None,
+            })
+    }
+}
+
+/// A render pass that clears its targets.
+pub fn pass<'a>(
+    encoder: &'a mut wgpu::CommandEncoder,
+    colours: &[&wgpu::Texture],
+    clear: wgpu::Color,
+    depth: Option<(&wgpu::Texture, f32)>,
+) -> wgpu::RenderPass<'a> {
+    let view = |texture: &wgpu::Texture| texture.create_view(&Default::default());
+    let colours: Vec<_> = colours.iter().map(|colour| view(colour)).collect();
+    let attachments: Vec<_> = colours
+        .iter()
+        .map(|view| {
+            Some(wgpu::RenderPassColorAttachment {
+                view,
+                depth_slice: None,
+                resolve_target: None,
+                ops: wgpu::Operations {
+                    load: wgpu::LoadOp::Clear(clear),
+                    store: wgpu::StoreOp::Store,
+                },
+            })
+        })
+        .collect();
+    let depth = depth.map(|(depth, far)| (view(depth), far));
+    encoder.begin_render_pass(&wgpu::RenderPassDescriptor {
+        label: None,
+        color_attachments: &attachments,
+        depth_stencil_attachment: depth.as_ref().map(|(view, far)| {
+            wgpu::RenderPassDepthStencilAttachment {
+                view,
+                depth_ops: Some(wgpu::Operations {
+                    load: wgpu::LoadOp::Clear(*far),
+                    store: wgpu::StoreOp::Store,
+                }),
+                stencil_ops: None,
+            }
+        }),
+        timestamp_writes: None,
+        occlusion_query_set: None,
+        multiview_mask: None,
+    })
+}

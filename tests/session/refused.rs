@@ -1,0 +1,129 @@
+//! What does not suit a session is an error that says so, and the session stays as it was.
+
+use moment_shadows::{LightDepth, LightSize, LightView};
+use moment_shadows_graph::{Session, SessionError, Stage};
+use pollster::block_on;
+
+use crate::{HARD, frame, gpu, imports, parsed, places, recorded, session};
+
+#[test]
+fn a_camera_that_was_never_placed_is_not_recorded() {
+    let gpu = gpu();
+    let frame = frame(&gpu, 0, [96, 54]);
+    let (camera, light) = places(&frame);
+    let mut session = session(&gpu, HARD, &imports(&frame));
+    let record = |session: &Session| {
+        let mut encoder = gpu.device.create_command_encoder(&Default::default());
+        session.record(Stage::AfterShadowMaps, &mut encoder)
+    };
+    let found = record(&session).unwrap_err().to_string();
+    assert!(
+        found.contains("camera 0") && found.contains("'view'"),
+        "{found}"
+    );
+    session.view(&gpu.queue, 0, &camera, &[light]).unwrap();
+    record(&session).unwrap();
+    block_on(session.replace(0, &imports(&frame)[1..])).unwrap();
+    record(&session).unwrap_err();
+    let found = session.view(&gpu.queue, 1, &camera, &[light]).unwrap_err();
+    assert!(found.to_string().contains("camera 1"), "{found}");
+}
+
+#[test]
+fn views_of_lights_that_the_graph_has_no_place_for_are_named() {
+    let gpu = gpu();
+    let frame = frame(&gpu, 0, [96, 54]);
+    let (camera, light) = places(&frame);
+    let mut session = session(&gpu, HARD, &imports(&frame));
+    session.view(&gpu.queue, 0, &camera, &[light]).unwrap();
+    let before = recorded(&gpu, &session, 0, "shadow_intensity");
+    let singular = [[0.0; 4]; 4];
+    let wrong: [(&[LightView], &str); 6] = [
+        (&[LightView { layer: 1, ..light }], "layer is 1"),
+        (
+            &[LightView {
+                channel: 1,
+                ..light
+            }],
+            "channel is 1",
+        ),
+        (&[light, light], "at most 1"),
+        (&[LightView::orthographic(singular)], "light"),
+        (
+            &[LightView {
+                size: LightSize::Disk(1.0),
+                ..light
+            }],
+            "angular diameter",
+        ),
+        (
+            &[LightView {
+                depth: LightDepth::Perspective {
+                    near: 0.0,
+                    far: 1.0,
+                    reversed: false,
+                    range: light.range(),
+                },
+                ..light
+            }],
+            "near plane",
+        ),
+    ];
+    for (lights, word) in wrong {
+        let found = session.view(&gpu.queue, 0, &camera, lights).unwrap_err();
+        assert!(found.to_string().contains(word), "{word}: {found}");
+        assert_eq!(
+            recorded(&gpu, &session, 0, "shadow_intensity"),
+            before,
+            "{word}"
+        );
+    }
+}
+
+#[test]
+fn textures_that_the_graph_cannot_take_are_named() {
+    let gpu = gpu();
+    let frame = frame(&gpu, 0, [96, 54]);
+    let given = imports(&frame);
+    let new = |imports: &[_]| {
+        let session = Session::new(
+            &gpu.adapter,
+            &gpu.device,
+            parsed(HARD),
+            imports,
+            Default::default(),
+        );
+        block_on(session).unwrap_err()
+    };
+    let colour =
+        moment_shadows_graph::record::ImportedResource::Texture(&frame.surface.base_colour);
+    for (imports, words) in [
+        (
+            vec![given[0], ("camera_depth", colour)],
+            ["camera_depth", "format"],
+        ),
+        (
+            vec![given[0], given[1], ("camera", colour)],
+            ["camera", "format"],
+        ),
+        (
+            vec![given[0], given[1], ("depth", given[0].1)],
+            ["depth", "import"],
+        ),
+        (
+            vec![given[0], ("light_depth", colour)],
+            ["light_depth", "format"],
+        ),
+    ] {
+        let found = new(&imports).to_string();
+        for word in words {
+            assert!(found.contains(word), "{word}: {found}");
+        }
+    }
+    let mut session = session(&gpu, HARD, &given);
+    let found = block_on(session.add_view(&given)).unwrap_err();
+    assert!(
+        matches!(found, SessionError::Unsuitable { .. }) && found.to_string().contains("'replace'"),
+        "{found}"
+    );
+}
