@@ -10,7 +10,7 @@ use std::error::Error;
 use moment_shadows::{ReceiverBias, Source, link};
 use moment_shadows_graph::{CameraView, Graph, LightView, Session, Stage};
 use pollster::block_on;
-use renderer::{Matrix, Renderer, camera, pass, sun};
+use renderer::{Matrix, Renderer, SKY, camera, pass, sun};
 
 const SIZE: [u32; 2] = [1280, 720];
 const MAP: u32 = 1024;
@@ -102,13 +102,7 @@ fn main() -> Result<(), Box<dyn Error>> {
         .collect();
     let picture = yours.texture(SIZE, 1, colour);
     let depth = yours.texture(SIZE, 1, wgpu::TextureFormat::Depth32Float);
-    let sky = wgpu::Color {
-        r: 0.12,
-        g: 0.22,
-        b: 0.5,
-        a: 1.0,
-    };
-    let mut lit = pass(&mut encoder, &[&picture], sky, Some((&depth, 0.0)));
+    let mut lit = pass(&mut encoder, &[(&picture, SKY)], Some((&depth, 0.0)));
     lit.set_pipeline(&pipeline);
     lit.set_bind_group(0, &yours.group(&pipeline, &entries), &[]);
     yours.draw_boxes(&mut lit);

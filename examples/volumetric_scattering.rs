@@ -12,7 +12,7 @@ use pollster::block_on;
 use renderer::{Renderer, camera, sun};
 
 const SIZE: [u32; 2] = [1280, 720];
-const TOWARDS_SUN: [f32; 4] = [0.5, 0.8, -0.25, 0.0];
+const TOWARDS_SUN: [f32; 4] = [0.45, 0.8, -0.5, 0.0];
 
 fn main() -> Result<(), Box<dyn Error>> {
     let folder = std::env::args().nth(1).unwrap_or("pictures".to_owned());
@@ -32,11 +32,11 @@ fn main() -> Result<(), Box<dyn Error>> {
         Default::default(),
     ))?;
 
-    // Fog that takes a twentieth of the light per unit, a little more of blue; up to 30 units from the camera it is lit.
-    let extinction = [0.045, 0.05, 0.055];
+    // Fog that takes a 25th of the light per unit, a little more of blue; up to 30 units from the camera it is lit.
+    let extinction = [0.036, 0.04, 0.044];
     let scattering = extinction.map(|extinction| 0.9 * extinction);
     session.medium = (
-        SingleScattering::new(extinction, scattering, 0.4, [4.5, 4.2, 3.7])?,
+        SingleScattering::new(extinction, scattering, 0.4, [14.0, 13.0, 11.0])?,
         30.0,
     );
 

@@ -11,23 +11,31 @@ use glam::{DMat4, DVec3};
 use pollster::block_on;
 use wgpu::util::DeviceExt as _;
 
-pub type Matrix = [[f64; 4]; 4];
+pub(crate) type Matrix = [[f64; 4]; 4];
+
+/// What is seen where there is no surface.
+pub(crate) const SKY: wgpu::Color = wgpu::Color {
+    r: 0.25,
+    g: 0.45,
+    b: 0.8,
+    a: 1.0,
+};
 
 /// The format of linear colours in between.
 const COLOUR: wgpu::TextureFormat = wgpu::TextureFormat::Rgba16Float;
 
-pub struct Renderer {
-    pub adapter: wgpu::Adapter,
-    pub device: wgpu::Device,
-    pub queue: wgpu::Queue,
+pub(crate) struct Renderer {
+    pub(crate) adapter: wgpu::Adapter,
+    pub(crate) device: wgpu::Device,
+    pub(crate) queue: wgpu::Queue,
     shader: wgpu::ShaderModule,
     boxes: wgpu::Buffer,
     count: u32,
 }
 
 /// What the camera sees, without shadows.
-pub struct Picture {
-    pub depth: wgpu::Texture,
+pub(crate) struct Picture {
+    pub(crate) depth: wgpu::Texture,
     ambient: wgpu::Texture,
     direct: wgpu::Texture,
     lit: wgpu::Texture,
@@ -42,9 +50,9 @@ fn boxes() -> Vec<[[f32; 3]; 3]> {
         let z = if index % 2 == 0 { -2.4 } else { 1.6 };
         [[x, 1.5, z], [0.16, 1.5, 0.16], [0.72, 0.64, 0.52]]
     });
-    let slats = (0..19).map(|index| {
-        let x = -4.5 + 0.5 * index as f32;
-        [[x, 3.1, -0.4], [0.1, 0.1, 2.9], [0.45, 0.36, 0.28]]
+    let slats = (0..13).map(|index| {
+        let x = -4.5 + 0.75 * index as f32;
+        [[x, 3.1, -0.4], [0.24, 0.08, 2.9], [0.45, 0.36, 0.28]]
     });
     let crates = [[-1.2, 0.3, 0.4], [0.9, 0.2, -0.8], [2.6, 0.35, 0.7]]
         .map(|centre: [f32; 3]| [centre, [centre[1]; 3], [0.5, 0.58, 0.66]]);
@@ -57,7 +65,7 @@ fn boxes() -> Vec<[[f32; 3]; 3]> {
 }
 
 /// A sun from `towards`, whose map covers the colonnade: 0 is stored at the near plane.
-pub fn sun(towards: [f64; 3]) -> Matrix {
+pub(crate) fn sun(towards: [f64; 3]) -> Matrix {
     let towards = DVec3::from(towards).normalize();
     let centre = DVec3::new(0.0, 1.4, -0.8);
     let view = look_at_mat4(centre + 8.0 * towards, centre, DVec3::Y);
@@ -65,13 +73,13 @@ pub fn sun(towards: [f64; 3]) -> Matrix {
 }
 
 /// A lamp at `eye` with planes at `near` and `far`, which shines on the middle of the floor.
-pub fn lamp(eye: [f64; 3], near: f64, far: f64) -> Matrix {
+pub(crate) fn lamp(eye: [f64; 3], near: f64, far: f64) -> Matrix {
     let view = look_at_mat4(DVec3::from(eye), DVec3::ZERO, DVec3::Y);
     (perspective(1.6, 1.0, near, far) * view).to_cols_array_2d()
 }
 
 /// A camera at `eye` with reversed, infinite depth.
-pub fn camera(eye: [f64; 3], target: [f64; 3], size: [u32; 2]) -> Matrix {
+pub(crate) fn camera(eye: [f64; 3], target: [f64; 3], size: [u32; 2]) -> Matrix {
     let aspect = f64::from(size[0]) / f64::from(size[1]);
     let view = look_at_mat4(DVec3::from(eye), DVec3::from(target), DVec3::Y);
     (perspective_infinite_reverse(0.8, aspect, 0.1) * view).to_cols_array_2d()
@@ -79,7 +87,7 @@ pub fn camera(eye: [f64; 3], target: [f64; 3], size: [u32; 2]) -> Matrix {
 
 impl Renderer {
     /// A device with what the adapter has of what the library can use: 16-bit normalised formats, for maps that leak least.
-    pub fn open() -> Result<Self, Box<dyn Error>> {
+    pub(crate) fn open() -> Result<Self, Box<dyn Error>> {
         let instance = wgpu::Instance::default();
         let adapter = block_on(instance.request_adapter(&Default::default()))?;
         let wanted = wgpu::Features::TEXTURE_FORMAT_16BIT_NORM | wgpu::Features::FLOAT32_FILTERABLE;
@@ -103,7 +111,7 @@ impl Renderer {
         })
     }
 
-    pub fn texture(
+    pub(crate) fn texture(
         &self,
         size: [u32; 2],
         samples: u32,
@@ -129,11 +137,11 @@ impl Renderer {
     }
 
     /// A light's depth map: four samples per texel.
-    pub fn light_depth(&self, side: u32) -> wgpu::Texture {
+    pub(crate) fn light_depth(&self, side: u32) -> wgpu::Texture {
         self.texture([side, side], 4, wgpu::TextureFormat::Depth32Float)
     }
 
-    pub fn picture(&self, size: [u32; 2]) -> Picture {
+    pub(crate) fn picture(&self, size: [u32; 2]) -> Picture {
         Picture {
             depth: self.texture(size, 1, wgpu::TextureFormat::Depth32Float),
             ambient: self.texture(size, 1, COLOUR),
@@ -143,7 +151,7 @@ impl Renderer {
     }
 
     /// The light's own pass: depth alone, 1 where nothing is.
-    pub fn draw_light(
+    pub(crate) fn draw_light(
         &self,
         encoder: &mut wgpu::CommandEncoder,
         light: &Matrix,
@@ -162,7 +170,7 @@ impl Renderer {
 
     /// The main pass: depth and colours, 0 where nothing is. `light` is the direction towards a sun and 0, or a lamp's
     /// position and 1.
-    pub fn draw_camera(
+    pub(crate) fn draw_camera(
         &self,
         encoder: &mut wgpu::CommandEncoder,
         camera: &Matrix,
@@ -170,7 +178,10 @@ impl Renderer {
         picture: &Picture,
     ) {
         let frame = self.frame(camera, light);
-        let colours = [&picture.ambient, &picture.direct];
+        let colours = [
+            (&picture.ambient, SKY),
+            (&picture.direct, wgpu::Color::BLACK),
+        ];
         self.draw(
             encoder,
             &frame,
@@ -182,7 +193,7 @@ impl Renderer {
     }
 
     /// Lights the picture with shadow intensity, and with what the air scatters where that is given.
-    pub fn light(
+    pub(crate) fn light(
         &self,
         encoder: &mut wgpu::CommandEncoder,
         picture: &Picture,
@@ -192,7 +203,7 @@ impl Renderer {
         // Without air: no radiance, and all of the surface is seen.
         let clear = self.texture([picture.lit.width(), picture.lit.height()], 1, COLOUR);
         if scattering.is_none() {
-            drop(pass(encoder, &[&clear], wgpu::Color::BLACK, None));
+            drop(pass(encoder, &[(&clear, wgpu::Color::BLACK)], None));
         }
         let pipeline = self.pipeline(
             &self.shader,
@@ -216,14 +227,14 @@ impl Renderer {
             })
             .collect();
         let group = self.group(&pipeline, &entries);
-        let mut pass = pass(encoder, &[&picture.lit], wgpu::Color::BLACK, None);
+        let mut pass = pass(encoder, &[(&picture.lit, wgpu::Color::BLACK)], None);
         pass.set_pipeline(&pipeline);
         pass.set_bind_group(0, &group, &[]);
         pass.draw(0..3, 0..1);
     }
 
     /// Submits and writes the lit picture to a file.
-    pub fn save(
+    pub(crate) fn save(
         &self,
         encoder: wgpu::CommandEncoder,
         picture: &Picture,
@@ -232,7 +243,7 @@ impl Renderer {
         self.save_texture(encoder, &picture.lit, file)
     }
 
-    pub fn save_texture(
+    pub(crate) fn save_texture(
         &self,
         mut encoder: wgpu::CommandEncoder,
         texture: &wgpu::Texture,
@@ -262,7 +273,7 @@ impl Renderer {
         self.queue.submit([encoder.finish()]);
         buffer.slice(..).map_async(wgpu::MapMode::Read, |_| ());
         self.device.poll(wgpu::PollType::wait_indefinitely())?;
-        let mapped = buffer.slice(..).get_mapped_range();
+        let mapped = buffer.slice(..).get_mapped_range()?;
         let rows = mapped.chunks_exact(stride as usize);
         let pixels: Vec<u8> = rows
             .flat_map(|row| row[..4 * width as usize].to_vec())
@@ -276,13 +287,13 @@ impl Renderer {
     }
 
     /// Draws all boxes with a pipeline that takes them, and group 0 of what it is given.
-    pub fn draw_boxes(&self, pass: &mut wgpu::RenderPass<'_>) {
+    pub(crate) fn draw_boxes(&self, pass: &mut wgpu::RenderPass<'_>) {
         pass.set_vertex_buffer(0, self.boxes.slice(..));
         pass.draw(0..36, 0..self.count);
     }
 
     /// A uniform buffer.
-    pub fn uniform(&self, contents: &[u8]) -> wgpu::Buffer {
+    pub(crate) fn uniform(&self, contents: &[u8]) -> wgpu::Buffer {
         self.device
             .create_buffer_init(&wgpu::util::BufferInitDescriptor {
                 label: None,
@@ -291,7 +302,7 @@ impl Renderer {
             })
     }
 
-    pub fn group(
+    pub(crate) fn group(
         &self,
         pipeline: &wgpu::RenderPipeline,
         entries: &[wgpu::BindGroupEntry<'_>],
@@ -316,11 +327,11 @@ impl Renderer {
         encoder: &mut wgpu::CommandEncoder,
         frame: &wgpu::Buffer,
         depth: &wgpu::Texture,
-        colours: &[&wgpu::Texture],
+        colours: &[(&wgpu::Texture, wgpu::Color)],
         far: f32,
         compare: wgpu::CompareFunction,
     ) {
-        let formats: Vec<_> = colours.iter().map(|colour| colour.format()).collect();
+        let formats: Vec<_> = colours.iter().map(|(colour, _)| colour.format()).collect();
         let entries = ["draw", "surface"];
         let pipeline = self.pipeline(
             &self.shader,
@@ -334,20 +345,14 @@ impl Renderer {
             resource: frame.as_entire_binding(),
         };
         let group = self.group(&pipeline, &[entry]);
-        let sky = wgpu::Color {
-            r: 0.12,
-            g: 0.22,
-            b: 0.5,
-            a: 1.0,
-        };
-        let mut pass = pass(encoder, colours, sky, Some((depth, far)));
+        let mut pass = pass(encoder, colours, Some((depth, far)));
         pass.set_pipeline(&pipeline);
         pass.set_bind_group(0, &group, &[]);
         self.draw_boxes(&mut pass);
     }
 
     /// A pipeline with the vertex and fragment entry points of a shader. With a depth test it draws boxes.
-    pub fn pipeline(
+    pub(crate) fn pipeline(
         &self,
         shader: &wgpu::ShaderModule,
         [vertex, fragment]: [&str; 2],
@@ -398,23 +403,25 @@ impl Renderer {
 }
 
 /// A render pass that clears its targets.
-pub fn pass<'a>(
+pub(crate) fn pass<'a>(
     encoder: &'a mut wgpu::CommandEncoder,
-    colours: &[&wgpu::Texture],
-    clear: wgpu::Color,
+    colours: &[(&wgpu::Texture, wgpu::Color)],
     depth: Option<(&wgpu::Texture, f32)>,
 ) -> wgpu::RenderPass<'a> {
     let view = |texture: &wgpu::Texture| texture.create_view(&Default::default());
-    let colours: Vec<_> = colours.iter().map(|colour| view(colour)).collect();
+    let colours: Vec<_> = colours
+        .iter()
+        .map(|(colour, clear)| (view(colour), *clear))
+        .collect();
     let attachments: Vec<_> = colours
         .iter()
-        .map(|view| {
+        .map(|(view, clear)| {
             Some(wgpu::RenderPassColorAttachment {
                 view,
                 depth_slice: None,
                 resolve_target: None,
                 ops: wgpu::Operations {
-                    load: wgpu::LoadOp::Clear(clear),
+                    load: wgpu::LoadOp::Clear(*clear),
                     store: wgpu::StoreOp::Store,
                 },
             })

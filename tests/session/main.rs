@@ -7,6 +7,7 @@
 )]
 
 mod cameras;
+mod far;
 mod refused;
 mod same;
 mod stored;
