@@ -1,11 +1,10 @@
-//! The oracle is judged: linear programs against exact bounds, both against published vectors, and what rests on them.
+//! The oracle is judged: exact bounds against each other and the truth, and what rests on them.
 #![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic)]
 
 mod bases;
 mod bias;
 mod hausdorff;
 mod ideal;
-mod linear;
 mod orderings;
 mod six;
 

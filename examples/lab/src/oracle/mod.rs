@@ -5,25 +5,21 @@
 //! two have nothing in common but the theorem.
 //!
 //! - [`hamburger`] and [`hausdorff`]: exact bounds for any even number of power moments, on the real line and on an interval.
-//! - [`MomentProblem`]: the same bounds by linear programming, with certificates.
 //! - [`ideal`]: the bounds of every technique for known surfaces in f64, fast enough for millions of them.
 
 mod exact;
 mod hausdorff;
 pub mod ideal;
-mod linear;
 mod mixture;
 mod polynomial;
 mod rounding;
 mod rounding_of_six;
 mod sensitivity;
-mod simplex;
 #[cfg(test)]
 mod tests;
 
 pub use exact::{Extremal, OracleError, SupportPoint, hamburger, rational};
 pub use hausdorff::hausdorff;
-pub use linear::{LinearBound, LinearError, MomentProblem};
 pub use mixture::{Atom, Mixture};
 pub use polynomial::Real;
 pub use rounding::{Fma, bounds_in_f32};
