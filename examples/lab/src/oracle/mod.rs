@@ -4,12 +4,10 @@
 //! system is solved exactly, roots are taken with hundreds of bits and weights come from the Vandermonde system, so that the
 //! two have nothing in common but the theorem.
 //!
-//! - [`hamburger`] and [`hausdorff`]: exact bounds for any even number of power moments, on the real line and on an interval.
-//! - [`ideal`]: the bounds of every technique for known surfaces in f64, fast enough for millions of them.
+//! [`hamburger`] and [`hausdorff`] are the bounds for any even number of power moments, on the real line and on an interval.
 
 mod exact;
 mod hausdorff;
-pub mod ideal;
 mod mixture;
 mod polynomial;
 mod rounding;
