@@ -51,6 +51,14 @@ pub enum PictureError {
     },
 }
 
+/// Makes a folder with all that it lies in, unless it is there.
+pub fn create_folder(folder: &Path) -> Result<(), PictureError> {
+    std::fs::create_dir_all(folder).map_err(|source| PictureError::Unwritable {
+        path: folder.to_owned(),
+        source,
+    })
+}
+
 /// Writes a file beside `path` by `write` and renames it, so that `path` is either what it was or complete.
 pub fn save_atomically(
     path: &Path,

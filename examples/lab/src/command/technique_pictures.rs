@@ -8,6 +8,7 @@ use moment_shadows::{Profile, Storage, nearest};
 
 use super::CommandResult;
 use super::render::RenderOptions;
+use crate::candidate::TechniqueChoice;
 use crate::error::LabError;
 use crate::frame::Frame;
 use crate::gpu::Gpu;
@@ -19,7 +20,6 @@ use crate::metric::compare;
 use crate::picture::{PictureError, save_panels, signed_difference};
 use crate::progress;
 use crate::scene::{self, Scene, contacts, place_on_ground, stacked_boards};
-use crate::technique_argument::TechniqueArgument;
 use crate::truth::area_light::{AreaLight, USUAL_PLACES};
 
 /// What `technique-pictures` takes.
@@ -278,12 +278,10 @@ impl Stage {
         technique: &str,
         storage: Option<Storage>,
     ) -> Result<Shaded, LabError> {
-        let argument: TechniqueArgument = technique
+        let choice: TechniqueChoice = technique
             .parse()
-            .map_err(|error| LabError::unsuitable(technique, format!("{error}")))?;
-        let file = graph
-            .with_technique_argument(&argument, storage)?
-            .in_single_precision()?;
+            .map_err(|error: String| LabError::unsuitable(technique, error))?;
+        let file = choice.graph(graph, storage)?.in_single_precision()?;
         let soft = matches!(file.technique(), Some(moment_shadows::Technique::Pcss(_)));
         if soft && self.soft.is_none() {
             self.soft = Some(self.area_light(gpu)?);

@@ -5,25 +5,11 @@ use serde_json::{Value, json};
 
 use super::{GraphFile, nodes};
 use crate::error::LabError;
-use crate::technique_argument::TechniqueArgument;
 
 /// The node that places layers, where a technique needs one.
 const PLACE: &str = "lab_place_layers";
 
 impl GraphFile {
-    /// This graph with the technique that a command line asks for, in the storage that [`TechniqueArgument::resolve`] chooses.
-    pub fn with_technique_argument(
-        &self,
-        technique: &TechniqueArgument,
-        storage: Option<Storage>,
-    ) -> Result<Self, LabError> {
-        let own = self.encoding().map(|encoding| encoding.storage());
-        let (technique, storage) = technique
-            .resolve(storage, own)
-            .map_err(|error| self.unsuitable(error.to_string()))?;
-        self.with_technique(&technique, storage)
-    }
-
     /// This graph with a technique in place of its own. A filterable one makes its map in `storage`, or in that of the
     /// graph. One that reads the plain depth map is connected to it; what made the filterable map has no reader then and is
     /// culled.
@@ -183,7 +169,7 @@ impl GraphFile {
         Ok(node["name"].as_str().unwrap_or_default().to_owned())
     }
 
-    pub(super) fn unsuitable(&self, reason: String) -> LabError {
+    pub(crate) fn unsuitable(&self, reason: String) -> LabError {
         LabError::unsuitable(&self.name, reason)
     }
 }
