@@ -3,6 +3,7 @@
 use std::sync::{Arc, Mutex};
 
 use moment_shadows::Profile;
+use wgpu::util::DeviceExt;
 
 /// Why no device is available, or why it stopped working.
 #[derive(Debug, thiserror::Error)]
@@ -125,6 +126,80 @@ impl Gpu {
             }
         });
         first.map_or(Ok(()), |error| Err(GpuError::Device(error)))
+    }
+
+    /// A compute pipeline whose layout is what its shader binds.
+    pub fn compute(&self, label: &str, wgsl: &str, entry_point: &str) -> wgpu::ComputePipeline {
+        let module = self
+            .device
+            .create_shader_module(wgpu::ShaderModuleDescriptor {
+                label: Some(label),
+                source: wgpu::ShaderSource::Wgsl(wgsl.into()),
+            });
+        self.device
+            .create_compute_pipeline(&wgpu::ComputePipelineDescriptor {
+                label: Some(label),
+                layout: None,
+                module: &module,
+                entry_point: Some(entry_point),
+                compilation_options: wgpu::PipelineCompilationOptions::default(),
+                cache: None,
+            })
+    }
+
+    /// A group of what its bindings 0, 1, ... are.
+    pub fn bind<'a>(
+        &self,
+        layout: &wgpu::BindGroupLayout,
+        resources: impl IntoIterator<Item = wgpu::BindingResource<'a>>,
+    ) -> wgpu::BindGroup {
+        let entries: Vec<_> = (0..)
+            .zip(resources)
+            .map(|(binding, resource)| wgpu::BindGroupEntry { binding, resource })
+            .collect();
+        self.device.create_bind_group(&wgpu::BindGroupDescriptor {
+            label: None,
+            layout,
+            entries: &entries,
+        })
+    }
+
+    /// A buffer of `size` bytes that a shader writes and [`read_buffer`](Self::read_buffer) reads.
+    pub fn output(&self, label: &str, size: u64) -> wgpu::Buffer {
+        self.device.create_buffer(&wgpu::BufferDescriptor {
+            label: Some(label),
+            size,
+            usage: wgpu::BufferUsages::STORAGE | wgpu::BufferUsages::COPY_SRC,
+            mapped_at_creation: false,
+        })
+    }
+
+    /// A buffer of these bytes.
+    pub fn filled(&self, label: &str, contents: &[u8], usage: wgpu::BufferUsages) -> wgpu::Buffer {
+        let descriptor = wgpu::util::BufferInitDescriptor {
+            label: Some(label),
+            contents,
+            usage,
+        };
+        self.device.create_buffer_init(&descriptor)
+    }
+
+    /// Dispatches a pipeline once, with groups 0, 1, ..., and submits that.
+    pub fn dispatch(
+        &self,
+        pipeline: &wgpu::ComputePipeline,
+        groups: &[&wgpu::BindGroup],
+        [x, y]: [u32; 2],
+    ) {
+        let mut encoder = self.device.create_command_encoder(&Default::default());
+        let mut pass = encoder.begin_compute_pass(&Default::default());
+        pass.set_pipeline(pipeline);
+        for (index, group) in (0..).zip(groups) {
+            pass.set_bind_group(index, *group, &[]);
+        }
+        pass.dispatch_workgroups(x, y, 1);
+        drop(pass);
+        self.queue.submit([encoder.finish()]);
     }
 
     /// Copies a buffer (usage `COPY_SRC`) to the processor and waits for it.

@@ -74,7 +74,7 @@ impl Renderer {
         created(gpu, "the light's depth map", || {
             let label = "host/light depth";
             let texture = texture_2d(&gpu.device, label, desc.size, desc.samples, format, usage);
-            let (uniform, group) = model::view_group(&gpu.device, &self.view_layout, label);
+            let (uniform, group) = model::view_group(gpu, &self.view_layout, label);
             LightMap {
                 view: texture.create_view(&wgpu::TextureViewDescriptor::default()),
                 texture,

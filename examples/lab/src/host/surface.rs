@@ -92,8 +92,7 @@ impl Renderer {
             let base_colour = texture("host/surface base colour", BASE_COLOUR, copied);
             let views = [&depth, &position, &normal, &base_colour]
                 .map(|texture| texture.create_view(&wgpu::TextureViewDescriptor::default()));
-            let (uniform, group) =
-                model::view_group(&gpu.device, &self.view_layout, "host/surface");
+            let (uniform, group) = model::view_group(gpu, &self.view_layout, "host/surface");
             Surface {
                 size,
                 depth,
