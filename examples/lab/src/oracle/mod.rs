@@ -10,8 +10,6 @@ mod exact;
 mod hausdorff;
 mod mixture;
 mod polynomial;
-mod rounding;
-mod rounding_of_six;
 mod sensitivity;
 #[cfg(test)]
 mod tests;
@@ -20,6 +18,4 @@ pub use exact::{Extremal, OracleError, SupportPoint, hamburger, rational};
 pub use hausdorff::hausdorff;
 pub use mixture::{Atom, Mixture};
 pub use polynomial::Real;
-pub use rounding::{Fma, bounds_in_f32};
-pub use rounding_of_six::six_bounds_in_f32;
 pub use sensitivity::{sensitivity, tolerance_unit};
