@@ -4,7 +4,8 @@ use moment_shadows_lab::error::LabError;
 use moment_shadows_lab::light::{LightError, LightShape};
 use moment_shadows_lab::scene;
 use moment_shadows_lab::soft::{LightSize, NamedGraph, SoftLightChoice};
-use moment_shadows_lab::truth::area_light::{AreaLight, AreaLightError, MOST_PLACES};
+use moment_shadows_lab::truth::TruthError;
+use moment_shadows_lab::truth::area_light::{AreaLight, MOST_PLACES};
 use moment_shadows_lab::view::View;
 
 use crate::light;
@@ -57,13 +58,13 @@ fn shapes_and_places_that_do_not_fit_are_refused() {
     for (light, shape) in [(&sun, disk), (&lamp, angle)] {
         assert!(matches!(
             truth(light, shape, 256),
-            Some(AreaLightError::Light(LightError::Shape { .. }))
+            Some(TruthError::Light(LightError::Shape { .. }))
         ));
     }
     let negative = LightShape::Disk { diameter: -1.0 };
     assert!(matches!(
         truth(&lamp, negative, 256),
-        Some(AreaLightError::Light(LightError::Size {
+        Some(TruthError::Light(LightError::Size {
             what: "diameter",
             ..
         }))
@@ -71,7 +72,7 @@ fn shapes_and_places_that_do_not_fit_are_refused() {
     for count in [0, MOST_PLACES + 1] {
         assert_eq!(
             truth(&sun, angle, count),
-            Some(AreaLightError::Places { count })
+            Some(TruthError::Places { count })
         );
     }
     for text in ["", "=", "a=", "=b.json"] {

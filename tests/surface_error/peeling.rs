@@ -3,7 +3,8 @@
 use glam::{DVec2, DVec3};
 use moment_shadows_lab::light::{DirectionalFit, LightView};
 use moment_shadows_lab::scene::{Image, Material, Scene};
-use moment_shadows_lab::truth::peel::{LightSurface, PeelError, Peeler};
+use moment_shadows_lab::truth::TruthError;
+use moment_shadows_lab::truth::peel::{LightSurface, Peeler};
 use wgpu::AddressMode;
 
 use crate::setup::{Random, plate, scene, soup};
@@ -247,10 +248,10 @@ fn a_scene_that_breaks_its_promises_is_named() {
     let whole = scene(vec![plate(1.0, 0.0), plate(1.0, 1.0)]);
     let light = sun(&whole, DOWN, [8, 8]);
     let refused = |scene: &Scene, map| Peeler::new(scene, &light, map).err().unwrap();
-    assert_eq!(refused(&whole, [8, 0]), PeelError::Empty { map: [8, 0] });
+    assert_eq!(refused(&whole, [8, 0]), TruthError::Empty { size: [8, 0] });
     let mut broken = whole.clone();
     broken.meshes[1].indices[4] = 6;
-    let PeelError::Mesh {
+    let TruthError::Mesh {
         scene,
         mesh: 1,
         reason,
@@ -271,6 +272,6 @@ fn a_scene_that_breaks_its_promises_is_named() {
     broken.meshes[0].uvs.pop();
     assert!(matches!(
         refused(&broken, [8, 8]),
-        PeelError::Mesh { mesh: 0, .. }
+        TruthError::Mesh { mesh: 0, .. }
     ));
 }

@@ -1,6 +1,7 @@
 //! Error figures.
 
-use moment_shadows_lab::metric::{MetricError, compare, excess};
+use moment_shadows_lab::metric::{compare, excess};
+use moment_shadows_lab::truth::TruthError;
 
 #[test]
 fn error_figures_are_those_of_the_definition() {
@@ -26,10 +27,10 @@ fn error_figures_are_those_of_the_definition() {
     assert_eq!(nothing.facing.mean_absolute, 0.0);
     assert_eq!(
         compare(&[0.0], &[0.0, 1.0], &[true]).unwrap_err(),
-        MetricError::Length {
-            estimate: 1,
-            truth: 2,
-            facing: 1
+        TruthError::Length {
+            what: "the estimate",
+            found: 1,
+            expected: 2
         }
     );
 }

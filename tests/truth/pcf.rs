@@ -3,9 +3,10 @@
 use glam::{DVec2, DVec3};
 use moment_shadows::Kernel;
 use moment_shadows_lab::light::{DirectionalFit, LightKind, LightView};
+use moment_shadows_lab::truth::TruthError;
 use moment_shadows_lab::truth::kernel::{AxisTaps, TapPattern, sample_positions};
 use moment_shadows_lab::truth::pcf::pcf;
-use moment_shadows_lab::truth::surface::{DepthRounding, TruthError};
+use moment_shadows_lab::truth::surface::DepthRounding;
 
 use crate::setup::{
     Random, depth_map, from_values, gaussian, half_normal, parallel_light, plane_distance,

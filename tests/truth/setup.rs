@@ -4,8 +4,9 @@ use glam::{DMat4, DVec2, DVec3};
 use moment_shadows::Kernel;
 use moment_shadows_lab::host::{DepthSamples, SurfacePixels};
 use moment_shadows_lab::light::{LightView, StoredDepth};
+use moment_shadows_lab::truth::TruthError;
 use moment_shadows_lab::truth::kernel::{TapPattern, sample_positions};
-use moment_shadows_lab::truth::surface::{DepthRounding, MomentDepths, TruthError};
+use moment_shadows_lab::truth::surface::{DepthRounding, MomentDepths};
 
 /// SplitMix64: numbers in [0, 1) that are the same everywhere.
 pub(crate) struct Random(pub(crate) u64);

@@ -44,27 +44,18 @@ impl<'gpu, I: Pod, O: Pod> Batch<'gpu, I, O> {
     /// Links and compiles `wgsl`, a shader that may import library modules, declares the types `BatchInput` and `BatchOutput`
     /// and a function `batch(input: BatchInput) -> BatchOutput`, but no bindings.
     pub fn new(gpu: &'gpu Gpu, label: &str, wgsl: &str) -> Result<Self, LabError> {
-        Self::build(gpu, label, wgsl, None)
+        Self::with_table(gpu, label, wgsl, &[])
     }
 
-    /// Links and compiles, as [`new`](Self::new) does, a shader that also reads `table`, at least one number, as the
-    /// `batch_table: array<f32>` that all its invocations share.
+    /// Links and compiles, as [`new`](Self::new) does, a shader that also reads `table` as the `batch_table: array<f32>` that all
+    /// its invocations share. Without a number there is no table.
     pub fn with_table(
         gpu: &'gpu Gpu,
         label: &str,
         wgsl: &str,
         table: &[f32],
     ) -> Result<Self, LabError> {
-        Self::build(gpu, label, wgsl, Some(table))
-    }
-
-    fn build(
-        gpu: &'gpu Gpu,
-        label: &str,
-        wgsl: &str,
-        table: Option<&[f32]>,
-    ) -> Result<Self, LabError> {
-        let declared = if table.is_some() { TABLE } else { "" };
+        let declared = if table.is_empty() { "" } else { TABLE };
         let linked = link(
             Source {
                 name: label,
@@ -85,12 +76,9 @@ impl<'gpu, I: Pod, O: Pod> Batch<'gpu, I, O> {
             gpu,
             label: label.to_owned(),
             pipeline,
-            table: table.map(|table| {
-                gpu.filled(
-                    label,
-                    bytemuck::cast_slice(table),
-                    wgpu::BufferUsages::STORAGE,
-                )
+            table: (!table.is_empty()).then(|| {
+                let contents = bytemuck::cast_slice(table);
+                gpu.filled(label, contents, wgpu::BufferUsages::STORAGE)
             }),
             items: PhantomData,
         })

@@ -6,13 +6,10 @@ use moment_shadows_graph::{GraphError, ParameterError, RegionError};
 use crate::gpu::GpuError;
 use crate::host::HostError;
 use crate::light::LightError;
-use crate::metric::MetricError;
 use crate::picture::PictureError;
 use crate::scene::SceneError;
 use crate::shaders::ShadersError;
-use crate::truth::area_light::AreaLightError;
-use crate::truth::peel::PeelError;
-use crate::truth::surface::TruthError;
+use crate::truth::TruthError;
 use crate::vectors::VectorFileError;
 
 /// Why the lab could not do what it was asked for. Each names its culprit.
@@ -138,18 +135,9 @@ pub enum LabError {
     /// A truth.
     #[error(transparent)]
     Truth(#[from] TruthError),
-    /// An area light.
-    #[error(transparent)]
-    AreaLight(#[from] AreaLightError),
-    /// A scene that cannot be peeled.
-    #[error(transparent)]
-    Peel(#[from] PeelError),
     /// A shader of the lab that cannot be linked.
     #[error(transparent)]
     Link(#[from] moment_shadows::LinkError),
-    /// A comparison.
-    #[error(transparent)]
-    Metric(#[from] MetricError),
     /// A picture.
     #[error(transparent)]
     Picture(#[from] PictureError),

@@ -3,7 +3,7 @@
 use std::sync::{Arc, Mutex};
 
 use moment_shadows::Profile;
-use wgpu::util::DeviceExt;
+use wgpu::util::{DeviceExt, DownloadBuffer};
 
 /// Why no device is available, or why it stopped working.
 #[derive(Debug, thiserror::Error)]
@@ -204,18 +204,25 @@ impl Gpu {
 
     /// Copies a buffer (usage `COPY_SRC`) to the processor and waits for it.
     pub fn read_buffer(&self, buffer: &wgpu::Buffer, label: &str) -> Result<Vec<u8>, GpuError> {
-        let staging = self.device.create_buffer(&wgpu::BufferDescriptor {
-            label: Some(label),
-            size: buffer.size(),
-            usage: wgpu::BufferUsages::MAP_READ | wgpu::BufferUsages::COPY_DST,
-            mapped_at_creation: false,
+        let failed = |reason: String| GpuError::Readback {
+            what: label.to_owned(),
+            reason,
+        };
+        let (send, receive) = std::sync::mpsc::channel();
+        let whole = buffer.slice(..);
+        DownloadBuffer::read_buffer(&self.device, &self.queue, &whole, move |result| {
+            // The receiver is gone only if this function returned early; then nobody waits for the answer.
+            let _ = send.send(result);
         });
-        let mut encoder = self
-            .device
-            .create_command_encoder(&wgpu::CommandEncoderDescriptor { label: Some(label) });
-        encoder.copy_buffer_to_buffer(buffer, 0, &staging, 0, buffer.size());
-        self.queue.submit([encoder.finish()]);
-        self.map(&staging, label)
+        self.device
+            .poll(wgpu::PollType::wait_indefinitely())
+            .map_err(|error| failed(error.to_string()))?;
+        let data = receive
+            .recv()
+            .map_err(|error| failed(error.to_string()))?
+            .map_err(|error| failed(error.to_string()))?;
+        self.check()?;
+        Ok(data.to_vec())
     }
 
     /// Copies layer `layer` of mip 0 of a single-sampled colour texture (usage `COPY_SRC`) to the processor,
@@ -239,10 +246,6 @@ impl Gpu {
     ) -> Result<Vec<u8>, GpuError> {
         let width = (texture.width() >> level).max(1);
         let height = (texture.height() >> level).max(1);
-        let failed = |reason: String| GpuError::Readback {
-            what: label.to_owned(),
-            reason,
-        };
         let aspect = if texture.format().has_depth_aspect() {
             wgpu::TextureAspect::DepthOnly
         } else {
@@ -251,13 +254,16 @@ impl Gpu {
         let texel_bytes = texture
             .format()
             .block_copy_size(Some(aspect))
-            .ok_or_else(|| failed(format!("format {:?} cannot be copied", texture.format())))?;
+            .ok_or_else(|| GpuError::Readback {
+                what: label.to_owned(),
+                reason: format!("format {:?} cannot be copied", texture.format()),
+            })?;
         let row = width * texel_bytes;
         let padded = row.next_multiple_of(wgpu::COPY_BYTES_PER_ROW_ALIGNMENT);
         let staging = self.device.create_buffer(&wgpu::BufferDescriptor {
             label: Some(label),
             size: u64::from(padded) * u64::from(height),
-            usage: wgpu::BufferUsages::MAP_READ | wgpu::BufferUsages::COPY_DST,
+            usage: wgpu::BufferUsages::COPY_SRC | wgpu::BufferUsages::COPY_DST,
             mapped_at_creation: false,
         });
         let mut encoder = self
@@ -289,38 +295,12 @@ impl Gpu {
             },
         );
         self.queue.submit([encoder.finish()]);
-        let data = self.map(&staging, label)?;
+        let data = self.read_buffer(&staging, label)?;
         Ok(data
             .chunks_exact(padded as usize)
             .flat_map(|line| &line[..row as usize])
             .copied()
             .collect())
-    }
-
-    fn map(&self, staging: &wgpu::Buffer, label: &str) -> Result<Vec<u8>, GpuError> {
-        let failed = |reason: String| GpuError::Readback {
-            what: label.to_owned(),
-            reason,
-        };
-        let (send, receive) = std::sync::mpsc::channel();
-        staging.map_async(wgpu::MapMode::Read, .., move |result| {
-            // The receiver is gone only if this function returned early; then nobody waits for the answer.
-            let _ = send.send(result);
-        });
-        self.device
-            .poll(wgpu::PollType::wait_indefinitely())
-            .map_err(|error| failed(error.to_string()))?;
-        receive
-            .recv()
-            .map_err(|error| failed(error.to_string()))?
-            .map_err(|error| failed(error.to_string()))?;
-        let data = staging
-            .get_mapped_range(..)
-            .map_err(|error| failed(error.to_string()))?
-            .to_vec();
-        staging.unmap();
-        self.check()?;
-        Ok(data)
     }
 }
 

@@ -48,9 +48,10 @@ use crate::graph_file::GraphFile;
 use crate::graph_frame::shade_parameters;
 use crate::metric::{ErrorFigures, figures, signed_error};
 use crate::scene::Scene;
+use crate::truth::TruthError;
 use crate::truth::kernel::TapPattern;
 use crate::truth::pcf::{Receiver, pcf_at};
-use crate::truth::peel::{LightSurface, PeelError, Peeler};
+use crate::truth::peel::{LightSurface, Peeler};
 use crate::truth::surface::MomentDepths;
 
 /// Rays that are peeled at once: bounds the memory that surfaces take in full.
@@ -182,7 +183,7 @@ impl SurfaceTruth {
             step();
         }
         if lit.caster_rays == 0 {
-            return Err(PeelError::NoCaster {
+            return Err(TruthError::NoCaster {
                 scene: scene.name.clone(),
                 map,
             }

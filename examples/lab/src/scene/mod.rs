@@ -48,7 +48,7 @@ pub struct Stand {
 }
 
 /// Triangles in world space (y is up), flattened from whatever hierarchy they had.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, Default)]
 pub struct Scene {
     /// A short name: the file's, or that of the procedural scene.
     pub name: String,

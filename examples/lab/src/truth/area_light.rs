@@ -9,17 +9,15 @@
 //! Shadow intensity is the share of hidden places among those that the receiver's surface faces.
 
 mod bvh;
-mod error;
 mod samples;
 mod shaft;
 
 use glam::{DVec2, DVec3};
 use rayon::prelude::*;
 
-pub use error::AreaLightError;
-
 use self::bvh::Bvh;
 use self::shaft::{Affine, Shade, Shaft, Target};
+use super::TruthError;
 use super::opacity::Opacity;
 use super::peel::triangle::{Projection, Triangle};
 use super::peel::{check, position};
@@ -90,10 +88,10 @@ impl<'a> AreaLight<'a> {
         shape: LightShape,
         map: [u32; 2],
         count: u32,
-    ) -> Result<Self, AreaLightError> {
+    ) -> Result<Self, TruthError> {
         shape.check(light.kind())?;
         if !(1..=MOST_PLACES).contains(&count) {
-            return Err(AreaLightError::Places { count });
+            return Err(TruthError::Places { count });
         }
         let opacity: Vec<Option<Opacity>> = scene
             .materials
@@ -137,7 +135,7 @@ impl<'a> AreaLight<'a> {
 
     /// The shadow intensity of each pixel of a G-buffer; 0 where nothing is seen, and behind a light with a position. The same
     /// input gives the same bits on any number of threads.
-    pub fn picture(&self, surface: &SurfacePixels) -> Result<Vec<f32>, AreaLightError> {
+    pub fn picture(&self, surface: &SurfacePixels) -> Result<Vec<f32>, TruthError> {
         let vector = |value: [f32; 3]| DVec3::from(value.map(f64::from));
         Ok((0..pixels(surface)?)
             .into_par_iter()

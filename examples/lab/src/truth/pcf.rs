@@ -11,8 +11,9 @@ use rayon::prelude::*;
 use crate::host::SurfacePixels;
 use crate::light::{LightKind, LightView};
 
+use super::TruthError;
 use super::kernel::{AxisTaps, TapPattern};
-use super::surface::{DepthRounding, MomentDepths, TruthError, pixels};
+use super::surface::{DepthRounding, MomentDepths, pixels};
 
 /// Cosine between plane and ray below which no depth can be told from the plane; the receiver's own depth stands in.
 const EDGE_ON: f64 = 1e-7;

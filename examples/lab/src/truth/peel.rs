@@ -4,7 +4,6 @@
 //! triangles, from either side and however far away, except where a masked material has a hole. Surfaces that a peel in
 //! single-precision depth could not tell apart, closer than 2^-24 of the light's range, count once.
 
-mod error;
 pub(super) mod triangle;
 
 use std::ops::Range;
@@ -12,9 +11,9 @@ use std::ops::Range;
 use glam::{DVec2, DVec3};
 use rayon::prelude::*;
 
-pub use error::PeelError;
 use triangle::{Hit, Projection, Triangle};
 
+use super::TruthError;
 use super::opacity::Opacity;
 use crate::light::LightView;
 use crate::scene::{Mesh, Scene};
@@ -76,9 +75,9 @@ struct RowHit {
 
 impl<'a> Peeler<'a> {
     /// Projects all triangles of the scene into a map of `map` texels.
-    pub fn new(scene: &'a Scene, light: &'a LightView, map: [u32; 2]) -> Result<Self, PeelError> {
+    pub fn new(scene: &'a Scene, light: &'a LightView, map: [u32; 2]) -> Result<Self, TruthError> {
         if map.contains(&0) {
-            return Err(PeelError::Empty { map });
+            return Err(TruthError::Empty { size: map });
         }
         let projection = Projection { light, map };
         let mut triangles = Vec::new();
@@ -221,9 +220,9 @@ pub(super) fn position(mesh: &Mesh, corner: u32) -> DVec3 {
 }
 
 /// Refuses a mesh whose triangles lack vertices, or have one at a non-finite place.
-pub(super) fn check(scene: &Scene, index: usize, mesh: &Mesh) -> Result<(), PeelError> {
+pub(super) fn check(scene: &Scene, index: usize, mesh: &Mesh) -> Result<(), TruthError> {
     let refuse = |reason: String| {
-        Err(PeelError::Mesh {
+        Err(TruthError::Mesh {
             scene: scene.name.clone(),
             mesh: index,
             reason,

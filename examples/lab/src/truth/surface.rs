@@ -3,35 +3,8 @@
 use crate::host::{DepthSamples, SurfacePixels};
 use crate::light::LightView;
 
+use super::error::{TruthError, check_length};
 use super::kernel::sample_positions;
-
-/// Why no truth can be computed.
-#[derive(Clone, Debug, PartialEq, thiserror::Error)]
-#[non_exhaustive]
-pub enum TruthError {
-    /// A list does not have one entry per pixel or sample.
-    #[error("{what} has {found} entries where its size asks for {expected}")]
-    Length {
-        /// What the list holds.
-        what: &'static str,
-        /// How many entries it has.
-        found: usize,
-        /// How many it should have.
-        expected: usize,
-    },
-    /// Only the standard sample patterns have known positions.
-    #[error("a depth map of {samples} samples per texel has no standard pattern; use 1, 2, 4 or 8")]
-    Samples {
-        /// The sample count.
-        samples: u32,
-    },
-    /// There is no texel to look up.
-    #[error("a depth map of {}x{} texels is empty", size[0], size[1])]
-    Empty {
-        /// Width and height in texels.
-        size: [u32; 2],
-    },
-}
 
 /// Pixels of `surface`, if each of its lists has one entry for each.
 pub(super) fn pixels(surface: &SurfacePixels) -> Result<usize, TruthError> {
@@ -124,18 +97,5 @@ impl MomentDepths {
         let row = self.moment_depth.get(start..start + width).unwrap_or(&[]);
         let end = first.saturating_add(count).min(row.len());
         row.get(first..end).unwrap_or(&[])
-    }
-}
-
-/// Refuses a list that has not one entry for each pixel or sample.
-fn check_length(what: &'static str, found: usize, expected: usize) -> Result<(), TruthError> {
-    if found == expected {
-        Ok(())
-    } else {
-        Err(TruthError::Length {
-            what,
-            found,
-            expected,
-        })
     }
 }
