@@ -2,7 +2,7 @@
 
 use moment_shadows::{Storage, Technique};
 use moment_shadows_lab::bias::{
-    BiasError, BiasTechnique, Condition, Form, error_factor, measure, rounded, search,
+    BiasTechnique, Condition, Form, error_factor, measure, rounded, search,
 };
 
 const SAMPLES: usize = 30_000;
@@ -123,12 +123,8 @@ fn the_search_confirms_the_biases_of_six_moments() {
         8,
         || (),
     );
-    assert_eq!(
-        refused.unwrap_err(),
-        BiasError::NoStorage {
-            storage: Storage::Unorm8
-        }
-    );
+    let refused = refused.unwrap_err().to_string();
+    assert!(refused.contains("not stored as unorm8"), "{refused}");
     let unorm10 = search(
         BiasTechnique::Hamburger6,
         Some(Storage::Unorm10),
@@ -177,10 +173,8 @@ fn the_search_is_the_same_on_any_number_of_threads() {
     };
     assert_eq!(run(1), run(3));
     assert_eq!(run(1).rows.len(), 1);
-    assert_eq!(
-        search(BiasTechnique::Hausdorff4, None, 0, 10, || ()).unwrap_err(),
-        BiasError::NoSamples
-    );
+    let refused = search(BiasTechnique::Hausdorff4, None, 0, 10, || ());
+    assert!(refused.unwrap_err().to_string().starts_with("0 samples"));
 }
 
 #[test]

@@ -67,10 +67,9 @@ impl<'gpu, I: Pod, O: Pod> Batch<'gpu, I, O> {
         let wgsl = format!("{}{declared}{ENTRY_POINT}", linked.wgsl());
         let pipeline = gpu.compute(label, &wgsl, "batch_main");
         if let Some(error) = pollster::block_on(scope.pop()) {
-            return Err(LabError::Shader {
-                label: label.to_owned(),
-                reason: error.to_string(),
-            });
+            return Err(LabError::refused(format!(
+                "the shader of batch '{label}' was refused: {error}"
+            )));
         }
         Ok(Self {
             gpu,
@@ -98,12 +97,11 @@ impl<'gpu, I: Pod, O: Pod> Batch<'gpu, I, O> {
             || !output.is_multiple_of(4)
             || item > largest
         {
-            return Err(LabError::ItemSize {
-                label: self.label.clone(),
-                input,
-                output,
-                largest,
-            });
+            return Err(LabError::refused(format!(
+                "batch '{}' has items of {input} and {output} bytes; arrays in storage buffers need positive multiples of 4 that \
+                 fit into {largest} bytes",
+                self.label
+            )));
         }
         let groups = u64::from(limits.max_compute_workgroups_per_dimension);
         let chunk = (largest / item).min(groups * WORKGROUP).min(1 << 24) as usize;

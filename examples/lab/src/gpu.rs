@@ -1,52 +1,12 @@
 //! Opening an adapter the same way everywhere: native interfaces only, exactly the features of one profile.
 
+use std::fmt::Display;
 use std::sync::{Arc, Mutex};
 
 use moment_shadows::Profile;
 use wgpu::util::{DeviceExt, DownloadBuffer};
 
-/// Why no device is available, or why it stopped working.
-#[derive(Debug, thiserror::Error)]
-#[non_exhaustive]
-pub enum GpuError {
-    /// The machine has no adapter that could run a graph.
-    #[error(
-        "no graphics adapter was found for Vulkan, Metal or Direct3D 12; on Debian install a software driver with `apt-get install mesa-vulkan-drivers`, \
-         elsewhere install a Vulkan, Metal or Direct3D 12 driver"
-    )]
-    NoAdapter,
-    /// The adapter lacks what the profile asks for.
-    #[error(
-        "adapter '{adapter}' lacks {missing:?}, which the profile {profile} asks for; choose a smaller profile"
-    )]
-    MissingFeatures {
-        /// The adapter's name.
-        adapter: String,
-        /// The profile that was asked for.
-        profile: Profile,
-        /// The features that are missing.
-        missing: wgpu::Features,
-    },
-    /// The adapter refused to make a device.
-    #[error("adapter '{adapter}' gave no device: {reason}")]
-    NoDevice {
-        /// The adapter's name.
-        adapter: String,
-        /// What the driver said.
-        reason: String,
-    },
-    /// A result could not be read back.
-    #[error("the device could not give back '{what}': {reason}; it may have been lost")]
-    Readback {
-        /// The label of the buffer or texture.
-        what: String,
-        /// What the driver said.
-        reason: String,
-    },
-    /// Errors that the device reported outside any scope.
-    #[error("the device reported an error: {0}")]
-    Device(String),
-}
+use crate::error::LabError;
 
 /// An open device with its queue.
 pub struct Gpu {
@@ -61,22 +21,25 @@ pub struct Gpu {
 
 impl Gpu {
     /// Opens the best adapter with exactly the features of `profile`.
-    pub fn open(profile: Profile) -> Result<Self, GpuError> {
+    pub fn open(profile: Profile) -> Result<Self, LabError> {
         Self::open_with(profile, wgpu::Features::empty())
     }
 
     /// Opens the best adapter with the features of `profile` and those of `optional` that it has.
-    pub fn open_with(profile: Profile, optional: wgpu::Features) -> Result<Self, GpuError> {
-        let adapter = best_adapter().ok_or(GpuError::NoAdapter)?;
+    pub fn open_with(profile: Profile, optional: wgpu::Features) -> Result<Self, LabError> {
+        let adapter = best_adapter().ok_or_else(|| {
+            LabError::refused(
+                "no graphics adapter was found for Vulkan, Metal or Direct3D 12; on Debian install a software driver with \
+                 `apt-get install mesa-vulkan-drivers`, elsewhere install a Vulkan, Metal or Direct3D 12 driver",
+            )
+        })?;
         let name = adapter.get_info().name;
         let required = required_features(profile);
         let missing = required - adapter.features();
         if !missing.is_empty() {
-            return Err(GpuError::MissingFeatures {
-                adapter: name,
-                profile,
-                missing,
-            });
+            return Err(LabError::refused(format!(
+                "adapter '{name}' lacks {missing:?}, which the profile {profile} asks for; choose a smaller profile"
+            )));
         }
         let descriptor = wgpu::DeviceDescriptor {
             label: Some("moment-shadows lab"),
@@ -85,10 +48,7 @@ impl Gpu {
         };
         let (device, queue) =
             pollster::block_on(adapter.request_device(&descriptor)).map_err(|error| {
-                GpuError::NoDevice {
-                    adapter: name,
-                    reason: error.to_string(),
-                }
+                LabError::refused(format!("adapter '{name}' gave no device: {error}"))
             })?;
         let errors = Arc::new(Mutex::new(Vec::new()));
         let sink = Arc::clone(&errors);
@@ -117,7 +77,7 @@ impl Gpu {
     }
 
     /// The first error that the device reported outside any scope, if there was one.
-    pub fn check(&self) -> Result<(), GpuError> {
+    pub fn check(&self) -> Result<(), LabError> {
         let first = self.errors.lock().ok().and_then(|mut errors| {
             if errors.is_empty() {
                 None
@@ -125,7 +85,10 @@ impl Gpu {
                 Some(errors.remove(0))
             }
         });
-        first.map_or(Ok(()), |error| Err(GpuError::Device(error)))
+        first.map_or(Ok(()), |error| {
+            let reason = format!("the device reported an error: {error}");
+            Err(LabError::refused(reason))
+        })
     }
 
     /// A compute pipeline whose layout is what its shader binds.
@@ -203,11 +166,8 @@ impl Gpu {
     }
 
     /// Copies a buffer (usage `COPY_SRC`) to the processor and waits for it.
-    pub fn read_buffer(&self, buffer: &wgpu::Buffer, label: &str) -> Result<Vec<u8>, GpuError> {
-        let failed = |reason: String| GpuError::Readback {
-            what: label.to_owned(),
-            reason,
-        };
+    pub fn read_buffer(&self, buffer: &wgpu::Buffer, label: &str) -> Result<Vec<u8>, LabError> {
+        let failed = |reason: &dyn Display| lost(label, reason);
         let (send, receive) = std::sync::mpsc::channel();
         let whole = buffer.slice(..);
         DownloadBuffer::read_buffer(&self.device, &self.queue, &whole, move |result| {
@@ -216,11 +176,11 @@ impl Gpu {
         });
         self.device
             .poll(wgpu::PollType::wait_indefinitely())
-            .map_err(|error| failed(error.to_string()))?;
+            .map_err(|error| failed(&error))?;
         let data = receive
             .recv()
-            .map_err(|error| failed(error.to_string()))?
-            .map_err(|error| failed(error.to_string()))?;
+            .map_err(|error| failed(&error))?
+            .map_err(|error| failed(&error))?;
         self.check()?;
         Ok(data.to_vec())
     }
@@ -232,7 +192,7 @@ impl Gpu {
         texture: &wgpu::Texture,
         layer: u32,
         label: &str,
-    ) -> Result<Vec<u8>, GpuError> {
+    ) -> Result<Vec<u8>, LabError> {
         self.read_level(texture, layer, 0, label)
     }
 
@@ -243,7 +203,7 @@ impl Gpu {
         layer: u32,
         level: u32,
         label: &str,
-    ) -> Result<Vec<u8>, GpuError> {
+    ) -> Result<Vec<u8>, LabError> {
         let width = (texture.width() >> level).max(1);
         let height = (texture.height() >> level).max(1);
         let aspect = if texture.format().has_depth_aspect() {
@@ -254,9 +214,11 @@ impl Gpu {
         let texel_bytes = texture
             .format()
             .block_copy_size(Some(aspect))
-            .ok_or_else(|| GpuError::Readback {
-                what: label.to_owned(),
-                reason: format!("format {:?} cannot be copied", texture.format()),
+            .ok_or_else(|| {
+                lost(
+                    label,
+                    &format!("format {:?} cannot be copied", texture.format()),
+                )
             })?;
         let row = width * texel_bytes;
         let padded = row.next_multiple_of(wgpu::COPY_BYTES_PER_ROW_ALIGNMENT);
@@ -302,6 +264,12 @@ impl Gpu {
             .copied()
             .collect())
     }
+}
+
+fn lost(label: &str, reason: &dyn Display) -> LabError {
+    LabError::refused(format!(
+        "the device could not give back '{label}': {reason}; it may have been lost"
+    ))
 }
 
 /// The features that a profile stands for.

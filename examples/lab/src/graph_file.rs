@@ -26,10 +26,8 @@ impl GraphFile {
     /// Reads a file. With a storage, every `resolve` node uses that instead of its own.
     pub fn read(path: &Path, storage: Option<Storage>) -> Result<Self, LabError> {
         let name = path.display().to_string();
-        let text = std::fs::read_to_string(path).map_err(|error| LabError::Read {
-            path: name.clone(),
-            reason: error.to_string(),
-        })?;
+        let text = std::fs::read_to_string(path)
+            .map_err(|error| LabError::refused(format!("{name} cannot be read: {error}")))?;
         let file = Self::parse(&name, text, storage)?;
         for note in &file.graph.notes {
             eprintln!("note: {name} is of version 1: {note} now");

@@ -4,7 +4,8 @@ use std::fmt;
 
 use serde::Serialize;
 
-use crate::truth::{TruthError, check_length};
+use crate::error::LabError;
+use crate::truth::check_length;
 
 /// Truths between these two, both excluded, make up the penumbra band. It is not dilated: what a technique leaks into
 /// the umbra around it is seen in the figures over all facing pixels.
@@ -53,7 +54,7 @@ pub struct Excess {
 
 /// Compares `estimate` with `truth`; `facing` tells which pixels show a surface that faces the light (normal times
 /// direction to the light above 0). Sums run over the pixels in order, in f64: the same pictures give the same figures.
-pub fn compare(estimate: &[f32], truth: &[f32], facing: &[bool]) -> Result<Comparison, TruthError> {
+pub fn compare(estimate: &[f32], truth: &[f32], facing: &[bool]) -> Result<Comparison, LabError> {
     check_length("the estimate", estimate.len(), truth.len())?;
     check_length("the list of facing pixels", facing.len(), truth.len())?;
     let mut errors = Vec::new();

@@ -111,16 +111,18 @@ impl Chart {
     }
 
     fn draw_on<B: DrawingBackend>(&self, area: &DrawingArea<B, Shift>) -> Result<(), LabError> {
-        let failed = |reason: String| LabError::Plot {
-            title: self.title.clone(),
-            reason,
+        let failed = |reason: &str| {
+            LabError::refused(format!(
+                "the plot '{}' cannot be drawn: {reason}",
+                self.title
+            ))
         };
         register_font(FONT, FontStyle::Normal, epaint_default_fonts::UBUNTU_LIGHT)
-            .map_err(|_| failed("its font cannot be read".to_owned()))?;
+            .map_err(|_| failed("its font cannot be read"))?;
         area.fill(&WHITE)
             .and_then(|()| self.draw(area))
             .and_then(|()| area.present())
-            .map_err(|error| failed(error.to_string()))
+            .map_err(|error| failed(&error.to_string()))
     }
 
     fn draw<B: DrawingBackend>(&self, area: &DrawingArea<B, Shift>) -> Drawn<B> {

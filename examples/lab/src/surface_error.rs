@@ -48,7 +48,6 @@ use crate::graph_file::GraphFile;
 use crate::graph_frame::shade_parameters;
 use crate::metric::{ErrorFigures, figures, signed_error};
 use crate::scene::Scene;
-use crate::truth::TruthError;
 use crate::truth::kernel::TapPattern;
 use crate::truth::pcf::{Receiver, pcf_at};
 use crate::truth::peel::{LightSurface, Peeler};
@@ -183,11 +182,11 @@ impl SurfaceTruth {
             step();
         }
         if lit.caster_rays == 0 {
-            return Err(TruthError::NoCaster {
-                scene: scene.name.clone(),
-                map,
-            }
-            .into());
+            return Err(LabError::refused(format!(
+                "no ray of the light meets a caster of scene '{}' at the texels' centres of a map of {}x{}; use a larger map \
+                 or another light",
+                scene.name, map[0], map[1]
+            )));
         }
         let lit = Arc::new(lit);
         let truths = truths.into_iter();

@@ -94,11 +94,11 @@ pub fn pairs(technique: Option<&str>, storage: Option<&str>) -> Result<Vec<MapEn
         .filter(|pair| storage.is_none_or(|name| pair.storage().name() == name))
         .collect();
     if pairs.is_empty() {
-        return Err(LabError::NoPair {
-            technique: technique.unwrap_or("any technique").to_owned(),
-            storage: storage.unwrap_or("any storage").to_owned(),
-            legal,
-        });
+        return Err(LabError::refused(format!(
+            "'{}' is not stored as {}; it is as {legal}",
+            technique.unwrap_or("any technique"),
+            storage.unwrap_or("any storage")
+        )));
     }
     Ok(pairs)
 }

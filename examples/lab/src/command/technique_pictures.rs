@@ -17,7 +17,7 @@ use crate::graph_frame::GraphFrame;
 use crate::host::read_gbuffer;
 use crate::judgement::{PictureTruth, Unfiltered};
 use crate::metric::compare;
-use crate::picture::{PictureError, save_panels, signed_difference};
+use crate::picture::{create_folder, save_panels, signed_difference};
 use crate::progress;
 use crate::scene::{self, Scene, contacts, place_on_ground, stacked_boards};
 use crate::truth::area_light::{AreaLight, USUAL_PLACES};
@@ -179,10 +179,7 @@ fn draw(out: &Path, view: &str, only: Option<&str>) -> Result<Vec<Made>, LabErro
         }
         subjects.retain(|subject| subject.name == only);
     }
-    std::fs::create_dir_all(out).map_err(|source| PictureError::Unwritable {
-        path: out.to_owned(),
-        source,
-    })?;
+    create_folder(out)?;
     let gpu = Gpu::open(Profile::NativeAdapter)?;
     let graph = GraphFile::parse("hard_shadows.json", GRAPH.to_owned(), None)?;
     let bar = progress::bar(subjects.len() as u64, "drawing");
@@ -317,6 +314,6 @@ impl Stage {
         let frame = &self.frames[1];
         let desc = &frame.desc;
         let light = AreaLight::new(&self.scene, &desc.light, desc.shape, desc.map, USUAL_PLACES)?;
-        Ok(light.picture(&read_gbuffer(gpu, &frame.surface)?)?)
+        light.picture(&read_gbuffer(gpu, &frame.surface)?)
     }
 }

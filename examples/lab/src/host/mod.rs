@@ -9,13 +9,13 @@ mod read;
 mod shade;
 mod surface;
 
-pub use error::HostError;
 pub use light_map::{LightMap, LightMapDesc};
 pub use model::Model;
 pub use read::{DepthSamples, SurfacePixels, read_depth_samples, read_gbuffer};
 pub use shade::Lighting;
 pub use surface::Surface;
 
+use crate::error::LabError;
 use crate::gpu::Gpu;
 use error::created;
 
@@ -31,7 +31,7 @@ pub struct Renderer {
 
 impl Renderer {
     /// Compiles the shaders and makes the pipelines of the G-buffer and of the picture.
-    pub fn new(gpu: &Gpu) -> Result<Self, HostError> {
+    pub fn new(gpu: &Gpu) -> Result<Self, LabError> {
         created(gpu, "the host's pipelines", || {
             let device = &gpu.device;
             let geometry = device.create_shader_module(wgpu::include_wgsl!("geometry.wgsl"));

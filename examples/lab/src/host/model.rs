@@ -2,8 +2,9 @@
 
 use wgpu::util::DeviceExt;
 
+use super::Renderer;
 use super::error::created;
-use super::{HostError, Renderer};
+use crate::error::LabError;
 use crate::gpu::Gpu;
 use crate::scene::{Image, Scene, mips};
 
@@ -123,7 +124,7 @@ pub(super) fn view_group(
 
 impl Renderer {
     /// Copies a scene to the device. Meshes of one material become one draw.
-    pub fn upload(&self, gpu: &Gpu, scene: &Scene) -> Result<Model, HostError> {
+    pub fn upload(&self, gpu: &Gpu, scene: &Scene) -> Result<Model, LabError> {
         let limit = gpu.device.limits().max_buffer_size;
         let mut drawn = Vec::new();
         for material in 0..scene.materials.len() {
@@ -141,12 +142,9 @@ impl Renderer {
             }
             let bytes = size_of_val(&vertices[..]).max(size_of_val(&indices[..])) as u64;
             if bytes > limit {
-                return Err(HostError::Size {
-                    what: "a buffer of the scene",
-                    asked: bytes,
-                    unit: "bytes",
-                    limit,
-                });
+                return Err(LabError::refused(format!(
+                    "a buffer of the scene would have {bytes} bytes; this device allows 1 to {limit}"
+                )));
             }
             if !indices.is_empty() {
                 drawn.push((material, vertices, indices));

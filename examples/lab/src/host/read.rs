@@ -2,8 +2,9 @@
 
 use half::f16;
 
+use super::Surface;
 use super::error::created;
-use super::{HostError, Surface};
+use crate::error::LabError;
 use crate::gpu::Gpu;
 
 /// A depth map as it was stored, every sample of it.
@@ -39,7 +40,7 @@ pub struct SurfacePixels {
 const BAND_BYTES: u64 = 64 << 20;
 
 /// Reads all samples of a depth texture (usage `TEXTURE_BINDING`), as the values that a shader sees.
-pub fn read_depth_samples(gpu: &Gpu, depth: &wgpu::Texture) -> Result<DepthSamples, HostError> {
+pub fn read_depth_samples(gpu: &Gpu, depth: &wgpu::Texture) -> Result<DepthSamples, LabError> {
     let [width, height, samples] = [depth.width(), depth.height(), depth.sample_count()];
     let row_bytes = u64::from(width) * u64::from(samples) * 4;
     // Rows are also workgroups along y, of which there are at most 65,535.
@@ -85,7 +86,7 @@ pub fn read_depth_samples(gpu: &Gpu, depth: &wgpu::Texture) -> Result<DepthSampl
 }
 
 /// Reads positions and normals of a G-buffer.
-pub fn read_gbuffer(gpu: &Gpu, surface: &Surface) -> Result<SurfacePixels, HostError> {
+pub fn read_gbuffer(gpu: &Gpu, surface: &Surface) -> Result<SurfacePixels, LabError> {
     let positions = gpu.read_texture(&surface.position, 0, "surface positions")?;
     let normals = gpu.read_texture(&surface.normal, 0, "surface normals")?;
     let positions: Vec<f32> = floats(&positions).collect();

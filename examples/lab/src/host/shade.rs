@@ -3,7 +3,8 @@
 use glam::{DMat3, DVec3};
 
 use super::error::created;
-use super::{HostError, Renderer, Surface, texture_2d};
+use super::{Renderer, Surface, texture_2d};
+use crate::error::LabError;
 use crate::gpu::Gpu;
 use crate::light::{LightKind, LightView};
 use crate::scene::Scene;
@@ -30,7 +31,7 @@ pub struct Lighting {
 
 impl Lighting {
     /// The usual look for `light`, seen by `camera`.
-    pub fn new(scene: &Scene, camera: &Camera, light: &LightView) -> Result<Self, HostError> {
+    pub fn new(scene: &Scene, camera: &Camera, light: &LightView) -> Result<Self, LabError> {
         let world_from_light = light.view_from_world.inverse();
         let towards = light.towards_light(DVec3::ZERO);
         let axis = -world_from_light.transform_vector3(DVec3::Z);
@@ -103,13 +104,14 @@ impl Renderer {
         surface: &Surface,
         shadow: &wgpu::TextureView,
         lighting: &Lighting,
-    ) -> Result<wgpu::Texture, HostError> {
+    ) -> Result<wgpu::Texture, LabError> {
         let shadow_size = [shadow.texture().width(), shadow.texture().height()];
         if shadow_size != surface.size {
-            return Err(HostError::ShadowSize {
-                shadow: shadow_size,
-                surface: surface.size,
-            });
+            let [[width, height], [own_width, own_height]] = [shadow_size, surface.size];
+            return Err(LabError::refused(format!(
+                "the shadow intensity has {width}x{height} texels and the G-buffer {own_width}x{own_height}; render it at the \
+                 G-buffer's size"
+            )));
         }
         let (picture, group) = created(gpu, "the picture", || {
             let picture = texture_2d(

@@ -2,7 +2,8 @@
 
 use super::error::{check_size, created};
 use super::model::{self, ViewUniform};
-use super::{HostError, Model, Renderer, texture_2d};
+use super::{Model, Renderer, texture_2d};
+use crate::error::LabError;
 use crate::gpu::Gpu;
 use crate::view::Camera;
 
@@ -74,7 +75,7 @@ pub(super) fn pipeline(
 
 impl Renderer {
     /// An empty G-buffer.
-    pub fn surface(&self, gpu: &Gpu, size: [u32; 2]) -> Result<Surface, HostError> {
+    pub fn surface(&self, gpu: &Gpu, size: [u32; 2]) -> Result<Surface, LabError> {
         check_size(gpu, "the G-buffer", size)?;
         created(gpu, "the G-buffer", || {
             let drawn =
@@ -115,7 +116,7 @@ impl Renderer {
         model: &Model,
         surface: &Surface,
         camera: &Camera,
-    ) -> Result<(), HostError> {
+    ) -> Result<(), LabError> {
         let uniform = ViewUniform {
             clip_from_world: camera.clip_from_world_columns()?,
             eye: camera.eye.as_vec3().to_array(),

@@ -8,10 +8,10 @@
 use glam::{DVec2, DVec3};
 use rayon::prelude::*;
 
+use crate::error::LabError;
 use crate::host::SurfacePixels;
 use crate::light::{LightKind, LightView};
 
-use super::TruthError;
 use super::kernel::{AxisTaps, TapPattern};
 use super::surface::{DepthRounding, MomentDepths, pixels};
 
@@ -40,7 +40,7 @@ pub fn pcf(
     depths: &MomentDepths,
     taps: &TapPattern,
     surface: &SurfacePixels,
-) -> Result<Vec<f32>, TruthError> {
+) -> Result<Vec<f32>, LabError> {
     let pixels = pixels(surface)?;
     let filter = Filter {
         light,

@@ -3,11 +3,12 @@
 use crate::host::{DepthSamples, SurfacePixels};
 use crate::light::LightView;
 
-use super::error::{TruthError, check_length};
 use super::kernel::sample_positions;
+use super::{check_length, check_map};
+use crate::error::LabError;
 
 /// Pixels of `surface`, if each of its lists has one entry for each.
-pub(super) fn pixels(surface: &SurfacePixels) -> Result<usize, TruthError> {
+pub(super) fn pixels(surface: &SurfacePixels) -> Result<usize, LabError> {
     let expected = surface.width as usize * surface.height as usize;
     for (what, found) in [
         ("the list of positions", surface.position.len()),
@@ -44,15 +45,17 @@ impl MomentDepths {
         light: &LightView,
         stored: &DepthSamples,
         rounding: DepthRounding,
-    ) -> Result<Self, TruthError> {
+    ) -> Result<Self, LabError> {
         let size = [stored.width, stored.height];
         let samples = stored.samples;
         let stored = &stored.values;
         let [width, height] = size.map(|length| length as usize);
-        if width == 0 || height == 0 {
-            return Err(TruthError::Empty { size });
-        }
-        let positions = sample_positions(samples).ok_or(TruthError::Samples { samples })?;
+        check_map(size)?;
+        let positions = sample_positions(samples).ok_or_else(|| {
+            LabError::refused(format!(
+                "a depth map of {samples} samples per texel has no standard pattern; use 1, 2, 4 or 8"
+            ))
+        })?;
         let count = positions.len();
         check_length(
             "the depth map",
