@@ -2,7 +2,6 @@
 
 use glam::{DVec2, DVec3};
 use moment_shadows::Profile;
-use moment_shadows_lab::error::LabError;
 use moment_shadows_lab::gpu::Gpu;
 use moment_shadows_lab::host::{
     LightMap, LightMapDesc, Lighting, Renderer, Surface, read_depth_samples, read_gbuffer,
@@ -339,7 +338,7 @@ fn shadow_intensity_darkens_the_picture() {
         });
         let picture = renderer.shade(&gpu, &mut encoder, &drawn.surface, &shadow, &lighting)?;
         gpu.queue.submit([encoder.finish()]);
-        Ok::<_, LabError>(gpu.read_texture(&picture, 0, "picture")?)
+        gpu.read_texture(&picture, 0, "picture")
     };
     let lit = shaded([320, 180], 0.0).unwrap();
     let shadowed = shaded([320, 180], 1.0).unwrap();
