@@ -167,7 +167,7 @@ impl Stage {
     pub(crate) fn shadow(&self, model: &Model, light: &LightView, camera: &Camera) -> Vec<f32> {
         let gpu = &self.gpu;
         let frame = frame_desc(&self.desc, *light, *camera);
-        let bytes = parameter_bytes(&self.plan, &frame, &self.file).unwrap();
+        let bytes = parameter_bytes(&self.plan, &frame, &self.file, None).unwrap();
         gpu.queue.write_buffer(&self.parameters, 0, &bytes);
         let mut encoder = gpu.device.create_command_encoder(&Default::default());
         self.renderer
