@@ -190,23 +190,25 @@ pub struct Access {
 }
 
 impl Access {
+    const NONE: Access = Access {
+        read: false,
+        storage_write: false,
+        render_target: false,
+    };
     /// Loaded or sampled from.
     pub const READ: Access = Access {
         read: true,
-        storage_write: false,
-        render_target: false,
+        ..Access::NONE
     };
     /// Written as a storage texture or a storage buffer.
     pub const STORAGE_WRITE: Access = Access {
-        read: false,
         storage_write: true,
-        render_target: false,
+        ..Access::NONE
     };
     /// Drawn to.
     pub const RENDER_TARGET: Access = Access {
-        read: false,
-        storage_write: false,
         render_target: true,
+        ..Access::NONE
     };
 
     /// Both accesses together.

@@ -1,7 +1,6 @@
 //! Everything that a command can fail with.
 
-use moment_shadows_graph::record::RecordError;
-use moment_shadows_graph::{GraphError, ParameterError, RegionError};
+use moment_shadows_graph::GraphError;
 
 use crate::gpu::GpuError;
 use crate::host::HostError;
@@ -108,12 +107,6 @@ pub enum LabError {
     /// Figures as JSON.
     #[error("the figures cannot be written as JSON: {0}")]
     Json(#[from] serde_json::Error),
-    /// The regions of a map.
-    #[error(transparent)]
-    Region(#[from] RegionError),
-    /// The library's parameters.
-    #[error(transparent)]
-    Parameters(#[from] ParameterError),
     /// A camera without an inverse.
     #[error(transparent)]
     Camera(#[from] moment_shadows::ViewError),
@@ -132,9 +125,9 @@ pub enum LabError {
     /// A kernel.
     #[error(transparent)]
     Kernel(#[from] moment_shadows::KernelError),
-    /// The library's recorder.
+    /// A plan that is not recorded, or parameters that do not fit it.
     #[error(transparent)]
-    Record(#[from] RecordError),
+    Record(#[from] GraphError),
     /// A truth.
     #[error(transparent)]
     Truth(#[from] TruthError),
