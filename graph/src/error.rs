@@ -143,10 +143,10 @@ impl GraphError {
 }
 
 /// An error of a kind unless a condition `holds`.
-pub(crate) fn ensure(
+pub(crate) fn ensure<M: Into<String>>(
     holds: bool,
     kind: GraphErrorKind,
-    message: impl FnOnce() -> String,
+    message: impl FnOnce() -> M,
 ) -> Result<(), GraphError> {
     if holds {
         Ok(())

@@ -43,6 +43,24 @@ pub struct Named<T> {
     pub position: Option<Position>,
 }
 
+impl<T> Named<T> {
+    /// Something without a place in a file.
+    pub fn new(name: impl Into<String>, value: T) -> Self {
+        Self {
+            name: name.into(),
+            value,
+            position: None,
+        }
+    }
+
+    fn at(self, position: Position) -> Self {
+        Self {
+            position: Some(position),
+            ..self
+        }
+    }
+}
+
 /// A connection.
 #[derive(Clone, Debug, PartialEq, Eq, Deserialize)]
 #[serde(deny_unknown_fields)]
@@ -137,7 +155,7 @@ impl Graph {
             })?,
             outputs: each(text, &file.outputs, |text, raw, position| {
                 let output: FileOutput = read(text, raw)?;
-                Ok(named(output.name, output.from, position))
+                Ok(Named::new(output.name, output.from).at(position))
             })?,
             notes: Vec::new(),
         };
@@ -149,14 +167,6 @@ impl Graph {
             graph.notes = renamed.notes;
         }
         Ok(graph)
-    }
-}
-
-fn named<T>(name: String, value: T, position: Position) -> Named<T> {
-    Named {
-        name,
-        value,
-        position: Some(position),
     }
 }
 
@@ -225,7 +235,7 @@ fn read_import(
     .map_err(|error| error.at_position(Some(position)))?;
     let texture = import.texture.map(ResourceDesc::Texture);
     let buffer = import.buffer_size.map(|size| ResourceDesc::Buffer { size });
-    Ok(named(import.name, texture.or(buffer), position))
+    Ok(Named::new(import.name, texture.or(buffer)).at(position))
 }
 
 fn read_node(
@@ -259,7 +269,7 @@ fn read_node(
             })
         })
         .map_err(|error| error.at_node(&header.name).at_position(Some(position)))?;
-    Ok(named(header.name, node, position))
+    Ok(Named::new(header.name, node).at(position))
 }
 
 /// The reason why a node does not have a property that a file gives it, if one is known.

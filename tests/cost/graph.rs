@@ -3,13 +3,11 @@
 use moment_shadows::{Profile, Storage};
 use moment_shadows_graph::nodes::KernelProperty;
 use moment_shadows_lab::command::cost;
-use moment_shadows_lab::cost::CostError;
 use moment_shadows_lab::cost::bandwidth::Memory;
 use moment_shadows_lab::cost::blur::BlurredMap;
 use moment_shadows_lab::cost::copies::CopyWork;
 use moment_shadows_lab::cost::protocol::FEWEST_ROUNDS;
 use moment_shadows_lab::cost::texels::noise;
-use moment_shadows_lab::error::LabError;
 use moment_shadows_lab::gpu::Gpu;
 use std::path::{Path, PathBuf};
 

@@ -145,14 +145,6 @@ pub(crate) fn rgba32(layers: u32) -> ResourceDesc {
     })
 }
 
-fn named<T>(name: &str, value: T) -> Named<T> {
-    Named {
-        name: name.to_owned(),
-        value,
-        position: None,
-    }
-}
-
 /// A graph of host nodes; edges and outputs as pairs of texts.
 pub(crate) fn graph(
     imports: &[(&str, ResourceDesc)],
@@ -166,9 +158,11 @@ pub(crate) fn graph(
     let outputs = outputs.iter();
     Graph {
         imports: imports
-            .map(|(name, desc)| named(name, Some(desc.clone())))
+            .map(|(name, desc)| Named::new(*name, Some(desc.clone())))
             .collect(),
-        nodes: nodes.map(|(name, desc)| named(name, boxed(desc))).collect(),
+        nodes: nodes
+            .map(|(name, desc)| Named::new(name, boxed(desc)))
+            .collect(),
         edges: edges
             .iter()
             .map(|(from, to)| Edge {
@@ -178,7 +172,7 @@ pub(crate) fn graph(
             })
             .collect(),
         outputs: outputs
-            .map(|(name, from)| named(name, (*from).to_owned()))
+            .map(|(name, from)| Named::new(*name, (*from).to_owned()))
             .collect(),
         notes: Vec::new(),
     }

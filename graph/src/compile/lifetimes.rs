@@ -2,6 +2,7 @@
 
 use std::collections::BTreeMap;
 
+use super::Known;
 use crate::plan::Part;
 use crate::{Home, Plan, PlannedMemory, ResourceDesc, Stage};
 
@@ -74,16 +75,17 @@ impl Block {
     }
 }
 
-/// Gives every resource that the plan creates its memory. `roots` are the resources whose layers and regions each follows;
-/// `persistent` ones never share.
-pub(super) fn share_memory(plan: &mut Plan, roots: &[usize], persistent: &[usize]) {
+/// Gives every resource that the plan creates its memory. `known` is what is known of the plan's resources.
+pub(super) fn share_memory(plan: &mut Plan, known: &[&Known]) {
     let mut lives: Vec<Life> = lives(plan).into_values().collect();
     lives.sort_by_key(|life| (life.first, life.resource));
     let mut blocks: Vec<Block> = Vec::new();
     for life in &mut lives {
-        let root = roots[life.resource];
+        let Known {
+            root, persistent, ..
+        } = *known[life.resource];
         let exported = plan.outputs.iter().any(|out| out.value == life.resource);
-        life.alone = exported || persistent.contains(&life.resource);
+        life.alone = exported || persistent;
         let resource = &mut plan.resources[life.resource];
         let free_after = (!life.keeps_memory()).then_some(life.last);
         let written_when_dirty = !life.written_every_time;

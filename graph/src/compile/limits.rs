@@ -44,9 +44,11 @@ pub(super) fn limits(texture: &TextureDesc, capabilities: &Capabilities) -> Resu
     ensure(mips <= most, Size, || {
         format!("the texture has {mips} mip levels; {width}x{height} texels have at most {most}")
     })?;
-    ensure(samples <= 1 || mips <= 1, Format, || {
-        "the texture is multisampled and has mip levels; no device has both".to_owned()
-    })?;
+    ensure(
+        samples <= 1 || mips <= 1,
+        Format,
+        || "the texture is multisampled and has mip levels; no device has both",
+    )?;
     let allowed = &capabilities.depth_samples;
     ensure(
         samples == 1 || allowed.contains(&samples),

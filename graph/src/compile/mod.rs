@@ -25,8 +25,8 @@ use std::collections::{BTreeMap, BTreeSet};
 use crate::error::unknown;
 use crate::graph::VERSION;
 use crate::{
-    Access, Capabilities, Connected, Graph, GraphError, GraphErrorKind, Home, Named, NodeDesc,
-    Plan, PlannedResource, ResourceDesc,
+    Access, Capabilities, Connected, Direction, Graph, GraphError, GraphErrorKind, Home, Named,
+    NodeDesc, Plan, PlannedResource, ResourceDesc, Slot,
 };
 pub(crate) use reflect::numbers as binding_numbers;
 use wiring::{Source, Wiring};
@@ -36,6 +36,8 @@ struct Known {
     name: String,
     desc: ResourceDesc,
     is_import: bool,
+    /// Some slot that it is connected to keeps its contents from frame to frame.
+    persistent: bool,
     /// The one whose layers and regions it follows: itself, or that of the slot whose extent it takes.
     root: usize,
 }
@@ -93,7 +95,7 @@ impl Graph {
             imports: Vec::new(),
             outputs: outputs
                 .into_iter()
-                .map(|output| named(output.name, indices[&output.value]))
+                .map(|output| Named::new(output.name, indices[&output.value]))
                 .collect(),
             parameters: layout,
         };
@@ -101,7 +103,7 @@ impl Graph {
             let mut home = Home::Memory(0);
             if known.is_import {
                 home = Home::Import(plan.imports.len());
-                let import = named(known.name.clone(), plan.resources.len());
+                let import = Named::new(known.name.clone(), plan.resources.len());
                 plan.imports.push(import);
             }
             plan.resources.push(PlannedResource {
@@ -134,16 +136,8 @@ impl Graph {
             }
             usage::check_outputs(described).map_err(placed)?;
         }
-        let roots: Vec<usize> = used.iter().map(|&index| known[index].root).collect();
-        let slots = |described: &Described| {
-            let persistent = described.desc.slots.iter().filter(|slot| slot.persistent);
-            let known = persistent.filter_map(|slot| described.slots.get(&slot.name));
-            known
-                .filter_map(|known| indices.get(known).copied())
-                .collect::<Vec<_>>()
-        };
-        let persistent: Vec<usize> = kept.iter().flat_map(slots).collect();
-        lifetimes::share_memory(&mut plan, &roots, &persistent);
+        let used: Vec<&Known> = used.iter().map(|&index| &known[index]).collect();
+        lifetimes::share_memory(&mut plan, &used);
         Ok(plan)
     }
 
@@ -162,14 +156,6 @@ impl Graph {
             .into_iter()
             .map(|described| described.desc)
             .collect())
-    }
-}
-
-fn named(name: String, value: usize) -> Named<usize> {
-    Named {
-        name,
-        value,
-        position: None,
     }
 }
 
@@ -221,6 +207,7 @@ fn import_resources(
             name: name.clone(),
             desc: desc.clone(),
             is_import: true,
+            persistent: false,
             root,
         })
     });
@@ -280,9 +267,14 @@ fn describe_all(
                 name: format!("{}.{}", graph_node.name, slot.name),
                 desc: made.clone(),
                 is_import: false,
+                persistent: false,
                 root: from.map_or(index, |&from| known[from].root),
             });
             slots.insert(slot.name.clone(), index);
+        }
+        let persistent = desc.slots.iter().filter(|slot| slot.persistent);
+        for index in persistent.filter_map(|slot| slots.get(&slot.name)) {
+            known[*index].persistent = true;
         }
         described.push(Described { node, desc, slots });
     }
@@ -305,8 +297,8 @@ fn find(graph: &Graph, described: &[Described], source: &Source) -> Result<usize
         Source::Node(node, slot) => {
             let owner = described.iter().find(|described| described.node == *node);
             let slots = owner.map_or(&[][..], |owner| &owner.desc.slots);
-            let given = slots.iter().filter(|slot| slot.direction.gives());
-            let mut given = given.map(|slot| slot.name.as_str());
+            let gives = |slot: &&Slot| matches!(slot.direction, Direction::Out | Direction::InOut);
+            let mut given = slots.iter().filter(gives).map(|slot| slot.name.as_str());
             let known = given.clone().any(|name| name == slot);
             let resource = owner.and_then(|owner| owner.slots.get(slot).copied());
             resource.filter(|_| known).ok_or_else(|| {
@@ -324,12 +316,12 @@ fn outputs(graph: &Graph, described: &[Described]) -> Result<Vec<Named<usize>>, 
         let resource = wiring::source(graph, &output.value)
             .and_then(|source| find(graph, described, &source))
             .map_err(|error| error.at_position(output.position))?;
-        Ok(named(output.name.clone(), resource))
+        Ok(Named::new(output.name.clone(), resource))
     });
     outputs.collect()
 }
 
 /// A node that contradicts itself.
-fn declaration(message: String) -> GraphError {
+fn declaration(message: impl Into<String>) -> GraphError {
     GraphError::new(GraphErrorKind::Declaration, message)
 }

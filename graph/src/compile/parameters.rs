@@ -108,7 +108,7 @@ impl ParameterLayout {
             let map = root.and_then(|root| Some((&known[root].name, known[root].desc.texture()?)));
             let (name, map) = map.ok_or_else(|| {
                 let message = "a pass takes the regions of this slot, which is no texture";
-                of_map(declaration(message.to_owned()))
+                of_map(declaration(message))
             })?;
             if let Some(table) = self.regions.iter_mut().find(|table| table.map == *name) {
                 table.smallest = table.smallest.max(*smallest);

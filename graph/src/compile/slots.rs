@@ -22,27 +22,22 @@ pub(super) fn resolve(
     for slot in &desc.slots {
         let described = !slot.description.trim().is_empty();
         let writes_input = slot.direction == Direction::In && slot.resource.access().writes();
-        let checks = [
-            (
-                names.insert(slot.name.as_str()),
-                DuplicateName,
-                "the node declares two slots of this name",
-            ),
-            (
-                described,
-                Declaration,
-                "the slot has no description; say in a sentence what it is for",
-            ),
-            (
-                !writes_input,
-                Declaration,
-                "the node writes to an input; declare it as changed in place ('in_out')",
-            ),
-        ];
-        for (holds, kind, message) in checks {
-            ensure(holds, kind, || message.to_owned())
-                .map_err(|error| error.at_slot(&slot.name))?;
-        }
+        ensure(
+            names.insert(slot.name.as_str()),
+            DuplicateName,
+            || "the node declares two slots of this name",
+        )
+        .and(ensure(
+            described,
+            Declaration,
+            || "the slot has no description; say in a sentence what it is for",
+        ))
+        .and(ensure(
+            !writes_input,
+            Declaration,
+            || "the node writes to an input; declare it as changed in place ('in_out')",
+        ))
+        .map_err(|error| error.at_slot(&slot.name))?;
     }
     let mut resolved = inputs.clone();
     let (inputs_of, made): (Vec<&Slot>, Vec<&Slot>) =
@@ -60,7 +55,7 @@ pub(super) fn resolve(
         let texture = resource.texture();
         if texture.is_some_and(|texture| texture.samples > 1 && texture.layers > 1) {
             let message = "the node makes a multisampled texture with several layers, which WebGPU does not have";
-            return Err(declaration(message.to_owned()).at_slot(&slot.name));
+            return Err(declaration(message).at_slot(&slot.name));
         }
         resolved.insert(slot.name.clone(), resource);
     }

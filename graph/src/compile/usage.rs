@@ -86,10 +86,8 @@ pub(super) fn check_outputs(described: &Described) -> Result<(), GraphError> {
         let written =
             touched.any(|(name, access)| name == slot.name && (buffer || access.writes()));
         if slot.direction == Direction::Out && !written {
-            return Err(declaration(
-                "the node promises this output, but none of its passes writes it".to_owned(),
-            )
-            .at_slot(&slot.name));
+            let message = "the node promises this output, but none of its passes writes it";
+            return Err(declaration(message).at_slot(&slot.name));
         }
     }
     Ok(())

@@ -106,9 +106,11 @@ pub(super) fn source(graph: &Graph, from: &str) -> Result<Source, GraphError> {
 fn target(graph: &Graph, to: &str) -> Result<(usize, String), GraphError> {
     let (node, slot) = to.split_once('.').unwrap_or((to, ""));
     let index = node_index(graph, node)?;
-    ensure(node != to, GraphErrorKind::UnknownName, || {
-        "an edge leads to a slot of a node; write 'node.slot'".to_owned()
-    })
+    ensure(
+        node != to,
+        GraphErrorKind::UnknownName,
+        || "an edge leads to a slot of a node; write 'node.slot'",
+    )
     .map_err(|error| error.at_node(node))?;
     Ok((index, slot.to_owned()))
 }

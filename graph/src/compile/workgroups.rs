@@ -9,9 +9,11 @@ fn grid(
     [across, down]: [u32; 2],
     capabilities: &Capabilities,
 ) -> Result<[u32; 2], GraphError> {
-    ensure(across > 0 && down > 0, GraphErrorKind::Declaration, || {
-        "a workgroup covers no texel".to_owned()
-    })?;
+    ensure(
+        across > 0 && down > 0,
+        GraphErrorKind::Declaration,
+        || "a workgroup covers no texel",
+    )?;
     let [x, y] = [width.div_ceil(across), height.div_ceil(down)];
     let largest = capabilities.max_workgroups;
     ensure(x.max(y) <= largest, GraphErrorKind::Size, || {

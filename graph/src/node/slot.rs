@@ -43,11 +43,6 @@ impl Direction {
     pub(crate) fn takes(self) -> bool {
         matches!(self, Direction::In | Direction::InOut)
     }
-
-    /// Whether edges lead out.
-    pub(crate) fn gives(self) -> bool {
-        matches!(self, Direction::Out | Direction::InOut)
-    }
 }
 
 /// What a slot holds.

@@ -89,9 +89,11 @@ impl Bindings {
         parameters: Option<&wgpu::Buffer>,
     ) -> Result<Self, GraphError> {
         plan.check()?;
-        ensure(resources.fit(plan), GraphErrorKind::Plan, || {
-            "the resources were created for another plan; create them from this one".to_owned()
-        })?;
+        ensure(
+            resources.fit(plan),
+            GraphErrorKind::Plan,
+            || "the resources were created for another plan; create them from this one",
+        )?;
         let uniform_alignment = device.limits().min_uniform_buffer_offset_alignment;
         check_parameters(plan, parameters, uniform_alignment)?;
         let binder = Binder {

@@ -46,33 +46,35 @@ impl HostTarget {
     /// [`new`](Self::new).
     #[must_use]
     pub fn darkened(format: wgpu::TextureFormat) -> Self {
-        let component = |dst_factor| wgpu::BlendComponent {
-            src_factor: wgpu::BlendFactor::Zero,
-            dst_factor,
-            operation: wgpu::BlendOperation::Add,
-        };
-        Self {
-            blend: Some(wgpu::BlendState {
-                color: component(wgpu::BlendFactor::OneMinusSrc),
-                alpha: component(wgpu::BlendFactor::One),
-            }),
-            ..Self::new(format)
-        }
+        Self::blended(
+            format,
+            wgpu::BlendFactor::Zero,
+            wgpu::BlendFactor::OneMinusSrc,
+        )
     }
 
     /// A target for `composite_scattering`: its colours are multiplied by the transmittance, in-scattered radiance is added
     /// to them, and its alpha stays. Otherwise like [`new`](Self::new).
     #[must_use]
     pub fn scattered(format: wgpu::TextureFormat) -> Self {
-        let component = |src_factor, dst_factor| wgpu::BlendComponent {
+        Self::blended(format, wgpu::BlendFactor::One, wgpu::BlendFactor::SrcAlpha)
+    }
+
+    /// A target whose colours become `source` x drawn + `target` x what is there; its alpha stays.
+    fn blended(
+        format: wgpu::TextureFormat,
+        source: wgpu::BlendFactor,
+        target: wgpu::BlendFactor,
+    ) -> Self {
+        let sum = |src_factor, dst_factor| wgpu::BlendComponent {
             src_factor,
             dst_factor,
             operation: wgpu::BlendOperation::Add,
         };
         Self {
             blend: Some(wgpu::BlendState {
-                color: component(wgpu::BlendFactor::One, wgpu::BlendFactor::SrcAlpha),
-                alpha: component(wgpu::BlendFactor::Zero, wgpu::BlendFactor::One),
+                color: sum(source, target),
+                alpha: sum(wgpu::BlendFactor::Zero, wgpu::BlendFactor::One),
             }),
             ..Self::new(format)
         }

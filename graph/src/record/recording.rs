@@ -136,11 +136,23 @@ impl Bindings {
         let (step, pipeline) = draws()
             .find(|(step, _)| step.name == pass)
             .ok_or_else(|| no_such_pass(pass, draws().map(|(step, _)| step.name.as_str())))?;
-        render_pass.set_pipeline(pipeline);
-        let (offsets, count) = step.dynamic_offsets(parameter_offset, 0);
-        render_pass.set_bind_group(self.bind_group, step.bind_groups.first(), &offsets[..count]);
-        render_pass.draw(0..3, 0..1);
+        self.draw_layer(step, pipeline, render_pass, parameter_offset, 0);
         Ok(())
+    }
+
+    fn draw_layer(
+        &self,
+        step: &Step,
+        pipeline: &wgpu::RenderPipeline,
+        pass: &mut wgpu::RenderPass<'_>,
+        parameter_offset: u64,
+        layer: u32,
+    ) {
+        pass.set_pipeline(pipeline);
+        let (offsets, count) = step.dynamic_offsets(parameter_offset, layer);
+        let group = step.bind_groups.get(layer as usize);
+        pass.set_bind_group(self.bind_group, group, &offsets[..count]);
+        pass.draw(0..3, 0..1);
     }
 
     fn dispatch(
@@ -166,11 +178,8 @@ impl Bindings {
         pass.set_pipeline(pipeline);
         for layer in step.dirty(recording.layers) {
             let (offsets, count) = step.dynamic_offsets(recording.parameter_offset, layer);
-            pass.set_bind_group(
-                self.bind_group,
-                step.bind_groups.get(layer as usize),
-                &offsets[..count],
-            );
+            let group = step.bind_groups.get(layer as usize);
+            pass.set_bind_group(self.bind_group, group, &offsets[..count]);
             pass.dispatch_workgroups(workgroups[0], workgroups[1], 1);
         }
     }
@@ -214,14 +223,7 @@ impl Bindings {
                 occlusion_query_set: None,
                 multiview_mask: None,
             });
-            pass.set_pipeline(pipeline);
-            let (offsets, count) = step.dynamic_offsets(recording.parameter_offset, layer);
-            pass.set_bind_group(
-                self.bind_group,
-                step.bind_groups.get(layer as usize),
-                &offsets[..count],
-            );
-            pass.draw(0..3, 0..1);
+            self.draw_layer(step, pipeline, &mut pass, recording.parameter_offset, layer);
         }
     }
 

@@ -51,11 +51,7 @@ impl OpenedGraph {
         ends.dedup();
         file.graph.outputs = ends
             .into_iter()
-            .map(|from| Named {
-                name: output_name(&from),
-                value: from,
-                position: None,
-            })
+            .map(|from| Named::new(output_name(&from), from))
             .collect();
         let graph_frame = GraphFrame::new(gpu, frame, &file)?;
         graph_frame.run(gpu)?;
