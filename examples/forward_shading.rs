@@ -11,9 +11,7 @@ use moment_shadows::{Kernel, LightDepth, Profile, ReceiverBias, Source, TextureF
 use moment_shadows_graph::record::{
     Bindings, ImportedResource, PipelineOptions, Pipelines, Recording, Resources,
 };
-use moment_shadows_graph::{
-    Capabilities, Graph, Imports, NodeRegistry, ResourceDesc, Stage, TextureDesc, compile,
-};
+use moment_shadows_graph::{Capabilities, Graph, NodeRegistry, ResourceDesc, Stage, TextureDesc};
 use moment_shadows_lab::{gpu::Gpu, picture};
 use pollster::block_on;
 
@@ -83,10 +81,9 @@ fn main() -> Result<(), Box<dyn Error>> {
         samples: 4,
         ..TextureDesc::new(TextureFormat::Depth32Float, [MAP, MAP])
     };
-    let plan = compile(
-        &graph,
+    let plan = graph.compile(
         &Capabilities::of_device(&gpu.adapter, device),
-        &Imports::from([("light_depth".to_owned(), ResourceDesc::Texture(light_depth))]),
+        &[("light_depth", ResourceDesc::Texture(light_depth))],
     )?;
     let pipelines = block_on(Pipelines::create(device, &plan, PipelineOptions::default()))?;
     let resources = block_on(Resources::create(device, &plan))?;

@@ -13,7 +13,7 @@ use moment_shadows::{
 use moment_shadows_graph::record::{
     Bindings, ImportedResource, PipelineOptions, Pipelines, Recording, Resources,
 };
-use moment_shadows_graph::{Capabilities, Graph, Imports, NodeRegistry, Stage, compile};
+use moment_shadows_graph::{Capabilities, Graph, NodeRegistry, Stage};
 use moment_shadows_lab::command::render::RenderOptions;
 use moment_shadows_lab::{frame::Frame, gpu::Gpu, picture, scene};
 use pollster::block_on;
@@ -38,7 +38,7 @@ fn main() -> Result<(), Box<dyn Error>> {
     let graph = Graph::parse(include_str!("hard_shadows.json"), &NodeRegistry::new())?;
     let capabilities = Capabilities::of_device(&gpu.adapter, &gpu.device);
     // The file describes the imports as this host has them; a host with other textures gives descriptions of its own.
-    let plan = compile(&graph, &capabilities, &Imports::new())?;
+    let plan = graph.compile(&capabilities, &[])?;
     let pipelines = block_on(Pipelines::create(
         &gpu.device,
         &plan,

@@ -14,7 +14,7 @@ use moment_shadows::{
 use moment_shadows_graph::record::{
     Bindings, ImportedResource, PipelineOptions, Pipelines, Recording, Resources,
 };
-use moment_shadows_graph::{Capabilities, Graph, Imports, NodeRegistry, Stage, compile};
+use moment_shadows_graph::{Capabilities, Graph, NodeRegistry, Stage};
 use moment_shadows_lab::frame::{Frame, FrameDesc};
 use moment_shadows_lab::light::LightShape;
 use moment_shadows_lab::{gpu::Gpu, picture, scene, view::View};
@@ -36,7 +36,7 @@ fn main() -> Result<(), Box<dyn Error>> {
         &NodeRegistry::new(),
     )?;
     let capabilities = Capabilities::of_device(&gpu.adapter, &gpu.device);
-    let plan = compile(&graph, &capabilities, &Imports::new())?;
+    let plan = graph.compile(&capabilities, &[])?;
     let options = PipelineOptions::default();
     let pipelines = block_on(Pipelines::create(&gpu.device, &plan, options))?;
     let resources = block_on(Resources::create(&gpu.device, &plan))?;

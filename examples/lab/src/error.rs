@@ -1,7 +1,6 @@
 //! Everything that a command can fail with.
 
-use moment_shadows_graph::record::RecordError;
-use moment_shadows_graph::{GraphError, ParameterError, RegionError};
+use moment_shadows_graph::GraphError;
 
 use crate::shaders::ShadersError;
 use crate::vectors::VectorFileError;
@@ -41,12 +40,6 @@ pub enum LabError {
     /// Figures as JSON.
     #[error("the figures cannot be written as JSON: {0}")]
     Json(#[from] serde_json::Error),
-    /// The regions of a map.
-    #[error(transparent)]
-    Region(#[from] RegionError),
-    /// The library's parameters.
-    #[error(transparent)]
-    Parameters(#[from] ParameterError),
     /// A camera without an inverse.
     #[error(transparent)]
     Camera(#[from] moment_shadows::ViewError),
@@ -65,9 +58,9 @@ pub enum LabError {
     /// A kernel.
     #[error(transparent)]
     Kernel(#[from] moment_shadows::KernelError),
-    /// The library's recorder.
+    /// A plan that is not recorded, or parameters that do not fit it.
     #[error(transparent)]
-    Record(#[from] RecordError),
+    Record(#[from] GraphError),
     /// A shader of the lab that cannot be linked.
     #[error(transparent)]
     Link(#[from] moment_shadows::LinkError),

@@ -48,7 +48,7 @@ impl GraphFile {
         let mut text = text;
         if !graph.notes.is_empty() {
             let mut file: Value = serde_json::from_str(&text).unwrap_or_default();
-            moment_shadows_graph::upgrade(&mut file);
+            Graph::upgrade(&mut file);
             text = file.to_string();
         }
         if let Some(storage) = storage {

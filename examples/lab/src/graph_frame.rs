@@ -7,9 +7,7 @@ use moment_shadows::{
 use moment_shadows_graph::record::{
     Bindings, ImportedResource, PipelineOptions, Pipelines, Recording, Resources,
 };
-use moment_shadows_graph::{
-    Capabilities, Imports, Plan, ResourceDesc, Stage, TextureDesc, compile,
-};
+use moment_shadows_graph::{Capabilities, Plan, ResourceDesc, Stage, TextureDesc};
 use pollster::block_on;
 
 use crate::error::LabError;
@@ -60,12 +58,13 @@ impl GraphFrame {
     ) -> Result<Self, LabError> {
         let desc = &frame.desc;
         let capabilities = Capabilities::of_device(&gpu.adapter, &gpu.device);
-        let plan = compile(&file.graph, &capabilities, &imports(desc)).map_err(|error| {
-            LabError::Graph {
+        let plan = file
+            .graph
+            .compile(&capabilities, &imports(desc))
+            .map_err(|error| LabError::Graph {
                 file: file.name.clone(),
                 error,
-            }
-        })?;
+            })?;
         let pipelines = block_on(Pipelines::create(
             &gpu.device,
             &plan,
@@ -167,25 +166,25 @@ pub fn read_intensity(gpu: &Gpu, texture: &wgpu::Texture) -> Result<Vec<f32>, La
 }
 
 /// What the host gives, described for the compiler.
-pub fn imports(desc: &FrameDesc) -> Imports {
+pub fn imports(desc: &FrameDesc) -> [(&'static str, ResourceDesc); 2] {
     let light_format = match desc.format {
         wgpu::TextureFormat::Depth16Unorm => TextureFormat::Depth16Unorm,
         _ => TextureFormat::Depth32Float,
     };
     let texture = |texture| ResourceDesc::Texture(texture);
-    Imports::from([
+    [
         (
-            "light_depth".to_owned(),
+            "light_depth",
             texture(TextureDesc {
                 samples: desc.samples,
                 ..TextureDesc::new(light_format, desc.map)
             }),
         ),
         (
-            "camera_depth".to_owned(),
+            "camera_depth",
             texture(TextureDesc::new(TextureFormat::Depth32Float, desc.picture)),
         ),
-    ])
+    ]
 }
 
 /// The parameters of the library's nodes for a frame, with something in the air or nothing, as the plan lays them out.
