@@ -13,7 +13,7 @@ use moment_shadows_graph::record::{
     Bindings, ImportedResource, Layers, PipelineOptions, Pipelines, Recording, Resources,
 };
 use moment_shadows_graph::{
-    Capabilities, Imports, NodeDesc, ParameterBlock, Pass, Plan, Stage, TextureRule, bind, compile,
+    Capabilities, NodeDesc, ParameterBlock, Pass, Plan, Stage, TextureRule, bind,
 };
 use moment_shadows_lab::gpu::Gpu;
 use pollster::block_on;
@@ -66,7 +66,7 @@ fn node(draws: bool) -> NodeDesc {
 fn plan(gpu: &Gpu, draws: bool) -> Plan {
     let graph = graph(&[], vec![("host", node(draws))], &[], &[("out", "host.to")]);
     let capabilities = Capabilities::of_device(&gpu.adapter, &gpu.device);
-    compile(&graph, &capabilities, &Imports::new()).unwrap()
+    graph.compile(&capabilities, &[]).unwrap()
 }
 
 fn bound(

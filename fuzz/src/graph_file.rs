@@ -1,9 +1,7 @@
 //! Graph files, compiled for devices and imports of all kinds.
 
 use moment_shadows::{Profile, TextureFormat};
-use moment_shadows_graph::{
-    Capabilities, Graph, Imports, NodeRegistry, Plan, ResourceDesc, TextureDesc, compile,
-};
+use moment_shadows_graph::{Capabilities, Graph, NodeRegistry, Plan, ResourceDesc, TextureDesc};
 use serde_json::{Value, json};
 
 use crate::json::{mutate as mutate_json, mutate_text, strings};
@@ -134,11 +132,11 @@ pub fn try_out(data: &[u8]) {
     let mut random = Random::of_input(data);
     let capabilities = capabilities(&mut random);
     let imports = imports(&graph, &mut random);
-    match compile(&graph, &capabilities, &imports) {
+    match graph.compile(&capabilities, &imports) {
         Err(error) => assert!(!error.message.is_empty() && !error.to_string().is_empty()),
         Ok(plan) => {
             check(&plan);
-            let again = compile(&graph, &capabilities, &imports);
+            let again = graph.compile(&capabilities, &imports);
             assert_eq!(again.as_ref(), Ok(&plan), "compiling is repeatable");
         }
     }
@@ -184,10 +182,10 @@ fn capabilities(random: &mut Random) -> Capabilities {
 }
 
 /// Descriptions of some imports.
-fn imports(graph: &Graph, random: &mut Random) -> Imports {
+fn imports<'a>(graph: &'a Graph, random: &mut Random) -> Vec<(&'a str, ResourceDesc)> {
     const COUNTS: [u32; 8] = [1, 1, 1, 2, 4, 8, 0, u32::MAX];
     const SIZES: [u32; 9] = [1, 7, 64, 640, 1024, 8192, 0, 65_536, u32::MAX];
-    let mut imports = Imports::new();
+    let mut imports = Vec::new();
     for import in graph.imports.iter().take(16) {
         if random.below(3) > 0 {
             continue;
@@ -216,7 +214,7 @@ fn imports(graph: &Graph, random: &mut Random) -> Imports {
                 )
             })
         };
-        imports.insert(import.name.clone(), desc);
+        imports.push((import.name.as_str(), desc));
     }
     imports
 }

@@ -1,10 +1,9 @@
 //! What the device offers that a graph is compiled for.
 
 use moment_shadows::{FormatSupport, Profile, TextureFormat};
-use serde::{Deserialize, Serialize};
 
 /// What a plan may rely on. Faster paths are chosen by it when a graph is compiled.
-#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Capabilities {
     /// The profile: which formats can be written, sampled and drawn to.
     pub profile: Profile,
@@ -12,10 +11,8 @@ pub struct Capabilities {
     pub float32_filterable: bool,
     /// Whether samplers take the probes of a minified lookup, rather than the shader. Software adapters need many times as
     /// long for an anisotropic lookup, and may filter twice as much as the pixel covers.
-    #[serde(default = "yes")]
     pub anisotropic_sampling: bool,
     /// Whether the processor runs the shaders: large tiles in few invocations then serve better than many invocations.
-    #[serde(default)]
     pub software_adapter: bool,
     /// Samples per texel that depth textures can have.
     pub depth_samples: Vec<u32>,
@@ -26,21 +23,11 @@ pub struct Capabilities {
     /// The largest number of workgroups of a dispatch in one dimension.
     pub max_workgroups: u32,
     /// The most bytes of a uniform binding: what limits regions and views.
-    #[serde(default = "default_uniform_size")]
     pub max_uniform_size: u32,
     /// Offsets of uniform buffers are multiples of this.
     pub uniform_alignment: u32,
     /// The index of the bind group that the host leaves to the plan's passes.
     pub bind_group: u32,
-}
-
-/// WebGPU's default limit.
-fn default_uniform_size() -> u32 {
-    65536
-}
-
-fn yes() -> bool {
-    true
 }
 
 impl Capabilities {
@@ -56,7 +43,7 @@ impl Capabilities {
             max_texture_size: 8192,
             max_texture_layers: 256,
             max_workgroups: 65535,
-            max_uniform_size: default_uniform_size(),
+            max_uniform_size: 65536,
             uniform_alignment: 256,
             bind_group: 0,
         }
@@ -104,7 +91,6 @@ impl Capabilities {
         let software_adapter = adapter.get_info().device_type == wgpu::DeviceType::Cpu;
         let limits = device.limits();
         Self {
-            profile,
             float32_filterable: features.contains(wgpu::Features::FLOAT32_FILTERABLE),
             anisotropic_sampling: !software_adapter,
             software_adapter,
@@ -115,7 +101,7 @@ impl Capabilities {
             max_uniform_size: u32::try_from(limits.max_uniform_buffer_binding_size)
                 .unwrap_or(u32::MAX),
             uniform_alignment: limits.min_uniform_buffer_offset_alignment,
-            bind_group: 0,
+            ..Self::of_profile(profile)
         }
     }
 }

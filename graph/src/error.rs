@@ -1,7 +1,8 @@
-//! What can be wrong with a graph, and where.
+//! What can be wrong with a graph, its plan or a recording, and where.
 
 use core::fmt;
 
+use moment_shadows::nearest;
 use serde::{Deserialize, Serialize};
 
 /// A place in a graph file, counted from 1.
@@ -40,7 +41,7 @@ impl fmt::Display for Position {
     }
 }
 
-/// The kinds of things that can be wrong with a graph.
+/// The kinds of things that can be wrong with a graph, with its plan, or with what a plan is recorded with.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[non_exhaustive]
 pub enum GraphErrorKind {
@@ -74,12 +75,26 @@ pub enum GraphErrorKind {
     Shader,
     /// A declaration that contradicts itself: a node's own fault.
     Declaration,
-    /// An import that the host did not describe.
+    /// An import that the host did not describe, or did not bind.
     MissingImport,
+    /// An import that is bound, but is not what the plan was compiled for.
+    Import,
+    /// A plan that does not hold together, or that pipelines, resources or the device do not belong to.
+    Plan,
+    /// Uniform data or regions that do not fit their place in a view's block, or a block that does not fit the buffer.
+    Parameters,
+    /// Layers, passes or timestamps that a recording asks for and cannot have.
+    Recording,
+    /// An object that the device refused to create.
+    Device,
+    /// The device has no memory left.
+    OutOfMemory,
+    /// The device was lost or destroyed: create everything anew on another one.
+    Lost,
 }
 
-/// Why a graph cannot be used. Nothing has been created.
-#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+/// Why a graph cannot be used, a plan not be recorded, or a value not be written. Nothing half-made is left.
+#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 pub struct GraphError {
     /// What is wrong.
     pub kind: GraphErrorKind,
@@ -125,6 +140,38 @@ impl GraphError {
         self.position = self.position.or(position);
         self
     }
+}
+
+/// An error of a kind unless a condition `holds`.
+pub(crate) fn ensure<M: Into<String>>(
+    holds: bool,
+    kind: GraphErrorKind,
+    message: impl FnOnce() -> M,
+) -> Result<(), GraphError> {
+    if holds {
+        Ok(())
+    } else {
+        Err(GraphError::new(kind, message()))
+    }
+}
+
+/// The error about a name that is none of the `known` ones.
+pub(crate) fn unknown<'a>(
+    what: &str,
+    name: &str,
+    known: impl Iterator<Item = &'a str>,
+    remark: &str,
+) -> GraphError {
+    let nearest = nearest(name, known);
+    let hint = if nearest.is_empty() {
+        "there is none".to_owned()
+    } else {
+        format!("the nearest are {nearest}")
+    };
+    GraphError::new(
+        GraphErrorKind::UnknownName,
+        format!("there is no {what} '{name}'; {hint} ({remark})"),
+    )
 }
 
 impl fmt::Display for GraphError {

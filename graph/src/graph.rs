@@ -1,15 +1,15 @@
 //! The graph file: imports, nodes, edges, outputs.
 
-use moment_shadows::nearest;
-use serde::Deserialize;
+use serde::{Deserialize, Serialize};
 use serde_json::value::RawValue;
 
+use crate::error::{ensure, unknown};
 use crate::nodes::REFUSED;
 use crate::version_1::Renamed;
-use crate::{GraphError, GraphErrorKind, Node, NodeRegistry, Position, ResourceDesc};
+use crate::{GraphError, GraphErrorKind, Node, NodeRegistry, Position, ResourceDesc, TextureDesc};
 
 /// The version of graph files and plans that this library writes. Graph files of version 1 are read, too.
-pub const VERSION: u32 = 2;
+pub(crate) const VERSION: u32 = 2;
 
 /// A graph file of more bytes than this is refused: names are looked up one by one, so that time grows with the square.
 const LARGEST_FILE: usize = 1 << 20;
@@ -17,79 +17,61 @@ const LARGEST_FILE: usize = 1 << 20;
 /// A graph: nodes, and what connects them to each other and to the host.
 #[derive(Debug)]
 pub struct Graph {
-    /// What the host owns and gives.
-    pub imports: Vec<Import>,
-    /// The nodes, in any order.
-    pub nodes: Vec<GraphNode>,
+    /// What the host owns and gives, as the graph expects it; a host's own description takes its place.
+    pub imports: Vec<Named<Option<ResourceDesc>>>,
+    /// The nodes, in any order: each a type with its properties.
+    pub nodes: Vec<Named<Box<dyn Node>>>,
     /// The connections.
     pub edges: Vec<Edge>,
-    /// What the host takes.
-    pub outputs: Vec<Output>,
+    /// What the host takes: outputs of nodes (`node.slot`), or imports.
+    pub outputs: Vec<Named<String>>,
     /// What to change in the file, a sentence each: names of an older version that it uses.
     pub notes: Vec<String>,
 }
 
-/// A resource that the host owns.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Import {
-    /// The name.
+/// A part of a graph or of a plan, by name.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Named<T> {
+    /// The name, which nothing else of its kind has.
     pub name: String,
-    /// What the graph expects; a host's own description takes its place.
-    pub expected: Option<ResourceDesc>,
-    /// The place in the file.
+    /// What has the name; in a plan the index of a resource.
+    #[serde(rename = "resource")]
+    pub value: T,
+    /// The place in the graph file, where there is one.
+    #[serde(skip)]
     pub position: Option<Position>,
 }
 
-/// A node of a graph.
-#[derive(Debug)]
-pub struct GraphNode {
-    /// The name, unique within the graph.
-    pub name: String,
-    /// The type with its properties.
-    pub node: Box<dyn Node>,
-    /// The place in the file.
-    pub position: Option<Position>,
+impl<T> Named<T> {
+    /// Something without a place in a file.
+    pub fn new(name: impl Into<String>, value: T) -> Self {
+        Self {
+            name: name.into(),
+            value,
+            position: None,
+        }
+    }
+
+    fn at(self, position: Position) -> Self {
+        Self {
+            position: Some(position),
+            ..self
+        }
+    }
 }
 
 /// A connection.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, Eq, Deserialize)]
+#[serde(deny_unknown_fields)]
 pub struct Edge {
-    /// An import (`name`) or an output of a node (`node.slot`).
-    pub from: Endpoint,
-    /// An input of a node.
-    pub to: Endpoint,
+    /// An output of a node (`node.slot`) or an import (`name`).
+    pub from: String,
+    /// An input of a node (`node.slot`).
+    pub to: String,
     /// The place in the file.
+    #[serde(skip)]
     pub position: Option<Position>,
-}
-
-/// A resource that the host takes.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Output {
-    /// The name.
-    pub name: String,
-    /// An output of a node.
-    pub from: Endpoint,
-    /// The place in the file.
-    pub position: Option<Position>,
-}
-
-/// One end of an edge.
-#[derive(Clone, Debug, PartialEq, Eq, PartialOrd, Ord)]
-pub struct Endpoint {
-    /// The node, or the import.
-    pub owner: String,
-    /// The slot of a node; `None` for an import.
-    pub slot: Option<String>,
-}
-
-impl core::fmt::Display for Endpoint {
-    fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
-        f.write_str(&self.owner)?;
-        match &self.slot {
-            Some(slot) => write!(f, ".{slot}"),
-            None => Ok(()),
-        }
-    }
 }
 
 #[derive(Deserialize)]
@@ -119,7 +101,7 @@ struct FileVersion {
 struct FileImport {
     name: String,
     #[serde(default)]
-    texture: Option<crate::TextureDesc>,
+    texture: Option<TextureDesc>,
     #[serde(default)]
     buffer_size: Option<u64>,
 }
@@ -135,58 +117,56 @@ struct FileNode<'a> {
 
 #[derive(Deserialize)]
 #[serde(deny_unknown_fields)]
-struct FileEdge {
-    from: String,
-    to: String,
-}
-
-#[derive(Deserialize)]
-#[serde(deny_unknown_fields)]
 struct FileOutput {
     name: String,
     from: String,
 }
 
 impl Graph {
-    /// Reads a graph file. Names and connections are checked by [`crate::compile`].
+    /// Reads a graph file. Names and connections are checked by [`compile`](Self::compile).
     pub fn parse(text: &str, registry: &NodeRegistry) -> Result<Self, GraphError> {
-        if text.len() > LARGEST_FILE {
-            return Err(GraphError::new(
-                GraphErrorKind::Size,
-                format!(
-                    "the file has {} bytes; at most {LARGEST_FILE} are read",
-                    text.len()
-                ),
-            ));
-        }
-        let version: FileVersion = read(text, text)?;
-        if !(1..=VERSION).contains(&version.version) {
-            return Err(GraphError::new(
-                GraphErrorKind::Version,
-                format!(
-                    "the file has version {}, this library reads versions 1 to {VERSION}; use a library of the file's version",
-                    version.version
-                ),
-            ));
-        }
-        let file: File<'_> = read(text, text)?;
-        let mut renamed = (version.version == 1).then(Renamed::default);
-        let imports = each(text, &file.imports, read_import)?;
-        let nodes = each(text, &file.nodes, |text, raw, position| {
-            read_node(text, raw, position, registry, renamed.as_mut())
+        ensure(text.len() <= LARGEST_FILE, GraphErrorKind::Size, || {
+            format!(
+                "the file has {} bytes; at most {LARGEST_FILE} are read",
+                text.len()
+            )
         })?;
-        let mut edges = each(text, &file.edges, read_edge)?;
-        let mut outputs = each(text, &file.outputs, read_output)?;
-        if let Some(renamed) = &mut renamed {
-            renamed.slots(&mut edges, &mut outputs);
+        let FileVersion { version } = read(text, text)?;
+        ensure(
+            (1..=VERSION).contains(&version),
+            GraphErrorKind::Version,
+            || {
+                format!(
+                    "the file has version {version}, this library reads versions 1 to {VERSION}; use a library of the file's version"
+                )
+            },
+        )?;
+        let file: File<'_> = read(text, text)?;
+        let mut renamed = (version == 1).then(Renamed::default);
+        let mut graph = Self {
+            imports: each(text, &file.imports, read_import)?,
+            nodes: each(text, &file.nodes, |text, raw, position| {
+                read_node(text, raw, position, registry, renamed.as_mut())
+            })?,
+            edges: each(text, &file.edges, |text, raw, position| {
+                let edge: Edge = read(text, raw)?;
+                let position = Some(position);
+                Ok(Edge { position, ..edge })
+            })?,
+            outputs: each(text, &file.outputs, |text, raw, position| {
+                let output: FileOutput = read(text, raw)?;
+                Ok(Named::new(output.name, output.from).at(position))
+            })?,
+            notes: Vec::new(),
+        };
+        if let Some(mut renamed) = renamed {
+            let edges = graph.edges.iter_mut();
+            let ends = edges.flat_map(|edge| [&mut edge.from, &mut edge.to]);
+            ends.chain(graph.outputs.iter_mut().map(|output| &mut output.value))
+                .for_each(|end| renamed.endpoint(end));
+            graph.notes = renamed.notes;
         }
-        Ok(Self {
-            imports,
-            nodes,
-            edges,
-            outputs,
-            notes: renamed.map(|renamed| renamed.notes).unwrap_or_default(),
-        })
+        Ok(graph)
     }
 }
 
@@ -248,28 +228,23 @@ fn sentence(error: &serde_json::Error) -> String {
         .to_owned()
 }
 
-fn read_import(text: &str, raw: &str, position: Position) -> Result<Import, GraphError> {
+fn read_import(
+    text: &str,
+    raw: &str,
+    position: Position,
+) -> Result<Named<Option<ResourceDesc>>, GraphError> {
     let import: FileImport = read(text, raw)?;
-    let expected = match (import.texture, import.buffer_size) {
-        (Some(_), Some(_)) => {
-            return Err(GraphError::new(
-                GraphErrorKind::Syntax,
-                format!(
-                    "import '{}' is given as a texture and as a buffer; keep one of them",
-                    import.name
-                ),
-            )
-            .at_position(Some(position)));
-        }
-        (Some(texture), None) => Some(ResourceDesc::Texture(texture)),
-        (None, Some(size)) => Some(ResourceDesc::Buffer { size }),
-        (None, None) => None,
-    };
-    Ok(Import {
-        name: import.name,
-        expected,
-        position: Some(position),
+    let both = import.texture.is_some() && import.buffer_size.is_some();
+    ensure(!both, GraphErrorKind::Syntax, || {
+        format!(
+            "import '{}' is given as a texture and as a buffer; keep one of them",
+            import.name
+        )
     })
+    .map_err(|error| error.at_position(Some(position)))?;
+    let texture = import.texture.map(ResourceDesc::Texture);
+    let buffer = import.buffer_size.map(|size| ResourceDesc::Buffer { size });
+    Ok(Named::new(import.name, texture.or(buffer)).at(position))
 }
 
 fn read_node(
@@ -278,7 +253,7 @@ fn read_node(
     position: Position,
     registry: &NodeRegistry,
     renamed: Option<&mut Renamed>,
-) -> Result<GraphNode, GraphError> {
+) -> Result<Named<Box<dyn Node>>, GraphError> {
     let header: FileNode<'_> = read(text, raw).map_err(|error| match name_of(raw) {
         Some(name) => error.at_node(&name),
         None => error,
@@ -303,11 +278,7 @@ fn read_node(
             })
         })
         .map_err(|error| error.at_node(&header.name).at_position(Some(position)))?;
-    Ok(GraphNode {
-        name: header.name,
-        node,
-        position: Some(position),
-    })
+    Ok(Named::new(header.name, node).at(position))
 }
 
 /// The reason why a node does not have a property that a file gives it, if one is known.
@@ -334,42 +305,10 @@ fn name_of(raw: &str) -> Option<String> {
 }
 
 fn unknown_type(type_name: &str, registry: &NodeRegistry) -> GraphError {
-    GraphError::new(
-        GraphErrorKind::UnknownNodeType,
-        format!(
-            "there is no node type '{type_name}'; the nearest are {}",
-            nearest(type_name, registry.type_names())
-        ),
-    )
-}
-
-fn read_edge(text: &str, raw: &str, position: Position) -> Result<Edge, GraphError> {
-    let edge: FileEdge = read(text, raw)?;
-    Ok(Edge {
-        from: endpoint(&edge.from),
-        to: endpoint(&edge.to),
-        position: Some(position),
-    })
-}
-
-fn read_output(text: &str, raw: &str, position: Position) -> Result<Output, GraphError> {
-    let output: FileOutput = read(text, raw)?;
-    Ok(Output {
-        name: output.name,
-        from: endpoint(&output.from),
-        position: Some(position),
-    })
-}
-
-fn endpoint(text: &str) -> Endpoint {
-    match text.split_once('.') {
-        Some((owner, slot)) => Endpoint {
-            owner: owner.to_owned(),
-            slot: Some(slot.to_owned()),
-        },
-        None => Endpoint {
-            owner: text.to_owned(),
-            slot: None,
-        },
+    let remark = "types of its own a host registers";
+    let error = unknown("node type", type_name, registry.type_names(), remark);
+    GraphError {
+        kind: GraphErrorKind::UnknownNodeType,
+        ..error
     }
 }

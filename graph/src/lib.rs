@@ -33,26 +33,22 @@ mod version_1;
 pub mod write_a_node {}
 
 pub use capabilities::Capabilities;
-pub use compile::{Imports, compile, describe};
 pub use error::{GraphError, GraphErrorKind, Position};
-pub use graph::{Edge, Endpoint, Graph, GraphNode, Import, Output, VERSION};
+pub use graph::{Edge, Graph, Named};
 pub use node::{
-    Binding, BindingResource, Connected, CountRule, Direction, ExtentRule, FormatRule, Lifetime,
-    MipLevel, Node, NodeDesc, ParameterBlock, Pass, RegionTable, SameAs, Slot, SlotResource, Stage,
-    TextureRule, Work, bind, same_as,
+    Binding, BindingResource, Connected, Direction, Node, NodeDesc, ParameterBlock, Pass, Rule,
+    Slot, SlotResource, Stage, TextureRule, Work, bind,
 };
 pub use plan::{
-    Home, NamedResource, ParameterError, ParameterLayout, Plan, PlanError, PlannedBinding,
-    PlannedBindingResource, PlannedMemory, PlannedParameters, PlannedPass, PlannedRegions,
-    PlannedResource, PlannedWork, RegionError, SampleType,
+    Home, ParameterLayout, Plan, PlannedBindingResource, PlannedMemory, PlannedParameters,
+    PlannedPass, PlannedRegions, PlannedResource, PlannedWork, SampleType,
 };
 pub use registry::NodeRegistry;
 pub use resource::{Access, ResourceDesc, TextureDesc};
 #[cfg(feature = "wgpu")]
-pub use session::{Session, SessionError};
+pub use session::Session;
 
 /// What a [`Session`] is told, from the core crate.
 pub use moment_shadows::{
     CameraView, DepthRange, LightDepth, LightSize, LightView, MapRegion, SingleScattering,
 };
-pub use version_1::upgrade;

@@ -1,5 +1,6 @@
 //! A compiled graph: passes in order, resources, memory and parameters, as data that any host can record.
 
+mod access;
 mod check;
 mod parameters;
 mod regions;
@@ -7,12 +8,12 @@ mod text;
 
 use std::collections::BTreeMap;
 
-pub use check::PlanError;
-pub use parameters::{ParameterError, ParameterLayout, PlannedParameters};
-pub use regions::{PlannedRegions, RegionError};
+pub(crate) use access::Part;
+pub use parameters::{ParameterLayout, PlannedParameters};
+pub use regions::PlannedRegions;
 use serde::{Deserialize, Serialize};
 
-use crate::{Access, ResourceDesc, Stage, TextureDesc};
+use crate::{Access, Binding, Named, ResourceDesc, Stage, TextureDesc};
 
 /// All that a host needs to record a graph.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -28,10 +29,10 @@ pub struct Plan {
     pub resources: Vec<PlannedResource>,
     /// The textures and buffers to create; resources whose lives do not overlap share one.
     pub memory: Vec<PlannedMemory>,
-    /// What the host gives, in the order of the graph file; only what a pass touches.
-    pub imports: Vec<NamedResource>,
-    /// What the host takes.
-    pub outputs: Vec<NamedResource>,
+    /// What the host gives, in the order of the graph file; only what a pass touches. Values are indices into `resources`.
+    pub imports: Vec<Named<usize>>,
+    /// What the host takes; values are indices into `resources`.
+    pub outputs: Vec<Named<usize>>,
     /// Where each node's uniform data lies in a view's block.
     pub parameters: ParameterLayout,
 }
@@ -52,8 +53,8 @@ pub struct PlannedPass {
     pub entry_point: String,
     /// Values of `override` constants.
     pub constants: BTreeMap<String, f64>,
-    /// What the bindings hold.
-    pub bindings: Vec<PlannedBinding>,
+    /// What the bindings hold, by their numbers.
+    pub bindings: Vec<Binding<u32, PlannedBindingResource>>,
     /// What is recorded.
     pub work: PlannedWork,
     /// How often it is recorded when every layer is dirty.
@@ -66,16 +67,6 @@ pub struct PlannedPass {
     pub bytes_read: u64,
     /// Bytes written when every layer is dirty.
     pub bytes_written: u64,
-}
-
-/// A binding with its resource.
-#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
-#[serde(deny_unknown_fields)]
-pub struct PlannedBinding {
-    /// The binding's index.
-    pub binding: u32,
-    /// What the binding holds.
-    pub resource: PlannedBindingResource,
 }
 
 /// What a binding holds; `resource` and `block` are indices into the plan.
@@ -229,14 +220,12 @@ pub struct PlannedMemory {
     pub exported: bool,
 }
 
-/// A resource that the host gives or takes, by name.
-#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
-#[serde(deny_unknown_fields)]
-pub struct NamedResource {
-    /// The name of the import or output.
-    pub name: String,
-    /// Index into [`Plan::resources`].
-    pub resource: usize,
+impl PlannedPass {
+    /// `node/pass`, by which hosts name a pass.
+    #[must_use]
+    pub fn name(&self) -> String {
+        format!("{}/{}", self.node, self.label)
+    }
 }
 
 impl Plan {
@@ -259,6 +248,6 @@ impl Plan {
     #[must_use]
     pub fn output_texture(&self, name: &str) -> Option<&TextureDesc> {
         let output = self.outputs.iter().find(|output| output.name == name)?;
-        self.resources.get(output.resource)?.desc.texture()
+        self.resources.get(output.value)?.desc.texture()
     }
 }

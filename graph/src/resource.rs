@@ -92,25 +92,17 @@ impl TextureDesc {
         width * height * u64::from(self.format.bytes_per_texel()) * u64::from(self.samples)
     }
 
-    /// Bytes of one layer, all planes, mip levels and samples.
-    #[must_use]
-    pub fn bytes_per_layer(&self) -> u64 {
-        let plane: u64 = (0..self.mips)
-            .map(|level| self.bytes_per_level(level))
-            .sum();
-        plane * u64::from(self.planes)
-    }
-
     /// The number of mip levels of a map whose shorter side has at least one texel on each of them.
     #[must_use]
     pub fn most_levels(size: [u32; 2]) -> u32 {
         size[0].min(size[1]).max(1).ilog2() + 1
     }
 
-    /// Bytes of all layers.
+    /// Bytes of all layers, with all planes, mip levels and samples.
     #[must_use]
     pub fn bytes(&self) -> u64 {
-        self.bytes_per_layer() * u64::from(self.layers)
+        let levels = (0..self.mips).map(|level| self.bytes_per_level(level));
+        levels.sum::<u64>() * u64::from(self.planes) * u64::from(self.layers)
     }
 }
 
@@ -199,23 +191,25 @@ pub struct Access {
 }
 
 impl Access {
+    const NONE: Access = Access {
+        read: false,
+        storage_write: false,
+        render_target: false,
+    };
     /// Loaded or sampled from.
     pub const READ: Access = Access {
         read: true,
-        storage_write: false,
-        render_target: false,
+        ..Access::NONE
     };
     /// Written as a storage texture or a storage buffer.
     pub const STORAGE_WRITE: Access = Access {
-        read: false,
         storage_write: true,
-        render_target: false,
+        ..Access::NONE
     };
     /// Drawn to.
     pub const RENDER_TARGET: Access = Access {
-        read: false,
-        storage_write: false,
         render_target: true,
+        ..Access::NONE
     };
 
     /// Both accesses together.

@@ -4,7 +4,8 @@ use std::collections::BTreeMap;
 
 use serde_json::Value;
 
-use crate::{Edge, Endpoint, Output};
+use crate::Graph;
+use crate::graph::VERSION;
 
 /// Node types of version 1 that have another name now.
 const TYPES: [(&str, &str); 3] = [
@@ -53,63 +54,45 @@ impl Renamed {
         }
     }
 
-    /// The slot's name now, where it has changed.
-    fn slot(&mut self, node: &str, slot: &str) -> Option<String> {
-        let type_name = *self.with_map.get(node).filter(|_| slot == "moments")?;
-        self.note(format!(
-            "the slot 'moments' of nodes '{type_name}' is called 'map'"
-        ));
-        Some("map".to_owned())
-    }
-
-    fn endpoint(&mut self, endpoint: &mut Endpoint) {
-        let Some(slot) = &endpoint.slot else { return };
-        if let Some(now) = self.slot(&endpoint.owner, slot) {
-            endpoint.slot = Some(now);
-        }
-    }
-
-    /// Gives the slots of edges and outputs their names of now, once all nodes are known.
-    pub(crate) fn slots(&mut self, edges: &mut [Edge], outputs: &mut [Output]) {
-        for edge in edges {
-            self.endpoint(&mut edge.from);
-            self.endpoint(&mut edge.to);
-        }
-        for output in outputs {
-            self.endpoint(&mut output.from);
+    /// Gives an end of a connection (`node.slot`) its name of now, once all nodes are known.
+    pub(crate) fn endpoint(&mut self, end: &mut String) {
+        let Some((node, "moments")) = end.split_once('.') else {
+            return;
+        };
+        if let Some(type_name) = self.with_map.get(node) {
+            self.note(format!(
+                "the slot 'moments' of nodes '{type_name}' is called 'map'"
+            ));
+            *end = format!("{node}.map");
         }
     }
 }
 
-/// Rewrites a graph file of version 1 to the current one, for tools that change files before they parse them; returns what has
-/// changed. Anything but a graph file of version 1 stays as it is, for [`crate::Graph::parse`] to judge.
-pub fn upgrade(file: &mut Value) -> Vec<String> {
-    let mut renamed = Renamed::default();
-    if file["version"] != 1 {
-        return renamed.notes;
-    }
-    file["version"] = crate::VERSION.into();
-    for node in array(file, "nodes") {
-        let (Some(name), Some(old)) = (node["name"].as_str(), node["type"].as_str()) else {
-            continue;
-        };
-        let now = renamed.type_name(name, old).to_owned();
-        node["type"] = now.into();
-    }
-    for (list, ends) in [("edges", ["from", "to"].as_slice()), ("outputs", &["from"])] {
-        for connection in array(file, list) {
-            for end in ends {
-                let Some((node, slot)) = connection[*end].as_str().and_then(|s| s.split_once('.'))
-                else {
-                    continue;
-                };
-                if let Some(now) = renamed.slot(node, slot) {
-                    connection[*end] = format!("{node}.{now}").into();
+impl Graph {
+    /// Rewrites a graph file of version 1 to the current one, for tools that change files before they parse them; returns
+    /// what has changed. Anything but a graph file of version 1 stays as it is, for [`parse`](Self::parse) to judge.
+    pub fn upgrade(file: &mut Value) -> Vec<String> {
+        let mut renamed = Renamed::default();
+        if file["version"] != 1 {
+            return renamed.notes;
+        }
+        file["version"] = VERSION.into();
+        for node in array(file, "nodes") {
+            if let (Some(name), Some(old)) = (node["name"].as_str(), node["type"].as_str()) {
+                node["type"] = renamed.type_name(name, old).into();
+            }
+        }
+        for (list, ends) in [("edges", ["from", "to"].as_slice()), ("outputs", &["from"])] {
+            for connection in array(file, list) {
+                for end in ends {
+                    if let Some(Value::String(end)) = connection.get_mut(*end) {
+                        renamed.endpoint(end);
+                    }
                 }
             }
         }
+        renamed.notes
     }
-    renamed.notes
 }
 
 /// The objects of a list of the file.

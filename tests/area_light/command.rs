@@ -96,5 +96,5 @@ fn unknown_names_and_scenes_are_refused() {
         other => panic!("{other:?}"),
     }
     let result = of("edges", &[]);
-    assert!(matches!(result, Err(CostError::Lab(LabError::Scene(_)))));
+    assert!(matches!(result, Err(CostError::Lab(LabError::Refused(_)))));
 }

@@ -3,8 +3,8 @@
 use moment_shadows::TextureFormat::{R8Unorm, Rgba32Float};
 use moment_shadows_graph::GraphErrorKind::{Declaration, DuplicateName, Size};
 use moment_shadows_graph::{
-    Access, BindingResource, CountRule, Direction, ExtentRule, FormatRule, GraphError, Imports,
-    NodeDesc, ParameterBlock, Slot, SlotResource, Stage, TextureRule, Work, bind, compile,
+    Access, BindingResource, Direction, GraphError, NodeDesc, ParameterBlock, Rule, Slot,
+    SlotResource, Stage, TextureRule, Work, bind,
 };
 
 use crate::example::{assert_error, native};
@@ -19,7 +19,7 @@ fn refused(node: NodeDesc) -> GraphError {
         &[("map", "host.from")],
         &[("out", "host.to")],
     );
-    compile(&graph, &native(), &Imports::new()).unwrap_err()
+    graph.compile(&native(), &[]).unwrap_err()
 }
 
 fn base() -> NodeDesc {
@@ -34,7 +34,7 @@ fn the_node_without_a_fault_compiles() {
         &[("map", "host.from")],
         &[("out", "host.to")],
     );
-    compile(&graph, &native(), &Imports::new()).unwrap();
+    graph.compile(&native(), &[]).unwrap();
 }
 
 #[test]
@@ -69,7 +69,7 @@ fn outputs_that_leave_something_open() {
         (
             |resource| {
                 if let SlotResource::Texture(TextureRule { format, .. }) = resource {
-                    *format = FormatRule::OneOf(vec![Rgba32Float])
+                    *format = Rule::OneOf(vec![Rgba32Float])
                 }
             },
             "leaves its format open",
@@ -77,7 +77,7 @@ fn outputs_that_leave_something_open() {
         (
             |resource| {
                 if let SlotResource::Texture(TextureRule { extent, .. }) = resource {
-                    *extent = ExtentRule::Any
+                    *extent = Rule::Any
                 }
             },
             "leaves its extent open",
@@ -85,7 +85,7 @@ fn outputs_that_leave_something_open() {
         (
             |resource| {
                 if let SlotResource::Texture(TextureRule { layers, .. }) = resource {
-                    *layers = CountRule::Any
+                    *layers = Rule::Any
                 }
             },
             "leaves its number of layers open",
@@ -93,7 +93,7 @@ fn outputs_that_leave_something_open() {
         (
             |resource| {
                 if let SlotResource::Texture(TextureRule { samples, .. }) = resource {
-                    *samples = CountRule::OneOf(vec![1])
+                    *samples = Rule::OneOf(vec![1])
                 }
             },
             "leaves its number of samples open",
@@ -101,7 +101,7 @@ fn outputs_that_leave_something_open() {
         (
             |resource| {
                 if let SlotResource::Texture(TextureRule { extent, .. }) = resource {
-                    *extent = ExtentRule::SameAs("form".to_owned())
+                    *extent = Rule::SameAs("form".to_owned())
                 }
             },
             "refers to 'form', which is no connected texture",
@@ -266,8 +266,9 @@ fn workgroups_that_cover_nothing() {
     let mut node = base();
     node.passes[0].work = Work::Compute {
         covers: "to".to_owned(),
+        level: 0,
         texels_per_workgroup: [8, 0],
-        each_layer: true,
+        regions: false,
     };
     assert_error(
         &refused(node),
@@ -283,7 +284,7 @@ fn workgroups_that_cover_nothing() {
 fn multisampled_arrays() {
     let mut to = made("to", Direction::Out, Access::RENDER_TARGET, R8Unorm, 2);
     if let SlotResource::Texture(TextureRule { samples, .. }) = &mut to.resource {
-        *samples = CountRule::Exact(4);
+        *samples = Rule::Exact(4);
     }
     let node = NodeDesc {
         slots: vec![input("from"), to],

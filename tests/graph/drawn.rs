@@ -6,7 +6,7 @@ use moment_shadows_graph::nodes::{
     SummedAreaTable,
 };
 use moment_shadows_graph::{
-    Access, Capabilities, Connected, GraphError, GraphErrorKind, Node, NodeDesc, Plan, PlanError,
+    Access, Capabilities, Connected, GraphError, GraphErrorKind, Node, NodeDesc, Plan,
     PlannedBindingResource, PlannedWork, ResourceDesc, TextureDesc,
 };
 
@@ -110,14 +110,9 @@ fn ten_bits_take_and_move_half_of_what_sixteen_do() {
 
 #[test]
 fn a_plan_from_elsewhere_draws_to_planes_and_levels_that_are_there() {
-    for (wrong, is_expected) in [
-        (
-            (2, 0),
-            (|error| matches!(error, PlanError::Level { level: 2, .. })) as fn(&PlanError) -> bool,
-        ),
-        ((0, 2), |error| {
-            matches!(error, PlanError::Index { of: "plane", .. })
-        }),
+    for (wrong, says) in [
+        ((2, 0), "refers to mip level 2, but there are 2"),
+        ((0, 2), "refers to plane 2, but there are "),
     ] {
         let mut plan = plan("unorm10");
         plan.check().unwrap();
@@ -125,7 +120,8 @@ fn a_plan_from_elsewhere_draws_to_planes_and_levels_that_are_there() {
             (*level, *plane) = wrong;
         }
         let error = plan.check().unwrap_err();
-        assert!(is_expected(&error), "{error}");
+        assert_eq!(error.kind, GraphErrorKind::Plan);
+        assert!(error.message.contains(says), "{error}");
     }
 }
 

@@ -1,9 +1,7 @@
 //! The example graph, whole or with a piece of its text replaced, and what is said about it.
 
 use moment_shadows::Profile;
-use moment_shadows_graph::{
-    Capabilities, Graph, GraphError, GraphErrorKind, Imports, NodeRegistry, Plan, compile,
-};
+use moment_shadows_graph::{Capabilities, Graph, GraphError, GraphErrorKind, NodeRegistry, Plan};
 
 pub(crate) const TEXT: &str = include_str!("../../examples/hard_shadows.json");
 
@@ -23,7 +21,7 @@ pub(crate) fn native() -> Capabilities {
 
 /// Compiles a text with the imports that it describes itself.
 pub(crate) fn compiled(text: &str, capabilities: &Capabilities) -> Result<Plan, GraphError> {
-    compile(&parse(text)?, capabilities, &Imports::new())
+    parse(text)?.compile(capabilities, &[])
 }
 
 /// What is wrong with a text, on a native device.

@@ -1,8 +1,6 @@
 //! Which resources share memory, and which never do.
 
-use moment_shadows_graph::{
-    Access, Direction, Home, Imports, Lifetime, NodeDesc, Plan, Slot, Stage, bind, compile,
-};
+use moment_shadows_graph::{Access, Direction, Home, NodeDesc, Plan, Slot, Stage, bind};
 
 use crate::example::{TEXT, compiled, native};
 use crate::host_node::{
@@ -40,7 +38,7 @@ fn chain(nodes: Vec<NodeDesc>, outputs: &[&str]) -> Plan {
         &edges,
         &outputs,
     );
-    compile(&graph, &native(), &Imports::new()).unwrap()
+    graph.compile(&native(), &[]).unwrap()
 }
 
 /// The labels of the plan's memory: who lives together.
@@ -126,14 +124,14 @@ fn outputs_never_share() {
 #[test]
 fn persistent_resources_never_share() {
     let mut keep = copy(EARLY, 3);
-    keep.slots[1].lifetime = Lifetime::Persistent;
+    keep.slots[1].persistent = true;
     let plan = chain(
         vec![keep, copy(EARLY, 3), copy(EARLY, 3), copy(EARLY, 3)],
         &["d.to"],
     );
     assert_eq!(homes(&plan), ["a.to", "b.to", "c.to", "d.to"]);
     let mut late = copy(EARLY, 3);
-    late.slots[1].lifetime = Lifetime::Persistent;
+    late.slots[1].persistent = true;
     let plan = chain(
         vec![copy(EARLY, 3), copy(EARLY, 3), late, copy(EARLY, 3)],
         &["d.to"],
@@ -297,7 +295,7 @@ fn a_node_that_changes_in_place_makes_no_memory() {
         &[("map", "a.from"), ("a.to", "b.from"), ("second", "b.other")],
         &[("changed", "b.from"), ("made", "b.to")],
     );
-    let plan = compile(&graph, &native(), &Imports::new()).unwrap();
+    let plan = graph.compile(&native(), &[]).unwrap();
     assert_eq!(homes(&plan), ["a.to", "b.to"]);
     assert_eq!(
         plan.output_texture("changed"),

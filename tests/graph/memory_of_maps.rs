@@ -1,6 +1,6 @@
 //! Memory that is shared in a plan of two maps: their layers are made anew independently of each other.
 
-use moment_shadows_graph::{Imports, NodeDesc, Plan, Stage, compile};
+use moment_shadows_graph::{NodeDesc, Plan, Stage};
 
 use crate::example::native;
 use crate::host_node::{copy, copy_every_time, graph, rgba32};
@@ -25,7 +25,7 @@ fn pairs(pairs: Vec<(&str, NodeDesc, NodeDesc)>) -> Plan {
     let outputs: Vec<(&str, &str)> = outputs.iter().map(|(a, b)| (*a, &**b)).collect();
     let imports = [("left", rgba32(1)), ("right", rgba32(1))];
     let graph = graph(&imports, nodes, &edges, &outputs);
-    compile(&graph, &native(), &Imports::new()).unwrap()
+    graph.compile(&native(), &[]).unwrap()
 }
 
 /// The labels of the memory that is not an output: who lives together.

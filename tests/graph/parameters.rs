@@ -2,7 +2,8 @@
 
 use crate::example::{TEXT, compiled, edited, native};
 use crate::plan::example;
-use moment_shadows_graph::{Capabilities, ParameterError};
+use moment_shadows_graph::GraphErrorKind::{Parameters, UnknownName};
+use moment_shadows_graph::{Capabilities, GraphError};
 
 #[test]
 fn parameters_are_aligned_to_the_device_and_do_not_overlap() {
@@ -79,35 +80,33 @@ fn parameters_are_written_where_they_belong_or_not_at_all() {
         layout.initial()[..32],
         "the other layer's stay"
     );
-    let known = "resolve, shade".to_owned();
-    assert_eq!(
+    let fails = |result: Result<(), GraphError>, kind, says: &str| {
+        let error = result.unwrap_err();
+        assert_eq!((error.kind, error.to_string().as_str()), (kind, says));
+    };
+    fails(
         layout.write(&mut bytes, "resolv", 0, &conversion),
-        Err(ParameterError::UnknownNode {
-            node: "resolv".to_owned(),
-            known
-        })
+        UnknownName,
+        "there is no node with parameters 'resolv'; the nearest are `resolve`, `shade` (in this plan)",
     );
-    assert!(matches!(
+    fails(
         layout.write(&mut bytes, "resolve", 0, &[0_u32; 4]),
-        Err(ParameterError::Size {
-            expected: 32,
-            given: 16,
-            ..
-        })
-    ));
-    assert!(matches!(
+        Parameters,
+        "node 'resolve': its parameters (DepthConversion) have 32 bytes, 16 were given",
+    );
+    fails(
+        layout.write_all(&mut bytes, "resolve", 0, &[conversion; 2]),
+        Parameters,
+        "node 'resolve': its parameters (DepthConversion) are at most 1 structs, 2 were given",
+    );
+    fails(
         layout.write(&mut bytes, "resolve", 2, &conversion),
-        Err(ParameterError::Layer {
-            count: 2,
-            layer: 2,
-            ..
-        })
-    ));
-    assert!(matches!(
+        Parameters,
+        "node 'resolve': it has parameters for 2 layers; layer 2 is none of them",
+    );
+    fails(
         layout.write(&mut bytes[..100], "resolve", 1, &conversion),
-        Err(ParameterError::Block {
-            expected: 1280,
-            given: 100
-        })
-    ));
+        Parameters,
+        "a view's block has 1280 bytes, 100 were given",
+    );
 }

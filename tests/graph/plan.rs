@@ -1,10 +1,11 @@
 //! Plans: culling, order, sizes, text and JSON.
 
 use moment_shadows::{Profile, TextureFormat};
+use moment_shadows_graph::GraphErrorKind::{Plan as Broken, Version};
 use moment_shadows_graph::nodes::{Blur, KernelProperty, Resolve, ShadeHard};
 use moment_shadows_graph::{
-    Capabilities, Connected, Imports, Node, Plan, PlanError, PlannedBindingResource, ResourceDesc,
-    TextureDesc, compile,
+    Capabilities, Connected, GraphError, GraphErrorKind, Node, Plan, PlannedBindingResource,
+    ResourceDesc, TextureDesc,
 };
 
 use crate::example::{TEXT, compiled, edited, native, parse};
@@ -174,7 +175,7 @@ fn a_plan_survives_json() {
 #[test]
 fn a_plan_that_does_not_hold_together_is_told() {
     example().check().unwrap();
-    let broken = |change: fn(&mut Plan)| {
+    let broken = |change: fn(&mut Plan)| -> GraphError {
         let mut plan = example();
         change(&mut plan);
         // Neither printing nor reading parameters may panic on it.
@@ -185,60 +186,60 @@ fn a_plan_that_does_not_hold_together_is_told() {
         );
         plan.check().unwrap_err()
     };
-    assert_eq!(
-        broken(|plan| plan.version = 3),
-        PlanError::Version { version: 3 }
-    );
-    assert!(matches!(
-        broken(|plan| plan.outputs[0].resource = 99),
-        PlanError::Index {
-            index: 99,
-            of: "resource",
-            ..
-        }
-    ));
-    assert!(matches!(
-        broken(|plan| plan.imports[0].resource = 99),
-        PlanError::Index { index: 99, .. }
-    ));
-    assert!(matches!(
-        broken(|plan| plan.memory.clear()),
-        PlanError::Index {
-            of: "memory",
-            count: 0,
-            ..
-        }
-    ));
-    assert!(matches!(
-        broken(|plan| plan.imports.clear()),
-        PlanError::Index {
-            of: "import",
-            count: 0,
-            ..
-        }
-    ));
-    assert!(matches!(
-        broken(|plan| plan.parameters.blocks.clear()),
-        PlanError::Index {
-            of: "parameter block",
-            ..
-        }
-    ));
-    assert!(matches!(
-        broken(|plan| plan.parameters.blocks[1].offset = u32::MAX),
-        PlanError::Parameters { .. }
-    ));
-    assert!(matches!(
-        broken(|plan| plan.parameters.blocks[0].initial = vec![0; 999]),
-        PlanError::Parameters { .. }
-    ));
-    let kind = broken(|plan| {
-        let first = plan.passes[0].bindings[1].resource.clone();
-        if let PlannedBindingResource::Texture { resource, .. } = first {
-            plan.resources[resource].desc = ResourceDesc::Buffer { size: 4 };
-        }
-    });
-    assert!(matches!(kind, PlanError::Kind { resource, .. } if resource == "light_depth"));
+    type Change = fn(&mut Plan);
+    let cases: [(Change, GraphErrorKind, &str); 9] = [
+        (|plan| plan.version = 3, Version, "the plan has version 3"),
+        (
+            |plan| plan.outputs[0].value = 99,
+            Broken,
+            "output 'shadow_intensity' refers to resource 99",
+        ),
+        (
+            |plan| plan.imports[0].value = 99,
+            Broken,
+            "import 'light_depth' refers to resource 99",
+        ),
+        (
+            |plan| plan.memory.clear(),
+            Broken,
+            "resource 'resolve.map' refers to memory 0, but there are 0",
+        ),
+        (
+            |plan| plan.imports.clear(),
+            Broken,
+            "resource 'light_depth' refers to import 0, but there are 0",
+        ),
+        (
+            |plan| plan.parameters.blocks.clear(),
+            Broken,
+            "pass 'resolve/resolve' refers to parameter block 0, but there are 0",
+        ),
+        (
+            |plan| plan.parameters.blocks[1].offset = u32::MAX,
+            Broken,
+            "the parameters of node 'shade' do not lie within a view's block",
+        ),
+        (
+            |plan| plan.parameters.blocks[0].initial = vec![0; 999],
+            Broken,
+            "the parameters of node 'resolve' do not lie within a view's block",
+        ),
+        (
+            |plan| {
+                let first = plan.passes[0].bindings[1].resource.clone();
+                if let PlannedBindingResource::Texture { resource, .. } = first {
+                    plan.resources[resource].desc = ResourceDesc::Buffer { size: 4 };
+                }
+            },
+            Broken,
+            "pass 'resolve/resolve' refers to resource 'light_depth', which is buffer of 4 bytes",
+        ),
+    ];
+    for (change, kind, says) in cases {
+        let error = broken(change);
+        assert_eq!(error.kind, kind, "{error}");
+        assert!(error.message.starts_with(says), "{error}");
+    }
 }
 
 #[test]
@@ -284,14 +285,11 @@ outputs
 #[test]
 fn a_plan_is_for_any_profile_that_offers_its_storage() {
     let text = edited("\"unorm16\"", "\"float16\"");
-    let imports = Imports::new();
     for profile in Profile::ALL {
-        let plan = compile(
-            &parse(&text).unwrap(),
-            &Capabilities::of_profile(profile),
-            &imports,
-        )
-        .unwrap();
+        let plan = parse(&text)
+            .unwrap()
+            .compile(&Capabilities::of_profile(profile), &[])
+            .unwrap();
         assert_eq!(plan.passes.len(), 4);
     }
     let copies = graph(
@@ -300,10 +298,7 @@ fn a_plan_is_for_any_profile_that_offers_its_storage() {
         &[("map", "a.from")],
         &[("out", "a.to")],
     );
-    compile(
-        &copies,
-        &Capabilities::of_profile(Profile::WebgpuCore),
-        &imports,
-    )
-    .unwrap();
+    copies
+        .compile(&Capabilities::of_profile(Profile::WebgpuCore), &[])
+        .unwrap();
 }

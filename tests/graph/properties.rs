@@ -101,21 +101,24 @@ fn names_of_version_1_are_read_with_a_note_each() {
         let edges = graph.edges.iter();
         let edges = edges.flat_map(|edge| [edge.from.clone(), edge.to.clone()]);
         edges
-            .chain(graph.outputs.iter().map(|output| output.from.clone()))
+            .chain(graph.outputs.iter().map(|output| output.value.clone()))
             .collect()
     };
     assert_eq!(ends(&read), ends(&expected));
     assert_eq!(
         format!(
             "{:?}",
-            read.nodes.iter().map(|node| &node.node).collect::<Vec<_>>()
+            read.nodes
+                .iter()
+                .map(|node| &node.value)
+                .collect::<Vec<_>>()
         ),
         format!(
             "{:?}",
             expected
                 .nodes
                 .iter()
-                .map(|node| &node.node)
+                .map(|node| &node.value)
                 .collect::<Vec<_>>()
         )
     );
@@ -128,7 +131,7 @@ fn names_of_version_1_are_read_with_a_note_each() {
     assert_eq!(error.kind, UnknownNodeType);
     // Tools that change files rewrite them first.
     let mut value = serde_json::from_str(&old).unwrap();
-    assert_eq!(moment_shadows_graph::upgrade(&mut value), read.notes);
+    assert_eq!(Graph::upgrade(&mut value), read.notes);
     assert_eq!(
         value,
         serde_json::from_str::<serde_json::Value>(&current).unwrap()

@@ -1,7 +1,7 @@
 //! Regions and mip levels: what the compiler and a view's block refuse, and with which words.
 
 use moment_shadows::{MapRegion, Profile};
-use moment_shadows_graph::{Capabilities, GraphErrorKind, Plan, RegionError};
+use moment_shadows_graph::{Capabilities, GraphError, GraphErrorKind, Plan};
 
 use crate::example::{TEXT, compiled, edited, native, refused};
 
@@ -25,73 +25,61 @@ fn regions_that_a_map_cannot_have_are_refused() {
     write(&[]).unwrap();
     // Radius 4: nine texels.
     write(&[region(1015, 1015, 9, 9)]).unwrap();
-    assert!(matches!(
-        write(&[region(0, 0, 9, 8)]),
-        Err(RegionError::Small {
-            index: 0,
-            smallest: 9,
-            ..
-        })
-    ));
-    assert!(matches!(
-        write(&[region(0, 0, 64, 64), MapRegion::NONE]),
-        Err(RegionError::Small { index: 1, .. })
-    ));
+    let mut fails = |regions: &[MapRegion], says: &str| {
+        let error = write(regions).unwrap_err();
+        assert_eq!(error.kind, GraphErrorKind::Parameters);
+        assert!(error.message.starts_with(says), "{error}");
+    };
+    let small = "region 0 of map 'light_depth' has 9 x 8 texels; 9 along each side are the fewest";
+    fails(&[region(0, 0, 9, 8)], small);
+    let none = [region(0, 0, 64, 64), MapRegion::NONE];
+    fails(
+        &none,
+        "region 1 of map 'light_depth' has 0 x 0 texels; 9 along each side",
+    );
     for outside in [
         region(1000, 0, 25, 20),
         region(0, 1024, 9, 9),
         region(9, 9, u32::MAX, 9),
     ] {
-        assert!(matches!(
-            write(&[outside]),
-            Err(RegionError::Outside { index: 0, .. })
-        ));
+        fails(&[outside], "region 0 of map 'light_depth' runs from ");
     }
-    assert!(matches!(
-        write(&[
-            region(0, 0, 20, 20),
-            region(30, 30, 20, 20),
-            region(19, 19, 20, 20)
-        ]),
-        Err(RegionError::Overlap {
-            first: 0,
-            second: 2,
-            ..
-        })
-    ));
-    assert!(matches!(
-        write(&[MapRegion::WHOLE, region(5, 5, 20, 20)]),
-        Err(RegionError::Overlap {
-            first: 0,
-            second: 1,
-            ..
-        })
-    ));
-    assert!(matches!(
-        write(&[region(0, 0, 20, 20); 4]),
-        Err(RegionError::Count {
-            capacity: 3,
-            given: 4,
-            ..
-        })
-    ));
-    let layout = &plan.parameters;
-    assert!(matches!(
-        layout.write_regions(&mut block, "light_depth", 1, &[]),
-        Err(RegionError::Layer {
-            layers: 1,
-            layer: 1,
-            ..
-        })
-    ));
-    let unknown = layout.write_regions(&mut block, "light", 0, &[]);
-    assert!(
-        matches!(unknown, Err(RegionError::UnknownMap { known, .. }) if known == "light_depth")
+    let third = [
+        region(0, 0, 20, 20),
+        region(30, 30, 20, 20),
+        region(19, 19, 20, 20),
+    ];
+    fails(&third, "regions 0 and 2 of map 'light_depth' overlap");
+    let second = [MapRegion::WHOLE, region(5, 5, 20, 20)];
+    fails(&second, "regions 0 and 1 of map 'light_depth' overlap");
+    let four = [region(0, 0, 20, 20); 4];
+    fails(
+        &four,
+        "a layer of map 'light_depth' has at most 3 regions, 4 were given",
     );
-    assert!(matches!(
-        layout.write_regions(&mut block[..64], "light_depth", 0, &[]),
-        Err(RegionError::Block { given: 64, .. })
-    ));
+    let layout = &plan.parameters;
+    let beyond = layout.write_regions(&mut block, "light_depth", 1, &[]);
+    let unknown = layout.write_regions(&mut block, "light", 0, &[]);
+    let short = layout.write_regions(&mut block[..64], "light_depth", 0, &[]);
+    for (result, kind, says) in [
+        (
+            beyond,
+            GraphErrorKind::Parameters,
+            "map 'light_depth' has 1 layers; layer 1 is none of them",
+        ),
+        (
+            unknown,
+            GraphErrorKind::UnknownName,
+            "there is no map with regions 'light'; the nearest are `light_depth` (in this plan)",
+        ),
+        (
+            short,
+            GraphErrorKind::Parameters,
+            "a view's block has 768 bytes, 64 were given",
+        ),
+    ] {
+        assert_eq!(result, Err(GraphError::new(kind, says)));
+    }
 }
 
 #[test]

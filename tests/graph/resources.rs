@@ -3,8 +3,7 @@
 use moment_shadows::{Profile, Storage};
 use moment_shadows_graph::GraphErrorKind::{Capability, Format, Size};
 use moment_shadows_graph::{
-    Access, Capabilities, Direction, Imports, NodeDesc, ResourceDesc, Slot, SlotResource, Stage,
-    compile,
+    Access, Capabilities, Direction, NodeDesc, ResourceDesc, Slot, SlotResource, Stage,
 };
 
 use crate::example::{TEXT, assert_error, compiled, edited, native, refused};
@@ -138,7 +137,7 @@ fn buffers_and_textures_are_not_mixed_up() {
             &[("data", "host.data")],
             &[],
         );
-        compile(&graph, &native(), &Imports::new()).unwrap_err()
+        graph.compile(&native(), &[]).unwrap_err()
     };
     assert_error(
         &refuse(rgba32(1)),
@@ -198,7 +197,7 @@ fn a_format_that_cannot_be_drawn_to_is_refused() {
         ..empty(Stage::AfterMainPass)
     };
     let graph = graph(&[], vec![("host", node)], &[], &[("out", "host.to")]);
-    let error = compile(&graph, &native(), &Imports::new()).unwrap_err();
+    let error = graph.compile(&native(), &[]).unwrap_err();
     assert_error(
         &error,
         Capability,
@@ -222,7 +221,7 @@ fn a_pass_by_layer_needs_the_layers_of_all_that_it_binds() {
             &[("map", "copy.from")],
             &[("out", "copy.to")],
         );
-        compile(&graph, &native(), &Imports::new())
+        graph.compile(&native(), &[])
     };
     assert_error(
         &with(2).unwrap_err(),

@@ -3,8 +3,8 @@
 use moment_shadows::TextureFormat;
 use moment_shadows_graph::GraphErrorKind::Shader;
 use moment_shadows_graph::{
-    Access, BindingResource, Capabilities, Direction, GraphError, Imports, NodeDesc,
-    ParameterBlock, Pass, Plan, Slot, SlotResource, Stage, bind, compile,
+    Access, BindingResource, Capabilities, Direction, GraphError, NodeDesc, ParameterBlock, Pass,
+    Plan, Slot, SlotResource, Stage, bind,
 };
 
 use crate::example::{assert_error, native};
@@ -19,7 +19,7 @@ pub(crate) fn compiled(node: NodeDesc, capabilities: &Capabilities) -> Result<Pl
         &[("map", "host.from")],
         &[("out", "host.to")],
     );
-    compile(&graph, capabilities, &Imports::new())
+    graph.compile(capabilities, &[])
 }
 
 pub(crate) fn base() -> NodeDesc {

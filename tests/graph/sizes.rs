@@ -5,9 +5,7 @@ use crate::host_node::{compute, empty, graph, made, output};
 use crate::resources::with_light;
 use moment_shadows::TextureFormat;
 use moment_shadows_graph::GraphErrorKind::{Format, Size};
-use moment_shadows_graph::{
-    Access, Capabilities, Direction, Imports, NodeDesc, ResourceDesc, Slot, Stage, compile,
-};
+use moment_shadows_graph::{Access, Capabilities, Direction, NodeDesc, ResourceDesc, Slot, Stage};
 
 #[test]
 fn empty_textures_are_refused_with_the_sizes_that_are_not() {
@@ -171,7 +169,7 @@ fn an_input_of_an_exact_size_takes_no_other() {
         &[("map", "host.from")],
         &[("out", "host.to")],
     );
-    let error = compile(&graph, &native(), &Imports::new()).unwrap_err();
+    let error = graph.compile(&native(), &[]).unwrap_err();
     assert_error(
         &error,
         Size,

@@ -3,8 +3,8 @@
 use moment_shadows::TextureFormat::{Depth32Float, R8Unorm, R32Float};
 use moment_shadows_graph::GraphErrorKind::{Capability, Declaration, Size};
 use moment_shadows_graph::{
-    Access, Direction, ExtentRule, GraphError, Imports, NodeDesc, Pass, Plan, Slot, SlotResource,
-    Stage, TextureRule, compile,
+    Access, Direction, GraphError, NodeDesc, Pass, Plan, Rule, Slot, SlotResource, Stage,
+    TextureRule,
 };
 
 use crate::example::{assert_error, native};
@@ -18,7 +18,7 @@ fn compiled(node: NodeDesc) -> Result<Plan, GraphError> {
         &[("map", "host.from")],
         &[("out", "host.to")],
     );
-    compile(&graph, &native(), &Imports::new())
+    graph.compile(&native(), &[])
 }
 
 fn refused(node: NodeDesc) -> GraphError {
@@ -75,7 +75,7 @@ fn targets_that_a_host_cannot_draw_to() {
     );
     let mut small = target("small", Depth32Float);
     if let SlotResource::Texture(TextureRule { extent, .. }) = &mut small.resource {
-        *extent = ExtentRule::Exact([8, 8]);
+        *extent = Rule::Exact([8, 8]);
     }
     let sizes = drawn(
         vec![target("to", R8Unorm), small],
@@ -108,7 +108,7 @@ fn a_host_pass_moves_the_bytes_of_its_targets() {
         &[("map", "host.from")],
         &[("out", "host.to")],
     );
-    let plan = compile(&graph, &native(), &Imports::new()).unwrap();
+    let plan = graph.compile(&native(), &[]).unwrap();
     assert_eq!(
         (plan.passes[0].bytes_read, plan.passes[0].bytes_written),
         (256, 256 + 1024)

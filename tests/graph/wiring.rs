@@ -3,16 +3,14 @@
 use moment_shadows_graph::GraphErrorKind::{
     Cycle, DuplicateName, MissingImport, MissingInput, StageOrder, TwoWriters, UnknownName,
 };
-use moment_shadows_graph::{
-    Access, Direction, GraphError, Imports, ResourceDesc, Stage, bind, compile,
-};
+use moment_shadows_graph::{Access, Direction, GraphError, ResourceDesc, Stage, bind};
 
 use crate::example::{TEXT, assert_error, edited, native, parse, refused};
 use crate::host_node::{COPY, compute, copy, empty, graph, input, made, output, rgba32};
 use moment_shadows::TextureFormat::Rgba32Float;
 
 fn compile_error(graph: &moment_shadows_graph::Graph) -> GraphError {
-    compile(graph, &native(), &Imports::new()).unwrap_err()
+    graph.compile(&native(), &[]).unwrap_err()
 }
 
 #[test]
@@ -192,7 +190,7 @@ fn passes_are_ordered_by_stage_and_then_by_dependency() {
         ],
         &[("x", "b.to"), ("y", "d.to")],
     );
-    let plan = compile(&graph, &native(), &Imports::new()).unwrap();
+    let plan = graph.compile(&native(), &[]).unwrap();
     let order: Vec<&str> = plan.passes.iter().map(|pass| pass.node.as_str()).collect();
     assert_eq!(order, ["a", "b", "c", "d"]);
 }
@@ -212,8 +210,8 @@ fn imports_are_described_by_the_host_or_the_file_and_by_nobody_else() {
         "import 'camera_depth' is described neither by the host",
     );
     let graph = parse(TEXT).unwrap();
-    let imports = Imports::from([("light_deph".to_owned(), rgba32(1))]);
-    let error = compile(&graph, &native(), &imports).unwrap_err();
+    let imports = [("light_deph", rgba32(1))];
+    let error = graph.compile(&native(), &imports).unwrap_err();
     assert_error(
         &error,
         UnknownName,
@@ -231,8 +229,8 @@ fn the_hosts_description_of_an_import_takes_the_place_of_the_files() {
         moment_shadows::TextureFormat::Depth16Unorm,
         [256, 128],
     );
-    let imports = Imports::from([("light_depth".to_owned(), ResourceDesc::Texture(desc))]);
-    let plan = compile(&graph, &native(), &imports).unwrap();
+    let imports = [("light_depth", ResourceDesc::Texture(desc))];
+    let plan = graph.compile(&native(), &imports).unwrap();
     assert_eq!(plan.memory[0].desc.to_string(), "rgba16unorm 256x128");
 }
 
@@ -297,12 +295,9 @@ fn what_is_changed_in_place_is_taken_by_nobody_else() {
         "",
         says,
     );
-    let plan = compile(
-        &with("change.map", "change.map"),
-        &native(),
-        &Imports::new(),
-    )
-    .unwrap();
+    let plan = with("change.map", "change.map")
+        .compile(&native(), &[])
+        .unwrap();
     let order: Vec<&str> = plan.passes.iter().map(|pass| pass.node.as_str()).collect();
     assert_eq!(order, ["make", "change", "read"]);
     assert_eq!(
@@ -331,11 +326,5 @@ fn optional_inputs_may_stay_open() {
         &[("map", "copy.from")],
         &[("out", "copy.to")],
     );
-    assert_eq!(
-        compile(&graph, &native(), &Imports::new())
-            .unwrap()
-            .passes
-            .len(),
-        1
-    );
+    assert_eq!(graph.compile(&native(), &[]).unwrap().passes.len(), 1);
 }

@@ -4,8 +4,7 @@ use glam::{DVec2, DVec3};
 use moment_shadows::Profile;
 use moment_shadows_lab::gpu::Gpu;
 use moment_shadows_lab::host::{
-    HostError, LightMap, LightMapDesc, Lighting, Renderer, Surface, read_depth_samples,
-    read_gbuffer,
+    LightMap, LightMapDesc, Lighting, Renderer, Surface, read_depth_samples, read_gbuffer,
 };
 use moment_shadows_lab::light::LightView;
 use moment_shadows_lab::scene::{self, Image, Material, Mesh, Scene};
@@ -194,22 +193,27 @@ fn impossible_maps_are_refused() {
     };
     for samples in [0, 2, 3, 8] {
         let error = refused(LightMapDesc { samples, ..desc });
+        let text = error.to_string();
+        let expected = format!("Depth32Float with {samples} samples");
         assert!(
-            matches!(&error, HostError::Samples { asked, supported, .. } if *asked == samples && supported == &[1, 4]),
-            "{error:?}"
+            text.contains(&expected) && text.contains("supports [1, 4]"),
+            "{text}"
         );
-        assert!(error.to_string().contains("Depth32Float"), "{error}");
     }
     let error = refused(LightMapDesc {
         format: Depth24Plus,
         ..desc
     });
-    assert!(matches!(error, HostError::Format { .. }), "{error:?}");
-    assert!(error.to_string().contains("Depth24Plus"), "{error}");
+    assert!(
+        error.to_string().contains("rendered as Depth24Plus"),
+        "{error}"
+    );
     for size in [[0, 32], [64, 1 << 20]] {
         let error = refused(LightMapDesc { size, ..desc });
-        assert!(matches!(error, HostError::Size { .. }), "{error:?}");
-        assert!(error.to_string().contains("depth map"), "{error}");
+        assert!(
+            error.to_string().contains("depth map would have"),
+            "{error}"
+        );
     }
     gpu.check().unwrap();
 }
@@ -334,7 +338,7 @@ fn shadow_intensity_darkens_the_picture() {
         });
         let picture = renderer.shade(&gpu, &mut encoder, &drawn.surface, &shadow, &lighting)?;
         gpu.queue.submit([encoder.finish()]);
-        Ok::<_, HostError>(gpu.read_texture(&picture, 0, "picture")?)
+        gpu.read_texture(&picture, 0, "picture")
     };
     let lit = shaded([320, 180], 0.0).unwrap();
     let shadowed = shaded([320, 180], 1.0).unwrap();
@@ -348,6 +352,5 @@ fn shadow_intensity_darkens_the_picture() {
         shadowed[ground]
     );
     let error = shaded([64, 64], 0.0).unwrap_err();
-    assert!(matches!(error, HostError::ShadowSize { .. }), "{error:?}");
     assert!(error.to_string().contains("64x64"), "{error}");
 }

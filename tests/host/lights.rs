@@ -1,7 +1,7 @@
 //! Lights and viewpoints.
 
 use glam::{DVec2, DVec3};
-use moment_shadows_lab::light::{DirectionalFit, LightError, LightView};
+use moment_shadows_lab::light::{DirectionalFit, LightView};
 use moment_shadows_lab::scene::{self, Scene};
 use moment_shadows_lab::view::View;
 
@@ -105,30 +105,12 @@ fn lights_that_cannot_be_are_refused() {
     let spot = |angle, near, far, range| {
         LightView::spot(DVec3::Y, DVec3::NEG_Y, angle, near, far, range, false)
     };
-    type Row = (
-        Result<LightView, LightError>,
-        fn(&LightError) -> bool,
-        &'static str,
-    );
-    let rows: [Row; 11] = [
-        (
-            sun(DVec3::ZERO, &points, fit),
-            |error| matches!(error, LightError::Direction { .. }),
-            "[0.0, 0.0, 0.0]",
-        ),
-        (
-            sun(DVec3::NAN, &points, fit),
-            |error| matches!(error, LightError::Direction { .. }),
-            "NaN",
-        ),
-        (
-            sun(DVec3::NEG_Y, &[], fit),
-            |error| matches!(error, LightError::NoCasters),
-            "no casters",
-        ),
+    let rows = [
+        (sun(DVec3::ZERO, &points, fit), "direction [0, 0, 0]"),
+        (sun(DVec3::NAN, &points, fit), "direction [NaN"),
+        (sun(DVec3::NEG_Y, &[], fit), "no casters"),
         (
             sun(DVec3::NEG_Y, &[DVec3::ZERO, DVec3::INFINITY], fit),
-            |error| matches!(error, LightError::Caster { index: 1, .. }),
             "caster point 1",
         ),
         (
@@ -140,75 +122,26 @@ fn lights_that_cannot_be_are_refused() {
                     ..fit
                 },
             ),
-            |error| matches!(error, LightError::Margin { .. }),
-            "64x64",
+            "64x64 texels has no room for a margin of 32",
         ),
-        (
-            spot(0.0, 0.1, None, [0.1, 1.0]),
-            |error| matches!(error, LightError::Angle { .. }),
-            "0 radians",
-        ),
-        (
-            spot(3.2, 0.1, None, [0.1, 1.0]),
-            |error| matches!(error, LightError::Angle { .. }),
-            "3.2",
-        ),
+        (spot(0.0, 0.1, None, [0.1, 1.0]), "full angle of 0 radians"),
+        (spot(3.2, 0.1, None, [0.1, 1.0]), "full angle of 3.2"),
         (
             spot(1.0, 0.0, None, [0.1, 1.0]),
-            |error| {
-                matches!(
-                    error,
-                    LightError::Interval {
-                        what: "depth planes",
-                        ..
-                    }
-                )
-            },
-            "from 0 ",
+            "depth planes reaches from 0 ",
         ),
         (
             spot(1.0, 2.0, Some(1.0), [0.1, 1.0]),
-            |error| {
-                matches!(
-                    error,
-                    LightError::Interval {
-                        what: "depth planes",
-                        ..
-                    }
-                )
-            },
-            "from 2 to 1",
+            "depth planes reaches from 2 to 1",
         ),
         (
             spot(1.0, f64::NAN, Some(1.0), [0.1, 1.0]),
-            |error| {
-                matches!(
-                    error,
-                    LightError::Interval {
-                        what: "depth planes",
-                        ..
-                    }
-                )
-            },
-            "NaN",
+            "depth planes reaches from NaN",
         ),
-        (
-            spot(1.0, 0.1, None, [0.1, f64::INFINITY]),
-            |error| {
-                matches!(
-                    error,
-                    LightError::Interval {
-                        what: "moment range",
-                        ..
-                    }
-                )
-            },
-            "moment range",
-        ),
+        (spot(1.0, 0.1, None, [0.1, f64::INFINITY]), "moment range"),
     ];
-    for (result, is_expected, culprit) in rows {
+    for (result, culprit) in rows {
         let error = result.unwrap_err();
-        assert!(is_expected(&error), "{error:?}");
         assert!(
             error.to_string().contains(culprit),
             "'{error}' lacks '{culprit}'"

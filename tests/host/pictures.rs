@@ -2,7 +2,7 @@
 
 use std::io::{Error, ErrorKind, Write};
 
-use moment_shadows_lab::picture::{self, PictureError};
+use moment_shadows_lab::picture;
 
 #[test]
 fn a_picture_is_saved_whole_or_not_at_all() {
@@ -12,25 +12,21 @@ fn a_picture_is_saved_whole_or_not_at_all() {
     let before = std::fs::read(&path).unwrap();
     assert!(before.starts_with(b"\x89PNG"));
     type Failing = fn(&mut dyn Write) -> std::io::Result<()>;
-    type Row = (Failing, fn(&PictureError) -> bool, &'static str);
-    let rows: [Row; 2] = [
+    let rows: [(Failing, &str); 2] = [
         (
             |file| {
                 file.write_all(b"half of it")?;
                 Err(Error::from(ErrorKind::StorageFull))
             },
-            |error| matches!(error, PictureError::DiskFull { .. }),
             "disk is full",
         ),
         (
             |_| Err(Error::from(ErrorKind::PermissionDenied)),
-            |error| matches!(error, PictureError::Unwritable { .. }),
             "permission denied",
         ),
     ];
-    for (write, is_expected, culprit) in rows {
+    for (write, culprit) in rows {
         let error = picture::save_atomically(&path, write).unwrap_err();
-        assert!(is_expected(&error), "{error:?}");
         let text = error.to_string();
         assert!(
             text.contains(culprit) && text.contains("result.png"),
@@ -38,10 +34,7 @@ fn a_picture_is_saved_whole_or_not_at_all() {
         );
     }
     let error = picture::save_rgba(&path, 2, 2, &[0; 4]).unwrap_err();
-    assert!(
-        matches!(error, PictureError::Size { values: 4, .. }),
-        "{error:?}"
-    );
+    assert!(error.to_string().contains("4 values"), "{error}");
     assert_eq!(std::fs::read(&path).unwrap(), before);
     assert_eq!(
         std::fs::read_dir(folder.path()).unwrap().count(),
@@ -51,17 +44,12 @@ fn a_picture_is_saved_whole_or_not_at_all() {
 
     let error = picture::save_grey(&folder.path().join("absent/a.png"), 1, 1, &[0]).unwrap_err();
     assert!(
-        matches!(error, PictureError::MissingFolder { .. }),
-        "{error:?}"
+        error.to_string().contains("absent' does not exist"),
+        "{error}"
     );
-    assert!(error.to_string().contains("absent"), "{error}");
     // Neither a file as a folder nor a folder as a file.
     for target in [path.join("a.png"), folder.path().to_owned()] {
         let error = picture::save_grey(&target, 1, 1, &[0]).unwrap_err();
-        assert!(
-            matches!(error, PictureError::Unwritable { .. }),
-            "{error:?}"
-        );
         assert!(
             error.to_string().contains(&target.display().to_string()),
             "{error}"

@@ -5,7 +5,7 @@ use moment_shadows::Storage;
 use moment_shadows_graph::record::{
     Bindings, ImportedResource, PipelineOptions, Pipelines, Recording, Resources,
 };
-use moment_shadows_graph::{Capabilities, Plan, Stage as GraphStage, compile};
+use moment_shadows_graph::{Capabilities, Plan, Stage as GraphStage};
 use moment_shadows_lab::command::render::profile_for;
 use moment_shadows_lab::frame::FrameDesc;
 use moment_shadows_lab::gpu::Gpu;
@@ -120,7 +120,7 @@ impl Stage {
         // The parameters of a light are not an import.
         let (light, camera) = (any_light(desc.reversed), any_camera());
         let frame = frame_desc(&desc, light, camera);
-        let plan = compile(&file.graph, &capabilities, &imports(&frame)).unwrap();
+        let plan = file.graph.compile(&capabilities, &imports(&frame)).unwrap();
         let pipelines = block_on(Pipelines::create(
             &gpu.device,
             &plan,
@@ -167,7 +167,7 @@ impl Stage {
     pub(crate) fn shadow(&self, model: &Model, light: &LightView, camera: &Camera) -> Vec<f32> {
         let gpu = &self.gpu;
         let frame = frame_desc(&self.desc, *light, *camera);
-        let bytes = parameter_bytes(&self.plan, &frame, &self.file).unwrap();
+        let bytes = parameter_bytes(&self.plan, &frame, &self.file, None).unwrap();
         gpu.queue.write_buffer(&self.parameters, 0, &bytes);
         let mut encoder = gpu.device.create_command_encoder(&Default::default());
         self.renderer

@@ -13,7 +13,7 @@ use super::mixtures;
 
 #[repr(C)]
 #[derive(Clone, Copy, Debug, Pod, Zeroable)]
-struct Input {
+pub(crate) struct Input {
     odd: [f32; 3],
     depth: f32,
     even: [f32; 3],
@@ -21,7 +21,7 @@ struct Input {
 }
 
 impl Input {
-    fn new(moments: [f32; 6], depth: f64, alpha: f32) -> Self {
+    pub(crate) fn new(moments: [f32; 6], depth: f64, alpha: f32) -> Self {
         Self {
             odd: [0, 2, 4].map(|index: usize| moments[index]),
             depth: depth as f32,
@@ -62,7 +62,7 @@ fn truth(input: &Input, count: usize) -> ([f64; 2], [f64; 2]) {
 
 /// How many units of 2^-24 (1 + sensitivity) an error may be: there are about three dozen roundings in a row where four
 /// moments have a dozen, and below an alpha of 5e-5 the last pivot has lost so many digits that they weigh more.
-fn tolerance(alpha: f32) -> f64 {
+pub(crate) fn tolerance(alpha: f32) -> f64 {
     if alpha >= 5e-5 { 32.0 } else { 128.0 }
 }
 

@@ -2,7 +2,7 @@
 
 use moment_shadows::{Storage, Technique};
 use moment_shadows_lab::bias::{
-    BiasError, BiasTechnique, Condition, Form, Rounding, error_factor, measure, search,
+    BiasTechnique, Condition, Form, error_factor, measure, rounded, search,
 };
 
 const SAMPLES: usize = 30_000;
@@ -123,12 +123,8 @@ fn the_search_confirms_the_biases_of_six_moments() {
         8,
         || (),
     );
-    assert_eq!(
-        refused.unwrap_err(),
-        BiasError::NoStorage {
-            storage: Storage::Unorm8
-        }
-    );
+    let refused = refused.unwrap_err().to_string();
+    assert!(refused.contains("not stored as unorm8"), "{refused}");
     let unorm10 = search(
         BiasTechnique::Hamburger6,
         Some(Storage::Unorm10),
@@ -177,27 +173,25 @@ fn the_search_is_the_same_on_any_number_of_threads() {
     };
     assert_eq!(run(1), run(3));
     assert_eq!(run(1).rows.len(), 1);
-    assert_eq!(
-        search(BiasTechnique::Hausdorff4, None, 0, 10, || ()).unwrap_err(),
-        BiasError::NoSamples
-    );
+    let refused = search(BiasTechnique::Hausdorff4, None, 0, 10, || ());
+    assert!(refused.unwrap_err().to_string().starts_with("0 samples"));
 }
 
 #[test]
 fn stored_values_are_the_nearest() {
     // 1/3 is exact in 16-bit fixed point (21845 / 65535); halves of steps round away from zero.
-    assert_eq!(Rounding::Unorm16.store(1.0 / 3.0), 21845.0 / 65535.0);
-    assert_eq!(Rounding::Unorm16.store(-0.1), 0.0);
-    assert_eq!(Rounding::Unorm16.store(1.1), 1.0);
+    assert_eq!(rounded(Storage::Unorm16, 1.0 / 3.0), 21845.0 / 65535.0);
+    assert_eq!(rounded(Storage::Unorm16, -0.1), 0.0);
+    assert_eq!(rounded(Storage::Unorm16, 1.1), 1.0);
     // Ties to even in half precision: 11 bits of mantissa.
-    assert_eq!(Rounding::Float16.store(0.25 + 2.0_f32.powi(-13)), 0.25);
+    assert_eq!(rounded(Storage::Float16, 0.25 + 2.0_f32.powi(-13)), 0.25);
     assert_eq!(
-        Rounding::Float16.store(0.25 + 3.0 * 2.0_f32.powi(-13)),
+        rounded(Storage::Float16, 0.25 + 3.0 * 2.0_f32.powi(-13)),
         0.25 + 2.0_f32.powi(-11)
     );
-    assert_eq!(Rounding::Float32.store(0.1), 0.1);
+    assert_eq!(rounded(Storage::Float32, 0.1), 0.1);
     // 10 bits: 1/3 is 341 / 1023.
-    assert_eq!(Rounding::Unorm10.store(1.0 / 3.0), 341.0 / 1023.0);
-    assert_eq!(Rounding::Unorm10.store(0.6 / 1023.0), 1.0 / 1023.0);
-    assert_eq!(Rounding::Unorm10.store(1.1), 1.0);
+    assert_eq!(rounded(Storage::Unorm10, 1.0 / 3.0), 341.0 / 1023.0);
+    assert_eq!(rounded(Storage::Unorm10, 0.6 / 1023.0), 1.0 / 1023.0);
+    assert_eq!(rounded(Storage::Unorm10, 1.1), 1.0);
 }

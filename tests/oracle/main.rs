@@ -1,11 +1,9 @@
-//! The oracle is judged: linear programs against exact bounds, both against published vectors, and what rests on them.
+//! The oracle is judged: exact bounds against each other and the truth, and what rests on them.
 #![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic)]
 
 mod bases;
 mod bias;
 mod hausdorff;
-mod ideal;
-mod linear;
 mod orderings;
 mod six;
 
@@ -15,15 +13,6 @@ mod six;
 mod mixtures;
 
 use moment_shadows_lab::oracle::{Extremal, Mixture, hamburger, hausdorff, rational};
-
-/// Surfaces as (depth, weight), the weights summing to 1 up to rounding.
-fn normalised(atoms: &[(f64, f64)]) -> Vec<(f64, f64)> {
-    let total: f64 = atoms.iter().map(|atom| atom.1).sum();
-    atoms
-        .iter()
-        .map(|&(depth, weight)| (depth, weight / total))
-        .collect()
-}
 
 fn exact_hamburger(atoms: &[(f64, f64)], count: usize, depth: f64) -> Extremal {
     let moments = Mixture::new(atoms).unwrap().moments(count);

@@ -2,7 +2,7 @@
 
 use bytemuck::{Pod, Zeroable};
 use moment_shadows::{Profile, Storage, Technique};
-use moment_shadows_lab::basis::{Quantisation, published_quantisations};
+use moment_shadows_lab::basis::{powers, six_moments};
 use moment_shadows_lab::batch::Batch;
 use moment_shadows_lab::dense::cholesky;
 use moment_shadows_lab::gpu::Gpu;
@@ -60,18 +60,6 @@ fn in_order([odd, even]: [Four; 2]) -> [f64; 6] {
     [odd[0], even[0], odd[1], even[1], odd[2], even[2]].map(f64::from)
 }
 
-/// The basis as it was published.
-fn published() -> Quantisation {
-    published_quantisations()
-        .into_iter()
-        .find(|basis| basis.count() == 6 && basis.interval == [-1.0, 1.0])
-        .unwrap()
-}
-
-fn powers(depth: f64) -> [f64; 6] {
-    core::array::from_fn(|index| depth.powi(index as i32 + 1))
-}
-
 #[test]
 fn the_basis_of_six_moments_fills_the_unit_range_and_is_undone_by_its_inverse() {
     let depths: Vec<f64> = (0..=8192)
@@ -81,7 +69,7 @@ fn the_basis_of_six_moments_fills_the_unit_range_and_is_undone_by_its_inverse() 
     for &storage in Technique::Hamburger6.storages() {
         let inputs: Vec<Input> = depths
             .iter()
-            .map(|&depth| Input::of_moments(powers(depth), storage))
+            .map(|&depth| Input::of_moments(powers::<6>(depth), storage))
             .collect();
         let mut largest = 0.0_f64;
         for (&depth, output) in depths.iter().zip(run(&inputs)) {
@@ -94,7 +82,7 @@ fn the_basis_of_six_moments_fills_the_unit_range_and_is_undone_by_its_inverse() 
                 low[index] = low[index].min(f64::from(*channel));
                 high[index] = high[index].max(f64::from(*channel));
             }
-            for (decoded, exact) in in_order(output.decoded).iter().zip(powers(depth)) {
+            for (decoded, exact) in in_order(output.decoded).iter().zip(powers::<6>(depth)) {
                 largest = largest.max((decoded - exact).abs());
             }
         }
@@ -132,7 +120,7 @@ fn the_basis_of_six_moments_is_the_published_one() {
         })
         .collect();
     let offset = rows[6];
-    let basis = published();
+    let basis = six_moments();
     for (which, row) in rows.iter().enumerate() {
         for (ours, theirs) in row.iter().zip(basis.encode(&unit(which))) {
             // A coefficient of up to 24 and the sum with an offset, rounded to f32.
@@ -202,14 +190,14 @@ fn the_bias_of_six_moments_is_applied_with_a_single_rounding_and_the_same_on_bot
 #[test]
 fn the_bias_of_six_moments_covers_three_roundings_to_each_storage() {
     const PATCHES: u64 = 100_000;
-    let basis = published();
+    let basis = six_moments();
     for &storage in Technique::Hamburger6.storages() {
         let middle = match storage {
             Storage::Unorm10 | Storage::Unorm16 => 0.0,
             _ => 0.5,
         };
         let encoded = |depth: f64, first: usize| -> Four {
-            let channels = basis.encode(&powers(depth));
+            let channels = basis.encode(&powers::<6>(depth));
             [first, first + 1, first + 2, first].map(|channel| (channels[channel] - middle) as f32)
         };
         let inputs: Vec<Input> = (0..PATCHES)

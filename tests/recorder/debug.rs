@@ -176,13 +176,9 @@ fn a_level_that_is_not_there_is_refused() {
         mips: 3,
         ..TextureDesc::new(TextureFormat::Rgba16Float, [16, 16])
     };
-    let imports = [(
-        "map".to_owned(),
-        moment_shadows_graph::ResourceDesc::Texture(desc),
-    )]
-    .into();
+    let imports = [("map", moment_shadows_graph::ResourceDesc::Texture(desc))];
     let native = moment_shadows_graph::Capabilities::of_profile(moment_shadows::Profile::Native);
-    let error = moment_shadows_graph::compile(&graph, &native, &imports).unwrap_err();
+    let error = graph.compile(&native, &imports).unwrap_err();
     assert!(
         error.to_string().contains("the map has 3 mip levels"),
         "{error}"

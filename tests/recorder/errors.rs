@@ -2,11 +2,11 @@
 
 use moment_shadows::TextureFormat;
 use moment_shadows_graph::record::{
-    Bindings, ImportedResource, PipelineOptions, Pipelines, RecordError, Resources,
+    Bindings, ImportedResource, PipelineOptions, Pipelines, Resources,
 };
 use moment_shadows_graph::{
-    Access, Imports, NodeDesc, Plan, PlanError, Slot, SlotResource, Stage, TextureDesc, bind,
-    compile,
+    Access, GraphError, GraphErrorKind, NodeDesc, Plan, Slot, SlotResource, Stage, TextureDesc,
+    bind,
 };
 use moment_shadows_lab::gpu::Gpu;
 use pollster::block_on;
@@ -31,8 +31,14 @@ pub(crate) fn depth(gpu: &Gpu) -> wgpu::Texture {
     depth_map::texture(gpu, wgpu::TextureFormat::Depth32Float, SIZE, 1, 1)
 }
 
+/// An import is refused with these words.
+pub(crate) fn is_wrong(error: &GraphError, says: &str) {
+    assert_eq!(error.kind, GraphErrorKind::Import, "{error}");
+    assert!(error.message.contains(says), "{error}");
+}
+
 /// The error of binding the example to these imports.
-fn refused(gpu: &Gpu, imports: &[(&str, ImportedResource<'_>)]) -> RecordError {
+fn refused(gpu: &Gpu, imports: &[(&str, ImportedResource<'_>)]) -> GraphError {
     let plan = plan(gpu);
     let bytes = plan.parameters.initial();
     try_bind(gpu, plan, imports, &bytes).err().unwrap()
@@ -44,13 +50,12 @@ fn imports_have_to_be_there_and_as_the_plan_describes_them() {
     let good = depth(&gpu);
     let camera = ("camera_depth", ImportedResource::Texture(&good));
     let missing = refused(&gpu, &[camera]);
-    let expected = "depth32float 32x24".to_owned();
     assert_eq!(
         missing,
-        RecordError::MissingImport {
-            name: "light_depth".to_owned(),
-            expected: expected.clone()
-        }
+        GraphError::new(
+            GraphErrorKind::MissingImport,
+            "import 'light_depth' is missing; bind it as the plan describes it: depth32float 32x24"
+        )
     );
 
     let texture =
@@ -79,15 +84,10 @@ fn imports_have_to_be_there_and_as_the_plan_describes_them() {
             &gpu,
             &[("light_depth", ImportedResource::Texture(texture)), camera],
         );
-        let name = "light_depth".to_owned();
-        assert_eq!(
-            error,
-            RecordError::WrongImport {
-                name,
-                expected: expected.clone(),
-                given: (*given).to_owned()
-            }
+        let says = format!(
+            "import 'light_depth' is {given}, but the plan was compiled for depth32float 32x24; compile the graph for what is bound"
         );
+        assert_eq!(error, GraphError::new(GraphErrorKind::Import, says));
     }
     let unbound = gpu.device.create_texture(&wgpu::TextureDescriptor {
         label: None,
@@ -103,19 +103,14 @@ fn imports_have_to_be_there_and_as_the_plan_describes_them() {
         &gpu,
         &[("light_depth", ImportedResource::Texture(&unbound)), camera],
     );
-    assert!(
-        matches!(&error, RecordError::WrongImport { given, .. } if given.contains("without the usage") && given.contains("TEXTURE_BINDING")),
-        "{error}"
-    );
+    is_wrong(&error, "is without the usage");
+    is_wrong(&error, "TEXTURE_BINDING");
     let buffer = uniform(&gpu, &[]);
     let error = refused(
         &gpu,
         &[("light_depth", ImportedResource::Buffer(&buffer)), camera],
     );
-    assert!(
-        matches!(&error, RecordError::WrongImport { given, .. } if given == "a buffer"),
-        "{error}"
-    );
+    is_wrong(&error, "is a buffer,");
 }
 
 const READS: &str = "
@@ -158,7 +153,7 @@ fn a_buffer_import_has_the_size_and_usage_of_storage() {
         &[("data", "host.data")],
         &[("out", "host.to")],
     );
-    let plan = compile(&graph, &capabilities(&gpu), &Imports::new()).unwrap();
+    let plan = graph.compile(&capabilities(&gpu), &[]).unwrap();
     let buffer = |size, usage| {
         gpu.device.create_buffer(&wgpu::BufferDescriptor {
             label: None,
@@ -181,25 +176,16 @@ fn a_buffer_import_has_the_size_and_usage_of_storage() {
         wgpu::BufferUsages::STORAGE,
     )))
     .unwrap();
-    assert!(
-        matches!(&small, RecordError::WrongImport { given, .. } if given.contains("32 bytes")),
-        "{small}"
-    );
+    is_wrong(&small, "is a buffer of 32 bytes");
     let usage = with(ImportedResource::Buffer(&buffer(
         64,
         wgpu::BufferUsages::COPY_DST,
     )))
     .unwrap();
-    assert!(
-        matches!(&usage, RecordError::WrongImport { expected, .. } if expected == "buffer of 64 bytes"),
-        "{usage}"
-    );
+    is_wrong(&usage, "compiled for buffer of 64 bytes;");
     let texture = depth(&gpu);
     let kind = with(ImportedResource::Texture(&texture)).unwrap();
-    assert!(
-        matches!(&kind, RecordError::WrongImport { given, .. } if given == "a texture"),
-        "{kind}"
-    );
+    is_wrong(&kind, "is a texture,");
 }
 
 #[test]
@@ -226,9 +212,10 @@ fn pipelines_and_resources_belong_to_their_plan() {
     .err();
     assert_eq!(
         error,
-        Some(RecordError::MissingPipeline {
-            pass: "moment-shadows/resolve/resolve".to_owned()
-        })
+        Some(GraphError::new(
+            GraphErrorKind::Plan,
+            "pass 'resolve/resolve' has no pipeline; extend the pipelines with this plan first"
+        ))
     );
     let pipelines = block_on(Pipelines::create(device, &plan, PipelineOptions::default())).unwrap();
     let other = compiled(
@@ -246,7 +233,13 @@ fn pipelines_and_resources_belong_to_their_plan() {
         Some(&parameters),
     ))
     .err();
-    assert_eq!(error, Some(RecordError::WrongResources));
+    assert_eq!(
+        error,
+        Some(GraphError::new(
+            GraphErrorKind::Plan,
+            "the resources were created for another plan; create them from this one"
+        ))
+    );
 }
 
 #[test]
@@ -266,27 +259,23 @@ fn a_plan_for_another_alignment_is_refused() {
     }
     let bytes = plan.parameters.initial();
     let error = try_bind(&gpu, plan, &[], &bytes).err().unwrap();
-    assert_eq!(
-        error,
-        RecordError::Alignment {
-            node: "resolve".to_owned(),
-            spacing: 32,
-            alignment
-        }
+    let says = format!(
+        "the parameters of 'resolve' lie at multiples of 32 bytes, but this device takes multiples of {alignment}; compile \
+         the graph for this device"
     );
+    assert_eq!(error, GraphError::new(GraphErrorKind::Plan, says));
 }
 
 #[test]
 fn a_broken_plan_is_refused_before_it_is_used() {
     let gpu = gpu();
     let mut broken = plan(&gpu);
-    broken.outputs[0].resource = 77;
-    let error = RecordError::Plan(PlanError::Index {
-        what: "output 'shadow_intensity'".to_owned(),
-        of: "resource",
-        index: 77,
-        count: broken.resources.len(),
-    });
+    broken.outputs[0].value = 77;
+    let count = broken.resources.len();
+    let says = format!(
+        "output 'shadow_intensity' refers to resource 77, but there are {count}; compile the graph again"
+    );
+    let error = GraphError::new(GraphErrorKind::Plan, says);
     let device = &gpu.device;
     assert_eq!(
         block_on(Pipelines::create(
@@ -327,8 +316,7 @@ fn what_the_device_refuses_is_an_error_with_the_label() {
     ))
     .err()
     .unwrap();
-    assert!(
-        matches!(&error, RecordError::Device { what, .. } if what == "moment-shadows/resolve/resolve"),
-        "{error}"
-    );
+    assert_eq!(error.kind, GraphErrorKind::Device);
+    let says = "the device could not create moment-shadows/resolve/resolve: ";
+    assert!(error.message.starts_with(says), "{error}");
 }

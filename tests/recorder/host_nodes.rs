@@ -2,8 +2,8 @@
 
 use moment_shadows::TextureFormat::{R32Float, Rgba32Float};
 use moment_shadows_graph::{
-    Access, Connected, Direction, Graph, GraphError, Imports, Node, NodeDesc, NodeRegistry,
-    ParameterBlock, Pass, Slot, SlotResource, Stage, TextureRule, bind, compile,
+    Access, Connected, Direction, Graph, GraphError, Node, NodeDesc, NodeRegistry, ParameterBlock,
+    Pass, Slot, SlotResource, Stage, TextureRule, bind,
 };
 use moment_shadows_lab::gpu::Gpu;
 use serde::Deserialize;
@@ -61,7 +61,7 @@ fn a_registered_node_is_read_from_a_file_with_parameters_per_layer() {
         "nodes": [{ "name": "fill", "type": "fill", "properties": { "value": 3, "layers": 3 } }],
         "outputs": [{ "name": "filled", "from": "fill.filled" }] }"#;
     let graph = Graph::parse(text, &registry).unwrap();
-    let plan = compile(&graph, &capabilities(&gpu), &Imports::new()).unwrap();
+    let plan = graph.compile(&capabilities(&gpu), &[]).unwrap();
     let mut bytes = plan.parameters.initial();
     plan.parameters
         .write(&mut bytes, "fill", 1, &[1.0_f32, 2.0, 3.0, 4.0])
@@ -85,7 +85,7 @@ fn a_registered_node_is_read_from_a_file_with_parameters_per_layer() {
 /// Runs a node without inputs and gives the first layer of its output `to`.
 fn run(gpu: &Gpu, node: NodeDesc) -> Bound {
     let graph = graph(&[], vec![("host", node)], &[], &[("out", "host.to")]);
-    let plan = compile(&graph, &capabilities(gpu), &Imports::new()).unwrap();
+    let plan = graph.compile(&capabilities(gpu), &[]).unwrap();
     let bound = bind(gpu, plan, &[], &[]);
     bound.run(gpu);
     bound
@@ -181,7 +181,7 @@ fn main(@builtin(global_invocation_id) id: vec3u) {
         &[],
         &[("out", "host.to"), ("squares", "host.squares")],
     );
-    let plan = compile(&graph, &capabilities(&gpu), &Imports::new()).unwrap();
+    let plan = graph.compile(&capabilities(&gpu), &[]).unwrap();
     let bound = bind(&gpu, plan, &[], &[]);
     bound.run(&gpu);
     let found = bound.read_floats(&gpu, "out", 0);
@@ -229,7 +229,7 @@ fn a_fullscreen_pass_is_drawn_to_every_dirty_layer() {
         &[],
         &[("out", "host.to")],
     );
-    let plan = compile(&graph, &capabilities(&gpu), &Imports::new()).unwrap();
+    let plan = graph.compile(&capabilities(&gpu), &[]).unwrap();
     let block = |factor: f32| {
         let mut bytes = plan.parameters.initial();
         for layer in 0..3 {

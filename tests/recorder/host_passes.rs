@@ -1,8 +1,8 @@
 //! Holes in the plan where the host draws.
 
 use moment_shadows::TextureFormat::{Depth32Float, R32Float};
-use moment_shadows_graph::record::{RecordError, Recording};
-use moment_shadows_graph::{Imports, NodeDesc, Pass, Plan, Stage, TextureRule, compile};
+use moment_shadows_graph::record::Recording;
+use moment_shadows_graph::{GraphError, GraphErrorKind, NodeDesc, Pass, Plan, Stage, TextureRule};
 
 use crate::host_node::{SIDE, compute, from_and_to, graph, input, output};
 use crate::setup::{bind, capabilities, gpu};
@@ -33,7 +33,7 @@ fn main(@builtin(global_invocation_id) id: vec3u) {
         &[("host.colour", "after.from")],
         &[("out", "after.to")],
     );
-    compile(&graph, capabilities, &Imports::new()).unwrap()
+    graph.compile(capabilities, &[]).unwrap()
 }
 
 #[test]
@@ -105,13 +105,9 @@ fn a_host_pass_without_a_handler_is_an_error_before_anything_is_recorded() {
         .bindings
         .record(EARLY, &mut encoder, Recording::default())
         .unwrap_err();
-    assert_eq!(
-        error,
-        RecordError::HostPass {
-            stage: EARLY,
-            pass: "host/casters".to_owned()
-        }
-    );
+    let says =
+        "stage AfterShadowMaps has the host's pass 'host/casters'; give a handler that draws it";
+    assert_eq!(error, GraphError::new(GraphErrorKind::Recording, says));
     // The other stage has no such pass.
     bound
         .bindings

@@ -2,10 +2,9 @@
 
 use moment_shadows::TextureFormat;
 use moment_shadows_graph::record::{
-    Bindings, HostTarget, ImportedResource, PipelineOptions, Pipelines, RecordError, Recording,
-    Resources,
+    Bindings, HostTarget, ImportedResource, PipelineOptions, Pipelines, Recording, Resources,
 };
-use moment_shadows_graph::{Plan, Stage, TextureDesc};
+use moment_shadows_graph::{GraphError, GraphErrorKind, Plan, Stage, TextureDesc};
 use moment_shadows_lab::gpu::Gpu;
 use pollster::block_on;
 
@@ -164,10 +163,10 @@ fn a_target_for_no_fullscreen_pass_is_an_error() {
             ..PipelineOptions::default()
         };
         let refused = block_on(Pipelines::create(&gpu.device, &plan, options));
-        let expected = RecordError::NoSuchPass {
-            pass: pass.to_owned(),
-            known: PASS.to_owned(),
-        };
+        let says = format!(
+            "there is no fullscreen pass '{pass}'; the nearest are `{PASS}` (written 'node/pass')"
+        );
+        let expected = GraphError::new(GraphErrorKind::UnknownName, says);
         assert_eq!(refused.err(), Some(expected));
     }
 }

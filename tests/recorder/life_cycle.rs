@@ -2,7 +2,7 @@
 
 use moment_shadows::{Profile, TextureFormat};
 use moment_shadows_graph::record::{
-    Bindings, ImportedResource, PipelineOptions, Pipelines, Recording, Resources, Timestamps,
+    Bindings, ImportedResource, PipelineOptions, Pipelines, Recording, Resources,
 };
 use moment_shadows_graph::{Plan, Stage, TextureDesc};
 use moment_shadows_lab::gpu::Gpu;
@@ -172,10 +172,7 @@ fn every_pass_writes_its_timestamps() {
     });
     let mut encoder = gpu.device.create_command_encoder(&Default::default());
     for stage in Stage::ALL {
-        let timestamps = Some(Timestamps {
-            queries: &queries,
-            first: 2,
-        });
+        let timestamps = Some((&queries, 2));
         bound
             .bindings
             .record(

@@ -2,10 +2,10 @@
 
 use moment_shadows::TextureFormat::Rgba32Float;
 use moment_shadows_graph::record::{
-    Bindings, ImportedResource, PipelineOptions, Pipelines, RecordError, Recording, Resources,
+    Bindings, ImportedResource, PipelineOptions, Pipelines, Recording, Resources,
 };
 use moment_shadows_graph::{
-    Access, CountRule, Direction, ExtentRule, Imports, SlotResource, Stage, TextureRule, compile,
+    Access, Direction, GraphError, GraphErrorKind, Rule, SlotResource, Stage, TextureRule,
 };
 use pollster::block_on;
 
@@ -22,7 +22,7 @@ fn a_destroyed_device_gives_errors_and_no_panic() {
         &[("map", "copy.from")],
         &[("out", "copy.to")],
     );
-    let plan = compile(&copies, &capabilities(&gpu), &Imports::new()).unwrap();
+    let plan = copies.compile(&capabilities(&gpu), &[]).unwrap();
     let map = device.create_texture(&wgpu::TextureDescriptor {
         label: None,
         size: wgpu::Extent3d {
@@ -43,10 +43,15 @@ fn a_destroyed_device_gives_errors_and_no_panic() {
     device.destroy();
 
     let pipelines = block_on(Pipelines::create(device, &plan, PipelineOptions::default()));
-    assert_eq!(pipelines.err(), Some(RecordError::Lost));
     assert_eq!(
-        block_on(Resources::create(device, &plan)).err(),
-        Some(RecordError::Lost)
+        pipelines.err().map(|error| error.kind),
+        Some(GraphErrorKind::Lost)
+    );
+    assert_eq!(
+        block_on(Resources::create(device, &plan))
+            .err()
+            .map(|error| error.kind),
+        Some(GraphErrorKind::Lost)
     );
     let bindings = block_on(Bindings::create(
         device,
@@ -56,7 +61,10 @@ fn a_destroyed_device_gives_errors_and_no_panic() {
         &imports,
         Some(&parameters),
     ));
-    assert_eq!(bindings.err(), Some(RecordError::Lost));
+    assert_eq!(
+        bindings.err().map(|error| error.kind),
+        Some(GraphErrorKind::Lost)
+    );
 
     let mut encoder = device.create_command_encoder(&Default::default());
     bound
@@ -87,8 +95,8 @@ fn too_little_memory_is_an_error() {
         ..
     }) = &mut huge.resource
     {
-        *extent = ExtentRule::Exact([side, side]);
-        *count = CountRule::Exact(layers);
+        *extent = Rule::Exact([side, side]);
+        *count = Rule::Exact(layers);
     }
     let mut node = copy(Stage::AfterShadowMaps, 1);
     node.slots[1] = huge;
@@ -98,7 +106,7 @@ fn too_little_memory_is_an_error() {
         &[("map", "copy.from")],
         &[("out", "copy.to")],
     );
-    let plan = compile(&copies, &capabilities(&gpu), &Imports::new()).unwrap();
+    let plan = copies.compile(&capabilities(&gpu), &[]).unwrap();
     // A quarter of a terabyte: no device gives it.
     assert_eq!(
         plan.bytes_resident(),
@@ -107,12 +115,8 @@ fn too_little_memory_is_an_error() {
     let error = block_on(Resources::create(&gpu.device, &plan))
         .err()
         .unwrap();
-    assert_eq!(
-        error,
-        RecordError::OutOfMemory {
-            what: "moment-shadows/copy.to".to_owned()
-        }
-    );
+    let says = "the device has no memory left for moment-shadows/copy.to; use smaller maps or a storage with fewer bits";
+    assert_eq!(error, GraphError::new(GraphErrorKind::OutOfMemory, says));
     // The device works on.
     let small = graph(
         &[("map", rgba32(1))],
@@ -120,6 +124,6 @@ fn too_little_memory_is_an_error() {
         &[("map", "copy.from")],
         &[("out", "copy.to")],
     );
-    let plan = compile(&small, &capabilities(&gpu), &Imports::new()).unwrap();
+    let plan = small.compile(&capabilities(&gpu), &[]).unwrap();
     assert!(block_on(Resources::create(&gpu.device, &plan)).is_ok());
 }

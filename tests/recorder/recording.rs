@@ -1,9 +1,7 @@
 //! What recording is asked for: offsets, layers and queries that are there, and errors before anything is recorded.
 
-use moment_shadows_graph::Stage;
-use moment_shadows_graph::record::{
-    Bindings, ImportedResource, Layers, RecordError, Recording, Timestamps,
-};
+use moment_shadows_graph::record::{Bindings, ImportedResource, Layers, Recording};
+use moment_shadows_graph::{GraphError, GraphErrorKind, Stage};
 use moment_shadows_lab::gpu::Gpu;
 use pollster::block_on;
 
@@ -43,9 +41,9 @@ fn the_parameter_buffer_holds_a_views_block() {
         bindings.err().unwrap()
     };
     let needed = u64::from(bound.plan.parameters.size);
-    let problem = |problem: &str| RecordError::ParameterBuffer {
-        problem: problem.to_owned(),
-        needed,
+    let problem = |problem: &str| {
+        let says = format!("the parameter buffer {problem}; a view's block has {needed} bytes");
+        GraphError::new(GraphErrorKind::Parameters, says)
     };
     assert_eq!(with(None), problem("is missing"));
     assert_eq!(
@@ -67,7 +65,7 @@ fn record(
     gpu: &Gpu,
     stage: Stage,
     recording: Recording<'_>,
-) -> Result<(), RecordError> {
+) -> Result<(), GraphError> {
     let mut encoder = gpu.device.create_command_encoder(&Default::default());
     let result = bound.bindings.record(stage, &mut encoder, recording);
     gpu.queue.submit([encoder.finish()]);
@@ -102,14 +100,13 @@ fn a_views_offset_is_aligned_and_within_the_buffer() {
         u64::MAX - 3,
     ] {
         let size = 2 * needed;
+        let says = format!(
+            "a view's parameters cannot begin at byte {offset}: offsets are multiples of {alignment}, and {needed} bytes \
+             have to follow in a buffer of {size}"
+        );
         assert_eq!(
             at(offset),
-            Err(RecordError::ParameterOffset {
-                offset,
-                alignment,
-                needed,
-                size
-            })
+            Err(GraphError::new(GraphErrorKind::Parameters, says))
         );
     }
 }
@@ -130,23 +127,14 @@ fn dirty_layers_exist() {
         )
     };
     assert_eq!(with(&[0]), Ok(()));
-    let pass = "resolve/resolve".to_owned();
-    assert_eq!(
-        with(&[0, 1]),
-        Err(RecordError::NoSuchLayer {
-            layer: 1,
-            pass: pass.clone(),
-            layers: 1
-        })
-    );
-    assert_eq!(
-        with(&[u32::MAX]),
-        Err(RecordError::NoSuchLayer {
-            layer: u32::MAX,
-            pass,
-            layers: 1
-        })
-    );
+    for (layers, beyond) in [(&[0, 1][..], 1), (&[u32::MAX], u32::MAX)] {
+        let says =
+            format!("layer {beyond} is marked dirty, but pass 'resolve/resolve' has 1 layers");
+        assert_eq!(
+            with(layers),
+            Err(GraphError::new(GraphErrorKind::Recording, says))
+        );
+    }
 }
 
 #[test]
@@ -170,10 +158,7 @@ fn timestamps_have_room_for_every_pass() {
         count: 9,
     });
     let with = |first| {
-        let timestamps = Some(Timestamps {
-            queries: &queries,
-            first,
-        });
+        let timestamps = Some((&queries, first));
         record(
             &bound,
             &gpu,
@@ -186,13 +171,10 @@ fn timestamps_have_room_for_every_pass() {
     };
     assert_eq!((with(0), with(1)), (Ok(()), Ok(())));
     for first in [2, u32::MAX] {
+        let says = format!("timestamps need 8 queries from index {first}, but the query set has 9");
         assert_eq!(
             with(first),
-            Err(RecordError::Timestamps {
-                first,
-                needed: 8,
-                count: 9
-            })
+            Err(GraphError::new(GraphErrorKind::Recording, says))
         );
     }
 }

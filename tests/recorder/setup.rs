@@ -5,10 +5,10 @@ use moment_shadows::{
     Profile, ReceiverBias, ViewParameters,
 };
 use moment_shadows_graph::record::{
-    Bindings, ImportedResource, PipelineOptions, Pipelines, RecordError, Recording, Resources,
+    Bindings, ImportedResource, PipelineOptions, Pipelines, Recording, Resources,
 };
 use moment_shadows_graph::{
-    Capabilities, Graph, Imports, NodeRegistry, Plan, ResourceDesc, Stage, TextureDesc, compile,
+    Capabilities, Graph, GraphError, NodeRegistry, Plan, ResourceDesc, Stage, TextureDesc,
 };
 use moment_shadows_lab::gpu::Gpu;
 use pollster::block_on;
@@ -58,7 +58,7 @@ pub(crate) fn try_bind(
     plan: Plan,
     imports: &[(&str, ImportedResource<'_>)],
     views: &[u8],
-) -> Result<Bound, RecordError> {
+) -> Result<Bound, GraphError> {
     let device = &gpu.device;
     let pipelines = block_on(Pipelines::create(device, &plan, PipelineOptions::default()))?;
     let resources = block_on(Resources::create(device, &plan))?;
@@ -130,11 +130,11 @@ pub(crate) fn compiled(
     imports: &[(&str, TextureDesc)],
 ) -> Plan {
     let graph = Graph::parse(text, &NodeRegistry::new()).unwrap();
-    let imports: Imports = imports
+    let imports: Vec<(&str, ResourceDesc)> = imports
         .iter()
-        .map(|(name, desc)| ((*name).to_owned(), ResourceDesc::Texture(desc.clone())))
+        .map(|(name, desc)| (*name, ResourceDesc::Texture(desc.clone())))
         .collect();
-    compile(&graph, capabilities, &imports).unwrap()
+    graph.compile(capabilities, &imports).unwrap()
 }
 
 /// A camera and a light that look along the same axis, so that pixels are texels: stored depth is the place on it.

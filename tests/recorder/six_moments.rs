@@ -6,7 +6,7 @@ use moment_shadows::{
 };
 use moment_shadows_graph::TextureDesc;
 use moment_shadows_graph::record::{ImportedResource, Layers};
-use moment_shadows_lab::basis::{Quantisation, published_quantisations};
+use moment_shadows_lab::basis::{Quantisation, six_moments};
 use moment_shadows_lab::gpu::Gpu;
 
 use crate::depth_map;
@@ -160,15 +160,8 @@ impl Map {
     }
 }
 
-fn published() -> Quantisation {
-    published_quantisations()
-        .into_iter()
-        .find(|basis| basis.count() == 6 && basis.interval == [-1.0, 1.0])
-        .unwrap()
-}
-
 /// The channels of both planes for the mean over the samples of a texel.
-fn encoded(basis: &Quantisation, samples: &[f32], reversed: bool) -> [[f64; 3]; 2] {
+fn encoded(basis: &Quantisation<6>, samples: &[f32], reversed: bool) -> [[f64; 3]; 2] {
     let mut mean = [0.0; 6];
     for &stored in samples {
         let forward = 2.0 * f64::from(stored) - 1.0;
@@ -195,7 +188,7 @@ pub(crate) fn opened() -> Gpu {
 #[test]
 fn a_resolved_texel_is_the_nearest_to_the_mean_of_its_samples_in_every_storage() {
     let gpu = opened();
-    let basis = published();
+    let basis = six_moments();
     for &storage in Technique::Hamburger6.storages() {
         let text = graph(storage, "\"kernel\": { \"radius\": 1 }", "downsample.map");
         for (layers, samples) in [(2, 1), (1, 4)] {

@@ -2,7 +2,7 @@
 
 use moment_shadows::TextureFormat;
 use moment_shadows_graph::record::ImportedResource;
-use moment_shadows_graph::{Graph, Imports, NodeRegistry, ResourceDesc, TextureDesc, compile};
+use moment_shadows_graph::{Graph, NodeRegistry, ResourceDesc, TextureDesc};
 use wgpu::util::DeviceExt as _;
 
 use crate::setup::{bind, capabilities, gpu};
@@ -39,8 +39,8 @@ fn a_threshold_is_white_above_its_level() {
         layers,
         ..TextureDesc::new(TextureFormat::Rgba32Float, size)
     };
-    let imports = Imports::from([("map".to_owned(), ResourceDesc::Texture(desc))]);
-    let plan = compile(&graph, &capabilities(&gpu), &imports).unwrap();
+    let imports = [("map", ResourceDesc::Texture(desc))];
+    let plan = graph.compile(&capabilities(&gpu), &imports).unwrap();
     let map = gpu.device.create_texture_with_data(
         &gpu.queue,
         &wgpu::TextureDescriptor {

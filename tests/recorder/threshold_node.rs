@@ -1,6 +1,6 @@
 use moment_shadows::TextureFormat::{Rgba8Unorm, Rgba16Float, Rgba32Float};
 use moment_shadows_graph::{
-    Connected, CountRule, GraphError, Node, NodeDesc, Pass, Stage, TextureRule, bind,
+    Connected, GraphError, Node, NodeDesc, Pass, Rule, Stage, TextureRule, bind,
 };
 use serde::Deserialize;
 
@@ -27,7 +27,7 @@ fn threshold(@builtin(global_invocation_id) id: vec3u) {
 
 impl Node for Threshold {
     fn describe(&self, _: &Connected<'_>) -> Result<NodeDesc, GraphError> {
-        let map = TextureRule::new([Rgba16Float, Rgba32Float].as_slice()).layers(CountRule::Any);
+        let map = TextureRule::new([Rgba16Float, Rgba32Float].as_slice()).layers(Rule::Any);
         let picture = TextureRule::new(Rgba8Unorm).like("map");
         Ok(NodeDesc::new("threshold", Stage::AfterShadowMaps)
             .input("map", "The map to look at.", map)

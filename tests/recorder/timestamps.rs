@@ -1,7 +1,7 @@
 //! Timestamps of passes that are drawn to several layers: a render pass for each, and a pair of queries for all of them.
 
 use moment_shadows::{Profile, TextureFormat};
-use moment_shadows_graph::record::{ImportedResource, Layers, Recording, Timestamps};
+use moment_shadows_graph::record::{ImportedResource, Layers, Recording};
 use moment_shadows_graph::{PlannedWork, Stage, TextureDesc};
 use moment_shadows_lab::gpu::Gpu;
 
@@ -58,10 +58,7 @@ fn a_pass_drawn_to_several_layers_writes_its_first_and_its_last_query() {
         let mut encoder = device.create_command_encoder(&Default::default());
         let recording = Recording {
             layers: Layers::Only(dirty),
-            timestamps: Some(Timestamps {
-                queries: &queries,
-                first: 0,
-            }),
+            timestamps: Some((&queries, 0)),
             ..Recording::default()
         };
         bound

@@ -1,8 +1,8 @@
 //! Several views of one map, and drawing into the host's own render pass.
 
 use moment_shadows::TextureFormat;
-use moment_shadows_graph::record::{ImportedResource, RecordError, Recording};
-use moment_shadows_graph::{Capabilities, Plan, Stage, TextureDesc};
+use moment_shadows_graph::record::{ImportedResource, Recording};
+use moment_shadows_graph::{Capabilities, GraphError, GraphErrorKind, Plan, Stage, TextureDesc};
 use moment_shadows_lab::gpu::Gpu;
 
 use crate::depth_map;
@@ -175,9 +175,11 @@ fn drawing_names_the_passes_that_can_be_drawn() {
     let host = target(&gpu, wgpu::TextureFormat::R8Unorm);
     let mut encoder = gpu.device.create_command_encoder(&Default::default());
     with_pass(&mut encoder, &host, |pass| {
-        let no_such = |pass: &str| RecordError::NoSuchPass {
-            pass: pass.to_owned(),
-            known: "shade/shade".to_owned(),
+        let no_such = |pass: &str| {
+            let says = format!(
+                "there is no fullscreen pass '{pass}'; the nearest are `shade/shade` (written 'node/pass')"
+            );
+            GraphError::new(GraphErrorKind::UnknownName, says)
         };
         assert_eq!(bound.bindings.draw("shade", pass, 0), Err(no_such("shade")));
         // Compute passes cannot be drawn.
@@ -186,10 +188,9 @@ fn drawing_names_the_passes_that_can_be_drawn() {
             Err(no_such("resolve/resolve"))
         );
         let error = bound.bindings.draw("shade/shade", pass, 1).unwrap_err();
-        assert!(
-            matches!(error, RecordError::ParameterOffset { offset: 1, .. }),
-            "{error}"
-        );
+        assert_eq!(error.kind, GraphErrorKind::Parameters);
+        let says = "a view's parameters cannot begin at byte 1:";
+        assert!(error.message.starts_with(says), "{error}");
     });
     drop(encoder);
 }

@@ -5,7 +5,7 @@ use moment_shadows_graph::record::{
     Bindings, HostTarget, ImportedResource, PipelineOptions, Pipelines, Recording, Resources,
 };
 use moment_shadows_graph::{
-    Capabilities, Graph, Imports, NodeRegistry, Plan, ResourceDesc, Stage, TextureDesc, compile,
+    Capabilities, Graph, NodeRegistry, Plan, ResourceDesc, Stage, TextureDesc,
 };
 use moment_shadows_lab::gpu::Gpu;
 use pollster::block_on;
@@ -226,11 +226,13 @@ pub(crate) fn bind(
     host_targets: &[(&str, HostTarget)],
 ) -> Bound {
     let graph = Graph::parse(graph, &NodeRegistry::new()).unwrap();
-    let descs: Imports = imports
+    let descs: Vec<(&str, ResourceDesc)> = imports
         .iter()
-        .map(|(name, (desc, _))| ((*name).to_owned(), ResourceDesc::Texture(desc.clone())))
+        .map(|(name, (desc, _))| (*name, ResourceDesc::Texture(desc.clone())))
         .collect();
-    let plan = compile(&graph, capabilities, &descs).unwrap_or_else(|error| panic!("{error}"));
+    let plan = graph
+        .compile(capabilities, &descs)
+        .unwrap_or_else(|error| panic!("{error}"));
     let device = &gpu.device;
     let options = PipelineOptions {
         host_targets,

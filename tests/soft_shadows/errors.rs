@@ -1,16 +1,14 @@
 //! What `shade_soft` cannot be connected to, and properties that are wrong.
 
 use moment_shadows::Profile;
-use moment_shadows_graph::{
-    Capabilities, Graph, GraphError, GraphErrorKind, Imports, NodeRegistry, compile,
-};
+use moment_shadows_graph::{Capabilities, Graph, GraphError, GraphErrorKind, NodeRegistry};
 
 const TEXT: &str = include_str!("../../examples/soft_shadows.json");
 
 fn error(text: &str) -> GraphError {
     let capabilities = Capabilities::of_profile(Profile::Native);
     Graph::parse(text, &NodeRegistry::new())
-        .and_then(|graph| compile(&graph, &capabilities, &Imports::new()))
+        .and_then(|graph| graph.compile(&capabilities, &[]))
         .unwrap_err()
 }
 
@@ -18,7 +16,7 @@ fn error(text: &str) -> GraphError {
 fn the_example_compiles_under_core_webgpu() {
     let graph = Graph::parse(TEXT, &NodeRegistry::new()).unwrap();
     let capabilities = Capabilities::of_profile(Profile::WebgpuCore);
-    let plan = compile(&graph, &capabilities, &Imports::new()).unwrap();
+    let plan = graph.compile(&capabilities, &[]).unwrap();
     assert!(plan.passes.iter().any(|pass| pass.node == "shade"));
 }
 
@@ -119,7 +117,7 @@ fn a_technique_without_soft_shadows_is_refused_by_name() {
         );
         let graph = Graph::parse(&text, &NodeRegistry::new()).unwrap();
         let capabilities = Capabilities::of_profile(Profile::Native);
-        let plan = compile(&graph, &capabilities, &Imports::new()).unwrap();
+        let plan = graph.compile(&capabilities, &[]).unwrap();
         let shade = plan
             .passes
             .iter()

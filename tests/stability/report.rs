@@ -2,7 +2,6 @@
 
 use moment_shadows::{MapEncoding, Profile, Storage, Technique};
 use moment_shadows_lab::command::stability::pairs;
-use moment_shadows_lab::error::LabError;
 use moment_shadows_lab::gpu::Gpu;
 use moment_shadows_lab::stability::report::Report;
 use moment_shadows_lab::stability::{Effort, run};
@@ -59,7 +58,6 @@ fn the_same_seed_gives_the_same_report_and_another_one_another() {
 #[test]
 fn a_pair_that_does_not_exist_is_refused_with_those_that_do() {
     let error = pairs(Some("evsm2"), Some("unorm16")).unwrap_err();
-    assert!(matches!(error, LabError::NoPair { .. }));
     let text = error.to_string();
     assert_eq!(
         text,

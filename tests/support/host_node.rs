@@ -2,9 +2,8 @@
 
 use moment_shadows::TextureFormat;
 use moment_shadows_graph::{
-    Access, BindingResource, Connected, CountRule, Direction, Edge, Endpoint, Graph, GraphError,
-    GraphNode, Import, Node, NodeDesc, Output, Pass, ResourceDesc, Slot, Stage, TextureDesc,
-    TextureRule, bind,
+    Access, BindingResource, Connected, Direction, Edge, Graph, GraphError, Named, Node, NodeDesc,
+    Pass, ResourceDesc, Rule, Slot, Stage, TextureDesc, TextureRule, bind,
 };
 
 /// Side of the textures that host nodes make.
@@ -28,9 +27,9 @@ pub(crate) fn empty(stage: Stage) -> NodeDesc {
 /// An input that takes any texture.
 pub(crate) fn input(name: &str) -> Slot {
     let rule = TextureRule::new(TextureFormat::ALL.as_slice())
-        .layers(CountRule::Any)
-        .mips(CountRule::Any)
-        .samples(CountRule::Any);
+        .layers(Rule::Any)
+        .mips(Rule::Any)
+        .samples(Rule::Any);
     Slot::input(name, "Any texture.", rule.access(Access::READ))
 }
 
@@ -146,14 +145,6 @@ pub(crate) fn rgba32(layers: u32) -> ResourceDesc {
     })
 }
 
-fn endpoint(text: &str) -> Endpoint {
-    let (owner, slot) = text.split_once('.').unwrap_or((text, ""));
-    Endpoint {
-        owner: owner.to_owned(),
-        slot: (!slot.is_empty()).then(|| slot.to_owned()),
-    }
-}
-
 /// A graph of host nodes; edges and outputs as pairs of texts.
 pub(crate) fn graph(
     imports: &[(&str, ResourceDesc)],
@@ -161,38 +152,27 @@ pub(crate) fn graph(
     edges: &[(&str, &str)],
     outputs: &[(&str, &str)],
 ) -> Graph {
+    let imports = imports.iter();
+    let nodes = nodes.into_iter();
+    let boxed = |desc| -> Box<dyn Node> { Box::new(HostNode(desc)) };
+    let outputs = outputs.iter();
     Graph {
         imports: imports
-            .iter()
-            .map(|(name, desc)| Import {
-                name: (*name).to_owned(),
-                expected: Some(desc.clone()),
-                position: None,
-            })
+            .map(|(name, desc)| Named::new(*name, Some(desc.clone())))
             .collect(),
         nodes: nodes
-            .into_iter()
-            .map(|(name, desc)| GraphNode {
-                name: name.to_owned(),
-                node: Box::new(HostNode(desc)),
-                position: None,
-            })
+            .map(|(name, desc)| Named::new(name, boxed(desc)))
             .collect(),
         edges: edges
             .iter()
             .map(|(from, to)| Edge {
-                from: endpoint(from),
-                to: endpoint(to),
+                from: (*from).to_owned(),
+                to: (*to).to_owned(),
                 position: None,
             })
             .collect(),
         outputs: outputs
-            .iter()
-            .map(|(name, from)| Output {
-                name: (*name).to_owned(),
-                from: endpoint(from),
-                position: None,
-            })
+            .map(|(name, from)| Named::new(*name, (*from).to_owned()))
             .collect(),
         notes: Vec::new(),
     }

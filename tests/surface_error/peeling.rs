@@ -3,7 +3,7 @@
 use glam::{DVec2, DVec3};
 use moment_shadows_lab::light::{DirectionalFit, LightView};
 use moment_shadows_lab::scene::{Image, Material, Scene};
-use moment_shadows_lab::truth::peel::{LightSurface, PeelError, Peeler};
+use moment_shadows_lab::truth::peel::{LightSurface, Peeler};
 use wgpu::AddressMode;
 
 use crate::setup::{Random, plate, scene, soup};
@@ -246,31 +246,23 @@ fn slopes_are_those_of_the_planes() {
 fn a_scene_that_breaks_its_promises_is_named() {
     let whole = scene(vec![plate(1.0, 0.0), plate(1.0, 1.0)]);
     let light = sun(&whole, DOWN, [8, 8]);
-    let refused = |scene: &Scene, map| Peeler::new(scene, &light, map).err().unwrap();
-    assert_eq!(refused(&whole, [8, 0]), PeelError::Empty { map: [8, 0] });
+    let refused = |scene: &Scene, map| Peeler::new(scene, &light, map).err().unwrap().to_string();
+    assert!(refused(&whole, [8, 0]).contains("8x0 texels is empty"));
     let mut broken = whole.clone();
     broken.meshes[1].indices[4] = 6;
-    let PeelError::Mesh {
-        scene,
-        mesh: 1,
-        reason,
-    } = refused(&broken, [8, 8])
-    else {
-        panic!("another error");
-    };
-    assert_eq!(scene, "test");
-    assert!(reason.contains("vertex 6 of 6"), "{reason}");
+    let error = refused(&broken, [8, 8]);
+    assert!(
+        error.contains("mesh 1 of scene 'test'") && error.contains("vertex 6 of 6"),
+        "{error}"
+    );
     let mut broken = whole.clone();
     broken.meshes[0].positions[2][1] = f32::NAN;
-    let error = refused(&broken, [8, 8]).to_string();
+    let error = refused(&broken, [8, 8]);
     assert!(
         error.contains("mesh 0 of scene 'test' has vertex 2"),
         "{error}"
     );
     let mut broken = whole;
     broken.meshes[0].uvs.pop();
-    assert!(matches!(
-        refused(&broken, [8, 8]),
-        PeelError::Mesh { mesh: 0, .. }
-    ));
+    assert!(refused(&broken, [8, 8]).contains("mesh 0 of scene"));
 }

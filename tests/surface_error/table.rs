@@ -132,9 +132,12 @@ fn kernels_of_one_table_share_their_light() {
 #[test]
 fn tables_are_plotted() {
     let folder = tempfile::tempdir().unwrap();
-    let candidates = ["vsm", "hamburger4"]
-        .iter()
-        .flat_map(|name| name.parse::<TechniqueChoice>().unwrap().candidates());
+    let candidates = ["vsm", "hamburger4"].iter().flat_map(|name| {
+        name.parse::<TechniqueChoice>()
+            .unwrap()
+            .candidates()
+            .to_vec()
+    });
     let mut table = table(&[1, 2], candidates.collect(), 4, 64);
     let out = folder.path().join("new");
     table.plot(&out).unwrap();

@@ -1,6 +1,6 @@
 //! Error figures.
 
-use moment_shadows_lab::metric::{MetricError, compare, excess};
+use moment_shadows_lab::metric::{compare, excess};
 
 #[test]
 fn error_figures_are_those_of_the_definition() {
@@ -24,13 +24,10 @@ fn error_figures_are_those_of_the_definition() {
     assert_eq!((figures.percentile_95, figures.maximum), (0.25, 0.5));
     let nothing = compare(&[], &[], &[]).unwrap();
     assert_eq!(nothing.facing.mean_absolute, 0.0);
-    assert_eq!(
-        compare(&[0.0], &[0.0, 1.0], &[true]).unwrap_err(),
-        MetricError::Length {
-            estimate: 1,
-            truth: 2,
-            facing: 1
-        }
+    let error = compare(&[0.0], &[0.0, 1.0], &[true]).unwrap_err();
+    assert!(
+        error.to_string().contains("the estimate has 1 entries"),
+        "{error}"
     );
 }
 

@@ -2,10 +2,11 @@
 
 use glam::{DMat4, DVec2, DVec3};
 use moment_shadows::Kernel;
+use moment_shadows_lab::error::LabError;
 use moment_shadows_lab::host::{DepthSamples, SurfacePixels};
 use moment_shadows_lab::light::{LightView, StoredDepth};
 use moment_shadows_lab::truth::kernel::{TapPattern, sample_positions};
-use moment_shadows_lab::truth::surface::{DepthRounding, MomentDepths, TruthError};
+use moment_shadows_lab::truth::surface::{DepthRounding, MomentDepths};
 
 /// SplitMix64: numbers in [0, 1) that are the same everywhere.
 pub(crate) struct Random(pub(crate) u64);
@@ -109,7 +110,7 @@ pub(crate) fn from_values(
     samples: u32,
     rounding: DepthRounding,
     values: Vec<f32>,
-) -> Result<MomentDepths, TruthError> {
+) -> Result<MomentDepths, LabError> {
     let stored = DepthSamples {
         width,
         height,

@@ -5,7 +5,7 @@ mod stand_in;
 use eframe::egui_wgpu::{self, Callback, CallbackResources, CallbackTrait, RenderState};
 use eframe::{egui, wgpu};
 use moment_shadows_graph::record::*;
-use moment_shadows_graph::{Capabilities, Graph, Imports, NodeRegistry, Stage, compile};
+use moment_shadows_graph::{Capabilities, Graph, NodeRegistry, Stage};
 use stand_in::{Failure, SIZE, StandIn};
 
 const PASS: &str = "shade/shade";
@@ -20,7 +20,7 @@ impl App {
         let host = StandIn::new(egui)?;
         let graph = Graph::parse(include_str!("../shadows.json"), &NodeRegistry::new())?;
         let capabilities = Capabilities::of_device(&egui.adapter, device);
-        let plan = compile(&graph, &capabilities, &Imports::new())?;
+        let plan = graph.compile(&capabilities, &[])?;
         let options = PipelineOptions {
             host_targets: &[(PASS, HostTarget::darkened(egui.target_format))],
             ..Default::default()

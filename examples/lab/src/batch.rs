@@ -44,27 +44,18 @@ impl<'gpu, I: Pod, O: Pod> Batch<'gpu, I, O> {
     /// Links and compiles `wgsl`, a shader that may import library modules, declares the types `BatchInput` and `BatchOutput`
     /// and a function `batch(input: BatchInput) -> BatchOutput`, but no bindings.
     pub fn new(gpu: &'gpu Gpu, label: &str, wgsl: &str) -> Result<Self, LabError> {
-        Self::build(gpu, label, wgsl, None)
+        Self::with_table(gpu, label, wgsl, &[])
     }
 
-    /// Links and compiles, as [`new`](Self::new) does, a shader that also reads `table`, at least one number, as the
-    /// `batch_table: array<f32>` that all its invocations share.
+    /// Links and compiles, as [`new`](Self::new) does, a shader that also reads `table` as the `batch_table: array<f32>` that all
+    /// its invocations share. Without a number there is no table.
     pub fn with_table(
         gpu: &'gpu Gpu,
         label: &str,
         wgsl: &str,
         table: &[f32],
     ) -> Result<Self, LabError> {
-        Self::build(gpu, label, wgsl, Some(table))
-    }
-
-    fn build(
-        gpu: &'gpu Gpu,
-        label: &str,
-        wgsl: &str,
-        table: Option<&[f32]>,
-    ) -> Result<Self, LabError> {
-        let declared = if table.is_some() { TABLE } else { "" };
+        let declared = if table.is_empty() { "" } else { TABLE };
         let linked = link(
             Source {
                 name: label,
@@ -73,44 +64,20 @@ impl<'gpu, I: Pod, O: Pod> Batch<'gpu, I, O> {
             &[],
         )?;
         let scope = gpu.device.push_error_scope(wgpu::ErrorFilter::Validation);
-        let module = gpu
-            .device
-            .create_shader_module(wgpu::ShaderModuleDescriptor {
-                label: Some(label),
-                source: wgpu::ShaderSource::Wgsl(
-                    format!("{}{declared}{ENTRY_POINT}", linked.wgsl()).into(),
-                ),
-            });
-        let pipeline = gpu
-            .device
-            .create_compute_pipeline(&wgpu::ComputePipelineDescriptor {
-                label: Some(label),
-                layout: None,
-                module: &module,
-                entry_point: Some("batch_main"),
-                compilation_options: wgpu::PipelineCompilationOptions::default(),
-                cache: None,
-            });
+        let wgsl = format!("{}{declared}{ENTRY_POINT}", linked.wgsl());
+        let pipeline = gpu.compute(label, &wgsl, "batch_main");
         if let Some(error) = pollster::block_on(scope.pop()) {
-            return Err(LabError::Shader {
-                label: label.to_owned(),
-                reason: error.to_string(),
-            });
+            return Err(LabError::refused(format!(
+                "the shader of batch '{label}' was refused: {error}"
+            )));
         }
         Ok(Self {
             gpu,
             label: label.to_owned(),
             pipeline,
-            table: table.map(|table| {
-                let buffer = gpu.device.create_buffer(&wgpu::BufferDescriptor {
-                    label: Some(label),
-                    size: size_of_val(table) as u64,
-                    usage: wgpu::BufferUsages::STORAGE | wgpu::BufferUsages::COPY_DST,
-                    mapped_at_creation: false,
-                });
-                let bytes = bytemuck::cast_slice(table);
-                gpu.queue.write_buffer(&buffer, 0, bytes);
-                buffer
+            table: (!table.is_empty()).then(|| {
+                let contents = bytemuck::cast_slice(table);
+                gpu.filled(label, contents, wgpu::BufferUsages::STORAGE)
             }),
             items: PhantomData,
         })
@@ -130,12 +97,11 @@ impl<'gpu, I: Pod, O: Pod> Batch<'gpu, I, O> {
             || !output.is_multiple_of(4)
             || item > largest
         {
-            return Err(LabError::ItemSize {
-                label: self.label.clone(),
-                input,
-                output,
-                largest,
-            });
+            return Err(LabError::refused(format!(
+                "batch '{}' has items of {input} and {output} bytes; arrays in storage buffers need positive multiples of 4 that \
+                 fit into {largest} bytes",
+                self.label
+            )));
         }
         let groups = u64::from(limits.max_compute_workgroups_per_dimension);
         let chunk = (largest / item).min(groups * WORKGROUP).min(1 << 24) as usize;
@@ -147,51 +113,19 @@ impl<'gpu, I: Pod, O: Pod> Batch<'gpu, I, O> {
     }
 
     fn run_chunk(&self, inputs: &[I]) -> Result<Vec<O>, LabError> {
-        let device = &self.gpu.device;
-        let label = Some(self.label.as_str());
-        let input = device.create_buffer(&wgpu::BufferDescriptor {
-            label,
-            size: size_of_val(inputs) as u64,
-            usage: wgpu::BufferUsages::STORAGE | wgpu::BufferUsages::COPY_DST,
-            mapped_at_creation: false,
-        });
-        self.gpu
-            .queue
-            .write_buffer(&input, 0, bytemuck::cast_slice(inputs));
-        let output = device.create_buffer(&wgpu::BufferDescriptor {
-            label,
-            size: (inputs.len() * size_of::<O>()) as u64,
-            usage: wgpu::BufferUsages::STORAGE | wgpu::BufferUsages::COPY_SRC,
-            mapped_at_creation: false,
-        });
-        let entries: Vec<wgpu::BindGroupEntry<'_>> =
-            [Some(&input), Some(&output), self.table.as_ref()]
-                .into_iter()
-                .zip(0..)
-                .filter_map(|(buffer, binding)| {
-                    let resource = buffer?.as_entire_binding();
-                    Some(wgpu::BindGroupEntry { binding, resource })
-                })
-                .collect();
-        let bindings = device.create_bind_group(&wgpu::BindGroupDescriptor {
-            label,
-            layout: &self.pipeline.get_bind_group_layout(0),
-            entries: &entries,
-        });
-        let mut encoder = device.create_command_encoder(&wgpu::CommandEncoderDescriptor { label });
-        {
-            let mut pass = encoder.begin_compute_pass(&wgpu::ComputePassDescriptor {
-                label,
-                timestamp_writes: None,
-            });
-            pass.set_pipeline(&self.pipeline);
-            pass.set_bind_group(0, &bindings, &[]);
-            let groups = (inputs.len() as u64).div_ceil(WORKGROUP);
-            // At most `max_compute_workgroups_per_dimension`, a u32.
-            pass.dispatch_workgroups(groups as u32, 1, 1);
-        }
-        self.gpu.queue.submit([encoder.finish()]);
-        let bytes = self.gpu.read_buffer(&output, &self.label)?;
+        let (gpu, label) = (self.gpu, self.label.as_str());
+        let contents = bytemuck::cast_slice(inputs);
+        let input = gpu.filled(label, contents, wgpu::BufferUsages::STORAGE);
+        let output = gpu.output(label, (inputs.len() * size_of::<O>()) as u64);
+        let bound = [&input, &output].into_iter().chain(&self.table);
+        let bindings = gpu.bind(
+            &self.pipeline.get_bind_group_layout(0),
+            bound.map(wgpu::Buffer::as_entire_binding),
+        );
+        let groups = (inputs.len() as u64).div_ceil(WORKGROUP);
+        // At most `max_compute_workgroups_per_dimension`, a u32.
+        gpu.dispatch(&self.pipeline, &[&bindings], [groups as u32, 1]);
+        let bytes = gpu.read_buffer(&output, label)?;
         Ok(bytes
             .chunks_exact(size_of::<O>())
             .map(bytemuck::pod_read_unaligned)

@@ -1,13 +1,14 @@
-//! What a graph is measured with in place of its own technique and storage.
+//! Techniques that a command line names, and what a graph is measured with in place of its own technique and storage.
 
 use core::str::FromStr;
 
-use moment_shadows::{Finite, MapEncoding, PcfTaps, Profile, Storage, Technique, TechniqueError};
+use moment_shadows::{
+    Finite, MapEncoding, PcfTaps, Profile, Storage, Technique, TechniqueError, nearest,
+};
 
 use crate::error::LabError;
 use crate::graph_file::GraphFile;
-use crate::technique_argument::{TechniqueArgument, TechniqueArgumentError};
-use crate::techniques;
+use crate::techniques::{self, label};
 
 /// A technique with its storage.
 #[derive(Clone, Debug, PartialEq)]
@@ -22,14 +23,16 @@ pub enum Candidate {
     PercentageCloser,
 }
 
-/// What a command line asks to be measured.
+/// A technique as a command line gives it: with its settings for each storage, or percentage-closer filtering with the
+/// graph's kernel.
 #[derive(Clone, Debug, PartialEq)]
-pub enum TechniqueChoice {
-    /// Percentage-closer filtering with the graph's own kernel: `pcf`.
-    PercentageCloser,
-    /// Any other technique.
-    Technique(TechniqueArgument),
+pub struct TechniqueChoice {
+    /// In every storage that it can have, the one with the least error per bit first; a single one where it reads depth.
+    candidates: Vec<Candidate>,
 }
+
+/// What percentage-closer filtering with the graph's kernel is called.
+const PCF: &str = "pcf";
 
 impl Candidate {
     /// Both references on the plain depth map, the binary test and percentage-closer filtering with the graph's kernel, and
@@ -57,7 +60,7 @@ impl Candidate {
     /// Whether the graph reads the plain depth map with it.
     #[must_use]
     pub fn reads_depth(&self) -> bool {
-        matches!(self, Self::ReadingDepth(_) | Self::PercentageCloser)
+        self.storage().is_none()
     }
 
     /// The smallest profile under which a device can write its map, and that offers what `profile` does.
@@ -68,8 +71,7 @@ impl Candidate {
             Self::Filterable(encoding) => encoding.check(*profile).is_ok(),
             Self::ReadingDepth(_) | Self::PercentageCloser => true,
         };
-        let profiles = [Profile::WebgpuCore, Profile::Native, Profile::NativeAdapter];
-        profiles
+        Profile::ALL
             .into_iter()
             .skip_while(|smaller| *smaller != profile)
             .find(works)
@@ -99,53 +101,135 @@ impl Candidate {
             }
         }
     }
+
+    fn technique(&self) -> Option<&Technique> {
+        match self {
+            Self::Filterable(encoding) => Some(encoding.technique()),
+            Self::ReadingDepth(technique) => Some(technique),
+            Self::Storage(_) | Self::PercentageCloser => None,
+        }
+    }
 }
 
 impl TechniqueChoice {
     /// In every storage that it can have, the one with the least error per bit first; a single one for a technique that
     /// reads depth.
     #[must_use]
-    pub fn candidates(&self) -> Vec<Candidate> {
-        match self {
-            Self::PercentageCloser => vec![Candidate::PercentageCloser],
-            Self::Technique(argument) => {
-                let storages = argument.storages().into_iter();
-                storages
-                    .filter_map(|storage| self.in_storage(storage).ok())
-                    .collect()
-            }
-        }
+    pub fn candidates(&self) -> &[Candidate] {
+        &self.candidates
     }
 
     /// The candidate in a storage; in its best one if none is given. Techniques that read depth have no storage.
     pub fn in_storage(&self, storage: Option<Storage>) -> Result<Candidate, TechniqueError> {
-        let Self::Technique(argument) = self else {
-            return Ok(Candidate::PercentageCloser);
+        let best = &self.candidates[0];
+        let (Some(storage), Candidate::Filterable(encoding)) = (storage, best) else {
+            return Ok(best.clone());
         };
-        let (technique, storage) = argument.resolve(storage, None)?;
-        Ok(match storage {
-            Some(storage) => Candidate::Filterable(MapEncoding::new(technique, storage)?),
-            None => Candidate::ReadingDepth(technique),
+        let found = self
+            .candidates
+            .iter()
+            .find(|it| it.storage() == Some(storage));
+        match found {
+            Some(found) => Ok(found.clone()),
+            None => {
+                MapEncoding::new(encoding.technique().clone(), storage).map(Candidate::Filterable)
+            }
+        }
+    }
+
+    /// A graph with the technique: in the storage that is `wished`, else in the graph's own where the technique has the same
+    /// settings with it as with the one that it uses best, else in that.
+    pub fn graph(&self, file: &GraphFile, wished: Option<Storage>) -> Result<GraphFile, LabError> {
+        let own = file.encoding().map(|encoding| encoding.storage());
+        let best = &self.candidates[0];
+        let as_good = |it: &&Candidate| it.storage() == own && it.technique() == best.technique();
+        let candidate = match wished {
+            Some(_) => self
+                .in_storage(wished)
+                .map_err(|error| file.unsuitable(error.to_string()))?,
+            None => self.candidates.iter().find(as_good).unwrap_or(best).clone(),
+        };
+        candidate.graph(file)
+    }
+
+    /// The usual settings under a name.
+    fn named(name: &str) -> Option<Self> {
+        let mut candidates = known();
+        candidates.retain(|(known, _)| known == name);
+        let order = candidates.first()?.1.technique()?.storages();
+        candidates.sort_by_key(|(_, it)| order.iter().position(|&of| Some(of) == it.storage()));
+        Some(Self {
+            candidates: candidates.into_iter().map(|(_, it)| it).collect(),
         })
     }
+
+    /// A technique with its settings. Exponents belong to a storage: they have to be legal in one at least.
+    fn given(technique: Technique) -> Result<Self, TechniqueError> {
+        technique.check()?;
+        let mut candidates = Vec::new();
+        let mut refused = Ok(());
+        for &storage in technique.storages() {
+            match MapEncoding::new(technique.clone(), storage) {
+                Ok(encoding) => candidates.push(Candidate::Filterable(encoding)),
+                Err(error) => refused = refused.and(Err(error)),
+            }
+        }
+        if technique.reads_depth() {
+            candidates.push(Candidate::ReadingDepth(technique));
+        }
+        if candidates.is_empty() {
+            refused?;
+        }
+        Ok(Self { candidates })
+    }
+}
+
+/// All techniques with usual settings, by name.
+fn known() -> Vec<(String, Candidate)> {
+    let mut all = techniques::filterable();
+    for index in 0..all.len() {
+        let variant = techniques::variant(all[index].technique());
+        all.extend(variant.and_then(|it| MapEncoding::new(it, all[index].storage()).ok()));
+    }
+    let filterable = all.into_iter().map(Candidate::Filterable);
+    let reading_depth = techniques::reading_depth()
+        .into_iter()
+        .map(Candidate::ReadingDepth);
+    filterable
+        .chain(reading_depth)
+        .filter_map(|it| Some((label(it.technique()?), it)))
+        .collect()
 }
 
 impl FromStr for TechniqueChoice {
-    type Err = TechniqueArgumentError;
+    type Err = String;
 
-    fn from_str(text: &str) -> Result<Self, TechniqueArgumentError> {
-        if text.trim() == PCF {
-            return Ok(Self::PercentageCloser);
+    /// A name, for the usual settings, or settings as in a graph file.
+    fn from_str(text: &str) -> Result<Self, String> {
+        let text = text.trim();
+        if text == PCF {
+            return Ok(Self {
+                candidates: vec![Candidate::PercentageCloser],
+            });
         }
-        let choice = Self::Technique(text.parse()?);
-        // Exponents belong to a storage: they are legal in one at least.
-        choice.in_storage(None)?;
-        Ok(choice)
+        if text.starts_with('{') {
+            let technique = serde_json::from_str(text)
+                .map_err(|error| format!("this is no technique as a graph file has it: {error}"))?;
+            return Self::given(technique).map_err(|error| error.to_string());
+        }
+        Self::named(text).ok_or_else(|| {
+            let mut names: Vec<String> = known().into_iter().map(|(name, _)| name).collect();
+            names.push(PCF.to_owned());
+            names.sort();
+            names.dedup();
+            let nearest = nearest(text, names.iter().map(String::as_str));
+            format!(
+                "there is no technique '{text}'; the nearest are {nearest}, and settings can be given as JSON: \
+                 {{\"esm\": {{\"exponent\": 40.0}}}}"
+            )
+        })
     }
 }
-
-/// What percentage-closer filtering with the graph's kernel is called.
-const PCF: &str = "pcf";
 
 /// All techniques where no choice is made; otherwise the chosen ones. In every storage, or in the one that is given, which
 /// references that read depth do not have.
@@ -162,8 +246,59 @@ pub fn candidates(
     for choice in choices {
         match storage {
             Some(_) => chosen.push(choice.in_storage(storage)?),
-            None => chosen.extend(choice.candidates()),
+            None => chosen.extend_from_slice(choice.candidates()),
         }
     }
     Ok(chosen)
+}
+
+#[cfg(test)]
+mod tests {
+    #![allow(clippy::unwrap_used)]
+
+    use super::*;
+
+    #[test]
+    fn every_name_is_a_technique_in_the_storages_of_its_settings() {
+        let names: Vec<String> = known().into_iter().map(|(name, _)| name).collect();
+        for name in [
+            "binary",
+            "pcf_gaussian",
+            "pcss",
+            "esm",
+            "evsm4",
+            "lvsm_lloyd",
+        ] {
+            assert!(names.iter().any(|known| known == name), "{name}");
+        }
+        for name in names {
+            let choice: TechniqueChoice = name.parse().unwrap();
+            for candidate in choice.candidates() {
+                assert_eq!(
+                    choice.in_storage(candidate.storage()).as_ref(),
+                    Ok(candidate)
+                );
+                assert_eq!(candidate.technique().map(label), Some(name.clone()));
+            }
+        }
+    }
+
+    #[test]
+    fn a_storage_of_the_graph_gives_way_and_a_wished_one_does_not() {
+        let graph = include_str!("../../hard_shadows.json");
+        // Half precision has the least exponent; the usual one is worth another storage.
+        for (name, of_graph, expected) in [
+            ("evsm4", Storage::Unorm16, Storage::Float32),
+            ("esm", Storage::Float16, Storage::Float32),
+            ("vsm", Storage::Float16, Storage::Float16),
+        ] {
+            let file = GraphFile::parse("graph", graph.to_owned(), Some(of_graph)).unwrap();
+            let choice: TechniqueChoice = name.parse().unwrap();
+            let made = choice.graph(&file, None).unwrap().encoding().unwrap();
+            assert_eq!(made.storage(), expected, "{name}");
+            if name == "evsm4" {
+                assert!(choice.graph(&file, Some(of_graph)).is_err());
+            }
+        }
+    }
 }

@@ -1,104 +1,29 @@
-//! Small dense matrices in f64: linear systems, determinants, eigenvalues.
+//! Small dense matrices in f64: inverses, eigenvalues, triangles.
 
-/// A square matrix as a product of a lower and an upper triangle, its rows permuted for the largest pivots.
-#[derive(Clone, Debug)]
-pub struct Factors {
-    size: usize,
-    /// Row by row: the upper triangle with the diagonal, and below it the multipliers.
-    entries: Vec<f64>,
-    /// Which row of the matrix each row of the triangles is.
-    order: Vec<usize>,
-    odd: bool,
-}
+use core::array::from_fn;
 
-impl Factors {
-    /// Factors a matrix of `size` rows, given row by row; nothing if it is singular to rounding.
-    #[must_use]
-    pub fn new(size: usize, mut entries: Vec<f64>) -> Option<Self> {
-        let mut order: Vec<usize> = (0..size).collect();
-        let mut odd = false;
-        for step in 0..size {
-            let pivot = (step..size).max_by(|&one, &other| {
-                let [one, other] = [one, other].map(|row| entries[row * size + step].abs());
-                one.total_cmp(&other)
-            })?;
-            let value = entries[pivot * size + step];
-            if value == 0.0 || !value.is_finite() {
-                return None;
-            }
-            if pivot != step {
-                for column in 0..size {
-                    entries.swap(pivot * size + column, step * size + column);
-                }
-                order.swap(pivot, step);
-                odd = !odd;
-            }
-            for row in step + 1..size {
-                let factor = entries[row * size + step] / entries[step * size + step];
-                entries[row * size + step] = factor;
-                for column in step + 1..size {
-                    entries[row * size + column] -= factor * entries[step * size + column];
-                }
+/// The inverse of a regular matrix, by elimination with the largest pivots.
+#[must_use]
+pub fn inverse<const M: usize>(mut matrix: [[f64; M]; M]) -> [[f64; M]; M] {
+    let mut inverse: [[f64; M]; M] =
+        from_fn(|row| from_fn(|column| f64::from(u8::from(row == column))));
+    for step in 0..M {
+        let size = |&row: &usize| matrix[row][step].abs();
+        let pivot = (step..M)
+            .max_by(|one, other| size(one).total_cmp(&size(other)))
+            .unwrap_or(step);
+        for rows in [&mut matrix, &mut inverse] {
+            rows.swap(step, pivot);
+        }
+        for row in (0..M).filter(|&row| row != step) {
+            let factor = matrix[row][step] / matrix[step][step];
+            for rows in [&mut matrix, &mut inverse] {
+                let subtracted = rows[step];
+                rows[row] = from_fn(|column| rows[row][column] - factor * subtracted[column]);
             }
         }
-        Some(Self {
-            size,
-            entries,
-            order,
-            odd,
-        })
     }
-
-    /// x with A x = `right`.
-    #[must_use]
-    pub fn solve(&self, right: &[f64]) -> Vec<f64> {
-        let at = |row: usize, column: usize| self.entries[row * self.size + column];
-        let mut x: Vec<f64> = self.order.iter().map(|&row| right[row]).collect();
-        for row in 0..self.size {
-            for column in 0..row {
-                x[row] -= at(row, column) * x[column];
-            }
-        }
-        for row in (0..self.size).rev() {
-            for column in row + 1..self.size {
-                x[row] -= at(row, column) * x[column];
-            }
-            x[row] /= at(row, row);
-        }
-        x
-    }
-
-    /// y with A^T y = `right`.
-    #[must_use]
-    pub fn solve_transposed(&self, right: &[f64]) -> Vec<f64> {
-        let at = |row: usize, column: usize| self.entries[row * self.size + column];
-        let mut y = right.to_vec();
-        for row in 0..self.size {
-            for column in 0..row {
-                y[row] -= at(column, row) * y[column];
-            }
-            y[row] /= at(row, row);
-        }
-        for row in (0..self.size).rev() {
-            for column in row + 1..self.size {
-                y[row] -= at(column, row) * y[column];
-            }
-        }
-        let mut permuted = vec![0.0; self.size];
-        for (&row, value) in self.order.iter().zip(y) {
-            permuted[row] = value;
-        }
-        permuted
-    }
-
-    /// The determinant.
-    #[must_use]
-    pub fn determinant(&self) -> f64 {
-        let product: f64 = (0..self.size)
-            .map(|row| self.entries[row * (self.size + 1)])
-            .product();
-        if self.odd { -product } else { product }
-    }
+    from_fn(|row| inverse[row].map(|entry| entry / matrix[row][row]))
 }
 
 /// The smallest eigenvalue of a symmetric matrix of `N` rows, by Jacobi's rotations: as accurate as the entries, which a
@@ -125,8 +50,8 @@ pub fn smallest_eigenvalue<const N: usize>(mut a: [[f64; N]; N]) -> f64 {
                     row[q] = sine * x + cosine * y;
                 }
                 let (first, second) = (a[p], a[q]);
-                a[p] = core::array::from_fn(|k| cosine * first[k] - sine * second[k]);
-                a[q] = core::array::from_fn(|k| sine * first[k] + cosine * second[k]);
+                a[p] = from_fn(|k| cosine * first[k] - sine * second[k]);
+                a[q] = from_fn(|k| sine * first[k] + cosine * second[k]);
             }
         }
         if !rotated {

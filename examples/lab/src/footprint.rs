@@ -7,12 +7,11 @@ use crate::error::LabError;
 use crate::frame::{Frame, FrameDesc};
 use crate::gpu::Gpu;
 use crate::graph_file::GraphFile;
-use crate::host::{SurfacePixels, read_depth_samples, read_gbuffer};
+use crate::host::{SurfacePixels, read_gbuffer};
+use crate::judgement::Unfiltered;
 use crate::light::LightView;
 use crate::scene::Scene;
-use crate::truth::kernel::TapPattern;
 use crate::truth::pcf::pcf;
-use crate::truth::surface::{DepthRounding, MomentDepths};
 
 /// Places per pixel along each side at which the truth is evaluated.
 pub const PLACES: u32 = 8;
@@ -46,11 +45,7 @@ impl PixelTruth {
                 ..desc
             },
         )?;
-        let stored = read_depth_samples(gpu, &fine.light_map.texture)?;
-        let depths = MomentDepths::from_stored(&desc.light, &stored, DepthRounding::Float32)?;
-        let taps = file.kernel()?.map_or_else(TapPattern::unblurred, |kernel| {
-            TapPattern::of_kernel(&kernel)
-        });
+        let Unfiltered { depths, taps } = Unfiltered::of(gpu, &fine, file)?;
         let surface = read_gbuffer(gpu, &fine.surface)?;
         let intensities = pcf(&desc.light, &depths, &taps, &surface)?;
         let [width, height] = desc.picture;

@@ -104,6 +104,6 @@ impl Frame {
             self.renderer
                 .shade(gpu, &mut encoder, &self.surface, &view, &self.lighting)?;
         gpu.queue.submit([encoder.finish()]);
-        Ok(gpu.read_texture(&picture, 0, "picture")?)
+        gpu.read_texture(&picture, 0, "picture")
     }
 }

@@ -1,51 +1,12 @@
 //! Opening an adapter the same way everywhere: native interfaces only, exactly the features of one profile.
 
+use std::fmt::Display;
 use std::sync::{Arc, Mutex};
 
 use moment_shadows::Profile;
+use wgpu::util::{DeviceExt, DownloadBuffer};
 
-/// Why no device is available, or why it stopped working.
-#[derive(Debug, thiserror::Error)]
-#[non_exhaustive]
-pub enum GpuError {
-    /// The machine has no adapter that could run a graph.
-    #[error(
-        "no graphics adapter was found for Vulkan, Metal or Direct3D 12; on Debian install a software driver with `apt-get install mesa-vulkan-drivers`, \
-         elsewhere install a Vulkan, Metal or Direct3D 12 driver"
-    )]
-    NoAdapter,
-    /// The adapter lacks what the profile asks for.
-    #[error(
-        "adapter '{adapter}' lacks {missing:?}, which the profile {profile} asks for; choose a smaller profile"
-    )]
-    MissingFeatures {
-        /// The adapter's name.
-        adapter: String,
-        /// The profile that was asked for.
-        profile: Profile,
-        /// The features that are missing.
-        missing: wgpu::Features,
-    },
-    /// The adapter refused to make a device.
-    #[error("adapter '{adapter}' gave no device: {reason}")]
-    NoDevice {
-        /// The adapter's name.
-        adapter: String,
-        /// What the driver said.
-        reason: String,
-    },
-    /// A result could not be read back.
-    #[error("the device could not give back '{what}': {reason}; it may have been lost")]
-    Readback {
-        /// The label of the buffer or texture.
-        what: String,
-        /// What the driver said.
-        reason: String,
-    },
-    /// Errors that the device reported outside any scope.
-    #[error("the device reported an error: {0}")]
-    Device(String),
-}
+use crate::error::LabError;
 
 /// An open device with its queue.
 pub struct Gpu {
@@ -60,22 +21,25 @@ pub struct Gpu {
 
 impl Gpu {
     /// Opens the best adapter with exactly the features of `profile`.
-    pub fn open(profile: Profile) -> Result<Self, GpuError> {
+    pub fn open(profile: Profile) -> Result<Self, LabError> {
         Self::open_with(profile, wgpu::Features::empty())
     }
 
     /// Opens the best adapter with the features of `profile` and those of `optional` that it has.
-    pub fn open_with(profile: Profile, optional: wgpu::Features) -> Result<Self, GpuError> {
-        let adapter = best_adapter().ok_or(GpuError::NoAdapter)?;
+    pub fn open_with(profile: Profile, optional: wgpu::Features) -> Result<Self, LabError> {
+        let adapter = best_adapter().ok_or_else(|| {
+            LabError::refused(
+                "no graphics adapter was found for Vulkan, Metal or Direct3D 12; on Debian install a software driver with \
+                 `apt-get install mesa-vulkan-drivers`, elsewhere install a Vulkan, Metal or Direct3D 12 driver",
+            )
+        })?;
         let name = adapter.get_info().name;
         let required = required_features(profile);
         let missing = required - adapter.features();
         if !missing.is_empty() {
-            return Err(GpuError::MissingFeatures {
-                adapter: name,
-                profile,
-                missing,
-            });
+            return Err(LabError::refused(format!(
+                "adapter '{name}' lacks {missing:?}, which the profile {profile} asks for; choose a smaller profile"
+            )));
         }
         let descriptor = wgpu::DeviceDescriptor {
             label: Some("moment-shadows lab"),
@@ -84,10 +48,7 @@ impl Gpu {
         };
         let (device, queue) =
             pollster::block_on(adapter.request_device(&descriptor)).map_err(|error| {
-                GpuError::NoDevice {
-                    adapter: name,
-                    reason: error.to_string(),
-                }
+                LabError::refused(format!("adapter '{name}' gave no device: {error}"))
             })?;
         let errors = Arc::new(Mutex::new(Vec::new()));
         let sink = Arc::clone(&errors);
@@ -116,7 +77,7 @@ impl Gpu {
     }
 
     /// The first error that the device reported outside any scope, if there was one.
-    pub fn check(&self) -> Result<(), GpuError> {
+    pub fn check(&self) -> Result<(), LabError> {
         let first = self.errors.lock().ok().and_then(|mut errors| {
             if errors.is_empty() {
                 None
@@ -124,23 +85,104 @@ impl Gpu {
                 Some(errors.remove(0))
             }
         });
-        first.map_or(Ok(()), |error| Err(GpuError::Device(error)))
+        first.map_or(Ok(()), |error| {
+            let reason = format!("the device reported an error: {error}");
+            Err(LabError::refused(reason))
+        })
+    }
+
+    /// A compute pipeline whose layout is what its shader binds.
+    pub fn compute(&self, label: &str, wgsl: &str, entry_point: &str) -> wgpu::ComputePipeline {
+        let module = self
+            .device
+            .create_shader_module(wgpu::ShaderModuleDescriptor {
+                label: Some(label),
+                source: wgpu::ShaderSource::Wgsl(wgsl.into()),
+            });
+        self.device
+            .create_compute_pipeline(&wgpu::ComputePipelineDescriptor {
+                label: Some(label),
+                layout: None,
+                module: &module,
+                entry_point: Some(entry_point),
+                compilation_options: wgpu::PipelineCompilationOptions::default(),
+                cache: None,
+            })
+    }
+
+    /// A group of what its bindings 0, 1, ... are.
+    pub fn bind<'a>(
+        &self,
+        layout: &wgpu::BindGroupLayout,
+        resources: impl IntoIterator<Item = wgpu::BindingResource<'a>>,
+    ) -> wgpu::BindGroup {
+        let entries: Vec<_> = (0..)
+            .zip(resources)
+            .map(|(binding, resource)| wgpu::BindGroupEntry { binding, resource })
+            .collect();
+        self.device.create_bind_group(&wgpu::BindGroupDescriptor {
+            label: None,
+            layout,
+            entries: &entries,
+        })
+    }
+
+    /// A buffer of `size` bytes that a shader writes and [`read_buffer`](Self::read_buffer) reads.
+    pub fn output(&self, label: &str, size: u64) -> wgpu::Buffer {
+        self.device.create_buffer(&wgpu::BufferDescriptor {
+            label: Some(label),
+            size,
+            usage: wgpu::BufferUsages::STORAGE | wgpu::BufferUsages::COPY_SRC,
+            mapped_at_creation: false,
+        })
+    }
+
+    /// A buffer of these bytes.
+    pub fn filled(&self, label: &str, contents: &[u8], usage: wgpu::BufferUsages) -> wgpu::Buffer {
+        let descriptor = wgpu::util::BufferInitDescriptor {
+            label: Some(label),
+            contents,
+            usage,
+        };
+        self.device.create_buffer_init(&descriptor)
+    }
+
+    /// Dispatches a pipeline once, with groups 0, 1, ..., and submits that.
+    pub fn dispatch(
+        &self,
+        pipeline: &wgpu::ComputePipeline,
+        groups: &[&wgpu::BindGroup],
+        [x, y]: [u32; 2],
+    ) {
+        let mut encoder = self.device.create_command_encoder(&Default::default());
+        let mut pass = encoder.begin_compute_pass(&Default::default());
+        pass.set_pipeline(pipeline);
+        for (index, group) in (0..).zip(groups) {
+            pass.set_bind_group(index, *group, &[]);
+        }
+        pass.dispatch_workgroups(x, y, 1);
+        drop(pass);
+        self.queue.submit([encoder.finish()]);
     }
 
     /// Copies a buffer (usage `COPY_SRC`) to the processor and waits for it.
-    pub fn read_buffer(&self, buffer: &wgpu::Buffer, label: &str) -> Result<Vec<u8>, GpuError> {
-        let staging = self.device.create_buffer(&wgpu::BufferDescriptor {
-            label: Some(label),
-            size: buffer.size(),
-            usage: wgpu::BufferUsages::MAP_READ | wgpu::BufferUsages::COPY_DST,
-            mapped_at_creation: false,
+    pub fn read_buffer(&self, buffer: &wgpu::Buffer, label: &str) -> Result<Vec<u8>, LabError> {
+        let failed = |reason: &dyn Display| lost(label, reason);
+        let (send, receive) = std::sync::mpsc::channel();
+        let whole = buffer.slice(..);
+        DownloadBuffer::read_buffer(&self.device, &self.queue, &whole, move |result| {
+            // The receiver is gone only if this function returned early; then nobody waits for the answer.
+            let _ = send.send(result);
         });
-        let mut encoder = self
-            .device
-            .create_command_encoder(&wgpu::CommandEncoderDescriptor { label: Some(label) });
-        encoder.copy_buffer_to_buffer(buffer, 0, &staging, 0, buffer.size());
-        self.queue.submit([encoder.finish()]);
-        self.map(&staging, label)
+        self.device
+            .poll(wgpu::PollType::wait_indefinitely())
+            .map_err(|error| failed(&error))?;
+        let data = receive
+            .recv()
+            .map_err(|error| failed(&error))?
+            .map_err(|error| failed(&error))?;
+        self.check()?;
+        Ok(data.to_vec())
     }
 
     /// Copies layer `layer` of mip 0 of a single-sampled colour texture (usage `COPY_SRC`) to the processor,
@@ -150,7 +192,7 @@ impl Gpu {
         texture: &wgpu::Texture,
         layer: u32,
         label: &str,
-    ) -> Result<Vec<u8>, GpuError> {
+    ) -> Result<Vec<u8>, LabError> {
         self.read_level(texture, layer, 0, label)
     }
 
@@ -161,13 +203,9 @@ impl Gpu {
         layer: u32,
         level: u32,
         label: &str,
-    ) -> Result<Vec<u8>, GpuError> {
+    ) -> Result<Vec<u8>, LabError> {
         let width = (texture.width() >> level).max(1);
         let height = (texture.height() >> level).max(1);
-        let failed = |reason: String| GpuError::Readback {
-            what: label.to_owned(),
-            reason,
-        };
         let aspect = if texture.format().has_depth_aspect() {
             wgpu::TextureAspect::DepthOnly
         } else {
@@ -176,13 +214,18 @@ impl Gpu {
         let texel_bytes = texture
             .format()
             .block_copy_size(Some(aspect))
-            .ok_or_else(|| failed(format!("format {:?} cannot be copied", texture.format())))?;
+            .ok_or_else(|| {
+                lost(
+                    label,
+                    &format!("format {:?} cannot be copied", texture.format()),
+                )
+            })?;
         let row = width * texel_bytes;
         let padded = row.next_multiple_of(wgpu::COPY_BYTES_PER_ROW_ALIGNMENT);
         let staging = self.device.create_buffer(&wgpu::BufferDescriptor {
             label: Some(label),
             size: u64::from(padded) * u64::from(height),
-            usage: wgpu::BufferUsages::MAP_READ | wgpu::BufferUsages::COPY_DST,
+            usage: wgpu::BufferUsages::COPY_SRC | wgpu::BufferUsages::COPY_DST,
             mapped_at_creation: false,
         });
         let mut encoder = self
@@ -214,39 +257,19 @@ impl Gpu {
             },
         );
         self.queue.submit([encoder.finish()]);
-        let data = self.map(&staging, label)?;
+        let data = self.read_buffer(&staging, label)?;
         Ok(data
             .chunks_exact(padded as usize)
             .flat_map(|line| &line[..row as usize])
             .copied()
             .collect())
     }
+}
 
-    fn map(&self, staging: &wgpu::Buffer, label: &str) -> Result<Vec<u8>, GpuError> {
-        let failed = |reason: String| GpuError::Readback {
-            what: label.to_owned(),
-            reason,
-        };
-        let (send, receive) = std::sync::mpsc::channel();
-        staging.map_async(wgpu::MapMode::Read, .., move |result| {
-            // The receiver is gone only if this function returned early; then nobody waits for the answer.
-            let _ = send.send(result);
-        });
-        self.device
-            .poll(wgpu::PollType::wait_indefinitely())
-            .map_err(|error| failed(error.to_string()))?;
-        receive
-            .recv()
-            .map_err(|error| failed(error.to_string()))?
-            .map_err(|error| failed(error.to_string()))?;
-        let data = staging
-            .get_mapped_range(..)
-            .map_err(|error| failed(error.to_string()))?
-            .to_vec();
-        staging.unmap();
-        self.check()?;
-        Ok(data)
-    }
+fn lost(label: &str, reason: &dyn Display) -> LabError {
+    LabError::refused(format!(
+        "the device could not give back '{label}': {reason}; it may have been lost"
+    ))
 }
 
 /// The features that a profile stands for.

@@ -26,10 +26,8 @@ impl GraphFile {
     /// Reads a file. With a storage, every `resolve` node uses that instead of its own.
     pub fn read(path: &Path, storage: Option<Storage>) -> Result<Self, LabError> {
         let name = path.display().to_string();
-        let text = std::fs::read_to_string(path).map_err(|error| LabError::Read {
-            path: name.clone(),
-            reason: error.to_string(),
-        })?;
+        let text = std::fs::read_to_string(path)
+            .map_err(|error| LabError::refused(format!("{name} cannot be read: {error}")))?;
         let file = Self::parse(&name, text, storage)?;
         for note in &file.graph.notes {
             eprintln!("note: {name} is of version 1: {note} now");
@@ -50,11 +48,13 @@ impl GraphFile {
         let mut text = text;
         if !graph.notes.is_empty() {
             let mut file: Value = serde_json::from_str(&text).unwrap_or_default();
-            moment_shadows_graph::upgrade(&mut file);
+            Graph::upgrade(&mut file);
             text = file.to_string();
         }
         if let Some(storage) = storage {
-            text = with_property(&text, "resolve", "storage", storage.name().into());
+            let mut file: Value = serde_json::from_str(&text).unwrap_or_default();
+            set_property(&mut file, "resolve", "storage", storage.name().into());
+            text = file.to_string();
             graph.nodes = parsed(&text)?.nodes;
         }
         Ok(Self {
@@ -64,114 +64,104 @@ impl GraphFile {
         })
     }
 
+    /// This graph with something in its file changed.
+    fn edited(&self, edit: impl FnOnce(&mut Value)) -> Result<Self, LabError> {
+        let mut file: Value = serde_json::from_str(&self.text).unwrap_or_default();
+        edit(&mut file);
+        Self::parse(&self.name, file.to_string(), None)
+    }
+
     /// This graph with its shadow intensity written in single precision, so that it can be measured.
     pub fn in_single_precision(&self) -> Result<Self, LabError> {
-        let mut text = self.text.clone();
-        for node_type in ["shade_hard", "shade_soft"] {
-            text = with_property(&text, node_type, "format", "r32float".into());
-        }
-        Self::parse(&self.name, text, None)
+        self.edited(|file| {
+            for node_type in ["shade_hard", "shade_soft"] {
+                set_property(file, node_type, "format", "r32float".into());
+            }
+        })
     }
 
     /// Whether a node of this type is in the graph.
     #[must_use]
     pub fn has_node(&self, node_type: &str) -> bool {
-        nodes(&self.text)
-            .iter()
-            .any(|node| node["type"] == node_type)
+        self.node_of(node_type).is_some()
     }
 
     /// This graph without mip levels: what read a downsampled map reads the map itself.
     pub fn without_mip_levels(&self) -> Result<Self, LabError> {
-        let mut file: Value = serde_json::from_str(&self.text).unwrap_or_default();
-        let mut sources = std::collections::BTreeMap::new();
-        for node in nodes(&self.text) {
-            let name = node["name"].as_str().unwrap_or_default();
-            if node["type"] == "downsample" {
-                sources.insert(format!("{name}.map"), String::new());
+        let nodes = nodes(&self.text);
+        let downsampled: Vec<String> = nodes
+            .iter()
+            .filter(|node| node["type"] == "downsample")
+            .map(|node| format!("{}.map", node["name"].as_str().unwrap_or_default()))
+            .collect();
+        self.edited(|file| {
+            let mut sources = Vec::new();
+            if let Some(edges) = file["edges"].as_array_mut() {
+                let ends = |edge: &Value| downsampled.iter().any(|map| edge["to"] == map.as_str());
+                sources = edges.extract_if(.., |edge| ends(edge)).collect();
             }
-        }
-        if let Some(edges) = file["edges"].as_array_mut() {
-            edges.retain(|edge| {
-                let ends = [&edge["from"], &edge["to"]].map(|end| end.as_str().unwrap_or_default());
-                let source = sources.get_mut(ends[1]);
-                let goes = source.is_some();
-                if let Some(source) = source {
-                    *source = ends[0].to_owned();
-                }
-                !goes
-            });
-        }
-        for list in ["edges", "outputs"] {
-            if let Some(items) = file[list].as_array_mut() {
-                for item in items {
-                    let from = item["from"].as_str().unwrap_or_default().to_owned();
-                    if let Some(source) = sources.get(&from) {
-                        item["from"] = source.clone().into();
+            for list in ["edges", "outputs"] {
+                for item in items(file, list) {
+                    if let Some(source) = sources.iter().find(|edge| edge["to"] == item["from"]) {
+                        item["from"] = source["from"].clone();
                     }
                 }
             }
-        }
-        if let Some(nodes) = file["nodes"].as_array_mut() {
-            nodes.retain(|node| node["type"] != "downsample");
-            for node in nodes {
-                if let Some(properties) = node["properties"].as_object_mut() {
-                    properties.remove("mip_levels");
-                }
+            if let Some(nodes) = file["nodes"].as_array_mut() {
+                nodes.retain(|node| node["type"] != "downsample");
             }
-        }
-        Self::parse(&self.name, file.to_string(), None)
+            for node in items(file, "nodes") {
+                remove_property(node, "mip_levels");
+            }
+        })
     }
 
     /// This graph with a Gaussian of this radius and 0.6 times that as its standard deviation in place of its kernel.
     pub fn with_radius(&self, radius: u32) -> Result<Self, LabError> {
         if self.kernel()?.is_none() {
-            return Err(LabError::unsuitable(
-                &self.name,
-                "it has no blur node whose radius could be another; add one",
-            ));
+            return Err(
+                self.unsuitable("it has no blur node whose radius could be another; add one")
+            );
         }
         let kernel = serde_json::json!({ "radius": radius });
-        let text = with_property(&self.text, "blur", "kernel", kernel);
-        let file = Self::parse(&self.name, text, None)?;
+        let file = self.edited(|file| set_property(file, "blur", "kernel", kernel))?;
         file.kernel()?;
         Ok(file)
     }
 
     /// This graph with the filtered map that its `shade_hard` node looks up as a further output, and that output's name.
     pub fn with_filtered_map(&self) -> Result<(Self, String), LabError> {
-        let unsuitable = |reason: &str| self.unsuitable(reason.to_owned());
-        let shade = nodes(&self.text)
-            .into_iter()
-            .find(|node| node["type"] == "shade_hard")
+        let unsuitable = |reason: &str| self.unsuitable(reason);
+        let shade = self
+            .node_of("shade_hard")
             .ok_or_else(|| unsuitable("it has no shade_hard node whose map could be judged"))?;
         let slot = format!("{}.map", shade["name"].as_str().unwrap_or_default());
-        let mut file: Value = serde_json::from_str(&self.text).unwrap_or_default();
-        let edges = file["edges"].as_array().cloned().unwrap_or_default();
-        let source = edges
-            .into_iter()
-            .find(|edge| edge["to"] == slot.as_str())
-            .map(|edge| edge["from"].clone())
+        let source = self
+            .find("edges", "to", &slot)
+            .map(|edge| edge["from"].as_str().unwrap_or_default().to_owned())
             .ok_or_else(|| unsuitable("no edge leads to the moments of its shade_hard node"))?;
-        let Some(outputs) = file["outputs"].as_array_mut() else {
-            return Err(unsuitable("it has no outputs"));
-        };
-        if let Some(output) = outputs.iter().find(|output| output["from"] == source) {
+        if let Some(output) = self.find("outputs", "from", &source) {
             let name = output["name"].as_str().unwrap_or_default().to_owned();
-            return Ok((Self::parse(&self.name, self.text.clone(), None)?, name));
+            return Ok((self.edited(|_| ())?, name));
         }
         let name = "lab_filtered_map".to_owned();
-        outputs.push(serde_json::json!({ "name": name, "from": source }));
-        Ok((Self::parse(&self.name, file.to_string(), None)?, name))
+        let output = serde_json::json!({ "name": name, "from": source });
+        let file = self.edited(|file| push(file, "outputs", output))?;
+        Ok((file, name))
     }
 
     /// An entry of a node as the file has it, such as its type; null where it is missing.
     #[must_use]
     pub fn node_entry(&self, node: &str, entry: &str) -> Value {
-        nodes(&self.text)
-            .into_iter()
-            .find(|candidate| candidate["name"] == node)
+        self.find("nodes", "name", node)
             .map_or(Value::Null, |found| found[entry].clone())
+    }
+
+    /// The first item of one of the file's lists whose entry `key` is `value`.
+    fn find(&self, list: &str, key: &str, value: &str) -> Option<Value> {
+        let mut file: Value = serde_json::from_str(&self.text).unwrap_or_default();
+        let found = items(&mut file, list).find(|item| item[key] == value);
+        found.map(|item| item.take())
     }
 
     /// The kernel of the graph's blur; `None` for a graph without a blur.
@@ -190,13 +180,10 @@ impl GraphFile {
                     file: self.name.clone(),
                     error,
                 }),
-            _ => Err(LabError::unsuitable(
-                &self.name,
-                format!(
-                    "it has {} blur nodes; the receiver bias and the truth are derived from one kernel",
-                    kernels.len()
-                ),
-            )),
+            _ => Err(self.unsuitable(format!(
+                "it has {} blur nodes; the receiver bias and the truth are derived from one kernel",
+                kernels.len()
+            ))),
         }
     }
 }
@@ -206,13 +193,26 @@ fn nodes(text: &str) -> Vec<Value> {
     file["nodes"].as_array().cloned().unwrap_or_default()
 }
 
-/// The text with a property of every node of a type replaced. The text has been parsed before.
-fn with_property(text: &str, node_type: &str, property: &str, value: Value) -> String {
-    let mut file: Value = serde_json::from_str(text).unwrap_or_default();
-    if let Some(nodes) = file["nodes"].as_array_mut() {
-        for node in nodes.iter_mut().filter(|node| node["type"] == node_type) {
-            node["properties"][property] = value.clone();
-        }
+/// The items of one of the file's lists.
+fn items<'a>(file: &'a mut Value, list: &str) -> impl Iterator<Item = &'a mut Value> + use<'a> {
+    file[list].as_array_mut().into_iter().flatten()
+}
+
+fn push(file: &mut Value, list: &str, item: Value) {
+    if let Some(items) = file[list].as_array_mut() {
+        items.push(item);
     }
-    file.to_string()
+}
+
+/// Replaces a property of every node of a type.
+fn set_property(file: &mut Value, node_type: &str, property: &str, value: Value) {
+    for node in items(file, "nodes").filter(|node| node["type"] == node_type) {
+        node["properties"][property] = value.clone();
+    }
+}
+
+fn remove_property(node: &mut Value, property: &str) {
+    if let Some(properties) = node["properties"].as_object_mut() {
+        properties.remove(property);
+    }
 }

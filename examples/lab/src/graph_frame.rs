@@ -7,9 +7,7 @@ use moment_shadows::{
 use moment_shadows_graph::record::{
     Bindings, ImportedResource, PipelineOptions, Pipelines, Recording, Resources,
 };
-use moment_shadows_graph::{
-    Capabilities, Imports, Plan, ResourceDesc, Stage, TextureDesc, compile,
-};
+use moment_shadows_graph::{Capabilities, Plan, ResourceDesc, Stage, TextureDesc};
 use pollster::block_on;
 
 use crate::error::LabError;
@@ -60,12 +58,13 @@ impl GraphFrame {
     ) -> Result<Self, LabError> {
         let desc = &frame.desc;
         let capabilities = Capabilities::of_device(&gpu.adapter, &gpu.device);
-        let plan = compile(&file.graph, &capabilities, &imports(desc)).map_err(|error| {
-            LabError::Graph {
+        let plan = file
+            .graph
+            .compile(&capabilities, &imports(desc))
+            .map_err(|error| LabError::Graph {
                 file: file.name.clone(),
                 error,
-            }
-        })?;
+            })?;
         let pipelines = block_on(Pipelines::create(
             &gpu.device,
             &plan,
@@ -113,10 +112,7 @@ impl GraphFrame {
         file: &GraphFile,
         air: Option<&Air>,
     ) -> Result<(), LabError> {
-        let mut bytes = parameter_bytes(&self.plan, desc, file)?;
-        if let Some(air) = air {
-            fill_scattering(&self.plan, &mut bytes, &scattering_parameters(desc, air)?)?;
-        }
+        let bytes = parameter_bytes(&self.plan, desc, file, air)?;
         gpu.queue.write_buffer(&self.parameters, 0, &bytes);
         Ok(())
     }
@@ -140,7 +136,7 @@ impl GraphFrame {
                 .record(stage, &mut encoder, Recording::default())?;
         }
         gpu.queue.submit([encoder.finish()]);
-        Ok(gpu.check()?)
+        gpu.check()
     }
 
     /// The shadow intensity that the graph gives.
@@ -178,42 +174,49 @@ fn stored_format(desc: &FrameDesc) -> TextureFormat {
 }
 
 /// What the host gives, described for the compiler.
-pub fn imports(desc: &FrameDesc) -> Imports {
+pub fn imports(desc: &FrameDesc) -> [(&'static str, ResourceDesc); 2] {
     let light_format = stored_format(desc);
     let texture = |texture| ResourceDesc::Texture(texture);
-    Imports::from([
+    [
         (
-            "light_depth".to_owned(),
+            "light_depth",
             texture(TextureDesc {
                 samples: desc.samples,
                 ..TextureDesc::new(light_format, desc.map)
             }),
         ),
         (
-            "camera_depth".to_owned(),
+            "camera_depth",
             texture(TextureDesc::new(TextureFormat::Depth32Float, desc.picture)),
         ),
-    ])
+    ]
 }
 
-/// The parameters of the library's nodes for a frame, as the plan lays them out.
+/// The parameters of the library's nodes for a frame, with something in the air or nothing, as the plan lays them out.
 pub fn parameter_bytes(
     plan: &Plan,
     desc: &FrameDesc,
     file: &GraphFile,
+    air: Option<&Air>,
 ) -> Result<Vec<u8>, LabError> {
-    let mut bytes = plan.parameters.initial();
-    for block in &plan.parameters.blocks {
-        match block.name.as_str() {
-            "DepthConversion" => {
-                let conversion = light_view(desc).depth.conversion()?;
-                plan.parameters
-                    .write(&mut bytes, &block.node, 0, &conversion)?;
+    let air = air
+        .map(|air| scattering_parameters(desc, air))
+        .transpose()?;
+    let blocks = &plan.parameters;
+    let mut bytes = blocks.initial();
+    for block in &blocks.blocks {
+        let (into, node) = (&mut bytes, &block.node);
+        match (block.name.as_str(), &air) {
+            ("DepthConversion", _) => {
+                blocks.write(into, node, 0, &light_view(desc).depth.conversion()?)?;
             }
-            "ViewParameters" => {
-                let parameters = shade_parameters(desc, file)?;
-                plan.parameters
-                    .write(&mut bytes, &block.node, 0, &parameters)?;
+            ("ViewParameters", _) => blocks.write(into, node, 0, &shade_parameters(desc, file)?)?,
+            ("RectifyMomentsParameters", Some(air)) => blocks.write(into, node, 0, &air.rectify)?,
+            ("IntegrateScatteringParameters", Some(air)) => {
+                blocks.write(into, node, 0, &air.integrate)?;
+            }
+            ("CompositeScatteringParameters", Some(air)) => {
+                blocks.write(into, node, 0, &air.composite)?;
             }
             _ => {}
         }
@@ -233,28 +236,6 @@ pub fn scattering_parameters(
         &light_view(desc),
         air.medium,
     )?)
-}
-
-/// Fills the blocks of all nodes of single scattering.
-pub(crate) fn fill_scattering(
-    plan: &Plan,
-    bytes: &mut [u8],
-    parameters: &ScatteringParameters,
-) -> Result<(), LabError> {
-    for block in &plan.parameters.blocks {
-        let (blocks, node) = (&plan.parameters, &block.node);
-        match block.name.as_str() {
-            "RectifyMomentsParameters" => blocks.write(bytes, node, 0, &parameters.rectify)?,
-            "IntegrateScatteringParameters" => {
-                blocks.write(bytes, node, 0, &parameters.integrate)?;
-            }
-            "CompositeScatteringParameters" => {
-                blocks.write(bytes, node, 0, &parameters.composite)?;
-            }
-            _ => {}
-        }
-    }
-    Ok(())
 }
 
 /// The camera in the library's terms.

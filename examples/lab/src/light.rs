@@ -1,12 +1,13 @@
 //! A light as the host sees it: matrices and depth conventions in f64, so that they can serve as truth.
 
-mod error;
 mod shape;
 mod stored_depth;
 
 use glam::{DMat4, DVec2, DVec3, DVec4};
 
-pub use error::LightError;
+use crate::error::LabError;
+
+pub(crate) use shape::wrong_size;
 pub use shape::{LightShape, USUAL_LIGHT_ANGLE};
 pub use stored_depth::StoredDepth;
 
@@ -64,20 +65,21 @@ impl LightView {
         direction: DVec3,
         casters: &[DVec3],
         fit: DirectionalFit,
-    ) -> Result<Self, LightError> {
+    ) -> Result<Self, LabError> {
         let rotation = rotation_towards(direction)?;
         if casters.is_empty() {
-            return Err(LightError::NoCasters);
+            return Err(LabError::refused(
+                "a directional light cannot be fitted: there are no casters; give at least one point",
+            ));
         }
         let mut low = DVec3::INFINITY;
         let mut high = DVec3::NEG_INFINITY;
         for (index, &point) in casters.iter().enumerate() {
             let inside = rotation.transform_vector3(point);
             if !inside.is_finite() {
-                return Err(LightError::Caster {
-                    index,
-                    point: point.to_array(),
-                });
+                return Err(LabError::refused(format!(
+                    "a directional light cannot be fitted: caster point {index} is {point}, which is not finite"
+                )));
             }
             low = low.min(inside);
             high = high.max(inside);
@@ -90,10 +92,11 @@ impl LightView {
         let map = DVec2::new(f64::from(fit.map[0]), f64::from(fit.map[1]));
         let inner = map - 2.0 * fit.margin;
         if !(fit.margin >= 0.0 && inner.min_element() >= 1.0) {
-            return Err(LightError::Margin {
-                map: fit.map,
-                margin: fit.margin,
-            });
+            return Err(LabError::refused(format!(
+                "a map of {}x{} texels has no room for a margin of {} texels on each side; choose a larger map or a smaller \
+                 margin",
+                fit.map[0], fit.map[1], fit.margin
+            )));
         }
         let half_map = DVec2::new(half.x, half.y) * map / inner;
         let [near, far] = range_of_casters([0.0, 2.0 * half.z]);
@@ -123,21 +126,25 @@ impl LightView {
         far: Option<f64>,
         range: [f64; 2],
         reversed: bool,
-    ) -> Result<Self, LightError> {
+    ) -> Result<Self, LabError> {
         if !position.is_finite() {
-            return Err(LightError::Position {
-                position: position.to_array(),
-            });
+            let reason = format!("the light's position {position} is not finite");
+            return Err(LabError::refused(reason));
         }
         let rotation = rotation_towards(direction)?;
         if !(full_angle > 0.0 && full_angle < std::f64::consts::PI) {
-            return Err(LightError::Angle { angle: full_angle });
+            return Err(LabError::refused(format!(
+                "the spot light's full angle of {full_angle} radians must lie between 0 and pi, both excluded"
+            )));
         }
-        let interval = |what, [near, far]: [f64; 2], finite: bool| {
+        let interval = |what: &str, [near, far]: [f64; 2], finite: bool| {
             if near > 0.0 && near < far && near.is_finite() && (far.is_finite() || !finite) {
                 Ok(())
             } else {
-                Err(LightError::Interval { what, near, far })
+                Err(LabError::refused(format!(
+                    "the light's {what} reaches from {near} to {far}; it must be finite, start above zero and end beyond its \
+                     start"
+                )))
             }
         };
         interval(
@@ -263,9 +270,11 @@ impl LightView {
 }
 
 /// The rotation after which `direction` is -z and x is horizontal.
-pub(crate) fn rotation_towards(direction: DVec3) -> Result<DMat4, LightError> {
-    let forward = direction.try_normalize().ok_or(LightError::Direction {
-        direction: direction.to_array(),
+pub(crate) fn rotation_towards(direction: DVec3) -> Result<DMat4, LabError> {
+    let forward = direction.try_normalize().ok_or_else(|| {
+        LabError::refused(format!(
+            "the light's direction {direction} cannot be normalised; give a finite, non-zero direction"
+        ))
     })?;
     // Straight up or down any horizontal x will do.
     let right = forward

@@ -4,28 +4,12 @@ use std::fmt;
 
 use serde::Serialize;
 
+use crate::error::LabError;
+use crate::truth::check_length;
+
 /// Truths between these two, both excluded, make up the penumbra band. It is not dilated: what a technique leaks into
 /// the umbra around it is seen in the figures over all facing pixels.
 pub const PENUMBRA: [f32; 2] = [0.01, 0.99];
-
-/// Why two pictures cannot be compared.
-#[derive(Clone, Debug, PartialEq, thiserror::Error)]
-#[non_exhaustive]
-pub enum MetricError {
-    /// The lists belong to pictures of different sizes.
-    #[error(
-        "pictures of {estimate} and {truth} pixels with {facing} facing flags cannot be compared; \
-         give lists of one length"
-    )]
-    Length {
-        /// Pixels of the estimate.
-        estimate: usize,
-        /// Pixels of the truth.
-        truth: usize,
-        /// Flags.
-        facing: usize,
-    },
-}
 
 /// Figures of the absolute error over a set of samples: pixels, or surfaces that a light's rays meet. All are 0 for an
 /// empty set.
@@ -70,18 +54,9 @@ pub struct Excess {
 
 /// Compares `estimate` with `truth`; `facing` tells which pixels show a surface that faces the light (normal times
 /// direction to the light above 0). Sums run over the pixels in order, in f64: the same pictures give the same figures.
-pub fn compare(
-    estimate: &[f32],
-    truth: &[f32],
-    facing: &[bool],
-) -> Result<Comparison, MetricError> {
-    if estimate.len() != truth.len() || facing.len() != truth.len() {
-        return Err(MetricError::Length {
-            estimate: estimate.len(),
-            truth: truth.len(),
-            facing: facing.len(),
-        });
-    }
+pub fn compare(estimate: &[f32], truth: &[f32], facing: &[bool]) -> Result<Comparison, LabError> {
+    check_length("the estimate", estimate.len(), truth.len())?;
+    check_length("the list of facing pixels", facing.len(), truth.len())?;
     let mut errors = Vec::new();
     let mut penumbra_errors = Vec::new();
     let (mut total, mut nan_pixels) = (0.0, 0);

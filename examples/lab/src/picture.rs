@@ -1,77 +1,56 @@
 //! Pictures: saving without half-replaced files, grey values and differences in colour.
 
+use std::fmt::Display;
 use std::io::Write;
-use std::path::{Path, PathBuf};
+use std::path::Path;
 
-/// Why a picture or another result could not be saved. An existing file is untouched.
-#[derive(Debug, thiserror::Error)]
-#[non_exhaustive]
-pub enum PictureError {
-    /// The folder does not exist.
-    #[error("'{}' cannot be written: the folder '{}' does not exist; create it first", path.display(), folder.display())]
-    MissingFolder {
-        /// The file to be written.
-        path: PathBuf,
-        /// The folder it should lie in.
-        folder: PathBuf,
-    },
-    /// There is no room left.
-    #[error("'{}' cannot be written: the disk is full; what was there is unchanged", path.display())]
-    DiskFull {
-        /// The file to be written.
-        path: PathBuf,
-    },
-    /// The system refused for another reason.
-    #[error("'{}' cannot be written: {source}; what was there is unchanged", path.display())]
-    Unwritable {
-        /// The file to be written.
-        path: PathBuf,
-        /// What the system said.
-        source: std::io::Error,
-    },
-    /// The pixels do not fit the size.
-    #[error("'{}' cannot be written: {values} values do not make a picture of {width}x{height}", path.display())]
-    Size {
-        /// The file to be written.
-        path: PathBuf,
-        /// Pixels per row.
-        width: u32,
-        /// Rows.
-        height: u32,
-        /// How many values there were.
-        values: usize,
-    },
-    /// The encoder refused.
-    #[error("'{}' cannot be written: {reason}", path.display())]
-    Encoding {
-        /// The file to be written.
-        path: PathBuf,
-        /// What the encoder said.
-        reason: String,
-    },
+use crate::error::LabError;
+
+/// Why a picture or another result could not be saved.
+fn unwritable(path: &Path, reason: impl Display) -> LabError {
+    LabError::refused(format!("'{}' cannot be written: {reason}", path.display()))
+}
+
+/// Refuses values that do not make a picture of a size.
+fn check_size(
+    path: &Path,
+    [width, height]: [u32; 2],
+    channels: u64,
+    values: usize,
+) -> Result<(), LabError> {
+    if u64::from(width) * u64::from(height) * channels == values as u64 {
+        return Ok(());
+    }
+    let reason = format!("{values} values do not make a picture of {width}x{height}");
+    Err(unwritable(path, reason))
+}
+
+/// Makes a folder with all that it lies in, unless it is there.
+pub fn create_folder(folder: &Path) -> Result<(), LabError> {
+    std::fs::create_dir_all(folder).map_err(|error| unwritable(folder, error))
 }
 
 /// Writes a file beside `path` by `write` and renames it, so that `path` is either what it was or complete.
 pub fn save_atomically(
     path: &Path,
     write: impl FnOnce(&mut dyn Write) -> std::io::Result<()>,
-) -> Result<(), PictureError> {
+) -> Result<(), LabError> {
     let folder = match path.parent() {
         Some(parent) if parent != Path::new("") => parent,
         _ => Path::new("."),
     };
-    let failed = |source: std::io::Error| match source.kind() {
-        std::io::ErrorKind::NotFound => PictureError::MissingFolder {
-            path: path.to_owned(),
-            folder: folder.to_owned(),
-        },
-        std::io::ErrorKind::StorageFull => PictureError::DiskFull {
-            path: path.to_owned(),
-        },
-        _ => PictureError::Unwritable {
-            path: path.to_owned(),
-            source,
-        },
+    let failed = |error: std::io::Error| match error.kind() {
+        std::io::ErrorKind::NotFound => {
+            let folder = folder.display();
+            unwritable(
+                path,
+                format!("the folder '{folder}' does not exist; create it first"),
+            )
+        }
+        std::io::ErrorKind::StorageFull => {
+            unwritable(path, "the disk is full; what was there is unchanged")
+        }
+        _ => unwritable(path, format!("{error}; what was there is unchanged")),
     };
     let mut builder = tempfile::Builder::new();
     builder.prefix(".moment-shadows-").suffix(".part");
@@ -87,7 +66,7 @@ pub fn save_atomically(
 }
 
 /// Saves red, green, blue and alpha (sRGB, a byte each, top row first) as PNG.
-pub fn save_rgba(path: &Path, width: u32, height: u32, rgba: &[u8]) -> Result<(), PictureError> {
+pub fn save_rgba(path: &Path, width: u32, height: u32, rgba: &[u8]) -> Result<(), LabError> {
     encode(
         path,
         width,
@@ -99,7 +78,7 @@ pub fn save_rgba(path: &Path, width: u32, height: u32, rgba: &[u8]) -> Result<()
 }
 
 /// Saves one grey byte per pixel as PNG, top row first.
-pub fn save_grey(path: &Path, width: u32, height: u32, grey: &[u8]) -> Result<(), PictureError> {
+pub fn save_grey(path: &Path, width: u32, height: u32, grey: &[u8]) -> Result<(), LabError> {
     encode(path, width, height, grey, 1, image::ExtendedColorType::L8)
 }
 
@@ -113,21 +92,14 @@ pub fn save_panels(
     panels: &[Vec<u8>],
     [width, height]: [u32; 2],
     columns: u32,
-) -> Result<(), PictureError> {
+) -> Result<(), LabError> {
     let columns = columns.max(1);
     let rows = (panels.len() as u32).div_ceil(columns);
     let side = |panel: u32, count: u32| count * panel + count.saturating_sub(1) * GAP;
     let [full_width, full_height] = [side(width, columns), side(height, rows)];
     let mut rgb = vec![255; (full_width * full_height * 3) as usize];
     for (number, panel) in (0..).zip(panels) {
-        if panel.len() as u64 != u64::from(width) * u64::from(height) * 4 {
-            return Err(PictureError::Size {
-                path: path.to_owned(),
-                width,
-                height,
-                values: panel.len(),
-            });
-        }
+        check_size(path, [width, height], 4, panel.len())?;
         let left = (number % columns) * (width + GAP);
         let top = (number / columns) * (height + GAP);
         for (y, row) in (top..).zip(panel.chunks_exact(4 * width as usize)) {
@@ -146,15 +118,8 @@ pub fn save_panels(
     );
     let colour = image::ExtendedColorType::Rgb8;
     image::ImageEncoder::write_image(encoder, &rgb, full_width, full_height, colour)
-        .map_err(|error| refused(path, &error))?;
+        .map_err(|error| unwritable(path, error))?;
     save_atomically(path, |file| file.write_all(&png))
-}
-
-fn refused(path: &Path, error: &image::ImageError) -> PictureError {
-    PictureError::Encoding {
-        path: path.to_owned(),
-        reason: error.to_string(),
-    }
 }
 
 fn encode(
@@ -164,19 +129,12 @@ fn encode(
     bytes: &[u8],
     channels: u64,
     colour: image::ExtendedColorType,
-) -> Result<(), PictureError> {
-    if u64::from(width) * u64::from(height) * channels != bytes.len() as u64 {
-        return Err(PictureError::Size {
-            path: path.to_owned(),
-            width,
-            height,
-            values: bytes.len(),
-        });
-    }
+) -> Result<(), LabError> {
+    check_size(path, [width, height], channels, bytes.len())?;
     let mut png = Vec::new();
     let encoder = image::codecs::png::PngEncoder::new(&mut png);
     image::ImageEncoder::write_image(encoder, bytes, width, height, colour)
-        .map_err(|error| refused(path, &error))?;
+        .map_err(|error| unwritable(path, error))?;
     save_atomically(path, |file| file.write_all(&png))
 }
 

@@ -1,24 +1,29 @@
-//! Plots as SVG and PNG, and what they have in common.
+//! Charts of lines as SVG and PNG.
 //!
 //! Text is laid out with a font of our own, so that a machine without any draws the same picture.
 
+use core::f64::consts::TAU;
 use core::ops::Range;
 use std::path::{Path, PathBuf};
 
 use plotters::backend::{BitMapBackend, DrawingBackend, SVGBackend};
+use plotters::chart::ChartBuilder;
 use plotters::coord::Shift;
-use plotters::coord::ranged1d::{DefaultFormatting, KeyPointHint, Ranged};
 use plotters::drawing::{DrawingArea, IntoDrawingArea};
-use plotters::style::{FontStyle, RGBColor, WHITE, register_font};
+use plotters::element::{EmptyElement, PathElement, Polygon, Text};
+use plotters::style::text_anchor::{HPos, Pos, VPos};
+use plotters::style::{
+    BLACK, Color, FontStyle, IntoFont, RGBAColor, RGBColor, WHITE, register_font,
+};
 
 use crate::error::LabError;
-use crate::picture::{save_atomically, save_rgba};
+use crate::picture::{create_folder, save_atomically, save_rgba};
 
 /// The font of all text.
-pub(crate) const FONT: &str = "sans-serif";
+const FONT: &str = "sans-serif";
 
 /// Colours that everyone can tell apart (Okabe and Ito, "Color Universal Design", 2008).
-pub(crate) const COLOURS: [RGBColor; 7] = [
+const COLOURS: [RGBColor; 7] = [
     RGBColor(0, 114, 178),
     RGBColor(213, 94, 0),
     RGBColor(0, 158, 115),
@@ -28,109 +33,174 @@ pub(crate) const COLOURS: [RGBColor; 7] = [
     RGBColor(0, 0, 0),
 ];
 
-pub(crate) type Drawn<B> =
+/// Pixels.
+const PANEL_WIDTH: u32 = 480;
+const LEGEND_WIDTH: u32 = 220;
+const HEIGHT: u32 = 600;
+
+/// Half the width of a marker, in pixels.
+const MARKER: f64 = 6.0;
+
+type Drawn<B> =
     Result<(), plotters::drawing::DrawingAreaErrorKind<<B as DrawingBackend>::ErrorType>>;
 
-/// Something that can be drawn.
-pub(crate) trait Plot {
-    /// Title of the whole plot.
-    fn title(&self) -> &str;
-
-    /// Size in pixels.
-    fn size(&self) -> (u32, u32);
-
-    /// Draws everything, on white.
-    fn draw<B: DrawingBackend>(&self, area: &DrawingArea<B, Shift>) -> Drawn<B>;
+/// A chart with panels side by side.
+pub struct Chart {
+    /// What is shown.
+    pub title: String,
+    /// How it was measured.
+    pub setting: String,
+    /// Panels from left to right. All have the same series, in the same order.
+    pub panels: Vec<Panel>,
+    /// What the markers of points stand for.
+    pub markers: Vec<&'static str>,
 }
 
-/// Draws a plot as SVG and as PNG into a folder, and gives their paths.
-pub(crate) fn save(plot: &impl Plot, folder: &Path, stem: &str) -> Result<[PathBuf; 2], LabError> {
-    let [svg, png] = ["svg", "png"].map(|extension| folder.join(format!("{stem}.{extension}")));
-    let (width, height) = plot.size();
-    let mut text = String::new();
-    draw(
-        plot,
-        &SVGBackend::with_string(&mut text, plot.size()).into_drawing_area(),
-    )?;
-    save_atomically(&svg, |file| file.write_all(text.as_bytes()))?;
-    let mut rgb = vec![255; 3 * (width * height) as usize];
-    draw(
-        plot,
-        &BitMapBackend::with_buffer(&mut rgb, plot.size()).into_drawing_area(),
-    )?;
-    let rgba: Vec<u8> = rgb
-        .chunks_exact(3)
-        .flat_map(|pixel| [pixel[0], pixel[1], pixel[2], 255])
-        .collect();
-    save_rgba(&png, width, height, &rgba)?;
-    Ok([svg, png])
+/// A part of a chart with axes of its own.
+pub struct Panel {
+    /// What is shown.
+    pub title: String,
+    /// Along x and y.
+    pub axes: [Axis; 2],
+    /// Pixels for the labels of y.
+    pub label_width: u32,
+    /// The lines.
+    pub series: Vec<Series>,
 }
 
-fn draw<B: DrawingBackend>(plot: &impl Plot, area: &DrawingArea<B, Shift>) -> Result<(), LabError> {
-    let failed = |reason: String| LabError::Plot {
-        title: plot.title().to_owned(),
-        reason,
+/// A linear scale.
+pub struct Axis {
+    /// What is along it.
+    pub name: &'static str,
+    /// From one end to the other.
+    pub range: Range<f64>,
+    /// The most labels that it has.
+    pub labels: usize,
+    /// What a label says of its place.
+    pub label: Box<dyn Fn(&f64) -> String>,
+}
+
+/// A line.
+pub struct Series {
+    /// Its name.
+    pub name: String,
+    /// Points in the order in which they are joined: x, y and which of the chart's markers.
+    pub points: Vec<(f64, f64, usize)>,
+}
+
+impl Chart {
+    /// Draws it as SVG and as PNG into a folder, which is made if need be, and gives their paths.
+    pub fn save(&self, folder: &Path, stem: &str) -> Result<[PathBuf; 2], LabError> {
+        create_folder(folder)?;
+        let [svg, png] = ["svg", "png"].map(|extension| folder.join(format!("{stem}.{extension}")));
+        let size = (
+            PANEL_WIDTH * self.panels.len() as u32 + LEGEND_WIDTH,
+            HEIGHT,
+        );
+        let mut text = String::new();
+        self.draw_on(&SVGBackend::with_string(&mut text, size).into_drawing_area())?;
+        save_atomically(&svg, |file| file.write_all(text.as_bytes()))?;
+        let mut rgb = vec![255; 3 * (size.0 * size.1) as usize];
+        self.draw_on(&BitMapBackend::with_buffer(&mut rgb, size).into_drawing_area())?;
+        let rgba: Vec<u8> = rgb
+            .chunks_exact(3)
+            .flat_map(|pixel| [pixel[0], pixel[1], pixel[2], 255])
+            .collect();
+        save_rgba(&png, size.0, size.1, &rgba)?;
+        Ok([svg, png])
+    }
+
+    fn draw_on<B: DrawingBackend>(&self, area: &DrawingArea<B, Shift>) -> Result<(), LabError> {
+        let failed = |reason: &str| {
+            LabError::refused(format!(
+                "the plot '{}' cannot be drawn: {reason}",
+                self.title
+            ))
+        };
+        register_font(FONT, FontStyle::Normal, epaint_default_fonts::UBUNTU_LIGHT)
+            .map_err(|_| failed("its font cannot be read"))?;
+        area.fill(&WHITE)
+            .and_then(|()| self.draw(area))
+            .and_then(|()| area.present())
+            .map_err(|error| failed(&error.to_string()))
+    }
+
+    fn draw<B: DrawingBackend>(&self, area: &DrawingArea<B, Shift>) -> Drawn<B> {
+        let below = area.titled(&self.title, (FONT, 24))?;
+        let below = below.titled(&self.setting, (FONT, 14))?;
+        let (panels, legend) = below.split_horizontally(PANEL_WIDTH * self.panels.len() as u32);
+        let areas = panels.split_evenly((1, self.panels.len()));
+        for (area, panel) in areas.iter().zip(&self.panels) {
+            panel.draw(area)?;
+        }
+        let series = self.panels.first().map_or(&[][..], |panel| &panel.series);
+        let lines = series.iter().enumerate();
+        let lines = lines.map(|(index, line)| {
+            let marker = line.points.first().map_or(0, |point| point.2);
+            (marker, colour(index), line.name.as_str())
+        });
+        let grey = RGBColor(110, 110, 110).to_rgba();
+        let markers = self.markers.iter().enumerate();
+        let markers = markers.map(|(marker, name)| (marker, grey, *name));
+        for (y, (marker, colour, name)) in (40..).step_by(21).zip(lines.chain(markers)) {
+            legend.draw(&(EmptyElement::at((22, y)) + shape(marker, colour)))?;
+            let style = (FONT, 15).into_font().color(&BLACK);
+            let style = style.pos(Pos::new(HPos::Left, VPos::Center));
+            legend.draw(&Text::new(name.to_owned(), (40, y), style))?;
+        }
+        Ok(())
+    }
+}
+
+impl Panel {
+    fn draw<B: DrawingBackend>(&self, area: &DrawingArea<B, Shift>) -> Drawn<B> {
+        let [x, y] = &self.axes;
+        let mut chart = ChartBuilder::on(area)
+            .margin(14)
+            .caption(&self.title, (FONT, 18))
+            .x_label_area_size(52)
+            .y_label_area_size(self.label_width)
+            .build_cartesian_2d(x.range.clone(), y.range.clone())?;
+        chart
+            .configure_mesh()
+            .max_light_lines(0)
+            .x_desc(x.name)
+            .y_desc(y.name)
+            .x_labels(x.labels)
+            .y_labels(y.labels)
+            .x_label_formatter(&x.label)
+            .y_label_formatter(&y.label)
+            .label_style((FONT, 15))
+            .axis_desc_style((FONT, 16))
+            .draw()?;
+        for (index, series) in self.series.iter().enumerate() {
+            let colour = colour(index);
+            let line = series.points.iter().map(|&(x, y, _)| (x, y)).collect();
+            let line: PathElement<(f64, f64)> =
+                PathElement::new::<Vec<_>, _>(line, colour.mix(0.45));
+            chart.draw_series([line])?;
+            let points = series.points.iter();
+            chart.draw_series(
+                points.map(|&(x, y, marker)| EmptyElement::at((x, y)) + shape(marker, colour)),
+            )?;
+        }
+        Ok(())
+    }
+}
+
+/// Colours come again after a round, lighter.
+fn colour(index: usize) -> RGBAColor {
+    let colour = COLOURS[index % COLOURS.len()];
+    colour.mix(if index < COLOURS.len() { 1.0 } else { 0.5 })
+}
+
+/// A marker about a pixel: a disk, then polygons of three and more corners.
+fn shape(marker: usize, colour: RGBAColor) -> Polygon<(i32, i32)> {
+    let corners = if marker == 0 { 16 } else { marker + 2 };
+    let at = |corner: usize| {
+        let (sin, cos) = (TAU * corner as f64 / corners as f64).sin_cos();
+        let round = |part: f64| (MARKER * part).round() as i32;
+        (round(sin), round(-cos))
     };
-    register_font(FONT, FontStyle::Normal, epaint_default_fonts::UBUNTU_LIGHT)
-        .map_err(|_| failed("its font cannot be read".to_owned()))?;
-    area.fill(&WHITE)
-        .and_then(|()| plot.draw(area))
-        .and_then(|()| area.present())
-        .map_err(|error| failed(error.to_string()))
-}
-
-/// Without the digits that rounding adds to a multiple of a step.
-pub(crate) fn number(value: f64) -> String {
-    let text = format!("{value:.4}");
-    text.trim_end_matches('0').trim_end_matches('.').to_owned()
-}
-
-/// A linear scale with ticks of our choice.
-pub(crate) struct Scale {
-    pub(crate) range: Range<f64>,
-    pub(crate) ticks: Vec<f64>,
-}
-
-impl Scale {
-    /// For some figures above 0: from 0 in round steps to `room` times the largest.
-    pub(crate) fn of(figures: impl Iterator<Item = f64>, room: f64) -> Self {
-        let largest = figures
-            .filter(|figure| figure.is_finite())
-            .fold(0.0, f64::max);
-        let high = if largest > 0.0 { largest } else { 1.0 };
-        let step = [0.1, 0.2, 0.25, 0.5, 1.0, 2.0, 5.0, 10.0, 20.0]
-            .into_iter()
-            .find(|step| high / step <= 6.0)
-            .unwrap_or(high / 5.0);
-        let count = (room * high / step).ceil();
-        Self {
-            range: 0.0..step * count,
-            ticks: (0..=count as u32)
-                .map(|tick| step * f64::from(tick))
-                .collect(),
-        }
-    }
-}
-
-impl Ranged for Scale {
-    type FormatOption = DefaultFormatting;
-    type ValueType = f64;
-
-    fn map(&self, value: &f64, (first, last): (i32, i32)) -> i32 {
-        let part = (value - self.range.start) / (self.range.end - self.range.start);
-        first + (part * f64::from(last - first)).round() as i32
-    }
-
-    fn key_points<H: KeyPointHint>(&self, hint: H) -> Vec<f64> {
-        // No finer lines between the ticks.
-        if hint.weight().allow_light_points() {
-            Vec::new()
-        } else {
-            self.ticks.clone()
-        }
-    }
-
-    fn range(&self) -> Range<f64> {
-        self.range.clone()
-    }
+    Polygon::new((0..corners).map(at).collect::<Vec<_>>(), colour.filled())
 }

@@ -50,7 +50,7 @@ use crate::metric::{ErrorFigures, figures, signed_error};
 use crate::scene::Scene;
 use crate::truth::kernel::TapPattern;
 use crate::truth::pcf::{Receiver, pcf_at};
-use crate::truth::peel::{LightSurface, PeelError, Peeler};
+use crate::truth::peel::{LightSurface, Peeler};
 use crate::truth::surface::MomentDepths;
 
 /// Rays that are peeled at once: bounds the memory that surfaces take in full.
@@ -182,11 +182,11 @@ impl SurfaceTruth {
             step();
         }
         if lit.caster_rays == 0 {
-            return Err(PeelError::NoCaster {
-                scene: scene.name.clone(),
-                map,
-            }
-            .into());
+            return Err(LabError::refused(format!(
+                "no ray of the light meets a caster of scene '{}' at the texels' centres of a map of {}x{}; use a larger map \
+                 or another light",
+                scene.name, map[0], map[1]
+            )));
         }
         let lit = Arc::new(lit);
         let truths = truths.into_iter();

@@ -68,6 +68,18 @@ fn settings(storage: Storage) -> Vec<Technique> {
     ]
 }
 
+/// The same technique with another of its settings, if it has one that makes another shader.
+#[must_use]
+pub fn variant(technique: &Technique) -> Option<Technique> {
+    let mut variant = technique.clone();
+    match &mut variant {
+        Technique::Lvsm { splits, .. } => *splits = LayerSplits::Lloyd,
+        Technique::Convolution { lower_bound, .. } => *lower_bound = false,
+        _ => return None,
+    }
+    Some(variant)
+}
+
 /// The techniques that read the plain depth map, with a kernel of about the same width.
 #[must_use]
 pub fn reading_depth() -> Vec<Technique> {

@@ -6,9 +6,8 @@ use glam::{DMat4, DVec2, DVec3};
 use rand::{RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
 
-use crate::light::{
-    DirectionalFit, LightError, LightView, StoredDepth, range_of_casters, rotation_towards,
-};
+use crate::error::LabError;
+use crate::light::{DirectionalFit, LightView, StoredDepth, range_of_casters, rotation_towards};
 use crate::scene::{Scene, Stand};
 
 /// A perspective camera with reversed depth (1 at the near plane).
@@ -30,12 +29,12 @@ pub struct Camera {
 
 impl Camera {
     /// From world space to the camera's space, which looks along -z.
-    pub fn view_from_world(&self) -> Result<DMat4, LightError> {
+    pub fn view_from_world(&self) -> Result<DMat4, LabError> {
         Ok(rotation_towards(self.target - self.eye)? * DMat4::from_translation(-self.eye))
     }
 
     /// From world space to wgpu's clip space, in f64.
-    pub fn clip_from_world(&self) -> Result<DMat4, LightError> {
+    pub fn clip_from_world(&self) -> Result<DMat4, LabError> {
         let depth = StoredDepth::Perspective {
             near: self.near,
             far: self.far,
@@ -47,7 +46,7 @@ impl Camera {
     }
 
     /// [`clip_from_world`](Self::clip_from_world) by columns.
-    pub fn clip_from_world_columns(&self) -> Result<[[f64; 4]; 4], LightError> {
+    pub fn clip_from_world_columns(&self) -> Result<[[f64; 4]; 4], LabError> {
         Ok(self.clip_from_world()?.to_cols_array_2d())
     }
 }
@@ -143,7 +142,7 @@ impl View {
         map: [u32; 2],
         margin: f64,
         reversed: bool,
-    ) -> Result<LightView, LightError> {
+    ) -> Result<LightView, LabError> {
         let casters: Vec<DVec3> = scene.casters().collect();
         LightView::directional_fitted(
             self.light_direction,
@@ -164,7 +163,7 @@ impl View {
         near: f64,
         far: Option<f64>,
         reversed: bool,
-    ) -> Result<LightView, LightError> {
+    ) -> Result<LightView, LabError> {
         const ANGLE: f64 = 0.7;
         let bounds = scene.bounds();
         let radius = bounds.radius().max(1e-6);

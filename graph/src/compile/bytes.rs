@@ -1,57 +1,34 @@
 //! How many bytes a pass moves.
 
-use crate::{PlannedBindingResource, PlannedPass, PlannedResource, PlannedWork};
+use crate::plan::Part;
+use crate::{PlannedPass, PlannedResource, PlannedWork};
 
-/// Every texel that a pass binds is counted once, however often the shader loads it: what has to cross the memory bus.
+/// Counts every texel that a pass binds once, however often the shader loads it: what has to cross the memory bus.
 pub(super) fn count(pass: &mut PlannedPass, resources: &[PlannedResource]) {
     let layers = u64::from(pass.layers);
-    let whole = |resource: usize| resources[resource].desc.bytes();
     let level = |resource: usize, level: u32| {
         let texture = resources[resource].desc.texture();
         texture.map_or(0, |texture| texture.bytes_per_level(level) * layers)
     };
-    let (mut read, mut written) = (0, 0);
-    for binding in &pass.bindings {
-        match &binding.resource {
-            PlannedBindingResource::Texture {
-                resource,
-                one_layer: true,
-                level: bound,
-                ..
-            } => read += level(*resource, *bound),
-            PlannedBindingResource::Texture { resource, .. } => read += whole(*resource),
-            PlannedBindingResource::StorageTexture {
-                resource,
-                level: bound,
-                ..
-            } => written += level(*resource, *bound),
-            PlannedBindingResource::Buffer { resource, writable } => {
-                read += whole(*resource);
-                written += if *writable { whole(*resource) } else { 0 };
-            }
-            PlannedBindingResource::Parameters { size, .. }
-            | PlannedBindingResource::Regions { size, .. } => read += u64::from(*size) * layers,
-            PlannedBindingResource::Sampler { .. }
-            | PlannedBindingResource::ComparisonSampler { .. } => {}
-        }
+    let uniforms = pass.bindings.iter();
+    let uniforms = uniforms.filter_map(|binding| binding.resource.uniform_size());
+    let mut read: u64 = uniforms.map(|size| u64::from(size) * layers).sum();
+    let mut written = 0;
+    for touch in pass.touches() {
+        let bytes = match touch.part {
+            Part::Level { level: of, .. } => level(touch.resource, of),
+            Part::Buffer | Part::Layers => resources[touch.resource].desc.bytes(),
+        };
+        read += if touch.access.read { bytes } else { 0 };
+        written += if touch.access.writes() { bytes } else { 0 };
     }
-    match &pass.work {
-        PlannedWork::Compute { .. } => {}
-        PlannedWork::Fullscreen {
-            target,
-            level: drawn,
-            ..
-        } => written += level(*target, *drawn),
-        PlannedWork::Host {
-            targets,
-            blend,
-            depth,
-        } => {
-            let colour: u64 = targets.iter().map(|&target| level(target, 0)).sum();
-            written += colour + depth.map_or(0, |target| level(target, 0));
-            read += if *blend { colour } else { 0 };
-        }
+    if let PlannedWork::Host {
+        targets,
+        blend: true,
+        ..
+    } = &pass.work
+    {
+        read += targets.iter().map(|&target| level(target, 0)).sum::<u64>();
     }
-    pass.bytes_read = read;
-    pass.bytes_written = written;
+    (pass.bytes_read, pass.bytes_written) = (read, written);
 }

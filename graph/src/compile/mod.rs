@@ -1,176 +1,225 @@
-//! From a graph to a plan: names, formats, sizes and shaders are checked before anything is created.
+//! From a graph to a plan, with nothing created on the device:
+//!
+//! 1. `wiring` looks up names and orders nodes;
+//! 2. nodes describe themselves, upstream first; `slots` checks what is connected and says what is made, within `limits`;
+//! 3. `order` checks what nodes take of each other, and nodes whose outputs nobody takes are left out;
+//! 4. `parameters` lays out uniform data;
+//! 5. `passes` replaces slots by resources, `workgroups` and `bytes` count, `usage` checks what a pass does at once;
+//! 6. `reflect` compares passes with their shaders;
+//! 7. `lifetimes` lets resources share memory.
 
 mod bytes;
+mod lifetimes;
 mod limits;
-mod memory;
+mod order;
 mod parameters;
 mod passes;
 mod reflect;
-mod settle;
 mod slots;
-mod touch;
 mod usage;
 mod wiring;
-mod work;
 mod workgroups;
 
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 
+use crate::error::unknown;
 use crate::graph::VERSION;
 use crate::{
-    Access, Capabilities, Connected, Direction, Graph, GraphError, GraphErrorKind, Home,
-    NamedResource, NodeDesc, Plan, PlannedResource, ResourceDesc, Slot,
+    Access, Capabilities, Connected, Direction, Graph, GraphError, GraphErrorKind, Home, Named,
+    NodeDesc, Plan, PlannedResource, ResourceDesc, Slot,
 };
 pub(crate) use reflect::numbers as binding_numbers;
 use wiring::{Source, Wiring};
 
-/// The imports that a host gives, by name.
-pub type Imports = BTreeMap<String, ResourceDesc>;
+/// An import, or what a node makes, whether or not a pass touches it.
+struct Known {
+    name: String,
+    desc: ResourceDesc,
+    is_import: bool,
+    /// Some slot that it is connected to keeps its contents from frame to frame.
+    persistent: bool,
+    /// The one whose layers and regions it follows: itself, or that of the slot whose extent it takes.
+    root: usize,
+}
 
-/// A node that is part of the plan.
+/// A node's description.
 struct Described {
     node: usize,
     desc: NodeDesc,
-    /// Index into the resources for every connected or made slot.
+    /// Index into what is known for every connected or made slot.
     slots: BTreeMap<String, usize>,
 }
 
-/// Compiles a graph for a device and for what the host gives.
-///
-/// Checks names, cycles, formats, sizes, usages, and every binding against its shader; leaves out nodes whose outputs
-/// nobody takes; orders passes by stage; and lets resources share memory whose lives do not overlap. An import that the
-/// host does not describe is taken as the graph file expects it. Creates nothing on the device.
-pub fn compile(
-    graph: &Graph,
-    capabilities: &Capabilities,
-    imports: &Imports,
-) -> Result<Plan, GraphError> {
-    let wiring = Wiring::of(graph)?;
-    let mut resources = import_resources(graph, imports)?;
-    let mut roots: Vec<usize> = (0..resources.len()).collect();
-    let described = describe_all(graph, &wiring, capabilities, &mut resources, &mut roots)?;
-    let outputs = outputs(graph, &described)?;
-    let needed = wiring.needed(graph)?;
-    let mut kept: Vec<&Described> = described
-        .iter()
-        .filter(|described| needed.contains(&described.node))
-        .collect();
-    stages_in_order(graph, &wiring, &described)?;
-    changed_in_place_by_one(graph, &wiring, &described)?;
-    // Stable: within a stage the order of dependencies remains.
-    kept.sort_by_key(|described| described.desc.stage);
-
-    let places = parameters::lay_out(graph, &kept, &resources, &roots, capabilities)?;
-    let mut shaders = reflect::Shaders::default();
-    let mut passes = Vec::new();
-    for described in &kept {
-        let name = &graph.nodes[described.node].name;
-        let placed = |error: GraphError| {
-            error
-                .at_node(name)
-                .at_position(graph.nodes[described.node].position)
-        };
-        let first = passes.len();
-        let planner = passes::Planner {
-            node: name,
-            described,
-            places: &places,
-            roots: &roots,
-            capabilities,
-        };
-        for pass in &described.desc.passes {
-            let mut planned = planner.plan(pass, &mut resources).map_err(placed)?;
-            usage::check_pass(&planned, &resources, capabilities).map_err(placed)?;
-            shaders
-                .bind(
-                    pass,
-                    &mut planned,
-                    &resources,
-                    capabilities.profile,
-                    capabilities.bind_group,
-                )
-                .map_err(placed)?;
-            passes.push(planned);
-        }
-        usage::check_outputs(described, &passes[first..]).map_err(placed)?;
+impl Described {
+    /// How the node's passes may touch a slot.
+    fn access(&self, slot: &str) -> Access {
+        let mut slots = self.desc.slots.iter();
+        let slot = slots.find(|candidate| candidate.name == slot);
+        slot.map_or(Access::default(), |slot| slot.resource.access())
     }
-    let plan = Plan {
-        version: VERSION,
-        bind_group: capabilities.bind_group,
-        passes,
-        resources,
-        memory: Vec::new(),
-        imports: Vec::new(),
-        outputs,
-        parameters: places.layout,
-    };
-    Ok(settle::settle(plan, &kept, &roots))
 }
 
-/// What every node of a graph says about itself for these imports, in the order of the graph: slots with their
-/// descriptions, passes and parameters. Nodes are described whether or not their outputs are taken.
-pub fn describe(
-    graph: &Graph,
-    capabilities: &Capabilities,
-    imports: &Imports,
-) -> Result<Vec<NodeDesc>, GraphError> {
-    let mut resources = import_resources(graph, imports)?;
-    let mut roots = (0..resources.len()).collect();
-    let wiring = Wiring::of(graph)?;
-    let mut described = describe_all(graph, &wiring, capabilities, &mut resources, &mut roots)?;
-    described.sort_by_key(|described| described.node);
-    Ok(described
-        .into_iter()
-        .map(|described| described.desc)
-        .collect())
-}
+impl Graph {
+    /// Compiles the graph for a device and for the imports that a host gives, by name.
+    ///
+    /// Checks names, cycles, formats, sizes, usages, and every binding against its shader; leaves out nodes whose outputs
+    /// nobody takes; orders passes by stage; and lets resources share memory whose lives do not overlap. An import that
+    /// the host does not describe is taken as the graph file expects it. Creates nothing on the device.
+    pub fn compile(
+        &self,
+        capabilities: &Capabilities,
+        imports: &[(&str, ResourceDesc)],
+    ) -> Result<Plan, GraphError> {
+        let wiring = Wiring::of(self)?;
+        let mut known = import_resources(self, imports)?;
+        let described = describe_all(self, &wiring, capabilities, &mut known)?;
+        let outputs = outputs(self, &described)?;
+        let needed = wiring.needed(self)?;
+        order::stages_in_order(self, &wiring, &described)?;
+        order::changed_in_place_by_one(self, &wiring, &described)?;
+        let mut kept = described;
+        kept.retain(|described| needed.contains(&described.node));
+        // Stable: within a stage the order of dependencies remains.
+        kept.sort_by_key(|described| described.desc.stage);
 
-/// Resources of the imports, in the order of the graph.
-fn import_resources(graph: &Graph, imports: &Imports) -> Result<Vec<PlannedResource>, GraphError> {
-    if let Some(name) = imports
-        .keys()
-        .find(|name| graph.imports.iter().all(|import| import.name != **name))
-    {
-        return Err(wiring::unknown(
-            "import",
-            name,
-            graph.imports.iter().map(|import| import.name.as_str()),
-            "the host describes an import that the graph does not have",
-        ));
-    }
-    graph
-        .imports
-        .iter()
-        .enumerate()
-        .map(|(index, import)| {
-            let desc = imports.get(&import.name).or(import.expected.as_ref()).ok_or_else(|| {
-                GraphError::new(
-                    GraphErrorKind::MissingImport,
-                    format!(
-                        "import '{}' is described neither by the host nor in the graph; describe its texture",
-                        import.name
-                    ),
-                )
-                .at_position(import.position)
-            })?;
-            Ok(PlannedResource {
-                name: import.name.clone(),
-                desc: desc.clone(),
+        let layout = parameters::lay_out(self, &kept, &known, capabilities)?;
+        let used = used(&kept, &outputs);
+        let indices: BTreeMap<usize, usize> =
+            (0..).zip(&used).map(|(new, &old)| (old, new)).collect();
+        let mut plan = Plan {
+            version: VERSION,
+            bind_group: capabilities.bind_group,
+            passes: Vec::new(),
+            resources: Vec::new(),
+            memory: Vec::new(),
+            imports: Vec::new(),
+            outputs: outputs
+                .into_iter()
+                .map(|output| Named::new(output.name, indices[&output.value]))
+                .collect(),
+            parameters: layout,
+        };
+        for known in used.iter().map(|&index| &known[index]) {
+            let mut home = Home::Memory(0);
+            if known.is_import {
+                home = Home::Import(plan.imports.len());
+                let import = Named::new(known.name.clone(), plan.resources.len());
+                plan.imports.push(import);
+            }
+            plan.resources.push(PlannedResource {
+                name: known.name.clone(),
+                desc: known.desc.clone(),
                 access: Access::default(),
-                home: Home::Import(index),
-            })
-        })
-        .collect()
+                home,
+            });
+        }
+        let mut shaders = reflect::Shaders::default();
+        for described in &kept {
+            let Named { name, position, .. } = &self.nodes[described.node];
+            let placed = |error: GraphError| error.at_node(name).at_position(*position);
+            let planner = passes::Planner {
+                node: name,
+                described,
+                known: &known,
+                indices: &indices,
+                layout: &plan.parameters,
+                capabilities,
+            };
+            for pass in &described.desc.passes {
+                let resources = &mut plan.resources;
+                let mut planned = planner.plan(pass, resources).map_err(placed)?;
+                usage::check_pass(&planned, resources, capabilities).map_err(placed)?;
+                shaders
+                    .bind(pass, &mut planned, resources, capabilities)
+                    .map_err(placed)?;
+                plan.passes.push(planned);
+            }
+            usage::check_outputs(described).map_err(placed)?;
+        }
+        let used: Vec<&Known> = used.iter().map(|&index| &known[index]).collect();
+        lifetimes::share_memory(&mut plan, &used);
+        Ok(plan)
+    }
+
+    /// What every node says about itself for these imports, in the order of the graph: slots with their descriptions,
+    /// passes and parameters. Nodes are described whether or not their outputs are taken.
+    pub fn describe(
+        &self,
+        capabilities: &Capabilities,
+        imports: &[(&str, ResourceDesc)],
+    ) -> Result<Vec<NodeDesc>, GraphError> {
+        let mut known = import_resources(self, imports)?;
+        let wiring = Wiring::of(self)?;
+        let mut described = describe_all(self, &wiring, capabilities, &mut known)?;
+        described.sort_by_key(|described| described.node);
+        Ok(described
+            .into_iter()
+            .map(|described| described.desc)
+            .collect())
+    }
 }
 
-/// Lets every node describe itself, upstream first, and makes the resources of its slots. `roots` gets, for each, the
-/// resource whose layers and regions it follows: itself, or that of the slot whose extent it takes.
+/// What is known that the plan has: everything that passes touch, and then what is only handed through to an output.
+fn used(kept: &[Described], outputs: &[Named<usize>]) -> Vec<usize> {
+    let touched = |described: &Described| {
+        let passes = described.desc.passes.iter();
+        let slots = passes.flat_map(|pass| pass.touched());
+        let known = slots.filter_map(|(slot, _)| described.slots.get(slot).copied());
+        known.collect::<Vec<_>>()
+    };
+    let touched: BTreeSet<usize> = kept.iter().flat_map(touched).collect();
+    let mut used: Vec<usize> = touched.into_iter().collect();
+    for output in outputs {
+        if !used.contains(&output.value) {
+            used.push(output.value);
+        }
+    }
+    used
+}
+
+/// The imports, in the order of the graph.
+fn import_resources(
+    graph: &Graph,
+    imports: &[(&str, ResourceDesc)],
+) -> Result<Vec<Known>, GraphError> {
+    let mut names = graph.imports.iter().map(|import| import.name.as_str());
+    if let Some((name, _)) = imports
+        .iter()
+        .find(|(name, _)| names.clone().all(|known| known != *name))
+    {
+        let remark = "the host describes an import that the graph does not have";
+        return Err(unknown("import", name, names.by_ref(), remark));
+    }
+    let resources = graph.imports.iter().enumerate().map(|(root, import)| {
+        let name = &import.name;
+        let given = imports.iter().find(|(given, _)| given == name);
+        let desc = given.map(|(_, desc)| desc).or(import.value.as_ref());
+        let desc = desc.ok_or_else(|| {
+            GraphError::new(
+                GraphErrorKind::MissingImport,
+                format!(
+                    "import '{name}' is described neither by the host nor in the graph; describe its texture"
+                ),
+            )
+            .at_position(import.position)
+        })?;
+        Ok(Known {
+            name: name.clone(),
+            desc: desc.clone(),
+            is_import: true,
+            persistent: false,
+            root,
+        })
+    });
+    resources.collect()
+}
+
+/// Lets every node describe itself, upstream first, and makes the resources of its slots.
 fn describe_all(
     graph: &Graph,
     wiring: &Wiring,
     capabilities: &Capabilities,
-    resources: &mut Vec<PlannedResource>,
-    roots: &mut Vec<usize>,
+    known: &mut Vec<Known>,
 ) -> Result<Vec<Described>, GraphError> {
     let mut described: Vec<Described> = Vec::new();
     for &node in &wiring.order {
@@ -188,22 +237,18 @@ fn describe_all(
         }
         let inputs: BTreeMap<String, ResourceDesc> = slots
             .iter()
-            .map(|(slot, &resource)| (slot.clone(), resources[resource].desc.clone()))
+            .map(|(slot, &resource)| (slot.clone(), known[resource].desc.clone()))
             .collect();
         let desc = graph_node
-            .node
+            .value
             .describe(&Connected::new(&inputs, capabilities))
             .map_err(|error| placed(with_connected(error, &inputs)))?;
-        let takes = |slot: &&Slot| matches!(slot.direction, Direction::In | Direction::InOut);
-        let mut names = desc
-            .slots
-            .iter()
-            .filter(takes)
-            .map(|slot| slot.name.as_str());
+        let inputs_of = desc.slots.iter().filter(|slot| slot.direction.takes());
+        let mut names = inputs_of.map(|slot| slot.name.as_str());
         for (slot, (_, edge)) in &wiring.inputs[node] {
             if !names.clone().any(|name| name == slot) {
                 let remark = "an edge leads to an input of the node";
-                return Err(wiring::unknown("input", slot, names.by_ref(), remark)
+                return Err(unknown("input", slot, names.by_ref(), remark)
                     .at_node(&graph_node.name)
                     .at_slot(slot)
                     .at_position(graph.edges[*edge].position));
@@ -212,23 +257,24 @@ fn describe_all(
         let resolved = slots::resolve(&desc, &inputs, capabilities).map_err(placed)?;
         // In the order of the slots: one may take its extent from another that was made before it.
         for slot in &desc.slots {
-            let Some(made) = resolved.get(&slot.name) else {
+            let made = resolved.get(&slot.name);
+            let Some(made) = made.filter(|_| !slots.contains_key(&slot.name)) else {
                 continue;
             };
-            if slots.contains_key(&slot.name) {
-                continue;
-            }
-            let index = resources.len();
-            resources.push(PlannedResource {
+            let index = known.len();
+            let from = slots::extent_from(slot).and_then(|from| slots.get(from));
+            known.push(Known {
                 name: format!("{}.{}", graph_node.name, slot.name),
                 desc: made.clone(),
-                access: Access::default(),
-                // Settled once lifetimes are known.
-                home: Home::Memory(0),
+                is_import: false,
+                persistent: false,
+                root: from.map_or(index, |&from| known[from].root),
             });
-            let root = slots::extent_from(slot).and_then(|from| slots.get(from));
-            roots.push(root.map_or(index, |&from| roots[from]));
             slots.insert(slot.name.clone(), index);
+        }
+        let persistent = desc.slots.iter().filter(|slot| slot.persistent);
+        for index in persistent.filter_map(|slot| slots.get(&slot.name)) {
+            known[*index].persistent = true;
         }
         described.push(Described { node, desc, slots });
     }
@@ -249,125 +295,33 @@ fn find(graph: &Graph, described: &[Described], source: &Source) -> Result<usize
     match source {
         Source::Import(import) => Ok(*import),
         Source::Node(node, slot) => {
-            let name = &graph.nodes[*node].name;
             let owner = described.iter().find(|described| described.node == *node);
             let slots = owner.map_or(&[][..], |owner| &owner.desc.slots);
-            let gives = |direction| matches!(direction, Direction::Out | Direction::InOut);
-            let known = slots
-                .iter()
-                .any(|candidate| candidate.name == *slot && gives(candidate.direction));
-            owner
-                .filter(|_| known)
-                .and_then(|owner| owner.slots.get(slot).copied())
-                .ok_or_else(|| {
-                    wiring::unknown(
-                        "output",
-                        slot,
-                        slots
-                            .iter()
-                            .filter(|candidate| gives(candidate.direction))
-                            .map(|candidate| candidate.name.as_str()),
-                        "an edge starts from an output of a node",
-                    )
-                    .at_node(name)
+            let gives = |slot: &&Slot| matches!(slot.direction, Direction::Out | Direction::InOut);
+            let mut given = slots.iter().filter(gives).map(|slot| slot.name.as_str());
+            let known = given.clone().any(|name| name == slot);
+            let resource = owner.and_then(|owner| owner.slots.get(slot).copied());
+            resource.filter(|_| known).ok_or_else(|| {
+                let remark = "an edge starts from an output of a node";
+                unknown("output", slot, given.by_ref(), remark)
+                    .at_node(&graph.nodes[*node].name)
                     .at_slot(slot)
-                })
-        }
-    }
-}
-
-fn outputs(graph: &Graph, described: &[Described]) -> Result<Vec<NamedResource>, GraphError> {
-    graph
-        .outputs
-        .iter()
-        .map(|output| {
-            let resource = wiring::source(graph, &output.from)
-                .and_then(|source| find(graph, described, &source))
-                .map_err(|error| error.at_position(output.position))?;
-            Ok(NamedResource {
-                name: output.name.clone(),
-                resource,
             })
-        })
-        .collect()
-}
-
-/// A node cannot be recorded before one that it depends on.
-fn stages_in_order(
-    graph: &Graph,
-    wiring: &Wiring,
-    described: &[Described],
-) -> Result<(), GraphError> {
-    let stage = |node: usize| {
-        described
-            .iter()
-            .find(|described| described.node == node)
-            .map(|described| described.desc.stage)
-    };
-    for (node, inputs) in wiring.inputs.iter().enumerate() {
-        for (source, edge) in inputs.values() {
-            let Source::Node(upstream, _) = source else {
-                continue;
-            };
-            if stage(*upstream) > stage(node) {
-                return Err(GraphError::new(
-                    GraphErrorKind::StageOrder,
-                    format!(
-                        "it is recorded before '{}', whose output it reads; connect it to a node of an earlier stage",
-                        graph.nodes[*upstream].name
-                    ),
-                )
-                .at_node(&graph.nodes[node].name)
-                .at_position(graph.edges[*edge].position));
-            }
         }
     }
-    Ok(())
 }
 
-/// What a node changes in place nobody else takes: whether they saw it before or after would depend on the order.
-fn changed_in_place_by_one(
-    graph: &Graph,
-    wiring: &Wiring,
-    described: &[Described],
-) -> Result<(), GraphError> {
-    for described in described {
-        let name = &graph.nodes[described.node].name;
-        let in_place = |slot: &&Slot| slot.direction == Direction::InOut;
-        for slot in described.desc.slots.iter().filter(in_place) {
-            let Some((_, edge)) = wiring.inputs[described.node].get(&slot.name) else {
-                continue;
-            };
-            let from = &graph.edges[*edge].from;
-            let other_edge = graph
-                .edges
-                .iter()
-                .enumerate()
-                .find(|(other, candidate)| other != edge && candidate.from == *from)
-                .map(|(_, other)| other.position);
-            let output = graph
-                .outputs
-                .iter()
-                .find(|output| output.from == *from)
-                .map(|output| output.position);
-            if let Some(position) = other_edge.or(output) {
-                return Err(GraphError::new(
-                    GraphErrorKind::TwoWriters,
-                    format!(
-                        "'{from}' is changed in place here and taken elsewhere, too; take '{name}.{}' there instead",
-                        slot.name
-                    ),
-                )
-                .at_node(name)
-                .at_slot(&slot.name)
-                .at_position(position));
-            }
-        }
-    }
-    Ok(())
+fn outputs(graph: &Graph, described: &[Described]) -> Result<Vec<Named<usize>>, GraphError> {
+    let outputs = graph.outputs.iter().map(|output| {
+        let resource = wiring::source(graph, &output.value)
+            .and_then(|source| find(graph, described, &source))
+            .map_err(|error| error.at_position(output.position))?;
+        Ok(Named::new(output.name.clone(), resource))
+    });
+    outputs.collect()
 }
 
 /// A node that contradicts itself.
-fn declaration(message: String) -> GraphError {
+fn declaration(message: impl Into<String>) -> GraphError {
     GraphError::new(GraphErrorKind::Declaration, message)
 }

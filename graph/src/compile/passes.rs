@@ -1,57 +1,44 @@
 //! A node's pass with its slots replaced by resources.
 
-use super::parameters::Places;
-use super::touch::{Touch, touched};
-use super::work::Resolved;
-use super::{Described, bytes, declaration};
+use std::collections::BTreeMap;
+
+use super::{Described, Known, bytes, declaration, workgroups};
+use crate::plan::Part;
 use crate::{
-    Access, BindingResource, Capabilities, GraphError, GraphErrorKind, MipLevel, Pass,
-    PlannedBinding, PlannedBindingResource, PlannedPass, PlannedResource, SampleType, TextureDesc,
+    Binding, BindingResource, Capabilities, GraphError, GraphErrorKind, ParameterLayout, Pass,
+    PlannedBindingResource, PlannedPass, PlannedResource, PlannedWork, SampleType, TextureDesc,
+    Work,
 };
 
 /// What a node's passes are resolved with.
 pub(super) struct Planner<'a> {
     pub(super) node: &'a str,
     pub(super) described: &'a Described,
-    pub(super) places: &'a Places,
-    /// For each resource the one whose layers and regions it follows.
-    pub(super) roots: &'a [usize],
+    pub(super) known: &'a [Known],
+    /// The plan's index of each known resource that passes touch.
+    pub(super) indices: &'a BTreeMap<usize, usize>,
+    pub(super) layout: &'a ParameterLayout,
     pub(super) capabilities: &'a Capabilities,
 }
 
 impl Planner<'_> {
-    /// Resolves a pass and records in the resources how it touches them.
+    /// Resolves a pass and records in the plan's resources how it touches them.
     pub(super) fn plan(
         &self,
         pass: &Pass,
         resources: &mut [PlannedResource],
     ) -> Result<PlannedPass, GraphError> {
-        let filtered = pass.bindings.iter().any(|binding| {
-            matches!(
-                binding.resource,
-                BindingResource::Sampler {
-                    filtering: true,
-                    ..
-                }
-            )
-        });
-        let bindings = pass
-            .bindings
-            .iter()
-            .map(|binding| {
-                Ok(PlannedBinding {
-                    // The shader's declaration has it.
-                    binding: 0,
-                    resource: self.binding(pass, &binding.resource, filtered, resources)?,
-                })
+        let bindings = pass.bindings.iter().map(|binding| {
+            Ok(Binding {
+                // The shader's declaration has it.
+                variable: 0,
+                resource: self.binding(pass, &binding.resource)?,
             })
-            .collect::<Result<Vec<_>, GraphError>>()?;
-        let Resolved {
-            work,
-            followed,
-            layers,
-            each_layer,
-        } = self.work(pass, resources)?;
+        });
+        let bindings = bindings.collect::<Result<_, GraphError>>()?;
+        let (work, followed) = self.work(pass)?;
+        let followed = &self.known[followed];
+        let each_layer = pass.each_layer && !matches!(work, PlannedWork::Host { .. });
         let mut planned = PlannedPass {
             node: self.node.to_owned(),
             label: pass.label.clone(),
@@ -61,93 +48,74 @@ impl Planner<'_> {
             constants: pass.constants.clone(),
             bindings,
             work,
-            layers: if each_layer { layers } else { 1 },
+            layers: if each_layer {
+                followed.desc.layers()
+            } else {
+                1
+            },
             each_layer,
-            map: resources[self.roots[followed]].name.clone(),
+            map: self.known[followed.root].name.clone(),
             bytes_read: 0,
             bytes_written: 0,
         };
         self.check_layers(&planned, resources)?;
         bytes::count(&mut planned, resources);
-        for Touch {
-            resource: index,
-            access,
-            ..
-        } in touched(&planned)
-        {
-            let slots = &self.described.slots;
-            let slot = slots.iter().find(|(_, resource)| **resource == index);
-            if let Some((slot, _)) = slot
-                && !self.slot_access(slot).contains(access)
+        let slots = &self.described.slots;
+        for touch in planned.touches() {
+            let touches = |known: &usize| self.indices.get(known) == Some(&touch.resource);
+            if let Some((slot, _)) = slots.iter().find(|(_, known)| touches(known))
+                && !self.described.access(slot).contains(touch.access)
             {
-                return Err(declaration(format!(
-                    "pass '{}' does more with this slot than its declared access allows",
-                    pass.label
-                ))
-                .at_slot(slot));
+                let fault = fault(
+                    pass,
+                    "does more with this slot than its declared access allows",
+                );
+                return Err(fault.at_slot(slot));
             }
-            resources[index].access = resources[index].access.union(access);
+            let access = &mut resources[touch.resource].access;
+            *access = access.union(touch.access);
         }
         Ok(planned)
     }
 
-    fn resource(&self, pass: &Pass, slot: &str) -> Result<usize, GraphError> {
-        self.described.slots.get(slot).copied().ok_or_else(|| {
-            declaration(format!(
-                "pass '{}' uses slot '{slot}', which the node does not have",
-                pass.label
-            ))
+    fn slot(&self, pass: &Pass, slot: &str) -> Result<usize, GraphError> {
+        let known = self.described.slots.get(slot).copied();
+        known.ok_or_else(|| {
+            fault(
+                pass,
+                format!("uses slot '{slot}', which the node does not have"),
+            )
         })
     }
 
-    pub(super) fn texture<'r>(
-        &self,
-        pass: &Pass,
-        slot: &str,
-        resources: &'r [PlannedResource],
-    ) -> Result<(usize, &'r TextureDesc), GraphError> {
-        let index = self.resource(pass, slot)?;
-        let texture = resources[index].desc.texture().ok_or_else(|| {
-            declaration(format!(
-                "pass '{}' uses the buffer '{slot}' as a texture",
-                pass.label
-            ))
-        })?;
-        Ok((index, texture))
-    }
-
     /// The texture behind a slot, which has to have this mip level.
-    pub(super) fn level<'r>(
+    fn texture(
         &self,
         pass: &Pass,
         slot: &str,
         level: u32,
-        resources: &'r [PlannedResource],
-    ) -> Result<(usize, &'r TextureDesc), GraphError> {
-        let (index, texture) = self.texture(pass, slot, resources)?;
+    ) -> Result<(usize, &TextureDesc), GraphError> {
+        let index = self.slot(pass, slot)?;
+        let texture = self.known[index].desc.texture();
+        let texture =
+            texture.ok_or_else(|| fault(pass, format!("uses the buffer '{slot}' as a texture")))?;
         if level < texture.mips {
             return Ok((index, texture));
         }
-        Err(declaration(format!(
-            "pass '{}' uses mip level {level} of '{slot}', which has {}",
-            pass.label, texture.mips
-        ))
-        .at_slot(slot))
+        let mips = texture.mips;
+        let what = format!("uses mip level {level} of '{slot}', which has {mips}");
+        Err(fault(pass, what).at_slot(slot))
     }
 
     fn binding(
         &self,
         pass: &Pass,
         resource: &BindingResource,
-        filtered: bool,
-        resources: &[PlannedResource],
     ) -> Result<PlannedBindingResource, GraphError> {
         let loaded = |slot: &str, one_layer: bool, level: u32| {
-            let (resource, texture) = self.level(pass, slot, level, resources)?;
-            let filterable = self.capabilities.support(texture.format).filterable;
-            let multisampled = texture.samples > 1;
-            Ok::<_, GraphError>(PlannedBindingResource::Texture {
-                resource,
+            let (known, texture) = self.texture(pass, slot, level)?;
+            Ok(PlannedBindingResource::Texture {
+                resource: self.indices[&known],
                 one_layer,
                 level,
                 plane: if one_layer {
@@ -155,149 +123,196 @@ impl Planner<'_> {
                 } else {
                     0
                 },
-                sample: if texture.format.is_depth() {
-                    SampleType::Depth
-                } else if texture.format.is_integer() {
-                    SampleType::Integer
-                } else if filterable && filtered && !multisampled {
-                    SampleType::Filterable
-                } else {
-                    SampleType::Unfilterable
-                },
-                multisampled,
-            })
-        };
-        let stored = |slot: &str, level: u32| {
-            let (resource, texture) = self.level(pass, slot, level, resources)?;
-            Ok::<_, GraphError>(PlannedBindingResource::StorageTexture {
-                resource,
-                level,
-                plane: plane(pass, slot, texture)?,
+                sample: self.sample(pass, texture),
+                multisampled: texture.samples > 1,
             })
         };
         match resource {
             BindingResource::Parameters => {
-                let block = self
-                    .places
-                    .blocks
-                    .get(&self.described.node)
-                    .ok_or_else(|| {
-                        declaration(format!(
-                            "pass '{}' uses parameters, but the node has none",
-                            pass.label
-                        ))
-                    })?;
-                let size = self.places.layout.blocks[*block].array_size();
-                Ok(PlannedBindingResource::Parameters {
-                    block: *block,
-                    // Within the limit of a uniform binding.
-                    size: size as u32,
-                })
+                let mut blocks = self.layout.blocks.iter();
+                let block = blocks.position(|block| block.node == self.node);
+                let block =
+                    block.ok_or_else(|| fault(pass, "uses parameters, but the node has none"))?;
+                // Within the limit of a uniform binding.
+                let size = self.layout.blocks[block].array_size() as u32;
+                Ok(PlannedBindingResource::Parameters { block, size })
             }
-            BindingResource::Regions(asked) => {
-                let (index, _) = self.texture(pass, &asked.slot, resources)?;
-                let table = self.places.tables.get(&self.roots[index]).ok_or_else(|| {
-                    declaration(format!(
-                        "pass '{}' uses the regions of '{}', which has none",
-                        pass.label, asked.slot
-                    ))
+            BindingResource::Regions { slot, .. } => {
+                let (known, _) = self.texture(pass, slot, 0)?;
+                let map = &self.known[self.known[known].root].name;
+                let mut tables = self.layout.regions.iter();
+                let table = tables.position(|table| table.map == *map);
+                let table = table.ok_or_else(|| {
+                    fault(
+                        pass,
+                        format!("uses the regions of '{slot}', which has none"),
+                    )
                 })?;
-                Ok(PlannedBindingResource::Regions {
-                    table: *table,
-                    size: self.places.layout.regions[*table].size() as u32,
+                let size = self.layout.regions[table].size() as u32;
+                Ok(PlannedBindingResource::Regions { table, size })
+            }
+            BindingResource::Level { slot, level } => loaded(slot, true, *level),
+            BindingResource::Layers(slot) => loaded(slot, false, 0),
+            BindingResource::StorageLevel { slot, level } => {
+                let (known, texture) = self.texture(pass, slot, *level)?;
+                Ok(PlannedBindingResource::StorageTexture {
+                    resource: self.indices[&known],
+                    level: *level,
+                    plane: plane(pass, slot, texture)?,
                 })
             }
-            BindingResource::Level(MipLevel { slot, level }) => loaded(slot, true, *level),
-            BindingResource::Layers(slot) => loaded(slot, false, 0),
-            BindingResource::StorageLevel(MipLevel { slot, level }) => stored(slot, *level),
             BindingResource::Buffer(slot) => Ok(PlannedBindingResource::Buffer {
-                resource: self.resource(pass, slot)?,
-                writable: self.slot_access(slot).storage_write,
+                resource: self.indices[&self.slot(pass, slot)?],
+                writable: self.described.access(slot).storage_write,
             }),
-            BindingResource::Sampler {
+            &BindingResource::Sampler {
                 filtering,
                 anisotropy,
             } => {
-                if (*anisotropy > 1 && !filtering) || !(1..=16).contains(anisotropy) {
-                    return Err(declaration(format!(
-                        "pass '{}' has a sampler with an anisotropy of {anisotropy}; it is from 1 to 16, and above 1 the \
-                         sampler filters",
-                        pass.label
-                    )));
+                if (anisotropy > 1 && !filtering) || !(1..=16).contains(&anisotropy) {
+                    let what = format!(
+                        "has a sampler with an anisotropy of {anisotropy}; it is from 1 to 16, and above 1 the sampler filters"
+                    );
+                    return Err(fault(pass, what));
                 }
                 Ok(PlannedBindingResource::Sampler {
-                    filtering: *filtering,
-                    anisotropy: *anisotropy,
+                    filtering,
+                    anisotropy,
                 })
             }
-            BindingResource::ComparisonSampler { reversed } => {
-                Ok(PlannedBindingResource::ComparisonSampler {
-                    reversed: *reversed,
-                })
+            &BindingResource::ComparisonSampler { reversed } => {
+                Ok(PlannedBindingResource::ComparisonSampler { reversed })
             }
         }
     }
 
-    /// A pass per layer needs every texture that it binds by layer to have that layer.
+    /// What a pass gets when it loads from a texture.
+    fn sample(&self, pass: &Pass, texture: &TextureDesc) -> SampleType {
+        let filters = |binding: &Binding| {
+            matches!(
+                binding.resource,
+                BindingResource::Sampler {
+                    filtering: true,
+                    ..
+                }
+            )
+        };
+        if texture.format.is_depth() {
+            SampleType::Depth
+        } else if texture.format.is_integer() {
+            SampleType::Integer
+        } else if self.capabilities.support(texture.format).filterable
+            && texture.samples <= 1
+            && pass.bindings.iter().any(filters)
+        {
+            SampleType::Filterable
+        } else {
+            SampleType::Unfilterable
+        }
+    }
+
+    /// The work of a pass, and the resource whose layers it follows.
+    fn work(&self, pass: &Pass) -> Result<(PlannedWork, usize), GraphError> {
+        match &pass.work {
+            Work::Compute {
+                covers,
+                level,
+                texels_per_workgroup,
+                regions,
+            } => {
+                let (known, covered) = self.texture(pass, covers, *level)?;
+                let workgroups = workgroups::for_regions(
+                    covered.size_at(*level),
+                    if *regions { covered.regions } else { 1 },
+                    *texels_per_workgroup,
+                    self.capabilities,
+                )
+                .map_err(|error| error.at_slot(covers))?;
+                Ok((PlannedWork::Compute { workgroups }, known))
+            }
+            Work::Fullscreen {
+                target,
+                level,
+                regions,
+            } => {
+                let (known, texture) = self.texture(pass, target, *level)?;
+                let work = PlannedWork::Fullscreen {
+                    target: self.indices[&known],
+                    level: *level,
+                    plane: plane(pass, target, texture)?,
+                    keeps: *regions,
+                };
+                Ok((work, known))
+            }
+            Work::Host {
+                targets,
+                blend,
+                depth,
+            } => {
+                let mut drawn = targets.iter().chain(depth);
+                let first = drawn.next();
+                let first = first.ok_or_else(|| fault(pass, "draws to nothing"))?;
+                let target = |slot: &String| Ok(self.indices[&self.texture(pass, slot, 0)?.0]);
+                let work = PlannedWork::Host {
+                    targets: targets
+                        .iter()
+                        .map(target)
+                        .collect::<Result<_, GraphError>>()?,
+                    blend: *blend,
+                    depth: depth.as_ref().map(target).transpose()?,
+                };
+                Ok((work, self.slot(pass, first)?))
+            }
+        }
+    }
+
+    /// A pass per layer needs everything that it binds by layer to have that layer.
     fn check_layers(
         &self,
         pass: &PlannedPass,
         resources: &[PlannedResource],
     ) -> Result<(), GraphError> {
-        for binding in &pass.bindings {
-            let (name, layers) = match &binding.resource {
-                PlannedBindingResource::Texture {
-                    resource,
-                    one_layer: true,
-                    ..
-                }
-                | PlannedBindingResource::StorageTexture { resource, .. } => (
-                    &resources[*resource].name,
-                    resources[*resource].desc.layers(),
-                ),
-                PlannedBindingResource::Regions { table, .. } => {
-                    let table = &self.places.layout.regions[*table];
-                    (&table.map, table.layers)
-                }
-                PlannedBindingResource::Texture {
-                    one_layer: false, ..
-                }
-                | PlannedBindingResource::Parameters { .. }
-                | PlannedBindingResource::Buffer { .. }
-                | PlannedBindingResource::Sampler { .. }
-                | PlannedBindingResource::ComparisonSampler { .. } => continue,
+        let by_layer = |part| matches!(part, Part::Level { .. });
+        let touches = pass.touches().into_iter();
+        let textures = touches.filter(|touch| by_layer(touch.part)).map(|touch| {
+            let resource = &resources[touch.resource];
+            (resource.name.as_str(), resource.desc.layers())
+        });
+        let bindings = pass.bindings.iter();
+        let tables = bindings.filter_map(|binding| {
+            let PlannedBindingResource::Regions { table, .. } = binding.resource else {
+                return None;
             };
-            if layers < pass.layers {
-                return Err(GraphError::new(
-                    GraphErrorKind::Size,
-                    format!(
-                        "pass '{}' is recorded for {} layers, but '{name}' has {layers}",
-                        pass.label, pass.layers
-                    ),
-                ));
-            }
+            let table = &self.layout.regions[table];
+            Some((table.map.as_str(), table.layers))
+        });
+        let mut all = textures.chain(tables);
+        match all.find(|(_, layers)| *layers < pass.layers) {
+            None => Ok(()),
+            Some((name, layers)) => Err(GraphError::new(
+                GraphErrorKind::Size,
+                format!(
+                    "pass '{}' is recorded for {} layers, but '{name}' has {layers}",
+                    pass.label, pass.layers
+                ),
+            )),
         }
-        Ok(())
-    }
-
-    fn slot_access(&self, slot: &str) -> Access {
-        let slots = &self.described.desc.slots;
-        slots
-            .iter()
-            .find(|candidate| candidate.name == slot)
-            .map_or(Access::default(), |slot| slot.resource.access())
     }
 }
 
 /// The plane that a pass means of a slot's texture.
-pub(super) fn plane(pass: &Pass, slot: &str, texture: &TextureDesc) -> Result<u32, GraphError> {
+fn plane(pass: &Pass, slot: &str, texture: &TextureDesc) -> Result<u32, GraphError> {
     match texture.planes {
         1 => Ok(0),
         planes if pass.plane < planes => Ok(pass.plane),
-        planes => Err(declaration(format!(
-            "pass '{}' uses plane {} of '{slot}', which has {planes}",
-            pass.label, pass.plane
-        ))
-        .at_slot(slot)),
+        planes => {
+            let what = format!("uses plane {} of '{slot}', which has {planes}", pass.plane);
+            Err(fault(pass, what).at_slot(slot))
+        }
     }
+}
+
+/// A pass that contradicts its node.
+fn fault(pass: &Pass, what: impl core::fmt::Display) -> GraphError {
+    declaration(format!("pass '{}' {what}", pass.label))
 }

@@ -9,9 +9,12 @@ use naga::valid::{
 use naga::{AddressSpace, ImageClass, ImageDimension, ScalarKind, ShaderStage, TypeInner};
 
 use crate::{
-    GraphError, GraphErrorKind, Pass, PlannedBinding, PlannedBindingResource, PlannedPass,
+    Binding, Capabilities, GraphError, GraphErrorKind, Pass, PlannedBindingResource, PlannedPass,
     PlannedResource, PlannedWork, SampleType,
 };
+
+/// A binding of a plan.
+type Planned = Binding<u32, PlannedBindingResource>;
 
 /// Parsed shaders by their text, so that passes that share one parse it once.
 #[derive(Default)]
@@ -26,19 +29,19 @@ impl Shaders {
         described: &Pass,
         pass: &mut PlannedPass,
         resources: &[PlannedResource],
-        profile: Profile,
-        bind_group: u32,
+        capabilities: &Capabilities,
     ) -> Result<(), GraphError> {
+        let bind_group = capabilities.bind_group;
         if matches!(pass.work, PlannedWork::Host { .. }) {
             for (number, binding) in (0..).zip(&mut pass.bindings) {
-                binding.binding = number;
+                binding.variable = number;
             }
             return Ok(());
         }
         let (module, info) = match self.parsed.get(&pass.wgsl) {
             Some(parsed) => parsed,
             None => {
-                let parsed = parse(&pass.wgsl, profile)?;
+                let parsed = parse(&pass.wgsl, capabilities.profile)?;
                 self.parsed.entry(pass.wgsl.clone()).or_insert(parsed)
             }
         };
@@ -57,7 +60,7 @@ impl Shaders {
             PlannedWork::Fullscreen { .. } | PlannedWork::Host { .. } => ShaderStage::Fragment,
         };
         let uses = info.get_entry_point(entry_point(module, &pass.entry_point, stage)?);
-        let mut open: BTreeMap<&str, &mut PlannedBinding> = BTreeMap::new();
+        let mut open: BTreeMap<&str, &mut Planned> = BTreeMap::new();
         for (binding, planned) in described.bindings.iter().zip(&mut pass.bindings) {
             if open.insert(&binding.variable, planned).is_some() {
                 return Err(mismatch(format!(
@@ -83,7 +86,7 @@ impl Shaders {
                     )
                 )));
             };
-            planned.binding = number.binding;
+            planned.variable = number.binding;
             let actual = &module.types[variable.ty].inner;
             if let Some(expected) = difference(module, variable.space, actual, planned, resources) {
                 return Err(mismatch(format!(
@@ -99,7 +102,7 @@ impl Shaders {
                 among("what it uses", name, used)
             )));
         }
-        pass.bindings.sort_by_key(|planned| planned.binding);
+        pass.bindings.sort_by_key(|planned| planned.variable);
         check_filtering(module, uses, pass, resources)
     }
 }
@@ -188,7 +191,7 @@ fn check_filtering(
     let planned = |variable: naga::Handle<naga::GlobalVariable>| {
         let index = module.global_variables[variable].binding?.binding;
         let mut bindings = pass.bindings.iter();
-        bindings.find(|planned| planned.binding == index)
+        bindings.find(|planned| planned.variable == index)
     };
     for key in &uses.sampling_set {
         let (Some(image), Some(sampler)) = (planned(key.image), planned(key.sampler)) else {
@@ -258,96 +261,84 @@ fn difference(
     module: &naga::Module,
     space: AddressSpace,
     actual: &TypeInner,
-    planned: &PlannedBinding,
+    planned: &Planned,
     resources: &[PlannedResource],
 ) -> Option<String> {
-    let (matches, expected) = match &planned.resource {
-        PlannedBindingResource::Parameters { size, .. } => (
-            space == AddressSpace::Uniform && actual.size(module.to_ctx()) == *size,
-            format!("a uniform struct of {size} bytes"),
+    let size = || actual.size(module.to_ctx());
+    let image = |arrayed: bool, class: ImageClass| TypeInner::Image {
+        dim: ImageDimension::D2,
+        arrayed,
+        class,
+    };
+    let (matches, expected) = match planned.resource {
+        PlannedBindingResource::Parameters { size: bytes, .. } => (
+            space == AddressSpace::Uniform && size() == bytes,
+            format!("a uniform struct of {bytes} bytes"),
         ),
-        PlannedBindingResource::Regions { size, .. } => (
-            space == AddressSpace::Uniform && actual.size(module.to_ctx()) == *size,
-            format!("a uniform array of regions of {size} bytes"),
+        PlannedBindingResource::Regions { size: bytes, .. } => (
+            space == AddressSpace::Uniform && size() == bytes,
+            format!("a uniform array of regions of {bytes} bytes"),
         ),
         PlannedBindingResource::Buffer { writable, resource } => {
-            let size = resources[*resource].desc.bytes();
+            let bytes = resources[resource].desc.bytes();
+            let stores = matches!(space, AddressSpace::Storage { access }
+                if access.contains(naga::StorageAccess::STORE) == writable);
+            let access = if writable { "writable" } else { "read-only" };
             (
-                matches!(space, AddressSpace::Storage { access }
-                    if access.contains(naga::StorageAccess::STORE) == *writable)
-                    && u64::from(actual.size(module.to_ctx())) <= size,
-                format!(
-                    "a {} storage buffer of at most {size} bytes",
-                    if *writable { "writable" } else { "read-only" }
-                ),
+                stores && u64::from(size()) <= bytes,
+                format!("a {access} storage buffer of at most {bytes} bytes"),
             )
         }
         PlannedBindingResource::Sampler { .. } => (
-            matches!(actual, TypeInner::Sampler { comparison: false }),
+            *actual == TypeInner::Sampler { comparison: false },
             "a sampler".to_owned(),
         ),
         PlannedBindingResource::ComparisonSampler { .. } => (
-            matches!(actual, TypeInner::Sampler { comparison: true }),
+            *actual == TypeInner::Sampler { comparison: true },
             "a comparison sampler".to_owned(),
         ),
         PlannedBindingResource::StorageTexture { resource, .. } => {
-            let format = resources[*resource]
-                .desc
-                .texture()
-                .map(|texture| texture.format);
-            let name = format.map_or("", |format| format.name());
-            let matches = matches!(
-                actual,
-                TypeInner::Image {
-                    dim: ImageDimension::D2,
-                    arrayed: false,
-                    class: ImageClass::Storage { format, access },
-                } if *access == naga::StorageAccess::STORE
-                    && format!("{format:?}").to_lowercase() == name
-            );
+            let texture = resources[resource].desc.texture();
+            let name = texture.map_or("", |texture| texture.format.name());
+            let stored = if let TypeInner::Image {
+                class: ImageClass::Storage { format, .. },
+                ..
+            } = *actual
+            {
+                let access = naga::StorageAccess::STORE;
+                format!("{format:?}").to_lowercase() == name
+                    && *actual == image(false, ImageClass::Storage { format, access })
+            } else {
+                false
+            };
             (
-                matches,
+                stored,
                 format!("a two-dimensional storage texture of format {name}, written only"),
             )
         }
         PlannedBindingResource::Texture {
             one_layer,
             sample,
-            multisampled,
+            multisampled: multi,
             ..
         } => {
-            let class = match sample {
-                SampleType::Depth => ImageClass::Depth {
-                    multi: *multisampled,
-                },
-                SampleType::Filterable | SampleType::Unfilterable => ImageClass::Sampled {
-                    kind: ScalarKind::Float,
-                    multi: *multisampled,
-                },
-                SampleType::Integer => ImageClass::Sampled {
-                    kind: ScalarKind::Uint,
-                    multi: *multisampled,
-                },
+            let sampled = |kind| ImageClass::Sampled { kind, multi };
+            let (class, kind) = match sample {
+                SampleType::Depth => (ImageClass::Depth { multi }, "depth"),
+                SampleType::Integer => (sampled(ScalarKind::Uint), "u32"),
+                SampleType::Filterable | SampleType::Unfilterable => {
+                    (sampled(ScalarKind::Float), "float")
+                }
             };
-            let matches = matches!(
-                actual,
-                TypeInner::Image {
-                    dim: ImageDimension::D2,
-                    arrayed,
-                    class: actual,
-                } if *arrayed != *one_layer && *actual == class
-            );
-            let kind = match sample {
-                SampleType::Depth => "depth",
-                SampleType::Integer => "u32",
-                SampleType::Filterable | SampleType::Unfilterable => "float",
-            };
-            let shape = match (one_layer, multisampled) {
+            let shape = match (one_layer, multi) {
                 (_, true) => "multisampled two-dimensional",
                 (true, false) => "two-dimensional",
                 (false, false) => "two-dimensional array",
             };
-            (matches, format!("a {shape} {kind} texture"))
+            (
+                *actual == image(!one_layer, class),
+                format!("a {shape} {kind} texture"),
+            )
         }
     };
     (!matches).then_some(expected)

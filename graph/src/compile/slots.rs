@@ -2,16 +2,17 @@
 
 use std::collections::{BTreeMap, BTreeSet};
 
-use moment_shadows::{Finite, TextureFormat};
+use moment_shadows::Finite;
 
+use super::declaration;
 use super::limits::{limits, usable};
+use crate::GraphErrorKind::{Declaration, DuplicateName, Format, Size};
+use crate::error::ensure;
+use crate::node::missing_input;
 use crate::{
-    Capabilities, CountRule, Direction, ExtentRule, FormatRule, GraphError, GraphErrorKind,
-    NodeDesc, ResourceDesc, Slot, SlotResource, TextureDesc, TextureRule,
+    Capabilities, Direction, GraphError, NodeDesc, ResourceDesc, Rule, Slot, SlotResource,
+    TextureDesc, TextureRule,
 };
-
-/// A number of a texture that a [`CountRule`] is about.
-type Count = fn(&TextureDesc) -> u32;
 
 /// Checks what is connected to a node and gives every slot of it a concrete resource.
 pub(super) fn resolve(
@@ -21,55 +22,42 @@ pub(super) fn resolve(
 ) -> Result<BTreeMap<String, ResourceDesc>, GraphError> {
     let mut names = BTreeSet::new();
     for slot in &desc.slots {
-        if !names.insert(slot.name.as_str()) {
-            return Err(GraphError::new(
-                GraphErrorKind::DuplicateName,
-                "the node declares two slots of this name",
-            )
-            .at_slot(&slot.name));
-        }
-        if slot.description.trim().is_empty() {
-            return Err(GraphError::new(
-                GraphErrorKind::Declaration,
-                "the slot has no description; say in a sentence what it is for",
-            )
-            .at_slot(&slot.name));
-        }
-        if slot.direction == Direction::In && slot.resource.access().writes() {
-            return Err(GraphError::new(
-                GraphErrorKind::Declaration,
-                "the node writes to an input; declare it as changed in place ('in_out')",
-            )
-            .at_slot(&slot.name));
-        }
+        let described = !slot.description.trim().is_empty();
+        let writes_input = slot.direction == Direction::In && slot.resource.access().writes();
+        ensure(
+            names.insert(slot.name.as_str()),
+            DuplicateName,
+            || "the node declares two slots of this name",
+        )
+        .and(ensure(
+            described,
+            Declaration,
+            || "the slot has no description; say in a sentence what it is for",
+        ))
+        .and(ensure(
+            !writes_input,
+            Declaration,
+            || "the node writes to an input; declare it as changed in place ('in_out')",
+        ))
+        .map_err(|error| error.at_slot(&slot.name))?;
     }
     let mut resolved = inputs.clone();
-    let takes_input = |slot: &&Slot| matches!(slot.direction, Direction::In | Direction::InOut);
-    for slot in desc.slots.iter().filter(takes_input) {
+    let (inputs_of, made): (Vec<&Slot>, Vec<&Slot>) =
+        desc.slots.iter().partition(|slot| slot.direction.takes());
+    for slot in inputs_of {
         match inputs.get(&slot.name) {
             Some(resource) => check(slot, resource, &resolved, capabilities)?,
             None if slot.optional => {}
-            None => {
-                return Err(GraphError::new(
-                    GraphErrorKind::MissingInput,
-                    "nothing is connected to this input; add an edge that leads to it",
-                )
-                .at_slot(&slot.name));
-            }
+            None => return Err(missing_input(&slot.name)),
         }
     }
-    for slot in desc.slots.iter().filter(|slot| !takes_input(slot)) {
+    for slot in made {
         let resource = make(slot, &resolved)?;
         check(slot, &resource, &resolved, capabilities)?;
-        if resource
-            .texture()
-            .is_some_and(|texture| texture.samples > 1 && texture.layers > 1)
-        {
-            return Err(GraphError::new(
-                GraphErrorKind::Declaration,
-                "the node makes a multisampled texture with several layers, which WebGPU does not have",
-            )
-            .at_slot(&slot.name));
+        let texture = resource.texture();
+        if texture.is_some_and(|texture| texture.samples > 1 && texture.layers > 1) {
+            let message = "the node makes a multisampled texture with several layers, which WebGPU does not have";
+            return Err(declaration(message).at_slot(&slot.name));
         }
         resolved.insert(slot.name.clone(), resource);
     }
@@ -81,72 +69,50 @@ fn make(
     slot: &Slot,
     resolved: &BTreeMap<String, ResourceDesc>,
 ) -> Result<ResourceDesc, GraphError> {
-    let undetermined = |what: &str| {
-        GraphError::new(
-            GraphErrorKind::Declaration,
-            format!("the node makes this resource, but leaves its {what} open"),
-        )
-        .at_slot(&slot.name)
-    };
-    match &slot.resource {
-        SlotResource::Buffer { size, .. } => Ok(ResourceDesc::Buffer { size: *size }),
-        SlotResource::Texture(TextureRule {
-            format,
-            extent,
-            layers,
-            mips,
-            samples,
-            deviation,
-            ..
-        }) => {
-            let count = |rule: &CountRule, what: &str, of: Count| match rule {
-                CountRule::Exact(count) => Ok(*count),
-                CountRule::SameAs(other) => Ok(of(texture_of(slot, other, resolved)?)),
-                CountRule::OneOf(_) | CountRule::Any => Err(undetermined(what)),
-            };
-            Ok(ResourceDesc::Texture(TextureDesc {
-                format: match format {
-                    FormatRule::Exact(format) => *format,
-                    FormatRule::Encoded(encoding) => encoding.format(),
-                    FormatRule::SameAs(other) => texture_of(slot, other, resolved)?.format,
-                    FormatRule::OneOf(_) => return Err(undetermined("format")),
-                },
-                planes: match format {
-                    FormatRule::Encoded(encoding) => encoding.planes(),
-                    FormatRule::SameAs(other) => texture_of(slot, other, resolved)?.planes,
-                    FormatRule::Exact(_) | FormatRule::OneOf(_) => 1,
-                },
-                encoding: match format {
-                    FormatRule::Encoded(encoding) => Some(encoding.clone()),
-                    FormatRule::SameAs(other) => {
-                        texture_of(slot, other, resolved)?.encoding.clone()
-                    }
-                    FormatRule::Exact(_) | FormatRule::OneOf(_) => None,
-                },
-                deviation: match format {
-                    FormatRule::SameAs(other) => {
-                        let before = texture_of(slot, other, resolved)?.deviation;
-                        added(before, *deviation)
-                    }
-                    FormatRule::Encoded(_) | FormatRule::Exact(_) | FormatRule::OneOf(_) => {
-                        *deviation
-                    }
-                },
-                size: match extent {
-                    ExtentRule::Exact(size) => *size,
-                    ExtentRule::SameAs(other) => texture_of(slot, other, resolved)?.size,
-                    ExtentRule::Any => return Err(undetermined("extent")),
-                },
-                regions: match extent {
-                    ExtentRule::SameAs(other) => texture_of(slot, other, resolved)?.regions,
-                    ExtentRule::Exact(_) | ExtentRule::Any => 1,
-                },
-                layers: count(layers, "number of layers", |texture| texture.layers)?,
-                mips: count(mips, "number of mip levels", |texture| texture.mips)?,
-                samples: count(samples, "number of samples", |texture| texture.samples)?,
-            }))
+    fn exact<T: Clone>(
+        slot: &Slot,
+        resolved: &BTreeMap<String, ResourceDesc>,
+        rule: &Rule<T>,
+        what: &str,
+        of: fn(&TextureDesc) -> T,
+    ) -> Result<T, GraphError> {
+        match rule {
+            Rule::Exact(value) => Ok(value.clone()),
+            Rule::SameAs(other) => Ok(of(texture_of(slot, other, resolved)?)),
+            Rule::OneOf(_) | Rule::Any => Err(declaration(format!(
+                "the node makes this resource, but leaves its {what} open"
+            ))
+            .at_slot(&slot.name)),
         }
     }
+    let rule = match &slot.resource {
+        SlotResource::Buffer { size, .. } => return Ok(ResourceDesc::Buffer { size: *size }),
+        SlotResource::Texture(rule) => rule,
+    };
+    let count = |rule, what, of| exact(slot, resolved, rule, what, of);
+    let format = exact(slot, resolved, &rule.format, "format", |other| other.format)?;
+    let size = exact(slot, resolved, &rule.extent, "extent", |other| other.size)?;
+    let mut texture = TextureDesc {
+        layers: count(&rule.layers, "number of layers", |other| other.layers)?,
+        mips: count(&rule.mips, "number of mip levels", |other| other.mips)?,
+        samples: count(&rule.samples, "number of samples", |other| other.samples)?,
+        deviation: rule.deviation,
+        ..TextureDesc::new(format, size)
+    };
+    if let Some(encoding) = &rule.encoding {
+        texture.planes = encoding.planes();
+        texture.encoding = Some(encoding.as_ref().clone());
+    }
+    if let Rule::SameAs(other) = &rule.format {
+        let other = texture_of(slot, other, resolved)?;
+        texture.planes = other.planes;
+        texture.encoding = other.encoding.clone();
+        texture.deviation = added(other.deviation, rule.deviation);
+    }
+    if let Rule::SameAs(other) = &rule.extent {
+        texture.regions = texture_of(slot, other, resolved)?.regions;
+    }
+    Ok(ResourceDesc::Texture(texture))
 }
 
 /// The standard deviation of two filters one after the other: variances add up.
@@ -159,7 +125,7 @@ fn added(first: Finite, second: Finite) -> Finite {
 pub(super) fn extent_from(slot: &Slot) -> Option<&str> {
     match &slot.resource {
         SlotResource::Texture(TextureRule {
-            extent: ExtentRule::SameAs(other),
+            extent: Rule::SameAs(other),
             ..
         }) => Some(other),
         SlotResource::Texture(_) | SlotResource::Buffer { .. } => None,
@@ -171,16 +137,13 @@ fn texture_of<'a>(
     other: &str,
     resolved: &'a BTreeMap<String, ResourceDesc>,
 ) -> Result<&'a TextureDesc, GraphError> {
-    resolved
-        .get(other)
-        .and_then(ResourceDesc::texture)
-        .ok_or_else(|| {
-            GraphError::new(
-                GraphErrorKind::Declaration,
-                format!("its rule refers to '{other}', which is no connected texture of the node"),
-            )
-            .at_slot(&slot.name)
-        })
+    let texture = resolved.get(other).and_then(ResourceDesc::texture);
+    texture.ok_or_else(|| {
+        declaration(format!(
+            "its rule refers to '{other}', which is no connected texture of the node"
+        ))
+        .at_slot(&slot.name)
+    })
 }
 
 /// Whether a resource fits a slot and the device.
@@ -190,110 +153,92 @@ fn check(
     resolved: &BTreeMap<String, ResourceDesc>,
     capabilities: &Capabilities,
 ) -> Result<(), GraphError> {
-    let fail = |kind, message: String| Err(GraphError::new(kind, message).at_slot(&slot.name));
-    match (&slot.resource, resource) {
+    let checked = match (&slot.resource, resource) {
         (SlotResource::Buffer { size: needed, .. }, ResourceDesc::Buffer { size }) => {
-            if size < needed {
-                return fail(
-                    GraphErrorKind::Size,
-                    format!("the buffer has {size} bytes; at least {needed} are needed"),
-                );
-            }
-            if *size == 0 || !size.is_multiple_of(BUFFER_ALIGNMENT) {
-                return fail(
-                    GraphErrorKind::Size,
-                    format!(
-                        "the buffer has {size} bytes; a storage buffer has a positive multiple of {BUFFER_ALIGNMENT}"
-                    ),
-                );
-            }
-            Ok(())
+            let aligned = *size > 0 && size.is_multiple_of(BUFFER_ALIGNMENT);
+            ensure(size >= needed, Size, || {
+                format!("the buffer has {size} bytes; at least {needed} are needed")
+            })
+            .and(ensure(aligned, Size, || {
+                format!(
+                    "the buffer has {size} bytes; a storage buffer has a positive multiple of {BUFFER_ALIGNMENT}"
+                )
+            }))
         }
-        (SlotResource::Buffer { .. }, ResourceDesc::Texture(_)) => fail(
-            GraphErrorKind::Format,
-            "a texture is connected, but this input takes a buffer".to_owned(),
-        ),
-        (SlotResource::Texture(_), ResourceDesc::Buffer { .. }) => fail(
-            GraphErrorKind::Format,
-            "a buffer is connected, but this input takes a texture".to_owned(),
-        ),
-        (
-            SlotResource::Texture(TextureRule {
-                access,
-                format,
-                extent,
-                layers,
-                mips,
-                samples,
-                deviation: _,
-            }),
-            ResourceDesc::Texture(texture),
-        ) => {
-            let formats: Vec<TextureFormat> = match format {
-                FormatRule::Exact(format) => vec![*format],
-                FormatRule::Encoded(encoding) => vec![encoding.format()],
-                FormatRule::OneOf(formats) => formats.clone(),
-                FormatRule::SameAs(other) => vec![texture_of(slot, other, resolved)?.format],
-            };
-            if !formats.contains(&texture.format) {
-                let names: Vec<&str> = formats.iter().map(|format| format.name()).collect();
-                return fail(
-                    GraphErrorKind::Format,
-                    format!(
-                        "the texture has the format {}; it has to be {}",
-                        texture.format,
-                        names.join(" or ")
-                    ),
-                );
-            }
-            let size = match extent {
-                ExtentRule::Any => texture.size,
-                ExtentRule::Exact(size) => *size,
-                ExtentRule::SameAs(other) => texture_of(slot, other, resolved)?.size,
-            };
-            if size != texture.size {
-                return fail(
-                    GraphErrorKind::Size,
-                    format!(
-                        "the texture has {}x{} texels; it has to have {}x{}",
-                        texture.size[0], texture.size[1], size[0], size[1]
-                    ),
-                );
-            }
-            use GraphErrorKind::{Format, Size};
-            let counts: [(&CountRule, Count, &str, GraphErrorKind); 3] = [
-                (layers, |texture| texture.layers, "layers", Size),
-                (mips, |texture| texture.mips, "mip levels", Size),
-                (
-                    samples,
-                    |texture| texture.samples,
-                    "samples per texel",
-                    Format,
-                ),
-            ];
-            for (rule, of, what, kind) in counts {
-                let allowed = match rule {
-                    CountRule::Any => continue,
-                    CountRule::Exact(count) => vec![*count],
-                    CountRule::OneOf(counts) => counts.clone(),
-                    CountRule::SameAs(other) => vec![of(texture_of(slot, other, resolved)?)],
-                };
-                if !allowed.contains(&of(texture)) {
-                    let allowed: Vec<String> = allowed.iter().map(u32::to_string).collect();
-                    return fail(
-                        kind,
-                        format!(
-                            "the texture has {} {what}; it has to have {}",
-                            of(texture),
-                            allowed.join(" or ")
-                        ),
-                    );
-                }
-            }
-            limits(texture, capabilities).map_err(|error| error.at_slot(&slot.name))?;
-            usable(texture, *access, capabilities).map_err(|error| error.at_slot(&slot.name))
+        (SlotResource::Buffer { .. }, ResourceDesc::Texture(_)) => Err(GraphError::new(
+            Format,
+            "a texture is connected, but this input takes a buffer",
+        )),
+        (SlotResource::Texture(_), ResourceDesc::Buffer { .. }) => Err(GraphError::new(
+            Format,
+            "a buffer is connected, but this input takes a texture",
+        )),
+        (SlotResource::Texture(rule), ResourceDesc::Texture(texture)) => {
+            check_texture(slot, rule, texture, resolved)
+                .and_then(|()| limits(texture, capabilities))
+                .and_then(|()| usable(texture, rule.access, capabilities))
         }
+    };
+    checked.map_err(|error| error.at_slot(&slot.name))
+}
+
+/// Whether a texture keeps to the rules of its slot.
+fn check_texture(
+    slot: &Slot,
+    rule: &TextureRule,
+    texture: &TextureDesc,
+    resolved: &BTreeMap<String, ResourceDesc>,
+) -> Result<(), GraphError> {
+    let other = |other: &str| texture_of(slot, other, resolved);
+    let count = |rule, of: fn(&TextureDesc) -> u32| {
+        let allowed = allowed(rule, u32::to_string, |name| Ok(of(other(name)?)));
+        Ok::<_, GraphError>((of(texture).to_string(), allowed?))
+    };
+    let format = (
+        texture.format.name().to_owned(),
+        allowed(
+            &rule.format,
+            |format| format.name().to_owned(),
+            |name| Ok(other(name)?.format),
+        )?,
+    );
+    let size = |size: &[u32; 2]| format!("{}x{}", size[0], size[1]);
+    let extent = (
+        size(&texture.size),
+        allowed(&rule.extent, size, |name| Ok(other(name)?.size))?,
+    );
+    let layers = count(&rule.layers, |texture| texture.layers)?;
+    let mips = count(&rule.mips, |texture| texture.mips)?;
+    let samples = count(&rule.samples, |texture| texture.samples)?;
+    for ((found, allowed), kind, has, has_to) in [
+        (format, Format, "the format {}", "be"),
+        (extent, Size, "{} texels", "have"),
+        (layers, Size, "{} layers", "have"),
+        (mips, Size, "{} mip levels", "have"),
+        (samples, Format, "{} samples per texel", "have"),
+    ] {
+        let holds = allowed.is_empty() || allowed.contains(&found);
+        ensure(holds, kind, || {
+            let has = has.replace("{}", &found);
+            let allowed = allowed.join(" or ");
+            format!("the texture has {has}; it has to {has_to} {allowed}")
+        })?;
     }
+    Ok(())
+}
+
+/// What a rule allows, as texts; nothing where it allows anything.
+fn allowed<T>(
+    rule: &Rule<T>,
+    text: impl Fn(&T) -> String,
+    other: impl Fn(&str) -> Result<T, GraphError>,
+) -> Result<Vec<String>, GraphError> {
+    Ok(match rule {
+        Rule::Any => Vec::new(),
+        Rule::Exact(value) => vec![text(value)],
+        Rule::OneOf(values) => values.iter().map(text).collect(),
+        Rule::SameAs(slot) => vec![text(&other(slot)?)],
+    })
 }
 
 /// Sizes of storage buffers are multiples of this in WebGPU.

@@ -2,9 +2,8 @@
 
 use std::collections::{BTreeMap, BTreeSet};
 
-use moment_shadows::nearest;
-
-use crate::{Endpoint, Graph, GraphError, GraphErrorKind};
+use crate::error::{ensure, unknown};
+use crate::{Graph, GraphError, GraphErrorKind, Position};
 
 /// Where an input comes from.
 #[derive(Clone, Debug)]
@@ -15,36 +14,43 @@ pub(super) enum Source {
     Node(usize, String),
 }
 
+impl Source {
+    /// The node's index.
+    pub(super) fn node(&self) -> Option<usize> {
+        match self {
+            Source::Import(_) => None,
+            Source::Node(node, _) => Some(*node),
+        }
+    }
+}
+
+/// What leads to each of a node's slots, with the edge's index.
+type Inputs = BTreeMap<String, (Source, usize)>;
+
+/// The nodes that a node depends on.
+fn upstream(inputs: &Inputs) -> impl Iterator<Item = usize> {
+    inputs.values().filter_map(|(source, _)| source.node())
+}
+
 /// A graph's connections, checked.
 #[derive(Debug)]
 pub(super) struct Wiring {
-    /// For each node: what leads to its slots, with the edge's index.
-    pub(super) inputs: Vec<BTreeMap<String, (Source, usize)>>,
+    /// For each node.
+    pub(super) inputs: Vec<Inputs>,
     /// Node indices such that every node comes after those it depends on; otherwise in file order.
     pub(super) order: Vec<usize>,
 }
 
 impl Wiring {
     pub(super) fn of(graph: &Graph) -> Result<Self, GraphError> {
-        unique(
-            "import or node",
-            graph
-                .imports
-                .iter()
-                .map(|import| (import.name.as_str(), import.position))
-                .chain(
-                    graph
-                        .nodes
-                        .iter()
-                        .map(|node| (node.name.as_str(), node.position)),
-                ),
-        )?;
+        let imports = graph.imports.iter();
+        let imports = imports.map(|import| (&import.name, import.position));
+        let nodes = graph.nodes.iter().map(|node| (&node.name, node.position));
+        unique("import or node", imports.chain(nodes))?;
+        let outputs = graph.outputs.iter();
         unique(
             "output",
-            graph
-                .outputs
-                .iter()
-                .map(|output| (output.name.as_str(), output.position)),
+            outputs.map(|output| (&output.name, output.position)),
         )?;
         let mut inputs = vec![BTreeMap::new(); graph.nodes.len()];
         for (index, edge) in graph.edges.iter().enumerate() {
@@ -70,23 +76,14 @@ impl Wiring {
     pub(super) fn needed(&self, graph: &Graph) -> Result<BTreeSet<usize>, GraphError> {
         let mut pending = Vec::new();
         for output in &graph.outputs {
-            if let Source::Node(node, _) =
-                source(graph, &output.from).map_err(|error| error.at_position(output.position))?
-            {
-                pending.push(node);
-            }
+            let source = source(graph, &output.value);
+            let source = source.map_err(|error| error.at_position(output.position))?;
+            pending.extend(source.node());
         }
         let mut needed = BTreeSet::new();
         while let Some(node) = pending.pop() {
             if needed.insert(node) {
-                pending.extend(
-                    self.inputs[node]
-                        .values()
-                        .filter_map(|(source, _)| match source {
-                            Source::Node(upstream, _) => Some(*upstream),
-                            Source::Import(_) => None,
-                        }),
-                );
+                pending.extend(upstream(&self.inputs[node]));
             }
         }
         Ok(needed)
@@ -94,115 +91,67 @@ impl Wiring {
 }
 
 /// What an edge or an output starts from.
-pub(super) fn source(graph: &Graph, endpoint: &Endpoint) -> Result<Source, GraphError> {
-    match &endpoint.slot {
-        None => graph
-            .imports
-            .iter()
-            .position(|import| import.name == endpoint.owner)
-            .map(Source::Import)
-            .ok_or_else(|| {
-                unknown(
-                    "import",
-                    &endpoint.owner,
-                    graph.imports.iter().map(|import| import.name.as_str()),
-                    "an output of a node is written 'node.slot'",
-                )
-            }),
-        Some(slot) => Ok(Source::Node(
-            node_index(graph, &endpoint.owner)?,
-            slot.clone(),
-        )),
+pub(super) fn source(graph: &Graph, from: &str) -> Result<Source, GraphError> {
+    if let Some((node, slot)) = from.split_once('.') {
+        return Ok(Source::Node(node_index(graph, node)?, slot.to_owned()));
     }
+    let mut names = graph.imports.iter().map(|import| import.name.as_str());
+    let index = names.clone().position(|name| name == from);
+    index.map(Source::Import).ok_or_else(|| {
+        let remark = "an output of a node is written 'node.slot'";
+        unknown("import", from, names.by_ref(), remark)
+    })
 }
 
-fn target(graph: &Graph, endpoint: &Endpoint) -> Result<(usize, String), GraphError> {
-    let node = node_index(graph, &endpoint.owner)?;
-    let slot = endpoint.slot.clone().ok_or_else(|| {
-        GraphError::new(
-            GraphErrorKind::UnknownName,
-            "an edge leads to a slot of a node; write 'node.slot'",
-        )
-        .at_node(&endpoint.owner)
-    })?;
-    Ok((node, slot))
+fn target(graph: &Graph, to: &str) -> Result<(usize, String), GraphError> {
+    let (node, slot) = to.split_once('.').unwrap_or((to, ""));
+    let index = node_index(graph, node)?;
+    ensure(
+        node != to,
+        GraphErrorKind::UnknownName,
+        || "an edge leads to a slot of a node; write 'node.slot'",
+    )
+    .map_err(|error| error.at_node(node))?;
+    Ok((index, slot.to_owned()))
 }
 
 fn node_index(graph: &Graph, name: &str) -> Result<usize, GraphError> {
-    graph
-        .nodes
-        .iter()
-        .position(|node| node.name == name)
-        .ok_or_else(|| {
-            unknown(
-                "node",
-                name,
-                graph.nodes.iter().map(|node| node.name.as_str()),
-                "edges and outputs name the graph's own nodes",
-            )
-        })
-}
-
-pub(super) fn unknown<'a>(
-    what: &str,
-    name: &str,
-    known: impl Iterator<Item = &'a str>,
-    remark: &str,
-) -> GraphError {
-    let nearest = nearest(name, known);
-    let hint = if nearest.is_empty() {
-        "there is none".to_owned()
-    } else {
-        format!("the nearest are {nearest}")
-    };
-    GraphError::new(
-        GraphErrorKind::UnknownName,
-        format!("there is no {what} '{name}'; {hint} ({remark})"),
-    )
+    let names = graph.nodes.iter().map(|node| node.name.as_str());
+    let index = names.clone().position(|node| node == name);
+    index.ok_or_else(|| {
+        let remark = "edges and outputs name the graph's own nodes";
+        unknown("node", name, names, remark)
+    })
 }
 
 fn unique<'a>(
     what: &str,
-    names: impl Iterator<Item = (&'a str, Option<crate::Position>)>,
+    names: impl Iterator<Item = (&'a String, Option<Position>)>,
 ) -> Result<(), GraphError> {
     let mut seen = BTreeSet::new();
     for (name, position) in names {
-        let problem = if name.is_empty() || name.contains('.') {
-            Some(GraphError::new(
-                GraphErrorKind::UnknownName,
-                format!(
-                    "'{name}' cannot be the name of an {what}: names are not empty and have no '.'"
-                ),
-            ))
-        } else if seen.insert(name) {
-            None
-        } else {
-            Some(GraphError::new(
-                GraphErrorKind::DuplicateName,
-                format!("there is already an {what} named '{name}'; rename one of them"),
-            ))
-        };
-        if let Some(error) = problem {
-            return Err(error.at_position(position));
-        }
+        let allowed = !name.is_empty() && !name.contains('.');
+        ensure(allowed, GraphErrorKind::UnknownName, || {
+            format!("'{name}' cannot be the name of an {what}: names are not empty and have no '.'")
+        })
+        .and_then(|()| {
+            ensure(seen.insert(name), GraphErrorKind::DuplicateName, || {
+                format!("there is already an {what} named '{name}'; rename one of them")
+            })
+        })
+        .map_err(|error| error.at_position(position))?;
     }
     Ok(())
 }
 
-fn order(
-    graph: &Graph,
-    inputs: &[BTreeMap<String, (Source, usize)>],
-) -> Result<Vec<usize>, GraphError> {
+fn order(graph: &Graph, inputs: &[Inputs]) -> Result<Vec<usize>, GraphError> {
     let mut order = Vec::with_capacity(inputs.len());
     let mut placed = vec![false; inputs.len()];
     while order.len() < inputs.len() {
-        let ready = (0..inputs.len()).find(|&node| {
-            !placed[node]
-                && inputs[node].values().all(|(source, _)| match source {
-                    Source::Node(upstream, _) => placed[*upstream],
-                    Source::Import(_) => true,
-                })
-        });
+        let ready = |node: &usize| {
+            !placed[*node] && upstream(&inputs[*node]).all(|upstream| placed[upstream])
+        };
+        let ready = (0..inputs.len()).find(ready);
         let Some(node) = ready else {
             return Err(cycle(graph, inputs, &placed));
         };
@@ -213,17 +162,7 @@ fn order(
 }
 
 /// Walks upstream among the nodes that could not be placed until one comes again.
-fn cycle(
-    graph: &Graph,
-    inputs: &[BTreeMap<String, (Source, usize)>],
-    placed: &[bool],
-) -> GraphError {
-    let unplaced_upstream = |node: usize| {
-        inputs[node].values().find_map(|(source, _)| match source {
-            Source::Node(upstream, _) if !placed[*upstream] => Some(*upstream),
-            Source::Node(..) | Source::Import(_) => None,
-        })
-    };
+fn cycle(graph: &Graph, inputs: &[Inputs], placed: &[bool]) -> GraphError {
     let mut path: Vec<usize> = Vec::new();
     let mut current = placed.iter().position(|done| !done);
     while let Some(node) = current {
@@ -232,7 +171,7 @@ fn cycle(
             break;
         }
         path.push(node);
-        current = unplaced_upstream(node);
+        current = upstream(&inputs[node]).find(|&upstream| !placed[upstream]);
     }
     let names: Vec<&str> = path
         .iter()

@@ -1,31 +1,30 @@
 //! How many workgroups a dispatch has.
 
+use crate::error::ensure;
 use crate::{Capabilities, GraphError, GraphErrorKind};
 
 /// A grid of workgroups over a texture.
-pub(super) fn grid(
-    size: [u32; 2],
-    texels_per_workgroup: [u32; 2],
+fn grid(
+    [width, height]: [u32; 2],
+    [across, down]: [u32; 2],
     capabilities: &Capabilities,
 ) -> Result<[u32; 2], GraphError> {
-    let tile = checked(texels_per_workgroup)?;
-    let groups = [0, 1].map(|axis| size[axis].div_ceil(tile[axis]));
+    ensure(
+        across > 0 && down > 0,
+        GraphErrorKind::Declaration,
+        || "a workgroup covers no texel",
+    )?;
+    let [x, y] = [width.div_ceil(across), height.div_ceil(down)];
     let largest = capabilities.max_workgroups;
-    if groups.iter().any(|&count| count > largest) {
-        return Err(GraphError::new(
-            GraphErrorKind::Size,
-            format!(
-                "covering {}x{} texels takes {}x{} workgroups; the device allows {largest}, so at most {}x{} texels",
-                size[0],
-                size[1],
-                groups[0],
-                groups[1],
-                u64::from(largest) * u64::from(tile[0]),
-                u64::from(largest) * u64::from(tile[1]),
-            ),
-        ));
-    }
-    Ok(groups)
+    ensure(x.max(y) <= largest, GraphErrorKind::Size, || {
+        let most = |texels| u64::from(largest) * u64::from(texels);
+        format!(
+            "covering {width}x{height} texels takes {x}x{y} workgroups; the device allows {largest}, so at most {}x{} texels",
+            most(across),
+            most(down)
+        )
+    })?;
+    Ok([x, y])
 }
 
 /// Enough workgroups for any regions of a layer that do not overlap.
@@ -53,27 +52,14 @@ pub(super) fn for_regions(
     let count = (texels / (across * down)).min(each_whole).max(1);
     let largest = u64::from(capabilities.max_workgroups);
     let rows = count.div_ceil(largest);
-    if rows > largest {
-        return Err(GraphError::new(
-            GraphErrorKind::Size,
-            format!(
-                "{regions} regions of {width}x{height} texels take {count} workgroups; the device allows {largest} times \
-                 {largest}, so describe the map with fewer regions",
-            ),
-        ));
-    }
+    ensure(rows <= largest, GraphErrorKind::Size, || {
+        format!(
+            "{regions} regions of {width}x{height} texels take {count} workgroups; the device allows {largest} times \
+             {largest}, so describe the map with fewer regions",
+        )
+    })?;
     // Rows of equal length, so that few workgroups are left over; both fit u32.
     Ok([count.div_ceil(rows) as u32, rows as u32])
-}
-
-fn checked(texels_per_workgroup: [u32; 2]) -> Result<[u32; 2], GraphError> {
-    if texels_per_workgroup.contains(&0) {
-        return Err(GraphError::new(
-            GraphErrorKind::Declaration,
-            "a workgroup covers no texel",
-        ));
-    }
-    Ok(texels_per_workgroup)
 }
 
 #[cfg(test)]

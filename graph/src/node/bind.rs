@@ -1,6 +1,6 @@
 //! What variables of a shader hold, by slot: for [`Pass::bind`](super::Pass::bind).
 
-use super::{BindingResource, MipLevel, RegionTable};
+use super::BindingResource;
 
 /// The node's uniform data.
 pub fn parameters() -> BindingResource {
@@ -9,10 +9,10 @@ pub fn parameters() -> BindingResource {
 
 /// The regions of a slot's map, which have at least so many texels along each side.
 pub fn regions(slot: &str, smallest: u32) -> BindingResource {
-    BindingResource::Regions(RegionTable {
+    BindingResource::Regions {
         slot: slot.to_owned(),
         smallest,
-    })
+    }
 }
 
 /// One layer, mip level 0, loaded or sampled.
@@ -22,10 +22,10 @@ pub fn layer(slot: &str) -> BindingResource {
 
 /// A mip level of one layer, loaded or sampled.
 pub fn level(slot: &str, level: u32) -> BindingResource {
-    BindingResource::Level(MipLevel {
+    BindingResource::Level {
         slot: slot.to_owned(),
         level,
-    })
+    }
 }
 
 /// All layers, loaded or sampled.
@@ -40,10 +40,10 @@ pub fn store(slot: &str) -> BindingResource {
 
 /// A mip level of one layer, written.
 pub fn store_level(slot: &str, level: u32) -> BindingResource {
-    BindingResource::StorageLevel(MipLevel {
+    BindingResource::StorageLevel {
         slot: slot.to_owned(),
         level,
-    })
+    }
 }
 
 /// A storage buffer.

@@ -6,12 +6,9 @@ mod slot;
 
 use std::collections::BTreeMap;
 
-pub use pass::{Binding, BindingResource, MipLevel, ParameterBlock, Pass, RegionTable, Work};
+pub use pass::{Binding, BindingResource, ParameterBlock, Pass, Work};
 use serde::{Deserialize, Serialize};
-pub use slot::{
-    CountRule, Direction, ExtentRule, FormatRule, Lifetime, SameAs, Slot, SlotResource,
-    TextureRule, same_as,
-};
+pub use slot::{Direction, Rule, Slot, SlotResource, TextureRule};
 
 use crate::{Capabilities, GraphError, GraphErrorKind, ResourceDesc, TextureDesc};
 
@@ -142,13 +139,7 @@ impl<'a> Connected<'a> {
 
     /// The texture that is connected to a required slot.
     pub fn texture(&self, slot: &str) -> Result<&'a TextureDesc, GraphError> {
-        let resource = self.inputs.get(slot).ok_or_else(|| {
-            GraphError::new(
-                GraphErrorKind::MissingInput,
-                "nothing is connected to this input; add an edge that leads to it",
-            )
-            .at_slot(slot)
-        })?;
+        let resource = self.get(slot).ok_or_else(|| missing_input(slot))?;
         resource.texture().ok_or_else(|| {
             GraphError::new(
                 GraphErrorKind::Format,
@@ -157,6 +148,15 @@ impl<'a> Connected<'a> {
             .at_slot(slot)
         })
     }
+}
+
+/// The error about a required input.
+pub(crate) fn missing_input(slot: &str) -> GraphError {
+    GraphError::new(
+        GraphErrorKind::MissingInput,
+        "nothing is connected to this input; add an edge that leads to it",
+    )
+    .at_slot(slot)
 }
 
 /// A node type with its properties.

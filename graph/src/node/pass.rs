@@ -23,18 +23,23 @@ pub struct Pass {
     /// The plane that bindings of a single layer mean, where a map has several.
     #[serde(default)]
     pub plane: u32,
+    /// Once per dirty layer of what is covered or drawn to; otherwise once. A host draws once.
+    #[serde(default)]
+    pub each_layer: bool,
     /// What is recorded.
     pub work: Work,
 }
 
-/// What a variable of a shader holds.
+/// What a variable of a shader holds: in a node's description by slots, in a plan by indices.
 #[must_use]
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
-pub struct Binding {
-    /// The WGSL variable's name. Bind group and binding number are those that its declaration has.
-    pub variable: String,
+#[serde(deny_unknown_fields)]
+pub struct Binding<V = String, R = BindingResource> {
+    /// The WGSL variable: its name, from whose declaration the compiler takes bind group and number; in a plan its number.
+    #[serde(rename = "binding")]
+    pub variable: V,
     /// What the variable holds.
-    pub resource: BindingResource,
+    pub resource: R,
 }
 
 /// What a binding holds.
@@ -46,13 +51,28 @@ pub enum BindingResource {
     Parameters,
     /// The regions of a slot's map in the layer that the pass is recorded for: a uniform array of `MapRegion`, which all
     /// nodes share that work on maps with those regions.
-    Regions(RegionTable),
+    Regions {
+        /// The slot.
+        slot: String,
+        /// The fewest texels that a region can have along each side.
+        smallest: u32,
+    },
     /// A mip level of one layer of a texture, loaded or sampled: the layer that the pass is recorded for.
-    Level(MipLevel),
+    Level {
+        /// The slot.
+        slot: String,
+        /// The mip level.
+        level: u32,
+    },
     /// All layers of a texture, with all their planes, loaded or sampled.
     Layers(String),
     /// A mip level of one layer of a texture, written.
-    StorageLevel(MipLevel),
+    StorageLevel {
+        /// The slot.
+        slot: String,
+        /// The mip level.
+        level: u32,
+    },
     /// A storage buffer.
     Buffer(String),
     /// A sampler that clamps to the edge.
@@ -70,62 +90,31 @@ pub enum BindingResource {
     },
 }
 
-/// A mip level of a slot's texture.
-#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
-pub struct MipLevel {
-    /// The slot.
-    pub slot: String,
-    /// The mip level.
-    pub level: u32,
-}
-
-/// The regions of a slot's map, and what a pass asks of them.
-#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
-pub struct RegionTable {
-    /// The slot.
-    pub slot: String,
-    /// The fewest texels that a region can have along each side.
-    pub smallest: u32,
-}
-
 /// What a pass records.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Work {
-    /// A dispatch that covers a texture, or one of a single workgroup column for a buffer.
+    /// A dispatch that covers a mip level of a texture.
     Compute {
-        /// The slot that is covered.
-        covers: String,
-        /// Texels that one workgroup covers.
-        texels_per_workgroup: [u32; 2],
-        /// Once per dirty layer of `covers`; otherwise once.
-        each_layer: bool,
-    },
-    /// A dispatch that covers the regions of one layer, once per dirty layer. Where a layer can have one region,
-    /// workgroups lie in a grid from its origin on. Where it can have more, they are numbered through the regions, row by
-    /// row of each; there are enough of them for any regions that do not overlap.
-    ComputeRegions {
         /// The slot that is covered.
         covers: String,
         /// The mip level that is covered.
         level: u32,
         /// Texels that one workgroup covers.
         texels_per_workgroup: [u32; 2],
+        /// Only the regions of each layer. Where a layer can have one region, workgroups lie in a grid from its origin on.
+        /// Where it can have more, they are numbered through the regions, row by row of each; there are enough of them for
+        /// any regions that do not overlap.
+        regions: bool,
     },
-    /// A triangle over the whole of a target, which need not be cleared.
+    /// A triangle over the whole of a mip level of a target, which need not be cleared.
     Fullscreen {
-        /// The slot that is drawn to; of a map with planes the pass's plane.
-        target: String,
-        /// Once per dirty layer of the target; otherwise once, to layer 0.
-        each_layer: bool,
-    },
-    /// A triangle over the whole of a mip level of one layer, once per dirty layer, whose shader discards what lies in no
-    /// region: as with [`ComputeRegions`](Work::ComputeRegions) the target keeps its contents there.
-    FullscreenRegions {
         /// The slot that is drawn to; of a map with planes the pass's plane.
         target: String,
         /// The mip level that is drawn to.
         level: u32,
+        /// The shader discards what lies in no region; the target keeps its contents there.
+        regions: bool,
     },
     /// A hole in the plan where the host draws.
     Host {
@@ -164,6 +153,7 @@ impl Pass {
             bindings: Vec::new(),
             constants: BTreeMap::new(),
             plane: 0,
+            each_layer: false,
             work,
         }
     }
@@ -174,8 +164,9 @@ impl Pass {
             label,
             Work::Compute {
                 covers: covers.to_owned(),
+                level: 0,
                 texels_per_workgroup,
-                each_layer: false,
+                regions: false,
             },
         )
     }
@@ -186,7 +177,8 @@ impl Pass {
             label,
             Work::Fullscreen {
                 target: target.to_owned(),
-                each_layer: false,
+                level: 0,
+                regions: false,
             },
         )
     }
@@ -211,14 +203,22 @@ impl Pass {
         self
     }
 
-    /// Once per dirty layer. Passes over regions are in any case; a host draws once.
-    pub fn each_layer(mut self) -> Self {
-        if let Work::Compute { each_layer, .. } | Work::Fullscreen { each_layer, .. } =
+    /// Once per dirty layer.
+    pub fn each_layer(self) -> Self {
+        Self {
+            each_layer: true,
+            ..self
+        }
+    }
+
+    /// Once per dirty layer, over the regions of a mip level.
+    pub fn over_regions(mut self, of_level: u32) -> Self {
+        if let Work::Compute { level, regions, .. } | Work::Fullscreen { level, regions, .. } =
             &mut self.work
         {
-            *each_layer = true;
+            (*level, *regions) = (of_level, true);
         }
-        self
+        self.each_layer()
     }
 
     /// Linked WGSL, and its compute or fragment entry point.
@@ -247,20 +247,31 @@ impl Pass {
         Self { plane, ..self }
     }
 
-    /// The slots that the pass touches, and how.
-    pub(super) fn touched(&self) -> Vec<(&str, Access)> {
-        let bound = self.bindings.iter().filter_map(Binding::touched);
+    /// The slots that the pass touches, and how. Whether a buffer is written is its slot's to say.
+    pub(crate) fn touched(&self) -> Vec<(&str, Access)> {
+        let bound = self
+            .bindings
+            .iter()
+            .filter_map(|binding| match &binding.resource {
+                BindingResource::Level { slot, .. }
+                | BindingResource::Layers(slot)
+                | BindingResource::Buffer(slot) => Some((slot, Access::READ)),
+                BindingResource::StorageLevel { slot, .. } => Some((slot, Access::STORAGE_WRITE)),
+                BindingResource::Parameters
+                | BindingResource::Regions { .. }
+                | BindingResource::Sampler { .. }
+                | BindingResource::ComparisonSampler { .. } => None,
+            });
         let drawn: Vec<&String> = match &self.work {
-            Work::Compute { .. } | Work::ComputeRegions { .. } => Vec::new(),
-            Work::Fullscreen { target, .. } | Work::FullscreenRegions { target, .. } => {
-                vec![target]
-            }
+            Work::Compute { .. } => Vec::new(),
+            Work::Fullscreen { target, .. } => vec![target],
             Work::Host { targets, depth, .. } => targets.iter().chain(depth).collect(),
         };
-        let drawn = drawn
-            .into_iter()
-            .map(|slot| (slot.as_str(), Access::RENDER_TARGET));
-        bound.chain(drawn).collect()
+        let drawn = drawn.into_iter().map(|slot| (slot, Access::RENDER_TARGET));
+        let touched = bound.chain(drawn);
+        touched
+            .map(|(slot, access)| (slot.as_str(), access))
+            .collect()
     }
 }
 
@@ -270,23 +281,6 @@ impl Binding {
         Self {
             variable: variable.to_owned(),
             resource,
-        }
-    }
-
-    /// The slot whose texture is touched, and how. Whether a buffer is written is its slot's to say.
-    fn touched(&self) -> Option<(&str, Access)> {
-        match &self.resource {
-            BindingResource::Level(MipLevel { slot, .. }) | BindingResource::Layers(slot) => {
-                Some((slot, Access::READ))
-            }
-            BindingResource::StorageLevel(MipLevel { slot, .. }) => {
-                Some((slot, Access::STORAGE_WRITE))
-            }
-            BindingResource::Buffer(_)
-            | BindingResource::Parameters
-            | BindingResource::Regions(_)
-            | BindingResource::Sampler { .. }
-            | BindingResource::ComparisonSampler { .. } => None,
         }
     }
 }

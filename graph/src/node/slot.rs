@@ -15,8 +15,9 @@ pub struct Slot {
     pub description: String,
     /// Whether edges lead in, out, both or nowhere.
     pub direction: Direction,
-    /// How long the contents matter.
-    pub lifetime: Lifetime,
+    /// Whether the contents are kept from frame to frame, in memory of their own. Otherwise they matter until the last
+    /// reader in the frame, and the memory may then serve another resource.
+    pub persistent: bool,
     /// Whether the node can do without it. Only inputs are optional.
     pub optional: bool,
     /// What the slot carries.
@@ -37,14 +38,11 @@ pub enum Direction {
     Internal,
 }
 
-/// How long a resource's contents matter.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
-#[serde(rename_all = "snake_case")]
-pub enum Lifetime {
-    /// Until its last reader in the frame; its memory may then serve another resource.
-    Frame,
-    /// Until the resources are dropped; its memory is its own.
-    Persistent,
+impl Direction {
+    /// Whether an edge leads in.
+    pub(crate) fn takes(self) -> bool {
+        matches!(self, Direction::In | Direction::InOut)
+    }
 }
 
 /// What a slot holds.
@@ -68,60 +66,55 @@ pub enum SlotResource {
 pub struct TextureRule {
     /// How the node's passes touch it.
     pub access: Access,
-    /// The format.
-    pub format: FormatRule,
-    /// Width and height.
-    pub extent: ExtentRule,
+    /// The format. The format of another slot comes with its planes and encoding.
+    pub format: Rule<TextureFormat>,
+    /// What the texels of a filterable map mean that the node makes; its format and planes follow.
+    pub encoding: Option<Box<MapEncoding>>,
+    /// Width and height. Those of another slot come with its regions.
+    pub extent: Rule<[u32; 2]>,
     /// Number of layers.
-    pub layers: CountRule,
+    pub layers: Rule<u32>,
     /// Number of mip levels.
-    pub mips: CountRule,
+    pub mips: Rule<u32>,
     /// Samples per texel.
-    pub samples: CountRule,
+    pub samples: Rule<u32>,
     /// The standard deviation of the node's filter, along either axis, in texels. It adds to that of the map whose format
     /// the texture takes; 0 where the node does not filter.
     #[serde(default)]
     pub deviation: Finite,
 }
 
-/// Which format a texture has.
+/// What a property of a texture may be, or what it becomes.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
-pub enum FormatRule {
-    /// This format.
-    Exact(TextureFormat),
-    /// The format of a filterable map with this encoding, which the texture then has.
-    Encoded(MapEncoding),
-    /// One of these formats. Only for inputs.
-    OneOf(Vec<TextureFormat>),
-    /// The format of another slot, with its planes and encoding.
+pub enum Rule<T> {
+    /// This value.
+    Exact(T),
+    /// One of these values. Only for inputs.
+    OneOf(Vec<T>),
+    /// Any value. Only for inputs.
+    Any,
+    /// What another slot has.
     SameAs(String),
 }
 
-/// Which width and height a texture has. A texture that takes those of another slot also has its regions.
-#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
-#[serde(rename_all = "snake_case")]
-pub enum ExtentRule {
-    /// This width and height.
-    Exact([u32; 2]),
-    /// Any value. Only for inputs.
-    Any,
-    /// The width and height of another slot.
-    SameAs(String),
+impl<T> Rule<T> {
+    /// What another slot has.
+    pub fn same_as(slot: &str) -> Self {
+        Rule::SameAs(slot.to_owned())
+    }
 }
 
-/// How many layers, mip levels or samples a texture has.
-#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
-#[serde(rename_all = "snake_case")]
-pub enum CountRule {
-    /// This number.
-    Exact(u32),
-    /// One of these counts. Only for inputs.
-    OneOf(Vec<u32>),
-    /// Any value. Only for inputs.
-    Any,
-    /// The number that another slot has.
-    SameAs(String),
+impl<T> From<T> for Rule<T> {
+    fn from(value: T) -> Self {
+        Rule::Exact(value)
+    }
+}
+
+impl<T: Clone> From<&[T]> for Rule<T> {
+    fn from(values: &[T]) -> Self {
+        Rule::OneOf(values.to_vec())
+    }
 }
 
 impl Slot {
@@ -135,7 +128,7 @@ impl Slot {
             name: name.to_owned(),
             description: description.to_owned(),
             direction,
-            lifetime: Lifetime::Frame,
+            persistent: false,
             optional: false,
             resource: resource.into(),
         }
@@ -169,7 +162,7 @@ impl Slot {
 
     /// Contents that are kept from frame to frame.
     pub fn persistent(mut self) -> Self {
-        self.lifetime = Lifetime::Persistent;
+        self.persistent = true;
         self
     }
 }
@@ -192,17 +185,27 @@ impl From<TextureRule> for SlotResource {
 
 /// Texture rules, from the common case on: one layer, one mip level and one sample per texel, of any size.
 impl TextureRule {
-    /// A texture of a format: a format, several, an encoding or [`same_as`] another slot.
-    pub fn new(format: impl Into<FormatRule>) -> Self {
+    /// A texture of a format, of one of several, or of that of another slot ([`Rule::same_as`]).
+    pub fn new(format: impl Into<Rule<TextureFormat>>) -> Self {
         Self {
             // A description's passes say it.
             access: Access::default(),
             format: format.into(),
-            extent: ExtentRule::Any,
-            layers: CountRule::Exact(1),
-            mips: CountRule::Exact(1),
-            samples: CountRule::Exact(1),
+            encoding: None,
+            extent: Rule::Any,
+            layers: Rule::Exact(1),
+            mips: Rule::Exact(1),
+            samples: Rule::Exact(1),
             deviation: Finite::ZERO,
+        }
+    }
+
+    /// A filterable map that the node makes.
+    pub fn of_map(encoding: MapEncoding) -> Self {
+        let rule = Self::new(encoding.format());
+        Self {
+            encoding: Some(Box::new(encoding)),
+            ..rule
         }
     }
 
@@ -212,25 +215,25 @@ impl TextureRule {
         self
     }
 
-    /// Width and height, or [`same_as`] another slot, whose regions it then has, too.
-    pub fn extent(mut self, extent: impl Into<ExtentRule>) -> Self {
+    /// Width and height, or those of another slot, whose regions it then has, too.
+    pub fn extent(mut self, extent: impl Into<Rule<[u32; 2]>>) -> Self {
         self.extent = extent.into();
         self
     }
 
     /// The size, regions and layers of another slot.
     pub fn like(self, slot: &str) -> Self {
-        self.extent(same_as(slot)).layers(same_as(slot))
+        self.extent(Rule::same_as(slot)).layers(Rule::same_as(slot))
     }
 
     /// How many layers.
-    pub fn layers(mut self, layers: impl Into<CountRule>) -> Self {
+    pub fn layers(mut self, layers: impl Into<Rule<u32>>) -> Self {
         self.layers = layers.into();
         self
     }
 
     /// How many mip levels.
-    pub fn mips(mut self, mips: impl Into<CountRule>) -> Self {
+    pub fn mips(mut self, mips: impl Into<Rule<u32>>) -> Self {
         self.mips = mips.into();
         self
     }
@@ -242,42 +245,8 @@ impl TextureRule {
     }
 
     /// How many samples per texel.
-    pub fn samples(mut self, samples: impl Into<CountRule>) -> Self {
+    pub fn samples(mut self, samples: impl Into<Rule<u32>>) -> Self {
         self.samples = samples.into();
         self
     }
-}
-
-/// What another slot has: a rule for formats, extents and counts.
-#[must_use]
-#[derive(Clone, Debug, PartialEq, Eq)]
-pub struct SameAs(String);
-
-/// What another slot has: a rule for formats, extents and counts.
-pub fn same_as(slot: &str) -> SameAs {
-    SameAs(slot.to_owned())
-}
-
-macro_rules! rules_from {
-    ($($rule:ident { $($from:ty => $variant:ident),+ })+) => {
-        $(
-            $(impl From<$from> for $rule {
-                fn from(from: $from) -> Self {
-                    $rule::$variant(from.into())
-                }
-            })+
-
-            impl From<SameAs> for $rule {
-                fn from(SameAs(slot): SameAs) -> Self {
-                    $rule::SameAs(slot)
-                }
-            }
-        )+
-    };
-}
-
-rules_from! {
-    FormatRule { TextureFormat => Exact, MapEncoding => Encoded, Vec<TextureFormat> => OneOf, &[TextureFormat] => OneOf }
-    ExtentRule { [u32; 2] => Exact }
-    CountRule { u32 => Exact, Vec<u32> => OneOf }
 }

@@ -5,7 +5,7 @@
 use moment_shadows::{Contents, MapEncoding, Row, Technique};
 
 use super::shared::Specialization;
-use crate::{Binding, CountRule, GraphError, GraphErrorKind, Slot, TextureRule, bind};
+use crate::{Binding, GraphError, GraphErrorKind, Rule, Slot, TextureRule, bind};
 
 /// The name and text of a virtual module.
 pub(super) type VirtualModule = (&'static str, &'static str);
@@ -120,7 +120,7 @@ pub(super) fn places_layers(technique: &Technique) -> bool {
 pub(super) fn splits_input(one_layer: bool) -> (Slot, Binding) {
     let rule = TextureRule::new(moment_shadows::TextureFormat::Rgba32Float)
         .extent([2, 1])
-        .layers(CountRule::Any);
+        .layers(Rule::Any);
     let slot = Slot::input(SPLITS, "Where the layers of the technique lie.", rule);
     let bound = if one_layer { bind::layer } else { bind::layers };
     let binding = Binding::new("splits_map", bound(SPLITS));

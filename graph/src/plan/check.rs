@@ -1,207 +1,96 @@
 //! Whether a plan that was read from elsewhere holds together.
 
-use super::{Plan, PlannedBindingResource, PlannedPass, PlannedResource, PlannedWork};
-use crate::{Home, VERSION};
-
-/// Why a plan cannot be used. A plan that [`crate::compile`] gave is never refused; one that was read from a file may be.
-#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
-#[non_exhaustive]
-pub enum PlanError {
-    /// A plan of another version.
-    #[error(
-        "the plan has version {version}, this library reads version {VERSION}; compile the graph with this library"
-    )]
-    Version {
-        /// The plan's version.
-        version: u32,
-    },
-    /// A number that refers to nothing in the plan.
-    #[error("{what} refers to {of} {index}, but the plan has {count}; compile the graph again")]
-    Index {
-        /// What refers.
-        what: String,
-        /// The kind of thing that it refers to.
-        of: &'static str,
-        /// The number.
-        index: usize,
-        /// How many of these the plan has.
-        count: usize,
-    },
-    /// A texture where a buffer is needed, or a buffer where a texture is.
-    #[error("{what} refers to resource '{resource}', which is {desc}; compile the graph again")]
-    Kind {
-        /// What refers.
-        what: String,
-        /// The resource's name.
-        resource: String,
-        /// What the resource is.
-        desc: String,
-    },
-    /// A map's regions that do not lie within the view's block.
-    #[error("the regions of map '{map}' do not lie within a view's block; compile the graph again")]
-    Regions {
-        /// The map.
-        map: String,
-    },
-    /// A mip level that a texture does not have.
-    #[error(
-        "{what} refers to mip level {level} of '{resource}', which has {count}; compile the graph again"
-    )]
-    Level {
-        /// What refers.
-        what: String,
-        /// The mip level.
-        level: u32,
-        /// The resource's name.
-        resource: String,
-        /// How many mip levels it has.
-        count: u32,
-    },
-    /// A node's parameters that do not lie within the view's block.
-    #[error(
-        "the parameters of node '{node}' do not lie within a view's block; compile the graph again"
-    )]
-    Parameters {
-        /// The node.
-        node: String,
-    },
-}
+use super::access::Part;
+use super::{Plan, PlannedBindingResource};
+use crate::error::ensure;
+use crate::graph::VERSION;
+use crate::{GraphError, GraphErrorKind, Home};
 
 impl Plan {
-    /// Whether everything that the plan refers to is there. The recorder asks this before it uses a plan.
-    pub fn check(&self) -> Result<(), PlanError> {
-        if self.version != VERSION {
-            return Err(PlanError::Version {
-                version: self.version,
-            });
-        }
+    /// Whether everything that the plan refers to is there. The recorder asks this before it uses a plan. A plan that
+    /// [`Graph::compile`](crate::Graph::compile) gave is never refused; one that was read from a file may be.
+    pub fn check(&self) -> Result<(), GraphError> {
+        ensure(self.version == VERSION, GraphErrorKind::Version, || {
+            format!(
+                "the plan has version {}, this library reads version {VERSION}; compile the graph with this library",
+                self.version
+            )
+        })?;
         for resource in &self.resources {
             let what = format!("resource '{}'", resource.name);
             match resource.home {
-                Home::Import(index) => within(what, "import", index, self.imports.len())?,
-                Home::Memory(index) => within(what, "memory", index, self.memory.len())?,
+                Home::Import(index) => within(&what, "import", index, self.imports.len())?,
+                Home::Memory(index) => within(&what, "memory", index, self.memory.len())?,
             }
         }
         let named = self.imports.iter().map(|import| ("import", import));
         let named = named.chain(self.outputs.iter().map(|output| ("output", output)));
         for (kind, named) in named {
             let what = format!("{kind} '{}'", named.name);
-            within(what, "resource", named.resource, self.resources.len())?;
+            within(&what, "resource", named.value, self.resources.len())?;
         }
-        // Whether `count` pieces lie within a view's block.
-        let fits = |offset: u32, count: u32, stride: u32, size: u64| {
+        self.check_parameters()?;
+        for pass in &self.passes {
+            let what = format!("pass '{}'", pass.name());
+            for binding in &pass.bindings {
+                if let PlannedBindingResource::Parameters { block, .. } = binding.resource {
+                    let blocks = self.parameters.blocks.len();
+                    within(&what, "parameter block", block, blocks)?;
+                }
+                if let PlannedBindingResource::Regions { table, .. } = binding.resource {
+                    let tables = self.parameters.regions.len();
+                    within(&what, "region table", table, tables)?;
+                }
+            }
+            for touch in pass.touches() {
+                let of = touch.resource;
+                within(&what, "resource", of, self.resources.len())?;
+                let resource = &self.resources[of];
+                let texture = resource.desc.texture();
+                let is_buffer = touch.part == Part::Buffer;
+                ensure(is_buffer == texture.is_none(), GraphErrorKind::Plan, || {
+                    let (name, desc) = (&resource.name, &resource.desc);
+                    format!(
+                        "{what} refers to resource '{name}', which is {desc}; compile the graph again"
+                    )
+                })?;
+                if let (Some(texture), Part::Level { level, plane }) = (texture, touch.part) {
+                    let what = format!("{what} on '{}'", resource.name);
+                    within(&what, "mip level", level as usize, texture.mips as usize)?;
+                    within(&what, "plane", plane as usize, texture.planes as usize)?;
+                }
+            }
+        }
+        Ok(())
+    }
+
+    /// Whether all uniform data lies within a view's block.
+    fn check_parameters(&self) -> Result<(), GraphError> {
+        let inside = |offset: u32, count: u32, stride: u32, size: u64| {
             let last = u64::from(count.saturating_sub(1));
             u64::from(offset) + last * u64::from(stride) + size <= u64::from(self.parameters.size)
         };
-        for block in &self.parameters.blocks {
-            let inside = fits(block.offset, block.count, block.stride, block.array_size());
-            if !inside || block.initial.len() > block.size as usize {
-                return Err(PlanError::Parameters {
-                    node: block.node.clone(),
-                });
-            }
+        let blocks = self.parameters.blocks.iter().map(|block| {
+            let fits = inside(block.offset, block.count, block.stride, block.array_size())
+                && block.initial.len() <= block.size as usize;
+            (fits, format!("parameters of node '{}'", block.node))
+        });
+        let tables = self.parameters.regions.iter().map(|table| {
+            let fits = inside(table.offset, table.layers, table.stride, table.size())
+                && table.capacity > 0;
+            (fits, format!("regions of map '{}'", table.map))
+        });
+        for (fits, what) in blocks.chain(tables) {
+            ensure(fits, GraphErrorKind::Plan, || {
+                format!("the {what} do not lie within a view's block; compile the graph again")
+            })?;
         }
-        for table in &self.parameters.regions {
-            let inside = fits(table.offset, table.layers, table.stride, table.size());
-            if !inside || table.capacity == 0 {
-                return Err(PlanError::Regions {
-                    map: table.map.clone(),
-                });
-            }
-        }
-        let mut passes = self.passes.iter();
-        passes.try_for_each(|pass| self.check_pass(pass))
-    }
-
-    fn check_pass(&self, pass: &PlannedPass) -> Result<(), PlanError> {
-        let what = || format!("pass '{}/{}'", pass.node, pass.label);
-        let within = |of, index, count| within(what(), of, index, count);
-        for binding in &pass.bindings {
-            match binding.resource {
-                PlannedBindingResource::Parameters { block, .. } => {
-                    within("parameter block", block, self.parameters.blocks.len())?;
-                }
-                PlannedBindingResource::Regions { table, .. } => {
-                    within("region table", table, self.parameters.regions.len())?;
-                }
-                PlannedBindingResource::Texture {
-                    resource,
-                    level,
-                    plane,
-                    ..
-                }
-                | PlannedBindingResource::StorageTexture {
-                    resource,
-                    level,
-                    plane,
-                } => self.check_texture(what(), resource, level, plane)?,
-                PlannedBindingResource::Buffer { resource, .. } => {
-                    within("resource", resource, self.resources.len())?;
-                    let buffer = &self.resources[resource];
-                    if buffer.desc.texture().is_some() {
-                        return Err(kind(what(), buffer));
-                    }
-                }
-                PlannedBindingResource::Sampler { .. }
-                | PlannedBindingResource::ComparisonSampler { .. } => {}
-            }
-        }
-        match &pass.work {
-            PlannedWork::Compute { .. } => Ok(()),
-            PlannedWork::Fullscreen {
-                target,
-                level,
-                plane,
-                ..
-            } => self.check_texture(what(), *target, *level, *plane),
-            PlannedWork::Host { targets, depth, .. } => targets
-                .iter()
-                .chain(depth)
-                .try_for_each(|&target| self.check_texture(what(), target, 0, 0)),
-        }
-    }
-
-    fn check_texture(
-        &self,
-        what: String,
-        index: usize,
-        level: u32,
-        plane: u32,
-    ) -> Result<(), PlanError> {
-        let Some(resource) = self.resources.get(index) else {
-            return within(what, "resource", index, self.resources.len());
-        };
-        let Some(texture) = resource.desc.texture() else {
-            return Err(kind(what, resource));
-        };
-        if level >= texture.mips {
-            return Err(PlanError::Level {
-                what,
-                level,
-                resource: resource.name.clone(),
-                count: texture.mips,
-            });
-        }
-        within(what, "plane", plane as usize, texture.planes as usize)
+        Ok(())
     }
 }
 
-fn kind(what: String, resource: &PlannedResource) -> PlanError {
-    PlanError::Kind {
-        what,
-        resource: resource.name.clone(),
-        desc: resource.desc.to_string(),
-    }
-}
-
-fn within(what: String, of: &'static str, index: usize, count: usize) -> Result<(), PlanError> {
-    if index < count {
-        return Ok(());
-    }
-    Err(PlanError::Index {
-        what,
-        of,
-        index,
-        count,
+fn within(what: &str, of: &str, index: usize, count: usize) -> Result<(), GraphError> {
+    ensure(index < count, GraphErrorKind::Plan, || {
+        format!("{what} refers to {of} {index}, but there are {count}; compile the graph again")
     })
 }

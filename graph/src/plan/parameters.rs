@@ -3,6 +3,8 @@
 use serde::{Deserialize, Serialize};
 
 use super::PlannedRegions;
+use crate::error::{ensure, unknown};
+use crate::{GraphError, GraphErrorKind};
 
 /// Where uniform data lies in the block of one view. A host keeps one block per view in a buffer of its own.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
@@ -36,64 +38,6 @@ pub struct PlannedParameters {
     pub count: u32,
     /// What each struct holds until the host writes something else; zeros where empty.
     pub initial: Vec<u8>,
-}
-
-/// Uniform data that does not fit its place.
-#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
-#[non_exhaustive]
-pub enum ParameterError {
-    /// No recorded pass of that node has parameters.
-    #[error("node '{node}' has no parameters in this plan; nodes that do: {known}")]
-    UnknownNode {
-        /// The node that was named.
-        node: String,
-        /// The nodes with parameters.
-        known: String,
-    },
-    /// The struct has another size.
-    #[error("parameters of node '{node}' ({name}) have {expected} bytes, {given} were given")]
-    Size {
-        /// The node.
-        node: String,
-        /// The WGSL struct.
-        name: String,
-        /// The struct's size.
-        expected: u32,
-        /// What was given.
-        given: usize,
-    },
-    /// There are fewer structs.
-    #[error(
-        "parameters of node '{node}' ({name}) are at most {elements} structs, {given} were given"
-    )]
-    Elements {
-        /// The node.
-        node: String,
-        /// The WGSL struct.
-        name: String,
-        /// How many there are.
-        elements: u32,
-        /// How many were given.
-        given: usize,
-    },
-    /// There are fewer layers.
-    #[error("node '{node}' has parameters for {count} layers; layer {layer} is none of them")]
-    Layer {
-        /// The node.
-        node: String,
-        /// How many structs there are.
-        count: u32,
-        /// The layer that was named.
-        layer: u32,
-    },
-    /// The view's block is too small.
-    #[error("a view's block has {expected} bytes, {given} were given")]
-    Block {
-        /// [`ParameterLayout::size`].
-        expected: u32,
-        /// What was given.
-        given: usize,
-    },
 }
 
 impl PlannedParameters {
@@ -145,7 +89,7 @@ impl ParameterLayout {
         node: &str,
         layer: u32,
         parameters: &P,
-    ) -> Result<(), ParameterError> {
+    ) -> Result<(), GraphError> {
         self.write_all(block, node, layer, core::slice::from_ref(parameters))
     }
 
@@ -157,54 +101,53 @@ impl ParameterLayout {
         node: &str,
         layer: u32,
         parameters: &[P],
-    ) -> Result<(), ParameterError> {
-        let planned = self
-            .blocks
-            .iter()
-            .find(|planned| planned.node == node)
-            .ok_or_else(|| ParameterError::UnknownNode {
-                node: node.to_owned(),
-                known: self
-                    .blocks
-                    .iter()
-                    .map(|planned| planned.node.as_str())
-                    .collect::<Vec<_>>()
-                    .join(", "),
-            })?;
-        if size_of::<P>() != planned.size as usize {
-            return Err(ParameterError::Size {
-                node: node.to_owned(),
-                name: planned.name.clone(),
-                expected: planned.size,
-                given: size_of::<P>(),
-            });
-        }
-        if parameters.len() > planned.elements as usize {
-            return Err(ParameterError::Elements {
-                node: node.to_owned(),
-                name: planned.name.clone(),
-                elements: planned.elements,
-                given: parameters.len(),
-            });
-        }
-        if layer >= planned.count {
-            return Err(ParameterError::Layer {
-                node: node.to_owned(),
-                count: planned.count,
-                layer,
-            });
-        }
-        let given = block.len();
-        let start = planned.start(layer, 0);
-        let array = block
-            .get_mut(start..start + planned.array_size() as usize)
-            .ok_or(ParameterError::Block {
-                expected: self.size,
-                given,
-            })?;
+    ) -> Result<(), GraphError> {
+        let planned = self.blocks.iter().find(|planned| planned.node == node);
+        let planned = planned.ok_or_else(|| {
+            let known = self.blocks.iter().map(|planned| planned.node.as_str());
+            unknown("node with parameters", node, known, "in this plan")
+        })?;
+        let PlannedParameters {
+            name,
+            size,
+            elements,
+            count,
+            ..
+        } = planned;
+        let (bytes, given) = (size_of::<P>(), parameters.len());
+        fits(bytes == *size as usize, || {
+            format!("its parameters ({name}) have {size} bytes, {bytes} were given")
+        })
+        .and(fits(given <= *elements as usize, || {
+            format!("its parameters ({name}) are at most {elements} structs, {given} were given")
+        }))
+        .and(fits(layer < *count, || {
+            format!("it has parameters for {count} layers; layer {layer} is none of them")
+        }))
+        .map_err(|error| error.at_node(node))?;
+        let place = self.place(block, planned.start(layer, 0), planned.array_size())?;
         let bytes: &[u8] = bytemuck::cast_slice(parameters);
-        array[..bytes.len()].copy_from_slice(bytes);
+        place[..bytes.len()].copy_from_slice(bytes);
         planned.reset(block, layer, parameters.len() as u32);
         Ok(())
     }
+
+    /// A place within a view's block, which may be too short.
+    pub(super) fn place<'a>(
+        &self,
+        block: &'a mut [u8],
+        start: usize,
+        size: u64,
+    ) -> Result<&'a mut [u8], GraphError> {
+        let given = block.len();
+        block.get_mut(start..start + size as usize).ok_or_else(|| {
+            let message = format!("a view's block has {} bytes, {given} were given", self.size);
+            GraphError::new(GraphErrorKind::Parameters, message)
+        })
+    }
+}
+
+/// Whether values fit the view's block.
+pub(super) fn fits(holds: bool, message: impl FnOnce() -> String) -> Result<(), GraphError> {
+    ensure(holds, GraphErrorKind::Parameters, message)
 }

@@ -4,6 +4,9 @@ use moment_shadows::MapRegion;
 use serde::{Deserialize, Serialize};
 
 use super::ParameterLayout;
+use super::parameters::fits;
+use crate::GraphError;
+use crate::error::unknown;
 
 /// Where the regions of a map lie in a view's block. All nodes that work on a map read the same table.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
@@ -25,93 +28,6 @@ pub struct PlannedRegions {
     pub smallest: u32,
 }
 
-/// Regions that a map cannot have.
-#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
-#[non_exhaustive]
-pub enum RegionError {
-    /// No recorded pass works on regions of that map.
-    #[error("map '{map}' has no regions in this plan; maps that do: {known}")]
-    UnknownMap {
-        /// The map that was named.
-        map: String,
-        /// The maps with regions.
-        known: String,
-    },
-    /// There are fewer layers.
-    #[error("map '{map}' has {layers} layers; layer {layer} is none of them")]
-    Layer {
-        /// The map.
-        map: String,
-        /// How many layers there are.
-        layers: u32,
-        /// The layer that was named.
-        layer: u32,
-    },
-    /// More regions than the plan was compiled for.
-    #[error(
-        "a layer of map '{map}' has at most {capacity} regions, {given} were given; describe the import with 'regions': {given}"
-    )]
-    Count {
-        /// The map.
-        map: String,
-        /// How many there can be.
-        capacity: u32,
-        /// How many were given.
-        given: usize,
-    },
-    /// A region that is not within the map.
-    #[error(
-        "region {index} of map '{map}' runs from {}, {} on over {} x {} texels; the map has {} x {}",
-        region.origin[0], region.origin[1], region.extent[0], region.extent[1], extent[0], extent[1]
-    )]
-    Outside {
-        /// The map.
-        map: String,
-        /// The region's number.
-        index: usize,
-        /// The region.
-        region: MapRegion,
-        /// The map's size.
-        extent: [u32; 2],
-    },
-    /// A region that is smaller than a filter's kernel, or than its mip levels need.
-    #[error(
-        "region {index} of map '{map}' has {} x {} texels; {smallest} along each side are the fewest that the graph's \
-         filter can work on",
-        extent[0], extent[1]
-    )]
-    Small {
-        /// The map.
-        map: String,
-        /// The region's number.
-        index: usize,
-        /// The region's size.
-        extent: [u32; 2],
-        /// The least size along each side.
-        smallest: u32,
-    },
-    /// Two regions with a texel in common.
-    #[error(
-        "regions {first} and {second} of map '{map}' overlap; each texel belongs to one region"
-    )]
-    Overlap {
-        /// The map.
-        map: String,
-        /// The number of one.
-        first: usize,
-        /// The number of the other.
-        second: usize,
-    },
-    /// The view's block is too small.
-    #[error("a view's block has {expected} bytes, {given} were given")]
-    Block {
-        /// [`ParameterLayout::size`].
-        expected: u32,
-        /// What was given.
-        given: usize,
-    },
-}
-
 impl PlannedRegions {
     /// Bytes of one layer's regions.
     #[must_use]
@@ -119,61 +35,66 @@ impl PlannedRegions {
         u64::from(self.capacity) * size_of::<MapRegion>() as u64
     }
 
-    fn place<'a>(&self, block: &'a mut [u8], layer: u32) -> Option<&'a mut [u8]> {
-        let start = self.offset as usize + layer as usize * self.stride as usize;
-        block.get_mut(start..start + self.size() as usize)
+    /// Where a layer's regions begin in the view's block.
+    fn start(&self, layer: u32) -> usize {
+        self.offset as usize + layer as usize * self.stride as usize
     }
 
     /// The whole layer as its one region.
     pub(super) fn reset(&self, block: &mut [u8], layer: u32) {
-        if let Some(place) = self.place(block, layer) {
-            place.fill(0);
-            let whole = bytemuck::bytes_of(&MapRegion::WHOLE);
-            place[..whole.len()].copy_from_slice(whole);
+        let start = self.start(layer);
+        if let Some(place) = block.get_mut(start..start + self.size() as usize) {
+            fill(place, &[MapRegion::WHOLE]);
         }
     }
 
-    fn check(&self, regions: &[MapRegion]) -> Result<(), RegionError> {
+    fn check(&self, regions: &[MapRegion]) -> Result<(), GraphError> {
+        let (map, smallest, capacity) = (&self.map, self.smallest, self.capacity);
+        let given = regions.len();
+        fits(given <= capacity as usize, || {
+            format!(
+                "a layer of map '{map}' has at most {capacity} regions, {given} were given; describe the import with \
+                 'regions': {given}"
+            )
+        })?;
         for (index, region) in regions.iter().enumerate() {
-            if *region == MapRegion::WHOLE {
-                continue;
-            }
-            let inside = |axis: usize| {
-                region.origin[axis]
-                    .checked_add(region.extent[axis])
-                    .is_some_and(|end| end <= self.extent[axis])
-            };
-            if !(inside(0) && inside(1)) {
-                return Err(RegionError::Outside {
-                    map: self.map.clone(),
-                    index,
-                    region: *region,
-                    extent: self.extent,
-                });
-            }
-            if region.extent.iter().any(|&side| side < self.smallest) {
-                return Err(RegionError::Small {
-                    map: self.map.clone(),
-                    index,
-                    extent: region.extent,
-                    smallest: self.smallest,
-                });
-            }
+            let MapRegion { origin, extent } = *region;
+            let ends = |axis: usize| origin[axis].checked_add(extent[axis]);
+            let inside = |axis: usize| ends(axis).is_some_and(|end| end <= self.extent[axis]);
+            let whole = *region == MapRegion::WHOLE;
+            fits(whole || (inside(0) && inside(1)), || {
+                format!(
+                    "region {index} of map '{map}' runs from {}, {} on over {} x {} texels; the map has {} x {}",
+                    origin[0], origin[1], extent[0], extent[1], self.extent[0], self.extent[1]
+                )
+            })?;
+            fits(whole || extent[0].min(extent[1]) >= smallest, || {
+                format!(
+                    "region {index} of map '{map}' has {} x {} texels; {smallest} along each side are the fewest that \
+                     the graph's filter can work on",
+                    extent[0], extent[1]
+                )
+            })?;
         }
         for (second, region) in regions.iter().enumerate() {
-            if let Some(first) = regions[..second]
-                .iter()
-                .position(|earlier| earlier.overlaps(region))
-            {
-                return Err(RegionError::Overlap {
-                    map: self.map.clone(),
-                    first,
-                    second,
-                });
-            }
+            let mut earlier = regions[..second].iter();
+            let first = earlier.position(|earlier| earlier.overlaps(region));
+            fits(first.is_none(), || {
+                let first = first.unwrap_or_default();
+                format!(
+                    "regions {first} and {second} of map '{map}' overlap; each texel belongs to one region"
+                )
+            })?;
         }
         Ok(())
     }
+}
+
+/// Writes regions, and zeros behind them.
+fn fill(place: &mut [u8], regions: &[MapRegion]) {
+    let bytes: &[u8] = bytemuck::cast_slice(regions);
+    place.fill(0);
+    place[..bytes.len()].copy_from_slice(bytes);
 }
 
 impl ParameterLayout {
@@ -188,45 +109,21 @@ impl ParameterLayout {
         map: &str,
         layer: u32,
         regions: &[MapRegion],
-    ) -> Result<(), RegionError> {
-        let planned = self
-            .regions
-            .iter()
-            .find(|planned| planned.map == map)
-            .ok_or_else(|| RegionError::UnknownMap {
-                map: map.to_owned(),
-                known: match self.regions.as_slice() {
-                    [] => "none".to_owned(),
-                    tables => tables
-                        .iter()
-                        .map(|table| table.map.as_str())
-                        .collect::<Vec<_>>()
-                        .join(", "),
-                },
-            })?;
-        if layer >= planned.layers {
-            return Err(RegionError::Layer {
-                map: map.to_owned(),
-                layers: planned.layers,
-                layer,
-            });
-        }
-        if regions.len() > planned.capacity as usize {
-            return Err(RegionError::Count {
-                map: map.to_owned(),
-                capacity: planned.capacity,
-                given: regions.len(),
-            });
-        }
-        planned.check(regions)?;
-        let given = block.len();
-        let place = planned.place(block, layer).ok_or(RegionError::Block {
-            expected: self.size,
-            given,
+    ) -> Result<(), GraphError> {
+        let planned = self.regions.iter().find(|planned| planned.map == map);
+        let planned = planned.ok_or_else(|| {
+            let known = self.regions.iter().map(|planned| planned.map.as_str());
+            unknown("map with regions", map, known, "in this plan")
         })?;
-        let bytes: &[u8] = bytemuck::cast_slice(regions);
-        place.fill(0);
-        place[..bytes.len()].copy_from_slice(bytes);
+        let layers = planned.layers;
+        fits(layer < layers, || {
+            format!("map '{map}' has {layers} layers; layer {layer} is none of them")
+        })?;
+        planned.check(regions)?;
+        fill(
+            self.place(block, planned.start(layer), planned.size())?,
+            regions,
+        );
         Ok(())
     }
 }

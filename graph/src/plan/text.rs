@@ -7,24 +7,26 @@ use crate::Stage;
 
 impl fmt::Display for Plan {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        writeln!(f, "imports")?;
-        for import in &self.imports {
-            writeln!(
-                f,
-                "  {:<28} {}",
-                import.name,
-                description(self, import.resource)
-            )?;
-        }
+        // A plan from elsewhere may refer to nothing.
+        let name = |resource: usize| {
+            let resource = self.resources.get(resource);
+            resource.map_or("?", |resource| &resource.name).to_owned()
+        };
+        let imports = self.imports.iter().map(|import| {
+            let resource = self.resources.get(import.value);
+            let desc = resource.map_or("?".to_owned(), |resource| resource.desc.to_string());
+            (import.name.clone(), desc)
+        });
+        section(f, "imports", imports)?;
         for stage in Stage::ALL {
-            writeln!(f, "stage {stage:?}")?;
-            for pass in self.passes.iter().filter(|pass| pass.stage == stage) {
+            let passes = self.passes.iter().filter(|pass| pass.stage == stage);
+            let passes = passes.map(|pass| {
                 let work = match &pass.work {
-                    PlannedWork::Compute { workgroups } => {
-                        format!("compute {}x{} workgroups", workgroups[0], workgroups[1])
+                    PlannedWork::Compute { workgroups: [x, y] } => {
+                        format!("compute {x}x{y} workgroups")
                     }
                     PlannedWork::Fullscreen { target, .. } => {
-                        format!("fullscreen to {}", name(self, *target))
+                        format!("fullscreen to {}", name(*target))
                     }
                     PlannedWork::Host { .. } => "the host draws".to_owned(),
                 };
@@ -33,63 +35,51 @@ impl fmt::Display for Plan {
                 } else {
                     String::new()
                 };
-                writeln!(
-                    f,
-                    "  {:<28} {work}{layers}, {} read, {} written",
-                    format!("{}/{}", pass.node, pass.label),
-                    Bytes(pass.bytes_read),
-                    Bytes(pass.bytes_written)
-                )?;
-            }
+                let [read, written] = [pass.bytes_read, pass.bytes_written].map(Bytes);
+                let text = format!("{work}{layers}, {read} read, {written} written");
+                (pass.name(), text)
+            });
+            section(f, &format!("stage {stage:?}"), passes)?;
         }
-        writeln!(f, "memory ({} resident)", Bytes(self.bytes_resident()))?;
-        for memory in &self.memory {
-            writeln!(
-                f,
-                "  {:<28} {}, {}",
-                memory.label,
-                memory.desc,
-                Bytes(memory.desc.bytes())
-            )?;
-        }
-        writeln!(f, "parameters ({} bytes per view)", self.parameters.size)?;
-        for block in &self.parameters.blocks {
+        let memory = self.memory.iter().map(|memory| {
+            let text = format!("{}, {}", memory.desc, Bytes(memory.desc.bytes()));
+            (memory.label.clone(), text)
+        });
+        let resident = Bytes(self.bytes_resident());
+        section(f, &format!("memory ({resident} resident)"), memory)?;
+        let blocks = self.parameters.blocks.iter().map(|block| {
             let elements = match block.elements {
                 1 => String::new(),
                 elements => format!(" x {elements}"),
             };
-            writeln!(
-                f,
-                "  {:<28} {} at {}, {} bytes{elements} x {}",
-                block.node, block.name, block.offset, block.size, block.count
-            )?;
-        }
-        for table in &self.parameters.regions {
-            writeln!(
-                f,
-                "  {:<28} MapRegion at {}, up to {} regions x {} layers",
-                table.map, table.offset, table.capacity, table.layers
-            )?;
-        }
-        writeln!(f, "outputs")?;
-        for output in &self.outputs {
-            writeln!(f, "  {:<28} {}", output.name, name(self, output.resource))?;
-        }
-        Ok(())
+            let text = format!(
+                "{} at {}, {} bytes{elements} x {}",
+                block.name, block.offset, block.size, block.count
+            );
+            (block.node.clone(), text)
+        });
+        let tables = self.parameters.regions.iter().map(|table| {
+            let text = format!(
+                "MapRegion at {}, up to {} regions x {} layers",
+                table.offset, table.capacity, table.layers
+            );
+            (table.map.clone(), text)
+        });
+        let title = format!("parameters ({} bytes per view)", self.parameters.size);
+        section(f, &title, blocks.chain(tables))?;
+        let outputs = self.outputs.iter();
+        let outputs = outputs.map(|output| (output.name.clone(), name(output.value)));
+        section(f, "outputs", outputs)
     }
 }
 
-/// A resource's name; a question mark where a plan from elsewhere refers to nothing.
-fn name(plan: &Plan, resource: usize) -> &str {
-    plan.resources
-        .get(resource)
-        .map_or("?", |resource| &resource.name)
-}
-
-fn description(plan: &Plan, resource: usize) -> String {
-    plan.resources
-        .get(resource)
-        .map_or("?".to_owned(), |resource| resource.desc.to_string())
+fn section(
+    f: &mut fmt::Formatter<'_>,
+    title: &str,
+    mut rows: impl Iterator<Item = (String, String)>,
+) -> fmt::Result {
+    writeln!(f, "{title}")?;
+    rows.try_for_each(|(name, text)| writeln!(f, "  {name:<28} {text}"))
 }
 
 /// A number of bytes, readable.

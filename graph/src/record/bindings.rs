@@ -1,13 +1,17 @@
 //! A plan bound to its pipelines, its resources and the host's imports.
 
-use super::given::{ImportedResource, check_alignment, check_parameters, find_import};
-use super::objects::{Objects, Part};
-use super::pipelines::{Pipeline, label, name};
+use super::given::{ImportedResource, check_parameters, find_import};
+use super::objects::Objects;
+use super::pipelines::{Made, Pipeline, label, missing};
 use super::resources::Created;
 use super::samplers::{comparison_sampler, sampler};
 use super::scope::{check_alive, scoped};
-use super::{Pipelines, RecordError, Resources};
-use crate::{Plan, PlannedBindingResource, PlannedPass, PlannedWork, Stage};
+use super::{Pipelines, Resources};
+use crate::error::ensure;
+use crate::plan::Part;
+use crate::{
+    GraphError, GraphErrorKind, Plan, PlannedBindingResource, PlannedPass, PlannedWork, Stage,
+};
 
 /// Everything that recording needs, made beforehand.
 #[derive(Debug)]
@@ -83,13 +87,15 @@ impl Bindings {
         resources: &Resources,
         imports: &[(&str, ImportedResource<'_>)],
         parameters: Option<&wgpu::Buffer>,
-    ) -> Result<Self, RecordError> {
+    ) -> Result<Self, GraphError> {
         plan.check()?;
-        if !resources.fit(plan) {
-            return Err(RecordError::WrongResources);
-        }
-        check_parameters(plan, parameters)?;
-        check_alignment(plan, device.limits().min_uniform_buffer_offset_alignment)?;
+        ensure(
+            resources.fit(plan),
+            GraphErrorKind::Plan,
+            || "the resources were created for another plan; create them from this one",
+        )?;
+        let uniform_alignment = device.limits().min_uniform_buffer_offset_alignment;
+        check_parameters(plan, parameters, uniform_alignment)?;
         let binder = Binder {
             device,
             objects: Objects {
@@ -98,32 +104,27 @@ impl Bindings {
                 imports: plan
                     .imports
                     .iter()
-                    .map(|import| find_import(plan, &import.name, import.resource, imports))
+                    .map(|import| find_import(plan, import, imports))
                     .collect::<Result<_, _>>()?,
             },
             parameters,
         };
         let mut steps = Vec::with_capacity(plan.passes.len());
         for pass in &plan.passes {
-            let what = label(pass);
-            let pipeline = match pass.work {
+            let made = match pass.work {
                 PlannedWork::Host { .. } => None,
                 PlannedWork::Compute { .. } | PlannedWork::Fullscreen { .. } => {
                     Some(pipelines.get(plan, pass)?)
                 }
             };
-            let mut step = scoped(device, &what, || binder.step(pass, pipeline)).await??;
-            if let Action::Draw { drawn, .. } = &mut step.action {
-                *drawn = pipelines.drawn(plan, pass)?.cloned();
-            }
-            steps.push(step);
+            steps.push(scoped(device, &label(pass), || binder.step(pass, made)).await??);
         }
         check_alive(device)?;
         let outputs = plan
             .outputs
             .iter()
             .filter_map(|output| {
-                let created = resources.get(&plan.resources[output.resource])?;
+                let created = resources.get(&plan.resources[output.value])?;
                 Some((output.name.clone(), created.clone()))
             })
             .collect();
@@ -131,7 +132,7 @@ impl Bindings {
             steps,
             parameters: parameters.cloned(),
             parameter_size: u64::from(plan.parameters.size),
-            uniform_alignment: device.limits().min_uniform_buffer_offset_alignment,
+            uniform_alignment,
             bind_group: plan.bind_group,
             outputs,
         })
@@ -140,23 +141,25 @@ impl Bindings {
     /// The texture behind an output of the graph that the plan created.
     #[must_use]
     pub fn output(&self, name: &str) -> Option<&wgpu::Texture> {
-        self.outputs
-            .iter()
-            .find_map(|(output, created)| match created {
-                Created::Texture(texture) if output == name => Some(texture),
-                Created::Texture(_) | Created::Buffer(_) => None,
-            })
+        match self.created(name)? {
+            Created::Texture(texture) => Some(texture),
+            Created::Buffer(_) => None,
+        }
     }
 
     /// The buffer behind an output of the graph that the plan created.
     #[must_use]
     pub fn output_buffer(&self, name: &str) -> Option<&wgpu::Buffer> {
-        self.outputs
-            .iter()
-            .find_map(|(output, created)| match created {
-                Created::Buffer(buffer) if output == name => Some(buffer),
-                Created::Texture(_) | Created::Buffer(_) => None,
-            })
+        match self.created(name)? {
+            Created::Texture(_) => None,
+            Created::Buffer(buffer) => Some(buffer),
+        }
+    }
+
+    fn created(&self, name: &str) -> Option<&Created> {
+        let mut outputs = self.outputs.iter();
+        let (_, created) = outputs.find(|(output, _)| output == name)?;
+        Some(created)
     }
 }
 
@@ -171,31 +174,36 @@ struct Binder<'a> {
 enum Bound {
     View(wgpu::TextureView),
     Buffer(wgpu::Buffer),
-    Parameters(u32),
+    /// So many bytes of the parameter buffer.
+    Parameters(wgpu::Buffer, u32),
     Sampler(wgpu::Sampler),
 }
 
 impl Binder<'_> {
-    fn step(
-        &self,
-        pass: &PlannedPass,
-        pipeline: Option<(&Pipeline, &wgpu::BindGroupLayout)>,
-    ) -> Result<Step, RecordError> {
+    fn step(&self, pass: &PlannedPass, made: Option<Made<'_>>) -> Result<Step, GraphError> {
         let label = label(pass);
         let mut bind_groups = Vec::new();
-        if let Some((_, layout)) = pipeline {
+        if let Some(made) = made {
             for layer in 0..pass.layers {
-                bind_groups.push(self.bind_group(pass, layout, layer, &label)?);
+                bind_groups.push(self.bind_group(pass, made.layout, layer, &label)?);
             }
         }
         let uniforms = self.uniforms(pass);
-        if uniforms.len() > MOST_UNIFORMS {
-            return Err(RecordError::Device {
-                what: label,
-                reason: format!("it has {} uniform bindings", uniforms.len()),
-            });
-        }
-        let action = match (&pass.work, pipeline.map(|(pipeline, _)| pipeline)) {
+        ensure(
+            uniforms.len() <= MOST_UNIFORMS,
+            GraphErrorKind::Plan,
+            || {
+                format!(
+                    "{label} has {} uniform bindings, more than {MOST_UNIFORMS}",
+                    uniforms.len()
+                )
+            },
+        )?;
+        let view = |target: usize, level, plane, layer| {
+            let part = Part::Level { level, plane };
+            self.objects.view(target, part, layer)
+        };
+        let action = match (&pass.work, made.map(|made| made.pipeline)) {
             (PlannedWork::Compute { workgroups }, Some(Pipeline::Compute(pipeline))) => {
                 Action::Dispatch {
                     pipeline: pipeline.clone(),
@@ -210,21 +218,14 @@ impl Binder<'_> {
                     keeps,
                 },
                 Some(Pipeline::Render(pipeline)),
-            ) => {
-                let part = |layer| Part {
-                    layer,
-                    plane,
-                    level,
-                };
-                Action::Draw {
-                    pipeline: pipeline.clone(),
-                    drawn: None,
-                    keeps,
-                    targets: (0..pass.layers)
-                        .map(|layer| self.objects.view(target, Some(part(layer))))
-                        .collect::<Result<_, _>>()?,
-                }
-            }
+            ) => Action::Draw {
+                pipeline: pipeline.clone(),
+                drawn: made.and_then(|made| made.drawn).cloned(),
+                keeps,
+                targets: (0..pass.layers)
+                    .map(|layer| view(target, level, plane, layer))
+                    .collect::<Result<_, _>>()?,
+            },
             (
                 PlannedWork::Host {
                     targets: colours,
@@ -235,18 +236,16 @@ impl Binder<'_> {
             ) => Action::Host {
                 targets: colours
                     .iter()
-                    .map(|&target| self.objects.view(target, Some(Part::default())))
+                    .map(|&target| view(target, 0, 0, 0))
                     .collect::<Result<_, _>>()?,
-                depth: depth
-                    .map(|target| self.objects.view(target, Some(Part::default())))
-                    .transpose()?,
+                depth: depth.map(|target| view(target, 0, 0, 0)).transpose()?,
                 blend: *blend,
             },
-            _ => return Err(RecordError::MissingPipeline { pass: label }),
+            _ => return Err(missing(pass)),
         };
         Ok(Step {
             stage: pass.stage,
-            name: name(pass),
+            name: pass.name(),
             label,
             each_layer: pass.each_layer,
             layers: pass.layers,
@@ -260,31 +259,32 @@ impl Binder<'_> {
     /// Uniform data in the order of the bindings, which is that of dynamic offsets.
     fn uniforms(&self, pass: &PlannedPass) -> Vec<Uniform> {
         let layout = &self.objects.plan.parameters;
-        let mut uniforms: Vec<(u32, Uniform)> = pass
-            .bindings
+        // The compiler sorts bindings; a plan from elsewhere may not.
+        let mut bindings: Vec<_> = pass.bindings.iter().collect();
+        bindings.sort_by_key(|binding| binding.variable);
+        let uniform = |resource: &PlannedBindingResource| {
+            let (offset, stride, count) = match *resource {
+                PlannedBindingResource::Parameters { block, .. } => {
+                    let block = &layout.blocks[block];
+                    (block.offset, block.stride, block.count)
+                }
+                PlannedBindingResource::Regions { table, .. } => {
+                    let table = &layout.regions[table];
+                    (table.offset, table.stride, table.layers)
+                }
+                PlannedBindingResource::Texture { .. }
+                | PlannedBindingResource::StorageTexture { .. }
+                | PlannedBindingResource::Buffer { .. }
+                | PlannedBindingResource::Sampler { .. }
+                | PlannedBindingResource::ComparisonSampler { .. } => return None,
+            };
+            let stride = if count > 1 { stride } else { 0 };
+            Some(Uniform { offset, stride })
+        };
+        let uniforms = bindings
             .iter()
-            .filter_map(|binding| {
-                let (offset, stride, count) = match binding.resource {
-                    PlannedBindingResource::Parameters { block, .. } => {
-                        let block = &layout.blocks[block];
-                        (block.offset, block.stride, block.count)
-                    }
-                    PlannedBindingResource::Regions { table, .. } => {
-                        let table = &layout.regions[table];
-                        (table.offset, table.stride, table.layers)
-                    }
-                    PlannedBindingResource::Texture { .. }
-                    | PlannedBindingResource::StorageTexture { .. }
-                    | PlannedBindingResource::Buffer { .. }
-                    | PlannedBindingResource::Sampler { .. }
-                    | PlannedBindingResource::ComparisonSampler { .. } => return None,
-                };
-                let stride = if count > 1 { stride } else { 0 };
-                Some((binding.binding, Uniform { offset, stride }))
-            })
-            .collect();
-        uniforms.sort_by_key(|(binding, _)| *binding);
-        uniforms.into_iter().map(|(_, uniform)| uniform).collect()
+            .filter_map(|binding| uniform(&binding.resource));
+        uniforms.collect()
     }
 
     fn bind_group(
@@ -293,30 +293,16 @@ impl Binder<'_> {
         layout: &wgpu::BindGroupLayout,
         layer: u32,
         label: &str,
-    ) -> Result<wgpu::BindGroup, RecordError> {
-        let bound = pass
-            .bindings
-            .iter()
-            .map(|binding| {
-                Ok((
-                    binding.binding,
-                    self.bound(&binding.resource, layer, label)?,
-                ))
-            })
-            .collect::<Result<Vec<_>, RecordError>>()?;
-        let mut entries = Vec::with_capacity(bound.len());
-        for (binding, bound) in &bound {
+    ) -> Result<wgpu::BindGroup, GraphError> {
+        let bindings = pass.bindings.iter();
+        let bound = bindings.map(|binding| self.bound(&binding.resource, layer, label));
+        let bound = bound.collect::<Result<Vec<_>, GraphError>>()?;
+        let entries = pass.bindings.iter().zip(&bound).map(|(binding, bound)| {
             let resource = match bound {
                 Bound::View(view) => wgpu::BindingResource::TextureView(view),
                 Bound::Sampler(sampler) => wgpu::BindingResource::Sampler(sampler),
                 Bound::Buffer(buffer) => buffer.as_entire_binding(),
-                Bound::Parameters(size) => {
-                    let Some(buffer) = self.parameters else {
-                        return Err(RecordError::ParameterBuffer {
-                            problem: "is missing".to_owned(),
-                            needed: u64::from(*size),
-                        });
-                    };
+                Bound::Parameters(buffer, size) => {
                     wgpu::BindingResource::Buffer(wgpu::BufferBinding {
                         buffer,
                         offset: 0,
@@ -324,11 +310,12 @@ impl Binder<'_> {
                     })
                 }
             };
-            entries.push(wgpu::BindGroupEntry {
-                binding: *binding,
+            wgpu::BindGroupEntry {
+                binding: binding.variable,
                 resource,
-            });
-        }
+            }
+        });
+        let entries: Vec<wgpu::BindGroupEntry<'_>> = entries.collect();
         Ok(self.device.create_bind_group(&wgpu::BindGroupDescriptor {
             label: Some(label),
             layout,
@@ -341,10 +328,17 @@ impl Binder<'_> {
         resource: &PlannedBindingResource,
         layer: u32,
         label: &str,
-    ) -> Result<Bound, RecordError> {
-        Ok(match *resource {
+    ) -> Result<Bound, GraphError> {
+        let view = |resource, part| Ok(Bound::View(self.objects.view(resource, part, layer)?));
+        match *resource {
             PlannedBindingResource::Parameters { size, .. }
-            | PlannedBindingResource::Regions { size, .. } => Bound::Parameters(size),
+            | PlannedBindingResource::Regions { size, .. } => match self.parameters {
+                Some(buffer) => Ok(Bound::Parameters(buffer.clone(), size)),
+                None => Err(GraphError::new(
+                    GraphErrorKind::Parameters,
+                    format!("the parameter buffer is missing; {label} needs {size} bytes of it"),
+                )),
+            },
             PlannedBindingResource::Texture {
                 resource,
                 one_layer,
@@ -352,35 +346,33 @@ impl Binder<'_> {
                 plane,
                 ..
             } => {
-                let part = Part {
-                    layer,
-                    plane,
-                    level,
+                let part = if one_layer {
+                    Part::Level { level, plane }
+                } else {
+                    Part::Layers
                 };
-                Bound::View(self.objects.view(resource, one_layer.then_some(part))?)
+                view(resource, part)
             }
             PlannedBindingResource::StorageTexture {
                 resource,
                 level,
                 plane,
-            } => {
-                let part = Part {
-                    layer,
-                    plane,
-                    level,
-                };
-                Bound::View(self.objects.view(resource, Some(part))?)
-            }
+            } => view(resource, Part::Level { level, plane }),
             PlannedBindingResource::Buffer { resource, .. } => {
-                Bound::Buffer(self.objects.buffer(resource)?)
+                Ok(Bound::Buffer(self.objects.buffer(resource)?))
             }
             PlannedBindingResource::Sampler {
                 filtering,
                 anisotropy,
-            } => Bound::Sampler(sampler(self.device, filtering, anisotropy, label)),
-            PlannedBindingResource::ComparisonSampler { reversed } => {
-                Bound::Sampler(comparison_sampler(self.device, reversed, label))
-            }
-        })
+            } => Ok(Bound::Sampler(sampler(
+                self.device,
+                filtering,
+                anisotropy,
+                label,
+            ))),
+            PlannedBindingResource::ComparisonSampler { reversed } => Ok(Bound::Sampler(
+                comparison_sampler(self.device, reversed, label),
+            )),
+        }
     }
 }

@@ -4,9 +4,15 @@ use moment_shadows::TextureFormat;
 
 use crate::{Access, TextureDesc};
 
-/// The wgpu format of a texture that a plan describes.
-#[must_use]
-pub fn texture_format(format: TextureFormat) -> wgpu::TextureFormat {
+impl TextureDesc {
+    /// The format in wgpu's terms.
+    #[must_use]
+    pub fn wgpu_format(&self) -> wgpu::TextureFormat {
+        texture_format(self.format)
+    }
+}
+
+pub(super) fn texture_format(format: TextureFormat) -> wgpu::TextureFormat {
     match format {
         TextureFormat::R8Unorm => wgpu::TextureFormat::R8Unorm,
         TextureFormat::Rgba8Unorm => wgpu::TextureFormat::Rgba8Unorm,

@@ -1,8 +1,8 @@
 //! What the host gives to be bound, compared with what the plan was compiled for.
 
-use super::RecordError;
 use super::format::texture_difference;
-use crate::{Plan, ResourceDesc};
+use crate::error::ensure;
+use crate::{GraphError, GraphErrorKind, Named, Plan, PlannedResource, ResourceDesc};
 
 /// A resource that the host owns, as it is bound.
 #[derive(Clone, Copy, Debug)]
@@ -24,7 +24,8 @@ impl<'a> From<&'a wgpu::Texture> for ImportedResource<'a> {
 pub(super) fn check_parameters(
     plan: &Plan,
     parameters: Option<&wgpu::Buffer>,
-) -> Result<(), RecordError> {
+    alignment: u32,
+) -> Result<(), GraphError> {
     let needed = u64::from(plan.parameters.size);
     let problem = match parameters {
         None if needed > 0 => Some("is missing".to_owned()),
@@ -34,41 +35,37 @@ pub(super) fn check_parameters(
         }
         _ => None,
     };
-    problem.map_or(Ok(()), |problem| {
-        Err(RecordError::ParameterBuffer { problem, needed })
-    })
-}
-
-pub(super) fn check_alignment(plan: &Plan, alignment: u32) -> Result<(), RecordError> {
+    if let Some(problem) = problem {
+        let message = format!("the parameter buffer {problem}; a view's block has {needed} bytes");
+        return Err(GraphError::new(GraphErrorKind::Parameters, message));
+    }
     let blocks = plan.parameters.blocks.iter();
     let blocks = blocks.map(|block| (&block.node, block.offset, block.stride));
     let tables = plan.parameters.regions.iter();
     let tables = tables.map(|table| (&table.map, table.offset, table.stride));
-    let uneven = blocks.chain(tables).find(|(_, offset, stride)| {
-        !(offset.is_multiple_of(alignment) && stride.is_multiple_of(alignment))
-    });
-    uneven.map_or(Ok(()), |(name, _, stride)| {
-        Err(RecordError::Alignment {
-            node: name.clone(),
-            spacing: stride,
-            alignment,
-        })
-    })
+    for (name, offset, stride) in blocks.chain(tables) {
+        let even = offset.is_multiple_of(alignment) && stride.is_multiple_of(alignment);
+        ensure(even, GraphErrorKind::Plan, || {
+            format!(
+                "the parameters of '{name}' lie at multiples of {stride} bytes, but this device takes multiples of \
+                 {alignment}; compile the graph for this device"
+            )
+        })?;
+    }
+    Ok(())
 }
 
 pub(super) fn find_import<'a>(
     plan: &Plan,
-    name: &str,
-    resource: usize,
+    import: &Named<usize>,
     imports: &[(&str, ImportedResource<'a>)],
-) -> Result<ImportedResource<'a>, RecordError> {
-    let planned = &plan.resources[resource];
-    let expected = planned.desc.to_string();
-    let Some((_, given)) = imports.iter().find(|(given, _)| *given == name) else {
-        return Err(RecordError::MissingImport {
-            name: name.to_owned(),
-            expected,
-        });
+) -> Result<ImportedResource<'a>, GraphError> {
+    let (name, planned) = (&import.name, &plan.resources[import.value]);
+    let expected = &planned.desc;
+    let Some((_, given)) = imports.iter().find(|(given, _)| given == name) else {
+        let message =
+            format!("import '{name}' is missing; bind it as the plan describes it: {expected}");
+        return Err(GraphError::new(GraphErrorKind::MissingImport, message));
     };
     let difference = match (given, &planned.desc) {
         (ImportedResource::Texture(texture), ResourceDesc::Texture(desc)) => {
@@ -83,25 +80,27 @@ pub(super) fn find_import<'a>(
                 Some(format!("a list of {} textures", textures.len()))
             }
         }
-        (ImportedResource::Buffer(buffer), ResourceDesc::Buffer { size }) => (buffer.size()
-            < *size
-            || !buffer.usage().contains(wgpu::BufferUsages::STORAGE))
-        .then(|| {
-            format!(
-                "a buffer of {} bytes with {:?}",
-                buffer.size(),
-                buffer.usage()
-            )
-        }),
+        (ImportedResource::Buffer(buffer), ResourceDesc::Buffer { size }) => {
+            let (given, usage) = (buffer.size(), buffer.usage());
+            let fits = given >= *size && usage.contains(wgpu::BufferUsages::STORAGE);
+            (!fits).then(|| format!("a buffer of {given} bytes with {usage:?}"))
+        }
         (ImportedResource::Buffer(_), ResourceDesc::Texture(_)) => Some("a buffer".to_owned()),
         (_, ResourceDesc::Buffer { .. }) => Some("a texture".to_owned()),
     };
     match difference {
         None => Ok(*given),
-        Some(given) => Err(RecordError::WrongImport {
-            name: name.to_owned(),
-            expected,
-            given,
-        }),
+        Some(given) => Err(wrong_import(planned, &given)),
     }
+}
+
+/// The error about an import that is something else.
+pub(super) fn wrong_import(planned: &PlannedResource, given: &str) -> GraphError {
+    let PlannedResource { name, desc, .. } = planned;
+    GraphError::new(
+        GraphErrorKind::Import,
+        format!(
+            "import '{name}' is {given}, but the plan was compiled for {desc}; compile the graph for what is bound"
+        ),
+    )
 }

@@ -5,7 +5,6 @@
 //! because it waits for the device's verdict: what fails to be created is an error, not a panic or a callback.
 
 mod bindings;
-mod error;
 mod format;
 mod given;
 mod layout;
@@ -17,9 +16,7 @@ mod samplers;
 mod scope;
 
 pub use bindings::Bindings;
-pub use error::RecordError;
-pub use format::texture_format;
 pub use given::ImportedResource;
 pub use pipelines::{HostTarget, PipelineOptions, Pipelines};
-pub use recording::{HostPass, HostPassHandler, Layers, Passes, Recording, Timestamps};
+pub use recording::{HostPass, Layers, Recording};
 pub use resources::Resources;

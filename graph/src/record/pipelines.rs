@@ -2,11 +2,10 @@
 
 use std::collections::HashMap;
 
-use super::RecordError;
-use super::format::texture_format;
-use super::layout::LayoutKey;
+use super::layout;
 use super::scope::{check_alive, scoped};
-use crate::{Plan, PlannedPass, PlannedWork};
+use crate::error::unknown;
+use crate::{GraphError, GraphErrorKind, Plan, PlannedPass, PlannedWork, TextureDesc};
 
 /// How pipelines are made.
 #[derive(Clone, Copy, Debug, Default)]
@@ -47,33 +46,35 @@ impl HostTarget {
     /// [`new`](Self::new).
     #[must_use]
     pub fn darkened(format: wgpu::TextureFormat) -> Self {
-        let component = |dst_factor| wgpu::BlendComponent {
-            src_factor: wgpu::BlendFactor::Zero,
-            dst_factor,
-            operation: wgpu::BlendOperation::Add,
-        };
-        Self {
-            blend: Some(wgpu::BlendState {
-                color: component(wgpu::BlendFactor::OneMinusSrc),
-                alpha: component(wgpu::BlendFactor::One),
-            }),
-            ..Self::new(format)
-        }
+        Self::blended(
+            format,
+            wgpu::BlendFactor::Zero,
+            wgpu::BlendFactor::OneMinusSrc,
+        )
     }
 
     /// A target for `composite_scattering`: its colours are multiplied by the transmittance, in-scattered radiance is added
     /// to them, and its alpha stays. Otherwise like [`new`](Self::new).
     #[must_use]
     pub fn scattered(format: wgpu::TextureFormat) -> Self {
-        let component = |src_factor, dst_factor| wgpu::BlendComponent {
+        Self::blended(format, wgpu::BlendFactor::One, wgpu::BlendFactor::SrcAlpha)
+    }
+
+    /// A target whose colours become `source` x drawn + `target` x what is there; its alpha stays.
+    fn blended(
+        format: wgpu::TextureFormat,
+        source: wgpu::BlendFactor,
+        target: wgpu::BlendFactor,
+    ) -> Self {
+        let sum = |src_factor, dst_factor| wgpu::BlendComponent {
             src_factor,
             dst_factor,
             operation: wgpu::BlendOperation::Add,
         };
         Self {
             blend: Some(wgpu::BlendState {
-                color: component(wgpu::BlendFactor::One, wgpu::BlendFactor::SrcAlpha),
-                alpha: component(wgpu::BlendFactor::Zero, wgpu::BlendFactor::One),
+                color: sum(source, target),
+                alpha: sum(wgpu::BlendFactor::Zero, wgpu::BlendFactor::One),
             }),
             ..Self::new(format)
         }
@@ -83,7 +84,7 @@ impl HostTarget {
 /// Every pipeline that one or more plans need. Made once; a change of sizes needs no new one.
 #[derive(Debug, Default)]
 pub struct Pipelines {
-    layouts: HashMap<LayoutKey, wgpu::BindGroupLayout>,
+    layouts: HashMap<Vec<wgpu::BindGroupLayoutEntry>, wgpu::BindGroupLayout>,
     pipelines: HashMap<PipelineKey, Pipeline>,
     /// Pipelines for render passes of the host: for each shader the last one that was asked for.
     drawn: HashMap<PipelineKey, (HostTarget, wgpu::RenderPipeline)>,
@@ -96,7 +97,7 @@ struct PipelineKey {
     entry_point: String,
     /// Bit patterns, so that the key can be compared and hashed.
     constants: Vec<(String, u64)>,
-    layout: LayoutKey,
+    layout: Vec<wgpu::BindGroupLayoutEntry>,
     target: Option<wgpu::TextureFormat>,
     bind_group: u32,
 }
@@ -107,13 +108,22 @@ pub(super) enum Pipeline {
     Render(wgpu::RenderPipeline),
 }
 
+/// What a pass is recorded with.
+#[derive(Clone, Copy)]
+pub(super) struct Made<'a> {
+    pub(super) pipeline: &'a Pipeline,
+    pub(super) layout: &'a wgpu::BindGroupLayout,
+    /// The pipeline that draws a fullscreen pass into a render pass of the host, where one was asked for.
+    pub(super) drawn: Option<&'a wgpu::RenderPipeline>,
+}
+
 impl Pipelines {
     /// The pipelines of a plan. May be called long before the first frame.
     pub async fn create(
         device: &wgpu::Device,
         plan: &Plan,
         options: PipelineOptions<'_>,
-    ) -> Result<Self, RecordError> {
+    ) -> Result<Self, GraphError> {
         let mut pipelines = Self::default();
         pipelines.extend(device, plan, options).await?;
         Ok(pipelines)
@@ -125,19 +135,19 @@ impl Pipelines {
         device: &wgpu::Device,
         plan: &Plan,
         options: PipelineOptions<'_>,
-    ) -> Result<usize, RecordError> {
+    ) -> Result<usize, GraphError> {
         plan.check()?;
         check_alive(device)?;
+        let is_drawn = |pass: &&PlannedPass| matches!(pass.work, PlannedWork::Fullscreen { .. });
         let fullscreen: Vec<String> = plan
             .passes
             .iter()
-            .filter(|pass| matches!(pass.work, PlannedWork::Fullscreen { .. }))
-            .map(name)
+            .filter(is_drawn)
+            .map(PlannedPass::name)
             .collect();
         for (pass, _) in options.host_targets {
             if !fullscreen.iter().any(|name| name == pass) {
-                let known = fullscreen.iter().map(String::as_str);
-                return Err(RecordError::no_such_pass(pass, known));
+                return Err(no_such_pass(pass, fullscreen.iter().map(String::as_str)));
             }
         }
         let mut made = 0;
@@ -146,9 +156,15 @@ impl Pipelines {
                 continue;
             }
             let label = label(pass);
-            let key = PipelineKey::of(plan, pass, &label)?;
+            let key = PipelineKey::of(plan, pass);
             if !self.layouts.contains_key(&key.layout) {
-                let layout = scoped(device, &label, || key.layout.create(device, &label)).await?;
+                let create = || {
+                    device.create_bind_group_layout(&wgpu::BindGroupLayoutDescriptor {
+                        label: Some(&label),
+                        entries: &key.layout,
+                    })
+                };
+                let layout = scoped(device, &label, create).await?;
                 self.layouts.insert(key.layout.clone(), layout);
             }
             let layout = self.layouts.get(&key.layout);
@@ -163,7 +179,7 @@ impl Pipelines {
             let host = options
                 .host_targets
                 .iter()
-                .find(|(of, _)| *of == name(pass));
+                .find(|(of, _)| *of == pass.name());
             let Some(&(_, target)) = host else { continue };
             if self.drawn.get(&key).is_some_and(|(of, _)| *of == target) {
                 continue;
@@ -190,65 +206,56 @@ impl Pipelines {
         self.pipelines.is_empty()
     }
 
-    /// The pipeline that draws a fullscreen pass into a render pass of the host, where one was asked for.
-    pub(super) fn drawn(
-        &self,
-        plan: &Plan,
-        pass: &PlannedPass,
-    ) -> Result<Option<&wgpu::RenderPipeline>, RecordError> {
-        let key = PipelineKey::of(plan, pass, &label(pass))?;
-        Ok(self.drawn.get(&key).map(|(_, pipeline)| pipeline))
-    }
-
-    pub(super) fn get(
-        &self,
-        plan: &Plan,
-        pass: &PlannedPass,
-    ) -> Result<(&Pipeline, &wgpu::BindGroupLayout), RecordError> {
-        let label = label(pass);
-        let key = PipelineKey::of(plan, pass, &label)?;
-        self.pipelines
-            .get(&key)
-            .zip(self.layouts.get(&key.layout))
-            .ok_or(RecordError::MissingPipeline { pass: label })
+    pub(super) fn get(&self, plan: &Plan, pass: &PlannedPass) -> Result<Made<'_>, GraphError> {
+        let key = PipelineKey::of(plan, pass);
+        let pipeline = self.pipelines.get(&key).zip(self.layouts.get(&key.layout));
+        let (pipeline, layout) = pipeline.ok_or_else(|| missing(pass))?;
+        Ok(Made {
+            pipeline,
+            layout,
+            drawn: self.drawn.get(&key).map(|(_, pipeline)| pipeline),
+        })
     }
 }
 
-/// `node/pass`, by which hosts name a pass.
-pub(super) fn name(pass: &PlannedPass) -> String {
-    format!("{}/{}", pass.node, pass.label)
+/// The error about a pass of another plan.
+pub(super) fn missing(pass: &PlannedPass) -> GraphError {
+    GraphError::new(
+        GraphErrorKind::Plan,
+        format!(
+            "pass '{}' has no pipeline; extend the pipelines with this plan first",
+            pass.name()
+        ),
+    )
+}
+
+/// The error about a name that no fullscreen pass has.
+pub(super) fn no_such_pass<'a>(pass: &str, known: impl Iterator<Item = &'a str>) -> GraphError {
+    unknown("fullscreen pass", pass, known, "written 'node/pass'")
 }
 
 /// The label of every object that belongs to a pass.
 pub(super) fn label(pass: &PlannedPass) -> String {
-    format!("moment-shadows/{}/{}", pass.node, pass.label)
+    format!("moment-shadows/{}", pass.name())
 }
 
 impl PipelineKey {
-    fn of(plan: &Plan, pass: &PlannedPass, label: &str) -> Result<Self, RecordError> {
+    fn of(plan: &Plan, pass: &PlannedPass) -> Self {
         let target = match pass.work {
-            PlannedWork::Fullscreen { target, .. } => {
-                let texture = plan.resources[target].desc.texture();
-                let texture = texture.ok_or_else(|| RecordError::Device {
-                    what: label.to_owned(),
-                    reason: "a buffer cannot be drawn to".to_owned(),
-                })?;
-                Some(texture_format(texture.format))
-            }
+            PlannedWork::Fullscreen { target, .. } => plan.resources[target].desc.texture(),
             PlannedWork::Compute { .. } | PlannedWork::Host { .. } => None,
         };
-        Ok(Self {
+        let constants = pass.constants.iter();
+        Self {
             wgsl: pass.wgsl.clone(),
             entry_point: pass.entry_point.clone(),
-            constants: pass
-                .constants
-                .iter()
+            constants: constants
                 .map(|(name, value)| (name.clone(), value.to_bits()))
                 .collect(),
-            layout: LayoutKey::of(plan, pass),
-            target,
+            layout: layout::entries(plan, pass),
+            target: target.map(TextureDesc::wgpu_format),
             bind_group: plan.bind_group,
-        })
+        }
     }
 
     fn create(

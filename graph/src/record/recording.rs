@@ -1,8 +1,10 @@
 //! Recording: the only part that runs every frame. It creates no object and allocates nothing.
 
+use super::Bindings;
 use super::bindings::{Action, MOST_UNIFORMS, Step};
-use super::{Bindings, RecordError};
-use crate::Stage;
+use super::pipelines::no_such_pass;
+use crate::error::{ensure, unknown};
+use crate::{GraphError, GraphErrorKind, Stage};
 
 /// Which layers of the maps are to be made anew. Other layers keep their contents.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -15,27 +17,6 @@ pub enum Layers<'a> {
     /// These of the maps with these names: an import's, or `node.slot` where a node makes a map of its own. Other
     /// maps are left out.
     OfMaps(&'a [(&'a str, &'a [u32])]),
-}
-
-/// Which passes of a stage to record.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub enum Passes<'a> {
-    /// All passes.
-    #[default]
-    All,
-    /// Those with these numbers in [`crate::Plan::passes`], in the plan's order: to spread a stage over frames, or to
-    /// measure its passes one by one. Passes of other stages are left out.
-    Only(&'a [usize]),
-}
-
-/// Where to write timestamps: pass number i of the plan writes the queries `first + 2 i` at its beginning and
-/// `first + 2 i + 1` at its end. A pass without dirty layers writes none, and neither does a host's pass.
-#[derive(Clone, Copy, Debug)]
-pub struct Timestamps<'a> {
-    /// A set of timestamp queries.
-    pub queries: &'a wgpu::QuerySet,
-    /// The first that is written.
-    pub first: u32,
 }
 
 /// A pass that the host draws itself.
@@ -52,7 +33,7 @@ pub struct HostPass<'a> {
 }
 
 /// Draws a host's pass.
-pub type HostPassHandler<'a> = &'a mut dyn FnMut(HostPass<'_>, &mut wgpu::CommandEncoder);
+type HostPassHandler<'a> = &'a mut dyn FnMut(HostPass<'_>, &mut wgpu::CommandEncoder);
 
 /// What to record.
 #[derive(Default)]
@@ -61,10 +42,13 @@ pub struct Recording<'a> {
     pub parameter_offset: u64,
     /// The layers to make anew.
     pub layers: Layers<'a>,
-    /// The passes to record.
-    pub passes: Passes<'a>,
-    /// Timestamps per pass.
-    pub timestamps: Option<Timestamps<'a>>,
+    /// The numbers in [`Plan::passes`](crate::Plan::passes) of the passes to record, in the plan's order: to spread a stage
+    /// over frames, or to measure its passes one by one. Passes of other stages are left out. All, where `None`.
+    pub passes: Option<&'a [usize]>,
+    /// A set of timestamp queries, and the first that is written: pass number i of the plan writes the queries
+    /// `first + 2 i` at its beginning and `first + 2 i + 1` at its end. A pass without dirty layers writes none, and neither
+    /// does a host's pass.
+    pub timestamps: Option<(&'a wgpu::QuerySet, u32)>,
     /// What draws the host's passes, where the plan has any.
     pub host_passes: Option<HostPassHandler<'a>>,
 }
@@ -76,26 +60,20 @@ impl Bindings {
         stage: Stage,
         encoder: &mut wgpu::CommandEncoder,
         mut recording: Recording<'_>,
-    ) -> Result<(), RecordError> {
+    ) -> Result<(), GraphError> {
         self.check_offset(recording.parameter_offset)?;
-        self.check_timestamps(recording.timestamps)?;
-        self.check_passes(recording.passes)?;
-        self.check_maps(recording.layers)?;
-        let passes = recording.passes;
+        self.check(&recording)?;
+        let asked = |index: &usize| recording.passes.is_none_or(|listed| listed.contains(index));
         let in_stage = || {
-            self.steps
-                .iter()
-                .enumerate()
-                .filter(|(index, step)| step.stage == stage && passes.contain(*index))
+            let steps = self.steps.iter().enumerate();
+            steps.filter(|(index, step)| step.stage == stage && asked(index))
         };
         for (_, step) in in_stage() {
             step.check(stage, &recording)?;
         }
         for (index, step) in in_stage() {
-            let queries = recording.timestamps.map(|timestamps| {
-                let begin = timestamps.first + 2 * index as u32;
-                (timestamps.queries, begin)
-            });
+            let queries = recording.timestamps;
+            let queries = queries.map(|(queries, first)| (queries, first + 2 * index as u32));
             match &step.action {
                 Action::Dispatch {
                     pipeline,
@@ -139,13 +117,13 @@ impl Bindings {
     /// [`PipelineOptions::host_targets`](super::PipelineOptions::host_targets) says for this pass; where nothing was said,
     /// it has one target of the plan's format, one sample and no depth. The picture fills the host's viewport.
     ///
-    /// Do not record the pass as well: leave its stage out, or the pass by [`Passes::Only`].
+    /// Do not record the pass as well: leave its stage out, or the pass by [`Recording::passes`].
     pub fn draw(
         &self,
         pass: &str,
         render_pass: &mut wgpu::RenderPass<'_>,
         parameter_offset: u64,
-    ) -> Result<(), RecordError> {
+    ) -> Result<(), GraphError> {
         self.check_offset(parameter_offset)?;
         let draws = || {
             self.steps.iter().filter_map(|step| match &step.action {
@@ -155,14 +133,26 @@ impl Bindings {
                 Action::Dispatch { .. } | Action::Host { .. } => None,
             })
         };
-        let (step, pipeline) = draws().find(|(step, _)| step.name == pass).ok_or_else(|| {
-            RecordError::no_such_pass(pass, draws().map(|(step, _)| step.name.as_str()))
-        })?;
-        render_pass.set_pipeline(pipeline);
-        let (offsets, count) = step.dynamic_offsets(parameter_offset, 0);
-        render_pass.set_bind_group(self.bind_group, step.bind_groups.first(), &offsets[..count]);
-        render_pass.draw(0..3, 0..1);
+        let (step, pipeline) = draws()
+            .find(|(step, _)| step.name == pass)
+            .ok_or_else(|| no_such_pass(pass, draws().map(|(step, _)| step.name.as_str())))?;
+        self.draw_layer(step, pipeline, render_pass, parameter_offset, 0);
         Ok(())
+    }
+
+    fn draw_layer(
+        &self,
+        step: &Step,
+        pipeline: &wgpu::RenderPipeline,
+        pass: &mut wgpu::RenderPass<'_>,
+        parameter_offset: u64,
+        layer: u32,
+    ) {
+        pass.set_pipeline(pipeline);
+        let (offsets, count) = step.dynamic_offsets(parameter_offset, layer);
+        let group = step.bind_groups.get(layer as usize);
+        pass.set_bind_group(self.bind_group, group, &offsets[..count]);
+        pass.draw(0..3, 0..1);
     }
 
     fn dispatch(
@@ -188,11 +178,8 @@ impl Bindings {
         pass.set_pipeline(pipeline);
         for layer in step.dirty(recording.layers) {
             let (offsets, count) = step.dynamic_offsets(recording.parameter_offset, layer);
-            pass.set_bind_group(
-                self.bind_group,
-                step.bind_groups.get(layer as usize),
-                &offsets[..count],
-            );
+            let group = step.bind_groups.get(layer as usize);
+            pass.set_bind_group(self.bind_group, group, &offsets[..count]);
             pass.dispatch_workgroups(workgroups[0], workgroups[1], 1);
         }
     }
@@ -236,90 +223,60 @@ impl Bindings {
                 occlusion_query_set: None,
                 multiview_mask: None,
             });
-            pass.set_pipeline(pipeline);
-            let (offsets, count) = step.dynamic_offsets(recording.parameter_offset, layer);
-            pass.set_bind_group(
-                self.bind_group,
-                step.bind_groups.get(layer as usize),
-                &offsets[..count],
-            );
-            pass.draw(0..3, 0..1);
+            self.draw_layer(step, pipeline, &mut pass, recording.parameter_offset, layer);
         }
     }
 
-    fn check_offset(&self, offset: u64) -> Result<(), RecordError> {
+    fn check_offset(&self, offset: u64) -> Result<(), GraphError> {
         let Some(buffer) = &self.parameters else {
             return Ok(());
         };
-        let fits = offset
-            .checked_add(self.parameter_size)
-            .is_some_and(|end| end <= buffer.size().min(u64::from(u32::MAX)));
-        if fits && offset.is_multiple_of(u64::from(self.uniform_alignment)) {
-            return Ok(());
-        }
-        Err(RecordError::ParameterOffset {
-            offset,
-            alignment: self.uniform_alignment,
-            needed: self.parameter_size,
-            size: buffer.size(),
+        let (alignment, needed) = (self.uniform_alignment, self.parameter_size);
+        let size = buffer.size();
+        let end = offset.checked_add(needed);
+        let fits = end.is_some_and(|end| end <= size.min(u64::from(u32::MAX)))
+            && offset.is_multiple_of(u64::from(alignment));
+        ensure(fits, GraphErrorKind::Parameters, || {
+            format!(
+                "a view's parameters cannot begin at byte {offset}: offsets are multiples of {alignment}, and {needed} \
+                 bytes have to follow in a buffer of {size}"
+            )
         })
     }
 
-    fn check_passes(&self, passes: Passes<'_>) -> Result<(), RecordError> {
+    /// Whether the plan has what the recording asks for.
+    fn check(&self, recording: &Recording<'_>) -> Result<(), GraphError> {
         let count = self.steps.len();
-        let beyond = match passes {
-            Passes::All => None,
-            Passes::Only(listed) => listed.iter().find(|&&pass| pass >= count),
-        };
-        beyond.map_or(Ok(()), |&pass| {
-            Err(RecordError::NoSuchPassNumber { pass, count })
-        })
-    }
-
-    fn check_maps(&self, layers: Layers<'_>) -> Result<(), RecordError> {
-        let Layers::OfMaps(maps) = layers else {
-            return Ok(());
-        };
-        let known = |map: &str| self.steps.iter().any(|step| step.map == map);
-        let unknown = maps.iter().find(|(map, _)| !known(map));
-        unknown.map_or(Ok(()), |(map, _)| {
-            let mut names: Vec<&str> = self.steps.iter().map(|step| step.map.as_str()).collect();
-            names.sort_unstable();
-            names.dedup();
-            Err(RecordError::NoSuchMap {
-                map: (*map).to_owned(),
-                known: names.join(", "),
-            })
-        })
-    }
-
-    fn check_timestamps(&self, timestamps: Option<Timestamps<'_>>) -> Result<(), RecordError> {
-        let Some(timestamps) = timestamps else {
-            return Ok(());
-        };
-        let needed = 2 * self.steps.len() as u32;
-        let count = timestamps.queries.count();
-        let fits = timestamps
-            .first
-            .checked_add(needed)
-            .is_some_and(|end| end <= count);
-        if fits {
-            return Ok(());
+        for pass in recording.passes.unwrap_or_default() {
+            ensure(*pass < count, GraphErrorKind::Recording, || {
+                format!(
+                    "pass number {pass} was asked for, but the plan has {count}, counted from 0"
+                )
+            })?;
         }
-        Err(RecordError::Timestamps {
-            first: timestamps.first,
-            needed,
-            count,
-        })
-    }
-}
-
-impl Passes<'_> {
-    fn contain(self, index: usize) -> bool {
-        match self {
-            Passes::All => true,
-            Passes::Only(listed) => listed.contains(&index),
+        if let Some((queries, first)) = recording.timestamps {
+            let (needed, count) = (2 * count as u32, queries.count());
+            let end = first.checked_add(needed);
+            ensure(
+                end.is_some_and(|end| end <= count),
+                GraphErrorKind::Recording,
+                || {
+                    format!(
+                        "timestamps need {needed} queries from index {first}, but the query set has {count}"
+                    )
+                },
+            )?;
         }
+        if let Layers::OfMaps(maps) = recording.layers {
+            let mut followed = self.steps.iter().map(|step| step.map.as_str());
+            for (map, _) in maps {
+                if followed.clone().all(|known| known != *map) {
+                    let remark = "dirty layers are those of maps that passes follow";
+                    return Err(unknown("map", map, followed.by_ref(), remark));
+                }
+            }
+        }
+        Ok(())
     }
 }
 
@@ -347,23 +304,19 @@ impl Step {
         (offsets, self.uniforms.len())
     }
 
-    fn check(&self, stage: Stage, recording: &Recording<'_>) -> Result<(), RecordError> {
-        if matches!(self.action, Action::Host { .. }) && recording.host_passes.is_none() {
-            return Err(RecordError::HostPass {
-                stage,
-                pass: self.name.clone(),
-            });
-        }
-        match self
-            .dirty(recording.layers)
-            .find(|&layer| layer >= self.layers)
-        {
-            None => Ok(()),
-            Some(layer) => Err(RecordError::NoSuchLayer {
-                layer,
-                pass: self.name.clone(),
-                layers: self.layers,
-            }),
-        }
+    fn check(&self, stage: Stage, recording: &Recording<'_>) -> Result<(), GraphError> {
+        let (name, layers) = (&self.name, self.layers);
+        let drawn = !matches!(self.action, Action::Host { .. }) || recording.host_passes.is_some();
+        ensure(drawn, GraphErrorKind::Recording, || {
+            format!("stage {stage:?} has the host's pass '{name}'; give a handler that draws it")
+        })?;
+        let mut dirty = self.dirty(recording.layers);
+        dirty
+            .find(|&layer| layer >= layers)
+            .map_or(Ok(()), |layer| {
+                let message =
+                    format!("layer {layer} is marked dirty, but pass '{name}' has {layers} layers");
+                Err(GraphError::new(GraphErrorKind::Recording, message))
+            })
     }
 }

@@ -1,9 +1,8 @@
 //! The textures and buffers that a plan creates.
 
-use super::RecordError;
-use super::format::{texture_format, texture_usages};
+use super::format::texture_usages;
 use super::scope::{check_alive, scoped};
-use crate::{Home, Plan, PlannedMemory, PlannedResource, ResourceDesc};
+use crate::{GraphError, Home, Plan, PlannedMemory, PlannedResource, ResourceDesc};
 
 /// Everything that a plan creates for one set of sizes. A resize makes new resources and no pipeline.
 #[derive(Debug)]
@@ -19,7 +18,7 @@ pub(super) enum Created {
 
 impl Resources {
     /// Creates the textures and buffers of a plan.
-    pub async fn create(device: &wgpu::Device, plan: &Plan) -> Result<Self, RecordError> {
+    pub async fn create(device: &wgpu::Device, plan: &Plan) -> Result<Self, GraphError> {
         plan.check()?;
         let mut memory = Vec::with_capacity(plan.memory.len());
         for planned in &plan.memory {
@@ -36,7 +35,7 @@ impl Resources {
                         mip_level_count: texture.mips,
                         sample_count: texture.samples,
                         dimension: wgpu::TextureDimension::D2,
-                        format: texture_format(texture.format),
+                        format: texture.wgpu_format(),
                         usage: texture_usages(planned.access, planned.exported),
                         view_formats: &[],
                     };

@@ -1,4 +1,4 @@
-//! The samplers of a plan's passes.
+//! The samplers of a plan's passes. They clamp to the edge, which is wgpu's default.
 
 pub(super) fn sampler(
     device: &wgpu::Device,
@@ -13,9 +13,6 @@ pub(super) fn sampler(
     };
     device.create_sampler(&wgpu::SamplerDescriptor {
         label: Some(label),
-        address_mode_u: wgpu::AddressMode::ClampToEdge,
-        address_mode_v: wgpu::AddressMode::ClampToEdge,
-        address_mode_w: wgpu::AddressMode::ClampToEdge,
         mag_filter: filter,
         min_filter: filter,
         mipmap_filter,
@@ -31,9 +28,6 @@ pub(super) fn comparison_sampler(
 ) -> wgpu::Sampler {
     device.create_sampler(&wgpu::SamplerDescriptor {
         label: Some(label),
-        address_mode_u: wgpu::AddressMode::ClampToEdge,
-        address_mode_v: wgpu::AddressMode::ClampToEdge,
-        address_mode_w: wgpu::AddressMode::ClampToEdge,
         mag_filter: wgpu::FilterMode::Linear,
         min_filter: wgpu::FilterMode::Linear,
         compare: Some(if reversed {

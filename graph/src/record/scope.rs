@@ -1,13 +1,13 @@
 //! Creation under error scopes: what fails is an error value.
 
-use super::RecordError;
+use crate::{GraphError, GraphErrorKind};
 
 /// Runs `create` and waits for the device's verdict on it.
 pub(super) async fn scoped<T>(
     device: &wgpu::Device,
     what: &str,
     create: impl FnOnce() -> T,
-) -> Result<T, RecordError> {
+) -> Result<T, GraphError> {
     let memory = device.push_error_scope(wgpu::ErrorFilter::OutOfMemory);
     let internal = device.push_error_scope(wgpu::ErrorFilter::Internal);
     let validation = device.push_error_scope(wgpu::ErrorFilter::Validation);
@@ -17,16 +17,17 @@ pub(super) async fn scoped<T>(
     let (validation, internal, memory) = (validation.pop(), internal.pop(), memory.pop());
     let errors = [validation.await, internal.await];
     if memory.await.is_some() {
-        return Err(RecordError::OutOfMemory {
-            what: what.to_owned(),
-        });
+        let message = format!(
+            "the device has no memory left for {what}; use smaller maps or a storage with fewer bits"
+        );
+        return Err(GraphError::new(GraphErrorKind::OutOfMemory, message));
     }
     match errors.into_iter().flatten().next() {
         None => Ok(created),
-        Some(error) => Err(RecordError::Device {
-            what: what.to_owned(),
-            reason: error.to_string(),
-        }),
+        Some(error) => {
+            let message = format!("the device could not create {what}: {error}");
+            Err(GraphError::new(GraphErrorKind::Device, message))
+        }
     }
 }
 
@@ -34,7 +35,7 @@ pub(super) async fn scoped<T>(
 ///
 /// A lost device reports nothing to error scopes, and what it is asked for is silently invalid. But a buffer that is to be
 /// mapped from the start has no memory to map then.
-pub(super) fn check_alive(device: &wgpu::Device) -> Result<(), RecordError> {
+pub(super) fn check_alive(device: &wgpu::Device) -> Result<(), GraphError> {
     let probe = device.create_buffer(&wgpu::BufferDescriptor {
         label: Some("moment-shadows/probe"),
         size: wgpu::MAP_ALIGNMENT,
@@ -43,6 +44,9 @@ pub(super) fn check_alive(device: &wgpu::Device) -> Result<(), RecordError> {
     });
     match probe.get_mapped_range(..) {
         Ok(_) => Ok(()),
-        Err(_) => Err(RecordError::Lost),
+        Err(_) => Err(GraphError::new(
+            GraphErrorKind::Lost,
+            "the device was lost; open a new one and create everything anew",
+        )),
     }
 }

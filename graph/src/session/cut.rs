@@ -1,8 +1,8 @@
 //! A graph cut in two: what is made once for all cameras, and what each camera has of its own.
 
-use std::collections::BTreeSet;
+use std::collections::{BTreeMap, BTreeSet};
 
-use crate::{Edge, Endpoint, Graph, Import, NodeDesc, Output, Stage};
+use crate::{Edge, Graph, Named, NodeDesc, Stage};
 
 /// The two parts of a graph.
 #[derive(Debug)]
@@ -17,16 +17,25 @@ impl Cut {
     /// The imports that are connected as depth maps of lights.
     pub(super) fn light_depths(&self) -> BTreeSet<&str> {
         let edges = self.maps.edges.iter().chain(&self.picture.edges);
-        edges
-            .filter(|edge| edge.to.slot.as_deref() == Some("depth") && edge.from.slot.is_none())
-            .map(|edge| edge.from.owner.as_str())
-            .collect()
+        let depths =
+            edges.filter(|edge| slot(&edge.to) == "depth" && owner(&edge.from) == edge.from);
+        depths.map(|edge| edge.from.as_str()).collect()
     }
 
     /// Whether light maps are made of an import.
     pub(super) fn of_maps(&self, import: &str) -> bool {
         self.maps.imports.iter().any(|it| it.name == import)
     }
+}
+
+/// The node of `node.slot`, or an import.
+pub(super) fn owner(end: &str) -> &str {
+    end.split('.').next().unwrap_or(end)
+}
+
+/// The slot of `node.slot`.
+pub(super) fn slot(end: &str) -> &str {
+    end.split_once('.').map_or("", |(_, slot)| slot)
 }
 
 /// Parameters of nodes that a camera decides on.
@@ -40,62 +49,53 @@ const OF_CAMERAS: [&str; 4] = [
 /// Cuts a graph whose nodes say `descs` about themselves, in the order of the graph.
 pub(super) fn cut(graph: Graph, descs: &[NodeDesc]) -> Cut {
     let pictured = of_cameras(&graph, descs);
-    let is_pictured = |owner: &str| pictured.contains(owner);
-    let is_import = |owner: &str| graph.imports.iter().any(|import| import.name == owner);
-
-    let mut maps = empty();
-    let mut picture = empty();
-    let mut crossing: Vec<(Endpoint, String)> = Vec::new();
+    let is_pictured = |end: &str| pictured.contains(owner(end));
+    let [mut maps, mut picture] = [(); 2].map(|()| Graph {
+        imports: Vec::new(),
+        nodes: Vec::new(),
+        edges: Vec::new(),
+        outputs: Vec::new(),
+        notes: Vec::new(),
+    });
     let outputs = graph.outputs.iter().map(|output| &output.name);
     let imports = graph.imports.iter().map(|import| &import.name);
     let mut names: BTreeSet<String> = outputs.chain(imports).cloned().collect();
+    // What goes from one part to the other, and the name that it has on the way.
+    let mut crossing: BTreeMap<String, String> = BTreeMap::new();
     for edge in graph.edges {
-        if !is_pictured(&edge.to.owner) {
+        if !is_pictured(&edge.to) {
             maps.edges.push(edge);
-            continue;
-        }
-        let crosses = !is_import(&edge.from.owner) && !is_pictured(&edge.from.owner);
-        let from = if crosses {
-            let known = crossing.iter().find(|(from, _)| *from == edge.from);
-            let known = known.map(|(_, name)| name.clone());
-            let owner = known.unwrap_or_else(|| {
-                // Names of a graph have no '.'.
-                let mut name = edge.from.to_string().replace('.', " ");
-                while names.contains(&name) {
+        } else if slot(&edge.from).is_empty() || is_pictured(&edge.from) {
+            picture.edges.push(edge);
+        } else {
+            let name = crossing.entry(edge.from).or_insert_with_key(|from| {
+                // No name of a graph has a '.'.
+                let mut name = from.replace('.', " ");
+                while !names.insert(name.clone()) {
                     name.push('\'');
                 }
-                names.insert(name.clone());
-                crossing.push((edge.from.clone(), name.clone()));
                 name
             });
-            Endpoint { owner, slot: None }
-        } else {
-            edge.from
-        };
-        picture.edges.push(Edge { from, ..edge });
+            let from = name.clone();
+            picture.edges.push(Edge { from, ..edge });
+        }
     }
     for (from, name) in crossing {
-        picture.imports.push(Import {
-            name: name.clone(),
-            expected: None,
-            position: None,
-        });
-        maps.outputs.push(Output {
-            name,
-            from,
-            position: None,
-        });
+        picture.imports.push(Named::new(name.as_str(), None));
+        maps.outputs.push(Named::new(name, from));
     }
     for output in graph.outputs {
-        let part = if is_pictured(&output.from.owner) {
-            &mut picture
-        } else {
-            &mut maps
-        };
+        let of_picture = is_pictured(&output.value);
+        let part = if of_picture { &mut picture } else { &mut maps };
         part.outputs.push(output);
     }
+    for node in graph.nodes {
+        let of_picture = is_pictured(&node.name);
+        let part = if of_picture { &mut picture } else { &mut maps };
+        part.nodes.push(node);
+    }
     for import in graph.imports {
-        let used = |part: &Graph| part.edges.iter().any(|edge| edge.from.owner == import.name);
+        let used = |part: &Graph| part.edges.iter().any(|edge| edge.from == import.name);
         let [of_maps, of_picture] = [&maps, &picture].map(used);
         if of_picture {
             picture.imports.push(import.clone());
@@ -104,47 +104,29 @@ pub(super) fn cut(graph: Graph, descs: &[NodeDesc]) -> Cut {
             maps.imports.push(import);
         }
     }
-    for node in graph.nodes {
-        if is_pictured(&node.name) {
-            picture.nodes.push(node);
-        } else {
-            maps.nodes.push(node);
-        }
-    }
     Cut { maps, picture }
 }
 
 /// The names of nodes that depend on a camera, by their parameters or by what is connected to them.
 fn of_cameras(graph: &Graph, descs: &[NodeDesc]) -> BTreeSet<String> {
-    let mut found: BTreeSet<String> = graph
-        .nodes
-        .iter()
-        .zip(descs)
-        .filter(|(_, desc)| {
-            let block = desc.parameters.as_ref().map(|block| block.name.as_str());
-            desc.stage == Stage::AfterMainPass || block.is_some_and(|it| OF_CAMERAS.contains(&it))
-        })
+    let depends = |desc: &NodeDesc| {
+        let block = desc.parameters.as_ref().map(|block| block.name.as_str());
+        desc.stage == Stage::AfterMainPass || block.is_some_and(|it| OF_CAMERAS.contains(&it))
+    };
+    let nodes = graph.nodes.iter().zip(descs);
+    let mut found: BTreeSet<String> = nodes
+        .filter(|(_, desc)| depends(desc))
         .map(|(node, _)| node.name.clone())
         .collect();
     loop {
         let before = found.len();
         for edge in &graph.edges {
-            if found.contains(&edge.from.owner) {
-                found.insert(edge.to.owner.clone());
+            if found.contains(owner(&edge.from)) {
+                found.insert(owner(&edge.to).to_owned());
             }
         }
         if found.len() == before {
             return found;
         }
-    }
-}
-
-fn empty() -> Graph {
-    Graph {
-        imports: Vec::new(),
-        nodes: Vec::new(),
-        edges: Vec::new(),
-        outputs: Vec::new(),
-        notes: Vec::new(),
     }
 }

@@ -1,8 +1,8 @@
 //! What the host gives: textures and buffers, described by what they are.
 
-use super::SessionError;
-use crate::record::{ImportedResource, texture_format};
-use crate::{Import, Imports, ResourceDesc, TextureDesc};
+use super::unsuitable;
+use crate::record::ImportedResource;
+use crate::{GraphError, Named, ResourceDesc, TextureDesc};
 use moment_shadows::{Finite, TextureFormat};
 
 /// An import by name, with its description.
@@ -35,12 +35,12 @@ impl Owned {
 /// expects.
 pub(super) fn take(
     imports: &[(&str, ImportedResource<'_>)],
-    expected: &[Import],
-) -> Result<Vec<Given>, SessionError> {
+    expected: &[Named<Option<ResourceDesc>>],
+) -> Result<Vec<Given>, GraphError> {
     let mut taken: Vec<Given> = Vec::with_capacity(imports.len());
     for &(name, resource) in imports {
         let expected = expected.iter().find(|import| import.name == name);
-        let expected = expected.and_then(|import| import.expected.as_ref());
+        let expected = expected.and_then(|import| import.value.as_ref());
         let expected = expected.and_then(ResourceDesc::texture);
         let (resource, desc) = match resource {
             ImportedResource::Texture(texture) => {
@@ -50,7 +50,7 @@ pub(super) fn take(
             }
             ImportedResource::Layers(textures) => {
                 let first = textures.first().ok_or_else(|| {
-                    SessionError::unsuitable(
+                    unsuitable(
                         format!("import '{name}'"),
                         "it is a list of no textures; give one per layer",
                     )
@@ -78,13 +78,16 @@ fn described_texture(
     texture: &wgpu::Texture,
     array_layers: u32,
     expected: Option<&TextureDesc>,
-) -> Result<ResourceDesc, SessionError> {
+) -> Result<ResourceDesc, GraphError> {
     let mut formats = TextureFormat::ALL.into_iter();
-    let format = formats.find(|&format| texture_format(format) == texture.format());
+    let is_same = |format: &TextureFormat| {
+        TextureDesc::new(*format, [1; 2]).wgpu_format() == texture.format()
+    };
+    let format = formats.find(is_same);
     let format = format.ok_or_else(|| {
         let known = TextureFormat::ALL.map(TextureFormat::name).join(", ");
         let reason = format!("its format is {:?}; nodes take {known}", texture.format());
-        SessionError::unsuitable(format!("import '{name}'"), reason)
+        unsuitable(format!("import '{name}'"), reason)
     })?;
     let planes = expected.map_or(1, |expected| expected.planes.max(1));
     Ok(ResourceDesc::Texture(TextureDesc {
@@ -101,9 +104,10 @@ fn described_texture(
 }
 
 /// The descriptions of what is given.
-pub(super) fn described(given: &[Given]) -> Imports {
-    let described = |given: &Given| (given.name.clone(), given.desc.clone());
-    given.iter().map(described).collect()
+pub(super) fn described(given: &[Given]) -> Vec<(&str, ResourceDesc)> {
+    let each = given.iter();
+    each.map(|given| (given.name.as_str(), given.desc.clone()))
+        .collect()
 }
 
 /// What is given now, and what was given before and is not replaced.

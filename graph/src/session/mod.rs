@@ -1,14 +1,12 @@
 //! The short path: a graph, a device and the host's textures in, shadow intensity out.
 
 mod cut;
-mod error;
 mod given;
 mod part;
 mod scratch;
 mod shading;
 
 use cut::{Cut, cut};
-pub use error::SessionError;
 use given::Given;
 use moment_shadows::{
     CameraView, LeakReduction, LightView, ReceiverBias, SingleScattering, TextureFormat,
@@ -17,7 +15,7 @@ use part::{Maker, Part};
 use scratch::{Scratch, Told};
 
 use crate::record::{Bindings, ImportedResource, PipelineOptions, Recording};
-use crate::{Capabilities, Graph, Import, Stage, describe};
+use crate::{Capabilities, Graph, GraphError, GraphErrorKind, Named, ResourceDesc, Stage};
 
 /// A graph at work: pipelines, textures, bindings and uniform data for one set of light maps and any number of cameras.
 ///
@@ -30,7 +28,7 @@ use crate::{Capabilities, Graph, Import, Stage, describe};
 pub struct Session {
     maker: Maker,
     /// The imports as the graph file describes them.
-    expected: Vec<Import>,
+    expected: Vec<Named<Option<ResourceDesc>>>,
     cut: Cut,
     /// What all cameras share, unless a camera has its own.
     imports: Vec<Given>,
@@ -61,23 +59,23 @@ impl Session {
     /// regions a layer has is what the file says.
     ///
     /// # Errors
-    /// [`SessionError`], if the device or the textures do not fit the graph.
+    /// [`GraphError`], if the device or the textures do not fit the graph.
     pub async fn new(
         adapter: &wgpu::Adapter,
         device: &wgpu::Device,
         graph: Graph,
         imports: &[(&str, ImportedResource<'_>)],
         options: PipelineOptions<'_>,
-    ) -> Result<Self, SessionError> {
+    ) -> Result<Self, GraphError> {
         let capabilities = Capabilities::of_device(adapter, device);
         let expected = graph.imports.clone();
         let imports = given::take(imports, &expected)?;
-        let nodes = describe(&graph, &capabilities, &given::described(&imports))?;
+        let nodes = graph.describe(&capabilities, &given::described(&imports))?;
         let cut = cut(graph, &nodes);
         let lights = cut.light_depths();
         if lights.len() > 1 {
             let names: Vec<&str> = lights.into_iter().collect();
-            return Err(SessionError::unsuitable(
+            return Err(unsuitable(
                 format!("the imports {}", names.join(", ")),
                 "a session has one light map, with a layer or a region per view of a light; use one map with layers, or a \
                  session per map",
@@ -103,14 +101,14 @@ impl Session {
     /// Adds a camera and gives its number. Imports that are not given are those of the session.
     ///
     /// # Errors
-    /// [`SessionError`], if the textures do not fit the graph, or the light maps are made of one of them.
+    /// [`GraphError`], if the textures do not fit the graph, or the light maps are made of one of them.
     pub async fn add_view(
         &mut self,
         imports: &[(&str, ImportedResource<'_>)],
-    ) -> Result<usize, SessionError> {
+    ) -> Result<usize, GraphError> {
         let imports = given::take(imports, &self.expected)?;
         if let Some(shared) = imports.iter().find(|given| self.cut.of_maps(&given.name)) {
-            return Err(SessionError::unsuitable(
+            return Err(unsuitable(
                 format!("import '{}'", shared.name),
                 "the light maps of all cameras are made of it; give it to 'replace'",
             ));
@@ -129,12 +127,12 @@ impl Session {
     /// one. Imports that are not given stay. [`view`](Self::view) comes before the next frame.
     ///
     /// # Errors
-    /// [`SessionError`], if there is no such camera or the textures do not fit the graph. The session is then as before.
+    /// [`GraphError`], if there is no such camera or the textures do not fit the graph. The session is then as before.
     pub async fn replace(
         &mut self,
         view: usize,
         imports: &[(&str, ImportedResource<'_>)],
-    ) -> Result<(), SessionError> {
+    ) -> Result<(), GraphError> {
         self.checked(view)?;
         let (shared, own): (Vec<_>, Vec<_>) = given::take(imports, &self.expected)?
             .into_iter()
@@ -171,14 +169,14 @@ impl Session {
     /// are its regions, in this order; all cameras have the same lights.
     ///
     /// # Errors
-    /// [`SessionError`], if there is no such camera, or what is given does not suit the graph. Nothing is then written.
+    /// [`GraphError`], if there is no such camera, or what is given does not suit the graph. Nothing is then written.
     pub fn view(
         &mut self,
         queue: &wgpu::Queue,
         view: usize,
         camera: &CameraView,
         lights: &[LightView],
-    ) -> Result<(), SessionError> {
+    ) -> Result<(), GraphError> {
         self.checked(view)?;
         self.scratch.maps(&mut self.maps, lights)?;
         let told = Told {
@@ -200,12 +198,12 @@ impl Session {
     /// the first stage, and each camera by [`record_view`](Self::record_view).
     ///
     /// # Errors
-    /// [`SessionError`], if a camera was never placed by [`view`](Self::view); the encoder is then as it was.
+    /// [`GraphError`], if a camera was never placed by [`view`](Self::view); the encoder is then as it was.
     pub fn record(
         &self,
         stage: Stage,
         encoder: &mut wgpu::CommandEncoder,
-    ) -> Result<(), SessionError> {
+    ) -> Result<(), GraphError> {
         (0..self.views.len()).try_for_each(|view| self.placed(view).map(|_| ()))?;
         self.maps
             .bindings
@@ -216,13 +214,13 @@ impl Session {
     /// Records a stage for one camera, without the light maps.
     ///
     /// # Errors
-    /// [`SessionError`], if there is no such camera or it was never placed; the encoder is then as it was.
+    /// [`GraphError`], if there is no such camera or it was never placed; the encoder is then as it was.
     pub fn record_view(
         &self,
         view: usize,
         stage: Stage,
         encoder: &mut wgpu::CommandEncoder,
-    ) -> Result<(), SessionError> {
+    ) -> Result<(), GraphError> {
         let bindings = &self.placed(view)?.part.bindings;
         Ok(bindings.record(stage, encoder, Recording::default())?)
     }
@@ -237,14 +235,14 @@ impl Session {
     /// The receiver bias of a view of a light whose map is an output of the graph, for shaders of your own.
     ///
     /// # Errors
-    /// [`SessionError`], if there is no such output.
+    /// [`GraphError`], if there is no such output.
     pub fn receiver_bias(
         &self,
         output: &str,
         light: &LightView,
-    ) -> Result<ReceiverBias, SessionError> {
+    ) -> Result<ReceiverBias, GraphError> {
         let map = self.maps.plan.output_texture(output).ok_or_else(|| {
-            SessionError::unsuitable(
+            unsuitable(
                 format!("output '{output}'"),
                 "it is no map that the graph makes; name one of the graph's outputs",
             )
@@ -271,19 +269,24 @@ impl Session {
         Some(&self.views.get(view)?.part.bindings)
     }
 
-    fn checked(&self, view: usize) -> Result<&View, SessionError> {
+    fn checked(&self, view: usize) -> Result<&View, GraphError> {
         self.views.get(view).ok_or_else(|| {
             let reason = format!("the session has {}, counted from 0", self.views.len());
-            SessionError::unsuitable(format!("camera {view}"), reason)
+            unsuitable(format!("camera {view}"), reason)
         })
     }
 
-    fn placed(&self, view: usize) -> Result<&View, SessionError> {
+    fn placed(&self, view: usize) -> Result<&View, GraphError> {
         let checked = self.checked(view)?;
         if checked.placed {
             return Ok(checked);
         }
         let reason = "it was not placed since its textures were made; call 'view' before the frame";
-        Err(SessionError::unsuitable(format!("camera {view}"), reason))
+        Err(unsuitable(format!("camera {view}"), reason))
     }
+}
+
+/// What cannot be used, what is wrong with it, and what would be right.
+fn unsuitable(what: impl core::fmt::Display, reason: impl core::fmt::Display) -> GraphError {
+    GraphError::new(GraphErrorKind::Parameters, format!("{what}: {reason}"))
 }

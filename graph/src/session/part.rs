@@ -1,12 +1,11 @@
 //! One part of a graph, ready to be recorded.
 
-use super::SessionError;
 use super::given::{Given, Owned};
 use super::shading::Shading;
 use crate::record::{
     Bindings, HostTarget, ImportedResource, PipelineOptions, Pipelines, Resources,
 };
-use crate::{Capabilities, Graph, Imports, Plan, compile};
+use crate::{Capabilities, Graph, GraphError, Named, Plan, ResourceDesc};
 
 /// What all parts of a session are made with.
 #[derive(Debug)]
@@ -53,7 +52,7 @@ impl Maker {
         &mut self,
         graph: &Graph,
         given: &[&[Given]],
-    ) -> Result<Part, SessionError> {
+    ) -> Result<Part, GraphError> {
         let find = |name: &str| {
             given
                 .iter()
@@ -68,11 +67,12 @@ impl Maker {
             .collect();
         let described = used
             .iter()
-            .map(|given| (given.name.clone(), given.desc.clone()));
-        let plan = compile(graph, &self.capabilities, &described.collect::<Imports>())?;
+            .map(|given| (given.name.as_str(), given.desc.clone()));
+        let described: Vec<(&str, ResourceDesc)> = described.collect();
+        let plan = graph.compile(&self.capabilities, &described)?;
         let is_of_plan = |(pass, _): &&(String, HostTarget)| {
             let mut passes = plan.passes.iter();
-            passes.any(|planned| *pass == format!("{}/{}", planned.node, planned.label))
+            passes.any(|planned| *pass == planned.name())
         };
         let host_targets: Vec<(&str, HostTarget)> = self
             .host_targets
@@ -120,14 +120,14 @@ impl Maker {
 impl Part {
     /// The outputs, as another part imports them.
     pub(super) fn outputs(&self) -> Vec<Given> {
-        let given = |output: &crate::NamedResource| {
+        let given = |output: &Named<usize>| {
             let resource = match self.bindings.output(&output.name) {
                 Some(texture) => Owned::Texture(texture.clone()),
                 None => Owned::Buffer(self.bindings.output_buffer(&output.name)?.clone()),
             };
             Some(Given {
                 name: output.name.clone(),
-                desc: self.plan.resources[output.resource].desc.clone(),
+                desc: self.plan.resources[output.value].desc.clone(),
                 resource,
             })
         };

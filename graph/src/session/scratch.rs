@@ -5,8 +5,9 @@ use moment_shadows::{
     SingleScattering, TextureFormat, ViewParameters,
 };
 
-use super::SessionError;
 use super::part::Part;
+use super::unsuitable;
+use crate::GraphError;
 
 /// Lists that keep their memory from frame to frame.
 #[derive(Debug, Default)]
@@ -28,11 +29,7 @@ pub(super) struct Told<'a> {
 
 impl Scratch {
     /// Writes what the nodes that make light maps are told. An error leaves the part's block as it was.
-    pub(super) fn maps(
-        &mut self,
-        part: &mut Part,
-        lights: &[LightView],
-    ) -> Result<(), SessionError> {
+    pub(super) fn maps(&mut self, part: &mut Part, lights: &[LightView]) -> Result<(), GraphError> {
         self.block.clone_from(&part.block);
         let layout = &part.plan.parameters;
         for block in &layout.blocks {
@@ -42,10 +39,11 @@ impl Scratch {
             for layer in 0..block.count {
                 self.conversions.clear();
                 for (index, light) in of_layer(lights, layer) {
-                    self.conversions
-                        .push(light.depth.conversion().map_err(|error| {
-                            SessionError::unsuitable(format!("view {index} of a light"), error)
-                        })?);
+                    self.conversions.push(
+                        light.depth.conversion().map_err(|error| {
+                            unsuitable(format!("view {index} of a light"), error)
+                        })?,
+                    );
                 }
                 if !self.conversions.is_empty() {
                     layout.write_all(&mut self.block, &block.node, layer, &self.conversions)?;
@@ -67,7 +65,7 @@ impl Scratch {
     }
 
     /// Writes what the nodes of a camera are told. An error leaves the part's block as it was.
-    pub(super) fn picture(&mut self, part: &mut Part, told: &Told<'_>) -> Result<(), SessionError> {
+    pub(super) fn picture(&mut self, part: &mut Part, told: &Told<'_>) -> Result<(), GraphError> {
         self.block.clone_from(&part.block);
         let layout = &part.plan.parameters;
         for shading in &part.shading {
@@ -105,13 +103,14 @@ impl Scratch {
 
 impl Told<'_> {
     /// What single scattering is told: of the first light.
-    fn scattering(&self) -> Result<ScatteringParameters, SessionError> {
-        let light = self.lights.first().ok_or_else(|| {
-            SessionError::unsuitable("single scattering", "there is no light; give one")
-        })?;
+    fn scattering(&self) -> Result<ScatteringParameters, GraphError> {
+        let light = self
+            .lights
+            .first()
+            .ok_or_else(|| unsuitable("single scattering", "there is no light; give one"))?;
         let (medium, far) = self.medium;
         ScatteringParameters::new(self.camera, far, light, medium)
-            .map_err(|error| SessionError::unsuitable("single scattering", error))
+            .map_err(|error| unsuitable("single scattering", error))
     }
 }
 

@@ -4,9 +4,10 @@ use moment_shadows::{
     LightView, MapRegion, ReceiverBias, SoftRadii, TextureFormat, ViewParameters,
 };
 
-use super::SessionError;
+use super::cut::{owner, slot};
 use super::scratch::Told;
-use crate::{Graph, Plan, TextureDesc};
+use super::unsuitable;
+use crate::{Graph, GraphError, Plan, TextureDesc};
 
 /// The struct that a node which shades has an array of.
 const PARAMETERS: &str = "ViewParameters";
@@ -31,7 +32,7 @@ pub(super) struct Shading {
 
 impl Shading {
     /// The nodes of a plan that shade.
-    pub(super) fn all(graph: &Graph, plan: &Plan) -> Result<Vec<Self>, SessionError> {
+    pub(super) fn all(graph: &Graph, plan: &Plan) -> Result<Vec<Self>, GraphError> {
         let blocks = plan.parameters.blocks.iter();
         let nodes = blocks.filter(|block| block.name == PARAMETERS);
         nodes
@@ -39,17 +40,14 @@ impl Shading {
             .collect()
     }
 
-    fn of(graph: &Graph, plan: &Plan, node: &str) -> Result<Self, SessionError> {
-        let unsuitable = |reason| SessionError::unsuitable(format!("node '{node}'"), reason);
-        let slots = ["map", "table", "depth"];
-        let is_map = |slot: &str| slots.contains(&slot);
+    fn of(graph: &Graph, plan: &Plan, node: &str) -> Result<Self, GraphError> {
+        let unsuitable = |reason| unsuitable(format!("node '{node}'"), reason);
         let mut edges = graph.edges.iter();
-        let edge =
-            edges.find(|edge| edge.to.owner == node && edge.to.slot.as_deref().is_some_and(is_map));
-        let resource = edge.and_then(|edge| {
-            let name = edge.from.to_string();
-            plan.resources.iter().find(|resource| resource.name == name)
+        let edge = edges.find(|edge| {
+            owner(&edge.to) == node && ["map", "table", "depth"].contains(&slot(&edge.to))
         });
+        let mut resources = plan.resources.iter();
+        let resource = edge.and_then(|edge| resources.find(|resource| resource.name == edge.from));
         let map = resource.and_then(|resource| resource.desc.texture());
         let map = map.ok_or_else(|| {
             unsuitable("its map is made anew for each camera; record this graph with the objects of 'record'")
@@ -81,9 +79,9 @@ impl Shading {
         told: &Told<'_>,
         light: &LightView,
         index: usize,
-    ) -> Result<ViewParameters, SessionError> {
+    ) -> Result<ViewParameters, GraphError> {
         let unsuitable = |reason: String| {
-            SessionError::unsuitable(
+            unsuitable(
                 format!("view {index} of a light, for node '{}'", self.node),
                 reason,
             )
@@ -124,11 +122,10 @@ pub(super) fn receiver_bias(
     map: &TextureDesc,
     light: &LightView,
     depth_format: Option<TextureFormat>,
-) -> Result<ReceiverBias, SessionError> {
+) -> Result<ReceiverBias, GraphError> {
     let depth_per_texel = light.depth_per_texel(extent(map, light)) as f32;
     let bias = ReceiverBias::for_kernel(map.deviation.get(), depth_per_texel);
     let conversion = light.depth.conversion();
-    let conversion =
-        conversion.map_err(|error| SessionError::unsuitable("a view of a light", error))?;
+    let conversion = conversion.map_err(|error| unsuitable("a view of a light", error))?;
     Ok(depth_format.map_or(bias, |format| bias.for_stored_depth(format, &conversion)))
 }

@@ -2,7 +2,7 @@
 
 use serde::Serialize;
 
-use crate::dense::{cholesky, smallest_eigenvalue};
+use crate::dense::{cholesky, inverse, smallest_eigenvalue};
 
 /// What makes moments possible.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
@@ -37,8 +37,8 @@ impl<const M: usize> Repair<M> {
             interval,
             condition,
             target,
-            outer: cholesky(outer(&target)).map(invert),
-            inner: cholesky(inner(&target, interval)).map(invert),
+            outer: cholesky(outer(&target)).map(inverse),
+            inner: cholesky(inner(&target, interval)).map(inverse),
         }
     }
 
@@ -111,18 +111,6 @@ fn hankel<const N: usize>(size: usize, entry: impl Fn(usize) -> f64) -> [[f64; N
             }
         })
     })
-}
-
-/// The inverse of a lower triangle.
-fn invert<const N: usize>(l: [[f64; N]; N]) -> [[f64; N]; N] {
-    let mut inverse = [[0.0; N]; N];
-    for (row, given) in l.iter().enumerate() {
-        inverse[row] = core::array::from_fn(|column| {
-            let known: f64 = (0..row).map(|k| given[k] * inverse[k][column]).sum();
-            (f64::from(row == column) - known) / given[row]
-        });
-    }
-    inverse
 }
 
 /// L M L^T.

@@ -14,7 +14,7 @@ mod search;
 mod tables;
 
 pub use definite::Condition;
-pub use form::{Form, Rounding};
+pub use form::{Form, rounded};
 pub use scaling::error_factor;
-pub use search::{BiasError, BiasRow, BiasTable, BiasTechnique, Quantiles, measure, search, steps};
+pub use search::{BiasRow, BiasTable, BiasTechnique, Quantiles, measure, search, steps};
 pub use tables::{TableBiasRow, TableBiases, search_tables, table_steps};

@@ -1,7 +1,8 @@
 //! What a graph does to a patch: resolve and a Gaussian in two passes, every stage rounded to the storage.
 
-use super::form::Form;
+use super::form::{Form, rounded};
 use super::patch::{Patch, SIDE};
+use crate::basis::powers;
 
 /// The standard deviation of the Gaussian in texels (Peters & Klein, i3D 2015).
 const DEVIATION: f64 = 2.4;
@@ -26,7 +27,7 @@ pub(super) fn three_roundings<const M: usize>(
     patch: &Patch,
     weights: &[f32; SIDE],
 ) -> [f64; M] {
-    let store = |texel: [f32; M]| texel.map(|channel| form.rounding.store(channel));
+    let store = |texel: [f32; M]| texel.map(|channel| rounded(form.storage, channel));
     let mut column = [[0.0; M]; SIDE];
     for (row, filtered) in column.iter_mut().enumerate() {
         let texels: [[f32; M]; SIDE] =
@@ -57,8 +58,8 @@ pub(super) fn one_rounding<const M: usize>(
     let channels = form
         .basis
         .as_ref()
-        .map_or(moments, |basis| basis.encode(moments));
-    form.moments(channels.map(|channel| form.rounding.store(channel as f32)))
+        .map_or(moments, |basis| basis.encode(&moments));
+    form.moments(channels.map(|channel| rounded(form.storage, channel as f32)))
 }
 
 /// A weighted sum in f32.
@@ -83,14 +84,7 @@ impl<const M: usize> Form<M> {
     fn texel(&self, depth: f32) -> [f32; M] {
         let z = self.depth(depth);
         match &self.basis {
-            Some(basis) => {
-                let mut power = 1.0;
-                let powers = core::array::from_fn(|_| {
-                    power *= z;
-                    power
-                });
-                basis.encode(powers).map(|value| value as f32)
-            }
+            Some(basis) => basis.encode(&powers(z)).map(|value| value as f32),
             None => {
                 let mut powers = [z as f32; M];
                 for index in 1..M {
@@ -108,6 +102,6 @@ impl<const M: usize> Form<M> {
         let channels = channels.map(f64::from);
         self.basis
             .as_ref()
-            .map_or(channels, |basis| basis.decode(channels))
+            .map_or(channels, |basis| basis.decode(&channels))
     }
 }

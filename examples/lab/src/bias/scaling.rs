@@ -93,7 +93,7 @@ fn ratio<const M: usize>(form: &Form<M>, q: &[f64]) -> f64 {
     let gradient = form
         .basis
         .as_ref()
-        .map_or(of_moments, |basis| basis.gradient(of_moments));
+        .map_or(of_moments, |basis| basis.gradient(&of_moments));
     let errors: f64 = gradient.iter().map(|entry| entry.abs()).sum();
     let repaired: f64 = q[0]
         + of_moments

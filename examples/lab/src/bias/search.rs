@@ -11,6 +11,7 @@ use serde::Serialize;
 use super::definite::{Condition, Repair};
 use super::form::Form;
 use super::{patch, pipeline, scaling};
+use crate::error::LabError;
 
 /// Patches per stream of random numbers, so that figures do not depend on the number of threads.
 const PER_STREAM: usize = 4096;
@@ -20,25 +21,6 @@ const COVERED: f64 = 0.99999;
 
 /// Recommended biases are one of these times a power of ten.
 const STEPS: [f64; 9] = [1.0, 1.5, 2.0, 3.0, 4.0, 5.0, 6.0, 8.0, 10.0];
-
-/// Why nothing was searched.
-#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
-#[non_exhaustive]
-pub enum BiasError {
-    /// No sample, no quantile.
-    #[error(
-        "0 samples were asked for; ask for at least 1, and for at least 100000 to see the 99.999th percentile"
-    )]
-    NoSamples,
-    /// A storage that the technique has not.
-    #[error(
-        "'hamburger6' is not stored as {storage}; choose one of unorm16, float16, float32 and unorm10"
-    )]
-    NoStorage {
-        /// The storage.
-        storage: Storage,
-    },
-}
 
 /// Which solver the bias is for.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, clap::ValueEnum)]
@@ -126,7 +108,7 @@ pub fn search(
     samples: usize,
     seed: u64,
     step: impl Fn() + Sync,
-) -> Result<BiasTable, BiasError> {
+) -> Result<BiasTable, LabError> {
     let storages = storage.map_or(technique.storages().to_vec(), |storage| vec![storage]);
     let mut rows = Vec::new();
     for storage in storages {
@@ -143,7 +125,11 @@ pub fn search(
             }
             BiasTechnique::Hamburger6 => {
                 let form = Form::of_six_moments(storage).zip(storage.six_moments_bias());
-                let (form, bias) = form.ok_or(BiasError::NoStorage { storage })?;
+                let (form, bias) = form.ok_or_else(|| {
+                    LabError::refused(format!(
+                        "'hamburger6' is not stored as {storage}; choose one of unorm16, float16, float32 and unorm10"
+                    ))
+                })?;
                 (measure(&form, samples, seed, &step)?, bias.alpha)
             }
         };
@@ -169,9 +155,11 @@ pub fn measure<const M: usize>(
     samples: usize,
     seed: u64,
     step: impl Fn() + Sync,
-) -> Result<BiasRow, BiasError> {
+) -> Result<BiasRow, LabError> {
     if samples == 0 {
-        return Err(BiasError::NoSamples);
+        return Err(LabError::refused(
+            "0 samples were asked for; ask for at least 1, and for at least 100000 to see the 99.999th percentile",
+        ));
     }
     let weights = pipeline::weights();
     let repair = Repair::new(form.interval, form.condition, form.target);

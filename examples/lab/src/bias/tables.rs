@@ -3,7 +3,6 @@
 
 use core::fmt;
 
-use half::f16;
 use moment_shadows::{Storage, SummedAreaTable, SummedAreaTableError};
 use rand::{RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
@@ -11,6 +10,7 @@ use rayon::prelude::*;
 use serde::Serialize;
 
 use super::definite::{Condition, Repair};
+use super::form::rounded;
 use super::patch::{self, Patch, SIDE};
 use super::search::{Quantiles, quantiles};
 use crate::summed_area::reference::{fixed_point, optimised};
@@ -175,9 +175,8 @@ fn two(depth: f32, source: Storage) -> [f32; 4] {
 /// Float32 maps hold raw moments, from which the table's channels are computed: no rounding besides that of f32.
 fn stored(channels: [f32; 4], source: Storage) -> [f32; 4] {
     channels.map(|channel| match source {
-        Storage::Unorm16 => (channel.clamp(0.0, 1.0) * 65535.0).round() / 65535.0,
-        Storage::Float16 => f16::from_f32(channel.clamp(0.0, 1.0) - 0.5).to_f32() + 0.5,
-        _ => channel,
+        Storage::Float16 => rounded(source, channel.clamp(0.0, 1.0) - 0.5) + 0.5,
+        _ => rounded(source, channel),
     })
 }
 

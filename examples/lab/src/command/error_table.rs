@@ -8,7 +8,7 @@ use std::path::{Path, PathBuf};
 use moment_shadows::{Storage, TechniqueError};
 use serde::Serialize;
 
-pub use average::error_plot;
+pub use average::error_chart;
 
 use super::error::{ErrorSubject, GraphErrors, Setting, storage_name};
 use super::render::{RenderOptions, profile_for};
@@ -153,8 +153,8 @@ impl Options {
 impl ErrorTable {
     /// Plots the errors against the bits of a texel into a folder.
     pub fn plot(&mut self, folder: &Path) -> Result<(), LabError> {
-        let plot = error_plot(&self.rows, &self.setting);
-        self.plots.extend(plot.save(folder, "error-table")?);
+        let chart = error_chart(&self.rows, &self.setting);
+        self.plots.extend(chart.save(folder, "error-table")?);
         Ok(())
     }
 }

@@ -4,9 +4,7 @@ use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 
 use moment_shadows::Profile;
-use moment_shadows_graph::{
-    Capabilities, Direction, Graph, Imports, NodeDesc, Plan, compile, describe,
-};
+use moment_shadows_graph::{Capabilities, Direction, Graph, NodeDesc, Plan};
 
 use super::{CommandResult, argument};
 use crate::error::LabError;
@@ -53,8 +51,8 @@ fn check(path: &Path, profile: Profile) -> Result<(String, Plan), LabError> {
         file: file.name.clone(),
         error,
     };
-    let plan = compile(&file.graph, &capabilities, &Imports::new()).map_err(failed)?;
-    let nodes = describe(&file.graph, &capabilities, &Imports::new()).map_err(failed)?;
+    let plan = file.graph.compile(&capabilities, &[]).map_err(failed)?;
+    let nodes = file.graph.describe(&capabilities, &[]).map_err(failed)?;
     Ok((summary(&file.graph, &nodes), plan))
 }
 
@@ -62,14 +60,12 @@ fn check(path: &Path, profile: Profile) -> Result<(String, Plan), LabError> {
 fn summary(graph: &Graph, described: &[NodeDesc]) -> String {
     let mut lines = Vec::new();
     for import in &graph.imports {
-        let expected = import
-            .expected
-            .as_ref()
-            .map_or("anything".to_owned(), ToString::to_string);
+        let expected = import.value.as_ref();
+        let expected = expected.map_or("anything".to_owned(), ToString::to_string);
         lines.push(format!("import  {:<24} {expected}", import.name));
     }
     for (node, desc) in graph.nodes.iter().zip(described) {
-        lines.push(format!("node    {:<24} {:?}", node.name, node.node));
+        lines.push(format!("node    {:<24} {:?}", node.name, node.value));
         for slot in &desc.slots {
             let arrow = match slot.direction {
                 Direction::In => "<-",
@@ -85,14 +81,10 @@ fn summary(graph: &Graph, described: &[NodeDesc]) -> String {
         }
     }
     for edge in &graph.edges {
-        lines.push(format!(
-            "edge    {:<24} -> {}",
-            edge.from.to_string(),
-            edge.to
-        ));
+        lines.push(format!("edge    {:<24} -> {}", edge.from, edge.to));
     }
     for output in &graph.outputs {
-        lines.push(format!("output  {:<24} <- {}", output.name, output.from));
+        lines.push(format!("output  {:<24} <- {}", output.name, output.value));
     }
     lines.join("\n")
 }

@@ -8,13 +8,13 @@ use moment_shadows::Storage;
 
 use super::CommandResult;
 use super::render::RenderOptions;
+use crate::candidate::{Candidate, TechniqueChoice};
 use crate::error::LabError;
 use crate::gpu::Gpu;
 use crate::graph_frame::GraphFrame;
 use crate::judgement::{Judgement, Truth};
 use crate::progress;
 use crate::scene;
-use crate::technique_argument::TechniqueArgument;
 
 /// What `measure` takes.
 #[derive(clap::Args)]
@@ -23,7 +23,7 @@ pub struct Options {
     frame: RenderOptions,
     /// A technique in place of the graph's own: a name, or settings as in a graph file.
     #[arg(long, value_name = "NAME|JSON")]
-    technique: Option<TechniqueArgument>,
+    technique: Option<TechniqueChoice>,
     /// glTF or GLB files, or procedural scenes.
     #[arg(long, num_args = 1.., default_values = ["fence-and-foliage", "hall"])]
     scene: Vec<String>,
@@ -58,7 +58,11 @@ impl Options {
 fn rows(scenes: &[String], graph: &Path, options: &RenderOptions) -> Result<Vec<Row>, LabError> {
     let storages = match &options.technique {
         None => Storage::OF_FOUR_MOMENTS.map(Some).to_vec(),
-        Some(technique) => technique.storages(),
+        Some(technique) => technique
+            .candidates()
+            .iter()
+            .map(Candidate::storage)
+            .collect(),
     };
     let bar = progress::bar((scenes.len() * storages.len()) as u64, "measuring");
     let mut rows = Vec::new();

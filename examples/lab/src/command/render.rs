@@ -7,6 +7,7 @@ use clap::builder::TypedValueParser;
 use moment_shadows::{Profile, Storage};
 
 use super::{CommandResult, argument};
+use crate::candidate::TechniqueChoice;
 use crate::error::LabError;
 use crate::frame::{Frame, FrameDesc};
 use crate::gpu::Gpu;
@@ -17,7 +18,6 @@ use crate::light::LightShape;
 use crate::picture::{grey, save_grey, save_rgba, signed_difference};
 use crate::progress;
 use crate::scene::{self, Scene};
-use crate::technique_argument::TechniqueArgument;
 use crate::view::View;
 
 /// The light of a rendering.
@@ -44,9 +44,9 @@ pub struct Options {
     #[arg(long)]
     out: PathBuf,
     /// A technique in place of the graph's own: a name, or settings as in a graph file. Tests on the plain depth map
-    /// (binary, pcf_..., pcss) get a map of one sample per texel.
+    /// (binary, pcf, pcss) get a map of one sample per texel.
     #[arg(long, value_name = "NAME|JSON")]
-    technique: Option<TechniqueArgument>,
+    technique: Option<TechniqueChoice>,
     /// Also writes the brute-force picture and the difference, and prints the error.
     #[arg(long)]
     truth: bool,
@@ -81,7 +81,7 @@ pub struct RenderOptions {
     pub storage: Option<Storage>,
     /// A technique in place of the graph's own.
     #[arg(skip)]
-    pub technique: Option<TechniqueArgument>,
+    pub technique: Option<TechniqueChoice>,
 }
 
 impl Default for RenderOptions {
@@ -109,9 +109,7 @@ impl RenderOptions {
         let storage = storage.or(self.storage);
         match &self.technique {
             None => GraphFile::read(path, storage),
-            Some(technique) => {
-                GraphFile::read(path, None)?.with_technique_argument(technique, storage)
-            }
+            Some(technique) => technique.graph(&GraphFile::read(path, None)?, storage),
         }
     }
 

@@ -8,7 +8,7 @@ use moment_shadows::{MapEncoding, Profile, Storage, nearest};
 use super::CommandResult;
 use crate::error::LabError;
 use crate::gpu::Gpu;
-use crate::picture::{PictureError, save_atomically};
+use crate::picture::{create_folder, save_atomically};
 use crate::progress;
 use crate::stability::report::Report;
 use crate::stability::{self, Effort, plot};
@@ -94,11 +94,11 @@ pub fn pairs(technique: Option<&str>, storage: Option<&str>) -> Result<Vec<MapEn
         .filter(|pair| storage.is_none_or(|name| pair.storage().name() == name))
         .collect();
     if pairs.is_empty() {
-        return Err(LabError::NoPair {
-            technique: technique.unwrap_or("any technique").to_owned(),
-            storage: storage.unwrap_or("any storage").to_owned(),
-            legal,
-        });
+        return Err(LabError::refused(format!(
+            "'{}' is not stored as {}; it is as {legal}",
+            technique.unwrap_or("any technique"),
+            storage.unwrap_or("any storage")
+        )));
     }
     Ok(pairs)
 }
@@ -108,10 +108,7 @@ fn report(pairs: &[MapEncoding], effort: Effort, out: Option<&Path>) -> Result<R
     let gpu = Gpu::open(Profile::WebgpuCore)?;
     if let Some(out) = out {
         // Before the work, which takes minutes.
-        std::fs::create_dir_all(out).map_err(|source| PictureError::Unwritable {
-            path: out.to_owned(),
-            source,
-        })?;
+        create_folder(out)?;
     }
     let bar = progress::bar(stability::steps(pairs.len(), effort), "trying inputs");
     let report = stability::run(&gpu, pairs, effort, || bar.inc(1))?;
@@ -125,7 +122,7 @@ fn report(pairs: &[MapEncoding], effort: Effort, out: Option<&Path>) -> Result<R
         save_atomically(&out.join("stability.json"), |file| {
             file.write_all(json.as_bytes())
         })?;
-        plot::save(&report, out)?;
+        plot::chart(&report).save(out, "stability")?;
     }
     Ok(report)
 }

@@ -8,6 +8,7 @@ use moment_shadows::{Profile, Storage, nearest};
 
 use super::CommandResult;
 use super::render::RenderOptions;
+use crate::candidate::TechniqueChoice;
 use crate::error::LabError;
 use crate::frame::Frame;
 use crate::gpu::Gpu;
@@ -16,10 +17,9 @@ use crate::graph_frame::GraphFrame;
 use crate::host::read_gbuffer;
 use crate::judgement::{PictureTruth, Unfiltered};
 use crate::metric::compare;
-use crate::picture::{PictureError, save_panels, signed_difference};
+use crate::picture::{create_folder, save_panels, signed_difference};
 use crate::progress;
 use crate::scene::{self, Scene, contacts, place_on_ground, stacked_boards};
-use crate::technique_argument::TechniqueArgument;
 use crate::truth::area_light::{AreaLight, USUAL_PLACES};
 
 /// What `technique-pictures` takes.
@@ -179,10 +179,7 @@ fn draw(out: &Path, view: &str, only: Option<&str>) -> Result<Vec<Made>, LabErro
         }
         subjects.retain(|subject| subject.name == only);
     }
-    std::fs::create_dir_all(out).map_err(|source| PictureError::Unwritable {
-        path: out.to_owned(),
-        source,
-    })?;
+    create_folder(out)?;
     let gpu = Gpu::open(Profile::NativeAdapter)?;
     let graph = GraphFile::parse("hard_shadows.json", GRAPH.to_owned(), None)?;
     let bar = progress::bar(subjects.len() as u64, "drawing");
@@ -278,12 +275,10 @@ impl Stage {
         technique: &str,
         storage: Option<Storage>,
     ) -> Result<Shaded, LabError> {
-        let argument: TechniqueArgument = technique
+        let choice: TechniqueChoice = technique
             .parse()
-            .map_err(|error| LabError::unsuitable(technique, format!("{error}")))?;
-        let file = graph
-            .with_technique_argument(&argument, storage)?
-            .in_single_precision()?;
+            .map_err(|error: String| LabError::unsuitable(technique, error))?;
+        let file = choice.graph(graph, storage)?.in_single_precision()?;
         let soft = matches!(file.technique(), Some(moment_shadows::Technique::Pcss(_)));
         if soft && self.soft.is_none() {
             self.soft = Some(self.area_light(gpu)?);
@@ -319,6 +314,6 @@ impl Stage {
         let frame = &self.frames[1];
         let desc = &frame.desc;
         let light = AreaLight::new(&self.scene, &desc.light, desc.shape, desc.map, USUAL_PLACES)?;
-        Ok(light.picture(&read_gbuffer(gpu, &frame.surface)?)?)
+        light.picture(&read_gbuffer(gpu, &frame.surface)?)
     }
 }

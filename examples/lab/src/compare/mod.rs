@@ -16,7 +16,7 @@ use crate::cost::protocol::FEWEST_ROUNDS;
 use crate::cost::report::Conditions;
 use crate::error::LabError;
 use crate::gpu::Gpu;
-use crate::picture::{PictureError, save_atomically, save_panels, save_rgba};
+use crate::picture::{create_folder, save_atomically, save_panels, save_rgba};
 use crate::progress;
 use crate::scene::{self, Scene};
 
@@ -110,15 +110,12 @@ pub fn compare<S: Stage>(
     candidates
         .retain(|it| options.only.is_empty() || options.only.iter().any(|o| o == S::name(it)));
     if let Some(out) = &options.out {
-        std::fs::create_dir_all(out).map_err(|source| PictureError::Unwritable {
-            path: out.clone(),
-            source,
-        })?;
+        create_folder(out)?;
     }
     let mut reports = Vec::new();
     for name in &options.scene {
         let bar = progress::bar(candidates.len() as u64 + 1, name);
-        let scene = scene::load(name).map_err(LabError::from)?;
+        let scene = scene::load(name)?;
         let begun = Instant::now();
         let stage = stage(&scene)?;
         let truth_seconds = begun.elapsed().as_secs_f64();
@@ -176,7 +173,7 @@ pub fn compare<S: Stage>(
 
 /// Saves the truth, every candidate, its difference, and all of them together: `STEM-truth.png`, `STEM-NAME.png`,
 /// `STEM-NAME-difference.png`, `STEM.png`. There the differences are below the pictures; with a single candidate all is in a row.
-fn save(stem: &Path, size: [u32; 2], names: &[&str], shown: Shown) -> Result<(), PictureError> {
+fn save(stem: &Path, size: [u32; 2], names: &[&str], shown: Shown) -> Result<(), LabError> {
     let named = |what: &str| {
         let mut path = stem.as_os_str().to_owned();
         path.push(what);

@@ -25,7 +25,7 @@ pub trait Technique {
             self.record(stage, &mut encoder)?;
         }
         gpu.queue.submit([encoder.finish()]);
-        Ok(gpu.check()?)
+        gpu.check()
     }
 }
 

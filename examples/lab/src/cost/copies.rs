@@ -2,7 +2,6 @@
 
 use moment_shadows::TextureFormat;
 use moment_shadows_graph::TextureDesc;
-use moment_shadows_graph::record::texture_format;
 
 use super::CostError;
 use super::protocol::Record;
@@ -48,7 +47,7 @@ impl Copies {
             layers: Vec::new(),
         };
         for desc in descs {
-            let format = texture_format(desc.format);
+            let format = desc.wgpu_format();
             let scope = gpu.device.push_error_scope(wgpu::ErrorFilter::Validation);
             copies.add(gpu, desc, format, work);
             if let Some(error) = pollster::block_on(scope.pop()) {

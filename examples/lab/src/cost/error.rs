@@ -1,7 +1,6 @@
 //! Why a cost was not reported.
 
 use moment_shadows::{RectifiedFrameError, TextureFormat};
-use moment_shadows_graph::GraphError;
 
 use crate::error::LabError;
 
@@ -12,9 +11,6 @@ pub enum CostError {
     /// What is measured could not be prepared or recorded, or its figures could not be saved.
     #[error(transparent)]
     Lab(LabError),
-    /// A kernel or a graph that the harness makes itself.
-    #[error(transparent)]
-    Graph(#[from] GraphError),
     /// A camera and a light without rectified coordinates.
     #[error(transparent)]
     Frame(#[from] RectifiedFrameError),

@@ -1,12 +1,10 @@
 //! One node on its own, bound to a map of any contents.
 
 use moment_shadows_graph::record::{
-    Bindings, ImportedResource, Passes, PipelineOptions, Pipelines, Recording, Resources,
-    texture_format,
+    Bindings, ImportedResource, PipelineOptions, Pipelines, Recording, Resources,
 };
 use moment_shadows_graph::{
-    Capabilities, Graph, Imports, NodeRegistry, ParameterError, Plan, ResourceDesc, Stage,
-    TextureDesc, compile,
+    Capabilities, Graph, GraphError, NodeRegistry, Plan, ResourceDesc, Stage, TextureDesc,
 };
 use pollster::block_on;
 use serde_json::Value;
@@ -40,7 +38,7 @@ impl NodeOnMap {
         capabilities: &Capabilities,
         text: NodeText,
         map: (&TextureDesc, &wgpu::Texture),
-        fill: impl FnOnce(&Plan, &mut [u8]) -> Result<(), ParameterError>,
+        fill: impl FnOnce(&Plan, &mut [u8]) -> Result<(), GraphError>,
     ) -> Result<Self, CostError> {
         let json = serde_json::json!({
             "version": 2,
@@ -50,8 +48,8 @@ impl NodeOnMap {
             "outputs": [{ "name": "output", "from": format!("node.{}", text.output) }]
         });
         let graph = Graph::parse(&json.to_string(), &NodeRegistry::new())?;
-        let imports = Imports::from([("map".to_owned(), ResourceDesc::Texture(map.0.clone()))]);
-        let plan = compile(&graph, capabilities, &imports)?;
+        let imports = [("map", ResourceDesc::Texture(map.0.clone()))];
+        let plan = graph.compile(capabilities, &imports)?;
         let device = &gpu.device;
         let pipelines = block_on(Pipelines::create(device, &plan, PipelineOptions::default()))?;
         let resources = block_on(Resources::create(device, &plan))?;
@@ -78,7 +76,7 @@ impl NodeOnMap {
     /// Records some of its passes for all layers.
     pub(super) fn record(
         &self,
-        passes: Passes<'_>,
+        passes: Option<&[usize]>,
         encoder: &mut wgpu::CommandEncoder,
     ) -> Result<(), CostError> {
         let recording = Recording {
@@ -103,7 +101,7 @@ impl NodeOnMap {
     /// Runs the node once and reads its output, layer by layer.
     pub(super) fn run(&self, gpu: &Gpu) -> Result<Vec<Vec<u8>>, CostError> {
         let mut encoder = gpu.device.create_command_encoder(&Default::default());
-        self.record(Passes::All, &mut encoder)?;
+        self.record(None, &mut encoder)?;
         gpu.queue.submit([encoder.finish()]);
         self.read(gpu)
     }
@@ -133,7 +131,7 @@ pub(super) fn upload(gpu: &Gpu, desc: &TextureDesc, bytes: &[u8]) -> wgpu::Textu
             mip_level_count: 1,
             sample_count: 1,
             dimension: wgpu::TextureDimension::D2,
-            format: texture_format(desc.format),
+            format: desc.wgpu_format(),
             usage: wgpu::TextureUsages::TEXTURE_BINDING,
             view_formats: &[],
         },

@@ -1,8 +1,8 @@
 //! A graph whose every connection is an output, so that what each node takes and gives can be read and compared.
 
 use moment_shadows::{DepthConversion, Storage, TextureFormat};
+use moment_shadows_graph::Named;
 use moment_shadows_graph::nodes::KernelProperty;
-use moment_shadows_graph::{Endpoint, Output};
 
 use super::CostError;
 use super::harness::Difference;
@@ -38,24 +38,20 @@ impl OpenedGraph {
     /// Runs the graph on the frame with its connections as further outputs.
     pub(super) fn run(gpu: &Gpu, frame: &Frame, file: &GraphFile) -> Result<Self, CostError> {
         let mut file = GraphFile::parse(&file.name, file.text.clone(), None)?;
-        let given = file.graph.outputs.iter().map(|output| output.from.clone());
+        let given = file.graph.outputs.iter().map(|output| output.value.clone());
         // What a node changes in place is available only after it.
         let edges = file.graph.edges.iter();
         let kept = edges.filter(|edge| changes_in_place(&file, &edge.to).is_none());
         let connected = kept.map(|edge| edge.from.clone());
-        let mut ends: Vec<Endpoint> = given
+        let mut ends: Vec<String> = given
             .chain(connected)
-            .filter(|end| end.slot.is_some())
+            .filter(|end| end.contains('.'))
             .collect();
         ends.sort();
         ends.dedup();
         file.graph.outputs = ends
             .into_iter()
-            .map(|from| Output {
-                name: output_name(&from),
-                from,
-                position: None,
-            })
+            .map(|from| Named::new(output_name(&from), from))
             .collect();
         let graph_frame = GraphFrame::new(gpu, frame, &file)?;
         graph_frame.run(gpu)?;
@@ -163,12 +159,10 @@ impl OpenedGraph {
     fn source(&self, node: &str, slot: &str) -> String {
         let to = format!("{node}.{slot}");
         let mut edges = self.file.graph.edges.iter();
-        let from = edges
-            .find(|edge| edge.to.to_string() == to)
-            .map(|edge| &edge.from);
-        from.map_or(String::new(), |from| match &from.slot {
-            Some(slot) => self.held(&from.owner, slot),
-            None => output_name(from),
+        let from = edges.find(|edge| edge.to == to).map(|edge| &edge.from);
+        from.map_or(String::new(), |from| match from.split_once('.') {
+            Some((node, slot)) => self.held(node, slot),
+            None => from.clone(),
         })
     }
 
@@ -179,7 +173,7 @@ impl OpenedGraph {
         let mut edges = self.file.graph.edges.iter();
         let changed = edges.find_map(|edge| {
             let changes = changes_in_place(&self.file, &edge.to);
-            changes.filter(|_| edge.from.to_string() == from)
+            changes.filter(|_| edge.from == from)
         });
         changed.unwrap_or_else(|| format!("{node} {slot}"))
     }
@@ -203,14 +197,12 @@ fn storage(format: TextureFormat) -> Result<Storage, CostError> {
 }
 
 /// The output of the node that an edge leads to, if it is the same texture as this input.
-fn changes_in_place(file: &GraphFile, to: &Endpoint) -> Option<String> {
-    (file.node_entry(&to.owner, "type") == "downsample").then(|| output_name(to))
+fn changes_in_place(file: &GraphFile, to: &str) -> Option<String> {
+    let (node, _) = to.split_once('.')?;
+    (file.node_entry(node, "type") == "downsample").then(|| output_name(to))
 }
 
 /// The name of the output that a connection is made: `node slot`. An import keeps its name.
-fn output_name(end: &Endpoint) -> String {
-    match &end.slot {
-        Some(slot) => format!("{} {slot}", end.owner),
-        None => end.owner.clone(),
-    }
+fn output_name(end: &str) -> String {
+    end.replacen('.', " ", 1)
 }

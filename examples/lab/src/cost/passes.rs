@@ -3,7 +3,7 @@
 use std::collections::BTreeMap;
 use std::rc::Rc;
 
-use moment_shadows_graph::record::{Passes, Recording};
+use moment_shadows_graph::record::Recording;
 use moment_shadows_graph::{Plan, PlannedBindingResource, PlannedPass, PlannedWork, TextureDesc};
 
 use super::CostError;
@@ -57,7 +57,7 @@ pub fn cases(
             record: Box::new(move |encoder| {
                 for &number in &numbers {
                     let recording = Recording {
-                        passes: Passes::Only(&[number]),
+                        passes: Some(&[number]),
                         ..Recording::default()
                     };
                     let stage = recorded.plan.passes[number].stage;

@@ -4,7 +4,6 @@ use moment_shadows::Storage;
 
 use super::CostError;
 use super::harness::Difference;
-use crate::error::LabError;
 use crate::frame::Frame;
 use crate::gpu::Gpu;
 use crate::graph_file::GraphFile;
@@ -35,7 +34,7 @@ pub(super) fn difference(
     }
     let parameters = shade_parameters(&frame.desc, file)?;
     let unfiltered = Unfiltered::of(gpu, frame, file)?;
-    let camera_depth = read_depth_samples(gpu, &frame.surface.depth).map_err(LabError::from)?;
+    let camera_depth = read_depth_samples(gpu, &frame.surface.depth)?;
     let lookups: Vec<_> = fragments(&parameters, &camera_depth, frame.desc.map)
         .into_iter()
         .step_by(STRIDE)

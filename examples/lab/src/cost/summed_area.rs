@@ -2,7 +2,6 @@
 
 use moment_shadows::{MapEncoding, MapRegion, Storage, Technique, TextureFormat};
 use moment_shadows_graph::nodes::LargestKernel;
-use moment_shadows_graph::record::Passes;
 use moment_shadows_graph::{Capabilities, TextureDesc};
 use serde_json::{Value, json};
 
@@ -88,7 +87,7 @@ fn cases(gpu: &Gpu, size: u32) -> Result<Vec<Case>, CostError> {
         let found: Vec<u32> =
             bytemuck::pod_collect_to_vec(&node.run(gpu)?.pop().unwrap_or_default());
         let bytes = node.bytes();
-        let record: Record<'static> = Box::new(move |encoder| node.record(Passes::All, encoder));
+        let record: Record<'static> = Box::new(move |encoder| node.record(None, encoder));
         cases.push(case(method, tile, chosen, bytes, &found, record));
     }
     let naive = NaiveTable::new(gpu, &desc, &bytes)?;

@@ -1,29 +1,15 @@
 //! A graph with another technique than its own.
 
-use moment_shadows::{Kernel, MapEncoding, Profile, Storage, Technique};
+use moment_shadows::{EsmFiltering, Kernel, LayerSplits, MapEncoding, Profile, Storage, Technique};
 use serde_json::{Value, json};
 
-use super::{GraphFile, nodes};
+use super::{GraphFile, items, push, remove_property};
 use crate::error::LabError;
-use crate::technique_argument::TechniqueArgument;
 
 /// The node that places layers, where a technique needs one.
 const PLACE: &str = "lab_place_layers";
 
 impl GraphFile {
-    /// This graph with the technique that a command line asks for, in the storage that [`TechniqueArgument::resolve`] chooses.
-    pub fn with_technique_argument(
-        &self,
-        technique: &TechniqueArgument,
-        storage: Option<Storage>,
-    ) -> Result<Self, LabError> {
-        let own = self.encoding().map(|encoding| encoding.storage());
-        let (technique, storage) = technique
-            .resolve(storage, own)
-            .map_err(|error| self.unsuitable(error.to_string()))?;
-        self.with_technique(&technique, storage)
-    }
-
     /// This graph with a technique in place of its own. A filterable one makes its map in `storage`, or in that of the
     /// graph. One that reads the plain depth map is connected to it; what made the filterable map has no reader then and is
     /// culled.
@@ -41,32 +27,24 @@ impl GraphFile {
         let logarithmic = matches!(
             technique,
             Technique::Esm {
-                filtering: moment_shadows::EsmFiltering::Logarithmic,
+                filtering: EsmFiltering::Logarithmic,
                 ..
             }
         );
         // Logarithms have no mip levels.
-        let file = if logarithmic {
-            self.without_mip_levels()?
-        } else {
-            Self::parse(&self.name, self.text.clone(), None)?
-        };
-        let mut text: Value = serde_json::from_str(&file.text).unwrap_or_default();
-        let edges = text["edges"].as_array().cloned().unwrap_or_default();
-        let depth = edges
-            .iter()
-            .find(|edge| edge["to"] == format!("{resolve}.depth").as_str())
+        let without_mip_levels = logarithmic.then(|| self.without_mip_levels()).transpose()?;
+        let file = without_mip_levels.as_ref().unwrap_or(self);
+        let depth = file
+            .find("edges", "to", &format!("{resolve}.depth"))
             .map(|edge| edge["from"].clone())
             .ok_or_else(|| self.unsuitable(format!("no edge leads to the depth of '{resolve}'")))?;
-        if let Some(nodes) = text["nodes"].as_array_mut() {
-            for node in nodes.iter_mut() {
+        file.edited(|file| {
+            for node in items(file, "nodes") {
                 if node["name"] == shade.as_str() && technique.reads_depth() {
                     node["properties"]["technique"] = json!(technique);
                 } else if node["name"] == shade.as_str() {
                     // It follows the map.
-                    if let Some(properties) = node["properties"].as_object_mut() {
-                        properties.remove("technique");
-                    }
+                    remove_property(node, "technique");
                 } else if node["name"] == resolve.as_str() && !technique.reads_depth() {
                     node["properties"]["technique"] = json!(technique);
                     if let Some(storage) = storage {
@@ -74,34 +52,30 @@ impl GraphFile {
                     }
                 }
             }
-        }
-        let mut added = Vec::new();
-        if technique.reads_depth() {
-            added.push(json!({ "from": depth, "to": format!("{shade}.depth") }));
-            if let Some(edges) = text["edges"].as_array_mut() {
-                edges.retain(|edge| edge["to"] != format!("{shade}.map").as_str());
+            let mut added = Vec::new();
+            let mut connect = |from: Value, to: String| added.push(json!({ "from": from, "to": to }));
+            if technique.reads_depth() {
+                connect(depth.clone(), format!("{shade}.depth"));
             }
-        }
-        if let Technique::Lvsm {
-            layers,
-            splits: moment_shadows::LayerSplits::Lloyd,
-            ..
-        } = technique
-        {
-            let node = json!({ "name": PLACE, "type": "place_layers", "properties": { "layers": layers } });
-            if let Some(nodes) = text["nodes"].as_array_mut() {
-                nodes.push(node);
+            if let Technique::Lvsm {
+                layers,
+                splits: LayerSplits::Lloyd,
+                ..
+            } = technique
+            {
+                let node = json!({ "name": PLACE, "type": "place_layers", "properties": { "layers": layers } });
+                push(file, "nodes", node);
+                connect(depth.clone(), format!("{PLACE}.depth"));
+                for reader in [&resolve, &shade] {
+                    connect(json!(format!("{PLACE}.splits")), format!("{reader}.splits"));
+                }
             }
-            added.push(json!({ "from": depth, "to": format!("{PLACE}.depth") }));
-            for reader in [&resolve, &shade] {
-                let to = format!("{reader}.splits");
-                added.push(json!({ "from": format!("{PLACE}.splits"), "to": to }));
+            if let Some(edges) = file["edges"].as_array_mut() {
+                let map = format!("{shade}.map");
+                edges.retain(|edge| !(technique.reads_depth() && edge["to"] == map.as_str()));
+                edges.extend(added);
             }
-        }
-        if let Some(edges) = text["edges"].as_array_mut() {
-            edges.extend(added);
-        }
-        Self::parse(&self.name, text.to_string(), None)
+        })
     }
 
     /// How the graph's map is encoded; none where no node makes one.
@@ -169,9 +143,7 @@ impl GraphFile {
     }
 
     pub(super) fn node_of(&self, node_type: &str) -> Option<Value> {
-        nodes(&self.text)
-            .into_iter()
-            .find(|node| node["type"] == node_type)
+        self.find("nodes", "type", node_type)
     }
 
     fn name_of(&self, node_type: &str) -> Result<String, LabError> {
@@ -183,7 +155,7 @@ impl GraphFile {
         Ok(node["name"].as_str().unwrap_or_default().to_owned())
     }
 
-    pub(super) fn unsuitable(&self, reason: String) -> LabError {
+    pub(crate) fn unsuitable(&self, reason: impl ToString) -> LabError {
         LabError::unsuitable(&self.name, reason)
     }
 }

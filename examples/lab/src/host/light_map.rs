@@ -2,7 +2,8 @@
 
 use super::error::{check_size, created};
 use super::model::{self, ViewUniform};
-use super::{HostError, Model, Renderer, texture_2d};
+use super::{Model, Renderer, texture_2d};
+use crate::error::LabError;
 use crate::gpu::Gpu;
 use crate::light::LightView;
 
@@ -49,22 +50,23 @@ fn supported_samples(gpu: &Gpu, format: wgpu::TextureFormat) -> Vec<u32> {
 
 impl Renderer {
     /// A depth map and its pipelines.
-    pub fn light_map(&self, gpu: &Gpu, desc: &LightMapDesc) -> Result<LightMap, HostError> {
+    pub fn light_map(&self, gpu: &Gpu, desc: &LightMapDesc) -> Result<LightMap, LabError> {
         let format = desc.format;
         if !matches!(
             format,
             wgpu::TextureFormat::Depth32Float | wgpu::TextureFormat::Depth16Unorm
         ) {
-            return Err(HostError::Format { format });
+            return Err(LabError::refused(format!(
+                "light depth cannot be rendered as {format:?}; use Depth32Float or Depth16Unorm"
+            )));
         }
         check_size(gpu, "the light's depth map", desc.size)?;
         let supported = supported_samples(gpu, format);
         if !supported.contains(&desc.samples) {
-            return Err(HostError::Samples {
-                format,
-                asked: desc.samples,
-                supported,
-            });
+            return Err(LabError::refused(format!(
+                "{format:?} with {} samples per texel is not supported by this device; it supports {supported:?}",
+                desc.samples
+            )));
         }
         let mut usage =
             wgpu::TextureUsages::RENDER_ATTACHMENT | wgpu::TextureUsages::TEXTURE_BINDING;
@@ -74,7 +76,7 @@ impl Renderer {
         created(gpu, "the light's depth map", || {
             let label = "host/light depth";
             let texture = texture_2d(&gpu.device, label, desc.size, desc.samples, format, usage);
-            let (uniform, group) = model::view_group(&gpu.device, &self.view_layout, label);
+            let (uniform, group) = model::view_group(gpu, &self.view_layout, label);
             LightMap {
                 view: texture.create_view(&wgpu::TextureViewDescriptor::default()),
                 texture,

@@ -2,8 +2,9 @@
 
 use wgpu::util::DeviceExt;
 
+use super::Renderer;
 use super::error::created;
-use super::{HostError, Renderer, UNIFORM, binding, texture_type};
+use crate::error::LabError;
 use crate::gpu::Gpu;
 use crate::scene::{Image, Scene, mips};
 
@@ -61,55 +62,69 @@ pub(super) fn vertex_layout() -> wgpu::VertexBufferLayout<'static> {
     }
 }
 
-/// Group 0 of `geometry.wgsl`.
-pub(super) fn view_layout(device: &wgpu::Device) -> wgpu::BindGroupLayout {
+/// A group of `geometry.wgsl`, for its bindings 0, 1, ...: the view, or a material.
+fn layout<const COUNT: usize>(
+    device: &wgpu::Device,
+    visibility: wgpu::ShaderStages,
+    types: [wgpu::BindingType; COUNT],
+) -> wgpu::BindGroupLayout {
+    let entries: Vec<_> = (0..)
+        .zip(types)
+        .map(|(binding, ty)| wgpu::BindGroupLayoutEntry {
+            binding,
+            visibility,
+            ty,
+            count: None,
+        })
+        .collect();
     device.create_bind_group_layout(&wgpu::BindGroupLayoutDescriptor {
-        label: Some("host/view"),
-        entries: &[binding(0, wgpu::ShaderStages::VERTEX_FRAGMENT, UNIFORM)],
+        label: Some("host/geometry"),
+        entries: &entries,
     })
 }
 
-/// Group 1 of `geometry.wgsl`.
-pub(super) fn material_layout(device: &wgpu::Device) -> wgpu::BindGroupLayout {
-    let fragment = wgpu::ShaderStages::FRAGMENT;
-    let filtered = wgpu::TextureSampleType::Float { filterable: true };
+/// Groups 0 and 1 of `geometry.wgsl`: the view and the material.
+pub(super) fn layouts(device: &wgpu::Device) -> [wgpu::BindGroupLayout; 2] {
+    let uniform = wgpu::BindingType::Buffer {
+        ty: wgpu::BufferBindingType::Uniform,
+        has_dynamic_offset: false,
+        min_binding_size: None,
+    };
+    let texture = wgpu::BindingType::Texture {
+        sample_type: wgpu::TextureSampleType::Float { filterable: true },
+        view_dimension: wgpu::TextureViewDimension::D2,
+        multisampled: false,
+    };
     let sampler = wgpu::BindingType::Sampler(wgpu::SamplerBindingType::Filtering);
-    device.create_bind_group_layout(&wgpu::BindGroupLayoutDescriptor {
-        label: Some("host/material"),
-        entries: &[
-            binding(0, fragment, UNIFORM),
-            binding(1, fragment, texture_type(filtered, false)),
-            binding(2, fragment, sampler),
-        ],
-    })
+    [
+        layout(device, wgpu::ShaderStages::VERTEX_FRAGMENT, [uniform]),
+        layout(
+            device,
+            wgpu::ShaderStages::FRAGMENT,
+            [uniform, texture, sampler],
+        ),
+    ]
 }
 
 /// A uniform buffer for one view with its bind group.
 pub(super) fn view_group(
-    device: &wgpu::Device,
+    gpu: &Gpu,
     layout: &wgpu::BindGroupLayout,
     label: &str,
 ) -> (wgpu::Buffer, wgpu::BindGroup) {
-    let buffer = device.create_buffer(&wgpu::BufferDescriptor {
+    let buffer = gpu.device.create_buffer(&wgpu::BufferDescriptor {
         label: Some(label),
         size: size_of::<ViewUniform>() as u64,
         usage: wgpu::BufferUsages::UNIFORM | wgpu::BufferUsages::COPY_DST,
         mapped_at_creation: false,
     });
-    let group = device.create_bind_group(&wgpu::BindGroupDescriptor {
-        label: Some(label),
-        layout,
-        entries: &[wgpu::BindGroupEntry {
-            binding: 0,
-            resource: buffer.as_entire_binding(),
-        }],
-    });
+    let group = gpu.bind(layout, [buffer.as_entire_binding()]);
     (buffer, group)
 }
 
 impl Renderer {
     /// Copies a scene to the device. Meshes of one material become one draw.
-    pub fn upload(&self, gpu: &Gpu, scene: &Scene) -> Result<Model, HostError> {
+    pub fn upload(&self, gpu: &Gpu, scene: &Scene) -> Result<Model, LabError> {
         let limit = gpu.device.limits().max_buffer_size;
         let mut drawn = Vec::new();
         for material in 0..scene.materials.len() {
@@ -127,12 +142,9 @@ impl Renderer {
             }
             let bytes = size_of_val(&vertices[..]).max(size_of_val(&indices[..])) as u64;
             if bytes > limit {
-                return Err(HostError::Size {
-                    what: "a buffer of the scene",
-                    asked: bytes,
-                    unit: "bytes",
-                    limit,
-                });
+                return Err(LabError::refused(format!(
+                    "a buffer of the scene would have {bytes} bytes; this device allows 1 to {limit}"
+                )));
             }
             if !indices.is_empty() {
                 drawn.push((material, vertices, indices));
@@ -164,13 +176,13 @@ impl Renderer {
                         _padding: [0.0; 3],
                     };
                     Part {
-                        vertices: buffer(
-                            gpu,
+                        vertices: gpu.filled(
+                            "host/vertices",
                             bytemuck::cast_slice(vertices),
                             wgpu::BufferUsages::VERTEX,
                         ),
-                        indices: buffer(
-                            gpu,
+                        indices: gpu.filled(
+                            "host/indices",
                             bytemuck::cast_slice(indices),
                             wgpu::BufferUsages::INDEX,
                         ),
@@ -200,29 +212,14 @@ impl Renderer {
             mipmap_filter: wgpu::MipmapFilterMode::Linear,
             ..Default::default()
         });
-        let uniform = buffer(
-            gpu,
-            bytemuck::bytes_of(surface),
-            wgpu::BufferUsages::UNIFORM,
-        );
-        gpu.device.create_bind_group(&wgpu::BindGroupDescriptor {
-            label: Some("host/material"),
-            layout: &self.material_layout,
-            entries: &[
-                wgpu::BindGroupEntry {
-                    binding: 0,
-                    resource: uniform.as_entire_binding(),
-                },
-                wgpu::BindGroupEntry {
-                    binding: 1,
-                    resource: wgpu::BindingResource::TextureView(image),
-                },
-                wgpu::BindGroupEntry {
-                    binding: 2,
-                    resource: wgpu::BindingResource::Sampler(&sampler),
-                },
-            ],
-        })
+        let contents = bytemuck::bytes_of(surface);
+        let uniform = gpu.filled("host/material", contents, wgpu::BufferUsages::UNIFORM);
+        let bound = [
+            uniform.as_entire_binding(),
+            wgpu::BindingResource::TextureView(image),
+            wgpu::BindingResource::Sampler(&sampler),
+        ];
+        gpu.bind(&self.material_layout, bound)
     }
 }
 
@@ -244,15 +241,6 @@ impl Model {
             pass.draw_indexed(0..part.count, 0, 0..1);
         }
     }
-}
-
-fn buffer(gpu: &Gpu, contents: &[u8], usage: wgpu::BufferUsages) -> wgpu::Buffer {
-    gpu.device
-        .create_buffer_init(&wgpu::util::BufferInitDescriptor {
-            label: Some("host/scene"),
-            contents,
-            usage,
-        })
 }
 
 /// A texture with all its mips.

@@ -1,10 +1,10 @@
 //! The picture: base colour, light, shadow intensity.
 
 use glam::{DMat3, DVec3};
-use wgpu::util::DeviceExt;
 
 use super::error::created;
-use super::{HostError, Renderer, Surface, UNIFORM, binding, texture_2d, texture_type};
+use super::{Renderer, Surface, texture_2d};
+use crate::error::LabError;
 use crate::gpu::Gpu;
 use crate::light::{LightKind, LightView};
 use crate::scene::Scene;
@@ -31,7 +31,7 @@ pub struct Lighting {
 
 impl Lighting {
     /// The usual look for `light`, seen by `camera`.
-    pub fn new(scene: &Scene, camera: &Camera, light: &LightView) -> Result<Self, HostError> {
+    pub fn new(scene: &Scene, camera: &Camera, light: &LightView) -> Result<Self, LabError> {
         let world_from_light = light.view_from_world.inverse();
         let towards = light.towards_light(DVec3::ZERO);
         let axis = -world_from_light.transform_vector3(DVec3::Z);
@@ -68,36 +68,12 @@ impl Lighting {
     }
 }
 
-/// The bindings of `shade.wgsl`. No texture needs to be filterable.
-pub(super) fn layout(device: &wgpu::Device) -> wgpu::BindGroupLayout {
-    let fragment = wgpu::ShaderStages::FRAGMENT;
-    let loaded = texture_type(wgpu::TextureSampleType::Float { filterable: false }, false);
-    device.create_bind_group_layout(&wgpu::BindGroupLayoutDescriptor {
-        label: Some("host/shade"),
-        entries: &[
-            binding(0, fragment, UNIFORM),
-            binding(1, fragment, loaded),
-            binding(2, fragment, loaded),
-            binding(3, fragment, loaded),
-            binding(4, fragment, loaded),
-        ],
-    })
-}
-
 /// The pipeline that makes the picture.
-pub(super) fn pipeline(
-    device: &wgpu::Device,
-    layout: &wgpu::BindGroupLayout,
-) -> wgpu::RenderPipeline {
+pub(super) fn pipeline(device: &wgpu::Device) -> wgpu::RenderPipeline {
     let module = device.create_shader_module(wgpu::include_wgsl!("shade.wgsl"));
-    let layout = device.create_pipeline_layout(&wgpu::PipelineLayoutDescriptor {
-        label: Some("host/shade"),
-        bind_group_layouts: &[Some(layout)],
-        immediate_size: 0,
-    });
     device.create_render_pipeline(&wgpu::RenderPipelineDescriptor {
         label: Some("host/shade"),
-        layout: Some(&layout),
+        layout: None,
         vertex: wgpu::VertexState {
             module: &module,
             entry_point: Some("cover"),
@@ -128,13 +104,14 @@ impl Renderer {
         surface: &Surface,
         shadow: &wgpu::TextureView,
         lighting: &Lighting,
-    ) -> Result<wgpu::Texture, HostError> {
+    ) -> Result<wgpu::Texture, LabError> {
         let shadow_size = [shadow.texture().width(), shadow.texture().height()];
         if shadow_size != surface.size {
-            return Err(HostError::ShadowSize {
-                shadow: shadow_size,
-                surface: surface.size,
-            });
+            let [[width, height], [own_width, own_height]] = [shadow_size, surface.size];
+            return Err(LabError::refused(format!(
+                "the shadow intensity has {width}x{height} texels and the G-buffer {own_width}x{own_height}; render it at the \
+                 G-buffer's size"
+            )));
         }
         let (picture, group) = created(gpu, "the picture", || {
             let picture = texture_2d(
@@ -145,32 +122,18 @@ impl Renderer {
                 wgpu::TextureFormat::Rgba8UnormSrgb,
                 wgpu::TextureUsages::RENDER_ATTACHMENT | wgpu::TextureUsages::COPY_SRC,
             );
-            let uniform = gpu
-                .device
-                .create_buffer_init(&wgpu::util::BufferInitDescriptor {
-                    label: Some("host/lighting"),
-                    contents: bytemuck::bytes_of(lighting),
-                    usage: wgpu::BufferUsages::UNIFORM,
-                });
+            let uniform = gpu.filled(
+                "host/lighting",
+                bytemuck::bytes_of(lighting),
+                wgpu::BufferUsages::UNIFORM,
+            );
             let [position, normal, base_colour] = surface.colour_views();
             let textures = [position, normal, base_colour, shadow];
-            let mut entries = vec![wgpu::BindGroupEntry {
-                binding: 0,
-                resource: uniform.as_entire_binding(),
-            }];
-            entries.extend(
-                (1..)
-                    .zip(textures)
-                    .map(|(binding, view)| wgpu::BindGroupEntry {
-                        binding,
-                        resource: wgpu::BindingResource::TextureView(view),
-                    }),
+            let textures = textures.map(wgpu::BindingResource::TextureView);
+            let group = gpu.bind(
+                &self.shade_pipeline.get_bind_group_layout(0),
+                [uniform.as_entire_binding()].into_iter().chain(textures),
             );
-            let group = gpu.device.create_bind_group(&wgpu::BindGroupDescriptor {
-                label: Some("host/shade"),
-                layout: &self.shade_layout,
-                entries: &entries,
-            });
             (picture, group)
         })?;
         let view = picture.create_view(&wgpu::TextureViewDescriptor::default());

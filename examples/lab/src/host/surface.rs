@@ -2,7 +2,8 @@
 
 use super::error::{check_size, created};
 use super::model::{self, ViewUniform};
-use super::{HostError, Model, Renderer, texture_2d};
+use super::{Model, Renderer, texture_2d};
+use crate::error::LabError;
 use crate::gpu::Gpu;
 use crate::view::Camera;
 
@@ -74,7 +75,7 @@ pub(super) fn pipeline(
 
 impl Renderer {
     /// An empty G-buffer.
-    pub fn surface(&self, gpu: &Gpu, size: [u32; 2]) -> Result<Surface, HostError> {
+    pub fn surface(&self, gpu: &Gpu, size: [u32; 2]) -> Result<Surface, LabError> {
         check_size(gpu, "the G-buffer", size)?;
         created(gpu, "the G-buffer", || {
             let drawn =
@@ -92,8 +93,7 @@ impl Renderer {
             let base_colour = texture("host/surface base colour", BASE_COLOUR, copied);
             let views = [&depth, &position, &normal, &base_colour]
                 .map(|texture| texture.create_view(&wgpu::TextureViewDescriptor::default()));
-            let (uniform, group) =
-                model::view_group(&gpu.device, &self.view_layout, "host/surface");
+            let (uniform, group) = model::view_group(gpu, &self.view_layout, "host/surface");
             Surface {
                 size,
                 depth,
@@ -116,7 +116,7 @@ impl Renderer {
         model: &Model,
         surface: &Surface,
         camera: &Camera,
-    ) -> Result<(), HostError> {
+    ) -> Result<(), LabError> {
         let uniform = ViewUniform {
             clip_from_world: camera.clip_from_world()?.as_mat4().to_cols_array_2d(),
             eye: camera.eye.as_vec3().to_array(),

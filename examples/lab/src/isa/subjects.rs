@@ -4,7 +4,7 @@ use std::collections::BTreeMap;
 
 use moment_shadows::{Source, TextureFormat, link};
 use moment_shadows_graph::{
-    Binding, BindingResource, Direction, FormatRule, NodeDesc, Pass, ResourceDesc, SlotResource,
+    Binding, BindingResource, Direction, NodeDesc, Pass, ResourceDesc, Rule, SlotResource,
     TextureRule, Work,
 };
 
@@ -126,10 +126,6 @@ fn of_variant(variant: &Variant, row: &Row) -> Result<Vec<Subject>, LabError> {
             Work::Compute {
                 texels_per_workgroup,
                 ..
-            }
-            | Work::ComputeRegions {
-                texels_per_workgroup,
-                ..
             } => SubjectWork::Compute {
                 // A workgroup for whole lines covers no more than there is.
                 texels_per_workgroup: texels_per_workgroup
@@ -138,7 +134,7 @@ fn of_variant(variant: &Variant, row: &Row) -> Result<Vec<Subject>, LabError> {
                     .map(|(&texels, side)| texels.min(side))
                     .product(),
             },
-            Work::Fullscreen { target, .. } | Work::FullscreenRegions { target, .. } => {
+            Work::Fullscreen { target, .. } => {
                 let format = formats.of(target).ok_or_else(|| {
                     LabError::unsuitable(
                         format!("shader '{}'", &name),
@@ -180,10 +176,10 @@ impl Formats<'_> {
             return None;
         };
         match format {
-            FormatRule::Exact(format) => Some(*format),
-            FormatRule::Encoded(encoding) => Some(encoding.format()),
-            FormatRule::SameAs(input) => connected(input),
-            FormatRule::OneOf(formats) => formats.first().copied(),
+            Rule::Exact(format) => Some(*format),
+            Rule::SameAs(input) => connected(input),
+            Rule::OneOf(formats) => formats.first().copied(),
+            Rule::Any => None,
         }
     }
 
@@ -191,8 +187,8 @@ impl Formats<'_> {
     fn widest(&self, pass: &Pass) -> u32 {
         let slot = |binding: &Binding| match &binding.resource {
             BindingResource::Layers(slot) => self.of(slot),
-            BindingResource::Level(level) | BindingResource::StorageLevel(level) => {
-                self.of(&level.slot)
+            BindingResource::Level { slot, .. } | BindingResource::StorageLevel { slot, .. } => {
+                self.of(slot)
             }
             _ => None,
         };

@@ -1,6 +1,7 @@
 //! How large a light is around the point or direction that its map is drawn from.
 
-use super::{LightError, LightKind, LightView};
+use super::{LightKind, LightView};
+use crate::error::LabError;
 
 /// The angle under which a light is seen where nothing else is said, in radians: six times the sun's, so that penumbrae
 /// are some texels wide.
@@ -44,16 +45,18 @@ impl LightShape {
     }
 
     /// Refuses sizes that are negative or no numbers, and a shape that a light of this kind cannot have.
-    pub fn check(self, kind: LightKind) -> Result<(), LightError> {
+    pub fn check(self, kind: LightKind) -> Result<(), LabError> {
         let fits = (kind == LightKind::Directional) == matches!(self, Self::Directional { .. });
         if !fits {
-            return Err(LightError::Shape {
-                shape: self.name(),
-                light: match kind {
-                    LightKind::Directional => "a directional light",
-                    LightKind::Spot => "a spot light",
-                },
-            });
+            let light = match kind {
+                LightKind::Directional => "a directional light",
+                LightKind::Spot => "a spot light",
+            };
+            return Err(LabError::refused(format!(
+                "{light} cannot have the shape '{}'; a directional light has an angular diameter, a spot light is a disk or a \
+                 rectangle",
+                self.name()
+            )));
         }
         match self {
             Self::Directional { angular_diameter } => check_size(
@@ -105,7 +108,7 @@ impl LightShape {
     }
 }
 
-fn check_length(what: &'static str, value: f64) -> Result<(), LightError> {
+fn check_length(what: &'static str, value: f64) -> Result<(), LabError> {
     check_size(what, value, f64::INFINITY, "at least 0 and finite")
 }
 
@@ -114,10 +117,17 @@ fn check_size(
     value: f64,
     end: f64,
     range: &'static str,
-) -> Result<(), LightError> {
+) -> Result<(), LabError> {
     if value >= 0.0 && value < end {
         Ok(())
     } else {
-        Err(LightError::Size { what, value, range })
+        Err(wrong_size(what, value, range))
     }
+}
+
+/// The error of a size that no light has.
+pub(crate) fn wrong_size(what: &str, value: f64, range: &str) -> LabError {
+    LabError::refused(format!(
+        "the light's {what} is {value}, but must be {range}; 0 gives hard shadows"
+    ))
 }

@@ -4,28 +4,18 @@
 //! system is solved exactly, roots are taken with hundreds of bits and weights come from the Vandermonde system, so that the
 //! two have nothing in common but the theorem.
 //!
-//! - [`hamburger`] and [`hausdorff`]: exact bounds for any even number of power moments, on the real line and on an interval.
-//! - [`MomentProblem`]: the same bounds by linear programming, with certificates.
-//! - [`ideal`]: the bounds of every technique for known surfaces in f64, fast enough for millions of them.
+//! [`hamburger`] and [`hausdorff`] are the bounds for any even number of power moments, on the real line and on an interval.
 
 mod exact;
 mod hausdorff;
-pub mod ideal;
-mod linear;
 mod mixture;
 mod polynomial;
-mod rounding;
-mod rounding_of_six;
 mod sensitivity;
-mod simplex;
 #[cfg(test)]
 mod tests;
 
 pub use exact::{Extremal, OracleError, SupportPoint, hamburger, rational};
 pub use hausdorff::hausdorff;
-pub use linear::{LinearBound, LinearError, MomentProblem};
 pub use mixture::{Atom, Mixture};
 pub use polynomial::Real;
-pub use rounding::{Fma, bounds_in_f32};
-pub use rounding_of_six::six_bounds_in_f32;
 pub use sensitivity::{sensitivity, tolerance_unit};

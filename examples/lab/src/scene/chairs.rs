@@ -46,10 +46,7 @@ pub fn chairs() -> Scene {
             Material::plain("legs", [0.36, 0.24, 0.15]),
             Material::plain("wood", [0.5, 0.36, 0.22]),
         ],
-        images: Vec::new(),
-        ground: None,
-        stand: None,
-        warnings: Vec::new(),
+        ..Scene::default()
     }
 }
 

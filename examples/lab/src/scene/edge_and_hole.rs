@@ -85,10 +85,8 @@ fn above_ground(name: &str, mesh: Mesh, stand: Stand) -> Scene {
             double_sided: true,
             ..Material::plain("boards", [0.36, 0.4, 0.46])
         }],
-        images: Vec::new(),
-        ground: None,
         stand: Some(stand),
-        warnings: Vec::new(),
+        ..Scene::default()
     };
     let radius = scene.bounds().radius();
     add_ground(&mut scene, radius);

@@ -84,9 +84,7 @@ fn scene(name: &str, shapes: [Shape; 4], stand: Stand) -> Scene {
             Material::plain("boards", [0.36, 0.4, 0.46]),
             Material::plain("upper boards", [0.3, 0.42, 0.3]),
         ],
-        images: Vec::new(),
-        ground: None,
         stand: Some(stand),
-        warnings: Vec::new(),
+        ..Scene::default()
     }
 }

@@ -46,9 +46,7 @@ pub fn fence_and_foliage() -> Scene {
             grass,
         ],
         images: vec![twig()],
-        ground: None,
-        stand: None,
-        warnings: Vec::new(),
+        ..Scene::default()
     }
 }
 

@@ -4,10 +4,11 @@ use std::path::Path;
 
 use glam::{DMat4, DVec4};
 
+use super::Scene;
 use super::caught::caught;
 use super::gltf_mesh::Loader;
 use super::gltf_source::{Source, check_file, check_uri};
-use super::{Scene, SceneError};
+use crate::error::LabError;
 
 /// Whether a file that needs this extension is shown: it is read, or only changes how surfaces look.
 fn is_supported(extension: &str) -> bool {
@@ -34,10 +35,9 @@ fn changes_casters(extension: &str) -> bool {
 
 /// Loads a glTF or GLB file: triangles of the default scene in world space, base colour and alpha mask. What is left
 /// out (extensions, skins, morph targets, points and lines, blending) is said in `warnings`.
-pub fn load_gltf(file: &Path) -> Result<Scene, SceneError> {
-    caught(|| load(file)).map_err(|reason| SceneError::File {
-        file: file.to_owned(),
-        reason,
+pub fn load_gltf(file: &Path) -> Result<Scene, LabError> {
+    caught(|| load(file)).map_err(|reason| {
+        LabError::refused(format!("'{}' cannot be shown: {reason}", file.display()))
     })
 }
 

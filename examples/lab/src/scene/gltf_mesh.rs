@@ -38,13 +38,9 @@ impl<'a> Loader<'a> {
             images: HashMap::new(),
             scene: Scene {
                 name: name.to_owned(),
-                meshes: Vec::new(),
                 // The file's in their order, then the default one.
                 materials: vec![default; count + 1],
-                images: Vec::new(),
-                ground: None,
-                stand: None,
-                warnings: Vec::new(),
+                ..Scene::default()
             },
         }
     }

@@ -31,14 +31,12 @@ pub fn hall_with_open_roof() -> Scene {
             Material::plain("iron", [0.07, 0.07, 0.075]),
             Material::plain("crates", [0.45, 0.31, 0.17]),
         ],
-        images: Vec::new(),
-        ground: None,
         stand: Some(Stand {
             eye: DVec3::new(1.3, 2.5, 19.5),
             target: DVec3::new(-0.6, 2.6, 0.0),
             light_direction: DVec3::new(0.42, -0.56, 0.71),
         }),
-        warnings: Vec::new(),
+        ..Scene::default()
     }
 }
 

@@ -3,7 +3,6 @@
 mod caught;
 mod chairs;
 mod edge_and_hole;
-mod error;
 mod failures;
 mod fence_and_foliage;
 mod gltf_file;
@@ -22,7 +21,6 @@ use glam::DVec3;
 
 pub use chairs::{CHAIRS, Foot, chairs, feet};
 pub use edge_and_hole::{EDGE, EDGE_HEIGHTS, HOLE, edge_strip, small_hole, straight_edges};
-pub use error::SceneError;
 pub use failures::{contacts, stacked_boards};
 pub use fence_and_foliage::fence_and_foliage;
 pub use gltf_file::load_gltf;
@@ -31,6 +29,8 @@ pub use hall::hall_with_open_roof;
 pub use material::{Image, Material};
 pub use mesh::{Bounds, Mesh};
 pub(crate) use mips::{Mip, mips};
+
+use crate::error::LabError;
 
 /// Names under which [`load`] knows the procedural scenes that techniques are compared on; there are also [`CHAIRS`],
 /// [`EDGE`] and [`HOLE`].
@@ -48,7 +48,7 @@ pub struct Stand {
 }
 
 /// Triangles in world space (y is up), flattened from whatever hierarchy they had.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, Default)]
 pub struct Scene {
     /// A short name: the file's, or that of the procedural scene.
     pub name: String,
@@ -89,7 +89,7 @@ impl Scene {
 
 /// The scene that a command line names: a file, one of [`PROCEDURAL`], [`CHAIRS`], [`EDGE`] or [`HOLE`]. It stands on its
 /// ground plane, or hovers above it. What a file has and the scene has not is said on the standard error.
-pub fn load(name: &str) -> Result<Scene, SceneError> {
+pub fn load(name: &str) -> Result<Scene, LabError> {
     match name {
         "fence-and-foliage" => Ok(place_on_ground(fence_and_foliage())),
         "hall" => Ok(place_on_ground(hall_with_open_roof())),
@@ -103,12 +103,10 @@ pub fn load(name: &str) -> Result<Scene, SceneError> {
             }
             Ok(place_on_ground(scene))
         }
-        _ => Err(SceneError::Unknown {
-            name: name.to_owned(),
-            advice: format!(
-                "the procedural scenes are {}, {CHAIRS}, {EDGE} and {HOLE}",
-                PROCEDURAL.join(", ")
-            ),
-        }),
+        _ => Err(LabError::refused(format!(
+            "there is no file '{name}', nor a procedural scene of that name; the procedural scenes are {}, {CHAIRS}, {EDGE} \
+             and {HOLE}",
+            PROCEDURAL.join(", ")
+        ))),
     }
 }

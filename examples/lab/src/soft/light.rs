@@ -6,7 +6,7 @@ use glam::DVec3;
 use serde::Serialize;
 
 use crate::error::LabError;
-use crate::light::{LightError, LightKind, LightShape, LightView};
+use crate::light::{LightKind, LightShape, LightView, wrong_size};
 use crate::scene::Scene;
 use crate::view::View;
 
@@ -96,15 +96,15 @@ impl SoftLightChoice {
 }
 
 /// The only number of a size.
-fn one(size: Option<LightSize>, what: &'static str) -> Result<Option<f64>, LightError> {
+fn one(size: Option<LightSize>, what: &'static str) -> Result<Option<f64>, LabError> {
     match size {
         None => Ok(None),
         Some(LightSize([width, height])) if width == height || width.is_nan() => Ok(Some(width)),
-        Some(LightSize([_, height])) => Err(LightError::Size {
+        Some(LightSize([_, height])) => Err(wrong_size(
             what,
-            value: height,
-            range: "a single number: only rectangles have two",
-        }),
+            height,
+            "a single number: only rectangles have two",
+        )),
     }
 }
 

@@ -161,7 +161,7 @@ impl SoftStage {
 
     /// The error of a picture of shadow intensity over the judged pixels.
     pub fn judge(&self, shadow: &[f32]) -> Result<Comparison, LabError> {
-        Ok(compare(shadow, &self.truth, &self.judged)?)
+        compare(shadow, &self.truth, &self.judged)
     }
 
     /// In the scene of straight edges the width of the penumbra below each board, 10 % to 90 %, as geometry has it.

@@ -1,7 +1,5 @@
 //! One input of the report: surfaces, how they are filtered, and a fragment.
 
-use core::fmt::Write;
-
 use bytemuck::{Pod, Zeroable};
 use moment_shadows::DepthConversion;
 
@@ -46,47 +44,6 @@ impl Input {
     pub const PATCH: u32 = 1;
     /// A texel that no encoding need have made.
     pub const TEXEL: u32 = 2;
-
-    /// The input as a Rust expression that a test can hold; fields with their defaults are left out.
-    #[must_use]
-    pub fn literal(&self) -> String {
-        let usual = Self::default();
-        let mut text = "Input { ".to_owned();
-        let mut field = |name: &str, value: String, differs: bool| {
-            if differs {
-                // Writing to a string cannot fail.
-                let _ = write!(text, "{name}: {value}, ");
-            }
-        };
-        field("depths", floats(&self.depths), true);
-        field("weights", floats(&self.weights), self.kind != Self::PATCH);
-        field("fragment_depth", float(self.fragment_depth), true);
-        let c = self.conversion;
-        let conversion = format!(
-            "DepthConversion {{ numerator: {}, denominator: {}, scale: {}, offset: {}, padding: [0.0; 2] }}",
-            floats(&c.numerator),
-            floats(&c.denominator),
-            float(c.scale),
-            float(c.offset)
-        );
-        field("conversion", conversion, self.converted == 1);
-        let whole = [
-            ("kind", self.kind, usual.kind),
-            ("converted", self.converted, usual.converted),
-            ("count", self.count, usual.count),
-            ("kernel", self.kernel, usual.kernel),
-            ("coverage", self.coverage, usual.coverage),
-            ("column", self.column, usual.column),
-            ("row_run", self.row_run, usual.row_run),
-            ("column_run", self.column_run, usual.column_run),
-        ];
-        for (name, value, usual) in whole {
-            field(name, value.to_string(), value != usual);
-        }
-        let rows = format!("{:?}", self.rows);
-        field("rows", rows, self.rows != usual.rows);
-        text + "..Input::default() }"
-    }
 }
 
 impl Default for Input {
@@ -108,18 +65,5 @@ impl Default for Input {
             column_run: 1,
             padding: 0,
         }
-    }
-}
-
-fn floats(values: &[f32]) -> String {
-    let values: Vec<String> = values.iter().map(|&value| float(value)).collect();
-    format!("[{}]", values.join(", "))
-}
-
-fn float(value: f32) -> String {
-    if value.is_finite() {
-        format!("{value:?}")
-    } else {
-        format!("f32::from_bits({:#x})", value.to_bits())
     }
 }

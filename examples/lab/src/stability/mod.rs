@@ -57,6 +57,16 @@ impl Effort {
     };
 }
 
+impl core::fmt::Display for Effort {
+    fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
+        write!(
+            f,
+            "{} inputs per technique and storage, {CLIMBS} hill-climbs of {} steps, seed {}",
+            self.samples, self.steps, self.seed
+        )
+    }
+}
+
 /// Inputs of each stratum that are made at a time.
 const CHUNK: u64 = 1 << 15;
 

@@ -132,9 +132,9 @@ impl Row {
                 stratum,
                 truth: case.truth,
                 found: case.found,
-                input: case.input.literal(),
+                input: format!("{:?}", case.input),
             }),
-            fault: fault.map(|(input, found)| (input.literal(), format!("{found:e}"))),
+            fault: fault.map(|(input, found)| (format!("{input:?}"), format!("{found:e}"))),
             strata: Stratum::ALL
                 .into_iter()
                 .zip(&drawn.strata)
@@ -174,15 +174,7 @@ impl Report {
 
 impl fmt::Display for Report {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        writeln!(
-            f,
-            "{}: {} inputs per technique and storage, {} hill-climbs of {} steps, seed {}",
-            self.adapter,
-            self.effort.samples,
-            super::CLIMBS,
-            self.effort.steps,
-            self.effort.seed
-        )?;
+        writeln!(f, "{}: {}", self.adapter, self.effort)?;
         writeln!(
             f,
             "{:<16} {:<8} {:>7} {:>8} {:>9} {:>8} {:>8} {:>8} {:>9} {:>8} {:>8} {:>9}  worst in",

@@ -3,12 +3,10 @@
 use moment_shadows::MapRegion;
 use moment_shadows_graph::nodes::LargestKernel;
 use moment_shadows_graph::record::{
-    Bindings, ImportedResource, Layers, PipelineOptions, Pipelines, RecordError, Recording,
-    Resources, texture_format,
+    Bindings, ImportedResource, Layers, PipelineOptions, Pipelines, Recording, Resources,
 };
 use moment_shadows_graph::{
-    Capabilities, Graph, GraphError, Imports, NodeRegistry, Plan, ResourceDesc, Stage, TextureDesc,
-    compile,
+    Capabilities, Graph, GraphError, NodeRegistry, Plan, ResourceDesc, Stage, TextureDesc,
 };
 use pollster::block_on;
 use wgpu::util::DeviceExt;
@@ -90,8 +88,8 @@ impl SummedMap {
             "outputs": [{ "name": "table", "from": "sum.table" }]
         });
         let graph = Graph::parse(&text.to_string(), &NodeRegistry::new())?;
-        let imports = Imports::from([("map".to_owned(), ResourceDesc::Texture(desc.clone()))]);
-        compile(&graph, capabilities, &imports)
+        let imports = [("map", ResourceDesc::Texture(desc.clone()))];
+        graph.compile(capabilities, &imports)
     }
 
     /// What is known of the table: its encoding says what its integers mean.
@@ -132,7 +130,7 @@ impl SummedMap {
         &self,
         encoder: &mut wgpu::CommandEncoder,
         layers: Layers<'_>,
-    ) -> Result<(), RecordError> {
+    ) -> Result<(), GraphError> {
         let recording = Recording {
             layers,
             ..Recording::default()
@@ -146,7 +144,7 @@ impl SummedMap {
         let mut encoder = gpu.device.create_command_encoder(&Default::default());
         self.record(&mut encoder, layers)?;
         gpu.queue.submit([encoder.finish()]);
-        Ok(gpu.check()?)
+        gpu.check()
     }
 
     /// The integers of a layer, all channels of a texel after the other.
@@ -171,7 +169,7 @@ pub(super) fn moments_texture(gpu: &Gpu, desc: &TextureDesc, bytes: &[u8]) -> wg
             mip_level_count: 1,
             sample_count: 1,
             dimension: wgpu::TextureDimension::D2,
-            format: texture_format(desc.format),
+            format: desc.wgpu_format(),
             usage: wgpu::TextureUsages::TEXTURE_BINDING,
             view_formats: &[],
         },

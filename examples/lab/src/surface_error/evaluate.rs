@@ -4,7 +4,6 @@ use bytemuck::{Pod, Zeroable};
 use moment_shadows::{AreaLight, DepthConversion, FourMomentsBias, LeakReduction, ReceiverBias};
 use moment_shadows_graph::nodes::{ShadeHard, TechniqueShader};
 use moment_shadows_graph::{BindingResource, Capabilities};
-use wgpu::util::DeviceExt;
 
 use super::judged_map::JudgedMap;
 use super::map_point::MapPoint;
@@ -52,7 +51,6 @@ struct Uniform {
 pub struct MapEvaluator<'a> {
     gpu: &'a Gpu,
     moment_bias: FourMomentsBias,
-    own: wgpu::BindGroupLayout,
     map: wgpu::BindGroup,
     pipeline: wgpu::ComputePipeline,
 }
@@ -87,27 +85,8 @@ impl<'a> MapEvaluator<'a> {
                 file: map.name.clone(),
                 error,
             })?;
-        let module = device.create_shader_module(wgpu::ShaderModuleDescriptor {
-            label: Some(LABEL),
-            source: wgpu::ShaderSource::Wgsl(shader.wgsl.as_str().into()),
-        });
-        let own = own_layout(device);
-        let map_layout = map_layout(device, &shader, map.texture);
-        let pipeline = device.create_compute_pipeline(&wgpu::ComputePipelineDescriptor {
-            label: Some(LABEL),
-            layout: Some(
-                &device.create_pipeline_layout(&wgpu::PipelineLayoutDescriptor {
-                    label: Some(LABEL),
-                    bind_group_layouts: &[Some(&own), Some(&map_layout)],
-                    immediate_size: 0,
-                }),
-            ),
-            module: &module,
-            entry_point: Some("evaluate"),
-            compilation_options: wgpu::PipelineCompilationOptions::default(),
-            cache: None,
-        });
-        let map = map_bindings(device, &shader, &map_layout, map.texture);
+        let pipeline = gpu.compute(LABEL, &shader.wgsl, "evaluate");
+        let map = map_bindings(device, &shader, &pipeline, map.texture);
         gpu.check()?;
         Ok(Self {
             gpu,
@@ -116,7 +95,6 @@ impl<'a> MapEvaluator<'a> {
                 second: 0.0,
                 fourth: 0.0,
             }),
-            own,
             map,
             pipeline,
         })
@@ -133,14 +111,7 @@ impl<'a> MapEvaluator<'a> {
     }
 
     fn dispatch(&self, evaluation: Evaluation, points: &[MapPoint]) -> Result<Vec<u8>, LabError> {
-        let device = &self.gpu.device;
-        let filled = |contents: &[u8], usage| {
-            device.create_buffer_init(&wgpu::util::BufferInitDescriptor {
-                label: Some(LABEL),
-                contents,
-                usage,
-            })
-        };
+        let gpu = self.gpu;
         let uniform = Uniform {
             receiver_bias: evaluation.receiver_bias,
             leak_reduction: evaluation.leak_reduction,
@@ -149,116 +120,26 @@ impl<'a> MapEvaluator<'a> {
             conversion: evaluation.conversion,
             light: evaluation.light,
         };
-        let parameters = filled(bytemuck::bytes_of(&uniform), wgpu::BufferUsages::UNIFORM);
-        let input = filled(bytemuck::cast_slice(points), wgpu::BufferUsages::STORAGE);
-        let output = device.create_buffer(&wgpu::BufferDescriptor {
-            label: Some(LABEL),
-            size: 4 * points.len() as u64,
-            usage: wgpu::BufferUsages::STORAGE | wgpu::BufferUsages::COPY_SRC,
-            mapped_at_creation: false,
-        });
-        let entries = [
-            entry(0, parameters.as_entire_binding()),
-            entry(1, input.as_entire_binding()),
-            entry(2, output.as_entire_binding()),
-        ];
-        let bindings = device.create_bind_group(&wgpu::BindGroupDescriptor {
-            label: Some(LABEL),
-            layout: &self.own,
-            entries: &entries,
-        });
-        let mut encoder =
-            device.create_command_encoder(&wgpu::CommandEncoderDescriptor { label: Some(LABEL) });
-        {
-            let mut pass = encoder.begin_compute_pass(&wgpu::ComputePassDescriptor {
-                label: Some(LABEL),
-                timestamp_writes: None,
-            });
-            pass.set_pipeline(&self.pipeline);
-            pass.set_bind_group(0, &bindings, &[]);
-            pass.set_bind_group(MAP_GROUP, &self.map, &[]);
-            pass.dispatch_workgroups((points.len() as u32).div_ceil(WORKGROUP), 1, 1);
-        }
-        self.gpu.queue.submit([encoder.finish()]);
-        Ok(self.gpu.read_buffer(&output, LABEL)?)
+        let contents = bytemuck::bytes_of(&uniform);
+        let parameters = gpu.filled(LABEL, contents, wgpu::BufferUsages::UNIFORM);
+        let contents = bytemuck::cast_slice(points);
+        let input = gpu.filled(LABEL, contents, wgpu::BufferUsages::STORAGE);
+        let output = gpu.output(LABEL, 4 * points.len() as u64);
+        let own = gpu.bind(
+            &self.pipeline.get_bind_group_layout(0),
+            [&parameters, &input, &output].map(wgpu::Buffer::as_entire_binding),
+        );
+        let workgroups = (points.len() as u32).div_ceil(WORKGROUP);
+        gpu.dispatch(&self.pipeline, &[&own, &self.map], [workgroups, 1]);
+        gpu.read_buffer(&output, LABEL)
     }
 }
 
-fn entry(binding: u32, resource: wgpu::BindingResource<'_>) -> wgpu::BindGroupEntry<'_> {
-    wgpu::BindGroupEntry { binding, resource }
-}
-
-fn group_layout(
-    device: &wgpu::Device,
-    bindings: impl Iterator<Item = (u32, wgpu::BindingType)>,
-) -> wgpu::BindGroupLayout {
-    let entries: Vec<_> = bindings
-        .map(|(binding, ty)| wgpu::BindGroupLayoutEntry {
-            binding,
-            visibility: wgpu::ShaderStages::COMPUTE,
-            ty,
-            count: None,
-        })
-        .collect();
-    device.create_bind_group_layout(&wgpu::BindGroupLayoutDescriptor {
-        label: Some(LABEL),
-        entries: &entries,
-    })
-}
-
-/// Parameters, points and intensities.
-fn own_layout(device: &wgpu::Device) -> wgpu::BindGroupLayout {
-    let buffer = |ty| wgpu::BindingType::Buffer {
-        ty,
-        has_dynamic_offset: false,
-        min_binding_size: None,
-    };
-    let storage = |read_only| buffer(wgpu::BufferBindingType::Storage { read_only });
-    let types = [
-        buffer(wgpu::BufferBindingType::Uniform),
-        storage(true),
-        storage(false),
-    ];
-    group_layout(device, (0..).zip(types))
-}
-
 /// The map, and a sampler where the shader wants one.
-fn map_layout(
-    device: &wgpu::Device,
-    shader: &TechniqueShader,
-    map: &wgpu::Texture,
-) -> wgpu::BindGroupLayout {
-    let sampled = shader.bindings.len() > 1;
-    let sample_type = if map.format().is_depth_stencil_format() {
-        wgpu::TextureSampleType::Depth
-    } else {
-        wgpu::TextureSampleType::Float {
-            filterable: sampled,
-        }
-    };
-    let bindings = shader.bindings.iter().map(|(binding, resource)| {
-        let ty = match resource {
-            BindingResource::ComparisonSampler { .. } => {
-                wgpu::BindingType::Sampler(wgpu::SamplerBindingType::Comparison)
-            }
-            BindingResource::Sampler { .. } => {
-                wgpu::BindingType::Sampler(wgpu::SamplerBindingType::Filtering)
-            }
-            _ => wgpu::BindingType::Texture {
-                sample_type,
-                view_dimension: wgpu::TextureViewDimension::D2Array,
-                multisampled: false,
-            },
-        };
-        (*binding, ty)
-    });
-    group_layout(device, bindings)
-}
-
 fn map_bindings(
     device: &wgpu::Device,
     shader: &TechniqueShader,
-    layout: &wgpu::BindGroupLayout,
+    pipeline: &wgpu::ComputePipeline,
     map: &wgpu::Texture,
 ) -> wgpu::BindGroup {
     let view = map.create_view(&wgpu::TextureViewDescriptor {
@@ -292,12 +173,15 @@ fn map_bindings(
                 }
                 _ => wgpu::BindingResource::TextureView(&view),
             };
-            entry(*binding, resource)
+            wgpu::BindGroupEntry {
+                binding: *binding,
+                resource,
+            }
         })
         .collect();
     device.create_bind_group(&wgpu::BindGroupDescriptor {
         label: Some(LABEL),
-        layout,
+        layout: &pipeline.get_bind_group_layout(MAP_GROUP),
         entries: &entries,
     })
 }

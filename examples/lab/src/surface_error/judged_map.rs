@@ -62,10 +62,11 @@ impl MapRun {
     pub fn map<'a>(&'a self, frame: &'a Frame) -> Result<JudgedMap<'a>, LabError> {
         let found = match &self.output {
             Some(output) => self.filtered(output),
-            None => match imports(&frame.desc).remove("light_depth") {
-                Some(ResourceDesc::Texture(desc)) => Some((&frame.light_map.texture, desc)),
-                _ => None,
-            },
+            None => {
+                let [(_, light_depth), _] = imports(&frame.desc);
+                let desc = light_depth.texture().cloned();
+                desc.map(|desc| (&frame.light_map.texture, desc))
+            }
         };
         let (texture, desc) = found.ok_or_else(|| {
             LabError::unsuitable(
@@ -84,7 +85,7 @@ impl MapRun {
     fn filtered(&self, output: &str) -> Option<(&wgpu::Texture, TextureDesc)> {
         let planned = self.graph.plan.outputs.iter();
         let resource = planned.clone().find(|planned| planned.name == output)?;
-        let ResourceDesc::Texture(desc) = &self.graph.plan.resources.get(resource.resource)?.desc
+        let ResourceDesc::Texture(desc) = &self.graph.plan.resources.get(resource.value)?.desc
         else {
             return None;
         };

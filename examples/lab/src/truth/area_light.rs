@@ -9,14 +9,11 @@
 //! Shadow intensity is the share of hidden places among those that the receiver's surface faces.
 
 mod bvh;
-mod error;
 mod samples;
 mod shaft;
 
 use glam::{DVec2, DVec3};
 use rayon::prelude::*;
-
-pub use error::AreaLightError;
 
 use self::bvh::Bvh;
 use self::shaft::{Affine, Shade, Shaft, Target};
@@ -24,6 +21,7 @@ use super::opacity::Opacity;
 use super::peel::triangle::{Projection, Triangle};
 use super::peel::{check, position};
 use super::surface::pixels;
+use crate::error::LabError;
 use crate::host::SurfacePixels;
 use crate::light::{LightKind, LightShape, LightView};
 use crate::scene::{Mesh, Scene};
@@ -90,10 +88,12 @@ impl<'a> AreaLight<'a> {
         shape: LightShape,
         map: [u32; 2],
         count: u32,
-    ) -> Result<Self, AreaLightError> {
+    ) -> Result<Self, LabError> {
         shape.check(light.kind())?;
         if !(1..=MOST_PLACES).contains(&count) {
-            return Err(AreaLightError::Places { count });
+            return Err(LabError::refused(format!(
+                "an area light is sampled at 1 to {MOST_PLACES} places, not at {count}"
+            )));
         }
         let opacity: Vec<Option<Opacity>> = scene
             .materials
@@ -137,7 +137,7 @@ impl<'a> AreaLight<'a> {
 
     /// The shadow intensity of each pixel of a G-buffer; 0 where nothing is seen, and behind a light with a position. The same
     /// input gives the same bits on any number of threads.
-    pub fn picture(&self, surface: &SurfacePixels) -> Result<Vec<f32>, AreaLightError> {
+    pub fn picture(&self, surface: &SurfacePixels) -> Result<Vec<f32>, LabError> {
         let vector = |value: [f32; 3]| DVec3::from(value.map(f64::from));
         Ok((0..pixels(surface)?)
             .into_par_iter()

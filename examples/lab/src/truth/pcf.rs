@@ -8,11 +8,12 @@
 use glam::{DVec2, DVec3};
 use rayon::prelude::*;
 
+use crate::error::LabError;
 use crate::host::SurfacePixels;
 use crate::light::{LightKind, LightView};
 
 use super::kernel::{AxisTaps, TapPattern};
-use super::surface::{DepthRounding, MomentDepths, TruthError, pixels};
+use super::surface::{DepthRounding, MomentDepths, pixels};
 
 /// Cosine between plane and ray below which no depth can be told from the plane; the receiver's own depth stands in.
 const EDGE_ON: f64 = 1e-7;
@@ -39,7 +40,7 @@ pub fn pcf(
     depths: &MomentDepths,
     taps: &TapPattern,
     surface: &SurfacePixels,
-) -> Result<Vec<f32>, TruthError> {
+) -> Result<Vec<f32>, LabError> {
     let pixels = pixels(surface)?;
     let filter = Filter {
         light,

@@ -4,7 +4,6 @@
 //! triangles, from either side and however far away, except where a masked material has a hole. Surfaces that a peel in
 //! single-precision depth could not tell apart, closer than 2^-24 of the light's range, count once.
 
-mod error;
 pub(super) mod triangle;
 
 use std::ops::Range;
@@ -12,10 +11,11 @@ use std::ops::Range;
 use glam::{DVec2, DVec3};
 use rayon::prelude::*;
 
-pub use error::PeelError;
 use triangle::{Hit, Projection, Triangle};
 
+use super::check_map;
 use super::opacity::Opacity;
+use crate::error::LabError;
 use crate::light::LightView;
 use crate::scene::{Mesh, Scene};
 
@@ -76,10 +76,8 @@ struct RowHit {
 
 impl<'a> Peeler<'a> {
     /// Projects all triangles of the scene into a map of `map` texels.
-    pub fn new(scene: &'a Scene, light: &'a LightView, map: [u32; 2]) -> Result<Self, PeelError> {
-        if map.contains(&0) {
-            return Err(PeelError::Empty { map });
-        }
+    pub fn new(scene: &'a Scene, light: &'a LightView, map: [u32; 2]) -> Result<Self, LabError> {
+        check_map(map)?;
         let projection = Projection { light, map };
         let mut triangles = Vec::new();
         for (index, mesh) in scene.meshes.iter().enumerate() {
@@ -221,13 +219,12 @@ pub(super) fn position(mesh: &Mesh, corner: u32) -> DVec3 {
 }
 
 /// Refuses a mesh whose triangles lack vertices, or have one at a non-finite place.
-pub(super) fn check(scene: &Scene, index: usize, mesh: &Mesh) -> Result<(), PeelError> {
+pub(super) fn check(scene: &Scene, index: usize, mesh: &Mesh) -> Result<(), LabError> {
     let refuse = |reason: String| {
-        Err(PeelError::Mesh {
-            scene: scene.name.clone(),
-            mesh: index,
-            reason,
-        })
+        Err(LabError::refused(format!(
+            "mesh {index} of scene '{}' {reason}; load the scene from a valid file",
+            scene.name
+        )))
     };
     let vertices = mesh.positions.len().min(mesh.uvs.len());
     if let Some(corner) = mesh

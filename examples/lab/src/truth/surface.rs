@@ -4,37 +4,11 @@ use crate::host::{DepthSamples, SurfacePixels};
 use crate::light::LightView;
 
 use super::kernel::sample_positions;
-
-/// Why no truth can be computed.
-#[derive(Clone, Debug, PartialEq, thiserror::Error)]
-#[non_exhaustive]
-pub enum TruthError {
-    /// A list does not have one entry per pixel or sample.
-    #[error("{what} has {found} entries where its size asks for {expected}")]
-    Length {
-        /// What the list holds.
-        what: &'static str,
-        /// How many entries it has.
-        found: usize,
-        /// How many it should have.
-        expected: usize,
-    },
-    /// Only the standard sample patterns have known positions.
-    #[error("a depth map of {samples} samples per texel has no standard pattern; use 1, 2, 4 or 8")]
-    Samples {
-        /// The sample count.
-        samples: u32,
-    },
-    /// There is no texel to look up.
-    #[error("a depth map of {}x{} texels is empty", size[0], size[1])]
-    Empty {
-        /// Width and height in texels.
-        size: [u32; 2],
-    },
-}
+use super::{check_length, check_map};
+use crate::error::LabError;
 
 /// Pixels of `surface`, if each of its lists has one entry for each.
-pub(super) fn pixels(surface: &SurfacePixels) -> Result<usize, TruthError> {
+pub(super) fn pixels(surface: &SurfacePixels) -> Result<usize, LabError> {
     let expected = surface.width as usize * surface.height as usize;
     for (what, found) in [
         ("the list of positions", surface.position.len()),
@@ -71,15 +45,17 @@ impl MomentDepths {
         light: &LightView,
         stored: &DepthSamples,
         rounding: DepthRounding,
-    ) -> Result<Self, TruthError> {
+    ) -> Result<Self, LabError> {
         let size = [stored.width, stored.height];
         let samples = stored.samples;
         let stored = &stored.values;
         let [width, height] = size.map(|length| length as usize);
-        if width == 0 || height == 0 {
-            return Err(TruthError::Empty { size });
-        }
-        let positions = sample_positions(samples).ok_or(TruthError::Samples { samples })?;
+        check_map(size)?;
+        let positions = sample_positions(samples).ok_or_else(|| {
+            LabError::refused(format!(
+                "a depth map of {samples} samples per texel has no standard pattern; use 1, 2, 4 or 8"
+            ))
+        })?;
         let count = positions.len();
         check_length(
             "the depth map",
@@ -124,18 +100,5 @@ impl MomentDepths {
         let row = self.moment_depth.get(start..start + width).unwrap_or(&[]);
         let end = first.saturating_add(count).min(row.len());
         row.get(first..end).unwrap_or(&[])
-    }
-}
-
-/// Refuses a list that has not one entry for each pixel or sample.
-fn check_length(what: &'static str, found: usize, expected: usize) -> Result<(), TruthError> {
-    if found == expected {
-        Ok(())
-    } else {
-        Err(TruthError::Length {
-            what,
-            found,
-            expected,
-        })
     }
 }

@@ -9,8 +9,8 @@ use serde::{Deserialize, Serialize};
 use super::shared::{KernelProperty, MipLevels, Specialization, map_input, regions, wgsl};
 use super::techniques;
 use crate::{
-    Connected, GraphError, GraphErrorKind, Node, NodeDesc, ParameterBlock, Pass, Stage,
-    TextureDesc, TextureRule, bind, same_as,
+    Connected, GraphError, GraphErrorKind, Node, NodeDesc, ParameterBlock, Pass, Rule, Stage,
+    TextureDesc, TextureRule, bind,
 };
 
 /// Outputs per invocation where weights are literals.
@@ -121,7 +121,7 @@ impl Node for Blur {
             .output(
                 "blurred",
                 "The map, filtered along x and y.",
-                TextureRule::new(same_as("map"))
+                TextureRule::new(Rule::same_as("map"))
                     .like("map")
                     .mips(mips)
                     .filtered(deviation),

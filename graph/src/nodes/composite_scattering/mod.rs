@@ -7,8 +7,8 @@ use super::shared::lookup::moments_lookup;
 use super::shared::{self, FULLSCREEN, Specialization, map_input, regions, wgsl};
 use super::techniques::{self, Bounded};
 use crate::{
-    Connected, GraphError, GraphErrorKind, Node, NodeDesc, ParameterBlock, Pass, Stage,
-    TextureRule, bind, same_as,
+    Connected, GraphError, GraphErrorKind, Node, NodeDesc, ParameterBlock, Pass, Rule, Stage,
+    TextureRule, bind,
 };
 
 /// Node `composite_scattering`: `integrated` (from [`super::IntegrateScattering`]) and `camera_depth` to `scattering`, of the
@@ -129,7 +129,7 @@ impl Node for CompositeScattering {
             .output(
                 "scattering",
                 "In-scattered radiance, and in alpha the transmittance to the surface.",
-                TextureRule::new(format).extent(same_as("camera_depth")),
+                TextureRule::new(format).extent(Rule::same_as("camera_depth")),
             )
             .pass(pass)
             .parameters(ParameterBlock::of::<CompositeScatteringParameters>(

@@ -6,8 +6,8 @@ use serde::{Deserialize, Serialize};
 use super::shared::{NoProperties, Specialization, map_input, regions, wgsl};
 use super::techniques;
 use crate::{
-    Connected, GraphError, GraphErrorKind, Node, NodeDesc, ParameterBlock, Pass, Stage,
-    TextureRule, bind, same_as,
+    Connected, GraphError, GraphErrorKind, Node, NodeDesc, ParameterBlock, Pass, Rule, Stage,
+    TextureRule, bind,
 };
 
 /// Node `integrate_scattering`: `rectified` (from [`super::RectifyMoments`]) to `integrated`, of the same size, encoding and
@@ -61,7 +61,7 @@ impl Node for IntegrateScattering {
                 .output(
                     "integrated",
                     "Its weighted means from the camera to each texel.",
-                    TextureRule::new(same_as("rectified")).extent(same_as("rectified")),
+                    TextureRule::new(Rule::same_as("rectified")).extent(Rule::same_as("rectified")),
                 )
                 .passes(passes)
                 .parameters(ParameterBlock::of::<IntegrateScatteringParameters>(

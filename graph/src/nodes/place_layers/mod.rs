@@ -6,8 +6,8 @@ use serde::{Deserialize, Serialize};
 use super::shared::{self, Specialization, regions, wgsl};
 use super::techniques;
 use crate::{
-    Connected, GraphError, Node, NodeDesc, ParameterBlock, Pass, Slot, Stage, TextureRule, bind,
-    same_as,
+    Connected, GraphError, Node, NodeDesc, ParameterBlock, Pass, Rule, Slot, Stage, TextureRule,
+    bind,
 };
 
 /// Footprints that a workgroup sums up, along each side (`TILE` in the shader).
@@ -65,7 +65,7 @@ impl Node for PlaceLayers {
         let made = |size: [u32; 2]| {
             TextureRule::new(TextureFormat::Rgba32Float)
                 .extent(size)
-                .layers(same_as("depth"))
+                .layers(Rule::same_as("depth"))
         };
         let state = "Where the relaxation is, layer by layer.";
         let next = "Where it is after this step.";

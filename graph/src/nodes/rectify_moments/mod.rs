@@ -81,7 +81,7 @@ impl Node for RectifyMoments {
             .output(
                 "rectified",
                 "The map by distance from the light ray through the camera, and by azimuth about it.",
-                TextureRule::new(encoding.clone()).extent(self.extent),
+                TextureRule::of_map(encoding.clone()).extent(self.extent),
             )
             .passes(passes)
             .parameters(ParameterBlock::of::<RectifyMomentsParameters>(

@@ -72,7 +72,9 @@ impl Node for Resolve {
             .output(
                 "map",
                 "The filterable map, of the depth map's size, layers and regions.",
-                TextureRule::new(encoding.clone()).like("depth").mips(mips),
+                TextureRule::of_map(encoding.clone())
+                    .like("depth")
+                    .mips(mips),
             )
             .slots(splits)
             .passes(passes)

@@ -6,8 +6,7 @@ use serde::{Deserialize, Serialize};
 use super::shared::{FULLSCREEN, Specialization, shading};
 use super::techniques;
 use crate::{
-    Binding, Connected, CountRule, GraphError, GraphErrorKind, Node, NodeDesc, Slot, TextureRule,
-    bind,
+    Binding, Connected, GraphError, GraphErrorKind, Node, NodeDesc, Rule, Slot, TextureRule, bind,
 };
 
 /// Node `shade_soft`: `table` (a summed-area table) and `camera_depth` to `shadow_intensity`, of the camera's size: penumbrae of
@@ -85,8 +84,8 @@ impl Node for ShadeSoft {
         let [map, soft, receiver] = modules;
         let wgsl = specialization.link(shading::SHADER, &[FULLSCREEN, map, soft, receiver])?;
         let rule = TextureRule::new(encoding.format())
-            .layers(CountRule::Any)
-            .mips(CountRule::Any);
+            .layers(Rule::Any)
+            .mips(Rule::Any);
         Ok(shading::describe(
             "shade_soft",
             [Slot::input("table", "The light's summed-area table.", rule)],

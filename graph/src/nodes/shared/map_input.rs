@@ -6,7 +6,7 @@ use moment_shadows::TextureFormat::{
 };
 use moment_shadows::{MapEncoding, Technique, TextureFormat};
 
-use crate::{Connected, CountRule, GraphError, GraphErrorKind, TextureDesc, TextureRule};
+use crate::{Connected, GraphError, GraphErrorKind, Rule, TextureDesc, TextureRule};
 
 /// The formats that a filterable map can have.
 pub(in crate::nodes) const FORMATS: [TextureFormat; 11] = [
@@ -25,9 +25,7 @@ pub(in crate::nodes) const FORMATS: [TextureFormat; 11] = [
 
 /// A map of these formats, with any number of layers and mip levels.
 pub(in crate::nodes) fn rule(formats: &[TextureFormat]) -> TextureRule {
-    TextureRule::new(formats)
-        .layers(CountRule::Any)
-        .mips(CountRule::Any)
+    TextureRule::new(formats).layers(Rule::Any).mips(Rule::Any)
 }
 
 /// The map that is connected to a slot, and its encoding: four moments, unless the map says otherwise.

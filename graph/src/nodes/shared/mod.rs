@@ -28,7 +28,7 @@ pub(super) use specialization::Specialization;
 pub(super) use super::techniques::VirtualModule;
 use serde::{Deserialize, Serialize};
 
-use crate::{CountRule, TextureDesc, TextureRule};
+use crate::{Rule, TextureDesc, TextureRule};
 
 /// The virtual module with the vertex stage of fullscreen passes.
 pub(super) const FULLSCREEN: VirtualModule = ("fullscreen", include_str!("fullscreen.wgsl"));
@@ -53,9 +53,9 @@ pub(super) const DEPTHS: [TextureFormat; 2] =
 /// A light's depth map: any number of layers, one sample or several.
 pub(super) fn light_depth() -> TextureRule {
     depth()
-        .layers(CountRule::Any)
-        .mips(CountRule::Any)
-        .samples(vec![1, 2, 4, 8])
+        .layers(Rule::Any)
+        .mips(Rule::Any)
+        .samples([1, 2, 4, 8].as_slice())
 }
 
 /// The WGSL type of one layer of it.

@@ -3,7 +3,7 @@
 use moment_shadows::{MapEncoding, Technique};
 
 use super::{FULLSCREEN, Specialization, VirtualModule};
-use crate::{GraphError, GraphErrorKind, Pass, TextureDesc, Work, bind};
+use crate::{GraphError, GraphErrorKind, Pass, TextureDesc, bind};
 
 /// The virtual module of shaders that compute the regions of a map.
 pub(in crate::nodes) const TILE: VirtualModule = ("region_tile", include_str!("region_tile.wgsl"));
@@ -38,12 +38,9 @@ pub(in crate::nodes) fn compute(
     level: u32,
     texels_per_workgroup: [u32; 2],
 ) -> Pass {
-    let work = Work::ComputeRegions {
-        covers: slot.to_owned(),
-        level,
-        texels_per_workgroup,
-    };
-    Pass::new(label, work).bind("regions", bind::regions(slot, 1))
+    Pass::compute(label, slot, texels_per_workgroup)
+        .over_regions(level)
+        .bind("regions", bind::regions(slot, 1))
 }
 
 /// A pass that writes a mip level of a map, all its regions, of at least `smallest` texels along each side. Where it is
@@ -56,21 +53,14 @@ pub(in crate::nodes) fn write(
     texels_per_workgroup: [u32; 2],
     smallest: u32,
 ) -> Pass {
-    let slot = slot.to_owned();
-    let regions = bind::regions(&slot, smallest);
     let pass = if encoding.storage().is_drawn() {
-        let target = slot;
-        Pass::new(label, Work::FullscreenRegions { target, level })
+        Pass::fullscreen(label, slot)
     } else {
-        let stored = bind::store_level(&slot, level);
-        let work = Work::ComputeRegions {
-            covers: slot,
-            level,
-            texels_per_workgroup,
-        };
-        Pass::new(label, work).bind(variable, stored)
+        Pass::compute(label, slot, texels_per_workgroup)
+            .bind(variable, bind::store_level(slot, level))
     };
-    pass.bind("regions", regions)
+    pass.over_regions(level)
+        .bind("regions", bind::regions(slot, smallest))
 }
 
 /// The refusal of drawn maps by nodes of single scattering, whose maps are prefix sums and no pixel's own business.

@@ -4,8 +4,8 @@ use moment_shadows::{TextureFormat, ViewParameters};
 
 use super::{depth, wgsl};
 use crate::{
-    Binding, GraphError, GraphErrorKind, NodeDesc, ParameterBlock, Pass, Slot, Stage, TextureRule,
-    bind, same_as,
+    Binding, GraphError, GraphErrorKind, NodeDesc, ParameterBlock, Pass, Rule, Slot, Stage,
+    TextureRule, bind,
 };
 
 /// The shader: it finds what a pixel's surface is to each view of a light, and leaves the rest to the virtual module
@@ -87,7 +87,7 @@ pub(in crate::nodes) fn describe(
         .output(
             "shadow_intensity",
             "How much of each light is shadowed, a light per channel.",
-            TextureRule::new(format).extent(same_as("camera_depth")),
+            TextureRule::new(format).extent(Rule::same_as("camera_depth")),
         )
         .pass(pass)
         .parameters(ParameterBlock::of::<ViewParameters>("ViewParameters").elements(views))

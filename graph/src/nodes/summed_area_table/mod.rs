@@ -7,7 +7,7 @@ use serde::{Deserialize, Serialize};
 
 use super::shared::{Specialization, map_input, regions, wgsl};
 use super::techniques;
-use crate::{Connected, GraphError, Node, NodeDesc, Pass, Stage, TextureRule, bind, same_as};
+use crate::{Connected, GraphError, Node, NodeDesc, Pass, Rule, Stage, TextureRule, bind};
 
 /// Node `summed_area_table`: `map` (four moments or two, of any storage, straight from a resolve) to `table`, of the same
 /// size, layers and regions: in each texel of a region the sum of all its texels that lie neither below nor to the right,
@@ -107,7 +107,7 @@ impl Node for SummedAreaTable {
         let between = |size: [u32; 2]| {
             TextureRule::new(encoding.format())
                 .extent(size)
-                .layers(same_as("map"))
+                .layers(Rule::same_as("map"))
         };
         Ok(NodeDesc::new("summed_area_table", Stage::AfterShadowMaps)
             // Only the first mip level of a map is summed up.
@@ -139,7 +139,7 @@ impl Node for SummedAreaTable {
             .output(
                 "table",
                 "The sum of all texels of a region that lie neither below nor to the right.",
-                TextureRule::new(encoding.clone())
+                TextureRule::of_map(encoding.clone())
                     .like("map")
                     .filtered(map.deviation),
             )

@@ -4,7 +4,6 @@ pub mod reference;
 mod view;
 
 use moment_shadows::{MapEncoding, Storage, Technique};
-use moment_shadows_graph::record::Passes;
 use moment_shadows_graph::{Capabilities, TextureDesc};
 use serde_json::json;
 
@@ -94,7 +93,7 @@ fn case(method: &str, size: u32, node: NodeOnMap, difference: Difference, chosen
             goal: None,
             largest_growth: chosen.then_some(LARGEST_GROWTH),
         },
-        record: Box::new(move |encoder| node.record(Passes::All, encoder)),
+        record: Box::new(move |encoder| node.record(None, encoder)),
     }
 }
 

@@ -10,7 +10,6 @@ use moment_shadows::{
 
 use super::super::CostError;
 use super::super::reference::channels;
-use crate::error::LabError;
 use crate::view::Camera;
 
 /// Extinction per scene unit: a view ray to the far end is one and a half optical thicknesses long.
@@ -43,7 +42,7 @@ impl ScatteringView {
             near: 0.1,
             far: None,
         };
-        let camera = camera.clip_from_world_columns().map_err(LabError::from)?;
+        let camera = camera.clip_from_world_columns()?;
         let light = light(direction);
         let extinction = [EXTINCTION; 3];
         let medium = SingleScattering::new(extinction, extinction, 0.0, [1.0; 3])?;

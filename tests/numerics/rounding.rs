@@ -1,0 +1,126 @@
+//! The evaluations keep their promise on devices of either kind: those where `fma` rounds once, and those where it rounds twice.
+//!
+//! WGSL leaves that to the device, and an adapter shows one behaviour only; here the linked text calls functions in place of
+//! `fma` that do one and the other.
+
+use std::path::Path;
+
+use bytemuck::Pod;
+use moment_shadows::{Profile, Source, link};
+use moment_shadows_lab::batch::Batch;
+use moment_shadows_lab::gpu::Gpu;
+use moment_shadows_lab::oracle::tolerance_unit;
+use moment_shadows_lab::vectors::file::read;
+
+use crate::{Input, TOLERANCE, six};
+
+const FOUR: &str = "
+import moment_shadows::bounds::hamburger4::{hamburger4_bounds};
+struct BatchInput { biased: vec4f, depth: f32, alpha: f32, padding: vec2f }
+alias BatchOutput = vec2f;
+fn batch(input: BatchInput) -> BatchOutput {
+    return hamburger4_bounds(input.biased, input.depth, input.alpha);
+}
+";
+
+const SIX: &str = "
+import moment_shadows::bounds::hamburger6::{hamburger6_bounds};
+import moment_shadows::moments::six_moments::{SixMoments};
+struct BatchInput { odd: vec3f, depth: f32, even: vec3f, alpha: f32 }
+alias BatchOutput = vec2f;
+fn batch(input: BatchInput) -> BatchOutput {
+    return hamburger6_bounds(SixMoments(input.odd, input.even), input.depth, input.alpha);
+}
+";
+
+/// Once: with the rounding errors of product and sum, by Dekker's and Knuth's exact transformations.
+const REPLACEMENTS: &str = "
+fn rounded_twice(a: f32, b: f32, c: f32) -> f32 {
+    return a * b + c;
+}
+
+fn high_half(a: f32) -> f32 {
+    let scaled = 4097.0 * a;
+    return scaled - (scaled - a);
+}
+
+fn rounded_once(a: f32, b: f32, c: f32) -> f32 {
+    let product = a * b;
+    let high = vec2f(high_half(a), high_half(b));
+    let low = vec2f(a, b) - high;
+    let product_error = ((high.x * high.y - product) + high.x * low.y + low.x * high.y) + low.x * low.y;
+    let sum = product + c;
+    let added = sum - product;
+    let sum_error = (product - (sum - added)) + (c - added);
+    return sum + (sum_error + product_error);
+}
+";
+
+/// The largest error of the bounds of some published vectors, in units: as the adapter rounds, rounded once and rounded twice. `input` makes an
+/// input of moments, depth and alpha.
+fn largest_errors<I: Pod>(
+    wgsl: &str,
+    count: usize,
+    alphas: core::ops::Range<f32>,
+    input: impl Fn(&[f32], f64, f32) -> I,
+) -> [f64; 3] {
+    let file = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/vectors/moment_problem.json");
+    let vectors = read(&file).unwrap();
+    let vectors = vectors.iter().filter(|vector| vector.m == count);
+    let records = vectors
+        .flat_map(|vector| &vector.biased)
+        .filter(|record| alphas.contains(&(record.alpha as f32)));
+    let (inputs, truths): (Vec<I>, Vec<[(f64, f64); 2]>) = records
+        .filter_map(|record| {
+            let truth = record.hamburger?.both()?;
+            let unit = |side: usize| tolerance_unit(record.sens.unwrap()[side].unwrap());
+            let moments = record.input().unwrap();
+            Some((
+                input(&moments, record.depth, record.alpha as f32),
+                [(truth[0], unit(0)), (truth[1], unit(1))],
+            ))
+        })
+        .unzip();
+    assert!(inputs.len() > 20, "{}", inputs.len());
+    let gpu = Gpu::open(Profile::WebgpuCore).unwrap();
+    let linked = link(
+        Source {
+            name: "rounding.wgsl",
+            text: wgsl,
+        },
+        &[],
+    )
+    .unwrap();
+    ["fma(", "rounded_once(", "rounded_twice("].map(|function| {
+        let text = linked.wgsl().replace("fma(", function) + REPLACEMENTS;
+        let batch = Batch::<I, [f32; 2]>::new(&gpu, "rounding.wgsl", &text).unwrap();
+        let found = batch.run(&inputs).unwrap();
+        let mut largest = 0.0_f64;
+        for (bounds, truth) in found.iter().zip(&truths) {
+            for (bound, (truth, unit)) in bounds.iter().zip(truth) {
+                assert!((0.0..=1.0).contains(bound), "{bounds:?}");
+                largest = largest.max((f64::from(*bound) - truth).abs() / unit);
+            }
+        }
+        largest
+    })
+}
+
+#[test]
+fn fused_or_not_the_published_vectors_are_within_tolerance() {
+    let four = |moments: &[f32], depth: f64, alpha: f32| {
+        Input::new(moments.try_into().unwrap(), depth, f64::from(alpha))
+    };
+    let errors = largest_errors(FOUR, 4, 0.0..1.0, four);
+    println!("four moments: {errors:.2?} units");
+    assert!(errors.iter().all(|&error| error <= TOLERANCE), "{errors:?}");
+    let input = |moments: &[f32], depth: f64, alpha: f32| {
+        six::Input::new(moments.try_into().unwrap(), depth, alpha)
+    };
+    for alphas in [0.0..5e-5, 5e-5..1.0] {
+        let tolerance = six::tolerance(alphas.start);
+        let errors = largest_errors(SIX, 6, alphas, input);
+        println!("six moments: {errors:.2?} units of {tolerance}");
+        assert!(errors.iter().all(|&error| error <= tolerance), "{errors:?}");
+    }
+}
