@@ -1,7 +1,7 @@
 //! A graph whose every connection is an output, so that what each node takes and gives can be read and compared.
 
 use moment_shadows::{DepthConversion, Storage, TextureFormat};
-use moment_shadows_graph::nodes::KernelProperty;
+use moment_shadows_graph::nodes::Blur;
 use moment_shadows_graph::{Endpoint, Output};
 
 use super::CostError;
@@ -100,9 +100,13 @@ impl OpenedGraph {
         let (Some(source), Some(found)) = (source, found) else {
             return Ok(None);
         };
-        let kernel = self.file.node_entry(node, "properties")["kernel"].clone();
-        let kernel: KernelProperty = serde_json::from_value(kernel).unwrap_or_default();
-        let kernel = kernel.kernel()?;
+        let properties = self.file.node_entry(node, "properties");
+        let Ok(Blur {
+            kernel: Ok(kernel), ..
+        }) = serde_json::from_value(properties)
+        else {
+            return Ok(None);
+        };
         let reference = reference::blur(&source.channels, source.size, &kernel);
         found.difference(
             &reference,

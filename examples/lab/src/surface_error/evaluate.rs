@@ -2,7 +2,7 @@
 
 use bytemuck::{Pod, Zeroable};
 use moment_shadows::{AreaLight, DepthConversion, FourMomentsBias, LeakReduction, ReceiverBias};
-use moment_shadows_graph::nodes::{ShadeHard, TechniqueShader};
+use moment_shadows_graph::nodes::ShadeHard;
 use moment_shadows_graph::{BindingResource, Capabilities};
 use wgpu::util::DeviceExt;
 
@@ -75,7 +75,7 @@ impl<'a> MapEvaluator<'a> {
             ..ShadeHard::default()
         };
         let intensity = moment_bias.map_or(AS_THE_LIBRARY, |_| BIASED);
-        let shader = node
+        let (wgsl, bindings) = node
             .link_shader(
                 &map.desc,
                 &capabilities,
@@ -89,10 +89,10 @@ impl<'a> MapEvaluator<'a> {
             })?;
         let module = device.create_shader_module(wgpu::ShaderModuleDescriptor {
             label: Some(LABEL),
-            source: wgpu::ShaderSource::Wgsl(shader.wgsl.as_str().into()),
+            source: wgpu::ShaderSource::Wgsl(wgsl.into()),
         });
         let own = own_layout(device);
-        let map_layout = map_layout(device, &shader, map.texture);
+        let map_layout = map_layout(device, &bindings, map.texture);
         let pipeline = device.create_compute_pipeline(&wgpu::ComputePipelineDescriptor {
             label: Some(LABEL),
             layout: Some(
@@ -107,7 +107,7 @@ impl<'a> MapEvaluator<'a> {
             compilation_options: wgpu::PipelineCompilationOptions::default(),
             cache: None,
         });
-        let map = map_bindings(device, &shader, &map_layout, map.texture);
+        let map = map_bindings(device, &bindings, &map_layout, map.texture);
         gpu.check()?;
         Ok(Self {
             gpu,
@@ -225,10 +225,10 @@ fn own_layout(device: &wgpu::Device) -> wgpu::BindGroupLayout {
 /// The map, and a sampler where the shader wants one.
 fn map_layout(
     device: &wgpu::Device,
-    shader: &TechniqueShader,
+    bindings: &[(u32, BindingResource)],
     map: &wgpu::Texture,
 ) -> wgpu::BindGroupLayout {
-    let sampled = shader.bindings.len() > 1;
+    let sampled = bindings.len() > 1;
     let sample_type = if map.format().is_depth_stencil_format() {
         wgpu::TextureSampleType::Depth
     } else {
@@ -236,7 +236,7 @@ fn map_layout(
             filterable: sampled,
         }
     };
-    let bindings = shader.bindings.iter().map(|(binding, resource)| {
+    let bindings = bindings.iter().map(|(binding, resource)| {
         let ty = match resource {
             BindingResource::ComparisonSampler { .. } => {
                 wgpu::BindingType::Sampler(wgpu::SamplerBindingType::Comparison)
@@ -257,7 +257,7 @@ fn map_layout(
 
 fn map_bindings(
     device: &wgpu::Device,
-    shader: &TechniqueShader,
+    bindings: &[(u32, BindingResource)],
     layout: &wgpu::BindGroupLayout,
     map: &wgpu::Texture,
 ) -> wgpu::BindGroup {
@@ -265,16 +265,11 @@ fn map_bindings(
         dimension: Some(wgpu::TextureViewDimension::D2Array),
         ..Default::default()
     });
-    let compare = shader
-        .bindings
-        .iter()
-        .find_map(|(_, resource)| match resource {
-            BindingResource::ComparisonSampler { reversed: true } => {
-                Some(wgpu::CompareFunction::Less)
-            }
-            BindingResource::ComparisonSampler { .. } => Some(wgpu::CompareFunction::Greater),
-            _ => None,
-        });
+    let compare = bindings.iter().find_map(|(_, resource)| match resource {
+        BindingResource::ComparisonSampler { reversed: true } => Some(wgpu::CompareFunction::Less),
+        BindingResource::ComparisonSampler { .. } => Some(wgpu::CompareFunction::Greater),
+        _ => None,
+    });
     let sampler = device.create_sampler(&wgpu::SamplerDescriptor {
         label: Some(LABEL),
         mag_filter: wgpu::FilterMode::Linear,
@@ -282,8 +277,7 @@ fn map_bindings(
         compare,
         ..Default::default()
     });
-    let entries: Vec<_> = shader
-        .bindings
+    let entries: Vec<_> = bindings
         .iter()
         .map(|(binding, resource)| {
             let resource = match resource {
