@@ -6,7 +6,7 @@ use std::path::Path;
 
 use moment_shadows::{Kernel, Storage};
 use moment_shadows_graph::nodes::Blur;
-use moment_shadows_graph::{Graph, NodeRegistry};
+use moment_shadows_graph::{Graph, GraphError, GraphErrorKind, NodeRegistry};
 use serde_json::Value;
 
 use crate::error::LabError;
@@ -187,7 +187,10 @@ impl GraphFile {
                 .kernel
                 .clone()
                 .map(Some)
-                .map_err(|error| LabError::unsuitable(&self.name, error.to_string())),
+                .map_err(|error| LabError::Graph {
+                    file: self.name.clone(),
+                    error: GraphError::new(GraphErrorKind::Property, error.to_string()),
+                }),
             _ => Err(LabError::unsuitable(
                 &self.name,
                 format!(
