@@ -57,6 +57,9 @@ pub enum KernelError {
     /// All weights are zero.
     #[error("all weights are 0; at least one must be positive")]
     NoWeight,
+    /// A graph file gives a Gaussian and weights, or neither.
+    #[error("a kernel is either a 'radius' (with a 'sigma') or 'weights'; give one of them")]
+    Shape,
 }
 
 impl Kernel {

@@ -3,7 +3,7 @@
 
 use glam::DVec3;
 use moment_shadows::{Kernel, SingleScattering};
-use moment_shadows_graph::nodes::Overestimation;
+use moment_shadows_graph::nodes::CompositeScattering;
 use moment_shadows_lab::compare::Stage;
 use moment_shadows_lab::gpu::Gpu;
 use moment_shadows_lab::host::DepthSamples;
@@ -141,7 +141,13 @@ fn stage(gpu: &Gpu, name: &str, steps: u32) -> ScatteringStage {
 fn the_device_marches_like_the_truth_in_as_many_steps() {
     let gpu = Gpu::open(PROFILE).unwrap();
     let stage = stage(&gpu, "hall", 64);
-    let all = candidates(&gpu, 2, [256; 2], Overestimation::default()).unwrap();
+    let all = candidates(
+        &gpu,
+        2,
+        [256; 2],
+        CompositeScattering::default().overestimation,
+    )
+    .unwrap();
     let march = all.iter().find(|it| it.name == "march 64").unwrap();
     let picture = stage.picture(&gpu, march).unwrap();
     let error = ScatteringError::of(&picture, &stage.truth);
@@ -153,7 +159,13 @@ fn the_device_marches_like_the_truth_in_as_many_steps() {
 #[test]
 fn six_moments_beat_sixteen_steps() {
     let gpu = Gpu::open(PROFILE).unwrap();
-    let candidates = candidates(&gpu, 2, [512; 2], Overestimation::default()).unwrap();
+    let candidates = candidates(
+        &gpu,
+        2,
+        [512; 2],
+        CompositeScattering::default().overestimation,
+    )
+    .unwrap();
     // What six moments may be off by: a tenth more than they are.
     for (name, most) in [("hall", 0.038), ("fence-and-foliage", 0.012)] {
         let stage = stage(&gpu, name, 512);

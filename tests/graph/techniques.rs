@@ -230,7 +230,7 @@ fn planes_are_texture_layers() {
         .unwrap();
     assert_eq!(half.desc.texture().unwrap().array_layers(), 1);
     let labels: Vec<&str> = plan.passes.iter().map(|pass| pass.label.as_str()).collect();
-    assert_eq!(labels[..2], ["resolve plane 0", "resolve plane 1"]);
+    assert_eq!(labels[..2], ["plane 0: resolve", "plane 1: resolve"]);
     assert_eq!(
         labels[4..6],
         ["plane 0: blur along x", "plane 0: blur along y"]

@@ -5,7 +5,7 @@ use moment_shadows::{
     EsmFiltering, Finite, Kernel, LayerSplits, PcfTaps, Pcss, PercentageCloserKernel, ReceiverBias,
     SixMomentsBias, Storage, SummedAreaTable, Technique,
 };
-use moment_shadows_graph::nodes::{BlurParameters, KernelProperty};
+use moment_shadows_graph::nodes::Blur;
 
 #[test]
 fn storages_have_the_numbers_and_biases_of_the_module() {
@@ -215,12 +215,14 @@ fn the_largest_kernel_of_percentage_closer_filtering_fits_its_uniform_struct() {
 #[test]
 fn the_largest_kernel_fits_its_uniform_struct() {
     for radius in [1, 12, 13, Kernel::LARGEST_RADIUS] {
-        let kernel = KernelProperty::gaussian(radius, radius as f32 * 0.6)
-            .kernel()
-            .unwrap();
-        let parameters = BlurParameters::new(&kernel);
-        assert_eq!(parameters.radius, radius);
-        let flat: Vec<f32> = parameters.weights.iter().flatten().copied().collect();
+        let kernel = Kernel::gaussian(radius, radius as f32 * 0.6).unwrap();
+        let parameters = Blur::parameters(&kernel);
+        assert_eq!(parameters[0], radius);
+        let flat: Vec<f32> = parameters[4..]
+            .iter()
+            .copied()
+            .map(f32::from_bits)
+            .collect();
         let first = flat.iter().position(|&weight| weight != 0.0).unwrap();
         let count = 2 * radius as usize + 1;
         assert_eq!(

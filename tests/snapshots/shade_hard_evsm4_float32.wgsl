@@ -18,14 +18,14 @@
 
 // specialization
 const GROUP = 0;
-const LEVELS = 1u;
-const VIEWS = 1u;
-const LIGHTS = 1u;
-const ANISOTROPY = 8.0;
-const PLANES = 1u;
 const STORAGE = 2u;
 const EXPONENTS = vec2f(40.0, 5.0);
 const BOTH_WARPS = true;
+const PLANES = 1u;
+const LEVELS = 1u;
+const ANISOTROPY = 8.0;
+const VIEWS = 1u;
+const LIGHTS = 1u;
 
 // technique
 fn technique_shadow_intensity(receiver: TechniqueReceiver) -> f32 {

@@ -22,13 +22,13 @@
 const GROUP = 0;
 const LEVELS = 1u;
 const ANISOTROPY = 1.0;
-const VIEWS = 1u;
-const LIGHTS = 1u;
 const LARGEST_KERNEL = vec2f(65.0, 65.0);
 const TABLE_UNIT = f32(1016560u);
 const TABLE_ERROR = f32(4.918549e-7);
 const SEARCH_INTERPOLATED = false;
 const FILTER_INTERPOLATED = true;
+const VIEWS = 1u;
+const LIGHTS = 1u;
 
 // technique
 fn technique_shadow_intensity(receiver: TechniqueReceiver) -> f32 {

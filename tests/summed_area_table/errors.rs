@@ -4,13 +4,12 @@ use moment_shadows::{
     MapEncoding, Profile, Storage, SummedAreaTable, SummedAreaTableError, Technique,
     TechniqueError, TextureFormat,
 };
-use moment_shadows_graph::nodes::LargestKernel;
 use moment_shadows_graph::{Capabilities, GraphError, GraphErrorKind, Plan, TextureDesc};
 use moment_shadows_lab::summed_area::SummedMap;
 
 use crate::setup::{encoding, map};
 
-fn plan(desc: &TextureDesc, kernel: LargestKernel) -> Result<Plan, GraphError> {
+fn plan(desc: &TextureDesc, kernel: [u32; 2]) -> Result<Plan, GraphError> {
     SummedMap::plan(&Capabilities::of_profile(Profile::Native), desc, kernel)
 }
 
@@ -20,7 +19,7 @@ fn unorm16(size: [u32; 2]) -> TextureDesc {
 
 #[test]
 fn a_kernel_beyond_the_range_names_the_largest() {
-    let error = plan(&unorm16([512, 512]), LargestKernel::Square(257)).unwrap_err();
+    let error = plan(&unorm16([512, 512]), [257; 2]).unwrap_err();
     assert_eq!(error.kind, GraphErrorKind::Property);
     let message = error.to_string();
     for part in [
@@ -31,11 +30,7 @@ fn a_kernel_beyond_the_range_names_the_largest() {
     ] {
         assert!(message.contains(part), "{message}");
     }
-    let legal = [
-        LargestKernel::Square(256),
-        LargestKernel::Sides([257, 255]),
-        LargestKernel::Sides([65537, 1]),
-    ];
+    let legal = [[256; 2], [257, 255], [65537, 1]];
     for kernel in legal {
         assert!(plan(&unorm16([512, 512]), kernel).is_ok(), "{kernel:?}");
     }
@@ -56,7 +51,7 @@ fn a_kernel_beyond_the_range_names_the_largest() {
 
 #[test]
 fn a_kernel_without_texels_is_refused() {
-    for kernel in [LargestKernel::Square(0), LargestKernel::Sides([7, 0])] {
+    for kernel in [[0; 2], [7, 0]] {
         let error = plan(&unorm16([64, 64]), kernel).unwrap_err();
         assert_eq!(error.kind, GraphErrorKind::Property);
         assert!(error.message.contains("covers nothing"), "{error}");
@@ -65,12 +60,12 @@ fn a_kernel_without_texels_is_refused() {
 
 #[test]
 fn a_map_beyond_the_limits_names_the_largest() {
-    let error = plan(&unorm16([8193, 16]), LargestKernel::default()).unwrap_err();
+    let error = plan(&unorm16([8193, 16]), [65; 2]).unwrap_err();
     assert_eq!(error.kind, GraphErrorKind::Size);
     assert!(error.message.contains("the device allows 8192"), "{error}");
-    let error = plan(&unorm16([0, 16]), LargestKernel::default()).unwrap_err();
+    let error = plan(&unorm16([0, 16]), [65; 2]).unwrap_err();
     assert_eq!(error.kind, GraphErrorKind::Size);
-    assert!(plan(&unorm16([8192, 8192]), LargestKernel::default()).is_ok());
+    assert!(plan(&unorm16([8192, 8192]), [65; 2]).is_ok());
 }
 
 #[test]
@@ -80,7 +75,7 @@ fn maps_that_hold_something_else_are_refused() {
     };
     let error = plan(
         &map(&encoding(evsm, Storage::Float32), [64, 64], 1),
-        LargestKernel::default(),
+        [65; 2],
     );
     let error = error.unwrap_err();
     assert_eq!(error.kind, GraphErrorKind::Property);
@@ -89,12 +84,12 @@ fn maps_that_hold_something_else_are_refused() {
         "{error}"
     );
     let plain = TextureDesc::new(TextureFormat::R8Unorm, [64, 64]);
-    let error = plan(&plain, LargestKernel::default()).unwrap_err();
+    let error = plan(&plain, [65; 2]).unwrap_err();
     assert_eq!(error.kind, GraphErrorKind::Format);
     // A table of a table.
     let table = SummedAreaTable::new(Storage::Unorm16, [9, 9]).unwrap();
     let table = MapEncoding::of_table(Technique::Hamburger4, table).unwrap();
-    let error = plan(&map(&table, [64, 64], 1), LargestKernel::default()).unwrap_err();
+    let error = plan(&map(&table, [64, 64], 1), [65; 2]).unwrap_err();
     assert_eq!(error.kind, GraphErrorKind::Format);
     assert!(error.message.contains("summed-area table"), "{error}");
     assert_eq!(

@@ -22,7 +22,7 @@ pub(super) fn of_storage(four: &MapEncoding) -> Result<Vec<Variant>, TechniqueEr
             storage,
             extent: SIZE,
         };
-        let sum = || Variant::new(IntegrateScattering, &map);
+        let sum = || Variant::new(IntegrateScattering {}, &map);
         // Shared memory that is cleared; 512 columns at a time, with six steps of the scan.
         let parallel = [64, SIZE[0] / 512, 6];
         // Four columns at a time.

@@ -1,9 +1,8 @@
 //! What makes, filters, sums and shows maps.
 
-use moment_shadows::{MapEncoding, Storage, Technique, TechniqueError};
+use moment_shadows::{Kernel, MapEncoding, Storage, Technique, TechniqueError};
 use moment_shadows_graph::nodes::{
-    Blur, DebugMoments, Downsample, KernelProperty, MipLevels, PlaceLayers, Resolve, Show,
-    SummedAreaTable,
+    Blur, DebugMoments, Downsample, PlaceLayers, Resolve, Show, SummedAreaTable,
 };
 
 use super::{SIZE, Variant};
@@ -16,23 +15,23 @@ fn resolve(map: &MapEncoding) -> Variant {
     let node = Resolve {
         technique: map.technique().clone(),
         storage: map.storage(),
-        mip_levels: MipLevels::default(),
+        mip_levels: Some(1),
     };
     Variant::new(node, map)
 }
 
 fn blur(map: &MapEncoding, radius: u32, per_frame: bool) -> Variant {
     let node = Blur {
-        kernel: KernelProperty::gaussian(radius, 0.6 * radius as f32),
+        kernel: Kernel::gaussian(radius, 0.6 * radius as f32),
         per_frame,
-        mip_levels: MipLevels::default(),
+        mip_levels: Some(1),
     };
     Variant::new(node, map)
 }
 
 /// Every level but the first has a pass with the same shader, so that two levels are enough.
 fn downsample(map: &MapEncoding) -> Variant {
-    Variant::new(Downsample, map).mips(2)
+    Variant::new(Downsample {}, map).mips(2)
 }
 
 /// Maps of four moments.

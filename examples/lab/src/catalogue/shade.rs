@@ -1,7 +1,6 @@
 //! What shades with maps, tables and plain depth.
 
 use moment_shadows::{MapEncoding, PcfTaps, Profile, Storage, SummedAreaTable, Technique};
-use moment_shadows_graph::nodes::Interpolation::{Both, Filter, Neither};
 use moment_shadows_graph::nodes::{ShadeHard, ShadeSoft};
 
 use super::Variant;
@@ -57,10 +56,10 @@ fn soft(four: &MapEncoding) -> Result<Vec<Variant>, ShadersError> {
     let mut all = Vec::new();
     let (four_moments, two) = (Technique::Hamburger4, Technique::Vsm);
     for (kind, technique, interpolation, words) in [
-        ("", &four_moments, Filter, "filter"),
-        ("_both", &four_moments, Both, "search and filter"),
-        ("_neither", &four_moments, Neither, "nothing"),
-        ("_vsm", &two, Filter, "filter"),
+        ("", &four_moments, [false, true], "filter"),
+        ("_both", &four_moments, [true, true], "search and filter"),
+        ("_neither", &four_moments, [false, false], "nothing"),
+        ("_vsm", &two, [false, true], "filter"),
     ] {
         let node = ShadeSoft {
             interpolation,
@@ -72,7 +71,7 @@ fn soft(four: &MapEncoding) -> Result<Vec<Variant>, ShadersError> {
         all.push(
             Variant::new(node, four)
                 .connected(&MapEncoding::of_table(technique.clone(), table)?)
-                .file(name, listed && interpolation == Filter)
+                .file(name, listed && interpolation == [false, true])
                 .row(listed, format!("{technique}, {words} interpolated"), &[1]),
         );
     }

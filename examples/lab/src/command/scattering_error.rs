@@ -1,6 +1,6 @@
 //! `moment-shadows scattering-error`: light in the air against marched rays, with pictures and costs.
 
-use moment_shadows_graph::nodes::Overestimation;
+use moment_shadows_graph::nodes::CompositeScattering;
 
 use crate::compare::{self, Report, compare};
 use crate::cost::CostError;
@@ -29,8 +29,8 @@ pub struct ScatteringErrorOptions {
 pub fn run(options: &ScatteringErrorOptions) -> Result<Vec<Report<ScatteringSetting>>, CostError> {
     let gpu = Gpu::open_with(PROFILE, FEATURES)?;
     let overestimation = match options.overestimation.as_deref() {
-        Some(&[towards, away]) => Overestimation { towards, away },
-        _ => Overestimation::default(),
+        Some(&[towards, away]) => [towards, away],
+        _ => CompositeScattering::default().overestimation,
     };
     let stage = &options.stage;
     let candidates = candidates(&gpu, stage.radius, stage.extent(), overestimation)?;

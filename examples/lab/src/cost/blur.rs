@@ -1,7 +1,6 @@
 //! The blur alone, on a map of noise, in both directions together.
 
 use moment_shadows::{Kernel, Profile, Storage};
-use moment_shadows_graph::nodes::KernelProperty;
 use moment_shadows_graph::{Capabilities, TextureDesc};
 use serde_json::json;
 
@@ -11,6 +10,7 @@ use super::node::{NodeOnMap, NodeText, upload};
 use super::table::{Facts, Gate};
 use super::texels::{Channels, decode, encode, noise};
 use super::{CostError, SubjectList, reference};
+use crate::error::LabError;
 use crate::gpu::Gpu;
 
 /// Blurs of several radii of a map of one size.
@@ -47,13 +47,13 @@ impl BlurredMap {
         storage: Storage,
         size: [u32; 2],
         channels: &[[f64; 4]],
-        kernel: KernelProperty,
+        kernel: Kernel,
         per_frame: bool,
     ) -> Result<Self, CostError> {
         let desc = TextureDesc::new(storage.format(), size);
         let text = NodeText {
             node_type: "blur",
-            properties: json!({ "kernel": kernel, "per_frame": per_frame }),
+            properties: json!({ "kernel": { "weights": kernel.weights() }, "per_frame": per_frame }),
             input: "map",
             output: "blurred",
         };
@@ -61,7 +61,7 @@ impl BlurredMap {
         let capabilities = Capabilities::of_device(&gpu.adapter, &gpu.device);
         Ok(Self {
             storage,
-            kernel: kernel.kernel()?,
+            kernel,
             size,
             node: NodeOnMap::new(gpu, &capabilities, text, (&desc, &map), |_, _| Ok(()))?,
         })
@@ -103,10 +103,8 @@ fn cases(gpu: &Gpu, size: u32) -> Result<Vec<Case>, CostError> {
     let storage = Storage::Unorm16;
     let channels = noise(storage, size as usize * size as usize);
     let case = |(radius, gate, goal)| {
-        let kernel = KernelProperty {
-            radius: Some(radius),
-            ..KernelProperty::default()
-        };
+        let kernel = Kernel::gaussian(radius, 0.6 * radius as f32)
+            .map_err(|error| LabError::unsuitable("blur", error.to_string()))?;
         let map = BlurredMap::new(gpu, storage, [size; 2], &channels, kernel, false)?;
         Ok(Case {
             name: format!("a blur of radius {radius}"),

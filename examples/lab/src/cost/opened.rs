@@ -2,7 +2,7 @@
 
 use moment_shadows::{DepthConversion, Storage, TextureFormat};
 use moment_shadows_graph::Named;
-use moment_shadows_graph::nodes::KernelProperty;
+use moment_shadows_graph::nodes::Blur;
 
 use super::CostError;
 use super::harness::Difference;
@@ -96,9 +96,13 @@ impl OpenedGraph {
         let (Some(source), Some(found)) = (source, found) else {
             return Ok(None);
         };
-        let kernel = self.file.node_entry(node, "properties")["kernel"].clone();
-        let kernel: KernelProperty = serde_json::from_value(kernel).unwrap_or_default();
-        let kernel = kernel.kernel()?;
+        let properties = self.file.node_entry(node, "properties");
+        let Ok(Blur {
+            kernel: Ok(kernel), ..
+        }) = serde_json::from_value(properties)
+        else {
+            return Ok(None);
+        };
         let reference = reference::blur(&source.channels, source.size, &kernel);
         found.difference(
             &reference,

@@ -1,7 +1,7 @@
 //! Summed-area tables: both tiles of the node, and the usual way, of maps of several sizes.
 
 use moment_shadows::{MapEncoding, MapRegion, Storage, Technique, TextureFormat};
-use moment_shadows_graph::nodes::LargestKernel;
+use moment_shadows_graph::nodes::SummedAreaTable;
 use moment_shadows_graph::{Capabilities, TextureDesc};
 use serde_json::{Value, json};
 
@@ -74,7 +74,7 @@ fn cases(gpu: &Gpu, size: u32) -> Result<Vec<Case>, CostError> {
     ] {
         let text = NodeText {
             node_type: "summed_area_table",
-            properties: json!({ "largest_kernel": LargestKernel::default() }),
+            properties: json!({ "largest_kernel": SummedAreaTable::default().largest_kernel }),
             input: "map",
             output: "table",
         };

@@ -1,7 +1,6 @@
 //! Ways to light the air that are compared.
 
 use moment_shadows::{Profile, Storage, Technique as MapTechnique};
-use moment_shadows_graph::nodes::Overestimation;
 use serde_json::json;
 
 use super::chain::{Link, graph};
@@ -45,7 +44,7 @@ pub fn candidates(
     gpu: &Gpu,
     radius: u32,
     extent: [u32; 2],
-    overestimation: Overestimation,
+    overestimation: [f32; 2],
 ) -> Result<Vec<ScatteringCandidate>, LabError> {
     let has_unorm16 = gpu
         .device
@@ -111,7 +110,7 @@ fn nodes(
     storage: Storage,
     radius: u32,
     extent: [u32; 2],
-    overestimation: Overestimation,
+    [towards, away]: [f32; 2],
 ) -> Result<GraphFile, LabError> {
     let rectify =
         json!({ "technique": technique, "storage": storage.to_string(), "extent": extent });
@@ -126,7 +125,7 @@ fn nodes(
         ),
         Link(
             "composite_scattering",
-            json!({ "overestimation": overestimation }),
+            json!({ "overestimation": { "towards": towards, "away": away } }),
             ["integrated", "scattering"],
         ),
     ];

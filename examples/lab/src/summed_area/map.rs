@@ -1,7 +1,6 @@
 //! A map of any contents and its summed-area table.
 
 use moment_shadows::MapRegion;
-use moment_shadows_graph::nodes::LargestKernel;
 use moment_shadows_graph::record::{
     Bindings, ImportedResource, Layers, PipelineOptions, Pipelines, Recording, Resources,
 };
@@ -39,7 +38,7 @@ impl SummedMap {
         capabilities: &Capabilities,
         desc: &TextureDesc,
         bytes: &[u8],
-        largest_kernel: LargestKernel,
+        largest_kernel: [u32; 2],
     ) -> Result<Self, LabError> {
         let plan =
             Self::plan(capabilities, desc, largest_kernel).map_err(|error| LabError::Graph {
@@ -74,7 +73,7 @@ impl SummedMap {
     pub fn plan(
         capabilities: &Capabilities,
         desc: &TextureDesc,
-        largest_kernel: LargestKernel,
+        largest_kernel: [u32; 2],
     ) -> Result<Plan, GraphError> {
         let text = serde_json::json!({
             "version": 2,
