@@ -2,7 +2,6 @@
 
 use moment_shadows_lab::command::soft_error::{SoftErrorOptions, run};
 use moment_shadows_lab::compare::Options;
-use moment_shadows_lab::cost::CostError;
 use moment_shadows_lab::error::LabError;
 use moment_shadows_lab::soft::{NamedGraph, SoftLightChoice, StageDesc};
 
@@ -89,12 +88,12 @@ fn unknown_names_and_scenes_are_refused() {
         run(&options)
     };
     match of("edge", &["pcss"]) {
-        Err(CostError::Lab(LabError::Unsuitable { file, reason })) => {
+        Err(LabError::Unsuitable { file, reason }) => {
             assert_eq!(file, "pcss");
             assert!(reason.contains("pcss 32+64"), "{reason}");
         }
         other => panic!("{other:?}"),
     }
     let result = of("edges", &[]);
-    assert!(matches!(result, Err(CostError::Lab(LabError::Scene(_)))));
+    assert!(matches!(result, Err(LabError::Scene(_))));
 }

@@ -4,7 +4,6 @@ use moment_shadows::{Profile, Storage};
 use moment_shadows_graph::nodes::KernelProperty;
 use moment_shadows_graph::record::{Passes, RecordError};
 use moment_shadows_lab::command::cost;
-use moment_shadows_lab::cost::CostError;
 use moment_shadows_lab::cost::bandwidth::Memory;
 use moment_shadows_lab::cost::blur::BlurredMap;
 use moment_shadows_lab::cost::copies::CopyWork;
@@ -169,10 +168,7 @@ fn passes_are_recorded_one_by_one() {
     assert!(
         matches!(
             refused,
-            CostError::Lab(LabError::Record(RecordError::NoSuchPassNumber {
-                pass: 2,
-                count: 2
-            }))
+            LabError::Record(RecordError::NoSuchPassNumber { pass: 2, count: 2 })
         ),
         "{refused}"
     );

@@ -9,7 +9,6 @@ use crate::light::LightError;
 use crate::metric::MetricError;
 use crate::picture::PictureError;
 use crate::scene::SceneError;
-use crate::shaders::ShadersError;
 use crate::truth::area_light::AreaLightError;
 use crate::truth::peel::PeelError;
 use crate::truth::surface::TruthError;
@@ -55,9 +54,6 @@ pub enum LabError {
         /// Why, and what to do.
         reason: String,
     },
-    /// Shaders that cannot be listed or compiled.
-    #[error(transparent)]
-    Shaders(#[from] ShadersError),
     /// A technique's settings.
     #[error(transparent)]
     Technique(#[from] moment_shadows::TechniqueError),
@@ -82,10 +78,10 @@ pub enum LabError {
     /// A file of vectors.
     #[error(transparent)]
     Vectors(#[from] VectorFileError),
-    /// The shader of a batch was refused.
-    #[error("the shader of batch '{label}' was refused: {reason}")]
+    /// A shader was refused.
+    #[error("the shader '{label}' was refused: {reason}")]
     Shader {
-        /// The batch's label.
+        /// Its label.
         label: String,
         /// What the validation said.
         reason: String,
@@ -104,6 +100,18 @@ pub enum LabError {
         output: usize,
         /// The largest buffer that the device binds.
         largest: u64,
+    },
+    /// A pass that is fast and wrong.
+    #[error(
+        "{what} differs from the reference by {error:e}, more than {tolerance:e}; its cost means nothing"
+    )]
+    WrongResult {
+        /// What was compared.
+        what: String,
+        /// The largest difference; NaN where the output is.
+        error: f64,
+        /// What rounding explains.
+        tolerance: f64,
     },
     /// Figures as JSON.
     #[error("the figures cannot be written as JSON: {0}")]
@@ -156,6 +164,12 @@ pub enum LabError {
 }
 
 impl LabError {
+    /// What is wrong with the graph of a file.
+    pub fn graph(file: &str) -> impl FnOnce(GraphError) -> Self {
+        let file = file.to_owned();
+        move |error| Self::Graph { file, error }
+    }
+
     /// What cannot be used, and why.
     pub fn unsuitable(what: impl ToString, reason: impl ToString) -> Self {
         Self::Unsuitable {

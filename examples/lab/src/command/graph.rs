@@ -49,12 +49,10 @@ impl Options {
 fn check(path: &Path, profile: Profile) -> Result<(String, Plan), LabError> {
     let file = GraphFile::read(path, None)?;
     let capabilities = Capabilities::of_profile(profile);
-    let failed = |error| LabError::Graph {
-        file: file.name.clone(),
-        error,
-    };
-    let plan = compile(&file.graph, &capabilities, &Imports::new()).map_err(failed)?;
-    let nodes = describe(&file.graph, &capabilities, &Imports::new()).map_err(failed)?;
+    let plan = compile(&file.graph, &capabilities, &Imports::new())
+        .map_err(LabError::graph(&file.name))?;
+    let nodes = describe(&file.graph, &capabilities, &Imports::new())
+        .map_err(LabError::graph(&file.name))?;
     Ok((summary(&file.graph, &nodes), plan))
 }
 

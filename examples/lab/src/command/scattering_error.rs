@@ -3,8 +3,8 @@
 use moment_shadows_graph::nodes::Overestimation;
 
 use crate::compare::{self, Report, compare};
-use crate::cost::CostError;
 use crate::cost::clock::FEATURES;
+use crate::error::LabError;
 use crate::gpu::Gpu;
 use crate::scattering::{
     PROFILE, ScatteringSetting, ScatteringStage, ScatteringStageDesc, candidates,
@@ -26,7 +26,7 @@ pub struct ScatteringErrorOptions {
 }
 
 /// Judges our nodes, marching and a convolution map on each scene.
-pub fn run(options: &ScatteringErrorOptions) -> Result<Vec<Report<ScatteringSetting>>, CostError> {
+pub fn run(options: &ScatteringErrorOptions) -> Result<Vec<Report<ScatteringSetting>>, LabError> {
     let gpu = Gpu::open_with(PROFILE, FEATURES)?;
     let overestimation = match options.overestimation.as_deref() {
         Some(&[towards, away]) => Overestimation { towards, away },

@@ -4,10 +4,10 @@ use moment_shadows_graph::Stage;
 use serde::{Serialize, Serializer};
 
 use super::Technique;
-use crate::cost::CostError;
 use crate::cost::clock::Clock;
 use crate::cost::protocol::{Rounds, Subject};
 use crate::cost::statistics::Distribution;
+use crate::error::LabError;
 
 /// What a candidate costs.
 #[derive(Clone, Copy, Debug)]
@@ -40,7 +40,7 @@ pub(super) fn costs(
     bound: &[(String, Box<dyn Technique>)],
     rounds: u32,
     progress: impl FnMut(),
-) -> Result<Vec<Cost>, CostError> {
+) -> Result<Vec<Cost>, LabError> {
     let mut subjects = Vec::new();
     // Per candidate the numbers of what it does to the map, if anything, and to pixels.
     let mut numbers = Vec::new();

@@ -10,7 +10,6 @@ use std::time::Instant;
 pub use self::cost::Cost;
 pub use self::report::{Report, Row, Setting, Table};
 pub use self::technique::{Technique, unsuitable};
-use crate::cost::CostError;
 use crate::cost::clock::{Clock, ClockKind};
 use crate::cost::protocol::FEWEST_ROUNDS;
 use crate::cost::report::Conditions;
@@ -98,7 +97,7 @@ pub fn compare<S: Stage>(
     options: &Options,
     mut candidates: Vec<S::Candidate>,
     stage: impl Fn(&Scene) -> Result<S, LabError>,
-) -> Result<Vec<Report<S::Setting>>, CostError> {
+) -> Result<Vec<Report<S::Setting>>, LabError> {
     let known: Vec<&str> = candidates.iter().map(S::name).collect();
     if let Some(name) = (options.only.iter()).find(|name| !known.contains(&name.as_str())) {
         let reason = format!(
@@ -118,7 +117,7 @@ pub fn compare<S: Stage>(
     let mut reports = Vec::new();
     for name in &options.scene {
         let bar = progress::bar(candidates.len() as u64 + 1, name);
-        let scene = scene::load(name).map_err(LabError::from)?;
+        let scene = scene::load(name)?;
         let begun = Instant::now();
         let stage = stage(&scene)?;
         let truth_seconds = begun.elapsed().as_secs_f64();

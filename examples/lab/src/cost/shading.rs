@@ -2,7 +2,6 @@
 
 use moment_shadows::Storage;
 
-use super::CostError;
 use super::harness::Difference;
 use crate::error::LabError;
 use crate::frame::Frame;
@@ -29,13 +28,13 @@ pub(super) fn difference(
     file: &GraphFile,
     intensity: &wgpu::Texture,
     storage: Storage,
-) -> Result<Option<Difference>, CostError> {
+) -> Result<Option<Difference>, LabError> {
     if intensity.format().components() != 1 {
         return Ok(None);
     }
     let parameters = shade_parameters(&frame.desc, file)?;
     let unfiltered = Unfiltered::of(gpu, frame, file)?;
-    let camera_depth = read_depth_samples(gpu, &frame.surface.depth).map_err(LabError::from)?;
+    let camera_depth = read_depth_samples(gpu, &frame.surface.depth)?;
     let lookups: Vec<_> = fragments(&parameters, &camera_depth, frame.desc.map)
         .into_iter()
         .step_by(STRIDE)

@@ -10,7 +10,6 @@ use moment_shadows_graph::{
 
 use crate::catalogue::{self, Row, SIZE, Variant};
 use crate::error::LabError;
-use crate::shaders::ShadersError;
 use crate::summed_area::naive;
 
 /// A shader that is compiled.
@@ -90,11 +89,11 @@ pub fn subjects() -> Result<Vec<Subject>, LabError> {
         trips: Vec::new(),
     };
     for (name, texel_bytes, text) in REFERENCES {
-        let linked = link(Source { name, text }, &[fullscreen]).map_err(ShadersError::from)?;
+        let linked = link(Source { name, text }, &[fullscreen])?;
         subjects.push(reference(name, linked.into_wgsl(), texel_bytes));
     }
     for (name, text, entry_point) in naive::SHADERS {
-        let wgsl = naive::linked(name, text).map_err(ShadersError::from)?;
+        let wgsl = naive::linked(name, text)?;
         subjects.push(Subject {
             entry_point: entry_point.to_owned(),
             work: SubjectWork::Compute {

@@ -55,9 +55,9 @@ pub(super) fn graph(name: &str, links: &[Link]) -> Result<GraphFile, LabError> {
     .to_string();
     let mut registry = NodeRegistry::new();
     registry.register::<RectifyNearest>("rectify_nearest");
-    let name = name.to_owned();
-    match Graph::parse(&text, &registry) {
-        Ok(graph) => Ok(GraphFile { name, text, graph }),
-        Err(error) => Err(LabError::Graph { file: name, error }),
-    }
+    Ok(GraphFile {
+        name: name.to_owned(),
+        graph: Graph::parse(&text, &registry).map_err(LabError::graph(name))?,
+        text,
+    })
 }

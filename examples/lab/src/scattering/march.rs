@@ -3,13 +3,14 @@
 use moment_shadows::Storage;
 use moment_shadows_graph::Stage;
 
-use super::draw::{Bound, Draw, linked, sampler, target};
+use super::draw::{draw, linked, sampler, target, whole};
 use super::stage::ScatteringStage;
 use crate::compare::{Technique, unsuitable};
 use crate::error::LabError;
 use crate::gpu::Gpu;
 use crate::graph_file::GraphFile;
 use crate::graph_frame::GraphFrame;
+use crate::pass::{Bound, Pass};
 
 /// How a ray is marched.
 #[derive(Debug)]
@@ -27,7 +28,7 @@ pub(super) struct Marching {
 pub(super) struct Marcher {
     /// What the light's map has to be made into first.
     moments: Option<GraphFrame>,
-    passes: Vec<Draw>,
+    passes: Vec<Pass>,
     radiance: wgpu::Texture,
 }
 
@@ -39,12 +40,10 @@ impl Marcher {
         how: &Marching,
     ) -> Result<Self, LabError> {
         let frame = stage.plain();
-        let view =
-            |texture: &wgpu::Texture| Bound::Texture(texture.create_view(&Default::default()));
         let (uniform, sampler) = (stage.uniform(gpu), sampler(gpu));
         let mut bound = vec![
-            (0, Bound::Uniform(&uniform)),
-            (1, view(&frame.surface.depth)),
+            (0, Bound::Buffer(&uniform)),
+            (1, whole(&frame.surface.depth)),
         ];
         let (mut moments, mut storage) = (None, String::new());
         if let Some((file, map_storage)) = &how.filtered {
@@ -60,7 +59,7 @@ impl Marcher {
             bound.extend([(2, Bound::Texture(map)), (3, Bound::Sampler(&sampler))]);
             moments = Some(graph);
         } else {
-            bound.push((2, view(&frame.light_map.texture)));
+            bound.push((2, whole(&frame.light_map.texture)));
         }
         let visibility = match moments {
             Some(_) => include_str!("visibility_moments.wgsl"),
@@ -74,25 +73,22 @@ impl Marcher {
         let picture = frame.desc.picture;
         let radiance = target(gpu, "march/radiance", picture);
         let mut constants = vec![("STEPS", f64::from(how.steps))];
-        if !how.half {
-            let pass = Draw::new(gpu, "march", wgsl, &constants, &bound, &radiance)?;
-            return Ok(Self {
-                moments,
-                passes: vec![pass],
-                radiance,
-            });
-        }
-        constants.extend([("PIXELS", 2.0), ("DITHERED", 1.0)]);
-        let half = picture.map(|side| side.div_ceil(2));
-        let half = target(gpu, "march/half radiance", half);
-        let march = Draw::new(gpu, "march", wgsl, &constants, &bound, &half)?;
-        let wgsl = linked("upsample.wgsl", include_str!("upsample.wgsl"), &[])?;
-        bound.truncate(2);
-        bound.push((2, view(&half)));
-        let upsample = Draw::new(gpu, "upsample", wgsl, &[], &bound, &radiance)?;
+        let passes = if how.half {
+            constants.extend([("PIXELS", 2.0), ("DITHERED", 1.0)]);
+            let half = picture.map(|side| side.div_ceil(2));
+            let half = target(gpu, "march/half radiance", half);
+            let march = draw(gpu, wgsl, &constants, &bound, &half);
+            let wgsl = linked("upsample.wgsl", include_str!("upsample.wgsl"), &[])?;
+            bound.truncate(2);
+            bound.push((2, whole(&half)));
+            vec![march, draw(gpu, wgsl, &[], &bound, &radiance)]
+        } else {
+            vec![draw(gpu, wgsl, &constants, &bound, &radiance)]
+        };
+        gpu.check()?;
         Ok(Self {
             moments,
-            passes: vec![march, upsample],
+            passes,
             radiance,
         })
     }

@@ -7,7 +7,7 @@ use naga::back::spv;
 use naga::proc::{BoundsCheckPolicies, BoundsCheckPolicy};
 use naga::valid::{Capabilities, ValidationFlags, Validator};
 
-use super::ShadersError;
+use crate::error::LabError;
 
 /// A version of Vulkan that SPIR-V is written for.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, serde::Serialize)]
@@ -84,9 +84,9 @@ impl<'a> Compiled<'a> {
         name: &'a str,
         wgsl: &str,
         constants: &'a BTreeMap<String, f64>,
-    ) -> Result<Self, ShadersError> {
-        let failed = |reason| ShadersError::Compile {
-            name: name.to_owned(),
+    ) -> Result<Self, LabError> {
+        let failed = |reason| LabError::Shader {
+            label: name.to_owned(),
             reason,
         };
         // What a shader may ask for is checked per profile by the tests; here only that it translates.
@@ -124,9 +124,9 @@ impl<'a> Compiled<'a> {
         &self,
         entry_point: &naga::EntryPoint,
         options: &spv::Options<'_>,
-    ) -> Result<Vec<u32>, ShadersError> {
-        let failed = |reason| ShadersError::Compile {
-            name: format!("{}, entry point {}", self.name, entry_point.name),
+    ) -> Result<Vec<u32>, LabError> {
+        let failed = |reason| LabError::Shader {
+            label: format!("{}, entry point {}", self.name, entry_point.name),
             reason,
         };
         let pipeline = spv::PipelineOptions {

@@ -10,7 +10,8 @@ use naga::{Binding, ScalarKind, ShaderStage, TypeInner};
 use serde::Serialize;
 
 use super::spirv::{Compiled, Target};
-use super::{Kind, Shader, ShadersError};
+use super::{Kind, Shader};
+use crate::error::LabError;
 
 /// The file `index.json`.
 #[derive(Serialize)]
@@ -47,13 +48,14 @@ struct Spirv {
 /// Writes all of `shaders` into the new folder `folder`, with `index.json`: for each shader its name, kind, profile, constants
 /// and entry points, and the files of its WGSL and SPIR-V. The folder is written beside and renamed: it is there complete or
 /// not at all.
-pub fn write(shaders: &[Shader], folder: &Path) -> Result<(), ShadersError> {
-    let failed = |source| ShadersError::Write {
-        folder: folder.to_owned(),
-        source,
+pub fn write(shaders: &[Shader], folder: &Path) -> Result<(), LabError> {
+    let failed = |error: io::Error| {
+        let reason = format!("shaders cannot be written there: {error}; nothing is left there");
+        LabError::unsuitable(folder.display(), reason)
     };
     if is_taken(folder).map_err(failed)? {
-        return Err(ShadersError::Exists(folder.to_owned()));
+        let reason = "it exists and is not an empty folder; remove it or name another one";
+        return Err(LabError::unsuitable(folder.display(), reason));
     }
     let parent = match folder.parent() {
         Some(parent) if parent != Path::new("") => parent,

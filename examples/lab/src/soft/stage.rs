@@ -1,7 +1,8 @@
 //! A scene under an area light, drawn, with the truth of what the camera sees.
 
 use glam::DVec3;
-use wgpu::util::DeviceExt;
+use moment_shadows::TextureFormat;
+use moment_shadows_graph::TextureDesc;
 
 use super::candidate::SoftCandidate;
 use super::light::{LightSize, SoftLightChoice};
@@ -17,6 +18,7 @@ use crate::metric::{Comparison, compare};
 use crate::penumbra::{Profile, edge_widths};
 use crate::picture::signed_difference;
 use crate::scene::{EDGE, EDGE_HEIGHTS, Scene};
+use crate::texture::upload;
 use crate::truth::area_light::{AreaLight, MOST_PLACES, USUAL_PLACES};
 use crate::view::View;
 
@@ -138,24 +140,8 @@ impl SoftStage {
 
     /// The lit picture of the truth, sRGB bytes with alpha.
     fn lit_truth(&self, gpu: &Gpu) -> Result<Vec<u8>, LabError> {
-        let [width, height] = self.desc().picture;
-        let desc = wgpu::TextureDescriptor {
-            label: Some("lab/area light"),
-            size: wgpu::Extent3d {
-                width,
-                height,
-                depth_or_array_layers: 1,
-            },
-            mip_level_count: 1,
-            sample_count: 1,
-            dimension: wgpu::TextureDimension::D2,
-            format: wgpu::TextureFormat::R32Float,
-            usage: wgpu::TextureUsages::TEXTURE_BINDING,
-            view_formats: &[],
-        };
-        let texels = bytemuck::cast_slice(&self.truth);
-        let texture =
-            (gpu.device).create_texture_with_data(&gpu.queue, &desc, Default::default(), texels);
+        let desc = TextureDesc::new(TextureFormat::R32Float, self.desc().picture);
+        let texture = upload(gpu, &desc, bytemuck::cast_slice(&self.truth));
         self.frames[0].picture(gpu, &texture)
     }
 
