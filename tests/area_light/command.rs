@@ -42,7 +42,7 @@ fn it_compares_candidates_and_writes_pictures_and_figures() {
     let read: serde_json::Value =
         serde_json::from_str(&std::fs::read_to_string(json).unwrap()).unwrap();
     assert_eq!(read[1]["rows"][1]["name"], "pcss 32+64");
-    for report in &reports {
+    for (report, scene) in reports.iter().zip(["edge", "hole"]) {
         let [hard, soft, mine] = report.rows.as_slice() else {
             panic!("{report}");
         };
@@ -65,7 +65,7 @@ fn it_compares_candidates_and_writes_pictures_and_figures() {
             "-pcss-32-64",
             "-pcss-32-64-difference",
         ] {
-            let name = format!("{}-rectangle{what}.png", report.setting.scene);
+            let name = format!("{scene}-rectangle{what}.png");
             let bytes = std::fs::read(folder.path().join(&name)).unwrap();
             let picture = image::load_from_memory(&bytes).unwrap();
             let size = if what.is_empty() {
@@ -76,7 +76,6 @@ fn it_compares_candidates_and_writes_pictures_and_figures() {
             assert_eq!([picture.width(), picture.height()], size, "{name}");
         }
     }
-    assert!(reports[0].setting.edges.is_some() && reports[1].setting.edges.is_none());
 }
 
 #[test]

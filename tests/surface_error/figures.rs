@@ -76,9 +76,9 @@ fn the_distribution_s_error_is_that_of_the_exact_bound() {
     let scene = scene::load("hall").unwrap();
     let (options, radius) = (options(128, 4), 4);
     let subject = subject(&gpu, &scene, &options, radius);
-    let (light, map) = (subject.frame.desc.light, subject.frame.desc.map);
+    let (light, map) = (subject.frame().desc.light, subject.frame().desc.map);
     let unfiltered =
-        Unfiltered::of(&gpu, &subject.frame, &graph(Storage::Float32, radius)).unwrap();
+        Unfiltered::of(&gpu, subject.frame(), &graph(Storage::Float32, radius)).unwrap();
     let mut surfaces = Peeler::new(&scene, &light, map).unwrap().rows(0..map[1]);
     let casters: std::collections::HashSet<[u32; 2]> = surfaces
         .iter()

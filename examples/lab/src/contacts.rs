@@ -53,7 +53,7 @@ impl Contacts {
     /// Draws the scene of chairs and computes the truth around their legs for the kernel of a graph.
     pub fn new(gpu: &Gpu, options: &RenderOptions, file: &GraphFile) -> Result<Self, LabError> {
         let scene = scene::load(CHAIRS)?;
-        let margin = file.kernel()?.map_or(0, |kernel| kernel.radius());
+        let margin = file.radius()?;
         let frame = options.frame(gpu, &scene, margin)?;
         let unfiltered = Unfiltered::of(gpu, &frame, file)?;
         let light = &frame.desc.light;

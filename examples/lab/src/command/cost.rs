@@ -105,7 +105,7 @@ pub fn graph(
         ..RenderOptions::default()
     };
     let scene = scene::load(&options.scene)?;
-    let margin = file.kernel()?.map_or(0, |kernel| kernel.radius());
+    let margin = file.radius()?;
     let frame = options.frame(&gpu, &scene, margin)?;
     let (cases, bytes) = cases(&gpu, &frame, &file)?;
     let clock = Clock::new(&gpu, ClockKind::for_device(&gpu));

@@ -1,7 +1,7 @@
 //! The subcommands of `moment-shadows`: a file has the options of each, and runs it.
 
 pub mod adapter;
-mod argument;
+pub(crate) mod argument;
 pub mod bias;
 pub mod cost;
 pub mod error;

@@ -46,29 +46,8 @@ pub enum SubjectWork {
     },
 }
 
-/// Shaders that stand alone, with a target of 16 bits per channel: name, bytes of the widest texel, text.
-const REFERENCES: [(&str, u32, &str); 4] = [
-    (
-        "one bilinear fetch",
-        8,
-        include_str!("reference/bilinear.wgsl"),
-    ),
-    (
-        "Hamburger 4 (fetch, decoding, bias, leak reduction)",
-        8,
-        include_str!("reference/hamburger.wgsl"),
-    ),
-    (
-        "summed-area table, nine rectangles",
-        16,
-        include_str!("reference/summed_area_interpolated.wgsl"),
-    ),
-    (
-        "summed-area table, whole texels",
-        16,
-        include_str!("reference/summed_area_plain.wgsl"),
-    ),
-];
+/// Filtering with a table.
+const FILTER: &str = include_str!("reference/summed_area.wgsl");
 
 /// Every shader of the table: the references first.
 pub fn subjects() -> Result<Vec<Subject>, LabError> {
@@ -88,7 +67,25 @@ pub fn subjects() -> Result<Vec<Subject>, LabError> {
         texel_bytes,
         trips: Vec::new(),
     };
-    for (name, texel_bytes, text) in REFERENCES {
+    // Shaders that stand alone, with a target of 16 bits per channel: name, text, bytes of the widest texel.
+    let plain = FILTER.replace(
+        "summed_area_table_mean_interpolated",
+        "summed_area_table_mean_plain",
+    );
+    for (name, text, texel_bytes) in [
+        (
+            "one bilinear fetch",
+            include_str!("reference/bilinear.wgsl"),
+            8,
+        ),
+        (
+            "Hamburger 4 (fetch, decoding, bias, leak reduction)",
+            include_str!("reference/hamburger.wgsl"),
+            8,
+        ),
+        ("summed-area table, nine rectangles", FILTER, 16),
+        ("summed-area table, whole texels", &plain, 16),
+    ] {
         let linked = link(Source { name, text }, &[fullscreen])?;
         subjects.push(reference(name, linked.into_wgsl(), texel_bytes));
     }

@@ -39,7 +39,7 @@ impl ConvolutionRows {
         let map = texture(gpu, "convolution/rows", &desc, usage);
         let (uniform, sampler) = (stage.uniform(gpu), sampler(gpu));
         let wgsl = include_str!("convolution_rows.wgsl");
-        let wgsl = linked("convolution_rows.wgsl", wgsl, &[])?;
+        let wgsl = linked("convolution_rows.wgsl", wgsl)?;
         // Only what the entry point uses is in its layout: not the camera's depth.
         let bound = [
             (0, Bound::Buffer(&uniform)),
@@ -49,7 +49,7 @@ impl ConvolutionRows {
         let work = Work::Dispatch([extent[1].div_ceil(ROWS), 1]);
         let sum = Pass::new(gpu, "convolution/rows", wgsl, &[], &bound, work);
         let wgsl = include_str!("convolution_radiance.wgsl");
-        let wgsl = linked("convolution_radiance.wgsl", wgsl, &[])?;
+        let wgsl = linked("convolution_radiance.wgsl", wgsl)?;
         let radiance = target(gpu, "convolution/radiance", frame.desc.picture);
         let bound = [
             (0, Bound::Buffer(&uniform)),

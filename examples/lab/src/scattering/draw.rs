@@ -11,18 +11,13 @@ use crate::texture::texture;
 /// What the radiance of all candidates is stored as.
 pub(super) const RADIANCE: TextureFormat = TextureFormat::Rgba16Float;
 
-/// Links a shader of this folder with the modules that it imports.
-pub(super) fn linked(
-    name: &str,
-    text: &str,
-    generated: &[(&str, &str)],
-) -> Result<String, LabError> {
-    let mut modules = vec![Source {
+/// Links a shader of this folder with what every competitor is told.
+pub(super) fn linked(name: &str, text: &str) -> Result<String, LabError> {
+    let view = Source {
         name: "scattering_view",
         text: include_str!("view.wgsl"),
-    }];
-    modules.extend(generated.iter().map(|&(name, text)| Source { name, text }));
-    Ok(link(Source { name, text }, &modules)?.into_wgsl())
+    };
+    Ok(link(Source { name, text }, &[view])?.into_wgsl())
 }
 
 /// A texture of radiance that is drawn, sampled and read back.

@@ -13,7 +13,7 @@ use crate::catalogue;
 use crate::error::LabError;
 
 pub use calls::calls;
-pub use spirv::{Compiled, Target};
+pub use spirv::Compiled;
 pub use write::write;
 
 /// A linked shader.

@@ -34,55 +34,44 @@ pub fn error_plot(rows: &[ErrorRow], setting: &Setting) -> ErrorPlot {
     }
 }
 
-fn series<'a>(rows: impl Iterator<Item = &'a ErrorRow> + Clone) -> Vec<ErrorSeries> {
-    let mut names: Vec<String> = Vec::new();
-    for row in rows.clone() {
-        let name = label(&row.errors.technique);
-        if !names.contains(&name) {
-            names.push(name);
-        }
-    }
-    names
-        .into_iter()
-        .map(|name| {
-            let of_name = rows
-                .clone()
-                .filter(|row| label(&row.errors.technique) == name);
-            ErrorSeries {
-                points: points(of_name),
-                name,
+/// A series per technique, in the order of their rows.
+fn series<'a>(rows: impl Iterator<Item = &'a ErrorRow>) -> Vec<ErrorSeries> {
+    let mut all: Vec<(ErrorSeries, Vec<u32>)> = Vec::new();
+    for ErrorRow { errors, .. } in rows {
+        let name = label(&errors.technique);
+        let known = all.iter().position(|(series, _)| series.name == name);
+        let (series, counts) = match known {
+            Some(known) => &mut all[known],
+            None => {
+                let points = Vec::new();
+                all.push((ErrorSeries { name, points }, Vec::new()));
+                let last = all.len() - 1;
+                &mut all[last]
             }
-        })
-        .collect()
-}
-
-/// A point per storage and width of a texel, from few bits to many.
-fn points<'a>(rows: impl Iterator<Item = &'a ErrorRow>) -> Vec<ErrorPoint> {
-    let mut sums: Vec<(ErrorPoint, u32)> = Vec::new();
-    for row in rows {
-        let point = ErrorPoint {
-            bits: row.errors.bits_per_texel,
-            percent: 100.0 * row.errors.surfaces.shading.mean_absolute,
-            storage: row.errors.storage,
         };
-        let known = sums
-            .iter_mut()
-            .find(|(sum, _)| sum.bits == point.bits && sum.storage == point.storage);
-        match known {
-            Some((sum, count)) => {
-                sum.percent += point.percent;
-                *count += 1;
+        let point = ErrorPoint {
+            bits: errors.bits_per_texel,
+            percent: 100.0 * errors.surfaces.shading.mean_absolute,
+            storage: errors.storage,
+        };
+        let same = |sum: &ErrorPoint| (sum.bits, sum.storage) == (point.bits, point.storage);
+        match series.points.iter().position(same) {
+            Some(known) => {
+                series.points[known].percent += point.percent;
+                counts[known] += 1;
             }
-            None => sums.push((point, 1)),
+            None => {
+                series.points.push(point);
+                counts.push(1);
+            }
         }
     }
-    let mut points: Vec<ErrorPoint> = sums
-        .into_iter()
-        .map(|(sum, count)| ErrorPoint {
-            percent: sum.percent / f64::from(count),
-            ..sum
-        })
-        .collect();
-    points.sort_by_key(|point| point.bits);
-    points
+    let mean = |(mut series, counts): (ErrorSeries, Vec<u32>)| {
+        for (point, count) in series.points.iter_mut().zip(counts) {
+            point.percent /= f64::from(count);
+        }
+        series.points.sort_by_key(|point| point.bits);
+        series
+    };
+    all.into_iter().map(mean).collect()
 }
