@@ -138,7 +138,7 @@ fn stage(gpu: &Gpu, name: &str, steps: u32) -> ScatteringStage {
 fn the_device_marches_like_the_truth_in_as_many_steps() {
     let gpu = Gpu::open(PROFILE).unwrap();
     let stage = stage(&gpu, "hall", 64);
-    let all = candidates(&gpu, 2, [256; 2]).unwrap();
+    let all = candidates(2, [256; 2]).unwrap();
     let march = all.iter().find(|it| it.name == "march 64").unwrap();
     let picture = stage.picture(&gpu, march).unwrap();
     let error = ScatteringError::of(&picture, &stage.truth);
@@ -150,7 +150,7 @@ fn the_device_marches_like_the_truth_in_as_many_steps() {
 #[test]
 fn six_moments_beat_sixteen_steps() {
     let gpu = Gpu::open(PROFILE).unwrap();
-    let candidates = candidates(&gpu, 2, [512; 2]).unwrap();
+    let candidates = candidates(2, [512; 2]).unwrap();
     // What six moments may be off by: a tenth more than they are.
     for (name, most) in [("hall", 0.038), ("fence-and-foliage", 0.012)] {
         let stage = stage(&gpu, name, 512);

@@ -59,10 +59,10 @@ fn the_same_seed_gives_the_same_report_and_another_one_another() {
 #[test]
 fn a_pair_that_does_not_exist_is_refused_with_those_that_do() {
     let error = pairs(Some("evsm2"), Some("unorm16")).unwrap_err();
-    assert!(matches!(error, LabError::NoPair { .. }));
+    assert!(matches!(error, LabError::Unsuitable { .. }));
     let text = error.to_string();
     assert_eq!(
         text,
-        "'evsm2' is not stored as unorm16; it is as float16 or float32"
+        "evsm2: it is not stored as unorm16; it is as float16 or float32"
     );
 }

@@ -65,16 +65,6 @@ pub enum LabError {
         /// Why.
         reason: String,
     },
-    /// A technique is asked for in a storage that it has not.
-    #[error("'{technique}' is not stored as {storage}; it is as {legal}")]
-    NoPair {
-        /// The technique's name.
-        technique: String,
-        /// The storage's name.
-        storage: String,
-        /// The storages that it has.
-        legal: String,
-    },
     /// A file of vectors.
     #[error(transparent)]
     Vectors(#[from] VectorFileError),

@@ -6,7 +6,7 @@ use std::process::ExitCode;
 use clap::{Parser, Subcommand};
 use moment_shadows_lab::command::cost::CostOptions;
 use moment_shadows_lab::command::{
-    CommandResult, adapter, bias, error, error_table, graph, isa, measure, print, render,
+    CommandResult, adapter, bias, error, error_table, graph, isa, measure, render,
     scattering_error, scattering_flicker, shaders, soft_error, stability, technique_pictures,
     validate, vectors,
 };
@@ -50,7 +50,7 @@ enum Command {
     ScatteringError(scattering_error::ScatteringErrorOptions),
     /// Walks a slow path of camera and light, and prints how much the air flickers with filtered resampling and without. Fails
     /// where it is more than a third as much. Takes minutes.
-    ScatteringFlicker(scattering_flicker::FlickerOptions),
+    ScatteringFlicker(scattering_flicker::Options),
     /// Times the passes of a graph, blurs of several radii, summed-area tables or single scattering, as ratios to copies, and counts
     /// their bytes.
     Cost(CostOptions),
@@ -92,15 +92,7 @@ fn run(command: Command) -> CommandResult {
         Command::ErrorTable(options) => options.run(),
         Command::SoftError(options) => print_all(&soft_error::run(&options)?),
         Command::ScatteringError(options) => print_all(&scattering_error::run(&options)?),
-        Command::ScatteringFlicker(options) => {
-            let report = scattering_flicker::run(&options)?;
-            let printed = print(&report, options.json)?;
-            Ok(if report.passed() {
-                printed
-            } else {
-                ExitCode::FAILURE
-            })
-        }
+        Command::ScatteringFlicker(options) => options.run(),
         Command::Cost(options) => options.run(),
         Command::Bias(options) => options.run(),
         Command::Stability(options) => options.run(),

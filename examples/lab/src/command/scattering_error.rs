@@ -23,7 +23,7 @@ pub struct ScatteringErrorOptions {
 pub fn run(options: &ScatteringErrorOptions) -> Result<Vec<Report<ScatteringErrors>>, LabError> {
     let gpu = Gpu::open_with(PROFILE, FEATURES)?;
     let stage = &options.stage;
-    let candidates = candidates(&gpu, stage.radius, stage.extent())?;
+    let candidates = candidates(stage.radius, stage.extent())?;
     compare(&gpu, &options.compare, candidates, |scene| {
         ScatteringStage::new(&gpu, scene, stage)
     })

@@ -57,9 +57,18 @@ const MAP: u32 = 1024;
 /// A difference of shadow intensity that is shown in full colour.
 const FULL_DIFFERENCE: f32 = 0.5;
 
-/// Each technique's name, and where it fails: a scene, the texels per side of the light's map, and the technique there, as a
-/// command line has it. Bounds leak where occluders are stacked; elsewhere contacts fail, in a map that is fine enough.
-const SUBJECTS: [(&str, fn() -> Scene, u32, &str, Option<Storage>); 12] = [
+/// A technique's name, and where it fails: a scene, the texels per side of the light's map, and the technique and storage there,
+/// as a command line has them.
+type Subject = (
+    &'static str,
+    fn() -> Scene,
+    u32,
+    &'static str,
+    Option<Storage>,
+);
+
+/// Bounds leak where occluders are stacked; elsewhere contacts fail, in a map that is fine enough.
+const SUBJECTS: [Subject; 12] = [
     ("binary", contacts, 160, "binary", None),
     (
         "pcf_gaussian",

@@ -36,33 +36,24 @@ enum Way {
     Convolution([u32; 2]),
 }
 
-/// Our nodes with six and four moments in float16, and in unorm16 where the device has it; the convolution map of the same
-/// extent; marching.
-pub fn candidates(
-    gpu: &Gpu,
-    radius: u32,
-    extent: [u32; 2],
-) -> Result<Vec<ScatteringCandidate>, LabError> {
-    let unorm16 = wgpu::Features::TEXTURE_FORMAT_16BIT_NORM;
-    let mut storages = vec![Storage::Float16];
-    storages.extend((gpu.device.features().contains(unorm16)).then_some(Storage::Unorm16));
+/// Our nodes with six and four moments in float16; the convolution map of the same extent; marching.
+pub fn candidates(radius: u32, extent: [u32; 2]) -> Result<Vec<ScatteringCandidate>, LabError> {
     let mut all = Vec::new();
     let mut push = |name: String, fetches: f64, way: Way| {
         all.push(ScatteringCandidate { name, fetches, way });
     };
     for (count, technique) in [(6, MapTechnique::Hamburger6), (4, MapTechnique::Hamburger4)] {
-        for &storage in &storages {
-            let chain = Chain {
-                map: storage,
-                radius: Some(radius),
-                rectify: "rectify_moments",
-                rectified: (technique.clone(), storage),
-                extent,
-            };
-            let fetches = f64::from(count / 2 - 1).max(1.0);
-            let way = Way::Graph(chain.graph()?);
-            push(format!("{count} moments {storage}"), fetches, way);
-        }
+        let storage = Storage::Float16;
+        let chain = Chain {
+            map: storage,
+            radius: Some(radius),
+            rectify: "rectify_moments",
+            rectified: (technique, storage),
+            extent,
+        };
+        let fetches = f64::from(count / 2 - 1).max(1.0);
+        let way = Way::Graph(chain.graph()?);
+        push(format!("{count} moments {storage}"), fetches, way);
     }
     push("convolution".to_owned(), 4.0, Way::Convolution(extent));
     for steps in STEPS {

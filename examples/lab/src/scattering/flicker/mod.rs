@@ -118,6 +118,12 @@ impl Flicker {
     pub fn ratio(&self) -> f64 {
         self.filtered.largest / self.unfiltered.largest
     }
+
+    /// Whether filtering does what is asked of it.
+    #[must_use]
+    pub fn passed(&self) -> bool {
+        self.ratio() <= GOAL
+    }
 }
 
 impl fmt::Display for Flicker {
@@ -143,6 +149,8 @@ impl fmt::Display for Flicker {
                 ("less truth's", format!("{:.5}", change.largest_less_truth)),
             ]
         };
-        write_columns(f, &rows.map(cells))
+        write_columns(f, &rows.map(cells))?;
+        let verdict = if self.passed() { "ok" } else { "goal missed" };
+        writeln!(f, "filtered / unfiltered {:.3}  {verdict}", self.ratio())
     }
 }
