@@ -12,7 +12,6 @@ use crate::scene::SceneError;
 use crate::truth::area_light::AreaLightError;
 use crate::truth::peel::PeelError;
 use crate::truth::surface::TruthError;
-use crate::vectors::VectorFileError;
 
 /// Why the lab could not do what it was asked for. Each names its culprit.
 #[derive(Debug, thiserror::Error)]
@@ -65,9 +64,6 @@ pub enum LabError {
         /// Why.
         reason: String,
     },
-    /// A file of vectors.
-    #[error(transparent)]
-    Vectors(#[from] VectorFileError),
     /// A shader was refused.
     #[error("the shader '{label}' was refused: {reason}")]
     Shader {
