@@ -4,11 +4,11 @@ use moment_shadows::{MapEncoding, PcfTaps, Profile, Storage, SummedAreaTable, Te
 use moment_shadows_graph::nodes::{ShadeHard, ShadeSoft};
 
 use super::Variant;
-use crate::shaders::ShadersError;
+use crate::error::LabError;
 use crate::techniques;
 
 /// Shading with a lookup by the sampler and in the shader, with and without mip levels, for one light and for several.
-pub(super) fn of_four_moments(four: &MapEncoding) -> Result<Vec<Variant>, ShadersError> {
+pub(super) fn of_four_moments(four: &MapEncoding) -> Result<Vec<Variant>, LabError> {
     let storage = four.storage();
     let unorm16 = storage == Storage::Unorm16;
     let mut all = Vec::new();
@@ -50,9 +50,10 @@ pub(super) fn of_four_moments(four: &MapEncoding) -> Result<Vec<Variant>, Shader
 }
 
 /// Soft shadows from the table of a map: all ways to look it up, two moments, several lights.
-fn soft(four: &MapEncoding) -> Result<Vec<Variant>, ShadersError> {
+fn soft(four: &MapEncoding) -> Result<Vec<Variant>, LabError> {
     let storage = four.storage();
-    let table = SummedAreaTable::new(storage, [65, 65])?;
+    let table = SummedAreaTable::new(storage, [65, 65])
+        .map_err(|error| LabError::unsuitable("the catalogue's table", error))?;
     let mut all = Vec::new();
     let (four_moments, two) = (Technique::Hamburger4, Technique::Vsm);
     for (kind, technique, interpolation, words) in [

@@ -9,8 +9,8 @@ use moment_shadows::{
     SingleScattering, Storage,
 };
 
-use super::super::CostError;
 use super::super::reference::channels;
+use crate::error::LabError;
 use crate::view::Camera;
 
 /// Extinction per scene unit: a view ray to the far end is one and a half optical thicknesses long.
@@ -31,7 +31,7 @@ pub(super) struct ScatteringView {
 
 impl ScatteringView {
     /// A camera that looks across the light, amidst what the light's map sees.
-    pub(super) fn new() -> Result<Self, CostError> {
+    pub(super) fn new() -> Result<Self, LabError> {
         let direction = DVec3::new(0.5, -1.0, 0.3).normalize();
         let eye = DVec3::new(0.4, 1.7, 0.3);
         let across = direction.any_orthonormal_vector();
@@ -64,7 +64,8 @@ impl ScatteringView {
         )?;
         Ok(Self {
             light: DMat4::from_cols_array_2d(&light.map(|column| column.map(f64::from))),
-            rectified: RectifiedView::new(&camera, FAR, direction.to_array())?,
+            rectified: RectifiedView::new(&camera, FAR, direction.to_array())
+                .map_err(|error| LabError::unsuitable("the view of the scattering nodes", error))?,
             parameters,
         })
     }
