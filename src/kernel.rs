@@ -2,6 +2,7 @@
 
 use serde::{Deserialize, Serialize};
 
+use crate::ValueError;
 use crate::constant::number;
 
 /// The largest radius of a kernel, in texels.
@@ -22,54 +23,20 @@ pub struct Kernel {
     weights: Vec<f32>,
 }
 
-/// Weights or a shape that make no kernel.
-#[derive(Clone, Debug, PartialEq, thiserror::Error)]
-#[non_exhaustive]
-pub enum KernelError {
-    /// The radius is 0 or too large.
-    #[error("a kernel's radius is 1 to {LARGEST_RADIUS} texels, not {radius}")]
-    Radius {
-        /// The radius that was asked for.
-        radius: u32,
-    },
-    /// The Gaussian has no width.
-    #[error("a Gaussian's sigma is a positive number of texels, not {sigma}")]
-    Sigma {
-        /// The sigma that was asked for.
-        sigma: f32,
-    },
-    /// An even number of weights has no centre.
-    #[error("a kernel has an odd number of weights, 3 to {}, not {count}", 2 * LARGEST_RADIUS + 1)]
-    Count {
-        /// How many weights were given.
-        count: usize,
-    },
-    /// A weight is negative or not finite.
-    #[error(
-        "weight {index} is {value}; a filter of moments needs finite weights that are not negative"
-    )]
-    Weight {
-        /// The index of the weight.
-        index: usize,
-        /// The weight.
-        value: f32,
-    },
-    /// All weights are zero.
-    #[error("all weights are 0; at least one must be positive")]
-    NoWeight,
-}
-
 impl Kernel {
     /// The largest radius of a kernel, in texels.
     pub const LARGEST_RADIUS: u32 = LARGEST_RADIUS;
 
     /// A Gaussian of standard deviation `sigma` texels, cut off at `radius` texels.
-    pub fn gaussian(radius: u32, sigma: f32) -> Result<Self, KernelError> {
+    pub fn gaussian(radius: u32, sigma: f32) -> Result<Self, ValueError> {
         if radius == 0 || radius > LARGEST_RADIUS {
-            return Err(KernelError::Radius { radius });
+            let message =
+                format!("a kernel's radius is 1 to {LARGEST_RADIUS} texels, not {radius}");
+            return Err(ValueError::new("radius", message));
         }
         if !(sigma.is_finite() && sigma > 0.0) {
-            return Err(KernelError::Sigma { sigma });
+            let message = format!("a Gaussian's sigma is a positive number of texels, not {sigma}");
+            return Err(ValueError::new("sigma", message));
         }
         let radius = i64::from(radius);
         let weights: Vec<f64> = (-radius..=radius)
@@ -82,22 +49,27 @@ impl Kernel {
     }
 
     /// Given weights, normalised. Their number is odd, 3 to 129; the middle one belongs to the texel itself.
-    pub fn from_weights(weights: &[f32]) -> Result<Self, KernelError> {
+    pub fn from_weights(weights: &[f32]) -> Result<Self, ValueError> {
+        let of_weights = |message| ValueError::new("weights", message);
         let largest = 2 * LARGEST_RADIUS as usize + 1;
         if weights.len().is_multiple_of(2) || weights.len() < 3 || weights.len() > largest {
-            return Err(KernelError::Count {
-                count: weights.len(),
-            });
+            let count = weights.len();
+            return Err(of_weights(format!(
+                "a kernel has an odd number of weights, 3 to {largest}, not {count}"
+            )));
         }
         if let Some((index, &value)) = weights
             .iter()
             .enumerate()
             .find(|(_, weight)| !weight.is_finite() || **weight < 0.0)
         {
-            return Err(KernelError::Weight { index, value });
+            return Err(of_weights(format!(
+                "weight {index} is {value}; a filter of moments needs finite weights that are not negative"
+            )));
         }
         if weights.iter().all(|&weight| weight == 0.0) {
-            return Err(KernelError::NoWeight);
+            let message = "all weights are 0; at least one must be positive";
+            return Err(of_weights(message.to_owned()));
         }
         let weights: Vec<f64> = weights.iter().map(|&weight| f64::from(weight)).collect();
         Ok(Self::normalised(&weights))

@@ -5,7 +5,7 @@ use core::fmt;
 use serde::{Deserialize, Serialize};
 
 use crate::constant::number;
-use crate::{FourMomentsBias, Storage};
+use crate::{FourMomentsBias, Storage, ValueError};
 
 /// What the integers of a summed-area table mean: the host side of the WGSL module `summed_area_encoding`.
 ///
@@ -24,43 +24,6 @@ pub struct SummedAreaTable {
 struct Written {
     source: Storage,
     largest_kernel: [u32; 2],
-}
-
-/// An invalid description of a summed-area table.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
-#[non_exhaustive]
-pub enum SummedAreaTableError {
-    /// A kernel without texels.
-    #[error(
-        "a largest kernel of {width}x{height} texels covers nothing; along each side there is at least 1"
-    )]
-    Empty {
-        /// Texels in x.
-        width: u32,
-        /// Texels in y.
-        height: u32,
-    },
-    /// A kernel so large that its sum may wrap around.
-    #[error(
-        "a largest kernel of {width}x{height} texels covers more than the {} whose sum 32 bits hold; next to a width of {} the \
-         height is at most {}, and a square has at most {} texels along each side",
-        SummedAreaTable::LARGEST_AREA, .width.min(&SummedAreaTable::LARGEST_AREA),
-        SummedAreaTable::LARGEST_AREA / .width.min(&SummedAreaTable::LARGEST_AREA), SummedAreaTable::LARGEST_AREA.isqrt()
-    )]
-    Large {
-        /// Texels in x.
-        width: u32,
-        /// Texels in y.
-        height: u32,
-    },
-    /// A map from which no table can be made.
-    #[error(
-        "no summed-area table is made of a map stored as {source_storage}; one is of unorm16, float16 or float32"
-    )]
-    Source {
-        /// The map's storage.
-        source_storage: Storage,
-    },
 }
 
 const MODULE: &str = include_str!("../wgsl/filter/summed_area_encoding.wgsl");
@@ -113,18 +76,30 @@ impl SummedAreaTable {
     };
 
     /// The table of a map with this storage, for kernels up to this width and height in texels.
-    pub fn new(source: Storage, largest_kernel: [u32; 2]) -> Result<Self, SummedAreaTableError> {
-        let [width, height] = largest_kernel;
+    pub fn new(source: Storage, largest_kernel: [u32; 2]) -> Result<Self, ValueError> {
         if !Storage::OF_FOUR_MOMENTS.contains(&source) {
-            return Err(SummedAreaTableError::Source {
-                source_storage: source,
-            });
+            let message = format!(
+                "no summed-area table is made of a map stored as {source}; one is of unorm16, float16 or float32"
+            );
+            return Err(ValueError::new("source", message));
         }
+        let [width, height] = largest_kernel;
+        let refused = |reason: String| {
+            let message = format!("a largest kernel of {width}x{height} texels covers {reason}");
+            Err(ValueError::new("largest_kernel", message))
+        };
         if width == 0 || height == 0 {
-            return Err(SummedAreaTableError::Empty { width, height });
+            return refused("nothing; along each side there is at least 1".to_owned());
         }
-        if u64::from(width) * u64::from(height) > u64::from(Self::LARGEST_AREA) {
-            return Err(SummedAreaTableError::Large { width, height });
+        let most = Self::LARGEST_AREA;
+        if u64::from(width) * u64::from(height) > u64::from(most) {
+            let beside = width.min(most);
+            return refused(format!(
+                "more than the {most} whose sum 32 bits hold; next to a width of {beside} the height is at most {}, and a square \
+                 has at most {} texels along each side",
+                most / beside,
+                most.isqrt()
+            ));
         }
         Ok(Self {
             source,
@@ -215,9 +190,9 @@ impl SummedAreaTable {
 }
 
 impl TryFrom<Written> for SummedAreaTable {
-    type Error = SummedAreaTableError;
+    type Error = ValueError;
 
-    fn try_from(written: Written) -> Result<Self, SummedAreaTableError> {
+    fn try_from(written: Written) -> Result<Self, ValueError> {
         Self::new(written.source, written.largest_kernel)
     }
 }

@@ -1,7 +1,7 @@
 //! Convolution shadow maps (Annen et al., EGSR 2007).
 
 use super::count;
-use super::row::{Constant, Contents, Encoding, LINEAR, Row, Snippet};
+use super::row::{Constant, Encoding, LINEAR, Row, Snippet};
 use crate::Storage::{Float16, Unorm8, Unorm16};
 use crate::constant::number;
 
@@ -36,13 +36,6 @@ pub(super) fn row(terms: u32, lower_bound: bool) -> Row {
             Constant::of_map("TERMS", format!("{terms}u")),
             Constant::of_evaluation("LOWER_BOUND", lower_bound),
         ],
-        ..Row::of_map(
-            NAME,
-            Contents::FourierTerms,
-            &[Unorm8, Unorm16, Float16],
-            4,
-            ENCODING,
-            EVALUATION,
-        )
+        ..Row::of_map(NAME, &[Unorm8, Unorm16, Float16], 4, ENCODING, EVALUATION)
     }
 }

@@ -1,6 +1,6 @@
 //! Exponential shadow maps (Annen et al., GI 2008; Salvi 2008).
 
-use super::row::{Constant, Contents, Encoding, LINEAR, Row, Snippet, float};
+use super::row::{Constant, Encoding, LINEAR, Row, Snippet, float};
 use super::{EsmFiltering, Finite};
 use crate::Storage::{self, Float16, Float32, Unorm16};
 use crate::constant::number;
@@ -50,14 +50,7 @@ pub(super) fn row(exponent: Finite, filtering: EsmFiltering) -> Row {
             Constant::of_map("LOGARITHMIC", logarithmic),
         ],
         averaged_by_samplers: !logarithmic,
-        ..Row::of_map(
-            "esm",
-            Contents::Exponential,
-            storages,
-            1,
-            encoding,
-            evaluation,
-        )
+        ..Row::of_map("esm", storages, 1, encoding, evaluation)
     }
 }
 

@@ -1,7 +1,7 @@
 //! Exponential variance shadow maps (Lauritzen & McCool, GI 2008), with one warp or both.
 
 use super::Finite;
-use super::row::{Constant, Contents, Encoding, LINEAR, Row, Snippet};
+use super::row::{Constant, Encoding, LINEAR, Row, Snippet};
 use crate::Storage::{self, Float16, Float32};
 use crate::constant::number;
 
@@ -45,14 +45,7 @@ fn row(name: &'static str, channels: u32, of_warps: [f32; 2], exponents: Vec<Fin
         ],
         exponents,
         largest_exponent: Some(largest_exponent),
-        ..Row::of_map(
-            name,
-            Contents::WarpedMoments,
-            &[Float32, Float16],
-            channels,
-            ENCODING,
-            EVALUATION,
-        )
+        ..Row::of_map(name, &[Float32, Float16], channels, ENCODING, EVALUATION)
     }
 }
 

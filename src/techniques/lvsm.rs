@@ -1,8 +1,9 @@
 //! Layered variance shadow maps (Lauritzen & McCool, GI 2008).
 
-use super::row::{Constant, Contents, Encoding, LINEAR, Row, Snippet, float};
-use super::{Finite, LayerSplits, TechniqueError, count};
+use super::row::{Constant, Encoding, LINEAR, Row, Snippet, float};
+use super::{Finite, LayerSplits, count, setting};
 use crate::Storage::{Float16, Float32, Unorm16};
+use crate::ValueError;
 use crate::constant::number;
 
 const NAME: &str = "lvsm";
@@ -47,14 +48,8 @@ pub(super) fn row(layers: u32, overlap: Finite, splits: &LayerSplits) -> Row {
         settings: check(layers, overlap, splits),
         constants,
         places_layers: known.is_none(),
-        ..Row::of_map(
-            NAME,
-            Contents::LayeredMoments,
-            &[Unorm16, Float32, Float16],
-            4,
-            ENCODING,
-            EVALUATION,
-        )
+        bounded_channels: true,
+        ..Row::of_map(NAME, &[Unorm16, Float32, Float16], 4, ENCODING, EVALUATION)
     }
 }
 
@@ -70,16 +65,10 @@ fn of_splits(known: &[f32]) -> [Constant; 2] {
     ]
 }
 
-fn check(layers: u32, overlap: Finite, splits: &LayerSplits) -> Result<(), TechniqueError> {
+fn check(layers: u32, overlap: Finite, splits: &LayerSplits) -> Result<(), ValueError> {
     count(NAME, "layers", layers, MOST_LAYERS)?;
-    if !(0.0..=0.5).contains(&overlap.get()) {
-        return Err(TechniqueError::Setting {
-            technique: NAME,
-            what: "overlap",
-            value: overlap,
-            range: "from 0 to 0.5".to_owned(),
-        });
-    }
+    let valid = (0.0..=0.5).contains(&overlap.get());
+    setting(valid, NAME, "overlap", overlap, "from 0 to 0.5")?;
     let LayerSplits::Given(given) = splits else {
         return Ok(());
     };
@@ -92,8 +81,11 @@ fn check(layers: u32, overlap: Finite, splits: &LayerSplits) -> Result<(), Techn
     if given.len() + 1 == layers as usize && places.windows(2).all(apart) {
         return Ok(());
     }
-    Err(TechniqueError::Splits {
-        layers,
-        given: given.len(),
-    })
+    let message = format!(
+        "the splits of {layers} layers are {} ascending moment depths between -1 and 1, all but the overlap apart; these {} are \
+         not",
+        layers - 1,
+        given.len()
+    );
+    Err(ValueError::new("splits", message))
 }

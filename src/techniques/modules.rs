@@ -5,7 +5,6 @@
 
 use core::fmt::Write;
 
-use super::Contents;
 use super::row::{Row, Snippet};
 
 /// What the pieces of a row can use beside the library and the row's own constants: the module and the item.
@@ -132,7 +131,7 @@ fn filtering_texel(value: vec4f) -> vec4f {{
 fn intensity(row: &Row, snippet: &Snippet) -> String {
     let mut imports = snippet.imports.to_vec();
     let mut plane = "";
-    if row.contents == Contents::Depth {
+    if row.reads_depth() {
         imports.extend([
             "map::depth::{depth_of_light}",
             "shade::receiver_plane::{receiver_plane_through}",

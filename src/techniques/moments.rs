@@ -1,6 +1,6 @@
 //! Moment shadow mapping: `hamburger4`, `hausdorff4`, `hamburger6`.
 
-use super::row::{Contents, Encoding, LINEAR, Row, Snippet};
+use super::row::{Encoding, LINEAR, Row, Snippet};
 use crate::Storage::{self, Float16, Float32, Unorm10, Unorm16};
 
 const FOUR: Encoding = Encoding {
@@ -9,8 +9,6 @@ const FOUR: Encoding = Encoding {
     texel: "four_moments_to_texel(mean, STORAGE)",
     ..LINEAR
 };
-
-const OF_FOUR: &[Storage] = &Storage::OF_FOUR_MOMENTS;
 
 /// The sharp lower bound from four moments on the real line (Peters & Klein, i3D 2015).
 pub(super) fn hamburger4() -> Row {
@@ -29,14 +27,15 @@ pub(super) fn hamburger4() -> Row {
     Row {
         soft: Some(soft),
         both_bounds: true,
-        ..Row::of_map(
-            "hamburger4",
-            Contents::FourMoments,
-            OF_FOUR,
-            4,
-            FOUR,
-            evaluation,
-        )
+        ..of_four("hamburger4", evaluation)
+    }
+}
+
+fn of_four(name: &'static str, evaluation: Snippet) -> Row {
+    Row {
+        bounded_channels: true,
+        has_table: true,
+        ..Row::of_map(name, &Storage::OF_FOUR_MOMENTS, 4, FOUR, evaluation)
     }
 }
 
@@ -46,14 +45,7 @@ pub(super) fn hausdorff4() -> Row {
         imports: &["bounds::hausdorff4::{hausdorff4_shadow_intensity_of_texel}"],
         body: "return hausdorff4_shadow_intensity_of_texel(map_texel(receiver, 0u), receiver.fragment_depth, STORAGE);",
     };
-    Row::of_map(
-        "hausdorff4",
-        Contents::FourMoments,
-        OF_FOUR,
-        4,
-        FOUR,
-        evaluation,
-    )
+    of_four("hausdorff4", evaluation)
 }
 
 const SIX: Encoding = Encoding {
@@ -74,14 +66,8 @@ pub(super) fn hamburger6() -> Row {
     let storages = &[Unorm16, Float16, Float32, Unorm10];
     Row {
         planes: 2,
+        bounded_channels: true,
         both_bounds: true,
-        ..Row::of_map(
-            "hamburger6",
-            Contents::SixMoments,
-            storages,
-            4,
-            SIX,
-            evaluation,
-        )
+        ..Row::of_map("hamburger6", storages, 4, SIX, evaluation)
     }
 }

@@ -37,13 +37,3 @@ pub enum PcfTaps {
         reversed: bool,
     },
 }
-
-/// Taps of percentage-closer soft shadows. The light's size is a parameter of each view.
-#[derive(Clone, Debug, PartialEq, Eq, Hash, Serialize, Deserialize)]
-#[serde(deny_unknown_fields)]
-pub struct Pcss {
-    /// Taps of the blocker search, 1 to 4096.
-    pub search_taps: u32,
-    /// Taps of the filter, 1 to 4096.
-    pub filter_taps: u32,
-}

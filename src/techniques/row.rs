@@ -1,59 +1,7 @@
 //! One row of the table of techniques: all that the library knows about a technique with its settings.
 
-use super::{Finite, TechniqueError};
-use crate::Storage;
-
-/// What the texels of a technique's map hold.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Contents {
-    /// Depth as the light's pass stores it: the plain depth map.
-    Depth,
-    /// The mean of an exponential of depth, or its logarithm.
-    Exponential,
-    /// Two moments of depth.
-    TwoMoments,
-    /// Two moments of one exponential warp of depth or of two.
-    WarpedMoments,
-    /// Two moments of depth within each of several layers.
-    LayeredMoments,
-    /// Terms of a Fourier series of depth.
-    FourierTerms,
-    /// Four moments of depth.
-    FourMoments,
-    /// Six moments of depth.
-    SixMoments,
-}
-
-impl Contents {
-    /// Whether channels are means of values in [-1, 1] whose storage in float32 is as fine as sums of f32 are.
-    #[must_use]
-    pub fn are_bounded_moments(self) -> bool {
-        match self {
-            Contents::TwoMoments
-            | Contents::LayeredMoments
-            | Contents::FourMoments
-            | Contents::SixMoments => true,
-            Contents::Depth
-            | Contents::Exponential
-            | Contents::WarpedMoments
-            | Contents::FourierTerms => false,
-        }
-    }
-
-    /// Whether a summed-area table can be made of the map.
-    #[must_use]
-    pub fn have_tables(self) -> bool {
-        match self {
-            Contents::TwoMoments | Contents::FourMoments => true,
-            Contents::Depth
-            | Contents::Exponential
-            | Contents::WarpedMoments
-            | Contents::LayeredMoments
-            | Contents::FourierTerms
-            | Contents::SixMoments => false,
-        }
-    }
-}
+use super::Finite;
+use crate::{Storage, ValueError};
 
 /// A piece of a shader that a row supplies: statements, and the items of the library that they use.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -125,8 +73,6 @@ impl Constant {
 pub struct Row {
     /// The name in graph files and on command lines.
     pub name: &'static str,
-    /// What the map holds.
-    pub contents: Contents,
     /// The storages of the map, the one with the least error per bit first. Empty where the plain depth map is read.
     pub storages: &'static [Storage],
     /// Channels of a plane of the map: 1, 2 or 4.
@@ -134,7 +80,7 @@ pub struct Row {
     /// Texture layers that a layer of the map consists of.
     pub planes: u32,
     /// Whether the settings are within their ranges, whatever the storage.
-    pub(super) settings: Result<(), TechniqueError>,
+    pub(super) settings: Result<(), ValueError>,
     /// Exponents, which are at least 1 and at most what `largest_exponent` says.
     pub(super) exponents: Vec<Finite>,
     /// The largest exponent that a storage's range and precision allow.
@@ -143,6 +89,10 @@ pub struct Row {
     pub(super) constants: Vec<Constant>,
     /// How the map is made and filtered; `None` where the plain depth map is read.
     pub(super) encoding: Option<Encoding>,
+    /// Whether channels are means of values in [-1, 1], whose storage in float32 is as fine as sums of f32 are.
+    pub bounded_channels: bool,
+    /// Whether a summed-area table can be made of the map.
+    pub has_table: bool,
     /// Whether samplers and mip levels can average texels.
     pub averaged_by_samplers: bool,
     /// Whether both bounds of shadow intensity are there, as single scattering needs them.
@@ -162,7 +112,6 @@ impl Row {
     /// A row of a map that any filter averages, with one plane and no settings.
     pub(super) fn of_map(
         name: &'static str,
-        contents: Contents,
         storages: &'static [Storage],
         channels: u32,
         encoding: Encoding,
@@ -170,7 +119,6 @@ impl Row {
     ) -> Self {
         Self {
             name,
-            contents,
             storages,
             channels,
             planes: 1,
@@ -179,6 +127,8 @@ impl Row {
             largest_exponent: None,
             constants: Vec::new(),
             encoding: Some(encoding),
+            bounded_channels: false,
+            has_table: false,
             averaged_by_samplers: true,
             both_bounds: false,
             comparison: None,
@@ -193,7 +143,7 @@ impl Row {
         Self {
             encoding: None,
             averaged_by_samplers: false,
-            ..Self::of_map(name, Contents::Depth, &[], 1, LINEAR, evaluation)
+            ..Self::of_map(name, &[], 1, LINEAR, evaluation)
         }
     }
 

@@ -1,6 +1,6 @@
 //! Variance shadow maps (Donnelly & Lauritzen, i3D 2006).
 
-use super::row::{Contents, Encoding, LINEAR, Row, Snippet};
+use super::row::{Encoding, LINEAR, Row, Snippet};
 use crate::Storage::{Float16, Float32, Unorm16};
 
 const ENCODING: Encoding = Encoding {
@@ -27,14 +27,9 @@ const SOFT: Snippet = Snippet {
 pub(super) fn row() -> Row {
     let storages = &[Unorm16, Float32, Float16];
     Row {
+        bounded_channels: true,
+        has_table: true,
         soft: Some(SOFT),
-        ..Row::of_map(
-            "vsm",
-            Contents::TwoMoments,
-            storages,
-            2,
-            ENCODING,
-            EVALUATION,
-        )
+        ..Row::of_map("vsm", storages, 2, ENCODING, EVALUATION)
     }
 }

@@ -2,7 +2,7 @@
 
 use crate::wgsl_module::{constant, module};
 use moment_shadows::{
-    EsmFiltering, Finite, Kernel, LayerSplits, PcfTaps, Pcss, PercentageCloserKernel, ReceiverBias,
+    EsmFiltering, Finite, Kernel, LayerSplits, PcfTaps, PercentageCloserKernel, ReceiverBias,
     SixMomentsBias, Storage, SummedAreaTable, Technique,
 };
 use moment_shadows_graph::nodes::{BlurParameters, KernelProperty};
@@ -167,11 +167,9 @@ fn techniques_have_the_limits_of_their_modules() {
         (
             "percentage_closer_soft",
             "PERCENTAGE_CLOSER_SOFT_MOST_TAPS",
-            |taps| {
-                Technique::Pcss(Pcss {
-                    search_taps: taps,
-                    filter_taps: 1,
-                })
+            |taps| Technique::Pcss {
+                search_taps: taps,
+                filter_taps: 1,
             },
         ),
     ] {

@@ -2,7 +2,7 @@
 
 use core::str::FromStr;
 
-use moment_shadows::{Finite, MapEncoding, PcfTaps, Profile, Storage, Technique, TechniqueError};
+use moment_shadows::{Finite, MapEncoding, PcfTaps, Profile, Storage, Technique, ValueError};
 
 use crate::error::LabError;
 use crate::graph_file::GraphFile;
@@ -118,7 +118,7 @@ impl TechniqueChoice {
     }
 
     /// The candidate in a storage; in its best one if none is given. Techniques that read depth have no storage.
-    pub fn in_storage(&self, storage: Option<Storage>) -> Result<Candidate, TechniqueError> {
+    pub fn in_storage(&self, storage: Option<Storage>) -> Result<Candidate, ValueError> {
         let Self::Technique(argument) = self else {
             return Ok(Candidate::PercentageCloser);
         };
@@ -152,7 +152,7 @@ const PCF: &str = "pcf";
 pub fn candidates(
     choices: &[TechniqueChoice],
     storage: Option<Storage>,
-) -> Result<Vec<Candidate>, TechniqueError> {
+) -> Result<Vec<Candidate>, ValueError> {
     if choices.is_empty() {
         let mut all = Candidate::all();
         all.retain(|it| storage.is_none() || it.reads_depth() || it.storage() == storage);

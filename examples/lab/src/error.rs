@@ -58,9 +58,6 @@ pub enum LabError {
     /// Shaders that cannot be listed or compiled.
     #[error(transparent)]
     Shaders(#[from] ShadersError),
-    /// A technique's settings.
-    #[error(transparent)]
-    Technique(#[from] moment_shadows::TechniqueError),
     /// A plot that cannot be drawn.
     #[error("the plot '{title}' cannot be drawn: {reason}")]
     Plot {
@@ -114,24 +111,9 @@ pub enum LabError {
     /// The library's parameters.
     #[error(transparent)]
     Parameters(#[from] ParameterError),
-    /// A camera without an inverse.
+    /// A value that the library refuses.
     #[error(transparent)]
-    Camera(#[from] moment_shadows::ViewError),
-    /// A light's depth convention.
-    #[error(transparent)]
-    Depth(#[from] moment_shadows::DepthError),
-    /// A light's size.
-    #[error(transparent)]
-    SoftLight(#[from] moment_shadows::AreaLightError),
-    /// A camera or light whose scattering cannot be prefiltered.
-    #[error(transparent)]
-    ScatteringView(#[from] moment_shadows::ScatteringViewError),
-    /// Parameters that describe no physical medium.
-    #[error(transparent)]
-    SingleScattering(#[from] moment_shadows::SingleScatteringError),
-    /// A kernel.
-    #[error(transparent)]
-    Kernel(#[from] moment_shadows::KernelError),
+    Value(#[from] moment_shadows::ValueError),
     /// The library's recorder.
     #[error(transparent)]
     Record(#[from] RecordError),
@@ -146,7 +128,7 @@ pub enum LabError {
     Peel(#[from] PeelError),
     /// A shader of the lab that cannot be linked.
     #[error(transparent)]
-    Link(#[from] moment_shadows::LinkError),
+    Link(#[from] moment_shadows::ShaderError),
     /// A comparison.
     #[error(transparent)]
     Metric(#[from] MetricError),

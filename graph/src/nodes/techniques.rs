@@ -2,7 +2,7 @@
 //!
 //! All of it comes from the technique's row ([`moment_shadows::Row`]).
 
-use moment_shadows::{Contents, MapEncoding, Row, Technique};
+use moment_shadows::{MapEncoding, Row, Technique};
 
 use super::shared::Specialization;
 use crate::{Binding, CountRule, GraphError, GraphErrorKind, Slot, TextureRule, bind};
@@ -27,16 +27,12 @@ pub(super) enum Bounded {
 /// Which moments single scattering has both bounds of, if any.
 pub(super) fn both_bounds(technique: &Technique) -> Option<Bounded> {
     let row = technique.row();
-    match row.contents {
-        Contents::FourMoments => row.both_bounds.then_some(Bounded::Four),
-        Contents::SixMoments => row.both_bounds.then_some(Bounded::Six),
-        Contents::Depth
-        | Contents::Exponential
-        | Contents::TwoMoments
-        | Contents::WarpedMoments
-        | Contents::LayeredMoments
-        | Contents::FourierTerms => None,
-    }
+    let moments = if row.planes == 1 {
+        Bounded::Four
+    } else {
+        Bounded::Six
+    };
+    row.both_bounds.then_some(moments)
 }
 
 /// Whether texels are logarithms, which no sampler can average.
@@ -63,7 +59,7 @@ pub(super) fn evaluation(
     technique: &Technique,
 ) -> (Specialization, Vec<VirtualModule>) {
     let row = technique.row();
-    let map = match (row.contents == Contents::Depth, row.comparison) {
+    let map = match (row.reads_depth(), row.comparison) {
         (false, _) => include_str!("techniques/map_filterable.wgsl"),
         (true, None) => include_str!("techniques/map_depth.wgsl"),
         (true, Some(_)) => include_str!("techniques/map_depth_compared.wgsl"),

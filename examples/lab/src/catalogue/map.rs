@@ -1,6 +1,6 @@
 //! What makes, filters, sums and shows maps.
 
-use moment_shadows::{MapEncoding, Storage, Technique, TechniqueError};
+use moment_shadows::{MapEncoding, Storage, Technique, ValueError};
 use moment_shadows_graph::nodes::{
     Blur, DebugMoments, Downsample, KernelProperty, MipLevels, PlaceLayers, Resolve, Show,
     SummedAreaTable,
@@ -36,7 +36,7 @@ fn downsample(map: &MapEncoding) -> Variant {
 }
 
 /// Maps of four moments.
-pub(super) fn of_four_moments(four: &MapEncoding) -> Result<Vec<Variant>, TechniqueError> {
+pub(super) fn of_four_moments(four: &MapEncoding) -> Result<Vec<Variant>, ValueError> {
     let storage = four.storage();
     let unorm16 = storage == Storage::Unorm16;
     let mut all = Vec::new();
@@ -94,7 +94,7 @@ pub(super) fn of_four_moments(four: &MapEncoding) -> Result<Vec<Variant>, Techni
 }
 
 /// Summed-area tables with both tiles, of four moments and of two.
-fn summed(four: &MapEncoding) -> Result<Vec<Variant>, TechniqueError> {
+fn summed(four: &MapEncoding) -> Result<Vec<Variant>, ValueError> {
     let storage = four.storage();
     let unorm16 = storage == Storage::Unorm16;
     let table = |kind: &str, regions, kept: usize| {

@@ -284,7 +284,10 @@ impl Stage {
         let file = graph
             .with_technique_argument(&argument, storage)?
             .in_single_precision()?;
-        let soft = matches!(file.technique(), Some(moment_shadows::Technique::Pcss(_)));
+        let soft = matches!(
+            file.technique(),
+            Some(moment_shadows::Technique::Pcss { .. })
+        );
         if soft && self.soft.is_none() {
             self.soft = Some(self.area_light(gpu)?);
         }

@@ -1,6 +1,6 @@
 //! Why a cost was not reported.
 
-use moment_shadows::{RectifiedFrameError, TextureFormat};
+use moment_shadows::TextureFormat;
 use moment_shadows_graph::GraphError;
 
 use crate::error::LabError;
@@ -15,9 +15,6 @@ pub enum CostError {
     /// A kernel or a graph that the harness makes itself.
     #[error(transparent)]
     Graph(#[from] GraphError),
-    /// A camera and a light without rectified coordinates.
-    #[error(transparent)]
-    Frame(#[from] RectifiedFrameError),
     /// The work was submitted, but its end could not be waited for.
     #[error("the device did not finish '{what}': {reason}; it may have been lost")]
     Wait {

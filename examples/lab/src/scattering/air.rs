@@ -1,7 +1,7 @@
 //! What is in the air of a scene.
 
 use glam::DVec3;
-use moment_shadows::{SingleScattering, SingleScatteringError};
+use moment_shadows::{SingleScattering, ValueError};
 
 use crate::scene::Scene;
 
@@ -37,7 +37,7 @@ impl Air {
     ///
     /// # Errors
     /// Thickness or anisotropy out of range.
-    pub fn new(thickness: f64, anisotropy: f32, far: f64) -> Result<Self, SingleScatteringError> {
+    pub fn new(thickness: f64, anisotropy: f32, far: f64) -> Result<Self, ValueError> {
         let mean = (thickness / far) as f32;
         let extinction = COLOURS.map(|colour| colour * mean);
         let scattering = extinction.map(|extinction| ALBEDO * extinction);

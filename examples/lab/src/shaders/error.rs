@@ -2,7 +2,7 @@
 
 use std::path::PathBuf;
 
-use moment_shadows::{LinkError, SummedAreaTableError, TechniqueError};
+use moment_shadows::{ShaderError, ValueError};
 use moment_shadows_graph::GraphError;
 
 /// Why shaders cannot be listed, compiled or written. Nothing is left behind.
@@ -17,15 +17,12 @@ pub enum ShadersError {
         /// What the node says.
         error: Box<GraphError>,
     },
-    /// A map of the catalogue is encoded as no technique can be.
+    /// A map or a table of the catalogue cannot be.
     #[error(transparent)]
-    Technique(#[from] TechniqueError),
-    /// A table of the catalogue cannot be.
-    #[error(transparent)]
-    Table(#[from] SummedAreaTableError),
+    Value(#[from] ValueError),
     /// A shader does not link.
     #[error(transparent)]
-    Link(#[from] LinkError),
+    Link(#[from] ShaderError),
     /// naga refuses a shader.
     #[error("shader '{name}' does not compile: {reason}")]
     Compile {

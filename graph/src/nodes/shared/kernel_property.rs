@@ -1,6 +1,6 @@
 //! A filter kernel as a node's property.
 
-use moment_shadows::{Kernel, KernelError};
+use moment_shadows::{Kernel, ValueError};
 use serde::{Deserialize, Serialize};
 
 use crate::{GraphError, GraphErrorKind};
@@ -48,7 +48,7 @@ impl KernelProperty {
                 ));
             }
         };
-        built.map_err(|error: KernelError| property(error.to_string()))
+        built.map_err(|error: ValueError| property(error.to_string()))
     }
 }
 

@@ -1,8 +1,6 @@
 //! Sums of a map of moments over rectangles, in constant time: a summed-area table.
 
-use moment_shadows::{
-    Contents, MapEncoding, Storage, SummedAreaTable as TableEncoding, TechniqueError,
-};
+use moment_shadows::{MapEncoding, Storage, SummedAreaTable as TableEncoding};
 use serde::{Deserialize, Serialize};
 
 use super::shared::{Specialization, map_input, regions, wgsl};
@@ -90,7 +88,7 @@ impl Node for SummedAreaTable {
         } else {
             OF_HARDWARE
         };
-        let (channels, integers) = sums(&source)?;
+        let (channels, integers) = sums(&source);
         let pair = |[x, y]: [u32; 2]| format!("vec2u({x}u, {y}u)");
         let storage = format!("texture_storage_2d<{}, write>", encoding.format());
         let specialization = Specialization::new(upstream.capabilities())
@@ -194,25 +192,15 @@ impl Tiles {
     }
 }
 
-/// How many channels are summed up, and how a texel becomes integers. The table of another map is refused before.
-fn sums(source: &MapEncoding) -> Result<(u32, &'static str), GraphError> {
-    let (channels, fixed) = match source.technique().row().contents {
-        Contents::TwoMoments => (2, include_str!("source_variance.wgsl")),
-        Contents::FourMoments => (4, include_str!("source_four_moments.wgsl")),
-        Contents::Depth
-        | Contents::Exponential
-        | Contents::WarpedMoments
-        | Contents::LayeredMoments
-        | Contents::FourierTerms
-        | Contents::SixMoments => {
-            let technique = source.technique().name();
-            return Err(techniques::property(TechniqueError::NoTable { technique }).at_slot("map"));
-        }
-    };
+/// How many channels are summed up, and how a texel becomes integers: those of two or four moments.
+fn sums(source: &MapEncoding) -> (u32, &'static str) {
+    let channels = source.technique().row().channels;
     let integers = if source.storage() == Storage::Unorm16 {
         include_str!("source_unorm16.wgsl")
+    } else if channels == 2 {
+        include_str!("source_variance.wgsl")
     } else {
-        fixed
+        include_str!("source_four_moments.wgsl")
     };
-    Ok((channels, integers))
+    (channels, integers)
 }
