@@ -1,4 +1,5 @@
-//! Lists the modules of `wgsl/`: a file there is a module of the library without being named anywhere else.
+//! Reads `wgsl/`: a file there is a module of the library without being named anywhere else, and a number that stands there is
+//! a constant of the same name here.
 
 use std::error::Error;
 use std::fmt::Write;
@@ -14,10 +15,34 @@ fn entries(folder: &Path) -> io::Result<Vec<PathBuf>> {
     Ok(paths)
 }
 
+/// The constants of a module that are numbers, and the numbers of those that are made of several: of `Bias(TARGET, 1e-4)` it is
+/// `[1e-4]`.
+fn constants(text: &str) -> String {
+    let is_number = |text: &&str| text.parse::<f64>().is_ok();
+    let constant = |declaration: &str| {
+        let (name, rest) = declaration.split_once(':')?;
+        let (of, value) = rest.split_once(';')?.0.split_once('=')?;
+        let (of, value) = (of.trim(), value.trim().trim_end_matches(['u', 'i', 'f']));
+        if is_number(&value) {
+            return Some(format!("pub(crate) const {name}: {of} = {value};\n"));
+        }
+        let parts = value.split_once('(')?.1.strip_suffix(')')?.split(',');
+        let numbers: Vec<_> = parts.map(str::trim).filter(is_number).collect();
+        let (count, numbers) = (numbers.len(), numbers.join(", "));
+        Some(format!(
+            "pub(crate) const {name}: [f32; {count}] = [{numbers}];\n"
+        ))
+    };
+    text.split("\nconst ")
+        .skip(1)
+        .filter_map(constant)
+        .collect()
+}
+
 fn main() -> Result<(), Box<dyn Error>> {
     println!("cargo::rerun-if-changed=wgsl");
     let root = PathBuf::from(env::var("CARGO_MANIFEST_DIR")?).join("wgsl");
-    let mut list = String::from("&[\n");
+    let (mut modules, mut numbers) = (String::from("&[\n"), String::new());
     for folder in entries(&root)?.iter().filter(|path| path.is_dir()) {
         for file in entries(folder)? {
             let names = [folder.file_name(), file.file_stem()];
@@ -26,12 +51,15 @@ fn main() -> Result<(), Box<dyn Error>> {
                 return Err(format!("{} is not named in Unicode", file.display()).into());
             };
             writeln!(
-                list,
+                modules,
                 "Module {{ folder: {folder:?}, name: {name:?}, source: include_str!({file:?}) }},"
             )?;
+            numbers += &constants(&fs::read_to_string(&file)?);
         }
     }
-    list.push(']');
-    fs::write(Path::new(&env::var("OUT_DIR")?).join("modules.rs"), list)?;
+    modules.push(']');
+    let out = PathBuf::from(env::var("OUT_DIR")?);
+    fs::write(out.join("modules.rs"), modules)?;
+    fs::write(out.join("constants.rs"), numbers)?;
     Ok(())
 }

@@ -4,13 +4,11 @@ use core::ops::RangeInclusive;
 
 use bytemuck::{Pod, Zeroable};
 
+use crate::constants::AREA_LIGHT_LARGEST_RADIUS;
 use crate::value_error::check;
 use crate::{DepthRange, ValueError};
 
 const OF: &str = "a light's soft shadows";
-
-/// The largest radius in texels.
-const LARGEST_SOFT_RADIUS: f64 = 4096.0;
 
 /// A light of some size over its map: the uniform struct of the WGSL module `area_light`.
 #[derive(Clone, Copy, Debug, PartialEq, Pod, Zeroable)]
@@ -144,7 +142,7 @@ impl AreaLight {
             "at least 0 and at most the largest",
         )?;
         check(
-            largest > 0.0 && largest <= LARGEST_SOFT_RADIUS,
+            largest > 0.0 && largest <= f64::from(AREA_LIGHT_LARGEST_RADIUS),
             OF,
             "the largest radius",
             largest,

@@ -3,13 +3,7 @@
 use serde::{Deserialize, Serialize};
 
 use crate::ValueError;
-use crate::constant::number;
-
-/// The largest radius of a kernel, in texels.
-const LARGEST_RADIUS: u32 = number(
-    include_str!("../wgsl/techniques/percentage_closer.wgsl"),
-    "PERCENTAGE_CLOSER_LARGEST_RADIUS",
-) as u32;
+use crate::constants::PERCENTAGE_CLOSER_LARGEST_RADIUS;
 
 /// Weights are multiples of this, 2^-18, for the sums of the WGSL module `split_sum`.
 const WEIGHT_UNIT: f64 = 1.0 / (1 << 18) as f64;
@@ -25,13 +19,13 @@ pub struct Kernel {
 
 impl Kernel {
     /// The largest radius of a kernel, in texels.
-    pub const LARGEST_RADIUS: u32 = LARGEST_RADIUS;
+    pub const LARGEST_RADIUS: u32 = PERCENTAGE_CLOSER_LARGEST_RADIUS as u32;
 
     /// A Gaussian of standard deviation `sigma` texels, cut off at `radius` texels.
     pub fn gaussian(radius: u32, sigma: f32) -> Result<Self, ValueError> {
-        if radius == 0 || radius > LARGEST_RADIUS {
-            let message =
-                format!("a kernel's radius is 1 to {LARGEST_RADIUS} texels, not {radius}");
+        let largest = Self::LARGEST_RADIUS;
+        if radius == 0 || radius > largest {
+            let message = format!("a kernel's radius is 1 to {largest} texels, not {radius}");
             return Err(ValueError::new("radius", message));
         }
         if !(sigma.is_finite() && sigma > 0.0) {
@@ -51,7 +45,7 @@ impl Kernel {
     /// Given weights, normalised. Their number is odd, 3 to 129; the middle one belongs to the texel itself.
     pub fn from_weights(weights: &[f32]) -> Result<Self, ValueError> {
         let of_weights = |message| ValueError::new("weights", message);
-        let largest = 2 * LARGEST_RADIUS as usize + 1;
+        let largest = 2 * Self::LARGEST_RADIUS as usize + 1;
         if weights.len().is_multiple_of(2) || weights.len() < 3 || weights.len() > largest {
             let count = weights.len();
             return Err(of_weights(format!(

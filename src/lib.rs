@@ -28,8 +28,13 @@
 // A technique, a storage or a format is never taken for another one.
 #![warn(clippy::wildcard_enum_match_arm)]
 
+/// Numbers that stand in WGSL, and only there.
+#[allow(dead_code, clippy::excessive_precision, clippy::approx_constant)]
+mod constants {
+    include!(concat!(env!("OUT_DIR"), "/constants.rs"));
+}
+
 mod area_light;
-mod constant;
 mod depth;
 mod format;
 mod kernel;
@@ -38,7 +43,6 @@ mod link;
 mod map_region;
 mod moment_bias;
 mod nearest;
-mod percentage_closer;
 mod profile;
 mod receiver_bias;
 mod single_scattering;
@@ -59,7 +63,6 @@ pub use link::{Linked, Location, Module, ShaderError, Source, link, modules};
 pub use map_region::MapRegion;
 pub use moment_bias::{FourMomentsBias, SixMomentsBias};
 pub use nearest::nearest;
-pub use percentage_closer::PercentageCloserKernel;
 pub use profile::Profile;
 pub use receiver_bias::ReceiverBias;
 pub use single_scattering::SingleScattering;

@@ -4,7 +4,10 @@ use core::fmt;
 
 use serde::{Deserialize, Serialize};
 
-use crate::constant::number;
+use crate::constants::{
+    STORAGE_FIXED32, STORAGE_FLOAT16, STORAGE_FLOAT32, STORAGE_UNORM8, STORAGE_UNORM10,
+    STORAGE_UNORM16,
+};
 use crate::{Profile, TextureFormat, ValueError};
 
 /// How four moments are stored in a texel.
@@ -120,16 +123,13 @@ impl Storage {
     /// The number by which the WGSL module `storage` knows this storage (`STORAGE_UNORM16` and so on).
     #[must_use]
     pub fn wgsl_index(self) -> u32 {
-        const fn index(name: &str) -> u32 {
-            number(include_str!("../wgsl/map/storage.wgsl"), name) as u32
-        }
         match self {
-            Storage::Unorm16 => const { index("STORAGE_UNORM16") },
-            Storage::Float16 => const { index("STORAGE_FLOAT16") },
-            Storage::Float32 => const { index("STORAGE_FLOAT32") },
-            Storage::Unorm8 => const { index("STORAGE_UNORM8") },
-            Storage::Fixed32 => const { index("STORAGE_FIXED32") },
-            Storage::Unorm10 => const { index("STORAGE_UNORM10") },
+            Storage::Unorm16 => STORAGE_UNORM16,
+            Storage::Float16 => STORAGE_FLOAT16,
+            Storage::Float32 => STORAGE_FLOAT32,
+            Storage::Unorm8 => STORAGE_UNORM8,
+            Storage::Fixed32 => STORAGE_FIXED32,
+            Storage::Unorm10 => STORAGE_UNORM10,
         }
     }
 

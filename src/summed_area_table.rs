@@ -4,7 +4,7 @@ use core::fmt;
 
 use serde::{Deserialize, Serialize};
 
-use crate::constant::number;
+use crate::constants::*;
 use crate::{FourMomentsBias, Storage, ValueError};
 
 /// What the integers of a summed-area table mean: the host side of the WGSL module `summed_area_encoding`.
@@ -12,22 +12,19 @@ use crate::{FourMomentsBias, Storage, ValueError};
 /// A table holds channels in [0, 1] as the storage unorm16 has them, times a [`unit`](Self::unit), summed up modulo 2^32. The sum
 /// over a rectangle is right as long as it covers at most [`largest_area`](Self::largest_area) texels.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, Serialize, Deserialize)]
-#[serde(try_from = "Written", into = "Written")]
+#[serde(try_from = "Written")]
 pub struct SummedAreaTable {
     source: Storage,
     largest_kernel: [u32; 2],
 }
 
 /// The table's form in files.
-#[derive(Serialize, Deserialize)]
+#[derive(Deserialize)]
 #[serde(deny_unknown_fields)]
 struct Written {
     source: Storage,
     largest_kernel: [u32; 2],
 }
-
-const MODULE: &str = include_str!("../wgsl/filter/summed_area_encoding.wgsl");
-const UNIT_UNORM16: u32 = number(MODULE, "SUMMED_AREA_ENCODING_UNIT_UNORM16") as u32;
 
 /// The cost of rounding, from the constants of the WGSL module: `per_error` times the error of a channel and what f32 adds,
 /// but no less than `smallest`.
@@ -38,9 +35,9 @@ struct Cost {
 }
 
 const BIAS: Cost = Cost {
-    per_error: number(MODULE, "SUMMED_AREA_ENCODING_BIAS_PER_ERROR") as f32,
-    of_f32: number(MODULE, "SUMMED_AREA_ENCODING_BIAS_OF_F32") as f32,
-    smallest: number(MODULE, "SUMMED_AREA_ENCODING_SMALLEST_BIAS") as f32,
+    per_error: SUMMED_AREA_ENCODING_BIAS_PER_ERROR,
+    of_f32: SUMMED_AREA_ENCODING_BIAS_OF_F32,
+    smallest: SUMMED_AREA_ENCODING_SMALLEST_BIAS,
 };
 
 /// The cost of rounding for distributions on the depth interval, as a moment bias.
@@ -51,9 +48,9 @@ const HAUSDORFF_BIAS: Cost = Cost {
 };
 
 const VARIANCE: Cost = Cost {
-    per_error: number(MODULE, "SUMMED_AREA_ENCODING_VARIANCE_PER_ERROR") as f32,
-    of_f32: number(MODULE, "SUMMED_AREA_ENCODING_VARIANCE_OF_F32") as f32,
-    smallest: number(MODULE, "SUMMED_AREA_ENCODING_SMALLEST_VARIANCE") as f32,
+    per_error: SUMMED_AREA_ENCODING_VARIANCE_PER_ERROR,
+    of_f32: SUMMED_AREA_ENCODING_VARIANCE_OF_F32,
+    smallest: SUMMED_AREA_ENCODING_SMALLEST_VARIANCE,
 };
 
 impl Cost {
@@ -67,7 +64,7 @@ impl Cost {
 impl SummedAreaTable {
     /// The most texels that a kernel can cover: 65537 channels of 65535 units are just below 2^32. Tables of float maps keep
     /// to it, too, so that no table is less exact than 16 bits.
-    pub const LARGEST_AREA: u32 = number(MODULE, "SUMMED_AREA_ENCODING_LARGEST_AREA") as u32;
+    pub const LARGEST_AREA: u32 = SUMMED_AREA_ENCODING_LARGEST_AREA;
 
     /// The table with the greatest error.
     pub(crate) const COARSEST: Self = Self {
@@ -131,7 +128,7 @@ impl SummedAreaTable {
     #[must_use]
     pub fn unit(&self) -> u32 {
         match self.source {
-            Storage::Unorm16 => UNIT_UNORM16,
+            Storage::Unorm16 => SUMMED_AREA_ENCODING_UNIT_UNORM16 as u32,
             Storage::Float16
             | Storage::Float32
             | Storage::Unorm8
@@ -194,15 +191,6 @@ impl TryFrom<Written> for SummedAreaTable {
 
     fn try_from(written: Written) -> Result<Self, ValueError> {
         Self::new(written.source, written.largest_kernel)
-    }
-}
-
-impl From<SummedAreaTable> for Written {
-    fn from(table: SummedAreaTable) -> Written {
-        Written {
-            source: table.source,
-            largest_kernel: table.largest_kernel,
-        }
     }
 }
 

@@ -99,7 +99,11 @@ fn compile(linked: &Linked, profile: Profile) -> Result<ValidationReport, Shader
     let shader = if module.entry_points.is_empty() {
         exercise::exercise(&module, info, capabilities)
     } else {
-        backend::Shader::new(module, info)
+        backend::Shader {
+            module,
+            info,
+            no_entry_point: None,
+        }
     };
     backend::write_all(&shader)
 }

@@ -3,11 +3,9 @@
 use super::count;
 use super::row::{Constant, Encoding, LINEAR, Row, Snippet};
 use crate::Storage::{Float16, Unorm8, Unorm16};
-use crate::constant::number;
+use crate::constants::CONVOLUTION_LARGEST_TERMS;
 
 const NAME: &str = "convolution";
-const MODULE: &str = include_str!("../../wgsl/techniques/convolution.wgsl");
-const MOST_TERMS: u32 = number(MODULE, "CONVOLUTION_LARGEST_TERMS") as u32;
 
 const ENCODING: Encoding = Encoding {
     imports: &["techniques::convolution::{convolution_channels, convolution_to_texel}"],
@@ -31,7 +29,7 @@ const EVALUATION: Snippet = Snippet {
 pub(super) fn row(terms: u32, lower_bound: bool) -> Row {
     Row {
         planes: terms.div_ceil(2),
-        settings: count(NAME, "terms", terms, MOST_TERMS),
+        settings: count(NAME, "terms", terms, CONVOLUTION_LARGEST_TERMS),
         constants: vec![
             Constant::of_map("TERMS", format!("{terms}u")),
             Constant::of_evaluation("LOWER_BOUND", lower_bound),

@@ -2,14 +2,12 @@
 
 use super::row::{Constant, Row, Snippet, float};
 use super::{Finite, PcfTaps, count, setting};
-use crate::ValueError;
-use crate::constant::number;
+use crate::constants::{
+    PERCENTAGE_CLOSER_LARGEST_DISK as LARGEST_DISK, PERCENTAGE_CLOSER_SOFT_MOST_TAPS as MOST_TAPS,
+};
+use crate::{Kernel, ValueError};
 
-const MODULE: &str = include_str!("../../wgsl/techniques/percentage_closer.wgsl");
-const SOFT_MODULE: &str = include_str!("../../wgsl/techniques/percentage_closer_soft.wgsl");
-const LARGEST_RADIUS: u32 = number(MODULE, "PERCENTAGE_CLOSER_LARGEST_RADIUS") as u32;
-const LARGEST_DISK: f32 = number(MODULE, "PERCENTAGE_CLOSER_LARGEST_DISK") as f32;
-const MOST_TAPS: u32 = number(SOFT_MODULE, "PERCENTAGE_CLOSER_SOFT_MOST_TAPS") as u32;
+const LARGEST_RADIUS: u32 = Kernel::LARGEST_RADIUS;
 
 /// The comparison with the nearest texel (Williams, SIGGRAPH 1978).
 pub(super) fn binary() -> Row {

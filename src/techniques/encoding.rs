@@ -4,27 +4,28 @@ use core::fmt;
 
 use serde::{Deserialize, Serialize};
 
-use super::{Finite, Row, Technique};
+use super::{Row, Technique};
 use crate::{Profile, Storage, SummedAreaTable, TextureFormat, ValueError};
 
 /// The encoding of a filterable map: a technique with a storage that it can use.
 #[derive(Clone, Debug, PartialEq, Eq, Hash, Serialize, Deserialize)]
-#[serde(try_from = "Pair", into = "Pair")]
+#[serde(try_from = "Pair")]
 pub struct MapEncoding {
     technique: Technique,
     storage: Storage,
+    #[serde(skip_serializing)]
     format: TextureFormat,
+    #[serde(skip_serializing_if = "Option::is_none")]
     table: Option<SummedAreaTable>,
 }
 
 /// The encoding's form in files.
-#[derive(Serialize, Deserialize)]
+#[derive(Deserialize)]
 #[serde(deny_unknown_fields)]
 struct Pair {
     #[serde(default)]
     technique: Technique,
     storage: Storage,
-    #[serde(default, skip_serializing_if = "Option::is_none")]
     table: Option<SummedAreaTable>,
 }
 
@@ -150,21 +151,19 @@ fn listed<'a>(names: impl Iterator<Item = &'a str>) -> String {
 
 /// Checks that the exponents are within the range of the storage.
 fn check_exponents(row: &Row, storage: Storage) -> Result<(), ValueError> {
-    let Some(largest) = row.largest_exponent else {
+    let Some(largest) = row.largest_exponent(storage) else {
         return Ok(());
     };
-    let largest = largest(storage);
-    let wrong = |exponent: &&Finite| !(1.0..=largest).contains(&exponent.get());
-    match row.exponents.iter().find(wrong) {
-        None => Ok(()),
-        Some(exponent) => {
+    for exponent in &row.exponents {
+        if !(1.0..=largest).contains(&exponent.get()) {
             let message = format!(
                 "'{}' has the exponent {exponent}; stored as {storage} it is from 1 to {largest}",
                 row.name
             );
-            Err(ValueError::new("exponent", message))
+            return Err(ValueError::new("exponent", message));
         }
     }
+    Ok(())
 }
 
 impl TryFrom<Pair> for MapEncoding {
@@ -180,16 +179,6 @@ impl TryFrom<Pair> for MapEncoding {
                 );
                 Err(ValueError::new("storage", message))
             }
-        }
-    }
-}
-
-impl From<MapEncoding> for Pair {
-    fn from(encoding: MapEncoding) -> Pair {
-        Pair {
-            technique: encoding.technique,
-            storage: encoding.storage,
-            table: encoding.table,
         }
     }
 }

@@ -2,12 +2,10 @@
 
 use super::Finite;
 use super::row::{Constant, Encoding, LINEAR, Row, Snippet};
-use crate::Storage::{self, Float16, Float32};
-use crate::constant::number;
-
-const MODULE: &str = include_str!("../../wgsl/techniques/exponential_variance.wgsl");
-const LARGEST_FLOAT16: f32 = number(MODULE, "EXPONENTIAL_VARIANCE_LARGEST_EXPONENT_FLOAT16") as f32;
-const LARGEST_FLOAT32: f32 = number(MODULE, "EXPONENTIAL_VARIANCE_LARGEST_EXPONENT_FLOAT32") as f32;
+use crate::Storage::{Float16, Float32};
+use crate::constants::{
+    EXPONENTIAL_VARIANCE_LARGEST_EXPONENT_FLOAT16, EXPONENTIAL_VARIANCE_LARGEST_EXPONENT_FLOAT32,
+};
 
 const ENCODING: Encoding = Encoding {
     imports: &[
@@ -44,18 +42,10 @@ fn row(name: &'static str, channels: u32, of_warps: [f32; 2], exponents: Vec<Fin
             Constant::of_evaluation("BOTH_WARPS", exponents.len() == 2),
         ],
         exponents,
-        largest_exponent: Some(largest_exponent),
+        largest_exponents: &[
+            EXPONENTIAL_VARIANCE_LARGEST_EXPONENT_FLOAT32,
+            EXPONENTIAL_VARIANCE_LARGEST_EXPONENT_FLOAT16,
+        ],
         ..Row::of_map(name, &[Float32, Float16], channels, ENCODING, EVALUATION)
-    }
-}
-
-fn largest_exponent(storage: Storage) -> f32 {
-    match storage {
-        Storage::Float16 => LARGEST_FLOAT16,
-        Storage::Float32
-        | Storage::Unorm16
-        | Storage::Unorm8
-        | Storage::Unorm10
-        | Storage::Fixed32 => LARGEST_FLOAT32,
     }
 }

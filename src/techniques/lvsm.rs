@@ -4,11 +4,9 @@ use super::row::{Constant, Encoding, LINEAR, Row, Snippet, float};
 use super::{Finite, LayerSplits, count, setting};
 use crate::Storage::{Float16, Float32, Unorm16};
 use crate::ValueError;
-use crate::constant::number;
+use crate::constants::LAYERED_VARIANCE_LARGEST_COUNT;
 
 const NAME: &str = "lvsm";
-const MODULE: &str = include_str!("../../wgsl/techniques/layered_variance.wgsl");
-const MOST_LAYERS: u32 = number(MODULE, "LAYERED_VARIANCE_LARGEST_COUNT") as u32;
 
 const ENCODING: Encoding = Encoding {
     imports: &[
@@ -66,7 +64,7 @@ fn of_splits(known: &[f32]) -> [Constant; 2] {
 }
 
 fn check(layers: u32, overlap: Finite, splits: &LayerSplits) -> Result<(), ValueError> {
-    count(NAME, "layers", layers, MOST_LAYERS)?;
+    count(NAME, "layers", layers, LAYERED_VARIANCE_LARGEST_COUNT)?;
     let valid = (0.0..=0.5).contains(&overlap.get());
     setting(valid, NAME, "overlap", overlap, "from 0 to 0.5")?;
     let LayerSplits::Given(given) = splits else {

@@ -9,7 +9,6 @@ mod finite;
 mod lvsm;
 mod modules;
 mod moments;
-mod reference;
 mod row;
 mod settings;
 mod vsm;
@@ -18,10 +17,9 @@ use core::fmt;
 
 pub use encoding::MapEncoding;
 pub use finite::Finite;
-pub use reference::PcfTaps;
 pub use row::Row;
 use serde::{Deserialize, Serialize};
-pub use settings::{EsmFiltering, LayerSplits};
+pub use settings::{EsmFiltering, LayerSplits, PcfTaps};
 
 use crate::{Profile, Storage, ValueError};
 
@@ -242,10 +240,10 @@ impl Technique {
         self.row().shares_map_with(&other.row())
     }
 
-    /// The largest exponent that a storage's range and precision allow; `None` for techniques without one.
+    /// The largest exponent that range and precision of one of its storages allow; `None` for techniques without one.
     #[must_use]
     pub fn largest_exponent(&self, storage: Storage) -> Option<f32> {
-        self.row().largest_exponent.map(|largest| largest(storage))
+        self.row().largest_exponent(storage)
     }
 }
 

@@ -81,10 +81,10 @@ pub struct Row {
     pub planes: u32,
     /// Whether the settings are within their ranges, whatever the storage.
     pub(super) settings: Result<(), ValueError>,
-    /// Exponents, which are at least 1 and at most what `largest_exponent` says.
+    /// Exponents, which are at least 1.
     pub(super) exponents: Vec<Finite>,
-    /// The largest exponent that a storage's range and precision allow.
-    pub(super) largest_exponent: Option<fn(Storage) -> f32>,
+    /// The largest exponents that range and precision of each of `storages` allow; empty without exponents.
+    pub(super) largest_exponents: &'static [f32],
     /// Constants of the pieces below.
     pub(super) constants: Vec<Constant>,
     /// How the map is made and filtered; `None` where the plain depth map is read.
@@ -124,7 +124,7 @@ impl Row {
             planes: 1,
             settings: Ok(()),
             exponents: Vec::new(),
-            largest_exponent: None,
+            largest_exponents: &[],
             constants: Vec::new(),
             encoding: Some(encoding),
             bounded_channels: false,
@@ -151,6 +151,13 @@ impl Row {
     #[must_use]
     pub fn reads_depth(&self) -> bool {
         self.encoding.is_none()
+    }
+
+    /// The largest exponent that a storage of the technique allows; `None` for techniques without one.
+    #[must_use]
+    pub fn largest_exponent(&self, storage: Storage) -> Option<f32> {
+        let index = self.storages.iter().position(|&of| of == storage)?;
+        self.largest_exponents.get(index).copied()
     }
 
     /// Whether both techniques read the same map.

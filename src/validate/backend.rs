@@ -56,28 +56,10 @@ impl fmt::Display for Backend {
 
 /// A valid module, ready to be written.
 pub(super) struct Shader {
-    module: Module,
-    info: ModuleInfo,
+    pub(super) module: Module,
+    pub(super) info: ModuleInfo,
     /// Why no entry point could be made, for a module without any.
-    no_entry_point: Option<String>,
-}
-
-impl Shader {
-    pub(super) fn new(module: Module, info: ModuleInfo) -> Self {
-        Self {
-            module,
-            info,
-            no_entry_point: None,
-        }
-    }
-
-    pub(super) fn without_entry_points(module: Module, info: ModuleInfo, reason: String) -> Self {
-        Self {
-            module,
-            info,
-            no_entry_point: Some(reason),
-        }
-    }
+    pub(super) no_entry_point: Option<String>,
 }
 
 /// Writes `shader` for every backend.

@@ -10,9 +10,7 @@
 
 // specialization
 const GROUP = 0;
-
 const AXIS = vec2i(1, 0);
-
 const STORAGE = 5u;
 const REGIONS = 1u;
 

@@ -14,7 +14,6 @@
 // specialization
 const GROUP = 0;
 const SOURCE_STORAGE = 1u;
-
 alias MomentsStorage = texture_storage_2d<rgba16float, write>;
 const STORAGE = 1u;
 

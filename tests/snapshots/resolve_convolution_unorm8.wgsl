@@ -14,7 +14,6 @@ const SAMPLES = 4;
 alias MomentsStorage = texture_storage_2d<rgba8unorm, write>;
 const STORAGE = 3u;
 const TERMS = 8u;
-
 const REGIONS = 1u;
 
 // map_encoding

@@ -14,7 +14,6 @@ const SAMPLES = 4;
 alias MomentsStorage = texture_storage_2d<rgba32float, write>;
 const STORAGE = 2u;
 const EXPONENTS = vec2f(40.0, 5.0);
-
 const REGIONS = 1u;
 
 // map_encoding

@@ -19,7 +19,6 @@ const LEVELS = 1u;
 const VIEWS = 1u;
 const LIGHTS = 1u;
 const ANISOTROPY = 8.0;
-
 const STORAGE = 2u;
 const EXPONENT = f32(80.0);
 

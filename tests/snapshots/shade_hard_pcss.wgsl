@@ -20,7 +20,6 @@ const LEVELS = 1u;
 const VIEWS = 1u;
 const LIGHTS = 1u;
 const ANISOTROPY = 8.0;
-
 const SEARCH_TAPS = 16u;
 const FILTER_TAPS = 32u;
 

@@ -7,9 +7,7 @@
 // specialization
 const GROUP = 0;
 alias SumsStorage = texture_storage_2d<rgba32uint, write>;
-
 const CHANNELS = 4u;
 const TILE = vec2u(8u, 16u);
-
 const REGIONS = 1u;
 

@@ -79,10 +79,9 @@ fn maps_that_hold_something_else_are_refused() {
     );
     let error = error.unwrap_err();
     assert_eq!(error.kind, GraphErrorKind::Property);
-    assert!(
-        error.message.contains("hamburger4, hausdorff4 or vsm"),
-        "{error}"
-    );
+    for technique in ["vsm", "hamburger4", "hausdorff4"] {
+        assert!(error.message.contains(technique), "{error}");
+    }
     let plain = TextureDesc::new(TextureFormat::R8Unorm, [64, 64]);
     let error = plan(&plain, LargestKernel::default()).unwrap_err();
     assert_eq!(error.kind, GraphErrorKind::Format);
