@@ -126,46 +126,60 @@ impl AreaLight {
         radii: RangeInclusive<f64>,
     ) -> Result<Self, ValueError> {
         range.check()?;
-        for (name, length) in [
-            ("a texel's width", texel[0]),
-            ("a texel's height", texel[1]),
-        ] {
-            let valid = length > 0.0 && length.is_finite();
-            check(valid, OF, name, length, "above 0 and finite")?;
-        }
         let (smallest, largest) = radii.into_inner();
-        check(
-            smallest >= 0.0 && smallest <= largest,
-            OF,
-            "the smallest radius",
-            smallest,
-            "at least 0 and at most the largest",
-        )?;
-        check(
-            largest > 0.0 && largest <= f64::from(AREA_LIGHT_LARGEST_RADIUS),
-            OF,
-            "the largest radius",
-            largest,
-            "above 0 and at most 4096 texels",
-        )?;
+        let most = f64::from(AREA_LIGHT_LARGEST_RADIUS);
         let texels = [size[0] / texel[0], size[1] / texel[1]];
+        let is_length = |length: f64| length > 0.0 && length.is_finite();
+        let is_size = |value: f64| (value as f32).is_normal() || value == 0.0;
+        let is_single = |value: f64| (value as f32).is_finite();
+        let above_zero = "above 0 and finite";
         // Sizes beyond single precision come from units that do not fit together.
-        let fits = |value: f64| (value as f32).is_normal() || value == 0.0;
-        for (name, value, valid) in [
-            ("the light's size in texels", texels[0], fits(texels[0])),
-            ("the light's size in texels", texels[1], fits(texels[1])),
+        let single = "within single precision; choose another unit of length";
+        for (valid, name, value, legal) in [
+            (is_length(texel[0]), "a texel's width", texel[0], above_zero),
             (
+                is_length(texel[1]),
+                "a texel's height",
+                texel[1],
+                above_zero,
+            ),
+            (
+                smallest >= 0.0 && smallest <= largest,
+                "the smallest radius",
+                smallest,
+                "at least 0 and at most the largest",
+            ),
+            (
+                largest > 0.0 && largest <= most,
+                "the largest radius",
+                largest,
+                "above 0 and at most 4096 texels",
+            ),
+            (
+                is_size(texels[0]),
+                "the light's size in texels",
+                texels[0],
+                single,
+            ),
+            (
+                is_size(texels[1]),
+                "the light's size in texels",
+                texels[1],
+                single,
+            ),
+            (
+                is_single(range.near),
                 "the range's near end",
                 range.near,
-                (range.near as f32).is_finite(),
+                single,
             ),
             (
+                is_single(range.far),
                 "the range's far end",
                 range.far,
-                (range.far as f32).is_finite(),
+                single,
             ),
         ] {
-            let legal = "within single precision; choose another unit of length";
             check(valid, OF, name, value, legal)?;
         }
         Ok(Self {

@@ -39,12 +39,6 @@ impl DepthConversion {
         Self::of_ends([-1.0, 1.0], [1.0, 1.0])
     }
 
-    /// Orthographic depth in [0, 1], 1 at the near plane.
-    #[must_use]
-    pub fn orthographic_reversed() -> Self {
-        Self::orthographic().reversed()
-    }
-
     /// Perspective depth in [0, 1], 0 at the near plane. `far` may be infinite.
     pub fn perspective(near: f64, far: f64, range: DepthRange) -> Result<Self, ValueError> {
         range.check()?;
@@ -69,15 +63,6 @@ impl DepthConversion {
         ))
     }
 
-    /// Perspective depth in [0, 1], 1 at the near plane. `far` may be infinite.
-    pub fn perspective_reversed(
-        near: f64,
-        far: f64,
-        range: DepthRange,
-    ) -> Result<Self, ValueError> {
-        Ok(Self::perspective(near, far, range)?.reversed())
-    }
-
     /// Distance along the light's axis (or to the light) in scene units, as an R32Float texture holds it.
     pub fn linear(range: DepthRange) -> Result<Self, ValueError> {
         range.check()?;
@@ -89,9 +74,9 @@ impl DepthConversion {
         })
     }
 
-    /// The conversion of the same light with stored depth reversed.
+    /// The conversion of the same light with stored depth reversed: 1 at the near plane.
     #[must_use]
-    pub(crate) fn reversed(self) -> Self {
+    pub fn reversed(self) -> Self {
         Self {
             numerator: [self.numerator[1], self.numerator[0]],
             denominator: [self.denominator[1], self.denominator[0]],

@@ -26,39 +26,9 @@ struct Written {
     largest_kernel: [u32; 2],
 }
 
-/// The cost of rounding, from the constants of the WGSL module: `per_error` times the error of a channel and what f32 adds,
-/// but no less than `smallest`.
-struct Cost {
-    per_error: f32,
-    of_f32: f32,
-    smallest: f32,
-}
-
-const BIAS: Cost = Cost {
-    per_error: SUMMED_AREA_ENCODING_BIAS_PER_ERROR,
-    of_f32: SUMMED_AREA_ENCODING_BIAS_OF_F32,
-    smallest: SUMMED_AREA_ENCODING_SMALLEST_BIAS,
-};
-
-/// The cost of rounding for distributions on the depth interval, as a moment bias.
-const HAUSDORFF_BIAS: Cost = Cost {
-    per_error: 6.14,
-    of_f32: 6e-7,
-    smallest: 1.6e-6,
-};
-
-const VARIANCE: Cost = Cost {
-    per_error: SUMMED_AREA_ENCODING_VARIANCE_PER_ERROR,
-    of_f32: SUMMED_AREA_ENCODING_VARIANCE_OF_F32,
-    smallest: SUMMED_AREA_ENCODING_SMALLEST_VARIANCE,
-};
-
-impl Cost {
-    fn of(&self, error: f32) -> f32 {
-        self.per_error
-            .mul_add(error, self.of_f32)
-            .max(self.smallest)
-    }
+/// The cost of rounding: `per_error` times the error of a channel and what f32 adds, but no less than `smallest`.
+fn cost(error: f32, [per_error, of_f32, smallest]: [f32; 3]) -> f32 {
+    per_error.mul_add(error, of_f32).max(smallest)
 }
 
 impl SummedAreaTable {
@@ -162,8 +132,13 @@ impl SummedAreaTable {
     /// come from a resolve: each blur in between rounds again.
     #[must_use]
     pub fn moment_bias(&self) -> FourMomentsBias {
+        let of_bias = [
+            SUMMED_AREA_ENCODING_BIAS_PER_ERROR,
+            SUMMED_AREA_ENCODING_BIAS_OF_F32,
+            SUMMED_AREA_ENCODING_SMALLEST_BIAS,
+        ];
         FourMomentsBias {
-            alpha: BIAS.of(self.error()),
+            alpha: cost(self.error(), of_bias),
             second: 0.628,
             fourth: 0.628,
         }
@@ -173,7 +148,7 @@ impl SummedAreaTable {
     #[must_use]
     pub fn hausdorff_moment_bias(&self) -> FourMomentsBias {
         FourMomentsBias {
-            alpha: HAUSDORFF_BIAS.of(self.error()),
+            alpha: cost(self.error(), [6.14, 6e-7, 1.6e-6]),
             second: 0.6036,
             fourth: 0.4875,
         }
@@ -182,7 +157,12 @@ impl SummedAreaTable {
     /// The smallest variance for two moments: what rounding can take away from it.
     #[must_use]
     pub fn smallest_variance(&self) -> f32 {
-        VARIANCE.of(self.error())
+        let of_variance = [
+            SUMMED_AREA_ENCODING_VARIANCE_PER_ERROR,
+            SUMMED_AREA_ENCODING_VARIANCE_OF_F32,
+            SUMMED_AREA_ENCODING_SMALLEST_VARIANCE,
+        ];
+        cost(self.error(), of_variance)
     }
 }
 

@@ -131,25 +131,20 @@ impl<'a> Reader<'a, '_, '_> {
             _ => return Err(self.wrong(self.file.form.wrong_root())),
         };
         self.take(|token| token.kind == Kind::Path, "`::` is missing")?;
-        let mut end = root.range().end;
+        let braces = "items are imported in braces";
+        let mut missing = "the module's name is missing";
         loop {
-            let named = end > root.range().end;
-            if named && self.rest.first().is_some_and(|next| next.is_symbol("{")) {
-                return Ok((module, root.start..end));
-            }
-            let missing = if named {
-                "items are imported in braces"
-            } else {
-                "the module's name is missing"
-            };
             let name = self.take(|token| token.kind == Kind::Word, missing)?;
             module.push_str("::");
             module.push_str(name.text);
-            end = name.range().end;
             if self.take(|token| token.kind == Kind::Path, "").is_err() {
                 self.last = Some(name);
-                return Err(self.wrong("items are imported in braces"));
+                return Err(self.wrong(braces));
             }
+            if self.rest.first().is_some_and(|next| next.is_symbol("{")) {
+                return Ok((module, root.start..name.range().end));
+            }
+            missing = braces;
         }
     }
 
@@ -167,11 +162,8 @@ impl<'a> Reader<'a, '_, '_> {
                 |token| token.is_symbol(",") || closes(token),
                 "items are plain names with commas between them (no `as`, no path)",
             )?;
-            if closes(&next) {
-                return Ok(items);
-            }
-            if self.rest.first().is_some_and(closes) {
-                self.take(closes, "`}` is missing")?;
+            let more = self.rest.first();
+            if closes(&next) || more.is_some_and(closes) && self.take(closes, "").is_ok() {
                 return Ok(items);
             }
         }

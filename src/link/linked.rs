@@ -3,6 +3,7 @@
 use core::ops::Range;
 
 use super::file::File;
+use super::prune::gaps;
 use crate::Location;
 
 /// A linked WGSL text that knows where each of its lines comes from.
@@ -59,8 +60,8 @@ impl Linked {
             lines: Vec::new(),
         };
         if let Some((index, root)) = files.iter().enumerate().next_back() {
-            let directives: Vec<_> = root.directives().collect();
-            let directives = mask(root.text, &directives, Keep::Inside);
+            let others = gaps(root.directives(), root.text.len());
+            let directives = without(root.text, &others);
             for (line, text) in (1..).zip(directives.lines()) {
                 if !text.trim().is_empty() {
                     linked.push_line(text.trim_end(), Some((index, line)));
@@ -81,7 +82,7 @@ impl Linked {
         let name: String = file.name.chars().filter(|c| !is_break(*c)).collect();
         self.push_line(&format!("// {name}"), None);
 
-        let text = mask(file.text, &file.left_out, Keep::Outside);
+        let text = without(file.text, &file.left_out);
         // Of several blank lines in succession one is kept, and none at the ends of a part.
         let mut blank = !is_root;
         for (line, (original, text)) in (1..).zip(file.text.lines().zip(text.lines())) {
@@ -109,32 +110,17 @@ fn is_break(c: char) -> bool {
     c.is_control() || matches!(c, '\u{2028}' | '\u{2029}')
 }
 
-#[derive(Clone, Copy, PartialEq, Eq)]
-enum Keep {
-    Inside,
-    Outside,
-}
-
-/// `text` with spaces for every character outside or inside of `ranges`, which are in order. Lines and columns stay.
-fn mask(text: &str, ranges: &[Range<usize>], keep: Keep) -> String {
-    let mut masked = String::with_capacity(text.len());
-    let mut push = |part: Option<&str>, inside: bool| {
-        let part = part.unwrap_or_default();
-        if inside == (keep == Keep::Inside) {
-            masked.push_str(part);
-        } else {
-            masked.extend(
-                part.chars()
-                    .map(|c| if matches!(c, '\n' | '\r') { c } else { ' ' }),
-            );
-        }
-    };
+/// `text` with spaces for every character in `ranges`, which are in order. Lines and columns stay.
+fn without(text: &str, ranges: &[Range<usize>]) -> String {
+    let part = |range: Range<usize>| text.get(range).unwrap_or_default();
+    let blank = |c: char| if matches!(c, '\n' | '\r') { c } else { ' ' };
+    let mut kept = String::with_capacity(text.len());
     let mut done = 0;
     for range in ranges {
-        push(text.get(done..range.start), false);
-        push(text.get(range.clone()), true);
+        kept.push_str(part(done..range.start));
+        kept.extend(part(range.clone()).chars().map(blank));
         done = range.end;
     }
-    push(text.get(done..), false);
-    masked
+    kept.push_str(part(done..text.len()));
+    kept
 }

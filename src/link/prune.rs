@@ -160,21 +160,19 @@ pub(crate) fn prune(files: &mut Vec<File<'_>>) {
         } else {
             let declarations = of.declarations.iter().enumerate();
             let kept = declarations.filter(|(index, _)| kept.contains(&(file, *index)));
-            gaps(kept.map(|(_, kept)| &kept.range), of.text.len())
+            gaps(kept.map(|(_, kept)| kept.range.clone()), of.text.len())
         };
     }
     let mut index = 0..;
     files.retain(|_| index.next().is_some_and(|index| entered.contains(&index)));
 }
 
-/// What lies between ranges in order, from 0 to `length`: what is not reached, and comments that belong to no declaration.
-fn gaps<'a>(ranges: impl Iterator<Item = &'a Range<usize>>, length: usize) -> Vec<Range<usize>> {
-    let mut gaps = Vec::new();
+/// What lies between ranges in order, from 0 to `length`.
+pub(super) fn gaps(ranges: impl Iterator<Item = Range<usize>>, length: usize) -> Vec<Range<usize>> {
     let mut end = 0;
-    for range in ranges {
-        gaps.push(end..range.start);
-        end = range.end;
-    }
+    let mut gaps: Vec<_> = ranges
+        .map(|range| core::mem::replace(&mut end, range.end)..range.start)
+        .collect();
     gaps.push(end..length);
     gaps
 }

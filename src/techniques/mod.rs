@@ -27,18 +27,6 @@ use crate::{Profile, Storage, ValueError};
 ///
 /// The first three read the plain depth map, at a cost that grows with the filter. The others read a *filterable* map, which
 /// is blurred once and looked up once.
-///
-/// | technique | channels per plane | planes | storages |
-/// |---|---|---|---|
-/// | `binary`, `pcf`, `pcss` | (the depth map) | | |
-/// | `esm` | 1 | 1 | unorm16, float16, float32 |
-/// | `vsm` | 2 | 1 | unorm16, float16, float32 |
-/// | `evsm2` | 2 | 1 | float16, float32 |
-/// | `evsm4` | 4 | 1 | float16, float32 |
-/// | `lvsm` | 4 | one for two layers | unorm16, float16, float32 |
-/// | `convolution` | 4 | one for two terms | unorm8, unorm16, float16 |
-/// | `hamburger4`, `hausdorff4` | 4 | 1 | unorm16, float16, float32 |
-/// | `hamburger6` | 4 | 2 | unorm16, float16, float32, unorm10 |
 #[derive(Clone, Debug, Default, PartialEq, Eq, Hash, Serialize, Deserialize)]
 #[serde(rename_all = "lowercase", deny_unknown_fields)]
 pub enum Technique {

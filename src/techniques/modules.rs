@@ -63,47 +63,25 @@ impl Row {
     /// How a map is encoded: `encoding_channels` and `encoding_texel`, the module `map_encoding`. Empty where the plain depth map is read.
     #[must_use]
     pub fn map_encoding(&self) -> String {
-        let Some(encoding) = self.encoding else {
-            return String::new();
-        };
-        let functions = format!(
-            "
-// What is averaged for a moment depth.
-fn encoding_channels(z: f32) -> vec4f {{
-    return {};
-}}
-
-// The texel for the mean.
-fn encoding_texel(mean: vec4f) -> vec4f {{
-    return {};
-}}
-",
-            encoding.channels, encoding.texel
-        );
-        module(self, encoding.imports, &functions)
+        self.encoding.map_or_else(String::new, |it| {
+            let what = "What is averaged for a moment depth.";
+            let channels = function(what, "encoding_channels(z: f32)", it.channels);
+            let what = "The texel for the mean.";
+            let texel = function(what, "encoding_texel(mean: vec4f)", it.texel);
+            module(self, it.imports, &(channels + &texel))
+        })
     }
 
     /// How texels are averaged: `filtering_value` and `filtering_texel`, the module `map_filtering`. Empty where the plain depth map is read.
     #[must_use]
     pub fn map_filtering(&self) -> String {
-        let Some(encoding) = self.encoding else {
-            return String::new();
-        };
-        let functions = format!(
-            "
-// What a filter averages of a texel.
-fn filtering_value(texel: vec4f) -> vec4f {{
-    return {};
-}}
-
-// The texel for such an average.
-fn filtering_texel(value: vec4f) -> vec4f {{
-    return {};
-}}
-",
-            encoding.filter_value, encoding.filter_texel
-        );
-        module(self, encoding.filter_imports, &functions)
+        self.encoding.map_or_else(String::new, |it| {
+            let what = "What a filter averages of a texel.";
+            let value = function(what, "filtering_value(texel: vec4f)", it.filter_value);
+            let what = "The texel for such an average.";
+            let texel = function(what, "filtering_texel(value: vec4f)", it.filter_texel);
+            module(self, it.filter_imports, &(value + &texel))
+        })
     }
 
     /// How a fragment is shaded: `technique_shadow_intensity`, the module `technique`.
@@ -125,6 +103,11 @@ fn filtering_texel(value: vec4f) -> vec4f {{
             .iter()
             .map(|constant| (constant.name, constant.value.as_str()))
     }
+}
+
+/// A function that gives a vec4f.
+fn function(what: &str, head: &str, value: &str) -> String {
+    format!("\n// {what}\nfn {head} -> vec4f {{\n    return {value};\n}}\n")
 }
 
 /// `technique_shadow_intensity` by a piece of a row.

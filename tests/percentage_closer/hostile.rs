@@ -136,7 +136,7 @@ fn no_finite_input_leaves_the_unit_interval() {
     });
     let conversions = [
         DepthConversion::orthographic(),
-        DepthConversion::perspective_reversed(
+        DepthConversion::perspective(
             0.01,
             f64::INFINITY,
             DepthRange {
@@ -144,7 +144,8 @@ fn no_finite_input_leaves_the_unit_interval() {
                 far: 1e4,
             },
         )
-        .unwrap(),
+        .unwrap()
+        .reversed(),
         DepthConversion::zeroed(),
     ];
     for (light, conversion) in lights

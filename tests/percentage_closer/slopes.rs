@@ -80,7 +80,9 @@ fn settings() -> [Setting; 3] {
         },
         Setting {
             light: spot(true),
-            conversion: DepthConversion::perspective_reversed(0.5, f64::INFINITY, range).unwrap(),
+            conversion: DepthConversion::perspective(0.5, f64::INFINITY, range)
+                .unwrap()
+                .reversed(),
             light_depth: -1.25,
         },
     ]

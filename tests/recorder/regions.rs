@@ -183,7 +183,7 @@ fn regions_that_touch_leave_each_other_untouched_to_the_bit() {
     let regions = halves(size, 77);
     let conversions = [
         DepthConversion::orthographic(),
-        DepthConversion::orthographic_reversed(),
+        DepthConversion::orthographic().reversed(),
     ];
     for (storage, radius) in [
         ("unorm16", 32),
@@ -278,7 +278,7 @@ fn each_of_many_regions_is_what_a_map_of_its_own_would_be() {
             .iter()
             .map(|turn| match turn % 2 {
                 0 => DepthConversion::orthographic(),
-                _ => DepthConversion::orthographic_reversed(),
+                _ => DepthConversion::orthographic().reversed(),
             })
             .collect();
         let text = graph(storage, radius, "2");

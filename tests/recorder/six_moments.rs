@@ -66,7 +66,7 @@ fn depths(layer: u32, samples: u32) -> Vec<f32> {
 fn conversions() -> [DepthConversion; 2] {
     [
         DepthConversion::orthographic(),
-        DepthConversion::orthographic_reversed(),
+        DepthConversion::orthographic().reversed(),
     ]
 }
 
