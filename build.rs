@@ -1,5 +1,5 @@
-//! Reads `wgsl/`: a file there is a module of the library without being named anywhere else, and a number that stands there is
-//! a constant of the same name here.
+//! Reads `wgsl/`: a file there is a module of the library without being named anywhere else, whose items are known, and a number that
+//! stands there is a constant of the same name here.
 
 use std::error::Error;
 use std::fmt::Write;
@@ -39,10 +39,22 @@ fn constants(text: &str) -> String {
         .collect()
 }
 
+/// The names that a module defines.
+fn items(text: &str) -> impl Iterator<Item = &str> {
+    text.lines().filter_map(|line| {
+        let (keyword, rest) = line.split_once(' ')?;
+        let defines = matches!(keyword, "alias" | "const" | "fn" | "struct");
+        let end = |c: char| !c.is_alphanumeric() && c != '_';
+        rest.split(end).next().filter(|_| defines)
+    })
+}
+
 fn main() -> Result<(), Box<dyn Error>> {
     println!("cargo::rerun-if-changed=wgsl");
     let root = PathBuf::from(env::var("CARGO_MANIFEST_DIR")?).join("wgsl");
-    let (mut modules, mut numbers) = (String::from("&[\n"), String::new());
+    let mut modules = String::from("const MODULES: &[Module] = &[\n");
+    let mut defined = String::from("pub(crate) const ITEMS: &[(&str, &str)] = &[\n");
+    let mut numbers = String::new();
     for folder in entries(&root)?.iter().filter(|path| path.is_dir()) {
         for file in entries(folder)? {
             let names = [folder.file_name(), file.file_stem()];
@@ -54,12 +66,15 @@ fn main() -> Result<(), Box<dyn Error>> {
                 modules,
                 "Module {{ folder: {folder:?}, name: {name:?}, source: include_str!({file:?}) }},"
             )?;
-            numbers += &constants(&fs::read_to_string(&file)?);
+            let text = fs::read_to_string(&file)?;
+            numbers += &constants(&text);
+            for item in items(&text) {
+                writeln!(defined, "(\"{folder}::{name}\", {item:?}),")?;
+            }
         }
     }
-    modules.push(']');
     let out = PathBuf::from(env::var("OUT_DIR")?);
-    fs::write(out.join("modules.rs"), modules)?;
+    fs::write(out.join("modules.rs"), modules + "];\n" + &defined + "];\n")?;
     fs::write(out.join("constants.rs"), numbers)?;
     Ok(())
 }

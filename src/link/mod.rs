@@ -16,6 +16,7 @@ use self::file::File;
 use self::import::Form;
 pub use self::linked::Linked;
 pub use self::location::Location;
+pub(crate) use self::module::ITEMS;
 pub use self::module::{Module, modules};
 use crate::nearest::nearest;
 

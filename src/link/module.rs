@@ -18,7 +18,8 @@ pub struct Module {
     pub source: &'static str,
 }
 
-const MODULES: &[Module] = include!(concat!(env!("OUT_DIR"), "/modules.rs"));
+// `MODULES`, and `ITEMS`: the path and the name of what each of them defines.
+include!(concat!(env!("OUT_DIR"), "/modules.rs"));
 
 /// The environment variable that names a folder of edited modules.
 const EDITED: &str = "MOMENT_SHADOWS_WGSL";

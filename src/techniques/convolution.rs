@@ -1,30 +1,24 @@
 //! Convolution shadow maps (Annen et al., EGSR 2007).
 
 use super::count;
-use super::row::{Constant, Encoding, LINEAR, Row, Snippet};
+use super::row::{Constant, Encoding, LINEAR, Row};
 use crate::Storage::{Float16, Unorm8, Unorm16};
 use crate::constants::CONVOLUTION_LARGEST_TERMS;
 
 const NAME: &str = "convolution";
 
 const ENCODING: Encoding = Encoding {
-    imports: &["techniques::convolution::{convolution_channels, convolution_to_texel}"],
     channels: "convolution_channels(z, PLANE, TERMS)",
     texel: "convolution_to_texel(mean, STORAGE)",
     ..LINEAR
 };
 
-const EVALUATION: Snippet = Snippet {
-    imports: &[
-        "techniques::convolution::{CONVOLUTION_DAMPING, convolution_plane, convolution_receiver, convolution_shadow_intensity}",
-    ],
-    body: "let place = convolution_receiver(receiver.fragment_depth, TERMS, LOWER_BOUND);
+const EVALUATION: &str = "let place = convolution_receiver(receiver.fragment_depth, TERMS, LOWER_BOUND);
     var sum = 0.0;
     for (var plane = 0u; plane < PLANES; plane++) {
         sum += convolution_plane(map_texel(receiver, plane), STORAGE, plane, TERMS, place, CONVOLUTION_DAMPING);
     }
-    return convolution_shadow_intensity(sum, TERMS, LOWER_BOUND);",
-};
+    return convolution_shadow_intensity(sum, TERMS, LOWER_BOUND);";
 
 pub(super) fn row(terms: u32, lower_bound: bool) -> Row {
     Row {

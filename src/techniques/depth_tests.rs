@@ -1,6 +1,6 @@
 //! Tests on the plain depth map: `binary`, `pcf`, `pcss`.
 
-use super::row::{Constant, Row, Snippet, float};
+use super::row::{Constant, Row, float};
 use super::{Finite, PcfTaps, count, setting};
 use crate::constants::{
     PERCENTAGE_CLOSER_LARGEST_DISK as LARGEST_DISK, PERCENTAGE_CLOSER_SOFT_MOST_TAPS as MOST_TAPS,
@@ -11,23 +11,14 @@ const LARGEST_RADIUS: u32 = Kernel::LARGEST_RADIUS;
 
 /// The comparison with the nearest texel (Williams, SIGGRAPH 1978).
 pub(super) fn binary() -> Row {
-    let evaluation = Snippet {
-        imports: &["techniques::percentage_closer::{percentage_closer_binary}"],
-        body: "return percentage_closer_binary(depth_map, receiver.layer, receiver.region, plane, receiver.conversion);",
-    };
+    let evaluation = "return percentage_closer_binary(depth_map, receiver.layer, receiver.region, plane, receiver.conversion);";
     Row::of_depth("binary", evaluation)
 }
 
 /// Percentage-closer soft shadows: a filter as wide as the penumbra (Fernando, SIGGRAPH 2005).
 pub(super) fn pcss(search_taps: u32, filter_taps: u32) -> Row {
     const NAME: &str = "pcss";
-    let evaluation = Snippet {
-        imports: &[
-            "maths::disk_samples::{disk_samples_angle}",
-            "techniques::percentage_closer_soft::{percentage_closer_soft_intensity}",
-        ],
-        body: "return percentage_closer_soft_intensity(depth_map, receiver.layer, receiver.region, plane, receiver.conversion, receiver.light, SEARCH_TAPS, FILTER_TAPS, disk_samples_angle(receiver.pixel));",
-    };
+    let evaluation = "return percentage_closer_soft_intensity(depth_map, receiver.layer, receiver.region, plane, receiver.conversion, receiver.light, SEARCH_TAPS, FILTER_TAPS, disk_samples_angle(receiver.pixel));";
     Row {
         settings: count(NAME, "search taps", search_taps, MOST_TAPS)
             .and_then(|()| count(NAME, "filter taps", filter_taps, MOST_TAPS)),
@@ -41,33 +32,15 @@ pub(super) fn pcss(search_taps: u32, filter_taps: u32) -> Row {
 
 const PCF: &str = "pcf";
 
-const BOX: Snippet = Snippet {
-    imports: &["techniques::percentage_closer::{percentage_closer_box}"],
-    body: "return percentage_closer_box(depth_map, receiver.layer, receiver.region, plane, receiver.conversion, RADIUS, true);",
-};
+const BOX: &str = "return percentage_closer_box(depth_map, receiver.layer, receiver.region, plane, receiver.conversion, RADIUS, true);";
 
-const GAUSSIAN: Snippet = Snippet {
-    imports: &["techniques::percentage_closer::{percentage_closer_gaussian}"],
-    body: "return percentage_closer_gaussian(depth_map, receiver.layer, receiver.region, plane, receiver.conversion, RADIUS, SIGMA, true);",
-};
+const GAUSSIAN: &str = "return percentage_closer_gaussian(depth_map, receiver.layer, receiver.region, plane, receiver.conversion, RADIUS, SIGMA, true);";
 
-const WEIGHTS: Snippet = Snippet {
-    imports: &["techniques::percentage_closer::{PercentageCloserKernel, percentage_closer_kernel}"],
-    body: "return percentage_closer_kernel(depth_map, receiver.layer, receiver.region, plane, receiver.conversion, PercentageCloserKernel(u32(RADIUS), KERNEL_WEIGHTS), true);",
-};
+const WEIGHTS: &str = "return percentage_closer_kernel(depth_map, receiver.layer, receiver.region, plane, receiver.conversion, PercentageCloserKernel(u32(RADIUS), KERNEL_WEIGHTS), true);";
 
-const POISSON: Snippet = Snippet {
-    imports: &[
-        "maths::disk_samples::{disk_samples_angle}",
-        "techniques::percentage_closer::{percentage_closer_poisson}",
-    ],
-    body: "return percentage_closer_poisson(depth_map, receiver.layer, receiver.region, plane, receiver.conversion, DISK_RADIUS, disk_samples_angle(receiver.pixel));",
-};
+const POISSON: &str = "return percentage_closer_poisson(depth_map, receiver.layer, receiver.region, plane, receiver.conversion, DISK_RADIUS, disk_samples_angle(receiver.pixel));";
 
-const HARDWARE: Snippet = Snippet {
-    imports: &["techniques::percentage_closer_hardware::{percentage_closer_hardware_box}"],
-    body: "return percentage_closer_hardware_box(depth_map, comparison_sampler, receiver.layer, receiver.region, plane, receiver.conversion, RADIUS);",
-};
+const HARDWARE: &str = "return percentage_closer_hardware_box(depth_map, comparison_sampler, receiver.layer, receiver.region, plane, receiver.conversion, RADIUS);";
 
 /// Percentage-closer filtering: the mean of comparisons (Reeves, Salesin & Cook, SIGGRAPH 1987).
 pub(super) fn pcf(taps: &PcfTaps) -> Row {

@@ -1,6 +1,6 @@
 //! Exponential shadow maps (Annen et al., GI 2008; Salvi 2008).
 
-use super::row::{Constant, Encoding, LINEAR, Row, Snippet, float};
+use super::row::{Constant, Encoding, LINEAR, Row, float};
 use super::{EsmFiltering, Finite};
 use crate::Storage::{Float16, Float32, Unorm16};
 use crate::constants::{
@@ -11,7 +11,6 @@ use crate::constants::{
 const NAME: &str = "esm";
 
 const ENCODING: Encoding = Encoding {
-    imports: &["techniques::exponential::{exponential_channels, exponential_to_texel}"],
     channels: "exponential_channels(z, EXPONENT)",
     texel: "exponential_to_texel(mean, STORAGE, EXPONENT, LOGARITHMIC)",
     ..LINEAR
@@ -19,7 +18,6 @@ const ENCODING: Encoding = Encoding {
 
 /// Logarithms of means: a filter averages the means.
 const LOGARITHMIC: Encoding = Encoding {
-    filter_imports: &["techniques::exponential::{exponential_mean_of_texel, exponential_to_texel}"],
     filter_value: "vec4f(exponential_mean_of_texel(texel, STORAGE, EXPONENT, true), 0.0, 0.0, 0.0)",
     filter_texel: "exponential_to_texel(value, STORAGE, EXPONENT, true)",
     ..ENCODING
@@ -61,18 +59,10 @@ pub(super) fn row(exponent: Finite, filtering: EsmFiltering) -> Row {
     }
 }
 
-const EVALUATION: Snippet = Snippet {
-    imports: &["techniques::exponential::{exponential_shadow_intensity_of_texel}"],
-    body: "return exponential_shadow_intensity_of_texel(map_texel(receiver, 0u), receiver.fragment_depth, STORAGE, EXPONENT, false);",
-};
+const EVALUATION: &str = "return exponential_shadow_intensity_of_texel(map_texel(receiver, 0u), receiver.fragment_depth, STORAGE, EXPONENT, false);";
 
 /// Texels hold logarithms: they are decoded before they are blended.
-const EVALUATION_LOGARITHMIC: Snippet = Snippet {
-    imports: &[
-        "techniques::exponential::{exponential_mean_of_texel, exponential_shadow_intensity}",
-        "map::map_region::{map_region_place}",
-    ],
-    body: "let place = map_region_place(receiver.region, receiver.uv) - 0.5;
+const EVALUATION_LOGARITHMIC: &str = "let place = map_region_place(receiver.region, receiver.uv) - 0.5;
     let base = floor(place);
     let weight = place - base;
     let low = vec2i(base);
@@ -82,5 +72,4 @@ const EVALUATION_LOGARITHMIC: Snippet = Snippet {
     let bottom_left = exponential_mean_of_texel(textureLoad(moments_map, vec2i(low.x, high.y), receiver.layer, 0), STORAGE, EXPONENT, true);
     let bottom_right = exponential_mean_of_texel(textureLoad(moments_map, high, receiver.layer, 0), STORAGE, EXPONENT, true);
     let mean = mix(mix(top_left, top_right, weight.x), mix(bottom_left, bottom_right, weight.x), weight.y);
-    return exponential_shadow_intensity(mean, receiver.fragment_depth, EXPONENT, 0.0);",
-};
+    return exponential_shadow_intensity(mean, receiver.fragment_depth, EXPONENT, 0.0);";

@@ -1,27 +1,19 @@
 //! Exponential variance shadow maps (Lauritzen & McCool, GI 2008), with one warp or both.
 
 use super::Finite;
-use super::row::{Constant, Encoding, LINEAR, Row, Snippet};
+use super::row::{Constant, Encoding, LINEAR, Row};
 use crate::Storage::{Float16, Float32};
 use crate::constants::{
     EXPONENTIAL_VARIANCE_LARGEST_EXPONENT_FLOAT16, EXPONENTIAL_VARIANCE_LARGEST_EXPONENT_FLOAT32,
 };
 
 const ENCODING: Encoding = Encoding {
-    imports: &[
-        "techniques::exponential_variance::{exponential_variance_channels, exponential_variance_to_texel}",
-    ],
     channels: "exponential_variance_channels(z, EXPONENTS)",
     texel: "exponential_variance_to_texel(mean, STORAGE)",
     ..LINEAR
 };
 
-const EVALUATION: Snippet = Snippet {
-    imports: &[
-        "techniques::exponential_variance::{exponential_variance_shadow_intensity_of_texel}",
-    ],
-    body: "return exponential_variance_shadow_intensity_of_texel(map_texel(receiver, 0u), receiver.fragment_depth, STORAGE, EXPONENTS, BOTH_WARPS);",
-};
+const EVALUATION: &str = "return exponential_variance_shadow_intensity_of_texel(map_texel(receiver, 0u), receiver.fragment_depth, STORAGE, EXPONENTS, BOTH_WARPS);";
 
 /// With the positive warp alone: the negative one is not stored.
 pub(super) fn row_of_one(exponent: Finite) -> Row {

@@ -1,6 +1,6 @@
 //! Layered variance shadow maps (Lauritzen & McCool, GI 2008).
 
-use super::row::{Constant, Encoding, LINEAR, Row, Snippet, float};
+use super::row::{Constant, Encoding, LINEAR, Row, float};
 use super::{Finite, LayerSplits, count, setting};
 use crate::Storage::{Float16, Float32, Unorm16};
 use crate::ValueError;
@@ -9,20 +9,12 @@ use crate::constants::LAYERED_VARIANCE_LARGEST_COUNT;
 const NAME: &str = "lvsm";
 
 const ENCODING: Encoding = Encoding {
-    imports: &[
-        "moments::two_moments::{two_moments_to_texel}",
-        "techniques::layered_variance::{layered_variance_channels}",
-    ],
     channels: "layered_variance_channels(z, technique_layers(0u), PLANE)",
     texel: "two_moments_to_texel(mean, STORAGE)",
     ..LINEAR
 };
 
-const EVALUATION: Snippet = Snippet {
-    imports: &[
-        "techniques::layered_variance::{layered_variance_choice, layered_variance_shadow_intensity_of_texel}",
-    ],
-    body: "let layers = technique_layers(receiver.layer);
+const EVALUATION: &str = "let layers = technique_layers(receiver.layer);
     let choice = layered_variance_choice(layers, receiver.fragment_depth);
     let texel = map_texel(receiver, choice.layer / 2u);
     let intensity = layered_variance_shadow_intensity_of_texel(texel, receiver.fragment_depth, STORAGE, layers, choice.layer);
@@ -31,8 +23,7 @@ const EVALUATION: Snippet = Snippet {
     }
     let next = map_texel(receiver, choice.neighbor / 2u);
     let other = layered_variance_shadow_intensity_of_texel(next, receiver.fragment_depth, STORAGE, layers, choice.neighbor);
-    return mix(intensity, other, choice.neighbor_share);",
-};
+    return mix(intensity, other, choice.neighbor_share);";
 
 pub(super) fn row(layers: u32, overlap: Finite, splits: &LayerSplits) -> Row {
     let known = splits.known(layers);

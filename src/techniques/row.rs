@@ -3,26 +3,13 @@
 use super::Finite;
 use crate::{Storage, ValueError};
 
-/// A piece of a shader that a row supplies: statements, and the items of the library that they use.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) struct Snippet {
-    /// Items by path, as after `moment_shadows::` in an import: `maths::hankel::{hankel_factor}`.
-    pub imports: &'static [&'static str],
-    /// The body of a function. The comment on that function says what the body can use besides the imports.
-    pub body: &'static str,
-}
-
-/// How a map is made and filtered.
+/// How a map is made and filtered: expressions in WGSL, which can use whatever the library defines, and the row's constants.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) struct Encoding {
-    /// Items that both pieces use.
-    pub imports: &'static [&'static str],
     /// The channels to average for a moment depth `z`, a vec4f.
     pub channels: &'static str,
     /// The texel to write for the averages `mean` of channels, a vec4f.
     pub texel: &'static str,
-    /// Items that both pieces of the filter use.
-    pub filter_imports: &'static [&'static str],
     /// The value that a filter averages for a `texel`, a vec4f.
     pub filter_value: &'static str,
     /// The texel to write for an average `value` of such values, a vec4f.
@@ -31,10 +18,8 @@ pub(super) struct Encoding {
 
 /// Texels that any filter averages as they are, samplers too.
 pub(super) const LINEAR: Encoding = Encoding {
-    imports: &[],
     channels: "",
     texel: "",
-    filter_imports: &["map::storage::{storage_round_texel}"],
     filter_value: "texel",
     filter_texel: "storage_round_texel(value, STORAGE)",
 };
@@ -102,10 +87,10 @@ pub struct Row {
     /// Whether the layers of the map are placed on the device (node `place_layers`).
     pub places_layers: bool,
     /// Shadow intensity of a `receiver`, by `map_texel(receiver, plane)` or on the plane `plane` of the plain depth map
-    /// `depth_map`.
-    pub(super) evaluation: Snippet,
+    /// `depth_map`: the body of a function.
+    pub(super) evaluation: &'static str,
     /// Soft shadow intensity of a `receiver` from the summed-area table of the map, by `soft_table` and `soft_receiver`.
-    pub(super) soft: Option<Snippet>,
+    pub(super) soft: Option<&'static str>,
 }
 
 impl Row {
@@ -115,7 +100,7 @@ impl Row {
         storages: &'static [Storage],
         channels: u32,
         encoding: Encoding,
-        evaluation: Snippet,
+        evaluation: &'static str,
     ) -> Self {
         Self {
             name,
@@ -139,7 +124,7 @@ impl Row {
     }
 
     /// A row of a test on the plain depth map.
-    pub(super) fn of_depth(name: &'static str, evaluation: Snippet) -> Self {
+    pub(super) fn of_depth(name: &'static str, evaluation: &'static str) -> Self {
         Self {
             encoding: None,
             averaged_by_samplers: false,
