@@ -149,8 +149,10 @@ pub(super) fn of_technique(map: &MapEncoding) -> Vec<Variant> {
     let drawn = map.storage().is_drawn();
     let suffix = format!("{}_{}", techniques::label(map.technique()), map.storage());
     let mut all = Vec::new();
-    // Four moments are made and filtered alike for all that read them.
-    if *map.technique() != Technique::Hausdorff4 {
+    // A map that several techniques read is made and filtered alike for all of them.
+    let reads = |other: &Technique| other.shares_map_with(map.technique());
+    let first = Technique::examples().into_iter().find(reads);
+    if first.is_none_or(|first| first.name() == map.technique().name()) {
         let name = format!("resolve_{suffix}");
         all.push(
             resolve(map)
