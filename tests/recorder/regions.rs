@@ -151,7 +151,7 @@ impl Atlas {
         let bytes = gpu.read_level(texture, plane, level, "map").unwrap();
         let width = (self.size[0] >> level) as usize;
         let texel = bytes.len() / (width * (self.size[1] >> level) as usize);
-        let part = at_level(&region, level);
+        let part = at_level(region, level);
         let [left, top] = part.origin.map(|value| value as usize);
         let [columns, rows] = part.extent.map(|value| value as usize);
         (top..top + rows)
@@ -315,7 +315,7 @@ fn mip_levels_keep_the_mean_of_odd_sizes() {
             let texels = floats(&atlas.read(&gpu, region, level));
             assert_eq!(
                 texels.len() as u32,
-                at_level(&region, level).extent.iter().product::<u32>()
+                at_level(region, level).extent.iter().product::<u32>()
             );
             let mut sum = [0.0; 4];
             for texel in &texels {

@@ -310,7 +310,7 @@ fn a_mip_level_is_the_mean_of_the_finer_one_in_each_plane_and_every_storage() {
             let coarser = read(&gpu, &map.bound, storage, "map", array_layer, level);
             let width = |level: u32| (MAP[0] >> level) as usize;
             for region in &REGIONS {
-                let [from, to] = [level - 1, level].map(|level| at_level(&region, level));
+                let [from, to] = [level - 1, level].map(|level| at_level(region, level));
                 let scale =
                     [0, 1].map(|axis| f64::from(from.extent[axis]) / f64::from(to.extent[axis]));
                 for place in texels(&to) {
