@@ -8,7 +8,7 @@ use std::path::Path;
 
 use moment_shadows::{
     AreaLight, CameraView, DepthRange, LeakReduction, LightDepth, LightView, MapRegion, Profile,
-    ReceiverBias, SoftRadii, ViewParameters,
+    ReceiverBias, ViewParameters,
 };
 use moment_shadows_graph::record::{
     Bindings, ImportedResource, PipelineOptions, Pipelines, Recording, Resources,
@@ -24,10 +24,7 @@ const PICTURE: [u32; 2] = [1280, 720];
 const MAP: u32 = 1024;
 
 /// Half of the largest kernel that the graph's table is made for, and next to nothing where shadows touch what casts them.
-const RADII: SoftRadii = SoftRadii {
-    smallest: 1.0,
-    largest: 64.5,
-};
+const RADII: std::ops::RangeInclusive<f64> = 1.0..=64.5;
 
 fn main() -> Result<(), Box<dyn Error>> {
     let mut arguments = std::env::args().skip(1);

@@ -168,7 +168,7 @@ fn every_linked_shader_is_valid_on_every_backend_that_can_express_it() {
                 written.contains(&backend),
                 "{} on {backend:?}: {:?}",
                 variant.name,
-                report.outcome(backend)
+                report.outcomes
             );
         }
     }

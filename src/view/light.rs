@@ -4,7 +4,7 @@ use glam::{DMat4, DVec4};
 use serde::{Deserialize, Serialize};
 
 use super::wide;
-use crate::{DepthConversion, DepthError, DepthRange, MapRegion};
+use crate::{DepthConversion, DepthRange, MapRegion, ValueError};
 
 /// A view of a light: what one region of its map was drawn with.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -45,25 +45,21 @@ pub enum LightDepth {
 
 impl LightDepth {
     /// The conversion that `resolve` applies to the map.
-    pub fn conversion(&self) -> Result<DepthConversion, DepthError> {
-        match *self {
-            LightDepth::Orthographic { reversed: false } => Ok(DepthConversion::orthographic()),
-            LightDepth::Orthographic { reversed: true } => {
-                Ok(DepthConversion::orthographic_reversed())
-            }
+    pub fn conversion(&self) -> Result<DepthConversion, ValueError> {
+        let (forward, reversed) = match *self {
+            LightDepth::Orthographic { reversed } => (DepthConversion::orthographic(), reversed),
             LightDepth::Perspective {
                 near,
                 far,
-                reversed: false,
+                reversed,
                 range,
-            } => DepthConversion::perspective(near, far, range),
-            LightDepth::Perspective {
-                near,
-                far,
-                reversed: true,
-                range,
-            } => DepthConversion::perspective_reversed(near, far, range),
-        }
+            } => (DepthConversion::perspective(near, far, range)?, reversed),
+        };
+        Ok(if reversed {
+            forward.reversed()
+        } else {
+            forward
+        })
     }
 
     /// The linear function of a scene position (x, y, z, 1) that gives its moment depth, for the map's matrix.

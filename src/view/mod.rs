@@ -3,14 +3,12 @@
 //! Matrices are plain arrays by columns outside, glam's f64 inside.
 
 mod camera;
-mod error;
 mod light;
 mod parameters;
 mod rectified;
 mod scattering;
 
 pub use camera::CameraView;
-pub use error::{RectifiedFrameError, ScatteringViewError, ViewError};
 use glam::{DMat4, DVec4};
 pub use light::{LightDepth, LightView};
 pub use parameters::ViewParameters;
@@ -19,6 +17,19 @@ pub use scattering::{
     CompositeScatteringParameters, IntegrateScatteringParameters, RectifyMomentsParameters,
     ScatteringParameters,
 };
+
+use crate::ValueError;
+
+fn singular_camera() -> ValueError {
+    let message = "the camera's clip_from_world is singular or not finite; it has to be an invertible projection of the scene";
+    ValueError::new("camera", message)
+}
+
+fn singular_light() -> ValueError {
+    let message = "the light's clip_from_world is singular or not finite; it has to be the invertible projection that its map \
+                   was drawn with";
+    ValueError::new("light", message)
+}
 
 /// A matrix as hosts give it, in f64: products of f32 matrices with large translations would lose digits.
 fn wide(columns: &[[f32; 4]; 4]) -> DMat4 {

@@ -4,9 +4,9 @@ use bytemuck::{Pod, Zeroable};
 use glam::{DVec3, DVec4};
 
 use super::{
-    CameraView, LightDepth, LightView, RectifiedFrame, RectifiedView, ScatteringViewError, wide,
+    CameraView, LightDepth, LightView, RectifiedFrame, RectifiedView, singular_light, wide,
 };
-use crate::{MapRegion, SingleScattering};
+use crate::{MapRegion, SingleScattering, ValueError};
 
 /// The parameters of a `rectify_moments` node: the uniform struct of its shader.
 #[derive(Clone, Copy, Debug, PartialEq, Pod, Zeroable)]
@@ -70,20 +70,20 @@ impl ScatteringParameters {
     /// light and a medium.
     ///
     /// # Errors
-    /// [`ScatteringViewError`], which names what is wrong.
+    /// [`ValueError`], which names what is wrong.
     pub fn new(
         camera: &CameraView,
         far: f64,
         light: &LightView,
         medium: SingleScattering,
-    ) -> Result<Self, ScatteringViewError> {
-        let LightDepth::Orthographic { .. } = light.depth else {
-            return Err(ScatteringViewError::PerspectiveLight);
-        };
+    ) -> Result<Self, ValueError> {
         let clip = wide(&light.clip_from_world);
         let last = clip.row(3);
-        if last.truncate() != DVec3::ZERO {
-            return Err(ScatteringViewError::PerspectiveLight);
+        let parallel = matches!(light.depth, LightDepth::Orthographic { .. });
+        if !parallel || last.truncate() != DVec3::ZERO {
+            let message = "the light is a point or spot light; only rays of a directional light are parallel to one axis of rectified \
+                           coordinates: give an orthographic light, or march the scattering of this one";
+            return Err(ValueError::new("light", message));
         }
         let clip = clip * (1.0 / last.w);
         let (x, y, depth) = (clip.row(0), clip.row(1), light.depth.row(clip));
@@ -92,7 +92,7 @@ impl ScatteringParameters {
         let grows = depth.truncate().dot(across);
         let finite = x.is_finite() && y.is_finite() && depth.is_finite();
         if !(grows.abs() > 0.0 && grows.is_finite() && finite) {
-            return Err(ScatteringViewError::SingularLight);
+            return Err(singular_light());
         }
         let direction = across * grows.signum();
         let RectifiedView {

@@ -2,8 +2,8 @@
 
 use crate::wgsl_module::{constant, module};
 use moment_shadows::{
-    EsmFiltering, Finite, Kernel, LayerSplits, PcfTaps, Pcss, PercentageCloserKernel, ReceiverBias,
-    SixMomentsBias, Storage, SummedAreaTable, Technique,
+    EsmFiltering, Finite, Kernel, LayerSplits, PcfTaps, ReceiverBias, SixMomentsBias, Storage,
+    SummedAreaTable, Technique,
 };
 use moment_shadows_graph::nodes::Blur;
 
@@ -167,11 +167,9 @@ fn techniques_have_the_limits_of_their_modules() {
         (
             "percentage_closer_soft",
             "PERCENTAGE_CLOSER_SOFT_MOST_TAPS",
-            |taps| {
-                Technique::Pcss(Pcss {
-                    search_taps: taps,
-                    filter_taps: 1,
-                })
+            |taps| Technique::Pcss {
+                search_taps: taps,
+                filter_taps: 1,
             },
         ),
     ] {
@@ -189,17 +187,7 @@ fn the_receiver_bias_moves_by_as_many_standard_deviations_on_both_sides() {
 }
 
 #[test]
-fn the_largest_kernel_of_percentage_closer_filtering_fits_its_uniform_struct() {
-    let kernel = Kernel::gaussian(Kernel::LARGEST_RADIUS, 20.0).unwrap();
-    let uniform = PercentageCloserKernel::new(&kernel);
-    assert_eq!(uniform.radius, Kernel::LARGEST_RADIUS);
-    let flat = uniform.weights.as_flattened();
-    assert_eq!(flat[..kernel.weights().len()], *kernel.weights());
-    assert!(
-        flat[kernel.weights().len()..]
-            .iter()
-            .all(|&weight| weight == 0.0)
-    );
+fn percentage_closer_filtering_takes_the_largest_kernel() {
     for (name, item) in [
         ("percentage_closer", "PERCENTAGE_CLOSER_LARGEST_RADIUS"),
         (

@@ -12,9 +12,9 @@ use std::mem::offset_of;
 
 use moment_shadows::{
     AreaLight, CompositeScatteringParameters, DepthConversion, FourMomentsBias,
-    IntegrateScatteringParameters, Kernel, LeakReduction, MapRegion, PercentageCloserKernel,
-    Profile, ReceiverBias, RectifiedFrame, RectifyMomentsParameters, SingleScattering, Storage,
-    Technique, TextureFormat, ViewParameters,
+    IntegrateScatteringParameters, Kernel, LeakReduction, MapRegion, Profile, ReceiverBias,
+    RectifiedFrame, RectifyMomentsParameters, SingleScattering, Storage, Technique, TextureFormat,
+    ViewParameters,
 };
 use moment_shadows_graph::nodes::{
     Blur, CompositeScattering, IntegrateScattering, RectifyMoments, Resolve, ShadeHard,
@@ -120,15 +120,6 @@ fn structs_of_the_modules_are_laid_out_alike() {
             alpha: f32,
             second: f32,
             fourth: f32
-        }),
-    );
-    assert_same_layout(
-        &module("percentage_closer", "PercentageCloserKernel"),
-        "PercentageCloserKernel",
-        size_of::<PercentageCloserKernel>(),
-        &fields!(PercentageCloserKernel {
-            radius: u32,
-            weights: [[f32; 4]; 33]
         }),
     );
     assert_same_layout(

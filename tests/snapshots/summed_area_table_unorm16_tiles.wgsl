@@ -11,7 +11,6 @@
 // specialization
 const GROUP = 0;
 alias SumsStorage = texture_storage_2d<rgba32uint, write>;
-
 const CHANNELS = 4u;
 const REGIONS = 1u;
 const TILE = vec2u(8u, 16u);

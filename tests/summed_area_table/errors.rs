@@ -1,9 +1,6 @@
 //! What no table is made of, and what it says.
 
-use moment_shadows::{
-    MapEncoding, Profile, Storage, SummedAreaTable, SummedAreaTableError, Technique,
-    TechniqueError, TextureFormat,
-};
+use moment_shadows::{MapEncoding, Profile, Storage, SummedAreaTable, Technique, TextureFormat};
 use moment_shadows_graph::{Capabilities, GraphError, GraphErrorKind, Plan, TextureDesc};
 use moment_shadows_lab::summed_area::SummedMap;
 
@@ -37,11 +34,9 @@ fn a_kernel_beyond_the_range_names_the_largest() {
     // Products beyond 32 bits, and widths that leave no height.
     for sides in [[65536, 65536], [u32::MAX, u32::MAX], [65538, 1]] {
         let error = SummedAreaTable::new(Storage::Float32, sides).unwrap_err();
-        let expected = SummedAreaTableError::Large {
-            width: sides[0],
-            height: sides[1],
-        };
-        assert_eq!(error, expected);
+        let [width, height] = sides;
+        let start = format!("a largest kernel of {width}x{height} texels covers more than");
+        assert!(error.message.starts_with(&start), "{error}");
         assert!(
             error.to_string().contains("next to a width of 65"),
             "{error}"
@@ -79,10 +74,9 @@ fn maps_that_hold_something_else_are_refused() {
     );
     let error = error.unwrap_err();
     assert_eq!(error.kind, GraphErrorKind::Property);
-    assert!(
-        error.message.contains("hamburger4, hausdorff4 or vsm"),
-        "{error}"
-    );
+    for technique in ["vsm", "hamburger4", "hausdorff4"] {
+        assert!(error.message.contains(technique), "{error}");
+    }
     let plain = TextureDesc::new(TextureFormat::R8Unorm, [64, 64]);
     let error = plan(&plain, [65; 2]).unwrap_err();
     assert_eq!(error.kind, GraphErrorKind::Format);
@@ -92,19 +86,16 @@ fn maps_that_hold_something_else_are_refused() {
     let error = plan(&map(&table, [64, 64], 1), [65; 2]).unwrap_err();
     assert_eq!(error.kind, GraphErrorKind::Format);
     assert!(error.message.contains("summed-area table"), "{error}");
-    assert_eq!(
-        SummedAreaTable::new(Storage::Unorm8, [9, 9]),
-        Err(SummedAreaTableError::Source {
-            source_storage: Storage::Unorm8
-        })
-    );
+    let error = SummedAreaTable::new(Storage::Unorm8, [9, 9]).unwrap_err();
+    assert_eq!(error.name, "source");
+    assert!(error.message.contains("stored as unorm8"), "{error}");
 }
 
 /// Only this node makes them: a resolve to integers is refused with what it can store.
 #[test]
 fn no_other_map_is_stored_like_a_table() {
     let error = MapEncoding::new(Technique::Hamburger4, Storage::Fixed32).unwrap_err();
-    assert!(matches!(error, TechniqueError::Storage { .. }), "{error}");
+    assert_eq!(error.name, "storage", "{error}");
     assert!(
         error.to_string().contains("unorm16 or float16 or float32"),
         "{error}"

@@ -25,9 +25,6 @@ pub enum LabError {
         /// Why, and what to do.
         reason: String,
     },
-    /// A technique's settings.
-    #[error(transparent)]
-    Technique(#[from] moment_shadows::TechniqueError),
     /// A pass that is fast and wrong.
     #[error(
         "{what} differs from the reference by {error:e}, more than {tolerance:e}; its cost means nothing"
@@ -43,30 +40,15 @@ pub enum LabError {
     /// Figures as JSON.
     #[error("the figures cannot be written as JSON: {0}")]
     Json(#[from] serde_json::Error),
-    /// A camera without an inverse.
+    /// A value that the library refuses.
     #[error(transparent)]
-    Camera(#[from] moment_shadows::ViewError),
-    /// A light's depth convention.
-    #[error(transparent)]
-    Depth(#[from] moment_shadows::DepthError),
-    /// A light's size.
-    #[error(transparent)]
-    SoftLight(#[from] moment_shadows::AreaLightError),
-    /// A camera or light whose scattering cannot be prefiltered.
-    #[error(transparent)]
-    ScatteringView(#[from] moment_shadows::ScatteringViewError),
-    /// Parameters that describe no physical medium.
-    #[error(transparent)]
-    SingleScattering(#[from] moment_shadows::SingleScatteringError),
-    /// A kernel.
-    #[error(transparent)]
-    Kernel(#[from] moment_shadows::KernelError),
+    Value(#[from] moment_shadows::ValueError),
     /// A plan that is not recorded, or parameters that do not fit it.
     #[error(transparent)]
     Record(#[from] GraphError),
     /// A shader of the lab that cannot be linked.
     #[error(transparent)]
-    Link(#[from] moment_shadows::LinkError),
+    Link(#[from] moment_shadows::ShaderError),
 }
 
 impl LabError {

@@ -2,7 +2,7 @@
 //!
 //! All of it comes from the technique's row ([`moment_shadows::Row`]).
 
-use moment_shadows::{Contents, MapEncoding, Technique, TextureFormat};
+use moment_shadows::{MapEncoding, Technique, TextureFormat};
 
 use super::shared::{Specialization, regions, wrong_format};
 use crate::{Binding, Capabilities, GraphError, Pass, Rule, Slot, TextureRule, bind};
@@ -10,9 +10,8 @@ use crate::{Binding, Capabilities, GraphError, Pass, Rule, Slot, TextureRule, bi
 /// What single scattering takes for maps of a technique that it has both bounds of, which are of four moments or of six.
 pub(super) fn of_both_bounds<T>(technique: &Technique, four: T, six: T) -> Option<T> {
     let row = technique.row();
-    let of_moments = [(Contents::FourMoments, four), (Contents::SixMoments, six)];
-    let of_row = |(contents, _): &(Contents, T)| row.both_bounds && *contents == row.contents;
-    of_moments.into_iter().find(of_row).map(|(_, it)| it)
+    let moments = if row.planes == 1 { four } else { six };
+    row.both_bounds.then_some(moments)
 }
 
 /// The constants of a technique.
@@ -26,7 +25,7 @@ fn constants(specialization: Specialization, technique: &Technique) -> Specializ
 /// How a fragment is shaded: the constants and the module `technique`, and what that imports.
 pub(super) fn evaluation(specialization: Specialization, technique: &Technique) -> Specialization {
     let row = technique.row();
-    let map = if row.contents == Contents::Depth {
+    let map = if row.reads_depth() {
         include_str!("techniques/map_depth.wgsl")
     } else {
         include_str!("techniques/map_filterable.wgsl")

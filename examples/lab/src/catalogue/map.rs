@@ -1,6 +1,6 @@
 //! What makes, filters, sums and shows maps.
 
-use moment_shadows::{Kernel, MapEncoding, Storage, Technique, TechniqueError};
+use moment_shadows::{Kernel, MapEncoding, Storage, Technique, ValueError};
 use moment_shadows_graph::nodes::{
     Blur, DebugMoments, Downsample, PlaceLayers, Resolve, Show, SummedAreaTable,
 };
@@ -35,7 +35,7 @@ fn downsample(map: &MapEncoding) -> Variant {
 }
 
 /// Maps of four moments.
-pub(super) fn of_four_moments(four: &MapEncoding) -> Result<Vec<Variant>, TechniqueError> {
+pub(super) fn of_four_moments(four: &MapEncoding) -> Result<Vec<Variant>, ValueError> {
     let storage = four.storage();
     let unorm16 = storage == Storage::Unorm16;
     let mut all = Vec::new();
@@ -93,7 +93,7 @@ pub(super) fn of_four_moments(four: &MapEncoding) -> Result<Vec<Variant>, Techni
 }
 
 /// Summed-area tables with both tiles, of four moments and of two.
-fn summed(four: &MapEncoding) -> Result<Vec<Variant>, TechniqueError> {
+fn summed(four: &MapEncoding) -> Result<Vec<Variant>, ValueError> {
     let storage = four.storage();
     let unorm16 = storage == Storage::Unorm16;
     let table = |kind: &str, regions, kept: usize| {
@@ -148,8 +148,10 @@ pub(super) fn of_technique(map: &MapEncoding) -> Vec<Variant> {
     let drawn = map.storage().is_drawn();
     let suffix = format!("{}_{}", techniques::label(map.technique()), map.storage());
     let mut all = Vec::new();
-    // Four moments are made and filtered alike for all that read them.
-    if *map.technique() != Technique::Hausdorff4 {
+    // A map that several techniques read is made and filtered alike for all of them.
+    let reads = |other: &Technique| other.shares_map_with(map.technique());
+    let first = Technique::examples().into_iter().find(reads);
+    if first.is_none_or(|first| first.name() == map.technique().name()) {
         let name = format!("resolve_{suffix}");
         all.push(
             resolve(map)

@@ -171,10 +171,12 @@ fn profile(map: &MapEncoding) -> Profile {
     least.unwrap_or(Profile::NativeAdapter)
 }
 
-/// Whether the texts for another technique's map are kept. Other storages change a constant.
+/// Whether the texts for another technique's map are kept: where its row evaluates by more than one call, and once for all storages,
+/// which change a constant.
 fn is_kept(map: &MapEncoding) -> bool {
-    matches!(map.storage(), Storage::Float32 | Storage::Unorm8)
-        || techniques::label(map.technique()).contains("lloyd")
+    let is_first = matches!(map.storage(), Storage::Float32 | Storage::Unorm8);
+    let row = map.technique().row();
+    (is_first || row.places_layers) && row.technique().contains("let ")
 }
 
 /// Every node with its variants: all that four moments allow in every storage, what works on plain depth, and what the

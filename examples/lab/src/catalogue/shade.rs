@@ -102,7 +102,10 @@ pub(super) fn of_depth(any: &MapEncoding) -> Vec<Variant> {
                 PcfTaps::Hardware { radius, .. } => vec![2 * radius + 1],
                 PcfTaps::Poisson { .. } => vec![16],
             },
-            Technique::Pcss(taps) => vec![taps.search_taps, taps.filter_taps],
+            Technique::Pcss {
+                search_taps,
+                filter_taps,
+            } => vec![*search_taps, *filter_taps],
             _ => Vec::new(),
         };
         let kept = !matches!(technique, Technique::Pcf(_));

@@ -5,7 +5,7 @@ mod average;
 use core::fmt;
 use std::path::{Path, PathBuf};
 
-use moment_shadows::{Storage, TechniqueError};
+use moment_shadows::{Storage, ValueError};
 use serde::Serialize;
 
 pub use average::error_chart;
@@ -91,7 +91,7 @@ impl Options {
     }
 
     /// What is measured: all techniques, those that are named, or the graph's own in all of its storages.
-    fn candidates(&self) -> Result<Vec<Candidate>, TechniqueError> {
+    fn candidates(&self) -> Result<Vec<Candidate>, ValueError> {
         let storage = self.frame.storage;
         if !self.all && self.technique.is_empty() {
             let own = storage.map_or(Storage::OF_FOUR_MOMENTS.to_vec(), |storage| vec![storage]);

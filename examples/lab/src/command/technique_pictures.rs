@@ -193,7 +193,10 @@ impl Stage {
             .parse()
             .map_err(|error: String| LabError::unsuitable(technique, error))?;
         let file = choice.graph(graph, storage)?.in_single_precision()?;
-        let soft = matches!(file.technique(), Some(moment_shadows::Technique::Pcss(_)));
+        let soft = matches!(
+            file.technique(),
+            Some(moment_shadows::Technique::Pcss { .. })
+        );
         if soft && self.soft.is_none() {
             self.soft = Some(self.area_light(gpu)?);
         }

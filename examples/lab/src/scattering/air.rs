@@ -1,7 +1,7 @@
 //! What is in the air of a scene.
 
 use glam::DVec3;
-use moment_shadows::{SingleScattering, SingleScatteringError};
+use moment_shadows::{SingleScattering, ValueError};
 
 use crate::scene::Scene;
 
@@ -37,7 +37,7 @@ impl Air {
     ///
     /// # Errors
     /// A medium that cannot be.
-    pub(super) fn of(scene: &Scene, eye: DVec3) -> Result<Self, SingleScatteringError> {
+    pub(super) fn of(scene: &Scene, eye: DVec3) -> Result<Self, ValueError> {
         let bounds = scene.bounds();
         let far = (bounds.centre() - eye).length() + BEHIND * bounds.radius();
         let mean = (THICKNESS / far) as f32;

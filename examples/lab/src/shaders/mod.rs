@@ -6,7 +6,7 @@ mod write;
 
 use std::collections::BTreeMap;
 
-use moment_shadows::{Profile, Source, link, link_module, modules};
+use moment_shadows::{Profile, Source, link, modules};
 use moment_shadows_graph::Pass;
 
 use crate::catalogue;
@@ -104,7 +104,7 @@ pub fn all() -> Result<Vec<Shader>, LabError> {
     let mut all = Vec::new();
     for module in modules() {
         let (name, text) = (module.name, module.source);
-        let linked = link_module(Source { name, text })?.into_wgsl();
+        let linked = link(Source { name, text }, &[])?.into_wgsl();
         let called = calls(text, &linked);
         all.push(core(format!("calls_{name}"), Kind::Calls, called));
         all.push(core(format!("module_{name}"), Kind::Module, linked));

@@ -1,6 +1,6 @@
 //! The usual way to make a summed-area table: a row, then a column, per invocation. What ours is compared with.
 
-use moment_shadows::{LinkError, Source, TextureFormat, link};
+use moment_shadows::{ShaderError, Source, TextureFormat, link};
 use moment_shadows_graph::TextureDesc;
 
 use crate::error::LabError;
@@ -22,7 +22,7 @@ pub const SHADERS: [(&str, &str, &str); 2] = [
 pub const LINES: u32 = 64;
 
 /// The linked text of one of [`SHADERS`].
-pub fn linked(name: &str, text: &str) -> Result<String, LinkError> {
+pub fn linked(name: &str, text: &str) -> Result<String, ShaderError> {
     Ok(link(Source { name, text }, &[])?.into_wgsl())
 }
 

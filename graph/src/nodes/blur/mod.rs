@@ -3,7 +3,7 @@
 mod kernel;
 mod unrolled;
 
-use moment_shadows::{Kernel, KernelError, MapEncoding};
+use moment_shadows::{Kernel, MapEncoding, ValueError};
 use serde::Deserialize;
 
 use super::shared::{map_input, mip_levels, regions, wgsl, wrong_property, wrong_size};
@@ -39,7 +39,7 @@ pub struct Blur {
     /// The kernel, the same along both axes; the node refuses what is none. In a file a `radius` and a `sigma` in texels (0.6
     /// of the radius where it is left out), or `weights`.
     #[serde(deserialize_with = "kernel::read")]
-    pub kernel: Result<Kernel, KernelError>,
+    pub kernel: Result<Kernel, ValueError>,
     /// Whether the kernel can change per frame: its weights are then a node parameter ([`Blur::parameters`]), which begins
     /// as `kernel`. Kernels of a radius above 12 have the parameter in any case.
     #[serde(default)]
