@@ -16,7 +16,6 @@
 const GROUP = 0;
 const LEVELS = 1u;
 const ANISOTROPY = 1.0;
-
 const VIEWS = 1u;
 const LIGHTS = 1u;
 

@@ -1,0 +1,39 @@
+// What is linked of files:
+// fullscreen: Covered fullscreen
+// moment_shadows/map/depth.wgsl: DepthConversion depth_is_nan depth_of_fragment
+// moment_shadows/shade/leak_reduction.wgsl: LeakReduction leak_reduction_full_shadow leak_reduction_apply
+// moment_shadows/map/map_region.wgsl: MapRegion map_region_within map_region_place
+// moment_shadows/map/minification.wgsl: MINIFICATION_LARGEST_ANISOTROPY MINIFICATION_TEXEL_PER_WIDTH MinificationFootprint minification_footprint minification_depth_variance
+// moment_shadows/shade/area_light.wgsl: AreaLight
+// moment_shadows/shade/receiver_bias.wgsl: RECEIVER_BIAS_STANDARD_DEVIATIONS RECEIVER_BIAS_EDGE_ON ReceiverBias receiver_bias_plane receiver_bias_depth receiver_bias_depth_minified
+// moment_shadows/map/storage.wgsl: STORAGE_FLOAT16 STORAGE_FLOAT32 storage_is_float storage_finite_texel
+// moment_shadows/techniques/exponential.wgsl: EXPONENTIAL_LARGEST_EXPONENT EXPONENTIAL_SMALLEST_EXPONENT EXPONENTIAL_SMALLEST_MEAN exponential_exponent exponential_logarithm_of_texel exponential_mean_of_texel exponential_shadow_intensity
+// moments_lookup: moments_map
+// technique_receiver: TechniqueReceiver
+// technique_map: technique_map_size
+// shade.wgsl: ViewParameters views camera_depth Receiver receiver_at camera_depth_at extrapolation_error UNUSABLE LARGEST_DIFFERENCE neighbour_of receiver_difference view_shadow_intensity shade
+
+// specialization
+const GROUP = 0;
+const STORAGE = 2u;
+const EXPONENT = f32(80.0);
+const LEVELS = 1u;
+const ANISOTROPY = 8.0;
+const VIEWS = 1u;
+const LIGHTS = 1u;
+
+// technique
+fn technique_shadow_intensity(receiver: TechniqueReceiver) -> f32 {
+    let place = map_region_place(receiver.region, receiver.uv) - 0.5;
+    let base = floor(place);
+    let weight = place - base;
+    let low = vec2i(base);
+    let high = min(low + 1, vec2i(receiver.region.origin + receiver.region.extent) - 1);
+    let top_left = exponential_mean_of_texel(textureLoad(moments_map, low, receiver.layer, 0), STORAGE, EXPONENT, true);
+    let top_right = exponential_mean_of_texel(textureLoad(moments_map, vec2i(high.x, low.y), receiver.layer, 0), STORAGE, EXPONENT, true);
+    let bottom_left = exponential_mean_of_texel(textureLoad(moments_map, vec2i(low.x, high.y), receiver.layer, 0), STORAGE, EXPONENT, true);
+    let bottom_right = exponential_mean_of_texel(textureLoad(moments_map, high, receiver.layer, 0), STORAGE, EXPONENT, true);
+    let mean = mix(mix(top_left, top_right, weight.x), mix(bottom_left, bottom_right, weight.x), weight.y);
+    return exponential_shadow_intensity(mean, receiver.fragment_depth, EXPONENT, 0.0);
+}
+
