@@ -1,11 +1,14 @@
 //! The host side of the WGSL module `area_light`.
 
+use core::ops::RangeInclusive;
+
 use bytemuck::{Pod, Zeroable};
 
-use crate::{DepthError, DepthRange};
+use crate::constants::AREA_LIGHT_LARGEST_RADIUS;
+use crate::value_error::check;
+use crate::{DepthRange, ValueError};
 
-/// The largest radius in texels.
-const LARGEST_SOFT_RADIUS: f64 = 4096.0;
+const OF: &str = "a light's soft shadows";
 
 /// A light of some size over its map: the uniform struct of the WGSL module `area_light`.
 #[derive(Clone, Copy, Debug, PartialEq, Pod, Zeroable)]
@@ -28,40 +31,6 @@ pub struct AreaLight {
     pub rectangular: u32,
 }
 
-/// The half widths in texels that search and filter keep to.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct SoftRadii {
-    /// At least 0; 0.5 and more softens the edges of texels near contacts.
-    pub smallest: f64,
-    /// At least `smallest`, above 0, at most 4096. n taps on a disk are 1.8 times the radius over sqrt(n) apart; for a
-    /// summed-area table the radius is half of the largest kernel's side.
-    pub largest: f64,
-}
-
-/// An area light whose parameters are out of range.
-#[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
-#[non_exhaustive]
-pub enum AreaLightError {
-    /// A number is out of range.
-    #[error("a light's soft shadows: {name} is {value}, but must be {range}")]
-    Value {
-        /// The number's name.
-        name: &'static str,
-        /// The value that was given.
-        value: f64,
-        /// The range that it has to be in.
-        range: &'static str,
-    },
-    /// The range of moment depth is empty.
-    #[error(transparent)]
-    Range(#[from] DepthError),
-    /// A size of another kind of light.
-    #[error(
-        "a light with parallel rays has an angular diameter as its size, one with a perspective map is a disk or a rectangle"
-    )]
-    Shape,
-}
-
 impl AreaLight {
     /// A light without size: shadows without penumbrae.
     pub const NONE: AreaLight = AreaLight {
@@ -75,21 +44,25 @@ impl AreaLight {
     };
 
     /// A light with parallel rays that appears as a disk of `angular_diameter` radians, at least 0 and below pi; the sun's is
-    /// 0.0093. `texel` is a texel's width and height in scene units, `range` that of the map's moment depth. A light without
-    /// size has shadows as hard as `radii` allow.
+    /// 0.0093. `texel` is a texel's width and height in scene units, `range` that of the map's moment depth.
+    ///
+    /// Search and filter keep to `radii`, half widths in texels. The smallest is at least 0; 0.5 and more softens the edges of
+    /// texels near contacts, and those of a light without size. The largest is above 0, at most 4096: n taps on a disk are 1.8
+    /// times as much over sqrt(n) apart; for a summed-area table it is half of the largest kernel's side.
     ///
     /// # Errors
-    /// [`AreaLightError`], which names the number that is out of range.
+    /// [`ValueError`], which names the number that is out of range.
     pub fn directional(
         angular_diameter: f64,
         texel: [f64; 2],
         range: DepthRange,
-        radii: SoftRadii,
-    ) -> Result<Self, AreaLightError> {
+        radii: RangeInclusive<f64>,
+    ) -> Result<Self, ValueError> {
         check(
+            (0.0..std::f64::consts::PI).contains(&angular_diameter),
+            OF,
             "the angular diameter",
             angular_diameter,
-            (0.0..std::f64::consts::PI).contains(&angular_diameter),
             "at least 0 and below pi radians",
         )?;
         let size = 2.0 * (0.5 * angular_diameter).tan();
@@ -98,41 +71,50 @@ impl AreaLight {
 
     /// A light with rays from a point: a disk of the given diameter in scene units, at least 0, facing along the light's
     /// axis. `texel` is a texel's width and height at distance 1 along it: 2 tan(full angle / 2) over the texels. `range` is
-    /// that of the map's moment depth; it begins in front of the light.
+    /// that of the map's moment depth; it begins in front of the light. `radii` are as in [`AreaLight::directional`].
     ///
     /// # Errors
-    /// [`AreaLightError`], which names the number that is out of range.
+    /// [`ValueError`], which names the number that is out of range.
     pub fn spot(
         diameter: f64,
         texel: [f64; 2],
         range: DepthRange,
-        radii: SoftRadii,
-    ) -> Result<Self, AreaLightError> {
+        radii: RangeInclusive<f64>,
+    ) -> Result<Self, ValueError> {
         check_length("the diameter", diameter)?;
-        check_near(range)?;
-        Ok(Self {
-            perspective: 1,
-            ..Self::new([diameter; 2], texel, range, radii)?
-        })
+        Self::from_point([diameter; 2], texel, range, radii)
     }
 
     /// A light with rays from a point: a rectangle of the given width and height in scene units, each at least 0, along the
-    /// map's x and y. `texel` and `range` are as in [`AreaLight::spot`].
+    /// map's x and y. `texel`, `range` and `radii` are as in [`AreaLight::spot`].
     ///
     /// # Errors
-    /// [`AreaLightError`], which names the number that is out of range.
+    /// [`ValueError`], which names the number that is out of range.
     pub fn rectangle(
         size: [f64; 2],
         texel: [f64; 2],
         range: DepthRange,
-        radii: SoftRadii,
-    ) -> Result<Self, AreaLightError> {
+        radii: RangeInclusive<f64>,
+    ) -> Result<Self, ValueError> {
         check_length("the width", size[0])?;
         check_length("the height", size[1])?;
-        check_near(range)?;
+        Ok(Self {
+            rectangular: 1,
+            ..Self::from_point(size, texel, range, radii)?
+        })
+    }
+
+    fn from_point(
+        size: [f64; 2],
+        texel: [f64; 2],
+        range: DepthRange,
+        radii: RangeInclusive<f64>,
+    ) -> Result<Self, ValueError> {
+        let name = "the distance of the range's near end";
+        let legal = "above 0, in front of the light";
+        check(range.near > 0.0, OF, name, range.near, legal)?;
         Ok(Self {
             perspective: 1,
-            rectangular: 1,
             ..Self::new(size, texel, range, radii)?
         })
     }
@@ -141,51 +123,64 @@ impl AreaLight {
         size: [f64; 2],
         texel: [f64; 2],
         range: DepthRange,
-        radii: SoftRadii,
-    ) -> Result<Self, AreaLightError> {
+        radii: RangeInclusive<f64>,
+    ) -> Result<Self, ValueError> {
         range.check()?;
-        for (name, length) in [
-            ("a texel's width", texel[0]),
-            ("a texel's height", texel[1]),
-        ] {
-            let valid = length > 0.0 && length.is_finite();
-            check(name, length, valid, "above 0 and finite")?;
-        }
-        let SoftRadii { smallest, largest } = radii;
-        check(
-            "the smallest radius",
-            smallest,
-            smallest >= 0.0 && smallest <= largest,
-            "at least 0 and at most the largest",
-        )?;
-        check(
-            "the largest radius",
-            largest,
-            largest > 0.0 && largest <= LARGEST_SOFT_RADIUS,
-            "above 0 and at most 4096 texels",
-        )?;
+        let (smallest, largest) = radii.into_inner();
+        let most = f64::from(AREA_LIGHT_LARGEST_RADIUS);
         let texels = [size[0] / texel[0], size[1] / texel[1]];
+        let is_length = |length: f64| length > 0.0 && length.is_finite();
+        let is_size = |value: f64| (value as f32).is_normal() || value == 0.0;
+        let is_single = |value: f64| (value as f32).is_finite();
+        let above_zero = "above 0 and finite";
         // Sizes beyond single precision come from units that do not fit together.
-        for value in texels {
-            let single = value as f32;
-            check(
+        let single = "within single precision; choose another unit of length";
+        for (valid, name, value, legal) in [
+            (is_length(texel[0]), "a texel's width", texel[0], above_zero),
+            (
+                is_length(texel[1]),
+                "a texel's height",
+                texel[1],
+                above_zero,
+            ),
+            (
+                smallest >= 0.0 && smallest <= largest,
+                "the smallest radius",
+                smallest,
+                "at least 0 and at most the largest",
+            ),
+            (
+                largest > 0.0 && largest <= most,
+                "the largest radius",
+                largest,
+                "above 0 and at most 4096 texels",
+            ),
+            (
+                is_size(texels[0]),
                 "the light's size in texels",
-                value,
-                single.is_normal() || value == 0.0,
-                "within single precision; choose another unit of length",
-            )?;
-        }
-        for (name, value) in [
-            ("the range's near end", range.near),
-            ("the range's far end", range.far),
+                texels[0],
+                single,
+            ),
+            (
+                is_size(texels[1]),
+                "the light's size in texels",
+                texels[1],
+                single,
+            ),
+            (
+                is_single(range.near),
+                "the range's near end",
+                range.near,
+                single,
+            ),
+            (
+                is_single(range.far),
+                "the range's far end",
+                range.far,
+                single,
+            ),
         ] {
-            let single = value as f32;
-            check(
-                name,
-                value,
-                single.is_finite(),
-                "within single precision; choose another unit of length",
-            )?;
+            check(valid, OF, name, value, legal)?;
         }
         Ok(Self {
             size: texels.map(|value| value as f32),
@@ -199,29 +194,7 @@ impl AreaLight {
     }
 }
 
-fn check(
-    name: &'static str,
-    value: f64,
-    valid: bool,
-    range: &'static str,
-) -> Result<(), AreaLightError> {
-    if valid {
-        Ok(())
-    } else {
-        Err(AreaLightError::Value { name, value, range })
-    }
-}
-
-fn check_length(name: &'static str, length: f64) -> Result<(), AreaLightError> {
+fn check_length(name: &'static str, length: f64) -> Result<(), ValueError> {
     let valid = length >= 0.0 && length.is_finite();
-    check(name, length, valid, "at least 0 and finite")
-}
-
-fn check_near(range: DepthRange) -> Result<(), AreaLightError> {
-    check(
-        "the distance of the range's near end",
-        range.near,
-        range.near > 0.0,
-        "above 0, in front of the light",
-    )
+    check(valid, OF, name, length, "at least 0 and finite")
 }

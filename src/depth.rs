@@ -3,6 +3,8 @@
 use bytemuck::{Pod, Zeroable};
 use serde::{Deserialize, Serialize};
 
+use crate::ValueError;
+
 /// Distances along the light's axis, in scene units, that map to the moment depths -1 and 1.
 ///
 /// The tighter the range encloses casters and receivers, the less light leaks.
@@ -12,33 +14,6 @@ pub struct DepthRange {
     pub near: f64,
     /// Distance of moment depth 1; greater than `near`.
     pub far: f64,
-}
-
-/// A depth convention for which no conversion exists.
-#[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
-#[non_exhaustive]
-pub enum DepthError {
-    /// The range is empty, reversed or not finite.
-    #[error(
-        "the depth range {near} to {far} is empty or not finite; give finite distances with near < far"
-    )]
-    EmptyRange {
-        /// Distance of moment depth -1.
-        near: f64,
-        /// Distance of moment depth 1.
-        far: f64,
-    },
-    /// A perspective projection with a near plane at or behind the light, or a far plane not beyond it.
-    #[error(
-        "a perspective light cannot have its near plane at {near} and its far plane at {far}; \
-         the near plane lies in front of the light and before the far plane"
-    )]
-    InvalidPlanes {
-        /// Distance of the near plane.
-        near: f64,
-        /// Distance of the far plane; infinite for a projection without one.
-        far: f64,
-    },
 }
 
 /// How stored depth becomes moment depth: the uniform struct of the WGSL module `depth`, one per layer of a map.
@@ -64,18 +39,16 @@ impl DepthConversion {
         Self::of_ends([-1.0, 1.0], [1.0, 1.0])
     }
 
-    /// Orthographic depth in [0, 1], 1 at the near plane.
-    #[must_use]
-    pub fn orthographic_reversed() -> Self {
-        Self::orthographic().reversed()
-    }
-
     /// Perspective depth in [0, 1], 0 at the near plane. `far` may be infinite.
-    pub fn perspective(near: f64, far: f64, range: DepthRange) -> Result<Self, DepthError> {
+    pub fn perspective(near: f64, far: f64, range: DepthRange) -> Result<Self, ValueError> {
         range.check()?;
         let valid = near.is_finite() && near > 0.0 && far > near;
         if !valid {
-            return Err(DepthError::InvalidPlanes { near, far });
+            let message = format!(
+                "a perspective light cannot have its near plane at {near} and its far plane at {far}; \
+                 the near plane lies in front of the light and before the far plane"
+            );
+            return Err(ValueError::new("the planes", message));
         }
         // Distance t = near / ((1 - d) + d near / far); moment depth = (2 t - (a + b)) / (b - a).
         let ratio = near / far;
@@ -90,17 +63,8 @@ impl DepthConversion {
         ))
     }
 
-    /// Perspective depth in [0, 1], 1 at the near plane. `far` may be infinite.
-    pub fn perspective_reversed(
-        near: f64,
-        far: f64,
-        range: DepthRange,
-    ) -> Result<Self, DepthError> {
-        Ok(Self::perspective(near, far, range)?.reversed())
-    }
-
     /// Distance along the light's axis (or to the light) in scene units, as an R32Float texture holds it.
-    pub fn linear(range: DepthRange) -> Result<Self, DepthError> {
+    pub fn linear(range: DepthRange) -> Result<Self, ValueError> {
         range.check()?;
         let extent = range.far - range.near;
         Ok(Self {
@@ -110,9 +74,9 @@ impl DepthConversion {
         })
     }
 
-    /// The conversion of the same light with stored depth reversed.
+    /// The conversion of the same light with stored depth reversed: 1 at the near plane.
     #[must_use]
-    fn reversed(self) -> Self {
+    pub fn reversed(self) -> Self {
         Self {
             numerator: [self.numerator[1], self.numerator[0]],
             denominator: [self.denominator[1], self.denominator[0]],
@@ -139,15 +103,15 @@ impl DepthConversion {
 
 impl DepthRange {
     /// Checks that the range is finite and not empty.
-    pub fn check(self) -> Result<(), DepthError> {
+    pub fn check(self) -> Result<(), ValueError> {
         let valid = self.near.is_finite() && self.far.is_finite() && self.near < self.far;
         if valid {
-            Ok(())
-        } else {
-            Err(DepthError::EmptyRange {
-                near: self.near,
-                far: self.far,
-            })
+            return Ok(());
         }
+        let message = format!(
+            "the depth range {} to {} is empty or not finite; give finite distances with near < far",
+            self.near, self.far
+        );
+        Err(ValueError::new("the depth range", message))
     }
 }

@@ -57,13 +57,6 @@ pub struct FormatSupport {
     pub blendable: bool,
 }
 
-const NOTHING: FormatSupport = FormatSupport {
-    filterable: false,
-    storage_write: false,
-    renderable: false,
-    blendable: false,
-};
-
 impl TextureFormat {
     /// Every format.
     pub const ALL: [TextureFormat; 16] = [
@@ -85,27 +78,32 @@ impl TextureFormat {
         TextureFormat::Depth32Float,
     ];
 
+    /// The name, and bytes of a texel.
+    fn row(self) -> (&'static str, u32) {
+        match self {
+            TextureFormat::R8Unorm => ("r8unorm", 1),
+            TextureFormat::Rgba8Unorm => ("rgba8unorm", 4),
+            TextureFormat::R16Unorm => ("r16unorm", 2),
+            TextureFormat::Rg16Unorm => ("rg16unorm", 4),
+            TextureFormat::R16Float => ("r16float", 2),
+            TextureFormat::Rg16Float => ("rg16float", 4),
+            TextureFormat::R32Float => ("r32float", 4),
+            TextureFormat::Rg32Float => ("rg32float", 8),
+            TextureFormat::Rgb10a2Unorm => ("rgb10a2unorm", 4),
+            TextureFormat::Rgba16Unorm => ("rgba16unorm", 8),
+            TextureFormat::Rgba16Float => ("rgba16float", 8),
+            TextureFormat::Rgba32Float => ("rgba32float", 16),
+            TextureFormat::Rg32Uint => ("rg32uint", 8),
+            TextureFormat::Rgba32Uint => ("rgba32uint", 16),
+            TextureFormat::Depth16Unorm => ("depth16unorm", 2),
+            TextureFormat::Depth32Float => ("depth32float", 4),
+        }
+    }
+
     /// The WebGPU (and WGSL) name.
     #[must_use]
     pub fn name(self) -> &'static str {
-        match self {
-            TextureFormat::R8Unorm => "r8unorm",
-            TextureFormat::Rgba8Unorm => "rgba8unorm",
-            TextureFormat::R16Unorm => "r16unorm",
-            TextureFormat::Rg16Unorm => "rg16unorm",
-            TextureFormat::R16Float => "r16float",
-            TextureFormat::Rg16Float => "rg16float",
-            TextureFormat::R32Float => "r32float",
-            TextureFormat::Rg32Float => "rg32float",
-            TextureFormat::Rgb10a2Unorm => "rgb10a2unorm",
-            TextureFormat::Rgba16Unorm => "rgba16unorm",
-            TextureFormat::Rgba16Float => "rgba16float",
-            TextureFormat::Rgba32Float => "rgba32float",
-            TextureFormat::Rg32Uint => "rg32uint",
-            TextureFormat::Rgba32Uint => "rgba32uint",
-            TextureFormat::Depth16Unorm => "depth16unorm",
-            TextureFormat::Depth32Float => "depth32float",
-        }
+        self.row().0
     }
 
     /// How many channels a texel has: 1, 2 or 4.
@@ -134,21 +132,7 @@ impl TextureFormat {
     /// Bytes of one texel (of one sample, where multisampled).
     #[must_use]
     pub fn bytes_per_texel(self) -> u32 {
-        match self {
-            TextureFormat::R8Unorm => 1,
-            TextureFormat::R16Unorm | TextureFormat::R16Float | TextureFormat::Depth16Unorm => 2,
-            TextureFormat::Rgba8Unorm
-            | TextureFormat::Rg16Unorm
-            | TextureFormat::Rg16Float
-            | TextureFormat::R32Float
-            | TextureFormat::Rgb10a2Unorm
-            | TextureFormat::Depth32Float => 4,
-            TextureFormat::Rg32Float
-            | TextureFormat::Rg32Uint
-            | TextureFormat::Rgba16Unorm
-            | TextureFormat::Rgba16Float => 8,
-            TextureFormat::Rgba32Float | TextureFormat::Rgba32Uint => 16,
-        }
+        self.row().1
     }
 
     /// Whether this is a depth format.
@@ -193,51 +177,27 @@ impl TextureFormat {
     /// What every device of the profile can do with the format, without optional features beyond the profile's own.
     #[must_use]
     pub fn support(self, profile: Profile) -> FormatSupport {
-        let colour = FormatSupport {
-            filterable: true,
-            storage_write: false,
-            renderable: true,
-            blendable: true,
-        };
-        match self {
-            TextureFormat::R8Unorm | TextureFormat::Rgb10a2Unorm => colour,
+        use TextureFormat as F;
+        let (filterable, storage_write, renderable, blendable) = match self {
+            F::R8Unorm | F::Rgb10a2Unorm => (true, false, true, true),
             // Only features that an adapter adds let them be written as storage.
-            TextureFormat::R16Float | TextureFormat::Rg16Float => FormatSupport {
-                storage_write: profile == Profile::NativeAdapter,
-                ..colour
-            },
-            TextureFormat::Rgba8Unorm | TextureFormat::Rgba16Float => FormatSupport {
-                storage_write: true,
-                ..colour
-            },
+            F::R16Float | F::Rg16Float => (true, profile == Profile::NativeAdapter, true, true),
+            F::Rgba8Unorm | F::Rgba16Float => (true, true, true, true),
             // Filtering and blending of single precision are optional features everywhere.
-            TextureFormat::R32Float | TextureFormat::Rg32Float | TextureFormat::Rgba32Float => {
-                FormatSupport {
-                    filterable: false,
-                    storage_write: true,
-                    renderable: true,
-                    blendable: false,
-                }
+            F::R32Float | F::Rg32Float | F::Rgba32Float | F::Rg32Uint | F::Rgba32Uint => {
+                (false, true, true, false)
             }
-            TextureFormat::Rg32Uint | TextureFormat::Rgba32Uint => FormatSupport {
-                storage_write: true,
-                renderable: true,
-                ..NOTHING
-            },
-            TextureFormat::R16Unorm | TextureFormat::Rg16Unorm | TextureFormat::Rgba16Unorm => {
-                match profile {
-                    Profile::WebgpuCore => NOTHING,
-                    Profile::Native | Profile::NativeAdapter => FormatSupport {
-                        filterable: true,
-                        storage_write: true,
-                        ..NOTHING
-                    },
-                }
+            F::R16Unorm | F::Rg16Unorm | F::Rgba16Unorm => {
+                let native = profile != Profile::WebgpuCore;
+                (native, native, false, false)
             }
-            TextureFormat::Depth16Unorm | TextureFormat::Depth32Float => FormatSupport {
-                renderable: true,
-                ..NOTHING
-            },
+            F::Depth16Unorm | F::Depth32Float => (false, false, true, false),
+        };
+        FormatSupport {
+            filterable,
+            storage_write,
+            renderable,
+            blendable,
         }
     }
 }

@@ -2,13 +2,8 @@
 
 use serde::{Deserialize, Serialize};
 
-use crate::constant::number;
-
-/// The largest radius of a kernel, in texels.
-const LARGEST_RADIUS: u32 = number(
-    include_str!("../wgsl/techniques/percentage_closer.wgsl"),
-    "PERCENTAGE_CLOSER_LARGEST_RADIUS",
-) as u32;
+use crate::ValueError;
+use crate::constants::PERCENTAGE_CLOSER_LARGEST_RADIUS;
 
 /// Weights are multiples of this, 2^-18, for the sums of the WGSL module `split_sum`.
 const WEIGHT_UNIT: f64 = 1.0 / (1 << 18) as f64;
@@ -22,54 +17,20 @@ pub struct Kernel {
     weights: Vec<f32>,
 }
 
-/// Weights or a shape that make no kernel.
-#[derive(Clone, Debug, PartialEq, thiserror::Error)]
-#[non_exhaustive]
-pub enum KernelError {
-    /// The radius is 0 or too large.
-    #[error("a kernel's radius is 1 to {LARGEST_RADIUS} texels, not {radius}")]
-    Radius {
-        /// The radius that was asked for.
-        radius: u32,
-    },
-    /// The Gaussian has no width.
-    #[error("a Gaussian's sigma is a positive number of texels, not {sigma}")]
-    Sigma {
-        /// The sigma that was asked for.
-        sigma: f32,
-    },
-    /// An even number of weights has no centre.
-    #[error("a kernel has an odd number of weights, 3 to {}, not {count}", 2 * LARGEST_RADIUS + 1)]
-    Count {
-        /// How many weights were given.
-        count: usize,
-    },
-    /// A weight is negative or not finite.
-    #[error(
-        "weight {index} is {value}; a filter of moments needs finite weights that are not negative"
-    )]
-    Weight {
-        /// The index of the weight.
-        index: usize,
-        /// The weight.
-        value: f32,
-    },
-    /// All weights are zero.
-    #[error("all weights are 0; at least one must be positive")]
-    NoWeight,
-}
-
 impl Kernel {
     /// The largest radius of a kernel, in texels.
-    pub const LARGEST_RADIUS: u32 = LARGEST_RADIUS;
+    pub const LARGEST_RADIUS: u32 = PERCENTAGE_CLOSER_LARGEST_RADIUS as u32;
 
     /// A Gaussian of standard deviation `sigma` texels, cut off at `radius` texels.
-    pub fn gaussian(radius: u32, sigma: f32) -> Result<Self, KernelError> {
-        if radius == 0 || radius > LARGEST_RADIUS {
-            return Err(KernelError::Radius { radius });
+    pub fn gaussian(radius: u32, sigma: f32) -> Result<Self, ValueError> {
+        let largest = Self::LARGEST_RADIUS;
+        if radius == 0 || radius > largest {
+            let message = format!("a kernel's radius is 1 to {largest} texels, not {radius}");
+            return Err(ValueError::new("radius", message));
         }
         if !(sigma.is_finite() && sigma > 0.0) {
-            return Err(KernelError::Sigma { sigma });
+            let message = format!("a Gaussian's sigma is a positive number of texels, not {sigma}");
+            return Err(ValueError::new("sigma", message));
         }
         let radius = i64::from(radius);
         let weights: Vec<f64> = (-radius..=radius)
@@ -82,22 +43,27 @@ impl Kernel {
     }
 
     /// Given weights, normalised. Their number is odd, 3 to 129; the middle one belongs to the texel itself.
-    pub fn from_weights(weights: &[f32]) -> Result<Self, KernelError> {
-        let largest = 2 * LARGEST_RADIUS as usize + 1;
+    pub fn from_weights(weights: &[f32]) -> Result<Self, ValueError> {
+        let of_weights = |message| ValueError::new("weights", message);
+        let largest = 2 * Self::LARGEST_RADIUS as usize + 1;
         if weights.len().is_multiple_of(2) || weights.len() < 3 || weights.len() > largest {
-            return Err(KernelError::Count {
-                count: weights.len(),
-            });
+            let count = weights.len();
+            return Err(of_weights(format!(
+                "a kernel has an odd number of weights, 3 to {largest}, not {count}"
+            )));
         }
         if let Some((index, &value)) = weights
             .iter()
             .enumerate()
             .find(|(_, weight)| !weight.is_finite() || **weight < 0.0)
         {
-            return Err(KernelError::Weight { index, value });
+            return Err(of_weights(format!(
+                "weight {index} is {value}; a filter of moments needs finite weights that are not negative"
+            )));
         }
         if weights.iter().all(|&weight| weight == 0.0) {
-            return Err(KernelError::NoWeight);
+            let message = "all weights are 0; at least one must be positive";
+            return Err(of_weights(message.to_owned()));
         }
         let weights: Vec<f64> = weights.iter().map(|&weight| f64::from(weight)).collect();
         Ok(Self::normalised(&weights))

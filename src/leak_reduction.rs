@@ -3,6 +3,9 @@
 use bytemuck::{Pod, Zeroable};
 use serde::{Deserialize, Serialize};
 
+use crate::ValueError;
+use crate::value_error::check;
+
 /// The reduction of light leaking after the bound: the uniform struct of the WGSL module `leak_reduction`.
 #[derive(Clone, Copy, Debug, PartialEq, Pod, Zeroable, Serialize, Deserialize)]
 #[repr(C)]
@@ -15,18 +18,6 @@ pub struct LeakReduction {
     pub visibility_exponent: f32,
     /// Unused; keeps the WGSL layout.
     pub padding: f32,
-}
-
-/// A leak reduction with a field out of range.
-#[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
-#[error("leak reduction: {name} is {value}, but must be {range}")]
-pub struct LeakReductionError {
-    /// The field's name.
-    pub name: &'static str,
-    /// The field's value.
-    pub value: f32,
-    /// The range that the value has to be in.
-    pub range: &'static str,
 }
 
 impl LeakReduction {
@@ -45,31 +36,35 @@ impl LeakReduction {
     };
 
     /// Checks that every field is in its range.
-    pub fn check(self) -> Result<(), LeakReductionError> {
-        let fields = [
+    pub fn check(self) -> Result<(), ValueError> {
+        let [full, bleed, exponent] = [
+            self.full_shadow,
+            self.bleed_reduction,
+            self.visibility_exponent,
+        ];
+        for (name, value, valid, range) in [
             (
                 "full_shadow",
-                self.full_shadow,
-                self.full_shadow > 0.0 && self.full_shadow <= 1.0,
+                full,
+                full > 0.0 && full <= 1.0,
                 "above 0 and at most 1",
             ),
             (
                 "bleed_reduction",
-                self.bleed_reduction,
-                self.bleed_reduction >= 0.0 && self.bleed_reduction < 1.0,
+                bleed,
+                (0.0..1.0).contains(&bleed),
                 "at least 0 and below 1",
             ),
             (
                 "visibility_exponent",
-                self.visibility_exponent,
-                self.visibility_exponent > 0.0 && self.visibility_exponent.is_finite(),
+                exponent,
+                exponent > 0.0 && exponent.is_finite(),
                 "above 0 and finite",
             ),
-        ];
-        match fields.into_iter().find(|(_, _, valid, _)| !valid) {
-            None => Ok(()),
-            Some((name, value, _, range)) => Err(LeakReductionError { name, value, range }),
+        ] {
+            check(valid, "leak reduction", name, value, range)?;
         }
+        Ok(())
     }
 }
 

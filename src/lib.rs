@@ -19,7 +19,7 @@
 //! };
 //! let linked = link(shader, &[])?;
 //! assert!(linked.wgsl().contains("fn hankel_factor("));
-//! # Ok::<(), moment_shadows::LinkError>(())
+//! # Ok::<(), moment_shadows::ShaderError>(())
 //! ```
 //!
 //! The import lines are WESL, so the same text works in hosts that read WESL. `validate()` (feature `validate`, on by
@@ -28,8 +28,13 @@
 // A technique, a storage or a format is never taken for another one.
 #![warn(clippy::wildcard_enum_match_arm)]
 
+/// Numbers that stand in WGSL, and only there.
+#[allow(dead_code, clippy::excessive_precision, clippy::approx_constant)]
+mod constants {
+    include!(concat!(env!("OUT_DIR"), "/constants.rs"));
+}
+
 mod area_light;
-mod constant;
 mod depth;
 mod format;
 mod kernel;
@@ -38,7 +43,6 @@ mod link;
 mod map_region;
 mod moment_bias;
 mod nearest;
-mod percentage_closer;
 mod profile;
 mod receiver_bias;
 mod single_scattering;
@@ -47,37 +51,32 @@ mod summed_area_table;
 mod techniques;
 #[cfg(feature = "validate")]
 mod validate;
+mod value_error;
 mod view;
 
-pub use area_light::{AreaLight, AreaLightError, SoftRadii};
-pub use depth::{DepthConversion, DepthError, DepthRange};
+pub use area_light::AreaLight;
+pub use depth::{DepthConversion, DepthRange};
 pub use format::{FormatSupport, TextureFormat};
-pub use kernel::{Kernel, KernelError};
-pub use leak_reduction::{LeakReduction, LeakReductionError};
-pub use link::{LinkError, Linked, Location, Module, Origin, Source, link, link_module, modules};
+pub use kernel::Kernel;
+pub use leak_reduction::LeakReduction;
+pub use link::{Linked, Location, Module, ShaderError, Source, link, modules};
 pub use map_region::MapRegion;
 pub use moment_bias::{FourMomentsBias, SixMomentsBias};
 pub use nearest::nearest;
-pub use percentage_closer::PercentageCloserKernel;
 pub use profile::Profile;
 pub use receiver_bias::ReceiverBias;
-pub use single_scattering::{SingleScattering, SingleScatteringError};
-pub use storage::{Storage, UnsupportedStorage};
-pub use summed_area_table::{SummedAreaTable, SummedAreaTableError};
-pub use techniques::{
-    Contents, EsmFiltering, Finite, LayerSplits, MapEncoding, NotFinite, PcfTaps, Pcss, Row,
-    Technique, TechniqueError,
-};
+pub use single_scattering::SingleScattering;
+pub use storage::Storage;
+pub use summed_area_table::SummedAreaTable;
+pub use techniques::{EsmFiltering, Finite, LayerSplits, MapEncoding, PcfTaps, Row, Technique};
 #[cfg(feature = "validate")]
-pub use validate::{
-    Backend, Diagnostic, LONGEST_SHADER, Label, Outcome, ValidateError, ValidationReport, validate,
-    validate_module,
-};
+pub use validate::{Backend, ValidationReport, validate};
+pub use value_error::ValueError;
 
 pub use view::{
     CameraView, CompositeScatteringParameters, IntegrateScatteringParameters, LightDepth,
-    LightSize, LightView, RectifiedFrame, RectifiedFrameError, RectifiedView,
-    RectifyMomentsParameters, ScatteringParameters, ScatteringViewError, ViewError, ViewParameters,
+    LightSize, LightView, RectifiedFrame, RectifiedView, RectifyMomentsParameters,
+    ScatteringParameters, ViewParameters,
 };
 
 #[cfg(doctest)]

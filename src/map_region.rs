@@ -35,19 +35,6 @@ impl MapRegion {
         Self { origin, extent }
     }
 
-    /// The region's texels on a mip level: both edges are rounded down, so that regions which touch do so on every level.
-    #[must_use]
-    pub fn at_level(&self, level: u32) -> Self {
-        let edge = |length: u64| length.checked_shr(level).unwrap_or(0);
-        let [x, y] = [0, 1].map(|axis| {
-            let first = edge(u64::from(self.origin[axis]));
-            let end = edge(u64::from(self.origin[axis]) + u64::from(self.extent[axis]));
-            // Shifted edges of 33-bit sums: the difference is at most the extent.
-            (first as u32, (end - first) as u32)
-        });
-        Self::new([x.0, y.0], [x.1, y.1])
-    }
-
     /// Whether two regions have a texel in common.
     #[must_use]
     pub fn overlaps(&self, other: &MapRegion) -> bool {

@@ -2,7 +2,7 @@
 
 use serde::{Deserialize, Serialize};
 
-use crate::constant::numbers;
+use crate::constants::*;
 use crate::{Storage, SummedAreaTable};
 
 /// A moment bias: `b + alpha ((0, second, 0, fourth) - b)` (Peters & Klein, i3D 2015, section 3.3).
@@ -31,33 +31,17 @@ pub struct SixMomentsBias {
     pub alpha: f32,
 }
 
-const FOUR_MOMENTS: &str = include_str!("../wgsl/moments/four_moments.wgsl");
-const HAUSDORFF4: &str = include_str!("../wgsl/bounds/hausdorff4.wgsl");
-const SIX_MOMENTS: &str = include_str!("../wgsl/moments/six_moments.wgsl");
-
-/// The bias of this name in a module.
-const fn of_four(module: &str, name: &str) -> FourMomentsBias {
-    let [alpha, second, fourth] = numbers::<3>(module, name);
+const fn of_four([alpha, second, fourth]: [f32; 3]) -> FourMomentsBias {
     FourMomentsBias {
-        alpha: alpha as f32,
-        second: second as f32,
-        fourth: fourth as f32,
+        alpha,
+        second,
+        fourth,
     }
 }
 
 /// A bias with the target of another one.
 const fn with_alpha(alpha: f32, target: FourMomentsBias) -> FourMomentsBias {
     FourMomentsBias { alpha, ..target }
-}
-
-/// The bias of six moments of this name.
-const fn of_six(name: &str) -> SixMomentsBias {
-    let [second, fourth, sixth] = numbers::<3>(SIX_MOMENTS, "SIX_MOMENTS_BIAS_TARGET");
-    let [alpha] = numbers::<1>(SIX_MOMENTS, name);
-    SixMomentsBias {
-        even: [second as f32, fourth as f32, sixth as f32],
-        alpha: alpha as f32,
-    }
 }
 
 impl Storage {
@@ -67,13 +51,13 @@ impl Storage {
     /// its largest kernel ([`SummedAreaTable::moment_bias`]); here it is that of the largest possible kernel.
     #[must_use]
     pub fn moment_bias(self) -> FourMomentsBias {
-        const UNORM16: FourMomentsBias = of_four(FOUR_MOMENTS, "FOUR_MOMENTS_BIAS_UNORM16");
+        const UNORM16: FourMomentsBias = of_four(FOUR_MOMENTS_BIAS_UNORM16);
         match self {
             Storage::Unorm8 => with_alpha(1.8e-2, UNORM16),
             Storage::Unorm10 => with_alpha(4.4e-3, UNORM16),
             Storage::Unorm16 => UNORM16,
-            Storage::Float16 => const { of_four(FOUR_MOMENTS, "FOUR_MOMENTS_BIAS_FLOAT16") },
-            Storage::Float32 => const { of_four(FOUR_MOMENTS, "FOUR_MOMENTS_BIAS_FLOAT32") },
+            Storage::Float16 => of_four(FOUR_MOMENTS_BIAS_FLOAT16),
+            Storage::Float32 => of_four(FOUR_MOMENTS_BIAS_FLOAT32),
             Storage::Fixed32 => SummedAreaTable::COARSEST.moment_bias(),
         }
     }
@@ -83,13 +67,13 @@ impl Storage {
     /// longer.
     #[must_use]
     pub fn hausdorff_moment_bias(self) -> FourMomentsBias {
-        const UNORM16: FourMomentsBias = of_four(HAUSDORFF4, "HAUSDORFF4_BIAS_UNORM16");
+        const UNORM16: FourMomentsBias = of_four(HAUSDORFF4_BIAS_UNORM16);
         match self {
             Storage::Unorm8 => with_alpha(2.4e-2, UNORM16),
             Storage::Unorm10 => with_alpha(6e-3, UNORM16),
             Storage::Unorm16 => UNORM16,
-            Storage::Float16 => const { of_four(HAUSDORFF4, "HAUSDORFF4_BIAS_FLOAT16") },
-            Storage::Float32 => const { of_four(HAUSDORFF4, "HAUSDORFF4_BIAS_FLOAT32") },
+            Storage::Float16 => of_four(HAUSDORFF4_BIAS_FLOAT16),
+            Storage::Float32 => of_four(HAUSDORFF4_BIAS_FLOAT32),
             Storage::Fixed32 => SummedAreaTable::COARSEST.hausdorff_moment_bias(),
         }
     }
@@ -100,12 +84,14 @@ impl Storage {
     /// patches that are known.
     #[must_use]
     pub fn six_moments_bias(self) -> Option<SixMomentsBias> {
-        match self {
-            Storage::Unorm16 => Some(const { of_six("SIX_MOMENTS_BIAS_UNORM16") }),
-            Storage::Float16 => Some(const { of_six("SIX_MOMENTS_BIAS_FLOAT16") }),
-            Storage::Float32 => Some(const { of_six("SIX_MOMENTS_BIAS_FLOAT32") }),
-            Storage::Unorm10 => Some(const { of_six("SIX_MOMENTS_BIAS_UNORM10") }),
-            Storage::Unorm8 | Storage::Fixed32 => None,
-        }
+        let [alpha] = match self {
+            Storage::Unorm16 => SIX_MOMENTS_BIAS_UNORM16,
+            Storage::Float16 => SIX_MOMENTS_BIAS_FLOAT16,
+            Storage::Float32 => SIX_MOMENTS_BIAS_FLOAT32,
+            Storage::Unorm10 => SIX_MOMENTS_BIAS_UNORM10,
+            Storage::Unorm8 | Storage::Fixed32 => return None,
+        };
+        let even = SIX_MOMENTS_BIAS_TARGET;
+        Some(SixMomentsBias { even, alpha })
     }
 }

@@ -3,7 +3,7 @@
 use bytemuck::{Pod, Zeroable};
 use serde::{Deserialize, Serialize};
 
-use crate::constant::number;
+use crate::constants::RECEIVER_BIAS_STANDARD_DEVIATIONS;
 use crate::{DepthConversion, TextureFormat};
 
 /// The variance, in squared texels along either axis, that multisampling and bilinear lookup add to a kernel's: 1/12 for
@@ -41,10 +41,7 @@ impl ReceiverBias {
     /// One suffices for a symmetric distribution: a fragment in front of the lower Gauss node, which then lies one standard
     /// deviation in front of the mean, has a lower bound of exactly 0 (Peters & Klein, i3D 2015, Algorithm 3). The rest
     /// covers the moment bias and the rounding of storage.
-    pub const STANDARD_DEVIATIONS: f32 = number(
-        include_str!("../wgsl/shade/receiver_bias.wgsl"),
-        "RECEIVER_BIAS_STANDARD_DEVIATIONS",
-    ) as f32;
+    pub const STANDARD_DEVIATIONS: f32 = RECEIVER_BIAS_STANDARD_DEVIATIONS;
 
     /// No bias at all: for maps whose casters are not receivers.
     pub const NONE: ReceiverBias = ReceiverBias {

@@ -2,6 +2,11 @@
 
 use bytemuck::{Pod, Zeroable};
 
+use crate::ValueError;
+use crate::value_error::check;
+
+const OF: &str = "single scattering";
+
 /// A homogeneous medium and the directional light in it: the uniform struct of the WGSL module `single_scattering`.
 #[derive(Clone, Copy, Debug, PartialEq, Pod, Zeroable)]
 #[repr(C)]
@@ -20,19 +25,6 @@ pub struct SingleScattering {
     pub padding: f32,
 }
 
-/// Parameters that describe no physical medium.
-#[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
-#[error("single scattering: {name} is {value}, but must be {range}")]
-#[non_exhaustive]
-pub struct SingleScatteringError {
-    /// The parameter's name.
-    pub name: &'static str,
-    /// The value that was given.
-    pub value: f32,
-    /// The range that it has to be in.
-    pub range: &'static str,
-}
-
 impl SingleScattering {
     /// No medium: what is behind it stays as it is, to the bit.
     pub const NONE: SingleScattering = SingleScattering {
@@ -49,35 +41,31 @@ impl SingleScattering {
     /// faces the light. Extinction of 0 scatters without loss.
     ///
     /// # Errors
-    /// [`SingleScatteringError`], which names the number that is out of range.
+    /// [`ValueError`], which names the number that is out of range.
     pub fn new(
         extinction: [f32; 3],
         scattering: [f32; 3],
         anisotropy: f32,
         irradiance: [f32; 3],
-    ) -> Result<Self, SingleScatteringError> {
+    ) -> Result<Self, ValueError> {
         for (name, values) in [
             ("the extinction", extinction),
             ("the scattering", scattering),
             ("the irradiance", irradiance),
         ] {
             for value in values {
-                if !(0.0..=LARGEST).contains(&value) {
-                    return Err(SingleScatteringError {
-                        name,
-                        value,
-                        range: "at least 0 and at most 1e9",
-                    });
-                }
+                let valid = (0.0..=LARGEST).contains(&value);
+                check(valid, OF, name, value, "at least 0 and at most 1e9")?;
             }
         }
-        if !(-0.99..=0.99).contains(&anisotropy) {
-            return Err(SingleScatteringError {
-                name: "the anisotropy",
-                value: anisotropy,
-                range: "from -0.99 to 0.99",
-            });
-        }
+        let valid = (-0.99..=0.99).contains(&anisotropy);
+        check(
+            valid,
+            OF,
+            "the anisotropy",
+            anisotropy,
+            "from -0.99 to 0.99",
+        )?;
         Ok(Self {
             extinction,
             anisotropy,

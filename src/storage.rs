@@ -4,8 +4,11 @@ use core::fmt;
 
 use serde::{Deserialize, Serialize};
 
-use crate::constant::number;
-use crate::{Profile, TextureFormat};
+use crate::constants::{
+    STORAGE_FIXED32, STORAGE_FLOAT16, STORAGE_FLOAT32, STORAGE_UNORM8, STORAGE_UNORM10,
+    STORAGE_UNORM16,
+};
+use crate::{Profile, TextureFormat, ValueError};
 
 /// How four moments are stored in a texel.
 ///
@@ -41,23 +44,6 @@ pub enum Storage {
     Unorm10,
     /// Sums of 32-bit integers: a summed-area table, see [`SummedAreaTable`](crate::SummedAreaTable).
     Fixed32,
-}
-
-/// A storage that a profile does not offer.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
-#[error(
-    "storage '{storage}' needs {format} as a storage texture, which the profile {profile} does not offer; \
-     use storage '{alternative}' instead"
-)]
-pub struct UnsupportedStorage {
-    /// The storage that was asked for.
-    pub storage: Storage,
-    /// The format it needs.
-    pub format: TextureFormat,
-    /// The profile that lacks it.
-    pub profile: Profile,
-    /// A storage that works under the profile.
-    pub alternative: Storage,
 }
 
 impl Storage {
@@ -137,16 +123,13 @@ impl Storage {
     /// The number by which the WGSL module `storage` knows this storage (`STORAGE_UNORM16` and so on).
     #[must_use]
     pub fn wgsl_index(self) -> u32 {
-        const fn index(name: &str) -> u32 {
-            number(include_str!("../wgsl/map/storage.wgsl"), name) as u32
-        }
         match self {
-            Storage::Unorm16 => const { index("STORAGE_UNORM16") },
-            Storage::Float16 => const { index("STORAGE_FLOAT16") },
-            Storage::Float32 => const { index("STORAGE_FLOAT32") },
-            Storage::Unorm8 => const { index("STORAGE_UNORM8") },
-            Storage::Fixed32 => const { index("STORAGE_FIXED32") },
-            Storage::Unorm10 => const { index("STORAGE_UNORM10") },
+            Storage::Unorm16 => STORAGE_UNORM16,
+            Storage::Float16 => STORAGE_FLOAT16,
+            Storage::Float32 => STORAGE_FLOAT32,
+            Storage::Unorm8 => STORAGE_UNORM8,
+            Storage::Fixed32 => STORAGE_FIXED32,
+            Storage::Unorm10 => STORAGE_UNORM10,
         }
     }
 
@@ -176,16 +159,25 @@ impl Storage {
     }
 
     /// Checks that every device of the profile can write the storage; the error names one to use instead.
-    pub fn check(self, profile: Profile) -> Result<(), UnsupportedStorage> {
-        if self.can_write(self.format(), profile) {
+    pub fn check(self, profile: Profile) -> Result<(), ValueError> {
+        self.check_format(self.format(), profile, Storage::best_for(profile))
+    }
+
+    /// Checks that every device of the profile can write the storage in textures of this format.
+    pub(crate) fn check_format(
+        self,
+        format: TextureFormat,
+        profile: Profile,
+        alternative: Storage,
+    ) -> Result<(), ValueError> {
+        if self.can_write(format, profile) {
             return Ok(());
         }
-        Err(UnsupportedStorage {
-            storage: self,
-            format: self.format(),
-            profile,
-            alternative: Storage::best_for(profile),
-        })
+        let message = format!(
+            "storage '{self}' needs {format} as a storage texture, which the profile {profile} does not offer; \
+             use storage '{alternative}' instead"
+        );
+        Err(ValueError::new("storage", message))
     }
 }
 

@@ -4,107 +4,37 @@ use core::fmt;
 
 use serde::{Deserialize, Serialize};
 
-use crate::constant::number;
-use crate::{FourMomentsBias, Storage};
+use crate::constants::*;
+use crate::{FourMomentsBias, Storage, ValueError};
 
 /// What the integers of a summed-area table mean: the host side of the WGSL module `summed_area_encoding`.
 ///
 /// A table holds channels in [0, 1] as the storage unorm16 has them, times a [`unit`](Self::unit), summed up modulo 2^32. The sum
 /// over a rectangle is right as long as it covers at most [`largest_area`](Self::largest_area) texels.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, Serialize, Deserialize)]
-#[serde(try_from = "Written", into = "Written")]
+#[serde(try_from = "Written")]
 pub struct SummedAreaTable {
     source: Storage,
     largest_kernel: [u32; 2],
 }
 
 /// The table's form in files.
-#[derive(Serialize, Deserialize)]
+#[derive(Deserialize)]
 #[serde(deny_unknown_fields)]
 struct Written {
     source: Storage,
     largest_kernel: [u32; 2],
 }
 
-/// An invalid description of a summed-area table.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
-#[non_exhaustive]
-pub enum SummedAreaTableError {
-    /// A kernel without texels.
-    #[error(
-        "a largest kernel of {width}x{height} texels covers nothing; along each side there is at least 1"
-    )]
-    Empty {
-        /// Texels in x.
-        width: u32,
-        /// Texels in y.
-        height: u32,
-    },
-    /// A kernel so large that its sum may wrap around.
-    #[error(
-        "a largest kernel of {width}x{height} texels covers more than the {} whose sum 32 bits hold; next to a width of {} the \
-         height is at most {}, and a square has at most {} texels along each side",
-        SummedAreaTable::LARGEST_AREA, .width.min(&SummedAreaTable::LARGEST_AREA),
-        SummedAreaTable::LARGEST_AREA / .width.min(&SummedAreaTable::LARGEST_AREA), SummedAreaTable::LARGEST_AREA.isqrt()
-    )]
-    Large {
-        /// Texels in x.
-        width: u32,
-        /// Texels in y.
-        height: u32,
-    },
-    /// A map from which no table can be made.
-    #[error(
-        "no summed-area table is made of a map stored as {source_storage}; one is of unorm16, float16 or float32"
-    )]
-    Source {
-        /// The map's storage.
-        source_storage: Storage,
-    },
-}
-
-const MODULE: &str = include_str!("../wgsl/filter/summed_area_encoding.wgsl");
-const UNIT_UNORM16: u32 = number(MODULE, "SUMMED_AREA_ENCODING_UNIT_UNORM16") as u32;
-
-/// The cost of rounding, from the constants of the WGSL module: `per_error` times the error of a channel and what f32 adds,
-/// but no less than `smallest`.
-struct Cost {
-    per_error: f32,
-    of_f32: f32,
-    smallest: f32,
-}
-
-const BIAS: Cost = Cost {
-    per_error: number(MODULE, "SUMMED_AREA_ENCODING_BIAS_PER_ERROR") as f32,
-    of_f32: number(MODULE, "SUMMED_AREA_ENCODING_BIAS_OF_F32") as f32,
-    smallest: number(MODULE, "SUMMED_AREA_ENCODING_SMALLEST_BIAS") as f32,
-};
-
-/// The cost of rounding for distributions on the depth interval, as a moment bias.
-const HAUSDORFF_BIAS: Cost = Cost {
-    per_error: 6.14,
-    of_f32: 6e-7,
-    smallest: 1.6e-6,
-};
-
-const VARIANCE: Cost = Cost {
-    per_error: number(MODULE, "SUMMED_AREA_ENCODING_VARIANCE_PER_ERROR") as f32,
-    of_f32: number(MODULE, "SUMMED_AREA_ENCODING_VARIANCE_OF_F32") as f32,
-    smallest: number(MODULE, "SUMMED_AREA_ENCODING_SMALLEST_VARIANCE") as f32,
-};
-
-impl Cost {
-    fn of(&self, error: f32) -> f32 {
-        self.per_error
-            .mul_add(error, self.of_f32)
-            .max(self.smallest)
-    }
+/// The cost of rounding: `per_error` times the error of a channel and what f32 adds, but no less than `smallest`.
+fn cost(error: f32, [per_error, of_f32, smallest]: [f32; 3]) -> f32 {
+    per_error.mul_add(error, of_f32).max(smallest)
 }
 
 impl SummedAreaTable {
     /// The most texels that a kernel can cover: 65537 channels of 65535 units are just below 2^32. Tables of float maps keep
     /// to it, too, so that no table is less exact than 16 bits.
-    pub const LARGEST_AREA: u32 = number(MODULE, "SUMMED_AREA_ENCODING_LARGEST_AREA") as u32;
+    pub const LARGEST_AREA: u32 = SUMMED_AREA_ENCODING_LARGEST_AREA;
 
     /// The table with the greatest error.
     pub(crate) const COARSEST: Self = Self {
@@ -113,18 +43,30 @@ impl SummedAreaTable {
     };
 
     /// The table of a map with this storage, for kernels up to this width and height in texels.
-    pub fn new(source: Storage, largest_kernel: [u32; 2]) -> Result<Self, SummedAreaTableError> {
-        let [width, height] = largest_kernel;
+    pub fn new(source: Storage, largest_kernel: [u32; 2]) -> Result<Self, ValueError> {
         if !Storage::OF_FOUR_MOMENTS.contains(&source) {
-            return Err(SummedAreaTableError::Source {
-                source_storage: source,
-            });
+            let message = format!(
+                "no summed-area table is made of a map stored as {source}; one is of unorm16, float16 or float32"
+            );
+            return Err(ValueError::new("source", message));
         }
+        let [width, height] = largest_kernel;
+        let refused = |reason: String| {
+            let message = format!("a largest kernel of {width}x{height} texels covers {reason}");
+            Err(ValueError::new("largest_kernel", message))
+        };
         if width == 0 || height == 0 {
-            return Err(SummedAreaTableError::Empty { width, height });
+            return refused("nothing; along each side there is at least 1".to_owned());
         }
-        if u64::from(width) * u64::from(height) > u64::from(Self::LARGEST_AREA) {
-            return Err(SummedAreaTableError::Large { width, height });
+        let most = Self::LARGEST_AREA;
+        if u64::from(width) * u64::from(height) > u64::from(most) {
+            let beside = width.min(most);
+            return refused(format!(
+                "more than the {most} whose sum 32 bits hold; next to a width of {beside} the height is at most {}, and a square \
+                 has at most {} texels along each side",
+                most / beside,
+                most.isqrt()
+            ));
         }
         Ok(Self {
             source,
@@ -156,7 +98,7 @@ impl SummedAreaTable {
     #[must_use]
     pub fn unit(&self) -> u32 {
         match self.source {
-            Storage::Unorm16 => UNIT_UNORM16,
+            Storage::Unorm16 => SUMMED_AREA_ENCODING_UNIT_UNORM16 as u32,
             Storage::Float16
             | Storage::Float32
             | Storage::Unorm8
@@ -190,8 +132,13 @@ impl SummedAreaTable {
     /// come from a resolve: each blur in between rounds again.
     #[must_use]
     pub fn moment_bias(&self) -> FourMomentsBias {
+        let of_bias = [
+            SUMMED_AREA_ENCODING_BIAS_PER_ERROR,
+            SUMMED_AREA_ENCODING_BIAS_OF_F32,
+            SUMMED_AREA_ENCODING_SMALLEST_BIAS,
+        ];
         FourMomentsBias {
-            alpha: BIAS.of(self.error()),
+            alpha: cost(self.error(), of_bias),
             second: 0.628,
             fourth: 0.628,
         }
@@ -201,7 +148,7 @@ impl SummedAreaTable {
     #[must_use]
     pub fn hausdorff_moment_bias(&self) -> FourMomentsBias {
         FourMomentsBias {
-            alpha: HAUSDORFF_BIAS.of(self.error()),
+            alpha: cost(self.error(), [6.14, 6e-7, 1.6e-6]),
             second: 0.6036,
             fourth: 0.4875,
         }
@@ -210,24 +157,20 @@ impl SummedAreaTable {
     /// The smallest variance for two moments: what rounding can take away from it.
     #[must_use]
     pub fn smallest_variance(&self) -> f32 {
-        VARIANCE.of(self.error())
+        let of_variance = [
+            SUMMED_AREA_ENCODING_VARIANCE_PER_ERROR,
+            SUMMED_AREA_ENCODING_VARIANCE_OF_F32,
+            SUMMED_AREA_ENCODING_SMALLEST_VARIANCE,
+        ];
+        cost(self.error(), of_variance)
     }
 }
 
 impl TryFrom<Written> for SummedAreaTable {
-    type Error = SummedAreaTableError;
+    type Error = ValueError;
 
-    fn try_from(written: Written) -> Result<Self, SummedAreaTableError> {
+    fn try_from(written: Written) -> Result<Self, ValueError> {
         Self::new(written.source, written.largest_kernel)
-    }
-}
-
-impl From<SummedAreaTable> for Written {
-    fn from(table: SummedAreaTable) -> Written {
-        Written {
-            source: table.source,
-            largest_kernel: table.largest_kernel,
-        }
     }
 }
 

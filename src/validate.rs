@@ -2,41 +2,31 @@
 
 mod backend;
 mod diagnostic;
-mod error;
 mod exercise;
-mod limits;
 mod storage_format;
 
 use naga::valid::{Capabilities, ModuleInfo, ValidationFlags, Validator};
 
-pub use backend::{Backend, Outcome};
-pub use diagnostic::{Diagnostic, Label};
-pub use error::ValidateError;
-pub use limits::LONGEST_SHADER;
+pub use backend::Backend;
 
-use crate::{Linked, Profile, Source, link, link_module};
+use crate::{Linked, Profile, ShaderError, Source, link};
 
 /// What each backend makes of a valid shader.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct ValidationReport {
-    /// One outcome for each of [`Backend::ALL`], in that order.
-    pub outcomes: Vec<(Backend, Outcome)>,
+    /// Whether each of [`Backend::ALL`], in that order, can express the shader. What a language lacks is not an error, since no
+    /// profile includes the two GLSL versions; the reason names the entry point.
+    pub outcomes: Vec<(Backend, Result<(), String>)>,
 }
 
 impl ValidationReport {
+    /// The longest text that is validated, in bytes, before and after linking.
+    pub const LONGEST_SHADER: usize = 1 << 19;
+
     /// The backends that the shader was written for.
     pub fn written(&self) -> impl Iterator<Item = Backend> {
-        let written = |(backend, outcome): &(Backend, Outcome)| {
-            (*outcome == Outcome::Written).then_some(*backend)
-        };
-        self.outcomes.iter().filter_map(written)
-    }
-
-    /// What `backend` made of the shader.
-    #[must_use]
-    pub fn outcome(&self, backend: Backend) -> Option<&Outcome> {
-        let found = self.outcomes.iter().find(|(of, _)| *of == backend);
-        found.map(|(_, outcome)| outcome)
+        let written = self.outcomes.iter().filter(|(_, outcome)| outcome.is_ok());
+        written.map(|(backend, _)| *backend)
     }
 }
 
@@ -49,69 +39,73 @@ impl ValidationReport {
 /// texture formats and accesses that every device has; `native` the 16-bit normalised ones as well; `native-adapter` every
 /// format that naga knows.
 ///
-/// The WGSL compiler runs on a separate thread with a large stack, on texts of at most [`LONGEST_SHADER`] bytes.
+/// The WGSL compiler runs on a separate thread with a large stack, on texts of at most
+/// [`LONGEST_SHADER`](ValidationReport::LONGEST_SHADER) bytes.
 ///
 /// # Errors
-/// [`ValidateError`], which points at the line of the file before linking.
+/// [`ShaderError`], which points at the line of the file before linking.
 pub fn validate(
     source: Source<'_>,
     generated: &[Source<'_>],
     profile: Profile,
-) -> Result<ValidationReport, ValidateError> {
+) -> Result<ValidationReport, ShaderError> {
     for source in core::iter::once(&source).chain(generated) {
-        limits::refuse_too_long(source.name, source.text)?;
+        refuse_too_long(source.name, source.text)?;
     }
-    validate_linked(source.name, &link(source, generated)?, profile)
-}
-
-/// Validates a file that is written as a module of the library ([`link_module()`]), otherwise as [`validate()`].
-///
-/// # Errors
-/// [`ValidateError`], which points at the line of the file before linking.
-pub fn validate_module(
-    source: Source<'_>,
-    profile: Profile,
-) -> Result<ValidationReport, ValidateError> {
-    limits::refuse_too_long(source.name, source.text)?;
-    validate_linked(source.name, &link_module(source)?, profile)
-}
-
-fn validate_linked(
-    file: &str,
-    linked: &Linked,
-    profile: Profile,
-) -> Result<ValidationReport, ValidateError> {
-    limits::refuse_too_long(file, linked.wgsl())?;
-    limits::on_large_stack(|| compile(file, linked, profile)).unwrap_or_else(|| {
-        Err(ValidateError::Compiler {
-            file: file.to_owned(),
+    let linked = link(source, generated)?;
+    refuse_too_long(source.name, linked.wgsl())?;
+    on_large_stack(|| compile(&linked, profile))
+        .unwrap_or_else(|| {
+            let message = "the WGSL compiler stopped without a result; cut the shader down to what makes it stop, and report it \
+                           to naga";
+            Err(ShaderError::new(message))
         })
+        .map_err(|error| error.in_file(source.name))
+}
+
+fn refuse_too_long(file: &str, text: &str) -> Result<(), ShaderError> {
+    const LONGEST: usize = ValidationReport::LONGEST_SHADER;
+    let bytes = text.len();
+    if bytes <= LONGEST {
+        return Ok(());
+    }
+    let message =
+        format!("the shader has {bytes} bytes, and at most {LONGEST} are validated; split it");
+    Err(ShaderError::new(message).in_file(file))
+}
+
+/// A byte of a text takes less than 1 KiB in an optimised build: the compiler recurses over long chains, the worst is one of `!`.
+/// What is not touched takes addresses and no memory.
+const STACK_BYTES: usize = ValidationReport::LONGEST_SHADER << 10;
+
+/// Runs `work` on a thread with a large stack. `None` if the thread cannot be started, or `work` panics.
+fn on_large_stack<T: Send>(work: impl FnOnce() -> T + Send) -> Option<T> {
+    std::thread::scope(|scope| {
+        let thread = std::thread::Builder::new().stack_size(STACK_BYTES);
+        thread.spawn_scoped(scope, work).ok()?.join().ok()
     })
 }
 
-fn compile(
-    file: &str,
-    linked: &Linked,
-    profile: Profile,
-) -> Result<ValidationReport, ValidateError> {
+fn compile(linked: &Linked, profile: Profile) -> Result<ValidationReport, ShaderError> {
     let capabilities = capabilities(profile);
     let mut options = naga::front::wgsl::Options::new();
     options.capabilities = capabilities;
     let module = naga::front::wgsl::Frontend::new_with_options(options)
         .parse(linked.wgsl())
-        .map_err(|error| ValidateError::Parse(Diagnostic::of_parse_error(file, linked, &error)))?;
-    storage_format::check(file, &module, linked, profile)?;
-    let info = check(&module, capabilities).map_err(|error| {
-        ValidateError::Invalid(Diagnostic::of_validation_error(
-            file, linked, &module, &error,
-        ))
-    })?;
+        .map_err(|error| diagnostic::of_parse_error(linked, &error))?;
+    storage_format::check(&module, linked, profile)?;
+    let info = check(&module, capabilities)
+        .map_err(|error| diagnostic::of_validation_error(linked, &module, &error))?;
     let shader = if module.entry_points.is_empty() {
         exercise::exercise(&module, info, capabilities)
     } else {
-        backend::Shader::new(module, info)
+        backend::Shader {
+            module,
+            info,
+            no_entry_point: None,
+        }
     };
-    backend::write_all(file, &shader)
+    backend::write_all(&shader)
 }
 
 fn check(

@@ -3,7 +3,6 @@
 #![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic)]
 
 use moment_shadows::{Kernel, Storage};
-use moment_shadows_graph::nodes::KernelProperty;
 use moment_shadows_lab::cost::blur::{BlurredMap, PROFILE};
 use moment_shadows_lab::cost::reference;
 use moment_shadows_lab::cost::texels::{Channels, decode, encode, noise, step};
@@ -21,18 +20,15 @@ fn texels(size: [u32; 2]) -> usize {
 }
 
 /// Weights without any symmetry, of which some are zero: a kernel that is mirrored or shifted by one shows.
-fn asymmetric(radius: u32) -> KernelProperty {
-    let weights = (0..=2 * radius)
+fn asymmetric(radius: u32) -> Kernel {
+    let weights: Vec<f32> = (0..=2 * radius)
         .map(|tap| ((tap * 7 + 3) % 5) as f32 * (1.0 + tap as f32))
         .collect();
-    KernelProperty {
-        weights: Some(weights),
-        ..KernelProperty::default()
-    }
+    Kernel::from_weights(&weights).unwrap()
 }
 
-fn gaussian(radius: u32) -> KernelProperty {
-    KernelProperty::gaussian(radius, 0.6 * radius as f32)
+fn gaussian(radius: u32) -> Kernel {
+    Kernel::gaussian(radius, 0.6 * radius as f32).unwrap()
 }
 
 fn blurred(
@@ -40,7 +36,7 @@ fn blurred(
     storage: Storage,
     size: [u32; 2],
     channels: &[[f64; 4]],
-    kernel: &KernelProperty,
+    kernel: &Kernel,
     per_frame: bool,
 ) -> Channels {
     BlurredMap::new(gpu, storage, size, channels, kernel.clone(), per_frame)
@@ -121,8 +117,7 @@ fn an_impulse_shows_the_weights_in_place() {
     let [width, height] = [61_usize, 47];
     let centre = [23_usize, 31];
     let kernel = asymmetric(5);
-    let weights = kernel.kernel().unwrap();
-    let weights = weights.weights();
+    let weights = kernel.weights();
     let mut channels = vec![[0.0; 4]; width * height];
     channels[centre[1] * width + centre[0]] = [1.0, 0.5, 0.25, 0.125];
     for per_frame in [false, true] {
@@ -160,7 +155,6 @@ fn weights_per_frame_give_what_literal_weights_give() {
             let literal = blurred(&gpu, storage, SIZE, &channels, &kernel, false);
             let uniform = blurred(&gpu, storage, SIZE, &channels, &kernel, true);
             let difference = largest_difference(&literal, &uniform);
-            let kernel = kernel.kernel().unwrap();
             let tolerance = 2.0 * reference::blur_tolerance(storage, &kernel);
             assert!(
                 difference <= tolerance,
@@ -210,10 +204,7 @@ fn a_constant_map_stays_constant() {
 fn wide_sums_in_float32_are_off_by_their_last_rounding_only() {
     let gpu = open();
     for (radius, per_frame) in [(4, false), (12, false), (12, true), (64, false)] {
-        let kernel = KernelProperty {
-            weights: Some(vec![1.0; 2 * radius + 1]),
-            ..KernelProperty::default()
-        };
+        let kernel = Kernel::from_weights(&vec![1.0; 2 * radius + 1]).unwrap();
         let channels: Channels = (0..texels(SIZE))
             .map(|texel| match texel % 2 {
                 0 => [-0.9, 0.81, -0.729, 0.6561],
@@ -223,7 +214,7 @@ fn wide_sums_in_float32_are_off_by_their_last_rounding_only() {
             .collect();
         let found = blurred(&gpu, Storage::Float32, SIZE, &channels, &kernel, per_frame);
         let size = SIZE.map(|side| side as usize);
-        let truth = reference::blur(&channels, size, &kernel.kernel().unwrap());
+        let truth = reference::blur(&channels, size, &kernel);
         let error = largest_difference(&found, &truth);
         println!("radius {radius}: {error:.2e}");
         // Each pass rounds the sum of both parts, by 2^-25, and the sum of the rest by no more than that.

@@ -5,9 +5,7 @@ use std::collections::{BTreeMap, BTreeSet};
 use std::fs;
 use std::path::Path;
 
-use moment_shadows::{
-    Backend, Module, Outcome, Profile, Source, link_module, modules, validate_module,
-};
+use moment_shadows::{Backend, Module, Profile, Source, link, modules, validate};
 
 /// What may be called in non-uniform control flow.
 const TEXTURE_FUNCTIONS: [&str; 9] = [
@@ -149,7 +147,7 @@ fn modules_hold_functions_structs_aliases_and_constants_only() {
     for module in modules() {
         let name = module.name;
         let (file, text) = source(module);
-        let linked = match link_module(Source { name: &file, text }) {
+        let linked = match link(Source { name: &file, text }, &[]) {
             Ok(linked) => linked,
             Err(error) => {
                 failures.push(format!("{name}: {error}"));
@@ -316,16 +314,15 @@ fn every_module_validates_alone_on_every_backend() {
     for module in modules() {
         let (file, text) = source(module);
         for profile in Profile::ALL {
-            match validate_module(Source { name: &file, text }, profile) {
+            match validate(Source { name: &file, text }, &[], profile) {
                 Ok(report) => {
                     assert_eq!(report.outcomes.len(), Backend::ALL.len());
                     for (backend, outcome) in report.outcomes {
                         let glsl = matches!(backend, Backend::Glsl450 | Backend::GlslEs300);
                         let expected = !(glsl && LOADS_DEPTH.contains(&module.name));
                         match outcome {
-                            Outcome::Written if expected => {}
-                            Outcome::CannotExpress(reason)
-                                if !expected && reason.contains("textureLoad") => {}
+                            Ok(()) if expected => {}
+                            Err(reason) if !expected && reason.contains("textureLoad") => {}
                             other => failures
                                 .push(format!("{}: {profile}: {backend}: {other:?}", module.name)),
                         }

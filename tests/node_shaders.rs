@@ -60,7 +60,7 @@ fn snapshot(name: &str) -> PathBuf {
 /// Modules that are made by Rust code; the text of the others is a file.
 const GENERATED: [&str; 6] = [
     "blur_texel",
-    "blur_unrolled",
+    "blur_outputs",
     "map_encoding",
     "map_filtering",
     "specialization",
@@ -168,7 +168,7 @@ fn every_linked_shader_is_valid_on_every_backend_that_can_express_it() {
                 written.contains(&backend),
                 "{} on {backend:?}: {:?}",
                 variant.name,
-                report.outcome(backend)
+                report.outcomes
             );
         }
     }

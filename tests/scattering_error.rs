@@ -3,7 +3,6 @@
 
 use glam::DVec3;
 use moment_shadows::{Kernel, SingleScattering};
-use moment_shadows_graph::nodes::Overestimation;
 use moment_shadows_lab::compare::Stage;
 use moment_shadows_lab::gpu::Gpu;
 use moment_shadows_lab::host::DepthSamples;
@@ -124,8 +123,6 @@ fn stage(gpu: &Gpu, name: &str, steps: u32) -> ScatteringStage {
             look: Look::Numbered(0),
             elevation: None,
         },
-        thickness: 0.7,
-        anisotropy: 0.4,
         map: 512,
         radius: 2,
         columns: 512,
@@ -141,7 +138,7 @@ fn stage(gpu: &Gpu, name: &str, steps: u32) -> ScatteringStage {
 fn the_device_marches_like_the_truth_in_as_many_steps() {
     let gpu = Gpu::open(PROFILE).unwrap();
     let stage = stage(&gpu, "hall", 64);
-    let all = candidates(&gpu, 2, [256; 2], Overestimation::default()).unwrap();
+    let all = candidates(2, [256; 2]).unwrap();
     let march = all.iter().find(|it| it.name == "march 64").unwrap();
     let picture = stage.picture(&gpu, march).unwrap();
     let error = ScatteringError::of(&picture, &stage.truth);
@@ -153,7 +150,7 @@ fn the_device_marches_like_the_truth_in_as_many_steps() {
 #[test]
 fn six_moments_beat_sixteen_steps() {
     let gpu = Gpu::open(PROFILE).unwrap();
-    let candidates = candidates(&gpu, 2, [512; 2], Overestimation::default()).unwrap();
+    let candidates = candidates(2, [512; 2]).unwrap();
     // What six moments may be off by: a tenth more than they are.
     for (name, most) in [("hall", 0.038), ("fence-and-foliage", 0.012)] {
         let stage = stage(&gpu, name, 512);
@@ -184,12 +181,6 @@ fn six_moments_beat_sixteen_steps() {
         // All competitors are at work; at half resolution silhouettes remain whatever the steps.
         assert!(error("convolution")[0] <= 0.03);
         assert!(error("march 64")[0] < 0.5 * march && error("half march 64")[0] < 0.75 * half);
-        // Marching the filtered map of moments is nearer to the filtered truth than to the plain one.
-        let [plain, filtered] = error("moments 1024");
-        assert!(
-            filtered <= 0.019 && filtered < plain,
-            "{name}: {plain} {filtered}"
-        );
     }
 }
 

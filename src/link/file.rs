@@ -1,132 +1,125 @@
-//! One WGSL file as the linker sees it: its imports, its directives, and the names it defines.
+//! One WGSL file as the linker sees it: its imports, its directives, and what it declares.
 
 use core::ops::Range;
 use std::collections::BTreeSet;
 
 use super::import::{self, Form, Import};
-use super::location::line_ends;
 use super::prune::{Declaration, declarations};
 use super::tokens::{Kind, Token, UnterminatedComment, tokens};
-use crate::{LinkError, Location};
+use crate::{Location, ShaderError};
 
 /// A file whose text follows the import rules.
 pub(crate) struct File<'a> {
     /// The name that errors show.
     pub(crate) name: String,
+    /// The path that it is imported by; empty for the file that is given to the linker.
+    pub(crate) module: String,
     /// The text without a byte order mark.
     pub(crate) text: &'a str,
     /// How its imports are written.
     pub(crate) form: Form,
     pub(crate) imports: Vec<Import<'a>>,
-    /// The directives (`enable`, `requires`, `diagnostic`), as bytes of the text: they stay first when files are joined.
-    pub(crate) directives: Vec<Range<usize>>,
-    /// The names that the file defines at top level.
-    pub(crate) definitions: Vec<Token<'a>>,
-    /// The names that its code refers to, without those that it declares itself.
-    pub(crate) uses: Vec<Token<'a>>,
     pub(crate) declarations: Vec<Declaration<'a>>,
-    /// The declarations that are left out when files are joined, as bytes of the text.
-    pub(crate) unreached: Vec<Range<usize>>,
-    /// Whether anything of the file is linked.
-    pub(crate) is_reached: bool,
+    /// The names that it declares anywhere, as a parameter, a member or a variable too.
+    pub(crate) declared: BTreeSet<&'a str>,
+    /// What is left out when files are joined, as bytes of the text.
+    pub(crate) left_out: Vec<Range<usize>>,
 }
 
 impl<'a> File<'a> {
     /// Reads a file whose imports must have the form `form`.
-    pub(crate) fn parse(name: String, text: &'a str, form: Form) -> Result<Self, LinkError> {
+    pub(crate) fn parse(
+        name: String,
+        module: String,
+        text: &'a str,
+        form: Form,
+    ) -> Result<Self, ShaderError> {
         let text = text.strip_prefix('\u{feff}').unwrap_or(text);
         let mut file = Self {
             name,
+            module,
             text,
             form,
             imports: Vec::new(),
-            directives: Vec::new(),
-            definitions: Vec::new(),
-            uses: Vec::new(),
             declarations: Vec::new(),
-            unreached: Vec::new(),
-            is_reached: true,
+            declared: BTreeSet::new(),
+            left_out: Vec::new(),
         };
         let tokens = tokens(text).map_err(|UnterminatedComment(start)| {
-            let at = file.at(start..start + 2);
-            LinkError::UnterminatedComment { at }
+            file.error(
+                start..start + 2,
+                "this comment does not end; close it with `*/`",
+            )
         })?;
         let mut code = tokens.as_slice();
-        let (mut line, mut counted) = (1, 0);
         while code.first().is_some_and(|token| token.is_word("import")) {
-            let (mut import, rest) = import::parse(&file, code, form)?;
-            let mut line_of = |byte: usize| {
-                line += line_ends(text.get(counted..byte).unwrap_or_default());
-                counted = byte;
-                line
-            };
-            import.lines = line_of(import.range.start)..=line_of(import.range.end);
+            let (import, rest) = import::parse(&file, code)?;
             file.imports.push(import);
             code = rest;
         }
         file.check_code(code)?;
-        file.directives = directives(code);
-        file.definitions = definitions(code);
-        file.uses = uses(code);
+        file.declared = declared(code);
         let start = file.imports.last().map_or(0, |last| last.range.end);
         file.declarations = declarations(text, start, code);
         Ok(file)
     }
 
     /// Where the bytes `range` stand.
-    pub(crate) fn at(&self, range: Range<usize>) -> Box<Location> {
-        Box::new(Location::in_text(&self.name, self.text, range))
+    pub(crate) fn at(&self, range: Range<usize>) -> Location {
+        Location::in_text(&self.name, self.text, range)
+    }
+
+    /// What is wrong with the bytes `range`.
+    pub(crate) fn error(&self, range: Range<usize>, message: impl Into<String>) -> ShaderError {
+        ShaderError::at(self.at(range), message)
+    }
+
+    /// The names that it defines at top level.
+    pub(crate) fn definitions(&self) -> impl Iterator<Item = &Token<'a>> {
+        self.declarations.iter().flat_map(|of| &of.names)
+    }
+
+    /// The directives (`enable`, `requires`, `diagnostic`) at its start, as bytes of the text.
+    pub(crate) fn directives(&self) -> impl Iterator<Item = Range<usize>> {
+        let declarations = self.declarations.iter();
+        declarations
+            .take_while(|of| of.is_directive)
+            .map(|of| of.code.clone())
     }
 
     /// Refuses what would be an import in other dialects. All of it is reserved in WGSL, so no valid shader is refused.
-    fn check_code(&self, code: &[Token<'_>]) -> Result<(), LinkError> {
-        let mut previous = None;
+    fn check_code(&self, code: &[Token<'_>]) -> Result<(), ShaderError> {
+        let mut after_at = false;
         for token in code {
-            let at = || self.at(token.range());
-            let attribute = previous.is_some_and(|token: &Token<'_>| token.is_symbol("@"));
-            if token.is_word("import") {
-                let first_code = code.first().map_or(1, |first| self.at(first.range()).line);
-                return Err(LinkError::ImportAfterCode {
-                    first_code,
-                    at: at(),
-                });
+            let is_attribute = core::mem::replace(&mut after_at, token.is_symbol("@"));
+            let message = if token.is_word("import") {
+                let first = code.first().map_or(1, |first| self.at(first.range()).line);
+                format!("imports come first; move this one above line {first}")
             } else if token.is_word("public") {
-                return Err(LinkError::Public { at: at() });
+                "`public` is not supported: every item can be imported; remove the word".to_owned()
             } else if token.kind == Kind::Path {
-                return Err(LinkError::InlinePath { at: at() });
-            } else if attribute && matches!(token.text, "if" | "elif" | "else") {
-                return Err(LinkError::Conditional {
-                    attribute: token.text.to_owned(),
-                    at: at(),
-                });
-            }
-            previous = Some(token);
+                "paths within code are not supported; import the item and use its name alone"
+                    .to_owned()
+            } else if is_attribute && matches!(token.text, "if" | "elif" | "else") {
+                format!(
+                    "conditional translation (`@{}`) is not supported; use a constant, or another file",
+                    token.text
+                )
+            } else {
+                continue;
+            };
+            return Err(self.error(token.range(), message));
         }
         Ok(())
     }
 }
 
-/// The directives at the start of `code`, each from its first word to its semicolon.
-fn directives(code: &[Token<'_>]) -> Vec<Range<usize>> {
-    let mut found = Vec::new();
-    let mut rest = code;
-    while let Some(first) = rest.first() {
-        if !matches!(first.text, "enable" | "requires" | "diagnostic") {
-            break;
-        }
-        let Some(end) = rest.iter().position(|token| token.is_symbol(";")) else {
-            break;
-        };
-        let (directive, after) = rest.split_at(end + 1);
-        found.push(
-            first.start
-                ..directive
-                    .last()
-                    .map_or(first.start, |last| last.range().end),
-        );
-        rest = after;
-    }
-    found
+/// The words after which a name is declared.
+fn declares(word: &str) -> bool {
+    matches!(
+        word,
+        "fn" | "struct" | "alias" | "const" | "override" | "var" | "let"
+    )
 }
 
 /// The names after `fn`, `struct`, `alias`, `const`, `override` and `var` outside every bracket.
@@ -138,7 +131,7 @@ pub(crate) fn definitions<'a>(code: &[Token<'a>]) -> Vec<Token<'a>> {
         match token.text {
             "(" | "[" | "{" => depth += 1,
             ")" | "]" | "}" => depth = depth.saturating_sub(1),
-            "fn" | "struct" | "alias" | "const" | "override" | "var" if depth == 0 => {
+            word if depth == 0 && declares(word) => {
                 if tokens.next_if(|next| next.is_symbol("<")).is_some() {
                     // The address space of a variable.
                     tokens.by_ref().find(|next| next.is_symbol(">"));
@@ -151,33 +144,12 @@ pub(crate) fn definitions<'a>(code: &[Token<'a>]) -> Vec<Token<'a>> {
     found
 }
 
-/// The words of `code` that refer to something declared elsewhere: no member (`.name`), and no name that is declared
-/// anywhere in the file, as a parameter, a member or a variable, since that may be what is meant.
-fn uses<'a>(code: &[Token<'a>]) -> Vec<Token<'a>> {
-    let before = |index: usize| index.checked_sub(1).and_then(|index| code.get(index));
-    let declares = |index: usize| {
-        let keyword = before(index).is_some_and(|token| {
-            matches!(
-                token.text,
-                "fn" | "struct" | "alias" | "const" | "override" | "var" | "let"
-            )
-        });
-        keyword || code.get(index + 1).is_some_and(|next| next.is_symbol(":"))
-    };
-    let words = || {
-        code.iter()
-            .enumerate()
-            .filter(|(_, token)| token.kind == Kind::Word)
-    };
-    let declared: BTreeSet<&str> = words()
-        .filter(|(index, _)| declares(*index))
-        .map(|(_, token)| token.text)
-        .collect();
-    words()
-        .filter(|(index, token)| {
-            !declared.contains(token.text)
-                && !before(*index).is_some_and(|token| token.is_symbol("."))
-        })
-        .map(|(_, token)| *token)
-        .collect()
+/// The words of `code` that declare a name, or may: those after a keyword, and those before a colon.
+fn declared<'a>(code: &[Token<'a>]) -> BTreeSet<&'a str> {
+    let pairs = code.windows(2).filter_map(|pair| match pair {
+        [keyword, name] if declares(keyword.text) => Some(name),
+        [name, colon] if colon.is_symbol(":") => Some(name),
+        _ => None,
+    });
+    pairs.map(|name| name.text).collect()
 }

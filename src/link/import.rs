@@ -1,11 +1,11 @@
 //! An import: the only forms are `import super::super::folder::file::{a, b};` within the library, and
 //! `import moment_shadows::folder::file::{a, b};` or `import node::name::{a, b};` outside it. All are WESL as it stands.
 
-use core::ops::{Range, RangeInclusive};
+use core::ops::Range;
 
 use super::file::File;
 use super::tokens::{Kind, Token, tokens};
-use crate::LinkError;
+use crate::ShaderError;
 
 /// Which of the forms a file uses.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -17,6 +17,15 @@ pub(crate) enum Form {
 }
 
 impl Form {
+    /// How `text` is written: as a module of the library if its first import starts with `super::`.
+    pub(super) fn of(text: &str) -> Self {
+        let text = text.strip_prefix('\u{feff}').unwrap_or(text);
+        match tokens(text).unwrap_or_default().as_slice() {
+            [import, root, ..] if import.is_word("import") && root.is_word("super") => Form::Inside,
+            _ => Form::Outside,
+        }
+    }
+
     fn example(self) -> &'static str {
         match self {
             Form::Inside => "import super::super::folder::file::{item, item};",
@@ -49,28 +58,17 @@ pub(crate) struct Import<'a> {
     /// The bytes where the path stands.
     pub(crate) path: Range<usize>,
     pub(crate) items: Vec<Token<'a>>,
-    /// The bytes of the statement.
+    /// The bytes of its lines from the word `import` on; they hold nothing else.
     pub(crate) range: Range<usize>,
-    /// The lines of the statement, from 1; they hold nothing else. Filled in by the file, which counts its lines once.
-    pub(crate) lines: RangeInclusive<u32>,
 }
 
-/// Whether `text` starts with an import that starts with `super::`.
-pub(super) fn starts_with_super(text: &str) -> bool {
-    let text = text.strip_prefix('\u{feff}').unwrap_or(text);
-    let tokens = tokens(text).unwrap_or_default();
-    matches!(tokens.as_slice(), [import, root, ..] if import.is_word("import") && root.is_word("super"))
-}
-
-/// Reads the import that `code` starts with; returns it and the tokens after it.
+/// Reads the import that `code`, a part of `file`, starts with; returns it and the tokens after it.
 pub(crate) fn parse<'a, 'b>(
     file: &File<'a>,
     code: &'b [Token<'a>],
-    form: Form,
-) -> Result<(Import<'a>, &'b [Token<'a>]), LinkError> {
+) -> Result<(Import<'a>, &'b [Token<'a>]), ShaderError> {
     let mut reader = Reader {
         file,
-        form,
         rest: code,
         last: code.first().copied(),
     };
@@ -81,13 +79,12 @@ pub(crate) fn parse<'a, 'b>(
 /// Takes the tokens of one import, and says what is wrong at the first that does not fit.
 struct Reader<'a, 'b, 'c> {
     file: &'c File<'a>,
-    form: Form,
     rest: &'b [Token<'a>],
     last: Option<Token<'a>>,
 }
 
 impl<'a> Reader<'a, '_, '_> {
-    fn import(&mut self) -> Result<Import<'a>, LinkError> {
+    fn import(&mut self) -> Result<Import<'a>, ShaderError> {
         let text = self.file.text;
         let start = self.last.map_or(0, |import| import.start);
         let line_start = text[..start].rfind('\n').map_or(0, |end| end + 1);
@@ -98,76 +95,61 @@ impl<'a> Reader<'a, '_, '_> {
         let (module, path) = self.module()?;
         let items = self.items()?;
         let brace = self.last;
-        let end = match self.take(|token| token.is_symbol(";"), "`;` is missing") {
-            Ok(semicolon) => semicolon.range().end,
-            Err(_) => {
-                self.last = brace;
-                return Err(self.wrong("`;` is missing"));
-            }
+        let Ok(semicolon) = self.take(|token| token.is_symbol(";"), "") else {
+            self.last = brace;
+            return Err(self.wrong("`;` is missing"));
         };
+        let end = semicolon.range().end;
         let end_of_line = text[end..].find('\n').map_or(text.len(), |at| end + at);
         let after = text[end..end_of_line].trim();
         let comment = after.is_empty() || after.starts_with("//");
-        if !comment
-            || self
-                .rest
-                .first()
-                .is_some_and(|next| next.start < end_of_line)
-        {
+        let next = self.rest.first();
+        if !comment || next.is_some_and(|next| next.start < end_of_line) {
             return Err(self.wrong("something stands after the import"));
         }
         Ok(Import {
             module,
             path,
             items,
-            range: start..end,
-            lines: 0..=0,
+            range: start..end_of_line,
         })
     }
 
     /// The module's path, up to the brace: its root, then one name or more.
-    fn module(&mut self) -> Result<(String, Range<usize>), LinkError> {
-        let root = self.take(|token| token.kind == Kind::Word, self.form.wrong_root())?;
-        let mut module = match (self.form, root.text) {
+    fn module(&mut self) -> Result<(String, Range<usize>), ShaderError> {
+        let root = self.take(
+            |token| token.kind == Kind::Word,
+            self.file.form.wrong_root(),
+        )?;
+        let mut module = match (self.file.form, root.text) {
             (Form::Inside, "super") => {
                 self.take(|token| token.kind == Kind::Path, "`::` is missing")?;
-                self.take(|token| token.is_word("super"), self.form.wrong_root())?;
+                self.take(|token| token.is_word("super"), self.file.form.wrong_root())?;
                 "moment_shadows".to_owned()
             }
             (Form::Outside, "moment_shadows" | "node") => root.text.to_owned(),
-            _ => return Err(self.wrong(self.form.wrong_root())),
+            _ => return Err(self.wrong(self.file.form.wrong_root())),
         };
         self.take(|token| token.kind == Kind::Path, "`::` is missing")?;
-        let mut end = root.range().end;
+        let braces = "items are imported in braces";
+        let mut missing = "the module's name is missing";
         loop {
-            let named = end > root.range().end;
-            if named && self.rest.first().is_some_and(|next| next.is_symbol("{")) {
-                return Ok((module, root.start..end));
-            }
-            let missing = if named {
-                "items are imported in braces"
-            } else {
-                "the module's name is missing"
-            };
             let name = self.take(|token| token.kind == Kind::Word, missing)?;
             module.push_str("::");
             module.push_str(name.text);
-            end = name.range().end;
-            if self
-                .take(
-                    |token| token.kind == Kind::Path,
-                    "items are imported in braces",
-                )
-                .is_err()
-            {
+            if self.take(|token| token.kind == Kind::Path, "").is_err() {
                 self.last = Some(name);
-                return Err(self.wrong("items are imported in braces"));
+                return Err(self.wrong(braces));
             }
+            if self.rest.first().is_some_and(|next| next.is_symbol("{")) {
+                return Ok((module, root.start..name.range().end));
+            }
+            missing = braces;
         }
     }
 
     /// The items in their braces. A comma may follow the last.
-    fn items(&mut self) -> Result<Vec<Token<'a>>, LinkError> {
+    fn items(&mut self) -> Result<Vec<Token<'a>>, ShaderError> {
         self.take(|token| token.is_symbol("{"), "items are imported in braces")?;
         let mut items = Vec::new();
         loop {
@@ -180,11 +162,8 @@ impl<'a> Reader<'a, '_, '_> {
                 |token| token.is_symbol(",") || closes(token),
                 "items are plain names with commas between them (no `as`, no path)",
             )?;
-            if closes(&next) {
-                return Ok(items);
-            }
-            if self.rest.first().is_some_and(closes) {
-                self.take(closes, "`}` is missing")?;
+            let more = self.rest.first();
+            if closes(&next) || more.is_some_and(closes) && self.take(closes, "").is_ok() {
                 return Ok(items);
             }
         }
@@ -194,8 +173,8 @@ impl<'a> Reader<'a, '_, '_> {
     fn take(
         &mut self,
         fits: impl Fn(&Token<'a>) -> bool,
-        reason: &'static str,
-    ) -> Result<Token<'a>, LinkError> {
+        reason: &str,
+    ) -> Result<Token<'a>, ShaderError> {
         let Some((&token, rest)) = self.rest.split_first() else {
             return Err(self.wrong(reason));
         };
@@ -208,11 +187,11 @@ impl<'a> Reader<'a, '_, '_> {
     }
 
     /// The error, pointing at the token taken last.
-    fn wrong(&self, reason: &'static str) -> LinkError {
-        LinkError::WrongForm {
-            reason,
-            form: self.form.example(),
-            at: self.file.at(self.last.map_or(0..0, |token| token.range())),
-        }
+    fn wrong(&self, reason: &str) -> ShaderError {
+        let form = self.file.form.example();
+        self.file.error(
+            self.last.map_or(0..0, |token| token.range()),
+            format!("{reason}; write `{form}`, with nothing else on its lines"),
+        )
     }
 }

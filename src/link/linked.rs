@@ -1,9 +1,9 @@
 //! The linker's result: one WGSL text, and where each of its lines comes from.
 
 use core::ops::Range;
-use std::collections::BTreeSet;
 
 use super::file::File;
+use super::prune::gaps;
 use crate::Location;
 
 /// A linked WGSL text that knows where each of its lines comes from.
@@ -13,15 +13,6 @@ pub struct Linked {
     files: Vec<String>,
     /// For each line of the text, the file's index and the line there, from 1; none for the comments that name files.
     lines: Vec<Option<(usize, u32)>>,
-}
-
-/// Where a line of a linked text comes from.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct Origin<'a> {
-    /// The file's name, as it was given; `moment_shadows/<folder>/<file>.wgsl` for modules of the library.
-    pub file: &'a str,
-    /// The line in that file, from 1.
-    pub line: u32,
 }
 
 impl Linked {
@@ -42,22 +33,22 @@ impl Linked {
         self.files.iter().map(String::as_str)
     }
 
-    /// Where the line `line` of the text, from 1, comes from. None for the comments that name files, and beyond the text.
+    /// The file and the line, both lines from 1, that the line `line` of the text comes from. None for the comments that name
+    /// files, and beyond the text.
     #[must_use]
-    pub fn origin(&self, line: u32) -> Option<Origin<'_>> {
+    pub fn origin(&self, line: u32) -> Option<(&str, u32)> {
         let index = usize::try_from(line).ok()?.checked_sub(1)?;
         let (file, line) = (*self.lines.get(index)?)?;
-        let file = self.files.get(file)?;
-        Some(Origin { file, line })
+        Some((self.files.get(file)?, line))
     }
 
     /// Where the bytes `range` of the text come from. Columns are those of the text: lines are linked unchanged.
     #[must_use]
     pub fn location(&self, range: Range<usize>) -> Option<Location> {
         let mut location = Location::in_text("", &self.wgsl, range);
-        let origin = self.origin(location.line)?;
-        location.file = origin.file.to_owned();
-        location.line = origin.line;
+        let (file, line) = self.origin(location.line)?;
+        location.file = file.to_owned();
+        location.line = line;
         Some(location)
     }
 
@@ -69,7 +60,8 @@ impl Linked {
             lines: Vec::new(),
         };
         if let Some((index, root)) = files.iter().enumerate().next_back() {
-            let directives = mask(root.text, &root.directives, Keep::Inside);
+            let others = gaps(root.directives(), root.text.len());
+            let directives = without(root.text, &others);
             for (line, text) in (1..).zip(directives.lines()) {
                 if !text.trim().is_empty() {
                     linked.push_line(text.trim_end(), Some((index, line)));
@@ -90,26 +82,16 @@ impl Linked {
         let name: String = file.name.chars().filter(|c| !is_break(*c)).collect();
         self.push_line(&format!("// {name}"), None);
 
-        let elsewhere = if is_root {
-            &file.directives
-        } else {
-            &file.unreached
-        };
-        let text = mask(file.text, elsewhere, Keep::Outside);
-        let imports: BTreeSet<u32> = file
-            .imports
-            .iter()
-            .flat_map(|import| import.lines.clone())
-            .collect();
-        // Removed text leaves several blank lines: one of them is kept, and none at the ends of a part.
+        let text = without(file.text, &file.left_out);
+        // Of several blank lines in succession one is kept, and none at the ends of a part.
         let mut blank = !is_root;
-        for (line, text) in (1..).zip(text.lines()) {
-            let was_blank = core::mem::replace(&mut blank, text.trim().is_empty());
-            if imports.contains(&line) {
-                blank = was_blank;
-            } else if !(blank && was_blank) {
-                self.push_line(if blank { "" } else { text }, Some((index, line)));
+        for (line, (original, text)) in (1..).zip(file.text.lines().zip(text.lines())) {
+            let is_blank = text.trim().is_empty();
+            if is_blank && (blank || !original.trim().is_empty()) {
+                continue;
             }
+            blank = is_blank;
+            self.push_line(if blank { "" } else { text }, Some((index, line)));
         }
         if !is_root && self.wgsl.ends_with("\n\n") {
             self.wgsl.pop();
@@ -128,32 +110,17 @@ fn is_break(c: char) -> bool {
     c.is_control() || matches!(c, '\u{2028}' | '\u{2029}')
 }
 
-#[derive(Clone, Copy, PartialEq, Eq)]
-enum Keep {
-    Inside,
-    Outside,
-}
-
-/// `text` with spaces for every character outside or inside of `ranges`, which are in order. Lines and columns stay.
-fn mask(text: &str, ranges: &[Range<usize>], keep: Keep) -> String {
-    let mut masked = String::with_capacity(text.len());
-    let mut push = |part: Option<&str>, inside: bool| {
-        let part = part.unwrap_or_default();
-        if inside == (keep == Keep::Inside) {
-            masked.push_str(part);
-        } else {
-            masked.extend(
-                part.chars()
-                    .map(|c| if matches!(c, '\n' | '\r') { c } else { ' ' }),
-            );
-        }
-    };
+/// `text` with spaces for every character in `ranges`, which are in order. Lines and columns stay.
+fn without(text: &str, ranges: &[Range<usize>]) -> String {
+    let part = |range: Range<usize>| text.get(range).unwrap_or_default();
+    let blank = |c: char| if matches!(c, '\n' | '\r') { c } else { ' ' };
+    let mut kept = String::with_capacity(text.len());
     let mut done = 0;
     for range in ranges {
-        push(text.get(done..range.start), false);
-        push(text.get(range.clone()), true);
+        kept.push_str(part(done..range.start));
+        kept.extend(part(range.clone()).chars().map(blank));
         done = range.end;
     }
-    push(text.get(done..), false);
-    masked
+    kept.push_str(part(done..text.len()));
+    kept
 }

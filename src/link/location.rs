@@ -16,6 +16,8 @@ pub struct Location {
     pub width: u32,
     /// The whole line, without its end. Control characters other than tabs are replaced, so it can be printed.
     pub text: String,
+    /// What is there, for an error; may be empty.
+    pub label: String,
 }
 
 impl Location {
@@ -37,11 +39,20 @@ impl Location {
             column: count(before_span).saturating_add(1),
             width: count(covered).max(1),
             text: line.chars().map(printable).collect(),
+            label: String::new(),
         }
     }
 
-    /// Writes the place, the line and a caret line, with `label` after the carets.
-    pub(crate) fn write(&self, f: &mut fmt::Formatter<'_>, label: &str) -> fmt::Result {
+    /// The place with a label.
+    pub(crate) fn labelled(mut self, label: &str) -> Self {
+        label.clone_into(&mut self.label);
+        self
+    }
+}
+
+/// The place, the line, and a line with carets and the label.
+impl fmt::Display for Location {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let number = self.line.to_string();
         let margin = " ".repeat(number.len());
         // Tabs stay tabs, so that the carets stand under the span in any terminal.
@@ -52,26 +63,16 @@ impl Location {
             .map(|c| if c == '\t' { '\t' } else { ' ' })
             .collect();
         let carets = "^".repeat(self.width as usize);
+        let marked = format!("{margin} | {indent}{carets} {}", self.label);
         let (file, column) = (&self.file, self.column);
         writeln!(f, "{margin}--> {file}:{number}:{column}")?;
-        writeln!(f, "{margin} |")?;
-        writeln!(f, "{number} | {}", self.text)?;
-        write!(f, "{margin} | {indent}{carets}")?;
-        if !label.is_empty() {
-            write!(f, " {label}")?;
-        }
-        Ok(())
-    }
-}
-
-impl fmt::Display for Location {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        self.write(f, "")
+        writeln!(f, "{margin} |\n{number} | {}", self.text)?;
+        f.write_str(marked.trim_end())
     }
 }
 
 /// How many lines end in `text`.
-pub(crate) fn line_ends(text: &str) -> u32 {
+fn line_ends(text: &str) -> u32 {
     let ends = text.bytes().filter(|&byte| byte == b'\n').count();
     u32::try_from(ends).unwrap_or(u32::MAX - 1)
 }

@@ -11,11 +11,12 @@ pub(crate) mod tokens;
 
 use std::collections::{BTreeMap, BTreeSet};
 
-pub use self::error::LinkError;
+pub use self::error::ShaderError;
 use self::file::File;
-use self::import::{Form, Import};
-pub use self::linked::{Linked, Origin};
+use self::import::Form;
+pub use self::linked::Linked;
 pub use self::location::Location;
+pub(crate) use self::module::ITEMS;
 pub use self::module::{Module, modules};
 use crate::nearest::nearest;
 
@@ -26,15 +27,6 @@ pub struct Source<'a> {
     pub name: &'a str,
     /// The text, imports included.
     pub text: &'a str,
-}
-
-impl Source<'_> {
-    /// Whether the text is written as a module of the library ([`link_module()`]), not as a shader ([`link()`]): its
-    /// imports start with `super::`.
-    #[must_use]
-    pub fn is_library_module(&self) -> bool {
-        import::starts_with_super(self.text)
-    }
 }
 
 /// Links `source`, a shader outside the library, with the modules that it imports, directly or through other modules.
@@ -55,29 +47,17 @@ impl Source<'_> {
 /// the same name, linked or not.
 /// The result depends on the input alone: equal input always gives equal text.
 ///
-/// # Errors
-/// [`LinkError`] where a rule is broken, in `source`, in a generated module, or between files.
-pub fn link(source: Source<'_>, generated: &[Source<'_>]) -> Result<Linked, LinkError> {
-    link_as(Form::Outside, source, generated)
-}
-
-/// Links `source`, a file written as a module of the library (`import super::super::maths::hankel::{hankel_factor};`), with the modules
-/// that it imports, by the rules of [`link()`].
+/// A text whose first import starts with `super::` is a module of the library, and is linked as such.
 ///
 /// # Errors
-/// [`LinkError`] where a rule is broken.
-pub fn link_module(source: Source<'_>) -> Result<Linked, LinkError> {
-    link_as(Form::Inside, source, &[])
-}
-
-fn link_as(form: Form, source: Source<'_>, generated: &[Source<'_>]) -> Result<Linked, LinkError> {
+/// [`ShaderError`] where a rule is broken, in `source`, in a generated module, or between files.
+pub fn link(source: Source<'_>, generated: &[Source<'_>]) -> Result<Linked, ShaderError> {
     let library = Library::new(generated)?;
-    let root = File::parse(source.name.to_owned(), source.text, form)?;
+    let form = Form::of(source.text);
+    let root = File::parse(source.name.to_owned(), String::new(), source.text, form)?;
     let mut files = library.closure(root)?;
-    refuse_collisions(&files)?;
-    refuse_unimported(&files)?;
+    check_names(&files)?;
     prune::prune(&mut files);
-    files.retain(|file| file.is_reached);
     Ok(Linked::join(&files))
 }
 
@@ -87,7 +67,7 @@ struct Library<'a> {
 }
 
 impl<'a> Library<'a> {
-    fn new(generated: &[Source<'a>]) -> Result<Self, LinkError> {
+    fn new(generated: &[Source<'a>]) -> Result<Self, ShaderError> {
         module::check_edited_folder()?;
         let library = modules().iter().map(|module| {
             let path = format!("moment_shadows::{}::{}", module.folder, module.name);
@@ -97,9 +77,10 @@ impl<'a> Library<'a> {
         for source in generated {
             let path = format!("node::{}", source.name);
             if known.insert(path, (Form::Outside, source.text)).is_some() {
-                return Err(LinkError::GeneratedName {
-                    module: source.name.to_owned(),
-                });
+                let name = source.name;
+                let message =
+                    format!("two generated modules are named `{name}`; give one another name");
+                return Err(ShaderError::new(message));
             }
         }
         Ok(Self { modules: known })
@@ -107,61 +88,55 @@ impl<'a> Library<'a> {
 
     /// `root` and the files it needs, each after those that it imports. Walks without recursion: generated modules may
     /// form a chain of any length.
-    fn closure(&self, root: File<'a>) -> Result<Vec<File<'a>>, LinkError> {
+    fn closure(&self, root: File<'a>) -> Result<Vec<File<'a>>, ShaderError> {
         let mut finished: Vec<File<'a>> = Vec::new();
-        let mut position: BTreeMap<String, usize> = BTreeMap::new();
-        let mut path = vec![Visit {
-            module: String::new(),
-            file: root,
-            next: 0,
-        }];
-        while let Some(visit) = path.last_mut() {
-            if let Some(import) = visit.file.imports.get(visit.next) {
-                if let Some(imported) = position.get(&import.module) {
-                    if let Some(imported) = finished.get(*imported) {
-                        check_items(&visit.file, import, imported)?;
-                    }
-                    visit.next += 1;
+        let mut known = BTreeSet::new();
+        // Files on the way from the root to the one being read, with the import of each to follow next.
+        let mut path = vec![(root, 0)];
+        while let Some((file, next)) = path.last_mut() {
+            if let Some(import) = file.imports.get(*next) {
+                if known.contains(&import.module) {
+                    *next += 1;
                     continue;
                 }
-                let module = import.module.clone();
-                let at = visit.file.at(import.path.clone());
-                let form = visit.file.form;
-                if path.iter().any(|above| above.module == module) {
-                    return Err(cycle(&path, &module, at));
+                let (module, at) = (import.module.clone(), file.at(import.path.clone()));
+                let form = file.form;
+                if let Some(first) = path.iter().position(|(above, _)| above.module == module) {
+                    let cycle = path
+                        .iter()
+                        .skip(first)
+                        .map(|(file, _)| file.module.as_str());
+                    let cycle: Vec<_> = cycle.chain([module.as_str()]).collect();
+                    let message = format!(
+                        "the imports form a cycle: {}; move what both need to a third module",
+                        cycle.join(" -> ")
+                    );
+                    return Err(ShaderError::at(at, message));
                 }
-                let file = self.open(&module, form, at)?;
-                path.push(Visit {
-                    module,
-                    file,
-                    next: 0,
-                });
-            } else if let Some(visit) = path.pop() {
-                refuse_duplicates(&visit.file)?;
-                position.insert(visit.module, finished.len());
-                finished.push(visit.file);
+                path.push((self.open(module, form, at)?, 0));
+            } else if let Some((file, _)) = path.pop() {
+                known.insert(file.module.clone());
+                finished.push(file);
             }
         }
         Ok(finished)
     }
 
     /// Reads the module that is imported at `at`, by a file of form `form`.
-    fn open(&self, module: &str, form: Form, at: Box<Location>) -> Result<File<'a>, LinkError> {
-        match self.modules.get(module) {
-            Some(&(Form::Inside, text)) => {
-                let name = format!("{}.wgsl", module.replace("::", "/"));
-                File::parse(name, text, Form::Inside)
-            }
-            Some(&(Form::Outside, text)) => {
-                let name = module.strip_prefix("node::").unwrap_or(module).to_owned();
-                File::parse(name, text, Form::Outside)
-            }
-            None => Err(LinkError::UnknownModule {
-                module: form.written(module),
-                nearest: self.nearest(module, form),
-                at,
-            }),
-        }
+    fn open(&self, module: String, form: Form, at: Location) -> Result<File<'a>, ShaderError> {
+        let Some(&(of, text)) = self.modules.get(&module) else {
+            let message = format!(
+                "there is no module `{}`; the nearest are {}",
+                form.written(&module),
+                self.nearest(&module, form)
+            );
+            return Err(ShaderError::at(at, message));
+        };
+        let name = match of {
+            Form::Inside => format!("{}.wgsl", module.replace("::", "/")),
+            Form::Outside => module.strip_prefix("node::").unwrap_or(&module).to_owned(),
+        };
+        File::parse(name, module, text, of)
     }
 
     /// The paths nearest to `module` that a file of form `form` can import; those that end alike, if there are any.
@@ -184,103 +159,63 @@ impl<'a> Library<'a> {
     }
 }
 
-/// A file on the way from the root to the file being read.
-struct Visit<'a> {
-    module: String,
-    file: File<'a>,
-    /// The import to follow next.
-    next: usize,
-}
-
-fn cycle(path: &[Visit<'_>], module: &str, at: Box<Location>) -> LinkError {
-    let mut names: Vec<_> = path
-        .iter()
-        .map(|visit| visit.module.as_str())
-        .skip_while(|name| *name != module)
-        .collect();
-    names.push(module);
-    LinkError::Cycle {
-        cycle: names.join(" -> "),
-        at,
-    }
-}
-
-fn check_items(file: &File<'_>, import: &Import<'_>, imported: &File<'_>) -> Result<(), LinkError> {
-    let names = || imported.definitions.iter().map(|name| name.text);
-    match import
-        .items
-        .iter()
-        .find(|item| !names().any(|name| name == item.text))
-    {
-        None => Ok(()),
-        Some(item) => Err(LinkError::UnknownItem {
-            item: item.text.to_owned(),
-            module: import.module.clone(),
-            nearest: nearest(item.text, names()),
-            at: file.at(item.range()),
-        }),
-    }
-}
-
-fn refuse_duplicates(file: &File<'_>) -> Result<(), LinkError> {
-    let mut seen = BTreeMap::new();
-    for import in &file.imports {
-        for item in &import.items {
-            if let Some(first) = seen.insert((&import.module, item.text), *import.lines.start()) {
-                return Err(LinkError::DuplicateImport {
-                    item: item.text.to_owned(),
-                    first,
-                    at: file.at(item.range()),
-                });
-            }
-        }
-    }
-    Ok(())
-}
-
-/// Refuses a name that two files define. A name defined twice in one file is left to the WGSL compiler.
-fn refuse_collisions(files: &[File<'_>]) -> Result<(), LinkError> {
-    let mut seen: BTreeMap<&str, (usize, &File<'_>, _)> = BTreeMap::new();
-    for (index, file) in files.iter().enumerate() {
-        for name in &file.definitions {
-            let (first_index, first_file, first) =
-                *seen.entry(name.text).or_insert((index, file, name));
-            if first_index != index {
-                return Err(LinkError::Collision {
-                    name: name.text.to_owned(),
-                    at: file.at(name.range()),
-                    first: first_file.at(first.range()),
-                });
-            }
-        }
-    }
-    Ok(())
-}
-
-/// Refuses a name that another file defines and this one does not import. Joined files would see it all the same; tools
-/// that keep modules apart would not.
-fn refuse_unimported(files: &[File<'_>]) -> Result<(), LinkError> {
-    let owners: BTreeMap<&str, &File<'_>> = files
-        .iter()
-        .flat_map(|file| file.definitions.iter().map(move |name| (name.text, file)))
-        .collect();
+/// Refuses names that two files define, imports of names that their module does not define or that are imported already, and
+/// names of other files that are used without being imported: joined files would see them all the same, tools that keep
+/// modules apart would not. A name defined twice in one file is left to the WGSL compiler.
+fn check_names(files: &[File<'_>]) -> Result<(), ShaderError> {
+    let mut owners = BTreeMap::new();
     for file in files {
-        let imported: BTreeSet<&str> = file
-            .imports
-            .iter()
-            .flat_map(|import| &import.items)
-            .map(|item| item.text)
-            .collect();
-        let missing = file.uses.iter().find_map(|used| {
-            let owner = owners.get(used.text)?;
-            (owner.name != file.name && !imported.contains(used.text)).then_some((used, owner))
-        });
-        if let Some((used, owner)) = missing {
-            return Err(LinkError::NotImported {
-                item: used.text.to_owned(),
-                owner: owner.name.clone(),
-                at: file.at(used.range()),
-            });
+        for name in file.definitions() {
+            let (owner, first) = *owners.entry(name.text).or_insert((file, name));
+            if !core::ptr::eq(owner, file) {
+                let message = format!(
+                    "`{}` is defined twice; rename the one in `{}`",
+                    name.text, file.name
+                );
+                let mut error = file.error(name.range(), message);
+                let first = owner.at(first.range()).labelled("defined already");
+                error.places.push(first);
+                return Err(error);
+            }
+        }
+    }
+    let modules: BTreeMap<_, _> = files.iter().map(|it| (it.module.as_str(), it)).collect();
+    for file in files {
+        let mut imported = BTreeMap::new();
+        for import in &file.imports {
+            let of = modules.get(import.module.as_str());
+            let names = || of.into_iter().flat_map(|of| of.definitions());
+            for item in &import.items {
+                let message = if !names().any(|name| name.text == item.text) {
+                    let nearest = nearest(item.text, names().map(|name| name.text));
+                    format!(
+                        "module `{}` does not define `{}`; the nearest names are {nearest}",
+                        import.module, item.text
+                    )
+                } else if let Some(first) = imported.insert(item.text, import) {
+                    let line = file.at(first.range.clone()).line;
+                    format!(
+                        "`{}` is imported already in line {line}; remove one of the two",
+                        item.text
+                    )
+                } else {
+                    continue;
+                };
+                return Err(file.error(item.range(), message));
+            }
+        }
+        for used in file.declarations.iter().flat_map(|of| &of.words) {
+            let Some((owner, _)) = owners.get(used.text) else {
+                continue;
+            };
+            let known = file.declared.contains(used.text) || imported.contains_key(used.text);
+            if !core::ptr::eq(*owner, file) && !known {
+                let message = format!(
+                    "`{}` is used, but not imported; add it to the imports (it is defined in {})",
+                    used.text, owner.name
+                );
+                return Err(file.error(used.range(), message));
+            }
         }
     }
     Ok(())

@@ -11,13 +11,16 @@ use super::tokens::{Kind, Token};
 
 /// A declaration at top level, with its attributes.
 pub(crate) struct Declaration<'a> {
+    /// The bytes from its first word on.
+    pub(crate) code: Range<usize>,
     /// The bytes that go if nothing reaches it: those of its comments too.
     range: Range<usize>,
-    /// The names it defines: one, but for `const_assert` and for text that is not WGSL.
-    names: Vec<&'a str>,
-    /// Every word in it that may name another.
-    words: BTreeSet<&'a str>,
+    /// The names it defines: one, but for directives, `const_assert`, and text that is not WGSL.
+    pub(crate) names: Vec<Token<'a>>,
+    /// Every word in it that may name another: no member (`.name`).
+    pub(crate) words: Vec<Token<'a>>,
     is_entry_point: bool,
+    pub(crate) is_directive: bool,
 }
 
 /// The declarations of `code`, which are the tokens of `text` from the byte `start` on.
@@ -35,9 +38,12 @@ pub(crate) fn declarations<'a>(
         let next = after.first().map_or(text.len(), |next| next.start);
         let start = with_comments_above(text, previous_end..first.start, found.is_empty());
         found.push(Declaration {
+            code: first.start..end,
             range: start..with_comment_behind(text, end, next),
-            names: definitions(tokens).iter().map(|name| name.text).collect(),
+            names: definitions(tokens),
             words: words(tokens),
+            is_directive: matches!(first.text, "enable" | "requires" | "diagnostic")
+                && tokens.last().is_some_and(|last| last.is_symbol(";")),
             is_entry_point: tokens.windows(2).any(|pair| {
                 matches!(pair, [at, stage] if at.is_symbol("@")
                     && matches!(stage.text, "vertex" | "fragment" | "compute"))
@@ -66,13 +72,13 @@ fn length(tokens: &[Token<'_>]) -> usize {
 }
 
 /// The words of `tokens` but for members (`.name`).
-fn words<'a>(tokens: &[Token<'a>]) -> BTreeSet<&'a str> {
+fn words<'a>(tokens: &[Token<'a>]) -> Vec<Token<'a>> {
     let mut after_dot = false;
     let words = tokens.iter().filter(|token| {
         let member = core::mem::replace(&mut after_dot, token.is_symbol("."));
         token.kind == Kind::Word && !member
     });
-    words.map(|word| word.text).collect()
+    words.copied().collect()
 }
 
 /// Where the `//` comments begin that stand on the lines right above a declaration, `gap` being the bytes between it and the code
@@ -112,19 +118,17 @@ fn with_comment_behind(text: &str, end: usize, next: usize) -> usize {
     }
 }
 
-/// Marks in each of `files` but the last, which is the one that was given to the linker, what that one does not reach, and the comments
-/// that belong to no declaration: the file's name above its part says where to read them.
+/// Leaves out of each of `files` but the last, which is the one that was given to the linker, what that one does not reach, and the
+/// comments that belong to no declaration: the file's name above its part says where to read them. Files that it does not reach go.
 /// Entry points are reached from outside; what has no name (`const_assert`) by anything of its file.
-pub(crate) fn prune(files: &mut [File<'_>]) {
-    let Some(root) = files.len().checked_sub(1) else {
-        return;
-    };
+pub(crate) fn prune(files: &mut Vec<File<'_>>) {
+    let root = files.len().saturating_sub(1);
     let mut owners: BTreeMap<&str, Vec<(usize, usize)>> = BTreeMap::new();
     let mut waiting = Vec::new();
     for (file, of) in files.iter().enumerate() {
         for (index, declaration) in of.declarations.iter().enumerate() {
             for name in &declaration.names {
-                owners.entry(name).or_default().push((file, index));
+                owners.entry(name.text).or_default().push((file, index));
             }
             if file == root || declaration.is_entry_point {
                 waiting.push((file, index));
@@ -132,47 +136,43 @@ pub(crate) fn prune(files: &mut [File<'_>]) {
         }
     }
     let mut kept: BTreeSet<(usize, usize)> = BTreeSet::new();
-    let mut entered = BTreeSet::new();
+    let mut entered = BTreeSet::from([root]);
     while let Some((file, index)) = waiting.pop() {
         if !kept.insert((file, index)) {
             continue;
         }
-        let Some(of) = files.get(file) else { continue };
+        let declarations = files.get(file).map_or(&[][..], |of| &of.declarations);
         if entered.insert(file) {
-            let unnamed = of.declarations.iter().enumerate();
+            let unnamed = declarations.iter().enumerate();
             let unnamed = unnamed.filter(|(_, declaration)| declaration.names.is_empty());
             waiting.extend(unnamed.map(|(index, _)| (file, index)));
         }
-        let words = of
-            .declarations
+        let words = declarations
             .get(index)
             .map(|declaration| &declaration.words);
-        let reached = words
-            .into_iter()
-            .flatten()
-            .filter_map(|word| owners.get(word));
-        waiting.extend(reached.flatten());
+        let words = words.into_iter().flatten();
+        waiting.extend(words.filter_map(|word| owners.get(word.text)).flatten());
     }
     for (file, of) in files.iter_mut().enumerate() {
-        of.is_reached = file == root || entered.contains(&file);
-        of.unreached = if file == root {
-            Vec::new()
+        of.left_out = if file == root {
+            let imports = of.imports.iter().map(|import| import.range.clone());
+            imports.chain(of.directives()).collect()
         } else {
             let declarations = of.declarations.iter().enumerate();
             let kept = declarations.filter(|(index, _)| kept.contains(&(file, *index)));
-            gaps(kept.map(|(_, kept)| &kept.range), of.text.len())
+            gaps(kept.map(|(_, kept)| kept.range.clone()), of.text.len())
         };
     }
+    let mut index = 0..;
+    files.retain(|_| index.next().is_some_and(|index| entered.contains(&index)));
 }
 
-/// What lies between ranges in order, from 0 to `length`: what is not reached, and comments that belong to no declaration.
-fn gaps<'a>(ranges: impl Iterator<Item = &'a Range<usize>>, length: usize) -> Vec<Range<usize>> {
-    let mut gaps = Vec::new();
+/// What lies between ranges in order, from 0 to `length`.
+pub(super) fn gaps(ranges: impl Iterator<Item = Range<usize>>, length: usize) -> Vec<Range<usize>> {
     let mut end = 0;
-    for range in ranges {
-        gaps.push(end..range.start);
-        end = range.end;
-    }
+    let mut gaps: Vec<_> = ranges
+        .map(|range| core::mem::replace(&mut end, range.end)..range.start)
+        .collect();
     gaps.push(end..length);
     gaps
 }

@@ -1,40 +1,30 @@
 //! Tests on the plain depth map: `binary`, `pcf`, `pcss`.
 
-use super::row::{Constant, Row, Snippet, float};
-use super::{Finite, PcfTaps, Pcss, TechniqueError, count};
-use crate::constant::number;
+use super::row::{Constant, Row, float};
+use super::{Finite, PcfTaps, count, setting};
+use crate::constants::{
+    PERCENTAGE_CLOSER_LARGEST_DISK as LARGEST_DISK, PERCENTAGE_CLOSER_SOFT_MOST_TAPS as MOST_TAPS,
+};
+use crate::{Kernel, ValueError};
 
-const MODULE: &str = include_str!("../../wgsl/techniques/percentage_closer.wgsl");
-const SOFT_MODULE: &str = include_str!("../../wgsl/techniques/percentage_closer_soft.wgsl");
-const LARGEST_RADIUS: u32 = number(MODULE, "PERCENTAGE_CLOSER_LARGEST_RADIUS") as u32;
-const LARGEST_DISK: f32 = number(MODULE, "PERCENTAGE_CLOSER_LARGEST_DISK") as f32;
-const MOST_TAPS: u32 = number(SOFT_MODULE, "PERCENTAGE_CLOSER_SOFT_MOST_TAPS") as u32;
+const LARGEST_RADIUS: u32 = Kernel::LARGEST_RADIUS;
 
 /// The comparison with the nearest texel (Williams, SIGGRAPH 1978).
 pub(super) fn binary() -> Row {
-    let evaluation = Snippet {
-        imports: &["techniques::percentage_closer::{percentage_closer_binary}"],
-        body: "return percentage_closer_binary(depth_map, receiver.layer, receiver.region, plane, receiver.conversion);",
-    };
+    let evaluation = "return percentage_closer_binary(depth_map, receiver.layer, receiver.region, plane, receiver.conversion);";
     Row::of_depth("binary", evaluation)
 }
 
 /// Percentage-closer soft shadows: a filter as wide as the penumbra (Fernando, SIGGRAPH 2005).
-pub(super) fn pcss(taps: &Pcss) -> Row {
+pub(super) fn pcss(search_taps: u32, filter_taps: u32) -> Row {
     const NAME: &str = "pcss";
-    let evaluation = Snippet {
-        imports: &[
-            "maths::disk_samples::{disk_samples_angle}",
-            "techniques::percentage_closer_soft::{percentage_closer_soft_intensity}",
-        ],
-        body: "return percentage_closer_soft_intensity(depth_map, receiver.layer, receiver.region, plane, receiver.conversion, receiver.light, SEARCH_TAPS, FILTER_TAPS, disk_samples_angle(receiver.pixel));",
-    };
+    let evaluation = "return percentage_closer_soft_intensity(depth_map, receiver.layer, receiver.region, plane, receiver.conversion, receiver.light, SEARCH_TAPS, FILTER_TAPS, disk_samples_angle(receiver.pixel));";
     Row {
-        settings: count(NAME, "search taps", taps.search_taps, MOST_TAPS)
-            .and_then(|()| count(NAME, "filter taps", taps.filter_taps, MOST_TAPS)),
+        settings: count(NAME, "search taps", search_taps, MOST_TAPS)
+            .and_then(|()| count(NAME, "filter taps", filter_taps, MOST_TAPS)),
         constants: vec![
-            Constant::of_evaluation("SEARCH_TAPS", format!("{}u", taps.search_taps)),
-            Constant::of_evaluation("FILTER_TAPS", format!("{}u", taps.filter_taps)),
+            Constant::of_evaluation("SEARCH_TAPS", format!("{search_taps}u")),
+            Constant::of_evaluation("FILTER_TAPS", format!("{filter_taps}u")),
         ],
         ..Row::of_depth(NAME, evaluation)
     }
@@ -42,33 +32,15 @@ pub(super) fn pcss(taps: &Pcss) -> Row {
 
 const PCF: &str = "pcf";
 
-const BOX: Snippet = Snippet {
-    imports: &["techniques::percentage_closer::{percentage_closer_box}"],
-    body: "return percentage_closer_box(depth_map, receiver.layer, receiver.region, plane, receiver.conversion, RADIUS, true);",
-};
+const BOX: &str = "return percentage_closer_box(depth_map, receiver.layer, receiver.region, plane, receiver.conversion, RADIUS, true);";
 
-const GAUSSIAN: Snippet = Snippet {
-    imports: &["techniques::percentage_closer::{percentage_closer_gaussian}"],
-    body: "return percentage_closer_gaussian(depth_map, receiver.layer, receiver.region, plane, receiver.conversion, RADIUS, SIGMA, true);",
-};
+const GAUSSIAN: &str = "return percentage_closer_gaussian(depth_map, receiver.layer, receiver.region, plane, receiver.conversion, RADIUS, SIGMA, true);";
 
-const WEIGHTS: Snippet = Snippet {
-    imports: &["techniques::percentage_closer::{PercentageCloserKernel, percentage_closer_kernel}"],
-    body: "return percentage_closer_kernel(depth_map, receiver.layer, receiver.region, plane, receiver.conversion, PercentageCloserKernel(u32(RADIUS), KERNEL_WEIGHTS), true);",
-};
+const WEIGHTS: &str = "return percentage_closer_kernel(depth_map, receiver.layer, receiver.region, plane, receiver.conversion, PercentageCloserKernel(u32(RADIUS), KERNEL_WEIGHTS), true);";
 
-const POISSON: Snippet = Snippet {
-    imports: &[
-        "maths::disk_samples::{disk_samples_angle}",
-        "techniques::percentage_closer::{percentage_closer_poisson}",
-    ],
-    body: "return percentage_closer_poisson(depth_map, receiver.layer, receiver.region, plane, receiver.conversion, DISK_RADIUS, disk_samples_angle(receiver.pixel));",
-};
+const POISSON: &str = "return percentage_closer_poisson(depth_map, receiver.layer, receiver.region, plane, receiver.conversion, DISK_RADIUS, disk_samples_angle(receiver.pixel));";
 
-const HARDWARE: Snippet = Snippet {
-    imports: &["techniques::percentage_closer_hardware::{percentage_closer_hardware_box}"],
-    body: "return percentage_closer_hardware_box(depth_map, comparison_sampler, receiver.layer, receiver.region, plane, receiver.conversion, RADIUS);",
-};
+const HARDWARE: &str = "return percentage_closer_hardware_box(depth_map, comparison_sampler, receiver.layer, receiver.region, plane, receiver.conversion, RADIUS);";
 
 /// Percentage-closer filtering: the mean of comparisons (Reeves, Salesin & Cook, SIGGRAPH 1987).
 pub(super) fn pcf(taps: &PcfTaps) -> Row {
@@ -129,47 +101,38 @@ fn weight_vectors(weights: &[Finite]) -> String {
     format!("array<vec4f, {vectors}>({})", all.join(", "))
 }
 
-fn setting(what: &'static str, value: Finite, range: String) -> TechniqueError {
-    TechniqueError::Setting {
-        technique: PCF,
-        what,
-        value,
-        range,
-    }
+fn check_radius(radius: u32) -> Result<(), ValueError> {
+    let legal = format!("from 0 to {LARGEST_RADIUS} texels");
+    setting(radius <= LARGEST_RADIUS, PCF, "radius", radius, &legal)
 }
 
-fn check_radius(radius: u32) -> Result<(), TechniqueError> {
-    if radius <= LARGEST_RADIUS {
-        return Ok(());
-    }
-    let value = u16::try_from(radius).unwrap_or(u16::MAX).into();
-    let range = format!("from 0 to {LARGEST_RADIUS} texels");
-    Err(setting("radius", value, range))
+fn check_sigma(sigma: Finite) -> Result<(), ValueError> {
+    setting(
+        sigma > Finite::ZERO,
+        PCF,
+        "standard deviation",
+        sigma,
+        "positive",
+    )
 }
 
-fn check_sigma(sigma: Finite) -> Result<(), TechniqueError> {
-    if sigma.get() > 0.0 {
-        return Ok(());
-    }
-    Err(setting("standard deviation", sigma, "positive".to_owned()))
-}
-
-fn check_weights(weights: &[Finite]) -> Result<(), TechniqueError> {
-    let odd = weights.len() % 2 == 1 && weights.len() <= 2 * LARGEST_RADIUS as usize + 1;
+fn check_weights(weights: &[Finite]) -> Result<(), ValueError> {
+    let most = 2 * LARGEST_RADIUS as usize + 1;
+    let odd = weights.len() % 2 == 1 && weights.len() <= most;
     let negative = weights.iter().any(|weight| *weight < Finite::ZERO);
     let sum: f32 = weights.iter().map(|weight| weight.get()).sum();
     if odd && !negative && sum > 0.0 && sum.is_finite() {
         return Ok(());
     }
-    Err(TechniqueError::Weights {
-        count: weights.len(),
-    })
+    let message = format!(
+        "{} weights are no filter: an odd number from 1 to {most} is, none of them negative and not all of them zero",
+        weights.len()
+    );
+    Err(ValueError::new("weights", message))
 }
 
-fn check_disk(radius: Finite) -> Result<(), TechniqueError> {
-    if (0.0..=LARGEST_DISK).contains(&radius.get()) {
-        return Ok(());
-    }
-    let range = format!("from 0 to {LARGEST_DISK} texels");
-    Err(setting("radius", radius, range))
+fn check_disk(radius: Finite) -> Result<(), ValueError> {
+    let valid = (0.0..=LARGEST_DISK).contains(&radius.get());
+    let legal = format!("from 0 to {LARGEST_DISK} texels");
+    setting(valid, PCF, "radius", radius, &legal)
 }

@@ -4,47 +4,51 @@ use core::fmt;
 
 use serde::{Deserialize, Serialize};
 
-use super::{Finite, Row, Technique, TechniqueError};
-use crate::{Profile, Storage, SummedAreaTable, TextureFormat, UnsupportedStorage};
+use super::{Row, Technique};
+use crate::{Profile, Storage, SummedAreaTable, TextureFormat, ValueError};
 
 /// The encoding of a filterable map: a technique with a storage that it can use.
 #[derive(Clone, Debug, PartialEq, Eq, Hash, Serialize, Deserialize)]
-#[serde(try_from = "Pair", into = "Pair")]
+#[serde(try_from = "Pair")]
 pub struct MapEncoding {
     technique: Technique,
     storage: Storage,
+    #[serde(skip_serializing)]
     format: TextureFormat,
+    #[serde(skip_serializing_if = "Option::is_none")]
     table: Option<SummedAreaTable>,
 }
 
 /// The encoding's form in files.
-#[derive(Serialize, Deserialize)]
+#[derive(Deserialize)]
 #[serde(deny_unknown_fields)]
 struct Pair {
     #[serde(default)]
     technique: Technique,
     storage: Storage,
-    #[serde(default, skip_serializing_if = "Option::is_none")]
     table: Option<SummedAreaTable>,
 }
 
 impl MapEncoding {
     /// The encoding, if the storage is one of the technique's and its settings are within their ranges.
-    pub fn new(technique: Technique, storage: Storage) -> Result<Self, TechniqueError> {
+    pub fn new(technique: Technique, storage: Storage) -> Result<Self, ValueError> {
         let row = technique.row();
         row.settings.clone()?;
         if row.reads_depth() {
-            return Err(TechniqueError::ReadsDepth {
-                technique: row.name,
-            });
+            let message = format!(
+                "'{technique}' reads the plain depth map, which needs no storage; connect the map to 'depth' of the node that \
+                 shades"
+            );
+            return Err(ValueError::new("technique", message));
         }
         let format = storage
             .format_of(row.channels)
             .filter(|_| row.storages.contains(&storage))
-            .ok_or(TechniqueError::Storage {
-                technique: row.name,
-                storage,
-                legal: row.storages,
+            .ok_or_else(|| {
+                let legal = listed(row.storages.iter().map(|legal| legal.name()));
+                let message =
+                    format!("'{technique}' cannot be stored as {storage}; it can as {legal}");
+                ValueError::new("storage", message)
             })?;
         check_exponents(&row, storage)?;
         Ok(Self {
@@ -56,13 +60,19 @@ impl MapEncoding {
     }
 
     /// The encoding of a summed-area table of a map with this technique, which stores four moments or two.
-    pub fn of_table(technique: Technique, table: SummedAreaTable) -> Result<Self, TechniqueError> {
+    pub fn of_table(technique: Technique, table: SummedAreaTable) -> Result<Self, ValueError> {
         let row = technique.row();
         let format = Storage::Fixed32
             .format_of(row.channels)
-            .filter(|_| row.contents.have_tables())
-            .ok_or(TechniqueError::NoTable {
-                technique: row.name,
+            .filter(|_| row.has_table)
+            .ok_or_else(|| {
+                let others = Technique::examples();
+                let others = others.iter().filter(|other| other.row().has_table);
+                let message = format!(
+                    "no summed-area table is made of a map for '{technique}'; one is of maps for {}",
+                    listed(others.map(Technique::name))
+                );
+                ValueError::new("technique", message)
             })?;
         Ok(Self {
             technique,
@@ -111,7 +121,7 @@ impl MapEncoding {
     /// storage is as fine as sums of f32 are.
     #[must_use]
     pub fn has_split_sums(&self) -> bool {
-        self.technique.row().contents.are_bounded_moments() && self.storage == Storage::Float32
+        self.technique.row().bounded_channels && self.storage == Storage::Float32
     }
 
     /// Texture layers that a layer of the map consists of.
@@ -127,58 +137,48 @@ impl MapEncoding {
     }
 
     /// Checks that every device of the profile can write the map; the error names a storage to use instead.
-    pub fn check(&self, profile: Profile) -> Result<(), UnsupportedStorage> {
-        if self.storage.can_write(self.format, profile) {
-            return Ok(());
-        }
-        Err(UnsupportedStorage {
-            storage: self.storage,
-            format: self.format,
-            profile,
-            alternative: self
-                .technique
-                .best_storage(profile)
-                .unwrap_or_else(|| Storage::best_for(profile)),
-        })
+    pub fn check(&self, profile: Profile) -> Result<(), ValueError> {
+        let best = self.technique.best_storage(profile);
+        let alternative = best.unwrap_or_else(|| Storage::best_for(profile));
+        self.storage.check_format(self.format, profile, alternative)
     }
+}
+
+/// Names to choose from.
+fn listed<'a>(names: impl Iterator<Item = &'a str>) -> String {
+    names.collect::<Vec<_>>().join(" or ")
 }
 
 /// Checks that the exponents are within the range of the storage.
-fn check_exponents(row: &Row, storage: Storage) -> Result<(), TechniqueError> {
-    let Some(largest) = row.largest_exponent else {
+fn check_exponents(row: &Row, storage: Storage) -> Result<(), ValueError> {
+    let Some(largest) = row.largest_exponent(storage) else {
         return Ok(());
     };
-    let largest = largest(storage);
-    let wrong = |exponent: &&Finite| !(1.0..=largest).contains(&exponent.get());
-    match row.exponents.iter().find(wrong) {
-        None => Ok(()),
-        Some(exponent) => Err(TechniqueError::Exponent {
-            technique: row.name,
-            storage,
-            exponent: *exponent,
-            largest,
-        }),
+    for exponent in &row.exponents {
+        if !(1.0..=largest).contains(&exponent.get()) {
+            let message = format!(
+                "'{}' has the exponent {exponent}; stored as {storage} it is from 1 to {largest}",
+                row.name
+            );
+            return Err(ValueError::new("exponent", message));
+        }
     }
+    Ok(())
 }
 
 impl TryFrom<Pair> for MapEncoding {
-    type Error = TechniqueError;
+    type Error = ValueError;
 
-    fn try_from(pair: Pair) -> Result<Self, TechniqueError> {
+    fn try_from(pair: Pair) -> Result<Self, ValueError> {
         match (pair.storage, pair.table) {
             (Storage::Fixed32, Some(table)) => Self::of_table(pair.technique, table),
             (_, None) => Self::new(pair.technique, pair.storage),
-            (storage, Some(_)) => Err(TechniqueError::NotATable { storage }),
-        }
-    }
-}
-
-impl From<MapEncoding> for Pair {
-    fn from(encoding: MapEncoding) -> Pair {
-        Pair {
-            technique: encoding.technique,
-            storage: encoding.storage,
-            table: encoding.table,
+            (storage, Some(_)) => {
+                let message = format!(
+                    "a summed-area table is stored as fixed32, not as {storage}; leave out 'table' for a map that is not a table"
+                );
+                Err(ValueError::new("storage", message))
+            }
         }
     }
 }

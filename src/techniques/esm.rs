@@ -1,19 +1,16 @@
 //! Exponential shadow maps (Annen et al., GI 2008; Salvi 2008).
 
-use super::row::{Constant, Contents, Encoding, LINEAR, Row, Snippet, float};
+use super::row::{Constant, Encoding, LINEAR, Row, float};
 use super::{EsmFiltering, Finite};
-use crate::Storage::{self, Float16, Float32, Unorm16};
-use crate::constant::number;
+use crate::Storage::{Float16, Float32, Unorm16};
+use crate::constants::{
+    EXPONENTIAL_LARGEST_EXPONENT as LARGEST, EXPONENTIAL_LARGEST_EXPONENT_FLOAT16,
+    EXPONENTIAL_LARGEST_EXPONENT_FLOAT16_LOGARITHMIC, EXPONENTIAL_LARGEST_EXPONENT_UNORM16,
+};
 
-const MODULE: &str = include_str!("../../wgsl/techniques/exponential.wgsl");
-const LARGEST: f32 = number(MODULE, "EXPONENTIAL_LARGEST_EXPONENT") as f32;
-const LARGEST_FLOAT16: f32 = number(MODULE, "EXPONENTIAL_LARGEST_EXPONENT_FLOAT16") as f32;
-const LARGEST_FLOAT16_LOGARITHMIC: f32 =
-    number(MODULE, "EXPONENTIAL_LARGEST_EXPONENT_FLOAT16_LOGARITHMIC") as f32;
-const LARGEST_UNORM16: f32 = number(MODULE, "EXPONENTIAL_LARGEST_EXPONENT_UNORM16") as f32;
+const NAME: &str = "esm";
 
 const ENCODING: Encoding = Encoding {
-    imports: &["techniques::exponential::{exponential_channels, exponential_to_texel}"],
     channels: "exponential_channels(z, EXPONENT)",
     texel: "exponential_to_texel(mean, STORAGE, EXPONENT, LOGARITHMIC)",
     ..LINEAR
@@ -21,58 +18,51 @@ const ENCODING: Encoding = Encoding {
 
 /// Logarithms of means: a filter averages the means.
 const LOGARITHMIC: Encoding = Encoding {
-    filter_imports: &["techniques::exponential::{exponential_mean_of_texel, exponential_to_texel}"],
     filter_value: "vec4f(exponential_mean_of_texel(texel, STORAGE, EXPONENT, true), 0.0, 0.0, 0.0)",
     filter_texel: "exponential_to_texel(value, STORAGE, EXPONENT, true)",
     ..ENCODING
 };
 
 pub(super) fn row(exponent: Finite, filtering: EsmFiltering) -> Row {
-    let logarithmic = filtering == EsmFiltering::Logarithmic;
-    let (encoding, storages, largest): (_, _, fn(Storage) -> f32) = match filtering {
-        EsmFiltering::Linear => (ENCODING, &[Float32, Float16, Unorm16], largest_linear),
-        EsmFiltering::Logarithmic => (
-            LOGARITHMIC,
-            &[Unorm16, Float32, Float16],
-            largest_logarithmic,
-        ),
-    };
-    let evaluation = if logarithmic {
-        EVALUATION_LOGARITHMIC
-    } else {
-        EVALUATION
+    let row = match filtering {
+        EsmFiltering::Linear => Row {
+            largest_exponents: &[
+                LARGEST,
+                EXPONENTIAL_LARGEST_EXPONENT_FLOAT16,
+                EXPONENTIAL_LARGEST_EXPONENT_UNORM16,
+            ],
+            ..Row::of_map(NAME, &[Float32, Float16, Unorm16], 1, ENCODING, EVALUATION)
+        },
+        EsmFiltering::Logarithmic => Row {
+            averaged_by_samplers: false,
+            largest_exponents: &[
+                LARGEST,
+                LARGEST,
+                EXPONENTIAL_LARGEST_EXPONENT_FLOAT16_LOGARITHMIC,
+            ],
+            ..Row::of_map(
+                NAME,
+                &[Unorm16, Float32, Float16],
+                1,
+                LOGARITHMIC,
+                EVALUATION_LOGARITHMIC,
+            )
+        },
     };
     Row {
         exponents: vec![exponent],
-        largest_exponent: Some(largest),
         constants: vec![
             Constant::of_map("EXPONENT", float(exponent.get())),
-            Constant::of_map("LOGARITHMIC", logarithmic),
+            Constant::of_map("LOGARITHMIC", filtering == EsmFiltering::Logarithmic),
         ],
-        averaged_by_samplers: !logarithmic,
-        ..Row::of_map(
-            "esm",
-            Contents::Exponential,
-            storages,
-            1,
-            encoding,
-            evaluation,
-        )
+        ..row
     }
 }
 
-const EVALUATION: Snippet = Snippet {
-    imports: &["techniques::exponential::{exponential_shadow_intensity_of_texel}"],
-    body: "return exponential_shadow_intensity_of_texel(map_texel(receiver, 0u), receiver.fragment_depth, STORAGE, EXPONENT, false);",
-};
+const EVALUATION: &str = "return exponential_shadow_intensity_of_texel(map_texel(receiver, 0u), receiver.fragment_depth, STORAGE, EXPONENT, false);";
 
 /// Texels hold logarithms: they are decoded before they are blended.
-const EVALUATION_LOGARITHMIC: Snippet = Snippet {
-    imports: &[
-        "techniques::exponential::{exponential_mean_of_texel, exponential_shadow_intensity}",
-        "map::map_region::{map_region_place}",
-    ],
-    body: "let place = map_region_place(receiver.region, receiver.uv) - 0.5;
+const EVALUATION_LOGARITHMIC: &str = "let place = map_region_place(receiver.region, receiver.uv) - 0.5;
     let base = floor(place);
     let weight = place - base;
     let low = vec2i(base);
@@ -82,24 +72,4 @@ const EVALUATION_LOGARITHMIC: Snippet = Snippet {
     let bottom_left = exponential_mean_of_texel(textureLoad(moments_map, vec2i(low.x, high.y), receiver.layer, 0), STORAGE, EXPONENT, true);
     let bottom_right = exponential_mean_of_texel(textureLoad(moments_map, high, receiver.layer, 0), STORAGE, EXPONENT, true);
     let mean = mix(mix(top_left, top_right, weight.x), mix(bottom_left, bottom_right, weight.x), weight.y);
-    return exponential_shadow_intensity(mean, receiver.fragment_depth, EXPONENT, 0.0);",
-};
-
-fn largest_linear(storage: Storage) -> f32 {
-    match storage {
-        Storage::Float16 => LARGEST_FLOAT16,
-        Storage::Unorm16 | Storage::Unorm8 => LARGEST_UNORM16,
-        Storage::Float32 | Storage::Unorm10 | Storage::Fixed32 => LARGEST,
-    }
-}
-
-fn largest_logarithmic(storage: Storage) -> f32 {
-    match storage {
-        Storage::Float16 => LARGEST_FLOAT16_LOGARITHMIC,
-        Storage::Unorm16
-        | Storage::Unorm8
-        | Storage::Float32
-        | Storage::Unorm10
-        | Storage::Fixed32 => LARGEST,
-    }
-}
+    return exponential_shadow_intensity(mean, receiver.fragment_depth, EXPONENT, 0.0);";

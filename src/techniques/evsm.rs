@@ -1,29 +1,19 @@
 //! Exponential variance shadow maps (Lauritzen & McCool, GI 2008), with one warp or both.
 
 use super::Finite;
-use super::row::{Constant, Contents, Encoding, LINEAR, Row, Snippet};
-use crate::Storage::{self, Float16, Float32};
-use crate::constant::number;
-
-const MODULE: &str = include_str!("../../wgsl/techniques/exponential_variance.wgsl");
-const LARGEST_FLOAT16: f32 = number(MODULE, "EXPONENTIAL_VARIANCE_LARGEST_EXPONENT_FLOAT16") as f32;
-const LARGEST_FLOAT32: f32 = number(MODULE, "EXPONENTIAL_VARIANCE_LARGEST_EXPONENT_FLOAT32") as f32;
+use super::row::{Constant, Encoding, LINEAR, Row};
+use crate::Storage::{Float16, Float32};
+use crate::constants::{
+    EXPONENTIAL_VARIANCE_LARGEST_EXPONENT_FLOAT16, EXPONENTIAL_VARIANCE_LARGEST_EXPONENT_FLOAT32,
+};
 
 const ENCODING: Encoding = Encoding {
-    imports: &[
-        "techniques::exponential_variance::{exponential_variance_channels, exponential_variance_to_texel}",
-    ],
     channels: "exponential_variance_channels(z, EXPONENTS)",
     texel: "exponential_variance_to_texel(mean, STORAGE)",
     ..LINEAR
 };
 
-const EVALUATION: Snippet = Snippet {
-    imports: &[
-        "techniques::exponential_variance::{exponential_variance_shadow_intensity_of_texel}",
-    ],
-    body: "return exponential_variance_shadow_intensity_of_texel(map_texel(receiver, 0u), receiver.fragment_depth, STORAGE, EXPONENTS, BOTH_WARPS);",
-};
+const EVALUATION: &str = "return exponential_variance_shadow_intensity_of_texel(map_texel(receiver, 0u), receiver.fragment_depth, STORAGE, EXPONENTS, BOTH_WARPS);";
 
 /// With the positive warp alone: the negative one is not stored.
 pub(super) fn row_of_one(exponent: Finite) -> Row {
@@ -44,25 +34,10 @@ fn row(name: &'static str, channels: u32, of_warps: [f32; 2], exponents: Vec<Fin
             Constant::of_evaluation("BOTH_WARPS", exponents.len() == 2),
         ],
         exponents,
-        largest_exponent: Some(largest_exponent),
-        ..Row::of_map(
-            name,
-            Contents::WarpedMoments,
-            &[Float32, Float16],
-            channels,
-            ENCODING,
-            EVALUATION,
-        )
-    }
-}
-
-fn largest_exponent(storage: Storage) -> f32 {
-    match storage {
-        Storage::Float16 => LARGEST_FLOAT16,
-        Storage::Float32
-        | Storage::Unorm16
-        | Storage::Unorm8
-        | Storage::Unorm10
-        | Storage::Fixed32 => LARGEST_FLOAT32,
+        largest_exponents: &[
+            EXPONENTIAL_VARIANCE_LARGEST_EXPONENT_FLOAT32,
+            EXPONENTIAL_VARIANCE_LARGEST_EXPONENT_FLOAT16,
+        ],
+        ..Row::of_map(name, &[Float32, Float16], channels, ENCODING, EVALUATION)
     }
 }

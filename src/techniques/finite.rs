@@ -5,28 +5,25 @@ use core::hash::{Hash, Hasher};
 
 use serde::{Deserialize, Serialize};
 
+use crate::ValueError;
+
 /// A finite number. Equal numbers have equal hashes; there is neither NaN nor a negative zero.
 #[derive(Clone, Copy, Debug, Default, PartialEq, PartialOrd, Serialize, Deserialize)]
 #[serde(try_from = "f32", into = "f32")]
-pub struct Finite(f32);
-
-/// NaN or an infinity was given.
-#[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
-#[error("{0} is not a finite number")]
-pub struct NotFinite(pub f32);
+pub struct Finite(pub(super) f32);
 
 impl Finite {
     /// Zero.
     pub const ZERO: Finite = Finite(0.0);
 
     /// Wraps a number that is finite.
-    pub fn new(value: f32) -> Result<Self, NotFinite> {
-        if value.is_finite() {
-            // Adding zero turns -0 into 0.
-            Ok(Self(value + 0.0))
-        } else {
-            Err(NotFinite(value))
+    pub fn new(value: f32) -> Result<Self, ValueError> {
+        if !value.is_finite() {
+            let message = format!("{value} is not a finite number");
+            return Err(ValueError::new("a setting", message));
         }
+        // Adding zero turns -0 into 0.
+        Ok(Self(value + 0.0))
     }
 
     /// The value as a plain number.
@@ -57,9 +54,9 @@ impl From<Finite> for f32 {
 }
 
 impl TryFrom<f32> for Finite {
-    type Error = NotFinite;
+    type Error = ValueError;
 
-    fn try_from(value: f32) -> Result<Self, NotFinite> {
+    fn try_from(value: f32) -> Result<Self, ValueError> {
         Self::new(value)
     }
 }

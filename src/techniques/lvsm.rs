@@ -1,29 +1,20 @@
 //! Layered variance shadow maps (Lauritzen & McCool, GI 2008).
 
-use super::row::{Constant, Contents, Encoding, LINEAR, Row, Snippet, float};
-use super::{Finite, LayerSplits, TechniqueError, count};
+use super::row::{Constant, Encoding, LINEAR, Row, float};
+use super::{Finite, LayerSplits, count, setting};
 use crate::Storage::{Float16, Float32, Unorm16};
-use crate::constant::number;
+use crate::ValueError;
+use crate::constants::LAYERED_VARIANCE_LARGEST_COUNT;
 
 const NAME: &str = "lvsm";
-const MODULE: &str = include_str!("../../wgsl/techniques/layered_variance.wgsl");
-const MOST_LAYERS: u32 = number(MODULE, "LAYERED_VARIANCE_LARGEST_COUNT") as u32;
 
 const ENCODING: Encoding = Encoding {
-    imports: &[
-        "moments::two_moments::{two_moments_to_texel}",
-        "techniques::layered_variance::{layered_variance_channels}",
-    ],
     channels: "layered_variance_channels(z, technique_layers(0u), PLANE)",
     texel: "two_moments_to_texel(mean, STORAGE)",
     ..LINEAR
 };
 
-const EVALUATION: Snippet = Snippet {
-    imports: &[
-        "techniques::layered_variance::{layered_variance_choice, layered_variance_shadow_intensity_of_texel}",
-    ],
-    body: "let layers = technique_layers(receiver.layer);
+const EVALUATION: &str = "let layers = technique_layers(receiver.layer);
     let choice = layered_variance_choice(layers, receiver.fragment_depth);
     let texel = map_texel(receiver, choice.layer / 2u);
     let intensity = layered_variance_shadow_intensity_of_texel(texel, receiver.fragment_depth, STORAGE, layers, choice.layer);
@@ -32,8 +23,7 @@ const EVALUATION: Snippet = Snippet {
     }
     let next = map_texel(receiver, choice.neighbor / 2u);
     let other = layered_variance_shadow_intensity_of_texel(next, receiver.fragment_depth, STORAGE, layers, choice.neighbor);
-    return mix(intensity, other, choice.neighbor_share);",
-};
+    return mix(intensity, other, choice.neighbor_share);";
 
 pub(super) fn row(layers: u32, overlap: Finite, splits: &LayerSplits) -> Row {
     let known = splits.known(layers);
@@ -47,14 +37,8 @@ pub(super) fn row(layers: u32, overlap: Finite, splits: &LayerSplits) -> Row {
         settings: check(layers, overlap, splits),
         constants,
         places_layers: known.is_none(),
-        ..Row::of_map(
-            NAME,
-            Contents::LayeredMoments,
-            &[Unorm16, Float32, Float16],
-            4,
-            ENCODING,
-            EVALUATION,
-        )
+        bounded_channels: true,
+        ..Row::of_map(NAME, &[Unorm16, Float32, Float16], 4, ENCODING, EVALUATION)
     }
 }
 
@@ -70,16 +54,10 @@ fn of_splits(known: &[f32]) -> [Constant; 2] {
     ]
 }
 
-fn check(layers: u32, overlap: Finite, splits: &LayerSplits) -> Result<(), TechniqueError> {
-    count(NAME, "layers", layers, MOST_LAYERS)?;
-    if !(0.0..=0.5).contains(&overlap.get()) {
-        return Err(TechniqueError::Setting {
-            technique: NAME,
-            what: "overlap",
-            value: overlap,
-            range: "from 0 to 0.5".to_owned(),
-        });
-    }
+fn check(layers: u32, overlap: Finite, splits: &LayerSplits) -> Result<(), ValueError> {
+    count(NAME, "layers", layers, LAYERED_VARIANCE_LARGEST_COUNT)?;
+    let valid = (0.0..=0.5).contains(&overlap.get());
+    setting(valid, NAME, "overlap", overlap, "from 0 to 0.5")?;
     let LayerSplits::Given(given) = splits else {
         return Ok(());
     };
@@ -92,8 +70,11 @@ fn check(layers: u32, overlap: Finite, splits: &LayerSplits) -> Result<(), Techn
     if given.len() + 1 == layers as usize && places.windows(2).all(apart) {
         return Ok(());
     }
-    Err(TechniqueError::Splits {
-        layers,
-        given: given.len(),
-    })
+    let message = format!(
+        "the splits of {layers} layers are {} ascending moment depths between -1 and 1, all but the overlap apart; these {} are \
+         not",
+        layers - 1,
+        given.len()
+    );
+    Err(ValueError::new("splits", message))
 }

@@ -3,14 +3,12 @@
 mod convolution;
 mod depth_tests;
 mod encoding;
-mod error;
 mod esm;
 mod evsm;
 mod finite;
 mod lvsm;
 mod modules;
 mod moments;
-mod reference;
 mod row;
 mod settings;
 mod vsm;
@@ -18,40 +16,32 @@ mod vsm;
 use core::fmt;
 
 pub use encoding::MapEncoding;
-pub use error::TechniqueError;
-pub use finite::{Finite, NotFinite};
-pub use reference::{PcfTaps, Pcss};
-pub use row::{Contents, Row};
+pub use finite::Finite;
+pub use row::Row;
 use serde::{Deserialize, Serialize};
-pub use settings::{EsmFiltering, LayerSplits};
+pub use settings::{EsmFiltering, LayerSplits, PcfTaps};
 
-use crate::{Profile, Storage};
+use crate::{Profile, Storage, ValueError};
 
 /// A way to turn a light's map into shadow intensity.
 ///
 /// The first three read the plain depth map, at a cost that grows with the filter. The others read a *filterable* map, which
 /// is blurred once and looked up once.
-///
-/// | technique | channels per plane | planes | storages |
-/// |---|---|---|---|
-/// | `binary`, `pcf`, `pcss` | (the depth map) | | |
-/// | `esm` | 1 | 1 | unorm16, float16, float32 |
-/// | `vsm` | 2 | 1 | unorm16, float16, float32 |
-/// | `evsm2` | 2 | 1 | float16, float32 |
-/// | `evsm4` | 4 | 1 | float16, float32 |
-/// | `lvsm` | 4 | one for two layers | unorm16, float16, float32 |
-/// | `convolution` | 4 | one for two terms | unorm8, unorm16, float16 |
-/// | `hamburger4`, `hausdorff4` | 4 | 1 | unorm16, float16, float32 |
-/// | `hamburger6` | 4 | 2 | unorm16, float16, float32, unorm10 |
 #[derive(Clone, Debug, Default, PartialEq, Eq, Hash, Serialize, Deserialize)]
-#[serde(rename_all = "lowercase")]
+#[serde(rename_all = "lowercase", deny_unknown_fields)]
 pub enum Technique {
     /// The comparison with the nearest texel (Williams, SIGGRAPH 1978).
     Binary,
     /// Percentage-closer filtering: the mean of comparisons (Reeves, Salesin & Cook, SIGGRAPH 1987).
     Pcf(PcfTaps),
     /// Percentage-closer soft shadows: a filter as wide as the penumbra (Fernando, SIGGRAPH 2005).
-    Pcss(Pcss),
+    /// The light's size is a parameter of each view.
+    Pcss {
+        /// Taps of the blocker search, 1 to 4096.
+        search_taps: u32,
+        /// Taps of the filter, 1 to 4096.
+        filter_taps: u32,
+    },
     /// Exponential shadow maps (Annen et al., GI 2008; Salvi 2008).
     Esm {
         /// The exponent c over moment depth, at least 1: shadows fade in over a depth of 1 / c.
@@ -109,13 +99,71 @@ fn yes() -> bool {
 }
 
 impl Technique {
+    /// Every technique with usual settings, percentage-closer filtering and exponential maps with each kind of them.
+    #[must_use]
+    pub fn examples() -> Vec<Technique> {
+        let pcf = [
+            PcfTaps::Box { radius: 2 },
+            PcfTaps::Gaussian {
+                radius: 4,
+                sigma: Finite(2.4),
+            },
+            PcfTaps::Weights([1.0, 2.0, 3.0, 2.0, 1.0].map(Finite).to_vec()),
+            PcfTaps::Poisson {
+                radius: Finite(4.0),
+            },
+            PcfTaps::Hardware {
+                radius: 2,
+                reversed: false,
+            },
+        ];
+        let pcss = Technique::Pcss {
+            search_taps: 16,
+            filter_taps: 32,
+        };
+        let esm = |filtering| Technique::Esm {
+            exponent: Finite(80.0),
+            filtering,
+        };
+        let tests = [Technique::Binary].into_iter();
+        let tests = tests.chain(pcf.map(Technique::Pcf)).chain([pcss]);
+        let filterable = [
+            esm(EsmFiltering::Linear),
+            esm(EsmFiltering::Logarithmic),
+            Technique::Vsm,
+            Technique::Evsm2 {
+                exponent: Finite(40.0),
+            },
+            Technique::Evsm4 {
+                positive: Finite(40.0),
+                negative: Finite(5.0),
+            },
+            Technique::Lvsm {
+                layers: 4,
+                overlap: Finite(0.02),
+                splits: LayerSplits::Uniform,
+            },
+            Technique::Convolution {
+                terms: 8,
+                lower_bound: true,
+            },
+            Technique::Hamburger4,
+            Technique::Hausdorff4,
+            Technique::Hamburger6,
+        ];
+        tests.chain(filterable).collect()
+    }
+
     /// What the library knows about the technique with these settings. Everything else about techniques is read from here.
     #[must_use]
     pub fn row(&self) -> Row {
         match self {
             Technique::Binary => depth_tests::binary(),
             Technique::Pcf(taps) => depth_tests::pcf(taps),
-            Technique::Pcss(taps) => depth_tests::pcss(taps),
+            Technique::Pcss {
+                search_taps,
+                filter_taps,
+            } => depth_tests::pcss(*search_taps, *filter_taps),
             Technique::Esm {
                 exponent,
                 filtering,
@@ -136,7 +184,7 @@ impl Technique {
     }
 
     /// Checks that the settings are within their ranges, whatever the storage.
-    pub fn check(&self) -> Result<(), TechniqueError> {
+    pub fn check(&self) -> Result<(), ValueError> {
         self.row().settings
     }
 
@@ -180,30 +228,35 @@ impl Technique {
         self.row().shares_map_with(&other.row())
     }
 
-    /// The largest exponent that a storage's range and precision allow; `None` for techniques without one.
+    /// The largest exponent that range and precision of one of its storages allow; `None` for techniques without one.
     #[must_use]
     pub fn largest_exponent(&self, storage: Storage) -> Option<f32> {
-        self.row().largest_exponent.map(|largest| largest(storage))
+        self.row().largest_exponent(storage)
     }
 }
 
+/// Refuses a setting that is not `valid`.
+fn setting(
+    valid: bool,
+    technique: &str,
+    name: &'static str,
+    value: impl fmt::Display,
+    legal: &str,
+) -> Result<(), ValueError> {
+    if valid {
+        return Ok(());
+    }
+    let message = format!("'{technique}' has {value} as its {name}; it is {legal}");
+    Err(ValueError::new(name, message))
+}
+
 /// Checks a number of things: at least one, at most `largest`.
-fn count(
-    technique: &'static str,
-    what: &'static str,
-    count: u32,
-    largest: u32,
-) -> Result<(), TechniqueError> {
+fn count(technique: &str, name: &'static str, count: u32, largest: u32) -> Result<(), ValueError> {
     if (1..=largest).contains(&count) {
         return Ok(());
     }
-    Err(TechniqueError::Count {
-        technique,
-        what,
-        count,
-        smallest: 1,
-        largest,
-    })
+    let message = format!("'{technique}' has {count} {name}; it can have 1 to {largest}");
+    Err(ValueError::new(name, message))
 }
 
 impl fmt::Display for Technique {

@@ -4,11 +4,12 @@
 //! `node::specialization`.
 
 use core::fmt::Write;
+use std::collections::BTreeSet;
 
-use super::Contents;
-use super::row::{Row, Snippet};
+use super::row::Row;
+use crate::link::ITEMS;
 
-/// What the pieces of a row can use beside the library and the row's own constants: the module and the item.
+/// What the pieces of a row can use besides the library and the row's own constants: the module and the item.
 const NODE_ITEMS: [(&str, &str); 12] = [
     ("map_texel", "map_texel"),
     ("moments_lookup", "moments_map"),
@@ -24,22 +25,19 @@ const NODE_ITEMS: [(&str, &str); 12] = [
     ("technique_soft", "soft_table"),
 ];
 
-/// The text of a module with these functions, and the imports that they need.
-fn module(row: &Row, imports: &[&str], functions: &str) -> String {
-    let uses = |item: &str| {
-        let mut words = functions.split(|c: char| !c.is_alphanumeric() && c != '_');
-        words.any(|word| word == item)
-    };
-    let mut text = String::new();
-    // Writing to a string cannot fail.
-    for import in imports {
-        let _ = writeln!(text, "import moment_shadows::{import};");
-    }
+/// The text of a module with these functions, and imports of all that they name.
+fn module(row: &Row, functions: &str) -> String {
+    let words = functions.split(|c: char| !c.is_alphanumeric() && c != '_');
+    let words: BTreeSet<&str> = words.collect();
     let constants = row.constants.iter();
     let constants = constants.map(|constant| ("specialization", constant.name));
-    for (module, item) in NODE_ITEMS.into_iter().chain(constants) {
-        if uses(item) {
-            let _ = writeln!(text, "import node::{module}::{{{item}}};");
+    let of_node = NODE_ITEMS.into_iter().chain(constants);
+    let of_library = ITEMS.iter().map(|item| ("moment_shadows", *item));
+    let mut text = String::new();
+    for (root, (module, item)) in of_library.chain(of_node.map(|item| ("node", item))) {
+        if words.contains(item) {
+            // Writing to a string cannot fail.
+            let _ = writeln!(text, "import {root}::{module}::{{{item}}};");
         }
     }
     if encodes_plane(functions) {
@@ -64,60 +62,38 @@ impl Row {
     /// How a map is encoded: `encoding_channels` and `encoding_texel`, the module `map_encoding`. Empty where the plain depth map is read.
     #[must_use]
     pub fn map_encoding(&self) -> String {
-        let Some(encoding) = self.encoding else {
-            return String::new();
-        };
-        let functions = format!(
-            "
-// What is averaged for a moment depth.
-fn encoding_channels(z: f32) -> vec4f {{
-    return {};
-}}
-
-// The texel for the mean.
-fn encoding_texel(mean: vec4f) -> vec4f {{
-    return {};
-}}
-",
-            encoding.channels, encoding.texel
-        );
-        module(self, encoding.imports, &functions)
+        self.encoding.map_or_else(String::new, |it| {
+            let what = "What is averaged for a moment depth.";
+            let channels = function(what, "encoding_channels(z: f32)", it.channels);
+            let what = "The texel for the mean.";
+            let texel = function(what, "encoding_texel(mean: vec4f)", it.texel);
+            module(self, &(channels + &texel))
+        })
     }
 
     /// How texels are averaged: `filtering_value` and `filtering_texel`, the module `map_filtering`. Empty where the plain depth map is read.
     #[must_use]
     pub fn map_filtering(&self) -> String {
-        let Some(encoding) = self.encoding else {
-            return String::new();
-        };
-        let functions = format!(
-            "
-// What a filter averages of a texel.
-fn filtering_value(texel: vec4f) -> vec4f {{
-    return {};
-}}
-
-// The texel for such an average.
-fn filtering_texel(value: vec4f) -> vec4f {{
-    return {};
-}}
-",
-            encoding.filter_value, encoding.filter_texel
-        );
-        module(self, encoding.filter_imports, &functions)
+        self.encoding.map_or_else(String::new, |it| {
+            let what = "What a filter averages of a texel.";
+            let value = function(what, "filtering_value(texel: vec4f)", it.filter_value);
+            let what = "The texel for such an average.";
+            let texel = function(what, "filtering_texel(value: vec4f)", it.filter_texel);
+            module(self, &(value + &texel))
+        })
     }
 
     /// How a fragment is shaded: `technique_shadow_intensity`, the module `technique`.
     #[must_use]
     pub fn technique(&self) -> String {
-        intensity(self, &self.evaluation)
+        intensity(self, self.evaluation)
     }
 
     /// How a fragment is shaded softly from the summed-area table of the map: another module `technique`. None where the technique has no
     /// soft shadows.
     #[must_use]
     pub fn soft_technique(&self) -> Option<String> {
-        self.soft.as_ref().map(|soft| intensity(self, soft))
+        self.soft.map(|soft| intensity(self, soft))
     }
 
     /// Names and values of the constants that these modules import, WGSL expressions.
@@ -128,26 +104,27 @@ fn filtering_texel(value: vec4f) -> vec4f {{
     }
 }
 
+/// A function that gives a vec4f.
+fn function(what: &str, head: &str, value: &str) -> String {
+    format!("\n// {what}\nfn {head} -> vec4f {{\n    return {value};\n}}\n")
+}
+
 /// `technique_shadow_intensity` by a piece of a row.
-fn intensity(row: &Row, snippet: &Snippet) -> String {
-    let mut imports = snippet.imports.to_vec();
-    let mut plane = "";
-    if row.contents == Contents::Depth {
-        imports.extend([
-            "map::depth::{depth_of_light}",
-            "shade::receiver_plane::{receiver_plane_through}",
-        ]);
-        plane = "let plane = receiver_plane_through(receiver.uv, receiver.depth, receiver.gradient, receiver.steepest, \
-                 depth_of_light(receiver.conversion));\n    ";
-    }
+fn intensity(row: &Row, body: &str) -> String {
+    let plane = if row.reads_depth() {
+        "let plane = receiver_plane_through(receiver.uv, receiver.depth, receiver.gradient, receiver.steepest, \
+         depth_of_light(receiver.conversion));\n    "
+    } else {
+        ""
+    };
     let functions = format!(
         "
 // Shadow intensity by the technique '{}'.
 fn technique_shadow_intensity(receiver: TechniqueReceiver) -> f32 {{
-    {plane}{}
+    {plane}{body}
 }}
 ",
-        row.name, snippet.body
+        row.name
     );
-    module(row, &imports, &functions)
+    module(row, &functions)
 }

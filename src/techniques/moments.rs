@@ -1,63 +1,41 @@
 //! Moment shadow mapping: `hamburger4`, `hausdorff4`, `hamburger6`.
 
-use super::row::{Contents, Encoding, LINEAR, Row, Snippet};
+use super::row::{Encoding, LINEAR, Row};
 use crate::Storage::{self, Float16, Float32, Unorm10, Unorm16};
 
 const FOUR: Encoding = Encoding {
-    imports: &["moments::four_moments::{four_moments_from_depth, four_moments_to_texel}"],
     channels: "four_moments_from_depth(z)",
     texel: "four_moments_to_texel(mean, STORAGE)",
     ..LINEAR
 };
 
-const OF_FOUR: &[Storage] = &Storage::OF_FOUR_MOMENTS;
-
 /// The sharp lower bound from four moments on the real line (Peters & Klein, i3D 2015).
 pub(super) fn hamburger4() -> Row {
-    let evaluation = Snippet {
-        imports: &["bounds::hamburger4::{hamburger4_shadow_intensity_of_texel}"],
-        body: "return hamburger4_shadow_intensity_of_texel(map_texel(receiver, 0u), receiver.fragment_depth, STORAGE);",
-    };
-    let soft = Snippet {
-        imports: &[
-            "shade::moment_soft_shadows::{moment_soft_shadows_intensity}",
-            "filter::summed_area_encoding::{summed_area_encoding_moment_bias}",
-        ],
-        body: "let bias = summed_area_encoding_moment_bias(TABLE_ERROR);
-    return moment_soft_shadows_intensity(table_sums, soft_table(receiver), bias, soft_receiver(receiver), receiver.light);",
-    };
+    let evaluation = "return hamburger4_shadow_intensity_of_texel(map_texel(receiver, 0u), receiver.fragment_depth, STORAGE);";
+    let soft = "let bias = summed_area_encoding_moment_bias(TABLE_ERROR);
+    return moment_soft_shadows_intensity(table_sums, soft_table(receiver), bias, soft_receiver(receiver), receiver.light);";
     Row {
         soft: Some(soft),
         both_bounds: true,
-        ..Row::of_map(
-            "hamburger4",
-            Contents::FourMoments,
-            OF_FOUR,
-            4,
-            FOUR,
-            evaluation,
-        )
+        ..of_four("hamburger4", evaluation)
+    }
+}
+
+fn of_four(name: &'static str, evaluation: &'static str) -> Row {
+    Row {
+        bounded_channels: true,
+        has_table: true,
+        ..Row::of_map(name, &Storage::OF_FOUR_MOMENTS, 4, FOUR, evaluation)
     }
 }
 
 /// The sharp lower bound from four moments on the light's range (Peters & Klein, i3D 2015).
 pub(super) fn hausdorff4() -> Row {
-    let evaluation = Snippet {
-        imports: &["bounds::hausdorff4::{hausdorff4_shadow_intensity_of_texel}"],
-        body: "return hausdorff4_shadow_intensity_of_texel(map_texel(receiver, 0u), receiver.fragment_depth, STORAGE);",
-    };
-    Row::of_map(
-        "hausdorff4",
-        Contents::FourMoments,
-        OF_FOUR,
-        4,
-        FOUR,
-        evaluation,
-    )
+    let evaluation = "return hausdorff4_shadow_intensity_of_texel(map_texel(receiver, 0u), receiver.fragment_depth, STORAGE);";
+    of_four("hausdorff4", evaluation)
 }
 
 const SIX: Encoding = Encoding {
-    imports: &["moments::six_moments::{six_moments_channels, six_moments_to_texel}"],
     channels: "six_moments_channels(z, PLANE)",
     texel: "six_moments_to_texel(mean, PLANE, STORAGE)",
     ..LINEAR
@@ -65,23 +43,15 @@ const SIX: Encoding = Encoding {
 
 /// The sharp lower bound from six moments on the real line (Peters et al., JCGT 6(1) 2017).
 pub(super) fn hamburger6() -> Row {
-    let evaluation = Snippet {
-        imports: &["bounds::hamburger6::{hamburger6_shadow_intensity_of_texels}"],
-        body: "let texels = array<vec4f, 2>(map_texel(receiver, 0u), map_texel(receiver, 1u));
-    return hamburger6_shadow_intensity_of_texels(texels, receiver.fragment_depth, STORAGE);",
-    };
+    let evaluation =
+        "let texels = array<vec4f, 2>(map_texel(receiver, 0u), map_texel(receiver, 1u));
+    return hamburger6_shadow_intensity_of_texels(texels, receiver.fragment_depth, STORAGE);";
     // The last is half as large as the others, but the one that leaks farthest.
     let storages = &[Unorm16, Float16, Float32, Unorm10];
     Row {
         planes: 2,
+        bounded_channels: true,
         both_bounds: true,
-        ..Row::of_map(
-            "hamburger6",
-            Contents::SixMoments,
-            storages,
-            4,
-            SIX,
-            evaluation,
-        )
+        ..Row::of_map("hamburger6", storages, 4, SIX, evaluation)
     }
 }

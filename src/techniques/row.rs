@@ -1,80 +1,15 @@
 //! One row of the table of techniques: all that the library knows about a technique with its settings.
 
-use super::{Finite, TechniqueError};
-use crate::Storage;
+use super::Finite;
+use crate::{Storage, ValueError};
 
-/// What the texels of a technique's map hold.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Contents {
-    /// Depth as the light's pass stores it: the plain depth map.
-    Depth,
-    /// The mean of an exponential of depth, or its logarithm.
-    Exponential,
-    /// Two moments of depth.
-    TwoMoments,
-    /// Two moments of one exponential warp of depth or of two.
-    WarpedMoments,
-    /// Two moments of depth within each of several layers.
-    LayeredMoments,
-    /// Terms of a Fourier series of depth.
-    FourierTerms,
-    /// Four moments of depth.
-    FourMoments,
-    /// Six moments of depth.
-    SixMoments,
-}
-
-impl Contents {
-    /// Whether channels are means of values in [-1, 1] whose storage in float32 is as fine as sums of f32 are.
-    #[must_use]
-    pub fn are_bounded_moments(self) -> bool {
-        match self {
-            Contents::TwoMoments
-            | Contents::LayeredMoments
-            | Contents::FourMoments
-            | Contents::SixMoments => true,
-            Contents::Depth
-            | Contents::Exponential
-            | Contents::WarpedMoments
-            | Contents::FourierTerms => false,
-        }
-    }
-
-    /// Whether a summed-area table can be made of the map.
-    #[must_use]
-    pub fn have_tables(self) -> bool {
-        match self {
-            Contents::TwoMoments | Contents::FourMoments => true,
-            Contents::Depth
-            | Contents::Exponential
-            | Contents::WarpedMoments
-            | Contents::LayeredMoments
-            | Contents::FourierTerms
-            | Contents::SixMoments => false,
-        }
-    }
-}
-
-/// A piece of a shader that a row supplies: statements, and the items of the library that they use.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) struct Snippet {
-    /// Items by path, as after `moment_shadows::` in an import: `maths::hankel::{hankel_factor}`.
-    pub imports: &'static [&'static str],
-    /// The body of a function. The comment on that function says what the body can use besides the imports.
-    pub body: &'static str,
-}
-
-/// How a map is made and filtered.
+/// How a map is made and filtered: expressions in WGSL, which can use whatever the library defines, and the row's constants.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) struct Encoding {
-    /// Items that both pieces use.
-    pub imports: &'static [&'static str],
     /// The channels to average for a moment depth `z`, a vec4f.
     pub channels: &'static str,
     /// The texel to write for the averages `mean` of channels, a vec4f.
     pub texel: &'static str,
-    /// Items that both pieces of the filter use.
-    pub filter_imports: &'static [&'static str],
     /// The value that a filter averages for a `texel`, a vec4f.
     pub filter_value: &'static str,
     /// The texel to write for an average `value` of such values, a vec4f.
@@ -83,10 +18,8 @@ pub(super) struct Encoding {
 
 /// Texels that any filter averages as they are, samplers too.
 pub(super) const LINEAR: Encoding = Encoding {
-    imports: &[],
     channels: "",
     texel: "",
-    filter_imports: &["map::storage::{storage_round_texel}"],
     filter_value: "texel",
     filter_texel: "storage_round_texel(value, STORAGE)",
 };
@@ -125,8 +58,6 @@ impl Constant {
 pub struct Row {
     /// The name in graph files and on command lines.
     pub name: &'static str,
-    /// What the map holds.
-    pub contents: Contents,
     /// The storages of the map, the one with the least error per bit first. Empty where the plain depth map is read.
     pub storages: &'static [Storage],
     /// Channels of a plane of the map: 1, 2 or 4.
@@ -134,15 +65,19 @@ pub struct Row {
     /// Texture layers that a layer of the map consists of.
     pub planes: u32,
     /// Whether the settings are within their ranges, whatever the storage.
-    pub(super) settings: Result<(), TechniqueError>,
-    /// Exponents, which are at least 1 and at most what `largest_exponent` says.
+    pub(super) settings: Result<(), ValueError>,
+    /// Exponents, which are at least 1.
     pub(super) exponents: Vec<Finite>,
-    /// The largest exponent that a storage's range and precision allow.
-    pub(super) largest_exponent: Option<fn(Storage) -> f32>,
+    /// The largest exponents that range and precision of each of `storages` allow; empty without exponents.
+    pub(super) largest_exponents: &'static [f32],
     /// Constants of the pieces below.
     pub(super) constants: Vec<Constant>,
     /// How the map is made and filtered; `None` where the plain depth map is read.
     pub(super) encoding: Option<Encoding>,
+    /// Whether channels are means of values in [-1, 1], whose storage in float32 is as fine as sums of f32 are.
+    pub bounded_channels: bool,
+    /// Whether a summed-area table can be made of the map.
+    pub has_table: bool,
     /// Whether samplers and mip levels can average texels.
     pub averaged_by_samplers: bool,
     /// Whether both bounds of shadow intensity are there, as single scattering needs them.
@@ -152,33 +87,33 @@ pub struct Row {
     /// Whether the layers of the map are placed on the device (node `place_layers`).
     pub places_layers: bool,
     /// Shadow intensity of a `receiver`, by `map_texel(receiver, plane)` or on the plane `plane` of the plain depth map
-    /// `depth_map`.
-    pub(super) evaluation: Snippet,
+    /// `depth_map`: the body of a function.
+    pub(super) evaluation: &'static str,
     /// Soft shadow intensity of a `receiver` from the summed-area table of the map, by `soft_table` and `soft_receiver`.
-    pub(super) soft: Option<Snippet>,
+    pub(super) soft: Option<&'static str>,
 }
 
 impl Row {
     /// A row of a map that any filter averages, with one plane and no settings.
     pub(super) fn of_map(
         name: &'static str,
-        contents: Contents,
         storages: &'static [Storage],
         channels: u32,
         encoding: Encoding,
-        evaluation: Snippet,
+        evaluation: &'static str,
     ) -> Self {
         Self {
             name,
-            contents,
             storages,
             channels,
             planes: 1,
             settings: Ok(()),
             exponents: Vec::new(),
-            largest_exponent: None,
+            largest_exponents: &[],
             constants: Vec::new(),
             encoding: Some(encoding),
+            bounded_channels: false,
+            has_table: false,
             averaged_by_samplers: true,
             both_bounds: false,
             comparison: None,
@@ -189,11 +124,11 @@ impl Row {
     }
 
     /// A row of a test on the plain depth map.
-    pub(super) fn of_depth(name: &'static str, evaluation: Snippet) -> Self {
+    pub(super) fn of_depth(name: &'static str, evaluation: &'static str) -> Self {
         Self {
             encoding: None,
             averaged_by_samplers: false,
-            ..Self::of_map(name, Contents::Depth, &[], 1, LINEAR, evaluation)
+            ..Self::of_map(name, &[], 1, LINEAR, evaluation)
         }
     }
 
@@ -201,6 +136,13 @@ impl Row {
     #[must_use]
     pub fn reads_depth(&self) -> bool {
         self.encoding.is_none()
+    }
+
+    /// The largest exponent that a storage of the technique allows; `None` for techniques without one.
+    #[must_use]
+    pub fn largest_exponent(&self, storage: Storage) -> Option<f32> {
+        let index = self.storages.iter().position(|&of| of == storage)?;
+        self.largest_exponents.get(index).copied()
     }
 
     /// Whether both techniques read the same map.

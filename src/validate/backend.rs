@@ -7,7 +7,7 @@ use naga::back::{PipelineConstants, glsl, hlsl, msl, pipeline_constants, spv};
 use naga::proc::BoundsCheckPolicies;
 use naga::valid::ModuleInfo;
 
-use super::{ValidateError, ValidationReport};
+use super::{ShaderError, ValidationReport};
 
 /// A language that a shader is translated to.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
@@ -54,75 +54,45 @@ impl fmt::Display for Backend {
     }
 }
 
-/// What a backend made of a shader.
-#[derive(Clone, Debug, PartialEq, Eq)]
-pub enum Outcome {
-    /// Every entry point and function was written.
-    Written,
-    /// The language lacks something that the shader uses, which is not an error: no profile includes the two GLSL versions.
-    /// The reason names the entry point.
-    CannotExpress(String),
-}
-
 /// A valid module, ready to be written.
 pub(super) struct Shader {
-    module: Module,
-    info: ModuleInfo,
+    pub(super) module: Module,
+    pub(super) info: ModuleInfo,
     /// Why no entry point could be made, for a module without any.
-    no_entry_point: Option<String>,
-}
-
-impl Shader {
-    pub(super) fn new(module: Module, info: ModuleInfo) -> Self {
-        Self {
-            module,
-            info,
-            no_entry_point: None,
-        }
-    }
-
-    pub(super) fn without_entry_points(module: Module, info: ModuleInfo, reason: String) -> Self {
-        Self {
-            module,
-            info,
-            no_entry_point: Some(reason),
-        }
-    }
+    pub(super) no_entry_point: Option<String>,
 }
 
 /// Writes `shader` for every backend.
-pub(super) fn write_all(file: &str, shader: &Shader) -> Result<ValidationReport, ValidateError> {
-    let mut outcomes = Vec::new();
-    for backend in Backend::ALL {
-        let outcome = write(backend, shader).map_err(|message| ValidateError::Backend {
-            file: file.to_owned(),
-            backend,
-            message,
-        })?;
-        outcomes.push((backend, outcome));
-    }
-    Ok(ValidationReport { outcomes })
+pub(super) fn write_all(shader: &Shader) -> Result<ValidationReport, ShaderError> {
+    let outcome = |backend| match write(backend, shader) {
+        Ok(outcome) => Ok((backend, outcome)),
+        Err(message) => Err(ShaderError::new(format!(
+            "{backend} cannot be written: {message}"
+        ))),
+    };
+    let outcomes = Backend::ALL.into_iter().map(outcome);
+    outcomes
+        .collect::<Result<_, _>>()
+        .map(|outcomes| ValidationReport { outcomes })
 }
 
-/// SPIR-V, HLSL and MSL can express whatever a profile allows, so there a failure is an error.
-fn write(backend: Backend, shader: &Shader) -> Result<Outcome, String> {
+/// Whether the language can express the shader. SPIR-V, HLSL and MSL can express whatever a profile allows, so there a failure is an
+/// error.
+fn write(backend: Backend, shader: &Shader) -> Result<Result<(), String>, String> {
     // Backends want constants in place of overrides.
     let constants = missing_overrides(&shader.module);
     let (module, info) =
         pipeline_constants::process_overrides(&shader.module, &shader.info, None, &constants)
             .map_err(|error| format!("overrides: {error}"))?;
     match backend {
-        Backend::SpirV => write_spirv(&module, &info)?,
-        Backend::Hlsl => write_hlsl(&module, &info)?,
-        Backend::Msl => write_msl(&module, &info)?,
-        Backend::Glsl450 | Backend::GlslEs300 => {
-            if let Some(reason) = &shader.no_entry_point {
-                return Ok(Outcome::CannotExpress(reason.clone()));
-            }
-            return write_glsl(backend, &module, &info);
-        }
+        Backend::SpirV => write_spirv(&module, &info).map(Ok),
+        Backend::Hlsl => write_hlsl(&module, &info).map(Ok),
+        Backend::Msl => write_msl(&module, &info).map(Ok),
+        Backend::Glsl450 | Backend::GlslEs300 => match &shader.no_entry_point {
+            Some(reason) => Ok(Err(reason.clone())),
+            None => write_glsl(backend, &module, &info),
+        },
     }
-    Ok(Outcome::Written)
 }
 
 /// The value 1 for each override without a default: it is a legal workgroup size, array length and factor.
@@ -150,13 +120,14 @@ fn write_hlsl(module: &Module, info: &ModuleInfo) -> Result<(), String> {
     let pipeline = hlsl::PipelineOptions::default();
     let mut text = String::new();
     let written = hlsl::Writer::new(&mut text, &options, &pipeline).write(module, info, None);
-    let names = written
-        .map_err(|error| error.to_string())?
-        .entry_point_names;
-    names.into_iter().try_for_each(|name| match name {
-        Ok(_) => Ok(()),
-        Err(error) => Err(error.to_string()),
-    })
+    let names = written.map_err(|error| error.to_string())?;
+    all_named(names.entry_point_names)
+}
+
+/// The first error among the names of entry points.
+fn all_named<E: fmt::Display>(names: Vec<Result<String, E>>) -> Result<(), String> {
+    let error = names.into_iter().find_map(Result::err);
+    error.map_or(Ok(()), |error| Err(error.to_string()))
 }
 
 fn write_msl(module: &Module, info: &ModuleInfo) -> Result<(), String> {
@@ -167,17 +138,15 @@ fn write_msl(module: &Module, info: &ModuleInfo) -> Result<(), String> {
     let pipeline = msl::PipelineOptions::default();
     let written = msl::write_string(module, info, &options, &pipeline);
     let (_, translation) = written.map_err(|error| error.to_string())?;
-    translation
-        .entry_point_names
-        .into_iter()
-        .try_for_each(|name| match name {
-            Ok(_) => Ok(()),
-            Err(error) => Err(error.to_string()),
-        })
+    all_named(translation.entry_point_names)
 }
 
 /// GLSL has one entry point per text.
-fn write_glsl(backend: Backend, module: &Module, info: &ModuleInfo) -> Result<Outcome, String> {
+fn write_glsl(
+    backend: Backend,
+    module: &Module,
+    info: &ModuleInfo,
+) -> Result<Result<(), String>, String> {
     let options = glsl::Options {
         version: if backend == Backend::GlslEs300 {
             glsl::Version::new_gles(300)
@@ -199,13 +168,13 @@ fn write_glsl(backend: Backend, module: &Module, info: &ModuleInfo) -> Result<Ou
         if let Err(error) = written {
             let message = format!("entry point `{}`: {error}", entry_point.name);
             return if is_limit_of_glsl(&error) {
-                Ok(Outcome::CannotExpress(message))
+                Ok(Err(message))
             } else {
                 Err(message)
             };
         }
     }
-    Ok(Outcome::Written)
+    Ok(Ok(()))
 }
 
 /// Whether the error says that GLSL lacks something, rather than that the writing went wrong.

@@ -1,6 +1,5 @@
 //! What the WGSL compiler says about a shader, at the places before linking.
 
-use core::fmt;
 use core::ops::Range;
 use std::error::Error;
 
@@ -9,76 +8,49 @@ use naga::valid::ValidationError;
 
 use crate::link::file::definitions;
 use crate::link::tokens::{Token, tokens};
-use crate::{Linked, Location};
+use crate::{Linked, Location, ShaderError};
 
-/// A message about a shader, with the places that it is about.
-#[derive(Clone, Debug, PartialEq, Eq)]
-pub struct Diagnostic {
-    /// The file that was validated.
-    pub file: String,
-    /// What is wrong.
-    pub message: String,
-    /// The places, the most telling one first. Empty if the compiler gives none.
-    pub labels: Vec<Label>,
-    /// Further sentences: causes, and next steps.
-    pub notes: Vec<String>,
+/// The bytes `range` of the linked text. `None` for text that comes from no file.
+fn place(linked: &Linked, range: Option<Range<usize>>, label: &str) -> Option<Location> {
+    Some(linked.location(range?)?.labelled(label))
 }
 
-/// A place that a [`Diagnostic`] is about.
-#[derive(Clone, Debug, PartialEq, Eq)]
-pub struct Label {
-    /// The place, in a file before linking.
-    pub at: Location,
-    /// What is there; may be empty.
-    pub text: String,
-}
-
-impl Diagnostic {
-    pub(super) fn of_parse_error(file: &str, linked: &Linked, error: &ParseError) -> Self {
-        let labels = error
-            .labels()
-            .filter_map(|(span, text)| Label::new(linked, span.to_range()?, text))
-            .collect();
-        Self {
-            file: file.to_owned(),
-            message: error.message().to_owned(),
-            labels,
-            notes: error.notes().map(str::to_owned).collect(),
-        }
+pub(super) fn of_parse_error(linked: &Linked, error: &ParseError) -> ShaderError {
+    let labels = error.labels();
+    ShaderError {
+        message: error.message().to_owned(),
+        places: labels
+            .filter_map(|(span, text)| place(linked, span.to_range(), text))
+            .collect(),
+        notes: error.notes().map(str::to_owned).collect(),
     }
+}
 
-    pub(super) fn of_validation_error(
-        file: &str,
-        linked: &Linked,
-        module: &naga::Module,
-        error: &naga::WithSpan<ValidationError>,
-    ) -> Self {
-        let mut labels: Vec<_> = error
-            .spans()
-            .filter_map(|(span, text)| {
-                // Names of naga's types and handles say nothing to the author of a shader.
-                let text = if text.starts_with("naga::") { "" } else { text };
-                Label::new(linked, span.to_range()?, text)
-            })
-            .collect();
-        // naga goes from the outside in.
-        labels.reverse();
-        let (message, culprit) = headline(module, error.as_inner());
-        if labels.is_empty() {
-            labels.extend(culprit.and_then(|word| find(linked, word)));
-        }
-        let mut notes = Vec::new();
-        let mut cause = error.as_inner().source();
-        while let Some(error) = cause {
-            notes.push(error.to_string());
-            cause = error.source();
-        }
-        Self {
-            file: file.to_owned(),
-            message,
-            labels,
-            notes,
-        }
+pub(super) fn of_validation_error(
+    linked: &Linked,
+    module: &naga::Module,
+    error: &naga::WithSpan<ValidationError>,
+) -> ShaderError {
+    let mut places: Vec<_> = error
+        .spans()
+        .filter_map(|(span, text)| {
+            // Names of naga's types and handles say nothing to the author of a shader.
+            let text = if text.starts_with("naga::") { "" } else { text };
+            place(linked, span.to_range(), text)
+        })
+        .collect();
+    // naga goes from the outside in.
+    places.reverse();
+    let (message, culprit) = headline(module, error.as_inner());
+    if places.is_empty() {
+        places.extend(culprit.and_then(|word| find(linked, word)));
+    }
+    let first: Option<&dyn Error> = error.as_inner().source();
+    let causes = core::iter::successors(first, |&cause| cause.source());
+    ShaderError {
+        message,
+        places,
+        notes: causes.map(ToString::to_string).collect(),
     }
 }
 
@@ -120,7 +92,7 @@ fn scalar_name(scalar: naga::Scalar) -> Option<&'static str> {
 }
 
 /// The definition of `word`, or else its first use.
-fn find(linked: &Linked, word: &str) -> Option<Label> {
+fn find(linked: &Linked, word: &str) -> Option<Location> {
     let tokens = tokens(linked.wgsl()).unwrap_or_default();
     let defined = definitions(&tokens);
     let named = |token: &&Token<'_>| token.is_word(word);
@@ -128,32 +100,5 @@ fn find(linked: &Linked, word: &str) -> Option<Label> {
         .iter()
         .find(named)
         .or_else(|| tokens.iter().find(named))?;
-    Label::new(linked, token.range(), "")
-}
-
-impl Label {
-    /// The bytes `range` of the linked text. `None` for text that comes from no file.
-    pub(super) fn new(linked: &Linked, range: Range<usize>, text: &str) -> Option<Self> {
-        Some(Self {
-            at: linked.location(range)?,
-            text: text.to_owned(),
-        })
-    }
-}
-
-impl fmt::Display for Diagnostic {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        write!(f, "{}", self.message)?;
-        if self.labels.is_empty() {
-            write!(f, "\n --> {}", self.file)?;
-        }
-        for label in &self.labels {
-            writeln!(f)?;
-            label.at.write(f, &label.text)?;
-        }
-        for note in &self.notes {
-            write!(f, "\n = {note}")?;
-        }
-        Ok(())
-    }
+    linked.location(token.range())
 }

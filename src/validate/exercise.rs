@@ -22,12 +22,22 @@ pub(super) fn exercise(module: &Module, info: ModuleInfo, capabilities: Capabili
                 }
             };
             match super::check(&exercised, capabilities) {
-                Ok(info) => return Shader::new(exercised, info),
+                Ok(info) => {
+                    return Shader {
+                        module: exercised,
+                        info,
+                        no_entry_point: None,
+                    };
+                }
                 Err(error) => failure = format!("no entry point can call every function: {error}"),
             }
         }
     }
-    Shader::without_entry_points(module.clone(), info, failure)
+    Shader {
+        module: module.clone(),
+        info,
+        no_entry_point: Some(failure),
+    }
 }
 
 fn with_entry_points(module: &Module, stage: ShaderStage) -> Result<Module, String> {

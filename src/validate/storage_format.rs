@@ -2,17 +2,15 @@
 
 use naga::{ImageClass, StorageAccess, StorageFormat, TypeInner};
 
-use super::{Diagnostic, Label, ValidateError};
 use crate::link::tokens::{Kind, Token, tokens};
-use crate::{Linked, Profile};
+use crate::{Linked, Profile, ShaderError};
 
 /// Refuses the first storage texture whose format or access `profile` does not have; points at every use of it.
 pub(super) fn check(
-    file: &str,
     module: &naga::Module,
     linked: &Linked,
     profile: Profile,
-) -> Result<(), ValidateError> {
+) -> Result<(), ShaderError> {
     for (_, ty) in module.types.iter() {
         let TypeInner::Image {
             class: ImageClass::Storage { format, access },
@@ -25,18 +23,17 @@ pub(super) fn check(
             continue;
         };
         let (format, access) = (name(format), access_name(access));
-        let labels = uses(linked.wgsl(), &format, access)
-            .into_iter()
-            .filter_map(|token| Label::new(linked, token.range(), ""))
-            .collect();
-        return Err(ValidateError::StorageFormat(Diagnostic {
-            file: file.to_owned(),
+        let uses = uses(linked.wgsl(), &format, access);
+        return Err(ShaderError {
             message: format!(
                 "profile `{profile}` has no storage texture of format `{format}` with access `{access}`"
             ),
-            labels,
+            places: uses
+                .iter()
+                .filter_map(|token| linked.location(token.range()))
+                .collect(),
             notes: vec![note.to_owned()],
-        }));
+        });
     }
     Ok(())
 }

@@ -1,11 +1,11 @@
 //! A view of a light, and how its map stores depth.
 
+use core::ops::RangeInclusive;
+
 use glam::{DMat4, DVec4};
 use serde::{Deserialize, Serialize};
 
-use crate::{
-    AreaLight, AreaLightError, DepthConversion, DepthError, DepthRange, MapRegion, SoftRadii,
-};
+use crate::{AreaLight, DepthConversion, DepthRange, MapRegion, ValueError};
 
 /// A view of a light: what one region of its map was drawn with.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -119,12 +119,12 @@ impl LightView {
     /// shadows take it.
     ///
     /// # Errors
-    /// [`AreaLightError`], where the size does not suit the map, or a number is out of range.
+    /// [`ValueError`], where the size does not suit the map, or a number is out of range.
     pub fn area_light(
         &self,
         extent: [u32; 2],
-        radii: SoftRadii,
-    ) -> Result<AreaLight, AreaLightError> {
+        radii: RangeInclusive<f64>,
+    ) -> Result<AreaLight, ValueError> {
         let (texel, range) = (self.texel_size(extent), self.range());
         match (self.size, self.depth) {
             (LightSize::Point, _) => Ok(AreaLight::NONE),
@@ -139,7 +139,11 @@ impl LightView {
             }
             (LightSize::AngularDiameter(_), LightDepth::Perspective { .. })
             | (LightSize::Disk(_) | LightSize::Rectangle(_), LightDepth::Orthographic { .. }) => {
-                Err(AreaLightError::Shape)
+                Err(ValueError::new(
+                    "size",
+                    "a light with parallel rays has an angular diameter as its size, one with a perspective map is a disk or \
+                     a rectangle",
+                ))
             }
         }
     }
@@ -169,25 +173,21 @@ pub enum LightDepth {
 
 impl LightDepth {
     /// The conversion that `resolve` applies to the map.
-    pub fn conversion(&self) -> Result<DepthConversion, DepthError> {
-        match *self {
-            LightDepth::Orthographic { reversed: false } => Ok(DepthConversion::orthographic()),
-            LightDepth::Orthographic { reversed: true } => {
-                Ok(DepthConversion::orthographic_reversed())
-            }
+    pub fn conversion(&self) -> Result<DepthConversion, ValueError> {
+        let (forward, reversed) = match *self {
+            LightDepth::Orthographic { reversed } => (DepthConversion::orthographic(), reversed),
             LightDepth::Perspective {
                 near,
                 far,
-                reversed: false,
+                reversed,
                 range,
-            } => DepthConversion::perspective(near, far, range),
-            LightDepth::Perspective {
-                near,
-                far,
-                reversed: true,
-                range,
-            } => DepthConversion::perspective_reversed(near, far, range),
-        }
+            } => (DepthConversion::perspective(near, far, range)?, reversed),
+        };
+        Ok(if reversed {
+            forward.reversed()
+        } else {
+            forward
+        })
     }
 
     /// The linear function of a scene position (x, y, z, 1) that gives its moment depth, for the map's matrix.

@@ -4,14 +4,12 @@
 //! digits, and shadows then move by texels. A host whose matrices are f32 makes them relative to its camera.
 
 mod camera;
-mod error;
 mod light;
 mod parameters;
 mod rectified;
 mod scattering;
 
 pub use camera::CameraView;
-pub use error::{RectifiedFrameError, ScatteringViewError, ViewError};
 use glam::{DMat4, DVec4};
 pub use light::{LightDepth, LightSize, LightView};
 pub use parameters::ViewParameters;
@@ -20,6 +18,19 @@ pub use scattering::{
     CompositeScatteringParameters, IntegrateScatteringParameters, RectifyMomentsParameters,
     ScatteringParameters,
 };
+
+use crate::ValueError;
+
+fn singular_camera() -> ValueError {
+    let message = "the camera's clip_from_world is singular or not finite; it has to be an invertible projection of the scene";
+    ValueError::new("camera", message)
+}
+
+fn singular_light() -> ValueError {
+    let message = "the light's clip_from_world is singular or not finite; it has to be the invertible projection that its map \
+                   was drawn with";
+    ValueError::new("light", message)
+}
 
 /// The largest difference between the identity and the product of a matrix and its inverse: beyond it the inverse is rounding
 /// error.

@@ -3,8 +3,8 @@
 use bytemuck::{Pod, Zeroable};
 use glam::DMat4;
 
-use super::{CameraView, LightView, ViewError, inverse};
-use crate::{AreaLight, DepthConversion, LeakReduction, MapRegion, ReceiverBias};
+use super::{CameraView, LightView, inverse, singular_camera, singular_light};
+use crate::{AreaLight, DepthConversion, LeakReduction, MapRegion, ReceiverBias, ValueError};
 
 /// What nodes that shade a picture need to know of a view of a light: the uniform struct of their shader.
 ///
@@ -45,11 +45,11 @@ impl ViewParameters {
         light: &LightView,
         receiver_bias: ReceiverBias,
         leak_reduction: LeakReduction,
-    ) -> Result<Self, ViewError> {
+    ) -> Result<Self, ValueError> {
         let world_from_clip = inverse(DMat4::from_cols_array_2d(&camera.clip_from_world))
-            .ok_or(ViewError::SingularCamera)?;
+            .ok_or_else(singular_camera)?;
         let light_clip = DMat4::from_cols_array_2d(&light.clip_from_world);
-        inverse(light_clip).ok_or(ViewError::SingularLight)?;
+        inverse(light_clip).ok_or_else(singular_light)?;
         let conversion = light.depth.conversion()?;
         let [x, y, w] = [0, 1, 3].map(|index| light_clip.row(index));
         // From clip space to the map: u = (x + w) / 2, v = (w - y) / 2, both still times w.

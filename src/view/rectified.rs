@@ -3,10 +3,10 @@
 use core::f64::consts::{PI, TAU};
 
 use bytemuck::{Pod, Zeroable};
-
 use glam::{DMat4, DVec3, DVec4};
 
-use super::{RectifiedFrameError, inverse};
+use super::{inverse, singular_camera};
+use crate::ValueError;
 
 /// The rectified coordinates of a camera and a directional light: the uniform struct of the WGSL module `rectified_frame`.
 /// Made by [`RectifiedView::new`].
@@ -60,26 +60,33 @@ impl RectifiedView {
     /// camera's axis up to which light is scattered, and at which sky counts as being.
     ///
     /// # Errors
-    /// [`RectifiedFrameError`], which names what is wrong.
+    /// [`ValueError`], which names what is wrong.
     pub fn new(
         clip_from_world: &[[f64; 4]; 4],
         far: f64,
         light_direction: [f64; 3],
-    ) -> Result<Self, RectifiedFrameError> {
-        let world_from_clip = inverse(DMat4::from_cols_array_2d(clip_from_world))
-            .ok_or(RectifiedFrameError::SingularCamera)?;
+    ) -> Result<Self, ValueError> {
+        let world_from_clip =
+            inverse(DMat4::from_cols_array_2d(clip_from_world)).ok_or_else(singular_camera)?;
         if !(far > 0.0 && far.is_finite()) {
-            return Err(RectifiedFrameError::FarDistance { far });
+            let message = format!(
+                "the far distance is {far}, but must be above 0 and finite: how far along the camera's axis light is scattered"
+            );
+            return Err(ValueError::new("far", message));
         }
-        let light = normalized(DVec3::from(light_direction)).ok_or(
-            RectifiedFrameError::LightDirection {
-                direction: light_direction,
-            },
-        )?;
+        let direction = DVec3::from(light_direction);
+        let light = normalized(direction).ok_or_else(|| {
+            let message = format!(
+                "the light's direction is {direction}, but must be finite and not zero: where light travels to"
+            );
+            ValueError::new("light_direction", message)
+        })?;
         // All view rays meet where clip x, y and w are 0.
         let [x, y, z, middle] = world_from_clip.to_cols_array_2d().map(DVec4::from);
         if z.w.abs() <= 1e-12 * z.truncate().length() || z.w == 0.0 {
-            return Err(RectifiedFrameError::OrthographicCamera);
+            let message = "the camera is orthographic; rectified coordinates need view rays that meet in the camera: use a \
+                           perspective camera, or march the scattering";
+            return Err(ValueError::new("camera", message));
         }
         let camera = z.truncate() / z.w;
         let axes = axes_of(light);
@@ -89,8 +96,7 @@ impl RectifiedView {
             DVec3::from(axes.map(|axis| axis.dot(scene)))
         };
         let along = [direction(x), direction(y), direction(middle)];
-        let normal =
-            normalized(along[0].cross(along[1])).ok_or(RectifiedFrameError::SingularCamera)?;
+        let normal = normalized(along[0].cross(along[1])).ok_or_else(singular_camera)?;
         let farthest_w = normal.dot(along[2]).abs() / far;
         let bounds = Bounds::new(along.map(|vector| vector / farthest_w));
         let single = |value: f64| value as f32;
@@ -110,7 +116,9 @@ impl RectifiedView {
         let numbers: [f32; 20] = bytemuck::cast(frame);
         let normal = frame.farthest_w.is_normal() && frame.largest_radius.is_normal();
         if !(normal && numbers.iter().all(|number| number.is_finite())) {
-            return Err(RectifiedFrameError::Size);
+            let message =
+                "the frustum's size is beyond single precision; choose another unit of length";
+            return Err(ValueError::new("frustum", message));
         }
         Ok(Self {
             camera: camera.to_array(),

@@ -3,10 +3,8 @@
 use bytemuck::{Pod, Zeroable};
 use glam::{DMat4, DVec3, DVec4};
 
-use super::{
-    CameraView, LightDepth, LightView, RectifiedFrame, RectifiedView, ScatteringViewError,
-};
-use crate::{MapRegion, SingleScattering};
+use super::{CameraView, LightDepth, LightView, RectifiedFrame, RectifiedView, singular_light};
+use crate::{MapRegion, SingleScattering, ValueError};
 
 /// The parameters of a `rectify_moments` node: the uniform struct of its shader.
 #[derive(Clone, Copy, Debug, PartialEq, Pod, Zeroable)]
@@ -70,20 +68,20 @@ impl ScatteringParameters {
     /// light and a medium.
     ///
     /// # Errors
-    /// [`ScatteringViewError`], which names what is wrong.
+    /// [`ValueError`], which names what is wrong.
     pub fn new(
         camera: &CameraView,
         far: f64,
         light: &LightView,
         medium: SingleScattering,
-    ) -> Result<Self, ScatteringViewError> {
-        let LightDepth::Orthographic { .. } = light.depth else {
-            return Err(ScatteringViewError::PerspectiveLight);
-        };
+    ) -> Result<Self, ValueError> {
         let clip = DMat4::from_cols_array_2d(&light.clip_from_world);
         let last = clip.row(3);
-        if last.truncate() != DVec3::ZERO {
-            return Err(ScatteringViewError::PerspectiveLight);
+        let parallel = matches!(light.depth, LightDepth::Orthographic { .. });
+        if !parallel || last.truncate() != DVec3::ZERO {
+            let message = "the light is a point or spot light; only rays of a directional light are parallel to one axis of rectified \
+                           coordinates: give an orthographic light, or march the scattering of this one";
+            return Err(ValueError::new("light", message));
         }
         let clip = clip * (1.0 / last.w);
         let (x, y, depth) = (clip.row(0), clip.row(1), light.depth.row(clip));
@@ -92,7 +90,7 @@ impl ScatteringParameters {
         let grows = depth.truncate().dot(across);
         let finite = x.is_finite() && y.is_finite() && depth.is_finite();
         if !(grows.abs() > 0.0 && grows.is_finite() && finite) {
-            return Err(ScatteringViewError::SingularLight);
+            return Err(singular_light());
         }
         let direction = across * grows.signum();
         let RectifiedView {

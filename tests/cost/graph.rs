@@ -1,7 +1,6 @@
 //! Graph files: their passes, bytes and bandwidths.
 
 use moment_shadows::{Profile, Storage};
-use moment_shadows_graph::nodes::KernelProperty;
 use moment_shadows_lab::command::cost;
 use moment_shadows_lab::cost::bandwidth::Memory;
 use moment_shadows_lab::cost::blur::BlurredMap;
@@ -147,7 +146,7 @@ fn passes_are_recorded_one_by_one() {
     let gpu = Gpu::open(Profile::Native).unwrap();
     let storage = Storage::Unorm16;
     let channels = noise(storage, 64 * 64);
-    let kernel = KernelProperty::gaussian(4, 2.4);
+    let kernel = moment_shadows::Kernel::gaussian(4, 2.4).unwrap();
     let map = BlurredMap::new(&gpu, storage, [64, 64], &channels, kernel, false).unwrap();
     let zeros = vec![[0.0; 4]; 64 * 64];
     let after = |passes: Option<&[usize]>| {

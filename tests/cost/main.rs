@@ -7,7 +7,6 @@ mod table;
 
 use moment_shadows::{DepthConversion, Profile, Storage};
 use moment_shadows_graph::{Capabilities, TextureDesc};
-use moment_shadows_lab::cost::CostError;
 use moment_shadows_lab::cost::clock::{Clock, ClockKind, FEATURES};
 use moment_shadows_lab::cost::copies::{Copies, CopyWork};
 use moment_shadows_lab::cost::harness::{Case, Measured};
@@ -19,6 +18,7 @@ use moment_shadows_lab::cost::statistics::Distribution;
 use moment_shadows_lab::cost::summed_area;
 use moment_shadows_lab::cost::table::Gate;
 use moment_shadows_lab::cost::texels::{decode, encode, noise, step};
+use moment_shadows_lab::error::LabError;
 use moment_shadows_lab::gpu::Gpu;
 use moment_shadows_lab::host::DepthSamples;
 
@@ -124,7 +124,7 @@ fn a_wrong_result_is_not_timed() {
     cases[0].record = Box::new(|_| panic!("it is timed"));
     let refused = Measured::of(&clock, &cases, 1, || ()).err().unwrap();
     assert!(
-        matches!(&refused, CostError::WrongResult { what, .. } if what == "rectify"),
+        matches!(&refused, LabError::WrongResult { what, .. } if what == "rectify"),
         "{refused}"
     );
 }
@@ -194,7 +194,7 @@ fn a_wrong_or_nan_or_short_output_is_refused() {
     output[1][3] += 0.02;
     let refused = accepted(&output).unwrap_err();
     assert!(
-        matches!(&refused, CostError::WrongResult { what, error, .. } if what == "it" && *error > 0.019),
+        matches!(&refused, LabError::WrongResult { what, error, .. } if what == "it" && *error > 0.019),
         "{refused}"
     );
     // A NaN alone, and one before a finite difference.
@@ -205,7 +205,7 @@ fn a_wrong_or_nan_or_short_output_is_refused() {
     for output in [&nan[..], &among[..], &reference[..1]] {
         let refused = accepted(output).unwrap_err();
         assert!(
-            matches!(refused, CostError::WrongResult { error, .. } if error.is_nan()),
+            matches!(refused, LabError::WrongResult { error, .. } if error.is_nan()),
             "{refused}"
         );
     }
@@ -285,7 +285,7 @@ fn a_format_that_cannot_be_copied_is_an_error() {
         .err()
         .unwrap();
     assert!(
-        matches!(&refused, CostError::Format { format, .. } if *format == desc.format),
+        matches!(&refused, LabError::Unsuitable { file, .. } if *file == desc.format.to_string()),
         "{refused}"
     );
 }

@@ -2,8 +2,7 @@
 
 use moment_shadows::{MapEncoding, Profile, Storage, Technique, TextureFormat};
 use moment_shadows_graph::nodes::{
-    CompositeScattering, DebugMoments, IntegrateScattering, LargestKernel, RectifyMoments,
-    SummedAreaTable,
+    CompositeScattering, DebugMoments, IntegrateScattering, RectifyMoments, SummedAreaTable,
 };
 use moment_shadows_graph::{
     Access, Capabilities, Connected, GraphError, GraphErrorKind, Node, NodeDesc, Plan,
@@ -58,8 +57,8 @@ fn ten_bits_are_drawn_plane_by_plane_and_level_by_level() {
     assert_eq!(
         drawn[..8],
         [
-            of("resolve plane 0", "resolve.map", 0, 0),
-            of("resolve plane 1", "resolve.map", 0, 1),
+            of("plane 0: resolve", "resolve.map", 0, 0),
+            of("plane 1: resolve", "resolve.map", 0, 1),
             // The planes take turns with one intermediate map of one plane.
             of("plane 0: blur along x", "blur.half_blurred", 0, 0),
             of("plane 0: blur along y", "blur.blurred", 0, 0),
@@ -146,7 +145,7 @@ fn prefix_sums_are_not_drawn() {
     let error = described(&rectify, "map", four).unwrap_err();
     assert_eq!(error.kind, GraphErrorKind::Property, "{error}");
     let rectified = map(Technique::Hamburger6, Storage::Unorm10);
-    let other = described(&IntegrateScattering, "rectified", rectified).unwrap_err();
+    let other = described(&IntegrateScattering {}, "rectified", rectified).unwrap_err();
     assert_eq!(other.kind, GraphErrorKind::Format, "{other}");
     assert_eq!(other.slot.as_deref(), Some("rectified"));
     let integrated = map(Technique::Hamburger6, Storage::Unorm10);
@@ -171,7 +170,7 @@ fn prefix_sums_are_not_drawn() {
 #[test]
 fn nodes_of_four_moments_refuse_six_by_name() {
     let table = SummedAreaTable {
-        largest_kernel: LargestKernel::Square(9),
+        largest_kernel: [9; 2],
     };
     let debug = DebugMoments::default();
     for &storage in Technique::Hamburger6.storages() {

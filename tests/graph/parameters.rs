@@ -72,7 +72,7 @@ fn parameters_are_written_where_they_belong_or_not_at_all() {
     let text = TEXT.replace("\"samples\": 4", "\"samples\": 4, \"layers\": 2");
     let layout = compiled(&text, &native()).unwrap().parameters;
     let mut bytes = layout.initial();
-    let conversion = moment_shadows::DepthConversion::orthographic_reversed();
+    let conversion = moment_shadows::DepthConversion::orthographic().reversed();
     layout.write(&mut bytes, "resolve", 1, &conversion).unwrap();
     assert_eq!(bytes[256..288], *bytemuck::bytes_of(&conversion));
     assert_eq!(

@@ -93,7 +93,7 @@ fn conversions_of_regions_that_are_gone_are_the_nodes_own_again() {
         .find(|it| it.node == "resolve")
         .unwrap();
     assert_eq!((resolve.elements, resolve.count), (4, 2));
-    let reversed = DepthConversion::orthographic_reversed();
+    let reversed = DepthConversion::orthographic().reversed();
     let plain = DepthConversion::orthographic();
     for layer in [0, 1] {
         let mut block = stale(&layout);

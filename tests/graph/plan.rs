@@ -2,7 +2,7 @@
 
 use moment_shadows::{Profile, TextureFormat};
 use moment_shadows_graph::GraphErrorKind::{Plan as Broken, Version};
-use moment_shadows_graph::nodes::{Blur, KernelProperty, Resolve, ShadeHard};
+use moment_shadows_graph::nodes::{Blur, Resolve, ShadeHard};
 use moment_shadows_graph::{
     Capabilities, Connected, GraphError, GraphErrorKind, Node, Plan, PlannedBindingResource,
     ResourceDesc, TextureDesc,
@@ -96,17 +96,17 @@ fn compiling_and_describing_are_repeatable() {
         Box::new(Resolve {
             technique: moment_shadows::Technique::Hamburger4,
             storage: moment_shadows::Storage::Float16,
-            mip_levels: Default::default(),
+            mip_levels: Some(1),
         }),
         Box::new(Blur {
-            kernel: KernelProperty::gaussian(3, 1.5),
+            kernel: moment_shadows::Kernel::gaussian(3, 1.5),
             per_frame: false,
-            mip_levels: Default::default(),
+            mip_levels: Some(1),
         }),
         Box::new(Blur {
-            kernel: KernelProperty::gaussian(30, 12.0),
+            kernel: moment_shadows::Kernel::gaussian(30, 12.0),
             per_frame: true,
-            mip_levels: Default::default(),
+            mip_levels: Some(1),
         }),
         Box::new(ShadeHard::default()),
     ];

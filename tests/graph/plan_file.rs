@@ -26,7 +26,7 @@ fn parameters_of_a_later_layer_lie_where_the_file_says() {
     let file = file();
     let plan = read(&file);
     plan.check().unwrap();
-    let conversion = DepthConversion::orthographic_reversed();
+    let conversion = DepthConversion::orthographic().reversed();
     let region = MapRegion::new([16, 32], [64, 128]);
     for layer in 0..3 {
         let mut expected = plan.parameters.initial();

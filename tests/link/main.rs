@@ -7,10 +7,10 @@ mod joined;
 mod names;
 mod pruned;
 
-use moment_shadows::{LinkError, Linked, Location, Source, link, link_module};
+use moment_shadows::{Linked, Location, ShaderError, Source, link};
 use proptest::prelude::*;
 
-fn link_user(text: &str) -> Result<Linked, LinkError> {
+fn link_user(text: &str) -> Result<Linked, ShaderError> {
     link(
         Source {
             name: "user.wgsl",
@@ -20,7 +20,7 @@ fn link_user(text: &str) -> Result<Linked, LinkError> {
     )
 }
 
-fn link_with(text: &str, generated: &[(&str, &str)]) -> Result<Linked, LinkError> {
+fn link_with(text: &str, generated: &[(&str, &str)]) -> Result<Linked, ShaderError> {
     let generated: Vec<_> = generated
         .iter()
         .map(|&(name, text)| Source { name, text })
@@ -32,6 +32,14 @@ fn link_with(text: &str, generated: &[(&str, &str)]) -> Result<Linked, LinkError
         },
         &generated,
     )
+}
+
+/// Why a shader is not linked: the sentence, and the place that it is about.
+fn refused(result: Result<Linked, ShaderError>) -> (String, Location) {
+    let ShaderError {
+        message, places, ..
+    } = result.unwrap_err();
+    (message, places.into_iter().next().unwrap())
 }
 
 /// The line, column and width of the place.
@@ -58,13 +66,13 @@ proptest! {
         let mut parts: Vec<&str> = parts;
         parts.insert(at.min(parts.len()), &noise);
         let text = parts.concat();
-        for result in [link_user(&text), link_module(Source { name: "user.wgsl", text: &text }),
+        for result in [link_user(&text), link_user(&format!("import super::{text}")),
             link_with("import node::m::{a};", &[("m", &text)])] {
             match result {
                 Ok(linked) => {
                     let lines = linked.wgsl().lines().count();
                     prop_assert!((1..=lines).all(|line| linked.origin(u32::try_from(line).unwrap())
-                        .is_none_or(|origin| origin.line >= 1)));
+                        .is_none_or(|(_, line)| line >= 1)));
                 }
                 Err(error) => prop_assert!(!error.to_string().is_empty()),
             }

@@ -2,7 +2,7 @@
 
 use std::collections::BTreeSet;
 
-use moment_shadows::{Profile, Source, link_module, modules, validate};
+use moment_shadows::{Profile, Source, link, modules, validate};
 
 use crate::{link_user, link_with, place};
 
@@ -178,7 +178,7 @@ fn every_item_of_the_library_is_valid_with_what_it_reaches() {
             name: module.name,
             text: module.source,
         };
-        let whole = link_module(source).unwrap();
+        let whole = link(source, &[]).unwrap();
         assert!(
             whole
                 .wgsl()

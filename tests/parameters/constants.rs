@@ -2,10 +2,10 @@
 
 use crate::wgsl_module::{constant, module};
 use moment_shadows::{
-    EsmFiltering, Finite, Kernel, LayerSplits, PcfTaps, Pcss, PercentageCloserKernel, ReceiverBias,
-    SixMomentsBias, Storage, SummedAreaTable, Technique,
+    EsmFiltering, Finite, Kernel, LayerSplits, PcfTaps, ReceiverBias, SixMomentsBias, Storage,
+    SummedAreaTable, Technique,
 };
-use moment_shadows_graph::nodes::{BlurParameters, KernelProperty};
+use moment_shadows_graph::nodes::Blur;
 
 #[test]
 fn storages_have_the_numbers_and_biases_of_the_module() {
@@ -167,11 +167,9 @@ fn techniques_have_the_limits_of_their_modules() {
         (
             "percentage_closer_soft",
             "PERCENTAGE_CLOSER_SOFT_MOST_TAPS",
-            |taps| {
-                Technique::Pcss(Pcss {
-                    search_taps: taps,
-                    filter_taps: 1,
-                })
+            |taps| Technique::Pcss {
+                search_taps: taps,
+                filter_taps: 1,
             },
         ),
     ] {
@@ -189,17 +187,7 @@ fn the_receiver_bias_moves_by_as_many_standard_deviations_on_both_sides() {
 }
 
 #[test]
-fn the_largest_kernel_of_percentage_closer_filtering_fits_its_uniform_struct() {
-    let kernel = Kernel::gaussian(Kernel::LARGEST_RADIUS, 20.0).unwrap();
-    let uniform = PercentageCloserKernel::new(&kernel);
-    assert_eq!(uniform.radius, Kernel::LARGEST_RADIUS);
-    let flat = uniform.weights.as_flattened();
-    assert_eq!(flat[..kernel.weights().len()], *kernel.weights());
-    assert!(
-        flat[kernel.weights().len()..]
-            .iter()
-            .all(|&weight| weight == 0.0)
-    );
+fn percentage_closer_filtering_takes_the_largest_kernel() {
     for (name, item) in [
         ("percentage_closer", "PERCENTAGE_CLOSER_LARGEST_RADIUS"),
         (
@@ -215,12 +203,14 @@ fn the_largest_kernel_of_percentage_closer_filtering_fits_its_uniform_struct() {
 #[test]
 fn the_largest_kernel_fits_its_uniform_struct() {
     for radius in [1, 12, 13, Kernel::LARGEST_RADIUS] {
-        let kernel = KernelProperty::gaussian(radius, radius as f32 * 0.6)
-            .kernel()
-            .unwrap();
-        let parameters = BlurParameters::new(&kernel);
-        assert_eq!(parameters.radius, radius);
-        let flat: Vec<f32> = parameters.weights.iter().flatten().copied().collect();
+        let kernel = Kernel::gaussian(radius, radius as f32 * 0.6).unwrap();
+        let parameters = Blur::parameters(&kernel);
+        assert_eq!(parameters[0], radius);
+        let flat: Vec<f32> = parameters[4..]
+            .iter()
+            .copied()
+            .map(f32::from_bits)
+            .collect();
         let first = flat.iter().position(|&weight| weight != 0.0).unwrap();
         let count = 2 * radius as usize + 1;
         assert_eq!(

@@ -72,7 +72,9 @@ impl Convention {
         let range = self.range();
         match self {
             Convention::Orthographic { reversed: false } => DepthConversion::orthographic(),
-            Convention::Orthographic { reversed: true } => DepthConversion::orthographic_reversed(),
+            Convention::Orthographic { reversed: true } => {
+                DepthConversion::orthographic().reversed()
+            }
             Convention::Perspective {
                 far,
                 reversed: false,
@@ -80,7 +82,9 @@ impl Convention {
             Convention::Perspective {
                 far,
                 reversed: true,
-            } => DepthConversion::perspective_reversed(Self::NEAR, far, range).unwrap(),
+            } => DepthConversion::perspective(Self::NEAR, far, range)
+                .unwrap()
+                .reversed(),
             Convention::Linear => DepthConversion::linear(range).unwrap(),
         }
     }

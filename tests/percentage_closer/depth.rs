@@ -85,7 +85,9 @@ fn reversed_depth_keeps_its_precision_far_away() {
         near: 0.01,
         far: 1000.0,
     };
-    let conversion = DepthConversion::perspective_reversed(0.01, f64::INFINITY, range).unwrap();
+    let conversion = DepthConversion::perspective(0.01, f64::INFINITY, range)
+        .unwrap()
+        .reversed();
     let depths: Vec<f32> = (0..=1000).map(|i| i as f32 / 500.0 - 1.0).collect();
     let inputs: Vec<Input> = depths
         .iter()
@@ -124,7 +126,11 @@ fn no_moment_depth_and_no_conversion_gives_a_nan() {
     let mut conversions: Vec<DepthConversion> =
         Convention::ALL.map(Convention::conversion).to_vec();
     conversions.push(DepthConversion::perspective(1.0, 10.0, behind).unwrap());
-    conversions.push(DepthConversion::perspective_reversed(1.0, 10.0, behind).unwrap());
+    conversions.push(
+        DepthConversion::perspective(1.0, 10.0, behind)
+            .unwrap()
+            .reversed(),
+    );
     conversions.push(bytemuck::Zeroable::zeroed());
     let hostile = [
         f32::NAN,

@@ -26,6 +26,15 @@ pub(crate) struct Query {
     pub(crate) padding: f32,
 }
 
+/// Any separable kernel: the struct `PercentageCloserKernel` of the library.
+#[repr(C)]
+#[derive(Clone, Copy, Debug, Pod, Zeroable)]
+pub(crate) struct PercentageCloserKernel {
+    pub(crate) radius: u32,
+    pub(crate) padding: [u32; 3],
+    pub(crate) weights: [[f32; 4]; 33],
+}
+
 impl Query {
     /// One without a gradient or a bias, of parallel rays, in the whole of layer 0.
     pub(crate) fn new(uv: [f32; 2], depth: f32, size: [u32; 2]) -> Self {

@@ -1,7 +1,7 @@
 //! What no host should ask: an answer in [0, 1] all the same.
 
 use bytemuck::Zeroable as _;
-use moment_shadows::{AreaLight, DepthConversion, DepthRange, MapRegion, SoftRadii};
+use moment_shadows::{AreaLight, DepthConversion, DepthRange, MapRegion};
 use rand::{RngExt as _, SeedableRng as _};
 use rand_chacha::ChaCha8Rng;
 
@@ -15,16 +15,7 @@ fn soft() -> AreaLight {
         near: 1.0,
         far: 3.0,
     };
-    AreaLight::spot(
-        0.5,
-        [0.1, 0.2],
-        range,
-        SoftRadii {
-            smallest: 0.0,
-            largest: 9.0,
-        },
-    )
-    .unwrap()
+    AreaLight::spot(0.5, [0.1, 0.2], range, 0.0..=9.0).unwrap()
 }
 
 /// Casters in the middle of the range on the left, none on the right.
@@ -145,7 +136,7 @@ fn no_finite_input_leaves_the_unit_interval() {
     });
     let conversions = [
         DepthConversion::orthographic(),
-        DepthConversion::perspective_reversed(
+        DepthConversion::perspective(
             0.01,
             f64::INFINITY,
             DepthRange {
@@ -153,7 +144,8 @@ fn no_finite_input_leaves_the_unit_interval() {
                 far: 1e4,
             },
         )
-        .unwrap(),
+        .unwrap()
+        .reversed(),
         DepthConversion::zeroed(),
     ];
     for (light, conversion) in lights

@@ -1,11 +1,11 @@
 //! Kernels against brute force over random maps.
 
-use moment_shadows::{MapRegion, PercentageCloserKernel};
+use moment_shadows::MapRegion;
 use rand::{RngExt as _, SeedableRng as _};
 use rand_chacha::ChaCha8Rng;
 
 use crate::brute_force::{Convention, Layer, intensity, random_depths};
-use crate::device::{self, Query, Shader};
+use crate::device::{self, PercentageCloserKernel, Query, Shader};
 
 const IMPORTS: &str = "
 import moment_shadows::techniques::percentage_closer::{PercentageCloserKernel, percentage_closer_binary, percentage_closer_box, percentage_closer_gaussian, percentage_closer_kernel};

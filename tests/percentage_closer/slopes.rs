@@ -1,7 +1,7 @@
 //! Planes do not shadow themselves, whatever the filter; what stands in front of them does.
 
 use glam::{DVec2, DVec3};
-use moment_shadows::{AreaLight, DepthConversion, DepthRange, MapRegion, SoftRadii};
+use moment_shadows::{AreaLight, DepthConversion, DepthRange, MapRegion};
 use moment_shadows_lab::light::LightView;
 
 use crate::device::{self, Query, Shader};
@@ -80,7 +80,9 @@ fn settings() -> [Setting; 3] {
         },
         Setting {
             light: spot(true),
-            conversion: DepthConversion::perspective_reversed(0.5, f64::INFINITY, range).unwrap(),
+            conversion: DepthConversion::perspective(0.5, f64::INFINITY, range)
+                .unwrap()
+                .reversed(),
             light_depth: -1.25,
         },
     ]
@@ -116,10 +118,7 @@ fn a_plane_is_lit_by_itself_and_shadowed_by_what_is_in_front_of_it() {
             near: 1.0,
             far: 9.0,
         },
-        SoftRadii {
-            smallest: 2.0,
-            largest: 12.0,
-        },
+        2.0..=12.0,
     )
     .unwrap();
     let mut asked = 0;

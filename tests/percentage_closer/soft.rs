@@ -1,6 +1,6 @@
 //! Percentage closer soft shadows.
 
-use moment_shadows::{AreaLight, DepthRange, SoftRadii};
+use moment_shadows::{AreaLight, DepthRange};
 use moment_shadows_lab::gpu::Gpu;
 
 use crate::brute_force::Convention;
@@ -22,10 +22,7 @@ fn answer(query: Query, plane: ReceiverPlane) -> f32 {
 
 const SIZE: [u32; 2] = [256, 128];
 const ANGLES: u32 = 32;
-const RADII: SoftRadii = SoftRadii {
-    smallest: 0.5,
-    largest: 60.0,
-};
+const RADII: std::ops::RangeInclusive<f64> = 0.5..=60.0;
 
 /// A half-plane of casters at a moment depth: left of the middle, or above it.
 fn edge(gpu: &Gpu, convention: Convention, axis: usize, depth: f64) -> wgpu::Texture {
@@ -176,10 +173,7 @@ fn the_largest_radius_bounds_the_penumbra() {
         near: 0.0,
         far: 20.0,
     };
-    let radii = SoftRadii {
-        smallest: 0.5,
-        largest: 8.0,
-    };
+    let radii = 0.5..=8.0;
     let light = AreaLight::directional(0.5, [0.05, 0.05], range, radii).unwrap();
     let map = edge(&gpu, convention, 0, -0.5);
     assert_close(
@@ -187,10 +181,7 @@ fn the_largest_radius_bounds_the_penumbra() {
         16.0,
         "at most 8 texels",
     );
-    let radii = SoftRadii {
-        smallest: 6.0,
-        largest: 40.0,
-    };
+    let radii = 6.0..=40.0;
     let light = AreaLight::directional(1e-4, [0.05, 0.05], range, radii).unwrap();
     assert_close(
         width(&shader, &map, convention, 0, light, 0.9),

@@ -1,7 +1,7 @@
 //! The Gaussian kernel against the lab's ground truth.
 
 use glam::{DMat4, DVec2, DVec3};
-use moment_shadows::{DepthConversion, Kernel, PercentageCloserKernel};
+use moment_shadows::{DepthConversion, Kernel};
 use moment_shadows_lab::host::DepthSamples;
 use moment_shadows_lab::light::{LightView, StoredDepth};
 use moment_shadows_lab::truth::kernel::TapPattern;
@@ -11,7 +11,7 @@ use rand::{RngExt as _, SeedableRng as _};
 use rand_chacha::ChaCha8Rng;
 
 use crate::brute_force::{Convention, random_depths};
-use crate::device::{self, Query, Shader};
+use crate::device::{self, PercentageCloserKernel, Query, Shader};
 
 const SIZE: [u32; 2] = [32, 24];
 
@@ -90,11 +90,18 @@ fn answer(query: Query, plane: ReceiverPlane) -> f32 {
     }
     let bounds = receivers
         .map(|receivers| pcf_at(&light, &depths, &TapPattern::of_kernel(&kernel), &receivers));
+    let mut uniform = PercentageCloserKernel {
+        radius: kernel.radius(),
+        padding: [0; 3],
+        weights: [[0.0; 4]; 33],
+    };
+    let weights = kernel.weights();
+    uniform.weights.as_flattened_mut()[..weights.len()].copy_from_slice(weights);
     let found = shader.run(
         &map,
         wgpu::CompareFunction::Greater,
         DepthConversion::orthographic(),
-        bytemuck::bytes_of(&PercentageCloserKernel::new(&kernel)),
+        bytemuck::bytes_of(&uniform),
         &queries,
     );
     let mut apart = 0.0;

@@ -267,7 +267,7 @@ fn regions_share_splits_but_no_footprint_and_have_their_own_conversions() {
     });
     let reversed = [
         forward[0],
-        DepthConversion::orthographic_reversed(),
+        DepthConversion::orthographic().reversed(),
         forward[2],
     ];
     let split = run(&sides, &reversed);

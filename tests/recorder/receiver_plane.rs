@@ -1,6 +1,6 @@
 //! Receivers that slope along the map: filters on the plain depth map compare each tap with the receiver's plane there.
 
-use moment_shadows::{AreaLight, DepthRange, ReceiverBias, SoftRadii, TextureFormat};
+use moment_shadows::{AreaLight, DepthRange, ReceiverBias, TextureFormat};
 use moment_shadows_lab::techniques;
 
 use crate::depth_map;
@@ -29,10 +29,7 @@ fn a_floor_that_slopes_either_way_is_lit_and_what_lies_behind_it_is_not() {
         near: 0.0,
         far: 1.0,
     };
-    let radii = SoftRadii {
-        smallest: 1.0,
-        largest: 6.0,
-    };
+    let radii = 1.0..=6.0;
     view.light = AreaLight::directional(1.0, [1.0 / f64::from(SIDE); 2], range, radii).unwrap();
     for technique in techniques::reading_depth() {
         // Stored depth per texel along u and v. With both, neither sign nor axis is left to chance.

@@ -58,6 +58,13 @@ fn pattern(x: u32, y: u32, turn: u32) -> f32 {
     }
 }
 
+/// The region's texels on a mip level: both edges are rounded down, so that regions which touch do so on every level.
+pub(crate) fn at_level(region: &MapRegion, level: u32) -> MapRegion {
+    let ends = [0, 1].map(|axis| (region.origin[axis] + region.extent[axis]) >> level);
+    let origin = region.origin.map(|edge| edge >> level);
+    MapRegion::new(origin, [0, 1].map(|axis| ends[axis] - origin[axis]))
+}
+
 /// The pattern of each region in its own coordinates; `turns` says which.
 fn depths_of(size: [u32; 2], regions: &[MapRegion], turns: &[u32]) -> Vec<f32> {
     depth_map::values(size, |x, y| {
@@ -144,7 +151,7 @@ impl Atlas {
         let bytes = gpu.read_level(texture, plane, level, "map").unwrap();
         let width = (self.size[0] >> level) as usize;
         let texel = bytes.len() / (width * (self.size[1] >> level) as usize);
-        let part = region.at_level(level);
+        let part = at_level(region, level);
         let [left, top] = part.origin.map(|value| value as usize);
         let [columns, rows] = part.extent.map(|value| value as usize);
         (top..top + rows)
@@ -176,7 +183,7 @@ fn regions_that_touch_leave_each_other_untouched_to_the_bit() {
     let regions = halves(size, 77);
     let conversions = [
         DepthConversion::orthographic(),
-        DepthConversion::orthographic_reversed(),
+        DepthConversion::orthographic().reversed(),
     ];
     for (storage, radius) in [
         ("unorm16", 32),
@@ -271,7 +278,7 @@ fn each_of_many_regions_is_what_a_map_of_its_own_would_be() {
             .iter()
             .map(|turn| match turn % 2 {
                 0 => DepthConversion::orthographic(),
-                _ => DepthConversion::orthographic_reversed(),
+                _ => DepthConversion::orthographic().reversed(),
             })
             .collect();
         let text = graph(storage, radius, "2");
@@ -308,7 +315,7 @@ fn mip_levels_keep_the_mean_of_odd_sizes() {
             let texels = floats(&atlas.read(&gpu, region, level));
             assert_eq!(
                 texels.len() as u32,
-                region.at_level(level).extent.iter().product::<u32>()
+                at_level(region, level).extent.iter().product::<u32>()
             );
             let mut sum = [0.0; 4];
             for texel in &texels {
@@ -347,8 +354,8 @@ fn a_mip_level_is_the_mean_over_what_each_texel_covers() {
     for level in 1..atlas.levels() {
         let finer = floats(&atlas.read(&gpu, &whole, level - 1));
         let coarser = floats(&atlas.read(&gpu, &whole, level));
-        let [width, height] = whole.at_level(level - 1).extent.map(f64::from);
-        let [columns, rows] = whole.at_level(level).extent.map(f64::from);
+        let [width, height] = at_level(&whole, level - 1).extent.map(f64::from);
+        let [columns, rows] = at_level(&whole, level).extent.map(f64::from);
         // How much of texel t lies within [start, end], by areas; all texels are asked, however far away.
         let covered =
             |texel: f64, start: f64, end: f64| ((texel + 1.0).min(end) - texel.max(start)).max(0.0);

@@ -103,7 +103,7 @@ fn orthographic_depth() {
                 |d| 2.0 * d - 1.0,
                 "forward",
             );
-            let reversed = DepthConversion::orthographic_reversed();
+            let reversed = DepthConversion::orthographic().reversed();
             assert_moments(
                 &gpu,
                 format,
@@ -140,7 +140,9 @@ fn perspective_depth() {
                 "finite",
             ),
             (
-                DepthConversion::perspective_reversed(near, far, range).unwrap(),
+                DepthConversion::perspective(near, far, range)
+                    .unwrap()
+                    .reversed(),
                 &|d| finite(1.0 - d),
                 "finite reversed",
             ),
@@ -150,7 +152,9 @@ fn perspective_depth() {
                 "infinite",
             ),
             (
-                DepthConversion::perspective_reversed(near, f64::INFINITY, range).unwrap(),
+                DepthConversion::perspective(near, f64::INFINITY, range)
+                    .unwrap()
+                    .reversed(),
                 &|d| infinite(1.0 - d),
                 "infinite reversed",
             ),
@@ -194,11 +198,13 @@ fn what_no_caster_covers_holds_the_far_end() {
     };
     let cases = [
         (1.0, DepthConversion::orthographic()),
-        (0.0, DepthConversion::orthographic_reversed()),
+        (0.0, DepthConversion::orthographic().reversed()),
         (1.0, DepthConversion::perspective(1.0, 20.0, range).unwrap()),
         (
             0.0,
-            DepthConversion::perspective_reversed(1.0, f64::INFINITY, range).unwrap(),
+            DepthConversion::perspective(1.0, f64::INFINITY, range)
+                .unwrap()
+                .reversed(),
         ),
         (
             1.0,

@@ -2,7 +2,7 @@
 
 use moment_shadows::{
     AreaLight, CameraView, DepthRange, LeakReduction, LightDepth, LightSize, LightView, MapRegion,
-    ReceiverBias, SoftRadii, TextureFormat, ViewParameters,
+    ReceiverBias, TextureFormat, ViewParameters,
 };
 use moment_shadows_graph::record::ImportedResource;
 use moment_shadows_graph::{Capabilities, TextureDesc};
@@ -248,10 +248,7 @@ fn searches_and_filters_of_soft_shadows_end_at_their_region() {
     ];
     let regions: Vec<MapRegion> = [middle].into_iter().chain(others).collect();
     let inside = |x: u32, y: u32| (37..88).contains(&x) && (21..64).contains(&y);
-    let radii = SoftRadii {
-        smallest: 1.0,
-        largest: 64.0,
-    };
+    let radii = 1.0..=64.0;
     let range = DepthRange {
         near: 0.0,
         far: 1.0,

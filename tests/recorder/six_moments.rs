@@ -10,6 +10,7 @@ use moment_shadows_lab::basis::{Quantisation, six_moments};
 use moment_shadows_lab::gpu::Gpu;
 
 use crate::depth_map;
+use crate::regions::at_level;
 use crate::setup::{Bound, bind, capabilities, compiled};
 
 const MAP: [u32; 2] = [52, 38];
@@ -65,7 +66,7 @@ fn depths(layer: u32, samples: u32) -> Vec<f32> {
 fn conversions() -> [DepthConversion; 2] {
     [
         DepthConversion::orthographic(),
-        DepthConversion::orthographic_reversed(),
+        DepthConversion::orthographic().reversed(),
     ]
 }
 
@@ -302,7 +303,7 @@ fn a_mip_level_is_the_mean_of_the_finer_one_in_each_plane_and_every_storage() {
             let coarser = read(&gpu, &map.bound, storage, "map", array_layer, level);
             let width = |level: u32| (MAP[0] >> level) as usize;
             for region in &REGIONS {
-                let [from, to] = [level - 1, level].map(|level| region.at_level(level));
+                let [from, to] = [level - 1, level].map(|level| at_level(region, level));
                 let scale =
                     [0, 1].map(|axis| f64::from(from.extent[axis]) / f64::from(to.extent[axis]));
                 for place in texels(&to) {

@@ -1,9 +1,7 @@
 //! What the nodes of single scattering refuse, and what a plan of them moves.
 
 use moment_shadows::{MapEncoding, Profile, Storage, Technique, TextureFormat};
-use moment_shadows_graph::nodes::{
-    CompositeScattering, IntegrateScattering, Overestimation, RectifyMoments,
-};
+use moment_shadows_graph::nodes::{CompositeScattering, IntegrateScattering, RectifyMoments};
 use moment_shadows_graph::{
     Capabilities, Connected, GraphError, GraphErrorKind, Node, NodeDesc, ResourceDesc, TextureDesc,
 };
@@ -90,10 +88,7 @@ fn maps_and_properties_that_do_not_fit_are_named() {
         ),
         (
             Box::new(CompositeScattering {
-                overestimation: Overestimation {
-                    towards: 1.5,
-                    ..Overestimation::default()
-                },
+                overestimation: [1.5, 0.5],
                 ..CompositeScattering::default()
             }),
             "integrated",
@@ -103,10 +98,7 @@ fn maps_and_properties_that_do_not_fit_are_named() {
         ),
         (
             Box::new(CompositeScattering {
-                overestimation: Overestimation {
-                    away: f32::NAN,
-                    ..Overestimation::default()
-                },
+                overestimation: [0.5, f32::NAN],
                 ..CompositeScattering::default()
             }),
             "integrated",
@@ -128,7 +120,7 @@ fn six_moments_take_a_pass_per_plane_and_two_lookups() {
     let rectified = rectify(Technique::Hamburger6, [64, 64]);
     let rectified = describe(&rectified, "map", map(Technique::Hamburger4)).unwrap();
     assert_eq!(rectified.passes.len(), 2);
-    let integrated = describe(&IntegrateScattering, "rectified", six()).unwrap();
+    let integrated = describe(&IntegrateScattering {}, "rectified", six()).unwrap();
     assert_eq!(integrated.passes.len(), 2);
     for (technique, lookups) in [(Technique::Hamburger4, 1), (Technique::Hamburger6, 2)] {
         let node = CompositeScattering::default();

@@ -1,7 +1,7 @@
 //! Cameras and lights without rectified coordinates are refused by name.
 
 use glam::{DMat3, DMat4, DVec3};
-use moment_shadows::{RectifiedFrameError, RectifiedView};
+use moment_shadows::{RectifiedView, ValueError};
 
 use crate::cameras::{Lens, pair};
 
@@ -15,7 +15,7 @@ fn camera() -> [[f64; 4]; 4] {
     pair(DVec3::ONE, DMat3::IDENTITY, lens, 1.0, DVec3::X).clip_from_world
 }
 
-fn error(camera: [[f64; 4]; 4], far: f64, light: [f64; 3]) -> RectifiedFrameError {
+fn error(camera: [[f64; 4]; 4], far: f64, light: [f64; 3]) -> ValueError {
     RectifiedView::new(&camera, far, light).unwrap_err()
 }
 
@@ -28,7 +28,8 @@ fn a_singular_camera_is_refused() {
         [[f64::INFINITY, 0.0, 0.0, 0.0]; 4],
     ] {
         let found = error(broken, 10.0, [0.0, -1.0, 0.0]);
-        assert_eq!(found, RectifiedFrameError::SingularCamera);
+        assert_eq!(found.name, "camera");
+        assert!(found.message.contains("is singular or not finite"));
     }
 }
 
@@ -40,7 +41,7 @@ fn an_orthographic_camera_is_refused() {
         DVec3::new(0.3, 0.1, 0.5),
     );
     let found = error(orthographic.to_cols_array_2d(), 10.0, [0.0, -1.0, 0.0]);
-    assert_eq!(found, RectifiedFrameError::OrthographicCamera);
+    assert_eq!(found.name, "camera");
     assert!(found.to_string().contains("orthographic"));
 }
 
@@ -48,23 +49,17 @@ fn an_orthographic_camera_is_refused() {
 fn a_frustum_without_length_is_refused() {
     for far in [0.0, -1.0, f64::NAN, f64::INFINITY] {
         let found = error(camera(), far, [0.0, -1.0, 0.0]);
-        assert!(
-            matches!(found, RectifiedFrameError::FarDistance { .. }),
-            "{found}"
-        );
+        assert_eq!(found.name, "far", "{found}");
     }
     let found = error(camera(), 1e300, [0.0, -1.0, 0.0]);
-    assert_eq!(found, RectifiedFrameError::Size);
+    assert_eq!(found.name, "frustum", "{found}");
 }
 
 #[test]
 fn a_light_without_direction_is_refused() {
     for light in [[0.0; 3], [f64::NAN, 0.0, 1.0], [f64::INFINITY, 0.0, 0.0]] {
         let found = error(camera(), 10.0, light);
-        assert!(
-            matches!(found, RectifiedFrameError::LightDirection { .. }),
-            "{found}"
-        );
+        assert_eq!(found.name, "light_direction", "{found}");
     }
 }
 

@@ -8,8 +8,7 @@ use crate::stage::{draw_over, gpu, sky, upload};
 use bytemuck::bytes_of;
 use glam::DVec3;
 use moment_shadows::{
-    LightDepth, LightView, MapEncoding, ScatteringParameters, ScatteringViewError, Storage,
-    Technique,
+    LightDepth, LightView, MapEncoding, ScatteringParameters, Storage, Technique,
 };
 
 #[test]
@@ -98,20 +97,21 @@ fn point_lights_and_broken_lights_are_refused() {
     let sun = Sun::new(DVec3::NEG_Y);
     let pair = camera(DVec3::X);
     let of = |light: &LightView| {
-        ScatteringParameters::new(&camera_view(&pair), FAR, light, medium(1.0)).unwrap_err()
+        ScatteringParameters::new(&camera_view(&pair), FAR, light, medium(1.0))
+            .unwrap_err()
+            .to_string()
     };
+    let perspective = "the light is a point or spot light";
+    let singular = "the light's clip_from_world is singular";
     let mut light = sun.view();
     light.clip_from_world = pair.clip_from_world;
-    assert_eq!(of(&light), ScatteringViewError::PerspectiveLight);
+    assert!(of(&light).starts_with(perspective));
     light.clip_from_world = [[0.0; 4]; 4];
-    assert_eq!(of(&light), ScatteringViewError::SingularLight);
+    assert!(of(&light).starts_with(singular));
     light.clip_from_world = [[f64::NAN; 4]; 4];
     let found = of(&light);
     assert!(
-        matches!(
-            found,
-            ScatteringViewError::PerspectiveLight | ScatteringViewError::SingularLight
-        ),
+        found.starts_with(perspective) || found.starts_with(singular),
         "{found}"
     );
     light = sun.view();
@@ -124,5 +124,5 @@ fn point_lights_and_broken_lights_are_refused() {
             far: 10.0,
         },
     };
-    assert_eq!(of(&light), ScatteringViewError::PerspectiveLight);
+    assert!(of(&light).starts_with(perspective));
 }

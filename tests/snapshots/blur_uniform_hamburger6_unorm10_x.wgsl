@@ -1,20 +1,18 @@
 // What is linked of files:
-// moment_shadows/filter/separable.wgsl: separable_add
-// blur_parameters: BlurParameters parameters
-// moment_shadows/map/storage.wgsl: STORAGE_FLOAT16 STORAGE_UNORM10 storage_round_to_float16 storage_round_to_unorm10 storage_round_texel
-// blur_source: blur_source
-// fullscreen: Covered fullscreen
 // moment_shadows/map/map_region.wgsl: MapRegion map_region_within map_region_at_level
-// region_pixel: regions RegionPixel region_pixel
-// blur_drawn.wgsl: moments_map blur
+// fullscreen: Covered fullscreen
+// regions: regions region_at
+// moment_shadows/map/storage.wgsl: STORAGE_FLOAT16 STORAGE_UNORM10 storage_round_to_float16 storage_round_to_unorm10 storage_round_texel
+// blur_source: moments_map BlurParameters parameters blur_source
+// moment_shadows/filter/separable.wgsl: separable_add
+// written_texel: LEVEL written_size written_texel
+// write_drawn.wgsl: write_map
 
 // specialization
 const GROUP = 0;
-
-const AXIS = vec2i(1, 0);
-
 const STORAGE = 5u;
 const REGIONS = 1u;
+const AXIS = vec2i(1, 0);
 
 // map_filtering
 fn filtering_value(texel: vec4f) -> vec4f {
@@ -27,7 +25,7 @@ fn filtering_texel(value: vec4f) -> vec4f {
 }
 
 // blur_texel
-fn blur_texel(map: texture_2d<f32>, texel: vec2i, low: vec2i, last: vec2i) -> vec4f {
+fn blur_texel(texel: vec2i, low: vec2i, last: vec2i) -> vec4f {
     // 40 vectors of weights hold no larger kernel.
     let radius = min(parameters.radius, 64u);
     var sum = vec4f(0.0);
@@ -35,7 +33,7 @@ fn blur_texel(map: texture_2d<f32>, texel: vec2i, low: vec2i, last: vec2i) -> ve
         // 15 zeros come first.
         let place = tap + 15u;
         let weight = parameters.weights[place / 4u][place % 4u];
-        let source = blur_source(map, texel + (i32(tap) - i32(radius)) * AXIS, low, last);
+        let source = blur_source(texel + (i32(tap) - i32(radius)) * AXIS, low, last);
         sum = separable_add(sum, weight, source, false);
     }
     return sum;

@@ -1,24 +1,22 @@
 // What is linked of files:
 // moment_shadows/maths/split_sum.wgsl: split_sum_coarse
 // moment_shadows/filter/separable.wgsl: separable_add SeparableSums separable_add_to_sums SeparableEight separable_add_to_eight separable_outputs SeparableSixteen separable_add_to_sixteen
-// blur_parameters: BlurParameters parameters
 // moment_shadows/map/storage.wgsl: STORAGE_FLOAT16 STORAGE_UNORM10 storage_round_to_float16 storage_round_to_unorm10 storage_round_texel
-// blur_source: blur_source
-// blur_target: moments_map blurred_map blur_store_one blur_store
+// blur_source: moments_map BlurParameters parameters blur_source
+// blur_target: written_map blur_store_one blur_store
 // moment_shadows/map/map_region.wgsl: MapRegion map_region_within map_region_at_level
-// region_tile: regions RegionTile region_tile
-// blur_uniform.wgsl: blur_four blur
+// regions: regions region_at RegionTile region_tile
+// blur.wgsl: write_map
 
 // specialization
 const GROUP = 0;
-const WORKGROUP_X = 8;
-const WORKGROUP_Y = 8;
-const AXIS = vec2i(1, 0);
-const OUTPUTS = 16;
-const SPLIT_SUMS = false;
 alias MomentsStorage = texture_storage_2d<rgba16unorm, write>;
 const STORAGE = 0u;
 const REGIONS = 1u;
+const WORKGROUP = vec2u(8u, 8u);
+const AXIS = vec2i(1, 0);
+const OUTPUTS = 16;
+const SPLIT_SUMS = false;
 
 // map_filtering
 fn filtering_value(texel: vec4f) -> vec4f {
@@ -28,5 +26,46 @@ fn filtering_value(texel: vec4f) -> vec4f {
 // The texel for such an average.
 fn filtering_texel(value: vec4f) -> vec4f {
     return storage_round_texel(value, STORAGE);
+}
+
+// blur_outputs
+// Adds the four texels from `texel` on, whose weights begin in `w0`.
+fn blur_four(sums: SeparableSixteen, texel: vec2i, low: vec2i, last: vec2i, w0: vec4f, w1: vec4f, w2: vec4f, w3: vec4f, w4: vec4f) -> SeparableSixteen {
+    let t0 = blur_source(texel, low, last);
+    let s0 = separable_add_to_sixteen(sums, t0, w0, w1, w2, w3, SPLIT_SUMS);
+    let t1 = blur_source(texel + AXIS, low, last);
+    let s1 = separable_add_to_sixteen(s0, t1, vec4f(w0.yzw, w1.x), vec4f(w1.yzw, w2.x), vec4f(w2.yzw, w3.x), vec4f(w3.yzw, w4.x), SPLIT_SUMS);
+    let t2 = blur_source(texel + 2 * AXIS, low, last);
+    let s2 = separable_add_to_sixteen(s1, t2, vec4f(w0.zw, w1.xy), vec4f(w1.zw, w2.xy), vec4f(w2.zw, w3.xy), vec4f(w3.zw, w4.xy), SPLIT_SUMS);
+    let t3 = blur_source(texel + 3 * AXIS, low, last);
+    return separable_add_to_sixteen(s2, t3, vec4f(w0.w, w1.xyz), vec4f(w1.w, w2.xyz), vec4f(w2.w, w3.xyz), vec4f(w3.w, w4.xyz), SPLIT_SUMS);
+}
+
+// Stores the outputs from the texel `first` on.
+fn blur_outputs(first: vec2i, low: vec2i, last: vec2i) {
+    var sums: SeparableSixteen;
+    var w0 = parameters.weights[0];
+    var w1 = parameters.weights[1];
+    var w2 = parameters.weights[2];
+    var w3 = parameters.weights[3];
+    // 40 vectors of weights hold 9 blocks.
+    let blocks = min(parameters.blocks, 9u);
+    for (var block = 0u; block < blocks; block++) {
+        let w4 = parameters.weights[4u * block + 4u];
+        let w5 = parameters.weights[4u * block + 5u];
+        let w6 = parameters.weights[4u * block + 6u];
+        let w7 = parameters.weights[4u * block + 7u];
+        let texel = first + (i32(16u * block) - i32(parameters.radius)) * AXIS;
+        sums = blur_four(sums, texel, low, last, w0, w1, w2, w3, w4);
+        sums = blur_four(sums, texel + 4 * AXIS, low, last, w1, w2, w3, w4, w5);
+        sums = blur_four(sums, texel + 8 * AXIS, low, last, w2, w3, w4, w5, w6);
+        sums = blur_four(sums, texel + 12 * AXIS, low, last, w3, w4, w5, w6, w7);
+        w0 = w4;
+        w1 = w5;
+        w2 = w6;
+        w3 = w7;
+    }
+    blur_store(first, last, sums.first);
+    blur_store(first + 8 * AXIS, last, sums.second);
 }
 

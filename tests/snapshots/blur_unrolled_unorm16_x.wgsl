@@ -2,22 +2,21 @@
 // moment_shadows/maths/split_sum.wgsl: split_sum_coarse
 // moment_shadows/filter/separable.wgsl: separable_add SeparableSums separable_add_to_sums SeparableEight separable_add_to_eight separable_outputs
 // moment_shadows/map/storage.wgsl: STORAGE_FLOAT16 STORAGE_UNORM10 storage_round_to_float16 storage_round_to_unorm10 storage_round_texel
-// blur_target: moments_map blurred_map blur_store_one blur_store
-// blur_source: blur_source
+// blur_source: moments_map blur_source
+// blur_target: written_map blur_store_one blur_store
 // moment_shadows/map/map_region.wgsl: MapRegion map_region_within map_region_at_level
-// region_tile: regions RegionTile region_tile
-// blur_unrolled.wgsl: blur
+// regions: regions region_at RegionTile region_tile
+// blur.wgsl: write_map
 
 // specialization
 const GROUP = 0;
-const WORKGROUP_X = 8;
-const WORKGROUP_Y = 8;
-const AXIS = vec2i(1, 0);
-const OUTPUTS = 8;
-const SPLIT_SUMS = false;
 alias MomentsStorage = texture_storage_2d<rgba16unorm, write>;
 const STORAGE = 0u;
 const REGIONS = 1u;
+const WORKGROUP = vec2u(8u, 8u);
+const AXIS = vec2i(1, 0);
+const OUTPUTS = 8;
+const SPLIT_SUMS = false;
 
 // map_filtering
 fn filtering_value(texel: vec4f) -> vec4f {
@@ -29,19 +28,19 @@ fn filtering_texel(value: vec4f) -> vec4f {
     return storage_round_texel(value, STORAGE);
 }
 
-// blur_unrolled
-fn blur_block(map: texture_2d<f32>, first: vec2i, low: vec2i, last: vec2i) -> SeparableEight {
+// blur_outputs
+fn blur_outputs(first: vec2i, low: vec2i, last: vec2i) {
     var sums: SeparableEight;
-    sums = separable_add_to_eight(sums, blur_source(map, first + -1 * AXIS, low, last), vec4f(0.0, 0.0, 0.0, 0.0), vec4f(0.0, 0.0, 0.0, 0.16637802), SPLIT_SUMS, true);
-    sums = separable_add_to_eight(sums, blur_source(map, first + 0 * AXIS, low, last), vec4f(0.0, 0.0, 0.0, 0.0), vec4f(0.0, 0.0, 0.16637802, 0.66724396), SPLIT_SUMS, true);
-    sums = separable_add_to_eight(sums, blur_source(map, first + 1 * AXIS, low, last), vec4f(0.0, 0.0, 0.0, 0.0), vec4f(0.0, 0.16637802, 0.66724396, 0.16637802), SPLIT_SUMS, true);
-    sums = separable_add_to_eight(sums, blur_source(map, first + 2 * AXIS, low, last), vec4f(0.0, 0.0, 0.0, 0.0), vec4f(0.16637802, 0.66724396, 0.16637802, 0.0), SPLIT_SUMS, true);
-    sums = separable_add_to_eight(sums, blur_source(map, first + 3 * AXIS, low, last), vec4f(0.0, 0.0, 0.0, 0.16637802), vec4f(0.66724396, 0.16637802, 0.0, 0.0), SPLIT_SUMS, true);
-    sums = separable_add_to_eight(sums, blur_source(map, first + 4 * AXIS, low, last), vec4f(0.0, 0.0, 0.16637802, 0.66724396), vec4f(0.16637802, 0.0, 0.0, 0.0), SPLIT_SUMS, true);
-    sums = separable_add_to_eight(sums, blur_source(map, first + 5 * AXIS, low, last), vec4f(0.0, 0.16637802, 0.66724396, 0.16637802), vec4f(0.0, 0.0, 0.0, 0.0), SPLIT_SUMS, true);
-    sums = separable_add_to_eight(sums, blur_source(map, first + 6 * AXIS, low, last), vec4f(0.16637802, 0.66724396, 0.16637802, 0.0), vec4f(0.0, 0.0, 0.0, 0.0), SPLIT_SUMS, true);
-    sums = separable_add_to_eight(sums, blur_source(map, first + 7 * AXIS, low, last), vec4f(0.66724396, 0.16637802, 0.0, 0.0), vec4f(0.0, 0.0, 0.0, 0.0), SPLIT_SUMS, true);
-    sums = separable_add_to_eight(sums, blur_source(map, first + 8 * AXIS, low, last), vec4f(0.16637802, 0.0, 0.0, 0.0), vec4f(0.0, 0.0, 0.0, 0.0), SPLIT_SUMS, true);
-    return sums;
+    sums = separable_add_to_eight(sums, blur_source(first + -1 * AXIS, low, last), vec4f(0.0, 0.0, 0.0, 0.0), vec4f(0.0, 0.0, 0.0, 0.16637802), SPLIT_SUMS, true);
+    sums = separable_add_to_eight(sums, blur_source(first + 0 * AXIS, low, last), vec4f(0.0, 0.0, 0.0, 0.0), vec4f(0.0, 0.0, 0.16637802, 0.66724396), SPLIT_SUMS, true);
+    sums = separable_add_to_eight(sums, blur_source(first + 1 * AXIS, low, last), vec4f(0.0, 0.0, 0.0, 0.0), vec4f(0.0, 0.16637802, 0.66724396, 0.16637802), SPLIT_SUMS, true);
+    sums = separable_add_to_eight(sums, blur_source(first + 2 * AXIS, low, last), vec4f(0.0, 0.0, 0.0, 0.0), vec4f(0.16637802, 0.66724396, 0.16637802, 0.0), SPLIT_SUMS, true);
+    sums = separable_add_to_eight(sums, blur_source(first + 3 * AXIS, low, last), vec4f(0.0, 0.0, 0.0, 0.16637802), vec4f(0.66724396, 0.16637802, 0.0, 0.0), SPLIT_SUMS, true);
+    sums = separable_add_to_eight(sums, blur_source(first + 4 * AXIS, low, last), vec4f(0.0, 0.0, 0.16637802, 0.66724396), vec4f(0.16637802, 0.0, 0.0, 0.0), SPLIT_SUMS, true);
+    sums = separable_add_to_eight(sums, blur_source(first + 5 * AXIS, low, last), vec4f(0.0, 0.16637802, 0.66724396, 0.16637802), vec4f(0.0, 0.0, 0.0, 0.0), SPLIT_SUMS, true);
+    sums = separable_add_to_eight(sums, blur_source(first + 6 * AXIS, low, last), vec4f(0.16637802, 0.66724396, 0.16637802, 0.0), vec4f(0.0, 0.0, 0.0, 0.0), SPLIT_SUMS, true);
+    sums = separable_add_to_eight(sums, blur_source(first + 7 * AXIS, low, last), vec4f(0.66724396, 0.16637802, 0.0, 0.0), vec4f(0.0, 0.0, 0.0, 0.0), SPLIT_SUMS, true);
+    sums = separable_add_to_eight(sums, blur_source(first + 8 * AXIS, low, last), vec4f(0.16637802, 0.0, 0.0, 0.0), vec4f(0.0, 0.0, 0.0, 0.0), SPLIT_SUMS, true);
+    blur_store(first, last, sums);
 }
 

@@ -21,8 +21,6 @@
 
 // specialization
 const GROUP = 0;
-
-const OVERESTIMATION = vec2f(0.2, 0.35);
-
 const STORAGE = 1u;
+const OVERESTIMATION = vec2f(0.2, 0.35);
 

@@ -1,10 +1,10 @@
 // What is linked of files:
-// moment_shadows/map/storage.wgsl: STORAGE_FLOAT16 STORAGE_UNORM10 storage_round_to_float16 storage_round_to_unorm10 storage_round_texel
 // moment_shadows/map/map_region.wgsl: MapRegion map_region_within map_region_at_level
-// downsample_texel: finer_level box_weights downsample_texel
 // fullscreen: Covered fullscreen
-// region_pixel: regions RegionPixel region_pixel
-// downsample_drawn.wgsl: LEVEL downsample
+// regions: regions region_at
+// moment_shadows/map/storage.wgsl: STORAGE_FLOAT16 STORAGE_UNORM10 storage_round_to_float16 storage_round_to_unorm10 storage_round_texel
+// written_texel: LEVEL finer_level box_weights written_size written_texel
+// write_drawn.wgsl: write_map
 
 // specialization
 const GROUP = 0;

@@ -1,9 +1,9 @@
 // What is linked of files:
-// moment_shadows/map/storage.wgsl: STORAGE_FLOAT16 STORAGE_UNORM10 storage_round_to_float16 storage_round_to_unorm10 storage_round_texel
 // moment_shadows/map/map_region.wgsl: MapRegion map_region_within map_region_at_level
-// downsample_texel: finer_level box_weights downsample_texel
-// region_tile: regions RegionTile region_tile
-// downsample.wgsl: LEVEL coarser_level downsample
+// regions: regions region_at RegionTile region_tile
+// moment_shadows/map/storage.wgsl: STORAGE_FLOAT16 STORAGE_UNORM10 storage_round_to_float16 storage_round_to_unorm10 storage_round_texel
+// written_texel: LEVEL finer_level box_weights written_size written_texel
+// write_computed.wgsl: written_map write_map
 
 // specialization
 const GROUP = 0;

@@ -13,8 +13,7 @@
 
 // specialization
 const GROUP = 0;
-const SOURCE_STORAGE = 1u;
-
 alias MomentsStorage = texture_storage_2d<rgba16float, write>;
 const STORAGE = 1u;
+const SOURCE_STORAGE = 1u;
 

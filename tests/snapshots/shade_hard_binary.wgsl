@@ -15,9 +15,9 @@
 // specialization
 const GROUP = 0;
 const LEVELS = 1u;
+const ANISOTROPY = 1.0;
 const VIEWS = 1u;
 const LIGHTS = 1u;
-const ANISOTROPY = 8.0;
 
 // technique
 fn technique_shadow_intensity(receiver: TechniqueReceiver) -> f32 {

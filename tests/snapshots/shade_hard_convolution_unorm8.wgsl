@@ -17,14 +17,14 @@
 
 // specialization
 const GROUP = 0;
-const LEVELS = 1u;
-const VIEWS = 1u;
-const LIGHTS = 1u;
-const ANISOTROPY = 8.0;
-const PLANES = 4u;
 const STORAGE = 3u;
 const TERMS = 8u;
 const LOWER_BOUND = true;
+const PLANES = 4u;
+const LEVELS = 1u;
+const ANISOTROPY = 8.0;
+const VIEWS = 1u;
+const LIGHTS = 1u;
 
 // technique
 fn technique_shadow_intensity(receiver: TechniqueReceiver) -> f32 {

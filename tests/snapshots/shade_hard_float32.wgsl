@@ -20,12 +20,12 @@
 
 // specialization
 const GROUP = 0;
+const STORAGE = 2u;
+const PLANES = 1u;
 const LEVELS = 1u;
+const ANISOTROPY = 8.0;
 const VIEWS = 1u;
 const LIGHTS = 1u;
-const ANISOTROPY = 8.0;
-const PLANES = 1u;
-const STORAGE = 2u;
 
 // technique
 fn technique_shadow_intensity(receiver: TechniqueReceiver) -> f32 {

@@ -21,12 +21,12 @@
 
 // specialization
 const GROUP = 0;
+const STORAGE = 2u;
+const PLANES = 2u;
 const LEVELS = 1u;
+const ANISOTROPY = 8.0;
 const VIEWS = 1u;
 const LIGHTS = 1u;
-const ANISOTROPY = 8.0;
-const PLANES = 2u;
-const STORAGE = 2u;
 
 // technique
 fn technique_shadow_intensity(receiver: TechniqueReceiver) -> f32 {

@@ -20,16 +20,16 @@
 
 // specialization
 const GROUP = 0;
-const LEVELS = 1u;
-const VIEWS = 1u;
-const LIGHTS = 1u;
-const ANISOTROPY = 8.0;
-const PLANES = 2u;
 const STORAGE = 2u;
 const LAYERS = 4u;
 const LAYER_OVERLAP = f32(0.02);
 const LAYER_SPLITS_LOW = vec4f(-0.5, 0.0, 0.5, 1.0);
 const LAYER_SPLITS_HIGH = vec4f(1.0, 1.0, 1.0, 1.0);
+const PLANES = 2u;
+const LEVELS = 1u;
+const ANISOTROPY = 8.0;
+const VIEWS = 1u;
+const LIGHTS = 1u;
 
 // technique
 fn technique_shadow_intensity(receiver: TechniqueReceiver) -> f32 {

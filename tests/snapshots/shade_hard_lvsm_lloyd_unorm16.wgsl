@@ -20,14 +20,14 @@
 
 // specialization
 const GROUP = 0;
-const LEVELS = 1u;
-const VIEWS = 1u;
-const LIGHTS = 1u;
-const ANISOTROPY = 8.0;
-const PLANES = 2u;
 const STORAGE = 0u;
 const LAYERS = 4u;
 const LAYER_OVERLAP = f32(0.0);
+const PLANES = 2u;
+const LEVELS = 1u;
+const ANISOTROPY = 8.0;
+const VIEWS = 1u;
+const LIGHTS = 1u;
 
 // technique
 fn technique_shadow_intensity(receiver: TechniqueReceiver) -> f32 {

@@ -17,12 +17,11 @@
 // specialization
 const GROUP = 0;
 const LEVELS = 1u;
-const VIEWS = 1u;
-const LIGHTS = 1u;
-const ANISOTROPY = 8.0;
-
+const ANISOTROPY = 1.0;
 const SEARCH_TAPS = 16u;
 const FILTER_TAPS = 32u;
+const VIEWS = 1u;
+const LIGHTS = 1u;
 
 // technique
 fn technique_shadow_intensity(receiver: TechniqueReceiver) -> f32 {

@@ -21,12 +21,12 @@
 
 // specialization
 const GROUP = 0;
+const STORAGE = 0u;
+const PLANES = 1u;
 const LEVELS = 4u;
+const ANISOTROPY = 8.0;
 const VIEWS = 1u;
 const LIGHTS = 1u;
-const ANISOTROPY = 8.0;
-const PLANES = 1u;
-const STORAGE = 0u;
 
 // technique
 fn technique_shadow_intensity(receiver: TechniqueReceiver) -> f32 {

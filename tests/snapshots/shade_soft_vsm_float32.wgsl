@@ -7,12 +7,12 @@
 // moment_shadows/shade/area_light.wgsl: AreaLight AREA_LIGHT_LARGEST_RADIUS AREA_LIGHT_BOX_OF_DISK area_light_half_extent area_light_limited area_light_box
 // moment_shadows/shade/receiver_bias.wgsl: RECEIVER_BIAS_STANDARD_DEVIATIONS RECEIVER_BIAS_EDGE_ON ReceiverBias receiver_bias_plane receiver_bias_depth receiver_bias_depth_minified receiver_bias_depth_of_kernel
 // moment_shadows/map/storage.wgsl: STORAGE_UNORM16 STORAGE_FLOAT16 STORAGE_FLOAT32 storage_is_float storage_finite_texel
+// moment_shadows/filter/summed_area_encoding.wgsl: SUMMED_AREA_ENCODING_VARIANCE_PER_ERROR SUMMED_AREA_ENCODING_VARIANCE_OF_F32 SUMMED_AREA_ENCODING_SMALLEST_VARIANCE summed_area_encoding_smallest_variance
 // moment_shadows/shade/soft_blockers.wgsl: SoftBlockers SOFT_BLOCKERS_SMALLEST_SHARE soft_blockers_from soft_blockers_of_two_moments
 // moment_shadows/filter/summed_area_table.wgsl: SummedAreaTableRectangle summed_area_table_rectangle SummedAreaTableOrigin summed_area_table_origin SummedAreaTableStrips summed_area_table_strips summed_area_table_row summed_area_table_mean_interpolated summed_area_table_mean_plain
 // moment_shadows/moments/two_moments.wgsl: two_moments_from_texel
 // moment_shadows/bounds/chebyshev.wgsl: chebyshev_lower_bound
 // moment_shadows/shade/moment_soft_shadows.wgsl: MOMENT_SOFT_SHADOWS_SMALLEST_EXTENT MomentSoftShadowTable MomentSoftShadowReceiver moment_soft_shadows_mean moment_soft_shadows_search moment_soft_shadows_filter moment_soft_shadows_fragment_depth moment_soft_shadows_variance_intensity
-// moment_shadows/filter/summed_area_encoding.wgsl: SUMMED_AREA_ENCODING_VARIANCE_PER_ERROR SUMMED_AREA_ENCODING_VARIANCE_OF_F32 SUMMED_AREA_ENCODING_SMALLEST_VARIANCE summed_area_encoding_smallest_variance
 // technique_map: table_sums technique_map_size
 // technique_receiver: TechniqueReceiver
 // technique_soft: soft_table soft_receiver
@@ -22,13 +22,13 @@
 const GROUP = 0;
 const LEVELS = 1u;
 const ANISOTROPY = 1.0;
-const VIEWS = 1u;
-const LIGHTS = 1u;
 const LARGEST_KERNEL = vec2f(65.0, 65.0);
 const TABLE_UNIT = f32(1016560u);
 const TABLE_ERROR = f32(4.918549e-7);
 const SEARCH_INTERPOLATED = false;
 const FILTER_INTERPOLATED = true;
+const VIEWS = 1u;
+const LIGHTS = 1u;
 
 // technique
 fn technique_shadow_intensity(receiver: TechniqueReceiver) -> f32 {

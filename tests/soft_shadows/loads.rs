@@ -1,6 +1,6 @@
 //! The number of loads per pixel does not depend on penumbrae: there are no loops and no branches around loads.
 
-use moment_shadows::{Source, link_module, modules};
+use moment_shadows::{Source, link, modules};
 use naga::{Block, Expression, Module, Statement};
 
 /// Loads of a function and of all that it calls, and whether any is repeated.
@@ -46,7 +46,7 @@ fn they_are_as_many_as_documented() {
         name: soft.name,
         text: soft.source,
     };
-    let text = link_module(source).unwrap().into_wgsl();
+    let text = link(source, &[]).unwrap().into_wgsl();
     let module = naga::front::wgsl::parse_str(&text).unwrap();
     // A query is one of two, as a constant of the node says.
     assert_eq!(loads(&module, "summed_area_table_mean_interpolated"), 16);

@@ -61,6 +61,6 @@ fn a_pair_that_does_not_exist_is_refused_with_those_that_do() {
     let text = error.to_string();
     assert_eq!(
         text,
-        "'evsm2' is not stored as unorm16; it is as float16 or float32"
+        "evsm2: it is not stored as unorm16; it is as float16 or float32"
     );
 }

@@ -2,18 +2,17 @@
 
 use moment_shadows::{MapEncoding, MapRegion, Storage, SummedAreaTable, Technique};
 use moment_shadows_graph::TextureDesc;
-use moment_shadows_graph::nodes::LargestKernel;
 use moment_shadows_graph::record::Layers;
 use moment_shadows_lab::gpu::Gpu;
 use moment_shadows_lab::summed_area::{SummedMap, reference};
 
 use crate::setup::{both, encoding, gpu, map, noise};
 
-const KERNEL: LargestKernel = LargestKernel::Square(9);
+const KERNEL: [u32; 2] = [9; 2];
 
 /// Makes the table with both tiles and compares every texel.
 #[track_caller]
-fn assert_exact(gpu: &Gpu, desc: &TextureDesc, bytes: &[u8], kernel: LargestKernel) {
+fn assert_exact(gpu: &Gpu, desc: &TextureDesc, bytes: &[u8], kernel: [u32; 2]) {
     let source = desc.encoding.as_ref().unwrap();
     let channels = source.technique().row().channels as usize;
     let whole = MapRegion::new([0; 2], desc.size);
@@ -107,11 +106,7 @@ fn every_storage_and_both_techniques_are_summed_to_the_bit() {
     }
     let desc = map(&encoding(Technique::Vsm, Storage::Float16), [30, 40], 1);
     // From units of 32 bits to ones of 16.
-    for kernel in [
-        LargestKernel::Square(1),
-        LargestKernel::Sides([100, 3]),
-        LargestKernel::Sides([65537, 1]),
-    ] {
+    for kernel in [[1; 2], [100, 3], [65537, 1]] {
         assert_exact(&gpu, &desc, &noise(&desc, 3), kernel);
     }
 }
@@ -131,7 +126,7 @@ fn a_map_of_ones_fills_the_range() {
     let gpu = gpu();
     let size = [131, 67];
     let texels = (size[0] * size[1]) as usize;
-    let kernel = LargestKernel::Sides([65537, 1]);
+    let kernel = [65537, 1];
     for storage in Storage::OF_FOUR_MOMENTS {
         let desc = map(&encoding(Technique::Vsm, storage), size, 1);
         // Channels (b1 + 1) / 2 and 1 - b2 of 1: a mean of 1 and a mean square of 0.

@@ -1,7 +1,6 @@
 //! What the passes move and how many invocations they have.
 
 use moment_shadows::{Profile, Storage, Technique};
-use moment_shadows_graph::nodes::LargestKernel;
 use moment_shadows_graph::{Capabilities, PlannedWork};
 use moment_shadows_lab::summed_area::SummedMap;
 
@@ -13,7 +12,7 @@ fn the_tiles_of_graphics_cards_move_48_bytes_and_keep_8192_invocations_busy() {
     for (technique, bytes) in [(Technique::Hamburger4, 48), (Technique::Vsm, 24)] {
         let desc = map(&encoding(technique, Storage::Unorm16), size, 1);
         let capabilities = Capabilities::of_profile(Profile::Native);
-        let plan = SummedMap::plan(&capabilities, &desc, LargestKernel::default()).unwrap();
+        let plan = SummedMap::plan(&capabilities, &desc, [65; 2]).unwrap();
         let texels = u64::from(size[0] * size[1]);
         assert!(
             plan.bytes_moved() <= bytes * texels,
@@ -44,7 +43,7 @@ fn the_tile_follows_the_device() {
             software_adapter,
             ..Capabilities::of_profile(Profile::Native)
         };
-        let plan = SummedMap::plan(&capabilities, &desc, LargestKernel::default()).unwrap();
+        let plan = SummedMap::plan(&capabilities, &desc, [65; 2]).unwrap();
         let table = plan.output_texture("table").unwrap();
         assert_eq!((table.size, table.layers), (desc.size, desc.layers));
         plan.bytes_moved()

@@ -1,7 +1,6 @@
 //! Means of rectangles on the device, against sums over the texels themselves.
 
 use moment_shadows::{MapRegion, Storage, Technique};
-use moment_shadows_graph::nodes::LargestKernel;
 use moment_shadows_graph::record::Layers;
 use moment_shadows_lab::gpu::Gpu;
 use moment_shadows_lab::summed_area::{Means, Query, SummedMap};
@@ -87,8 +86,7 @@ fn table(gpu: &Gpu, bytes: &[u8], regions: &[MapRegion]) -> SummedMap {
         ..map(&encoding(Technique::Hamburger4, Storage::Unorm16), SIZE, 1)
     };
     let [_, software] = both(gpu);
-    let summed =
-        SummedMap::new(gpu, &software, &desc, bytes, LargestKernel::Sides(KERNEL)).unwrap();
+    let summed = SummedMap::new(gpu, &software, &desc, bytes, KERNEL).unwrap();
     summed.set_regions(gpu, 0, regions).unwrap();
     summed.run(gpu, Layers::All).unwrap();
     summed

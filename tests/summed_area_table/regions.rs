@@ -2,7 +2,6 @@
 
 use moment_shadows::{MapRegion, Storage, Technique};
 use moment_shadows_graph::TextureDesc;
-use moment_shadows_graph::nodes::LargestKernel;
 use moment_shadows_graph::record::Layers;
 use moment_shadows_lab::summed_area::{SummedMap, reference};
 
@@ -44,9 +43,7 @@ fn regions_that_touch_do_not_see_each_other() {
         };
         let bytes = noise(&desc, 5);
         for capabilities in both(&gpu) {
-            let summed =
-                SummedMap::new(&gpu, &capabilities, &desc, &bytes, LargestKernel::Square(9))
-                    .unwrap();
+            let summed = SummedMap::new(&gpu, &capabilities, &desc, &bytes, [9; 2]).unwrap();
             let table = *summed
                 .desc()
                 .unwrap()
@@ -103,9 +100,7 @@ fn a_single_region_leaves_the_rest_alone() {
             MapRegion::new([3, 95], [17, 2]),
             MapRegion::new([149, 0], [1, 97]),
         ] {
-            let summed =
-                SummedMap::new(&gpu, &capabilities, &desc, &bytes, LargestKernel::Square(9))
-                    .unwrap();
+            let summed = SummedMap::new(&gpu, &capabilities, &desc, &bytes, [9; 2]).unwrap();
             summed.set_regions(&gpu, 0, &[region]).unwrap();
             summed.run(&gpu, Layers::All).unwrap();
             let expected = reference::table(&integers, 4, SIZE[0] as usize, &[region]);

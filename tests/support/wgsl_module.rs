@@ -1,6 +1,6 @@
 //! Library modules as naga reads them, and the numbers in them.
 
-use moment_shadows::{Source, link_module, modules};
+use moment_shadows::{Source, link, modules};
 use naga::{Expression, Literal, Module};
 
 pub(crate) fn parse(wgsl: &str) -> Module {
@@ -16,7 +16,7 @@ pub(crate) fn module(name: &str, item: &str) -> Module {
         name,
         text: module.source,
     };
-    parse(link_module(source).unwrap().wgsl())
+    parse(link(source, &[]).unwrap().wgsl())
 }
 
 /// The numbers that a constant of a module is made of.

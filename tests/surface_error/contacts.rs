@@ -2,7 +2,7 @@
 
 use moment_shadows::{Profile, Storage, Technique};
 use moment_shadows_lab::candidate::{Candidate, TechniqueChoice};
-use moment_shadows_lab::command::contacts::{BAND, Contacts};
+use moment_shadows_lab::contacts::{BAND, Contacts};
 use moment_shadows_lab::gpu::Gpu;
 use moment_shadows_lab::graph_frame::shade_parameters;
 use moment_shadows_lab::scene::{self, feet};

@@ -1,7 +1,7 @@
 //! Mixtures of surfaces, evaluated by every technique on the adapter.
 
 use bytemuck::{Pod, Zeroable};
-use moment_shadows::{Profile, Storage};
+use moment_shadows::{EsmFiltering, Finite, Profile, Storage, Technique};
 use moment_shadows_lab::batch::Batch;
 use moment_shadows_lab::gpu::Gpu;
 use rand::RngExt;
@@ -73,22 +73,6 @@ pub(crate) fn run(inputs: &[Input]) -> Vec<Output> {
         .unwrap()
 }
 
-const LIMITS: &str = "
-import moment_shadows::techniques::exponential::{exponential_largest_exponent};
-import moment_shadows::techniques::exponential_variance::{exponential_variance_largest_exponent};
-
-alias BatchInput = vec4u;
-alias BatchOutput = vec3f;
-
-fn batch(storage: BatchInput) -> BatchOutput {
-    return vec3f(
-        exponential_largest_exponent(storage.x, false),
-        exponential_largest_exponent(storage.x, true),
-        exponential_variance_largest_exponent(storage.x),
-    );
-}
-";
-
 /// The largest exponents that the modules state.
 pub(crate) struct Limits {
     /// Plain and logarithmic.
@@ -97,14 +81,17 @@ pub(crate) struct Limits {
 }
 
 pub(crate) fn limits(storage: Storage) -> Limits {
-    let gpu = Gpu::open(Profile::WebgpuCore).unwrap();
-    let found: Vec<[f32; 4]> = Batch::new(&gpu, "limits", LIMITS)
-        .unwrap()
-        .run(&[[storage.wgsl_index(); 4]])
-        .unwrap();
+    let esm = |filtering| Technique::Esm {
+        exponent: Finite::ZERO,
+        filtering,
+    };
+    let evsm = Technique::Evsm2 {
+        exponent: Finite::ZERO,
+    };
+    let of = |technique: Technique| technique.largest_exponent(storage).unwrap_or_default();
     Limits {
-        exponential: [found[0][0], found[0][1]],
-        exponential_variance: found[0][2],
+        exponential: [EsmFiltering::Linear, EsmFiltering::Logarithmic].map(|it| of(esm(it))),
+        exponential_variance: of(evsm),
     }
 }
 

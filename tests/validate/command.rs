@@ -1,7 +1,7 @@
 //! The command: files, exit codes, modules of the library.
 
 use crate::storing;
-use moment_shadows::{LONGEST_SHADER, Profile, modules};
+use moment_shadows::{Profile, ValidationReport, modules};
 use moment_shadows_lab::command::validate::{CheckError, check_file, run};
 use std::fs;
 use std::path::Path;
@@ -25,7 +25,10 @@ fn the_command_checks_files() {
     );
     let norm = write("norm.wgsl", storing("rgba16unorm", "write").as_bytes());
     let binary = write("binary.wgsl", &[0xff, 0xfe, 0x00]);
-    let long = write("long.wgsl", &vec![b' '; LONGEST_SHADER + 1]);
+    let long = write(
+        "long.wgsl",
+        &vec![b' '; ValidationReport::LONGEST_SHADER + 1],
+    );
     let missing = folder.path().join("missing.wgsl");
 
     check_file(&good, Profile::WebgpuCore).unwrap();

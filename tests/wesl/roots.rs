@@ -3,7 +3,7 @@
 use std::collections::BTreeSet;
 use std::fmt::Write;
 
-use moment_shadows::{Source, link, link_module, modules};
+use moment_shadows::{Source, link, modules};
 
 use crate::values::values;
 
@@ -79,7 +79,7 @@ pub(crate) fn roots() -> Vec<Root> {
     let mut roots = Vec::new();
     for module in modules() {
         let (name, text) = (module.name, module.source);
-        let linked = link_module(Source { name, text }).unwrap();
+        let linked = link(Source { name, text }, &[]).unwrap();
         let values = values(text, linked.wgsl());
         roots.push(Root {
             name: name.to_owned(),

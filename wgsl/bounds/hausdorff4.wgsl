@@ -1,7 +1,7 @@
 import super::super::map::depth::{depth_of_fragment};
 import super::super::bounds::hamburger4::{hamburger4_bounds_at, hamburger4_lower_bound_at};
 import super::super::maths::hankel::{HankelFactor, hankel_factor, hankel_second_polynomial};
-import super::super::moments::four_moments::{FourMomentsBias, four_moments_apply_bias, four_moments_biased_from_texel, four_moments_clamp};
+import super::super::moments::four_moments::{FourMomentsBias, four_moments_biased_from_texel};
 import super::super::map::storage::{STORAGE_FLOAT16, STORAGE_FLOAT32, storage_finite_texel};
 
 // Hausdorff four-moment shadow mapping: the sharpest bounds on shadow intensity that four moments allow when all depths
@@ -105,12 +105,6 @@ fn hausdorff4_lower_bound(biased: vec4f, fragment_depth: f32, alpha: f32) -> f32
         return hamburger4_lower_bound_at(factor, x, polynomial);
     }
     return hausdorff4_bounds_with_ends(biased, depth, alpha).x;
-}
-
-// Shadow intensity in [0, 1] (1 = shadowed) of a fragment at `fragment_depth` (moment depth) under the filtered moments of
-// its map: the lower bound, never darker than the truth except by the bias. Moments may be any finite numbers.
-fn hausdorff4_shadow_intensity(moments: vec4f, fragment_depth: f32, bias: FourMomentsBias) -> f32 {
-    return hausdorff4_lower_bound(four_moments_apply_bias(four_moments_clamp(moments), bias), fragment_depth, bias.alpha);
 }
 
 // Shadow intensity in [0, 1] (1 = shadowed) of a fragment under a filtered texel of a storage, as `four_moments_to_texel`

@@ -1,5 +1,5 @@
 import super::super::map::depth::{depth_of_fragment};
-import super::super::map::storage::{STORAGE_FLOAT16, STORAGE_FLOAT32, STORAGE_LARGEST_FLOAT16, storage_finite_texel, storage_is_float, storage_round_to_float16};
+import super::super::map::storage::{STORAGE_FLOAT16, STORAGE_LARGEST_FLOAT16, storage_finite_texel, storage_is_float, storage_round_to_float16};
 
 // Exponential shadow mapping: one channel, the mean E[e^(c z)] of a warped depth.
 //
@@ -30,15 +30,6 @@ const EXPONENTIAL_SMALLEST_EXPONENT: f32 = 1.0;
 
 // A normal number below e^-87.
 const EXPONENTIAL_SMALLEST_MEAN: f32 = 1.2e-38;
-
-// The largest exponent of a storage.
-fn exponential_largest_exponent(storage: u32, logarithmic: bool) -> f32 {
-    if storage == STORAGE_FLOAT16 {
-        return select(EXPONENTIAL_LARGEST_EXPONENT_FLOAT16, EXPONENTIAL_LARGEST_EXPONENT_FLOAT16_LOGARITHMIC, logarithmic);
-    }
-    let plain_unorm = !logarithmic && storage != STORAGE_FLOAT32;
-    return select(EXPONENTIAL_LARGEST_EXPONENT, EXPONENTIAL_LARGEST_EXPONENT_UNORM16, plain_unorm);
-}
 
 // The exponent, limited as in all functions here: everything stays finite.
 fn exponential_exponent(exponent: f32) -> f32 {

@@ -30,16 +30,6 @@ const EXPONENTIAL_VARIANCE_LARGEST_WARP: f32 = 9.223372036854776e18;
 const EXPONENTIAL_VARIANCE_SMALLEST_FLOAT16: vec2f = vec2f(2.2e-3, 9e-8);
 const EXPONENTIAL_VARIANCE_SMALLEST_FLOAT32: vec2f = vec2f(6e-7, 1e-37);
 
-// The largest exponent of a storage, for either warp.
-fn exponential_variance_largest_exponent(storage: u32) -> f32 {
-    let is_half = storage == STORAGE_FLOAT16;
-    return select(
-        EXPONENTIAL_VARIANCE_LARGEST_EXPONENT_FLOAT32,
-        EXPONENTIAL_VARIANCE_LARGEST_EXPONENT_FLOAT16,
-        is_half,
-    );
-}
-
 // The warps (w+, w-) of a depth in [-1, 1] with the exponents (c+, c-).
 fn exponential_variance_warp(z: f32, exponents: vec2f) -> vec2f {
     let limited = clamp(exponents, vec2f(0.0), vec2f(EXPONENTIAL_VARIANCE_LARGEST_EXPONENT_FLOAT32));

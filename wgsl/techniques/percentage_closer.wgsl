@@ -18,7 +18,7 @@ const PERCENTAGE_CLOSER_LARGEST_RADIUS: i32 = 64;
 // The largest radius of a disk in texels.
 const PERCENTAGE_CLOSER_LARGEST_DISK: f32 = 4096.0;
 
-// Any separable kernel. Filled by the host-side `PercentageCloserKernel`.
+// Any separable kernel.
 struct PercentageCloserKernel {
     // Texels on either side of the centre, at most 64.
     radius: u32,

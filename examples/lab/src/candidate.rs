@@ -3,7 +3,7 @@
 use core::str::FromStr;
 
 use moment_shadows::{
-    Finite, MapEncoding, PcfTaps, Profile, Storage, Technique, TechniqueError, nearest,
+    Finite, MapEncoding, PcfTaps, Profile, Storage, Technique, ValueError, nearest,
 };
 
 use crate::error::LabError;
@@ -120,7 +120,7 @@ impl TechniqueChoice {
     }
 
     /// The candidate in a storage; in its best one if none is given. Techniques that read depth have no storage.
-    pub fn in_storage(&self, storage: Option<Storage>) -> Result<Candidate, TechniqueError> {
+    pub fn in_storage(&self, storage: Option<Storage>) -> Result<Candidate, ValueError> {
         let best = &self.candidates[0];
         let (Some(storage), Candidate::Filterable(encoding)) = (storage, best) else {
             return Ok(best.clone());
@@ -164,7 +164,7 @@ impl TechniqueChoice {
     }
 
     /// A technique with its settings. Exponents belong to a storage: they have to be legal in one at least.
-    fn given(technique: Technique) -> Result<Self, TechniqueError> {
+    fn given(technique: Technique) -> Result<Self, ValueError> {
         technique.check()?;
         let mut candidates = Vec::new();
         let mut refused = Ok(());
@@ -236,7 +236,7 @@ impl FromStr for TechniqueChoice {
 pub fn candidates(
     choices: &[TechniqueChoice],
     storage: Option<Storage>,
-) -> Result<Vec<Candidate>, TechniqueError> {
+) -> Result<Vec<Candidate>, ValueError> {
     if choices.is_empty() {
         let mut all = Candidate::all();
         all.retain(|it| storage.is_none() || it.reads_depth() || it.storage() == storage);

@@ -2,9 +2,6 @@
 
 use moment_shadows_graph::GraphError;
 
-use crate::shaders::ShadersError;
-use crate::vectors::VectorFileError;
-
 /// Why the lab could not do what it was asked for. Each names its culprit.
 #[derive(Debug, thiserror::Error)]
 #[non_exhaustive]
@@ -28,48 +25,42 @@ pub enum LabError {
         /// Why, and what to do.
         reason: String,
     },
-    /// Shaders that cannot be listed or compiled.
-    #[error(transparent)]
-    Shaders(#[from] ShadersError),
-    /// A technique's settings.
-    #[error(transparent)]
-    Technique(#[from] moment_shadows::TechniqueError),
-    /// A file of vectors.
-    #[error(transparent)]
-    Vectors(#[from] VectorFileError),
+    /// A pass that is fast and wrong.
+    #[error(
+        "{what} differs from the reference by {error:e}, more than {tolerance:e}; its cost means nothing"
+    )]
+    WrongResult {
+        /// What was compared.
+        what: String,
+        /// The largest difference; NaN where the output is.
+        error: f64,
+        /// What rounding explains.
+        tolerance: f64,
+    },
     /// Figures as JSON.
     #[error("the figures cannot be written as JSON: {0}")]
     Json(#[from] serde_json::Error),
-    /// A camera without an inverse.
+    /// A value that the library refuses.
     #[error(transparent)]
-    Camera(#[from] moment_shadows::ViewError),
-    /// A light's depth convention.
-    #[error(transparent)]
-    Depth(#[from] moment_shadows::DepthError),
-    /// A light's size.
-    #[error(transparent)]
-    SoftLight(#[from] moment_shadows::AreaLightError),
-    /// A camera or light whose scattering cannot be prefiltered.
-    #[error(transparent)]
-    ScatteringView(#[from] moment_shadows::ScatteringViewError),
-    /// Parameters that describe no physical medium.
-    #[error(transparent)]
-    SingleScattering(#[from] moment_shadows::SingleScatteringError),
-    /// A kernel.
-    #[error(transparent)]
-    Kernel(#[from] moment_shadows::KernelError),
+    Value(#[from] moment_shadows::ValueError),
     /// A plan that is not recorded, or parameters that do not fit it.
     #[error(transparent)]
     Record(#[from] GraphError),
     /// A shader of the lab that cannot be linked.
     #[error(transparent)]
-    Link(#[from] moment_shadows::LinkError),
+    Link(#[from] moment_shadows::ShaderError),
 }
 
 impl LabError {
     /// What is refused, why, and what to do, as a sentence.
     pub fn refused(reason: impl Into<String>) -> Self {
         Self::Refused(reason.into())
+    }
+
+    /// What is wrong with the graph of a file.
+    pub fn graph(file: &str) -> impl FnOnce(GraphError) -> Self {
+        let file = file.to_owned();
+        move |error| Self::Graph { file, error }
     }
 
     /// What cannot be used, and why.

@@ -5,8 +5,8 @@ mod technique;
 use std::path::Path;
 
 use moment_shadows::{Kernel, Storage};
-use moment_shadows_graph::nodes::KernelProperty;
-use moment_shadows_graph::{Graph, NodeRegistry};
+use moment_shadows_graph::nodes::Blur;
+use moment_shadows_graph::{Graph, GraphError, GraphErrorKind, NodeRegistry};
 use serde_json::Value;
 
 use crate::error::LabError;
@@ -166,23 +166,24 @@ impl GraphFile {
 
     /// The kernel of the graph's blur; `None` for a graph without a blur.
     pub fn kernel(&self) -> Result<Option<Kernel>, LabError> {
-        let kernels: Vec<KernelProperty> = nodes(&self.text)
+        let blurs: Vec<Blur> = nodes(&self.text)
             .iter()
             .filter(|node| node["type"] == "blur")
-            .filter_map(|node| serde_json::from_value(node["properties"]["kernel"].clone()).ok())
+            .filter_map(|node| serde_json::from_value(node["properties"].clone()).ok())
             .collect();
-        match kernels.as_slice() {
+        match blurs.as_slice() {
             [] => Ok(None),
-            [property] => property
-                .kernel()
+            [blur] => blur
+                .kernel
+                .clone()
                 .map(Some)
                 .map_err(|error| LabError::Graph {
                     file: self.name.clone(),
-                    error,
+                    error: GraphError::new(GraphErrorKind::Property, error.to_string()),
                 }),
             _ => Err(self.unsuitable(format!(
                 "it has {} blur nodes; the receiver bias and the truth are derived from one kernel",
-                kernels.len()
+                blurs.len()
             ))),
         }
     }

@@ -2,7 +2,7 @@
 
 use moment_shadows::{
     CameraView, DepthRange, LeakReduction, LightDepth, LightSize, LightView, MapRegion,
-    ReceiverBias, ScatteringParameters, SoftRadii, Technique, TextureFormat, ViewParameters,
+    ReceiverBias, ScatteringParameters, Technique, TextureFormat, ViewParameters,
 };
 use moment_shadows_graph::record::{
     Bindings, ImportedResource, PipelineOptions, Pipelines, Recording, Resources,
@@ -22,10 +22,7 @@ const SHADOW_INTENSITY: &str = "shadow_intensity";
 
 /// The half widths in texels that soft shadows keep to: a texel at contacts, and whatever the light's size asks
 /// for elsewhere.
-const SOFT_RADII: SoftRadii = SoftRadii {
-    smallest: 1.0,
-    largest: 4096.0,
-};
+const SOFT_RADII: std::ops::RangeInclusive<f64> = 1.0..=4096.0;
 
 /// Moment depth by which receivers of percentage closer soft shadows are moved further towards the light. A search that
 /// takes the receiver itself for a blocker narrows its penumbra, and rasterisers round the camera's depth by some 2^-24 of
@@ -254,7 +251,7 @@ pub fn shade_parameters(desc: &FrameDesc, file: &GraphFile) -> Result<ViewParame
         receiver_bias(desc, file)?,
         LeakReduction::DEFAULT,
     )?;
-    let is_percentage_closer = matches!(file.technique(), Some(Technique::Pcss(_)));
+    let is_percentage_closer = matches!(file.technique(), Some(Technique::Pcss { .. }));
     if is_percentage_closer || file.has_node("shade_soft") {
         desc.shape.check(desc.light.kind())?;
         parameters.light = light_view(desc).area_light(desc.map, SOFT_RADII)?;

@@ -6,9 +6,9 @@ use std::process::ExitCode;
 use clap::{Parser, Subcommand};
 use moment_shadows_lab::command::cost::CostOptions;
 use moment_shadows_lab::command::{
-    CommandResult, adapter, bias, contacts, error, error_table, graph, isa, measure, minification,
-    print, render, scattering_error, scattering_flicker, shaders, soft_error, stability,
-    technique_pictures, validate, vectors,
+    CommandResult, adapter, bias, error, error_table, graph, isa, measure, render,
+    scattering_error, scattering_flicker, shaders, soft_error, stability, technique_pictures,
+    validate, vectors,
 };
 use moment_shadows_lab::isa::child;
 
@@ -34,9 +34,6 @@ enum Command {
     Vectors(vectors::Options),
     /// Prints the error of every storage on several scenes, beside that of the exact bound.
     Measure(measure::Options),
-    /// Prints the error of a graph with mip levels on a scene from afar, over the whole of each pixel, and how much it
-    /// flickers while the camera comes nearer; and the same without mip levels.
-    Minification(minification::Options),
     /// Writes a picture of every technique: a view and the technique's typical failure, each with its difference from the
     /// truth beside it.
     TechniquePictures(technique_pictures::Options),
@@ -46,8 +43,6 @@ enum Command {
     Error(error::Options),
     /// Prints the error over all surfaces of several scenes, for several radii, techniques and storages.
     ErrorTable(error_table::Options),
-    /// Prints how much light leaks where the thin legs of chairs meet the ground.
-    Contacts(contacts::Options),
     /// Prints how far soft shadows are from those of an area light that is sampled at many places: hard moment shadows,
     /// percentage closer soft shadows, and graphs of your own.
     SoftError(soft_error::SoftErrorOptions),
@@ -55,7 +50,7 @@ enum Command {
     ScatteringError(scattering_error::ScatteringErrorOptions),
     /// Walks a slow path of camera and light, and prints how much the air flickers with filtered resampling and without. Fails
     /// where it is more than a third as much. Takes minutes.
-    ScatteringFlicker(scattering_flicker::FlickerOptions),
+    ScatteringFlicker(scattering_flicker::Options),
     /// Times the passes of a graph, blurs of several radii, summed-area tables or single scattering, as ratios to copies, and counts
     /// their bytes.
     Cost(CostOptions),
@@ -91,23 +86,13 @@ fn run(command: Command) -> CommandResult {
         Command::Graph(options) => options.run(),
         Command::Vectors(options) => options.run(),
         Command::Measure(options) => options.run(),
-        Command::Minification(options) => options.run(),
         Command::TechniquePictures(options) => options.run(),
         Command::Shaders(options) => options.run(),
         Command::Error(options) => options.run(),
         Command::ErrorTable(options) => options.run(),
-        Command::Contacts(options) => options.run(),
         Command::SoftError(options) => print_all(&soft_error::run(&options)?),
         Command::ScatteringError(options) => print_all(&scattering_error::run(&options)?),
-        Command::ScatteringFlicker(options) => {
-            let report = scattering_flicker::run(&options)?;
-            let printed = print(&report, options.json)?;
-            Ok(if report.passed() {
-                printed
-            } else {
-                ExitCode::FAILURE
-            })
-        }
+        Command::ScatteringFlicker(options) => options.run(),
         Command::Cost(options) => options.run(),
         Command::Bias(options) => options.run(),
         Command::Stability(options) => options.run(),

@@ -1,8 +1,6 @@
 //! Every technique with settings that are in use, as reports, shader checks and tables go through them.
 
-use moment_shadows::{
-    EsmFiltering, Finite, LayerSplits, MapEncoding, PcfTaps, Pcss, Storage, Technique,
-};
+use moment_shadows::{EsmFiltering, Finite, LayerSplits, MapEncoding, PcfTaps, Storage, Technique};
 
 /// The storages of maps that are made by drawing a light's depth.
 pub const STORAGES: [Storage; 5] = [
@@ -16,56 +14,38 @@ pub const STORAGES: [Storage; 5] = [
 /// The filterable techniques with settings that suit a storage, and their encodings.
 #[must_use]
 pub fn filterable() -> Vec<MapEncoding> {
-    STORAGES
-        .into_iter()
-        .flat_map(|storage| {
-            settings(storage)
-                .into_iter()
-                .filter_map(move |technique| MapEncoding::new(technique, storage).ok())
-        })
-        .collect()
+    let in_storage = |storage: Storage| {
+        let techniques = Technique::examples().into_iter();
+        techniques
+            .filter_map(move |technique| MapEncoding::new(fitted(technique, storage), storage).ok())
+    };
+    STORAGES.into_iter().flat_map(in_storage).collect()
 }
 
-fn settings(storage: Storage) -> Vec<Technique> {
-    let exponent = |largest: f32, wished: f32| finite(largest.min(wished));
-    let esm = |filtering| {
-        let limits = Technique::Esm {
-            exponent: finite(1.0),
-            filtering,
-        };
+/// The technique with exponents that the storage allows.
+fn fitted(technique: Technique, storage: Storage) -> Technique {
+    let largest = technique.largest_exponent(storage);
+    let fit = |wished: Finite| match largest.map(Finite::new) {
+        Some(Ok(largest)) if largest < wished => largest,
+        _ => wished,
+    };
+    match technique {
         Technique::Esm {
-            exponent: exponent(limits.largest_exponent(storage).unwrap_or(1.0), 80.0),
+            exponent,
             filtering,
-        }
-    };
-    let limits = Technique::Evsm2 {
-        exponent: finite(1.0),
-    };
-    let largest = limits.largest_exponent(storage).unwrap_or(1.0);
-    vec![
-        esm(EsmFiltering::Linear),
-        esm(EsmFiltering::Logarithmic),
-        Technique::Vsm,
-        Technique::Evsm2 {
-            exponent: exponent(largest, 40.0),
+        } => Technique::Esm {
+            exponent: fit(exponent),
+            filtering,
         },
-        Technique::Evsm4 {
-            positive: exponent(largest, 40.0),
-            negative: exponent(largest, 5.0),
+        Technique::Evsm2 { exponent } => Technique::Evsm2 {
+            exponent: fit(exponent),
         },
-        Technique::Lvsm {
-            layers: 4,
-            overlap: finite(0.02),
-            splits: LayerSplits::Uniform,
+        Technique::Evsm4 { positive, negative } => Technique::Evsm4 {
+            positive: fit(positive),
+            negative: fit(negative),
         },
-        Technique::Convolution {
-            terms: 8,
-            lower_bound: true,
-        },
-        Technique::Hamburger4,
-        Technique::Hausdorff4,
-        Technique::Hamburger6,
-    ]
+        other => other,
+    }
 }
 
 /// The same technique with another of its settings, if it has one that makes another shader.
@@ -83,30 +63,8 @@ pub fn variant(technique: &Technique) -> Option<Technique> {
 /// The techniques that read the plain depth map, with a kernel of about the same width.
 #[must_use]
 pub fn reading_depth() -> Vec<Technique> {
-    let weights = [1.0, 2.0, 3.0, 2.0, 1.0].map(finite).to_vec();
-    let mut all = vec![Technique::Binary];
-    all.extend(
-        [
-            PcfTaps::Box { radius: 2 },
-            PcfTaps::Gaussian {
-                radius: 4,
-                sigma: finite(2.4),
-            },
-            PcfTaps::Weights(weights),
-            PcfTaps::Poisson {
-                radius: finite(4.0),
-            },
-            PcfTaps::Hardware {
-                radius: 2,
-                reversed: false,
-            },
-        ]
-        .map(Technique::Pcf),
-    );
-    all.push(Technique::Pcss(Pcss {
-        search_taps: 16,
-        filter_taps: 32,
-    }));
+    let mut all = Technique::examples();
+    all.retain(Technique::reads_depth);
     all
 }
 
@@ -146,9 +104,4 @@ pub fn described(technique: &Technique) -> String {
         _ => String::new(),
     };
     format!("{}{settings}", label(technique))
-}
-
-/// A literal of this file.
-fn finite(value: f32) -> Finite {
-    Finite::new(value).unwrap_or_default()
 }

@@ -17,7 +17,6 @@ use cases::{Case, Input, Output, Truth, collect};
 use exact::{Bound, exact, rationals, unit};
 
 pub use agreement::{AGREEMENT, Agreement, agreement};
-pub use file::VectorFileError;
 pub use report::{ALLOWED_SHARE, ClassReport, HARD_TOLERANCE, TOLERANCE, VectorReport};
 
 /// Evaluates on the best adapter all Hamburger records of two, four and six moments in a file, by `chebyshev_lower_bound` and

@@ -111,6 +111,12 @@ impl<T> From<T> for Rule<T> {
     }
 }
 
+impl<T> From<Vec<T>> for Rule<T> {
+    fn from(values: Vec<T>) -> Self {
+        Rule::OneOf(values)
+    }
+}
+
 impl<T: Clone> From<&[T]> for Rule<T> {
     fn from(values: &[T]) -> Self {
         Rule::OneOf(values.to_vec())

@@ -14,18 +14,17 @@ mod shared;
 mod summed_area_table;
 mod techniques;
 
-pub use blur::{Blur, BlurParameters};
-pub use composite_scattering::{CompositeScattering, Overestimation};
+pub use blur::Blur;
+pub use composite_scattering::CompositeScattering;
 pub use debug_moments::{DebugMoments, Show};
 pub use downsample::Downsample;
 pub use integrate_scattering::IntegrateScattering;
 pub use place_layers::PlaceLayers;
 pub use rectify_moments::RectifyMoments;
 pub use resolve::Resolve;
-pub use shade_hard::{ShadeHard, TechniqueShader};
-pub use shade_soft::{Interpolation, ShadeSoft};
-pub use shared::{KernelProperty, MipLevels};
-pub use summed_area_table::{LargestKernel, SummedAreaTable};
+pub use shade_hard::ShadeHard;
+pub use shade_soft::ShadeSoft;
+pub use summed_area_table::SummedAreaTable;
 
 use crate::NodeRegistry;
 

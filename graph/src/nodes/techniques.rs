@@ -1,151 +1,107 @@
-//! Techniques as virtual modules: how a node's shader encodes, filters and evaluates the map that it is described for.
+//! Techniques as modules: how a node's shader encodes, filters and evaluates the map that it is described for.
 //!
 //! All of it comes from the technique's row ([`moment_shadows::Row`]).
 
-use moment_shadows::{Contents, MapEncoding, Row, Technique};
+use moment_shadows::{MapEncoding, Technique, TextureFormat};
 
-use super::shared::Specialization;
-use crate::{Binding, GraphError, GraphErrorKind, Rule, Slot, TextureRule, bind};
+use super::shared::{Specialization, regions, wrong_format};
+use crate::{Binding, Capabilities, GraphError, Pass, Rule, Slot, TextureRule, bind};
 
-/// The name and text of a virtual module.
-pub(super) type VirtualModule = (&'static str, &'static str);
-
-/// The slot of these splits: one layer per layer of the map, the splits in two texels.
-pub(super) const SPLITS: &str = "splits";
-
-/// Whether the encoding has a constant for the plane that it makes.
-pub(super) fn encodes_planes(technique: &Technique) -> bool {
-    technique.row().encodes_planes()
-}
-
-/// The moments of a technique that single scattering has both bounds of.
-pub(super) enum Bounded {
-    Four,
-    Six,
-}
-
-/// Which moments single scattering has both bounds of, if any.
-pub(super) fn both_bounds(technique: &Technique) -> Option<Bounded> {
+/// What single scattering takes for maps of a technique that it has both bounds of, which are of four moments or of six.
+pub(super) fn of_both_bounds<T>(technique: &Technique, four: T, six: T) -> Option<T> {
     let row = technique.row();
-    match row.contents {
-        Contents::FourMoments => row.both_bounds.then_some(Bounded::Four),
-        Contents::SixMoments => row.both_bounds.then_some(Bounded::Six),
-        Contents::Depth
-        | Contents::Exponential
-        | Contents::TwoMoments
-        | Contents::WarpedMoments
-        | Contents::LayeredMoments
-        | Contents::FourierTerms => None,
-    }
+    let moments = if row.planes == 1 { four } else { six };
+    row.both_bounds.then_some(moments)
 }
 
-/// Whether texels are logarithms, which no sampler can average.
-pub(super) fn is_logarithmic(technique: &Technique) -> bool {
-    !technique.row().averaged_by_samplers
-}
-
-/// What a technique is told about a surface.
-const RECEIVER: VirtualModule = (
-    "technique_receiver",
-    include_str!("techniques/receiver.wgsl"),
-);
-
-/// The constants of a row.
-fn constants(specialization: Specialization, row: &Row) -> Specialization {
+/// The constants of a technique.
+fn constants(specialization: Specialization, technique: &Technique) -> Specialization {
+    let row = technique.row();
     row.constants().fold(specialization, |all, (name, value)| {
         all.constant(name, value)
     })
 }
 
 /// How a fragment is shaded: the constants and the module `technique`, and what that imports.
-pub(super) fn evaluation(
-    specialization: Specialization,
-    technique: &Technique,
-) -> (Specialization, Vec<VirtualModule>) {
+pub(super) fn evaluation(specialization: Specialization, technique: &Technique) -> Specialization {
     let row = technique.row();
-    let map = match (row.contents == Contents::Depth, row.comparison) {
-        (false, _) => include_str!("techniques/map_filterable.wgsl"),
-        (true, None) => include_str!("techniques/map_depth.wgsl"),
-        (true, Some(_)) => include_str!("techniques/map_depth_compared.wgsl"),
+    let map = if row.reads_depth() {
+        include_str!("techniques/map_depth.wgsl")
+    } else {
+        include_str!("techniques/map_filterable.wgsl")
     };
-    let modules = vec![
-        ("technique_map", map),
-        RECEIVER,
-        ("map_texel", include_str!("techniques/map_texel.wgsl")),
-        ("technique_layers", layers(technique, false)),
-    ];
-    let specialization = constants(specialization, &row).module("technique", row.technique());
-    (specialization, modules)
+    constants(specialization, technique)
+        .unsigned("PLANES", row.planes)
+        .module("technique", row.technique())
+        .module("technique_map", map)
+        .module("technique_layers", layers(technique, false))
 }
 
 /// How a fragment is shaded softly from the summed-area table of a map. A technique that has no soft shadows is refused.
 pub(super) fn soft_evaluation(
     specialization: Specialization,
     technique: &Technique,
-) -> Result<(Specialization, [VirtualModule; 3]), GraphError> {
-    let row = technique.row();
-    let Some(text) = row.soft_technique() else {
-        return Err(GraphError::new(
-            GraphErrorKind::Format,
-            format!(
-                "there are no soft shadows by '{technique}'; give the node that makes the map the technique 'hamburger4' or 'vsm'"
-            ),
-        ));
+) -> Result<Specialization, GraphError> {
+    let Some(text) = technique.row().soft_technique() else {
+        return Err(wrong_format(format!(
+            "there are no soft shadows by '{technique}'; give the node that makes the map the technique 'hamburger4' or 'vsm'"
+        )));
     };
-    let modules = [
-        ("technique_map", include_str!("techniques/map_table.wgsl")),
-        ("technique_soft", include_str!("techniques/soft.wgsl")),
-        RECEIVER,
-    ];
-    Ok((specialization.module("technique", text), modules))
+    Ok(specialization
+        .module("technique", text)
+        .module("technique_map", include_str!("techniques/map_table.wgsl"))
+        .module("technique_soft", include_str!("techniques/soft.wgsl")))
 }
 
 /// Where the layers of a layered variance shadow map lie: `technique_layers`, in a pass for one layer of the map or for all.
 pub(super) fn layers(technique: &Technique, one_layer: bool) -> &'static str {
-    if !places_layers(technique) {
-        include_str!("techniques/layers_known.wgsl")
-    } else if one_layer {
-        include_str!("techniques/layers_placed_one.wgsl")
-    } else {
-        include_str!("techniques/layers_placed.wgsl")
+    match (technique.row().places_layers, one_layer) {
+        (false, _) => include_str!("techniques/layers_known.wgsl"),
+        (true, true) => include_str!("techniques/layers_placed_one.wgsl"),
+        (true, false) => include_str!("techniques/layers_placed.wgsl"),
     }
 }
 
-/// Whether the splits come from the input [`SPLITS`].
-pub(super) fn places_layers(technique: &Technique) -> bool {
-    technique.row().places_layers
-}
-
-/// The input for the splits, and its binding.
-pub(super) fn splits_input(one_layer: bool) -> (Slot, Binding) {
-    let rule = TextureRule::new(moment_shadows::TextureFormat::Rgba32Float)
+/// The input for the splits and its binding, where layers are placed on the device: a slot with one layer per layer of the map,
+/// the splits in two texels.
+pub(super) fn splits(technique: &Technique, one_layer: bool) -> (Option<Slot>, Option<Binding>) {
+    if !technique.row().places_layers {
+        return (None, None);
+    }
+    let rule = TextureRule::new(TextureFormat::Rgba32Float)
         .extent([2, 1])
         .layers(Rule::Any);
-    let slot = Slot::input(SPLITS, "Where the layers of the technique lie.", rule);
+    let slot = Slot::input("splits", "Where the layers of the technique lie.", rule);
     let bound = if one_layer { bind::layer } else { bind::layers };
-    let binding = Binding::new("splits_map", bound(SPLITS));
-    (slot, binding)
+    let binding = Binding::new("splits_map", bound("splits"));
+    (Some(slot), Some(binding))
 }
 
 /// Storage texture (of maps that are not drawn), storage, and the modules `map_encoding` and `map_filtering`: what the shaders of a
 /// map's filters import.
-pub(super) fn specialize_map(
-    mut specialization: Specialization,
-    encoding: &MapEncoding,
-) -> Specialization {
-    let storage = encoding.storage();
+pub(super) fn of_map(capabilities: &Capabilities, encoding: &MapEncoding) -> Specialization {
+    let (storage, technique) = (encoding.storage(), encoding.technique());
+    let mut specialization = Specialization::new(capabilities);
     if !storage.is_drawn() {
         let texture = format!("texture_storage_2d<{}, write>", encoding.format());
         specialization = specialization.alias("MomentsStorage", &texture);
     }
-    let row = encoding.technique().row();
-    let specialization = specialization.constant("STORAGE", &format!("{}u", storage.wgsl_index()));
-    constants(specialization, &row)
+    let row = technique.row();
+    constants(specialization, technique)
+        .unsigned("STORAGE", storage.wgsl_index())
         .module("map_encoding", row.map_encoding())
         .module("map_filtering", row.map_filtering())
 }
 
-/// A technique's error at a node.
-pub(super) fn property(error: impl core::fmt::Display) -> GraphError {
-    GraphError::new(GraphErrorKind::Property, error.to_string())
+/// This pass for each plane of a map that is encoded, told which where the encoding asks.
+pub(super) fn of_each_plane(encoding: &MapEncoding, pass: Pass) -> impl Iterator<Item = Pass> {
+    let asks = encoding.technique().row().encodes_planes();
+    regions::of_each_plane(encoding.planes(), vec![pass]).map(move |pass| {
+        let plane = pass.plane;
+        if asks {
+            pass.constant("PLANE", plane)
+        } else {
+            pass
+        }
+    })
 }

@@ -222,7 +222,7 @@ impl Session {
         encoder: &mut wgpu::CommandEncoder,
     ) -> Result<(), GraphError> {
         let bindings = &self.placed(view)?.part.bindings;
-        Ok(bindings.record(stage, encoder, Recording::default())?)
+        bindings.record(stage, encoder, Recording::default())
     }
 
     /// The texture behind an output of the graph, for a camera.

@@ -1,8 +1,8 @@
 //! The nodes of a part that shade, and what they are told of cameras and lights.
 
-use moment_shadows::{
-    LightView, MapRegion, ReceiverBias, SoftRadii, TextureFormat, ViewParameters,
-};
+use core::ops::RangeInclusive;
+
+use moment_shadows::{LightView, MapRegion, ReceiverBias, TextureFormat, ViewParameters};
 
 use super::cut::{owner, slot};
 use super::scratch::Told;
@@ -14,10 +14,7 @@ const PARAMETERS: &str = "ViewParameters";
 
 /// Half widths in texels where the map is no summed-area table, which limits them. The smallest makes shadows hard where they
 /// touch what casts them.
-const RADII: SoftRadii = SoftRadii {
-    smallest: 1.0,
-    largest: 64.5,
-};
+const RADII: RangeInclusive<f64> = 1.0..=64.5;
 
 /// A node that shades.
 #[derive(Debug)]
@@ -27,7 +24,7 @@ pub(super) struct Shading {
     map: TextureDesc,
     /// Channels of its output, one per light.
     channels: u32,
-    radii: SoftRadii,
+    radii: RangeInclusive<f64>,
 }
 
 impl Shading {
@@ -58,18 +55,15 @@ impl Shading {
         });
         let channels = target.map_or(1, |target| target.format.channels());
         let table = map.encoding.as_ref().and_then(|encoding| encoding.table());
-        let radii = table.map_or(RADII, |table| SoftRadii {
-            largest: 0.5 * f64::from(table.largest_kernel()[0].min(table.largest_kernel()[1])),
-            ..RADII
+        let largest = table.map_or(*RADII.end(), |table| {
+            let [width, height] = table.largest_kernel();
+            0.5 * f64::from(width.min(height))
         });
         Ok(Self {
             node: node.to_owned(),
             map: map.clone(),
             channels,
-            radii: SoftRadii {
-                smallest: radii.smallest.min(radii.largest),
-                ..radii
-            },
+            radii: RADII.start().min(largest)..=largest,
         })
     }
 
@@ -102,7 +96,7 @@ impl Shading {
         let bias = receiver_bias(&self.map, light, told.depth_format)?;
         let parameters = ViewParameters::new(told.camera, light, bias, told.leak_reduction);
         let mut parameters = parameters.map_err(|error| unsuitable(error.to_string()))?;
-        let light = light.area_light(extent, self.radii);
+        let light = light.area_light(extent, self.radii.clone());
         parameters.light = light.map_err(|error| unsuitable(error.to_string()))?;
         Ok(parameters)
     }

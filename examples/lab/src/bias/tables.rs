@@ -3,7 +3,7 @@
 
 use core::fmt;
 
-use moment_shadows::{Storage, SummedAreaTable, SummedAreaTableError};
+use moment_shadows::{Storage, SummedAreaTable, ValueError};
 use rand::{RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
 use rayon::prelude::*;
@@ -56,7 +56,7 @@ pub fn search_tables(
     samples: usize,
     seed: u64,
     step: impl Fn() + Sync,
-) -> Result<TableBiases, SummedAreaTableError> {
+) -> Result<TableBiases, ValueError> {
     let mut rows = Vec::new();
     for source in Storage::OF_FOUR_MOMENTS {
         for repeats in REPEATS {

@@ -1,13 +1,13 @@
 //! Single scattering, with four and six moments; sums in parallel and, on a software adapter, row by row.
 
-use moment_shadows::{MapEncoding, Storage, Technique, TechniqueError};
+use moment_shadows::{MapEncoding, Storage, Technique, ValueError};
 use moment_shadows_graph::nodes::{CompositeScattering, IntegrateScattering, RectifyMoments};
 
 use super::{SIZE, Variant};
 use crate::techniques;
 
 /// What a storage of four moments allows.
-pub(super) fn of_storage(four: &MapEncoding) -> Result<Vec<Variant>, TechniqueError> {
+pub(super) fn of_storage(four: &MapEncoding) -> Result<Vec<Variant>, ValueError> {
     let storage = four.storage();
     // Storages are constants.
     let portable = storage == Storage::Float16;
@@ -22,7 +22,7 @@ pub(super) fn of_storage(four: &MapEncoding) -> Result<Vec<Variant>, TechniqueEr
             storage,
             extent: SIZE,
         };
-        let sum = || Variant::new(IntegrateScattering, &map);
+        let sum = || Variant::new(IntegrateScattering {}, &map);
         // Shared memory that is cleared; 512 columns at a time, with six steps of the scan.
         let parallel = [64, SIZE[0] / 512, 6];
         // Four columns at a time.

@@ -1,9 +1,8 @@
 //! What makes, filters, sums and shows maps.
 
-use moment_shadows::{MapEncoding, Storage, Technique, TechniqueError};
+use moment_shadows::{Kernel, MapEncoding, Storage, Technique, ValueError};
 use moment_shadows_graph::nodes::{
-    Blur, DebugMoments, Downsample, KernelProperty, MipLevels, PlaceLayers, Resolve, Show,
-    SummedAreaTable,
+    Blur, DebugMoments, Downsample, PlaceLayers, Resolve, Show, SummedAreaTable,
 };
 
 use super::{SIZE, Variant};
@@ -16,27 +15,27 @@ fn resolve(map: &MapEncoding) -> Variant {
     let node = Resolve {
         technique: map.technique().clone(),
         storage: map.storage(),
-        mip_levels: MipLevels::default(),
+        mip_levels: Some(1),
     };
     Variant::new(node, map)
 }
 
 fn blur(map: &MapEncoding, radius: u32, per_frame: bool) -> Variant {
     let node = Blur {
-        kernel: KernelProperty::gaussian(radius, 0.6 * radius as f32),
+        kernel: Kernel::gaussian(radius, 0.6 * radius as f32),
         per_frame,
-        mip_levels: MipLevels::default(),
+        mip_levels: Some(1),
     };
     Variant::new(node, map)
 }
 
 /// Every level but the first has a pass with the same shader, so that two levels are enough.
 fn downsample(map: &MapEncoding) -> Variant {
-    Variant::new(Downsample, map).mips(2)
+    Variant::new(Downsample {}, map).mips(2)
 }
 
 /// Maps of four moments.
-pub(super) fn of_four_moments(four: &MapEncoding) -> Result<Vec<Variant>, TechniqueError> {
+pub(super) fn of_four_moments(four: &MapEncoding) -> Result<Vec<Variant>, ValueError> {
     let storage = four.storage();
     let unorm16 = storage == Storage::Unorm16;
     let mut all = Vec::new();
@@ -94,7 +93,7 @@ pub(super) fn of_four_moments(four: &MapEncoding) -> Result<Vec<Variant>, Techni
 }
 
 /// Summed-area tables with both tiles, of four moments and of two.
-fn summed(four: &MapEncoding) -> Result<Vec<Variant>, TechniqueError> {
+fn summed(four: &MapEncoding) -> Result<Vec<Variant>, ValueError> {
     let storage = four.storage();
     let unorm16 = storage == Storage::Unorm16;
     let table = |kind: &str, regions, kept: usize| {
@@ -149,8 +148,10 @@ pub(super) fn of_technique(map: &MapEncoding) -> Vec<Variant> {
     let drawn = map.storage().is_drawn();
     let suffix = format!("{}_{}", techniques::label(map.technique()), map.storage());
     let mut all = Vec::new();
-    // Four moments are made and filtered alike for all that read them.
-    if *map.technique() != Technique::Hausdorff4 {
+    // A map that several techniques read is made and filtered alike for all of them.
+    let reads = |other: &Technique| other.shares_map_with(map.technique());
+    let first = Technique::examples().into_iter().find(reads);
+    if first.is_none_or(|first| first.name() == map.technique().name()) {
         let name = format!("resolve_{suffix}");
         all.push(
             resolve(map)

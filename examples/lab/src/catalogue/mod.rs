@@ -12,7 +12,7 @@ use std::collections::BTreeMap;
 use moment_shadows::{LayerSplits, MapEncoding, Profile, Storage, Technique, TextureFormat};
 use moment_shadows_graph::{Capabilities, Connected, Node, NodeDesc, ResourceDesc, TextureDesc};
 
-use crate::shaders::ShadersError;
+use crate::error::LabError;
 use crate::techniques;
 
 /// Texels per side of all textures. Shaders do not depend on it, but how often some loops run does.
@@ -125,13 +125,13 @@ impl Variant {
     }
 
     /// What the node says of itself.
-    pub fn describe(&self) -> Result<NodeDesc, ShadersError> {
+    pub fn describe(&self) -> Result<NodeDesc, LabError> {
         let row = || self.row.as_ref().map(|row| row.settings.clone());
         self.node
             .describe(&Connected::new(&self.inputs(), &self.capabilities))
-            .map_err(|error| ShadersError::Node {
-                name: self.file.clone().or_else(row).unwrap_or_default(),
-                error: Box::new(error),
+            .map_err(|error| {
+                let name = self.file.clone().or_else(row).unwrap_or_default();
+                LabError::unsuitable(format!("the variant '{name}' of a node"), error)
             })
     }
 
@@ -171,15 +171,17 @@ fn profile(map: &MapEncoding) -> Profile {
     least.unwrap_or(Profile::NativeAdapter)
 }
 
-/// Whether the texts for another technique's map are kept. Other storages change a constant.
+/// Whether the texts for another technique's map are kept: where its row evaluates by more than one call, and once for all storages,
+/// which change a constant.
 fn is_kept(map: &MapEncoding) -> bool {
-    matches!(map.storage(), Storage::Float32 | Storage::Unorm8)
-        || techniques::label(map.technique()).contains("lloyd")
+    let is_first = matches!(map.storage(), Storage::Float32 | Storage::Unorm8);
+    let row = map.technique().row();
+    (is_first || row.places_layers) && row.technique().contains("let ")
 }
 
 /// Every node with its variants: all that four moments allow in every storage, what works on plain depth, and what the
 /// maps of other techniques change.
-pub fn variants() -> Result<Vec<Variant>, ShadersError> {
+pub fn variants() -> Result<Vec<Variant>, LabError> {
     let mut all = Vec::new();
     for storage in Storage::OF_FOUR_MOMENTS {
         let four = MapEncoding::new(Technique::Hamburger4, storage)?;
@@ -216,7 +218,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn every_node_type_has_a_file_and_a_row() -> Result<(), ShadersError> {
+    fn every_node_type_has_a_file_and_a_row() -> Result<(), LabError> {
         let (mut files, mut rows) = (BTreeSet::new(), BTreeSet::new());
         for variant in variants()? {
             let node = variant.describe()?.name;

@@ -1,15 +1,14 @@
 //! What shades with maps, tables and plain depth.
 
 use moment_shadows::{MapEncoding, PcfTaps, Profile, Storage, SummedAreaTable, Technique};
-use moment_shadows_graph::nodes::Interpolation::{Both, Filter, Neither};
 use moment_shadows_graph::nodes::{ShadeHard, ShadeSoft};
 
 use super::Variant;
-use crate::shaders::ShadersError;
+use crate::error::LabError;
 use crate::techniques;
 
 /// Shading with a lookup by the sampler and in the shader, with and without mip levels, for one light and for several.
-pub(super) fn of_four_moments(four: &MapEncoding) -> Result<Vec<Variant>, ShadersError> {
+pub(super) fn of_four_moments(four: &MapEncoding) -> Result<Vec<Variant>, LabError> {
     let storage = four.storage();
     let unorm16 = storage == Storage::Unorm16;
     let mut all = Vec::new();
@@ -51,16 +50,17 @@ pub(super) fn of_four_moments(four: &MapEncoding) -> Result<Vec<Variant>, Shader
 }
 
 /// Soft shadows from the table of a map: all ways to look it up, two moments, several lights.
-fn soft(four: &MapEncoding) -> Result<Vec<Variant>, ShadersError> {
+fn soft(four: &MapEncoding) -> Result<Vec<Variant>, LabError> {
     let storage = four.storage();
-    let table = SummedAreaTable::new(storage, [65, 65])?;
+    let table = SummedAreaTable::new(storage, [65, 65])
+        .map_err(|error| LabError::unsuitable("the catalogue's table", error))?;
     let mut all = Vec::new();
     let (four_moments, two) = (Technique::Hamburger4, Technique::Vsm);
     for (kind, technique, interpolation, words) in [
-        ("", &four_moments, Filter, "filter"),
-        ("_both", &four_moments, Both, "search and filter"),
-        ("_neither", &four_moments, Neither, "nothing"),
-        ("_vsm", &two, Filter, "filter"),
+        ("", &four_moments, [false, true], "filter"),
+        ("_both", &four_moments, [true, true], "search and filter"),
+        ("_neither", &four_moments, [false, false], "nothing"),
+        ("_vsm", &two, [false, true], "filter"),
     ] {
         let node = ShadeSoft {
             interpolation,
@@ -72,7 +72,7 @@ fn soft(four: &MapEncoding) -> Result<Vec<Variant>, ShadersError> {
         all.push(
             Variant::new(node, four)
                 .connected(&MapEncoding::of_table(technique.clone(), table)?)
-                .file(name, listed && interpolation == Filter)
+                .file(name, listed && interpolation == [false, true])
                 .row(listed, format!("{technique}, {words} interpolated"), &[1]),
         );
     }
@@ -102,7 +102,10 @@ pub(super) fn of_depth(any: &MapEncoding) -> Vec<Variant> {
                 PcfTaps::Hardware { radius, .. } => vec![2 * radius + 1],
                 PcfTaps::Poisson { .. } => vec![16],
             },
-            Technique::Pcss(taps) => vec![taps.search_taps, taps.filter_taps],
+            Technique::Pcss {
+                search_taps,
+                filter_taps,
+            } => vec![*search_taps, *filter_taps],
             _ => Vec::new(),
         };
         let kept = !matches!(technique, Technique::Pcf(_));

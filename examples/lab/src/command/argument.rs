@@ -15,6 +15,13 @@ pub(super) fn profile() -> impl TypedValueParser<Value = Profile> {
     named(Profile::ALL, Profile::name)
 }
 
+/// What a command takes where nothing is given.
+pub(crate) fn defaults<A: clap::Args>() -> A {
+    let command = A::augment_args(clap::Command::new("defaults"));
+    let matches = command.get_matches_from(["defaults"]);
+    A::from_arg_matches(&matches).unwrap_or_else(|error| error.exit())
+}
+
 fn named<T: Copy + Send + Sync + 'static, const COUNT: usize>(
     all: [T; COUNT],
     name: fn(T) -> &'static str,

@@ -19,8 +19,8 @@ pub struct Options {
     #[arg(long, conflicts_with_all = ["technique", "storage"])]
     tables: bool,
     /// Patches per row of the table.
-    #[arg(long, default_value_t = 1_000_000, value_parser = samples)]
-    samples: usize,
+    #[arg(long, default_value_t = 1_000_000, value_parser = clap::value_parser!(u64).range(1..=1_000_000_000))]
+    samples: u64,
     /// Seed of the random numbers.
     #[arg(long, default_value_t = 2015)]
     seed: u64,
@@ -35,10 +35,10 @@ impl Options {
         let Self {
             technique,
             storage,
-            samples,
             seed,
             ..
         } = self;
+        let samples = self.samples as usize;
         if self.tables {
             let bar = progress::bar(table_steps(samples) as u64, "summing patches");
             let tables = search_tables(samples, seed, || bar.inc(1));
@@ -56,13 +56,5 @@ impl Options {
         let table = search(technique, storage, samples, seed, || bar.inc(1));
         bar.finish_and_clear();
         print(&table?, self.json)
-    }
-}
-
-/// How many samples to draw.
-fn samples(text: &str) -> Result<usize, String> {
-    match text.parse() {
-        Ok(count) if (1..=1_000_000_000).contains(&count) => Ok(count),
-        _ => Err("a number of samples is an integer from 1 to 1000000000".to_owned()),
     }
 }

@@ -5,6 +5,7 @@ use std::process::ExitCode;
 
 use super::render::RenderOptions;
 use super::{CommandResult, print};
+use crate::cost::SubjectList;
 use crate::cost::bandwidth::Memory;
 use crate::cost::blur::{BLURS, PROFILE};
 use crate::cost::clock::{Clock, ClockKind, FEATURES};
@@ -15,7 +16,7 @@ use crate::cost::report::Conditions;
 use crate::cost::scattering::NODES;
 use crate::cost::summed_area::TABLES;
 use crate::cost::table::CostTable;
-use crate::cost::{CostError, SubjectList};
+use crate::error::LabError;
 use crate::gpu::Gpu;
 use crate::graph_file::GraphFile;
 use crate::progress;
@@ -96,7 +97,7 @@ pub fn graph(
     size: u32,
     rounds: u32,
     memories: Vec<Memory>,
-) -> Result<GraphCost, CostError> {
+) -> Result<GraphCost, LabError> {
     let file = GraphFile::read(path, None)?;
     let gpu = Gpu::open_with(PROFILE, FEATURES)?;
     let options = RenderOptions {
@@ -104,7 +105,7 @@ pub fn graph(
         ..RenderOptions::default()
     };
     let scene = scene::load(&options.scene)?;
-    let margin = file.kernel()?.map_or(0, |kernel| kernel.radius());
+    let margin = file.radius()?;
     let frame = options.frame(&gpu, &scene, margin)?;
     let (cases, bytes) = cases(&gpu, &frame, &file)?;
     let clock = Clock::new(&gpu, ClockKind::for_device(&gpu));
@@ -120,7 +121,7 @@ pub fn graph(
 }
 
 /// Checks and times a list of subjects, at its sizes up to the `largest`.
-pub fn table(list: &SubjectList, largest: u32, rounds: u32) -> Result<CostTable, CostError> {
+pub fn table(list: &SubjectList, largest: u32, rounds: u32) -> Result<CostTable, LabError> {
     let gpu = Gpu::open_with(PROFILE, FEATURES)?;
     let clock = Clock::new(&gpu, ClockKind::for_device(&gpu));
     let sizes = match list.sizes {

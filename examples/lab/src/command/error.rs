@@ -59,8 +59,8 @@ impl Options {
 
 /// A drawn scene with the truths for one kernel: of all its surfaces, and of a picture.
 pub struct ErrorSubject {
-    /// The scene as drawn.
-    pub frame: Arc<Frame>,
+    /// The scene as drawn, and with one sample per texel of the light's depth, for techniques that read the plain depth map.
+    frames: Arc<[Frame; 2]>,
     /// All surfaces.
     pub surfaces: SurfaceTruth,
     /// What the camera sees.
@@ -149,12 +149,16 @@ impl ErrorSubject {
         stride: u32,
         step: impl Fn(),
     ) -> Result<Vec<Self>, LabError> {
-        let margin = widest(files)?;
-        let frame = Arc::new(options.frame(gpu, scene, margin)?);
+        let mut margin = 0;
+        for file in files {
+            margin = margin.max(file.radius()?);
+        }
+        let frames = Arc::new(options.frames(gpu, scene, margin)?);
+        let frame = &frames[0];
         let Some(first) = files.first() else {
             return Ok(Vec::new());
         };
-        let mut unfiltered = Unfiltered::of(gpu, &frame, first)?;
+        let mut unfiltered = Unfiltered::of(gpu, frame, first)?;
         let mut kernels = Vec::new();
         let mut pictures = Vec::new();
         for file in files {
@@ -162,33 +166,25 @@ impl ErrorSubject {
             let taps = kernel.map_or_else(TapPattern::unblurred, |k| TapPattern::of_kernel(&k));
             kernels.push(taps.clone());
             unfiltered.taps = taps;
-            pictures.push(unfiltered.picture(gpu, &frame)?);
+            pictures.push(unfiltered.picture(gpu, frame)?);
         }
         step();
         let depths = &unfiltered.depths;
-        let truths = SurfaceTruth::of(scene, &frame, depths, &kernels, stride, step)?;
+        let truths = SurfaceTruth::of(scene, frame, depths, &kernels, stride, step)?;
         let subjects = truths.into_iter().zip(pictures);
         Ok(subjects
             .map(|(surfaces, picture)| Self {
-                frame: Arc::clone(&frame),
+                frames: Arc::clone(&frames),
                 surfaces,
                 picture,
             })
             .collect())
     }
 
-    /// The frame of a subject, but with one sample per texel of the light's depth, for techniques that read the plain depth map.
-    pub fn plain_frame(
-        gpu: &Gpu,
-        scene: &Scene,
-        options: &RenderOptions,
-        files: &[GraphFile],
-    ) -> Result<Frame, LabError> {
-        let options = RenderOptions {
-            samples: 1,
-            ..options.clone()
-        };
-        options.frame(gpu, scene, widest(files)?)
+    /// The scene as drawn.
+    #[must_use]
+    pub fn frame(&self) -> &Frame {
+        &self.frames[0]
     }
 
     /// How many steps [`new`](Self::new) and [`of_kernels`](Self::of_kernels) take.
@@ -204,18 +200,7 @@ impl ErrorSubject {
         file: &GraphFile,
         moment_bias: Option<FourMomentsBias>,
     ) -> Result<GraphErrors, LabError> {
-        self.judge_on(gpu, &self.frame, file, moment_bias)
-    }
-
-    /// Judges, as [`judge`](Self::judge) does, a graph that runs on another frame of the same light: a
-    /// [`plain_frame`](Self::plain_frame).
-    pub fn judge_on(
-        &self,
-        gpu: &Gpu,
-        frame: &Frame,
-        file: &GraphFile,
-        moment_bias: Option<FourMomentsBias>,
-    ) -> Result<GraphErrors, LabError> {
+        let frame = &self.frames[usize::from(file.reads_depth())];
         let run = MapRun::new(gpu, frame, file)?;
         let map = run.map(frame)?;
         let shadow = run.graph.read_shadow(gpu, &run.file)?;
@@ -227,15 +212,6 @@ impl ErrorSubject {
             picture: compare(&shadow, &self.picture.shadow, &self.picture.facing)?,
         })
     }
-}
-
-/// The largest radius of their kernels.
-fn widest(files: &[GraphFile]) -> Result<u32, LabError> {
-    let mut margin = 0;
-    for file in files {
-        margin = margin.max(file.kernel()?.map_or(0, |kernel| kernel.radius()));
-    }
-    Ok(margin)
 }
 
 impl Setting {
@@ -272,25 +248,15 @@ pub fn measure(
         file = file.with_radius(radius)?;
     }
     let mut profile = profile_for(storage, options.samples);
-    let mut samples = options.samples;
     if let Some(candidate) = &candidate {
         file = candidate.graph(&file)?;
         profile = candidate.profile_with(profile);
-        if candidate.reads_depth() {
-            samples = 1;
-        }
     }
     let scene = scene::load(&options.scene)?;
     let gpu = Gpu::open(profile)?;
     let bar = progress::bar(ErrorSubject::steps(options) + 1, "measuring surfaces");
     let subject = ErrorSubject::new(&gpu, &scene, options, &file, || bar.inc(1))?;
-    let errors = if samples == options.samples {
-        subject.judge(&gpu, &file, None)?
-    } else {
-        let files = core::slice::from_ref(&file);
-        let plain = ErrorSubject::plain_frame(&gpu, &scene, options, files)?;
-        subject.judge_on(&gpu, &plain, &file, None)?
-    };
+    let errors = subject.judge(&gpu, &file, None)?;
     bar.finish_and_clear();
     Ok(ErrorReport {
         scene: scene.name,

@@ -5,7 +5,7 @@ mod average;
 use core::fmt;
 use std::path::{Path, PathBuf};
 
-use moment_shadows::{Storage, TechniqueError};
+use moment_shadows::{Storage, ValueError};
 use serde::Serialize;
 
 pub use average::error_chart;
@@ -14,6 +14,7 @@ use super::error::{ErrorSubject, GraphErrors, Setting, storage_name};
 use super::render::{RenderOptions, profile_for};
 use super::{CommandResult, print};
 use crate::candidate::{Candidate, TechniqueChoice, candidates};
+use crate::cost::table::columns;
 use crate::error::LabError;
 use crate::gpu::Gpu;
 use crate::graph_file::GraphFile;
@@ -90,7 +91,7 @@ impl Options {
     }
 
     /// What is measured: all techniques, those that are named, or the graph's own in all of its storages.
-    fn candidates(&self) -> Result<Vec<Candidate>, TechniqueError> {
+    fn candidates(&self) -> Result<Vec<Candidate>, ValueError> {
         let storage = self.frame.storage;
         if !self.all && self.technique.is_empty() {
             let own = storage.map_or(Storage::OF_FOUR_MOMENTS.to_vec(), |storage| vec![storage]);
@@ -121,16 +122,9 @@ impl Options {
             let scene = scene::load(name)?;
             let subjects =
                 ErrorSubject::of_kernels(&gpu, &scene, render, &files, self.stride, || bar.inc(1))?;
-            let plain = if candidates.iter().any(Candidate::reads_depth) {
-                Some(ErrorSubject::plain_frame(&gpu, &scene, render, &files)?)
-            } else {
-                None
-            };
             for ((subject, file), &radius) in subjects.iter().zip(&files).zip(&self.radius) {
                 for candidate in candidates {
-                    let plain = plain.as_ref().filter(|_| candidate.reads_depth());
-                    let frame = plain.unwrap_or(&subject.frame);
-                    let errors = subject.judge_on(&gpu, frame, &candidate.graph(file)?, None)?;
+                    let errors = subject.judge(&gpu, &candidate.graph(file)?, None)?;
                     rows.push(ErrorRow {
                         scene: scene.name.clone(),
                         radius,
@@ -174,44 +168,33 @@ impl fmt::Display for ErrorTable {
             "Mean absolute error of shadow intensity in percent, over all surfaces on rays that meet a caster (facing: over those \
              that face the light; distribution: of the moments alone; picture: over facing pixels).\n"
         )?;
-        writeln!(
-            f,
-            "| scene | radius | technique | storage | bits | surfaces | peels | error | leaking | too dark | 95 % | maximum | facing | distribution | picture |"
-        )?;
-        writeln!(
-            f,
-            "|---|---|---|---|---|---|---|---|---|---|---|---|---|---|---|"
-        )?;
-        for ErrorRow {
-            scene,
-            radius,
-            errors,
-        } in &self.rows
-        {
+        let cells = |row: &ErrorRow| {
+            let errors = &row.errors;
             let shading = &errors.surfaces.shading;
-            write!(
-                f,
-                "| {scene} | {radius} | {} | {} | {} | {} | {} |",
-                described(&errors.technique),
-                storage_name(errors.storage),
-                errors.bits_per_texel,
-                shading.samples,
-                errors.surfaces.peels
-            )?;
-            for error in [
-                shading.mean_absolute,
-                shading.leaking,
-                shading.overdarkening,
-                shading.percentile_95,
-                shading.maximum,
-                errors.surfaces.shading_facing.mean_absolute,
-                errors.surfaces.distribution.mean_absolute,
-                errors.picture.facing.mean_absolute,
-            ] {
-                write!(f, " {:.3} |", 100.0 * error)?;
-            }
-            writeln!(f)?;
-        }
+            let percent = |error: f64| format!("{:.3}", 100.0 * error);
+            let facing = errors.surfaces.shading_facing.mean_absolute;
+            vec![
+                ("scene", row.scene.clone()),
+                ("radius", row.radius.to_string()),
+                ("technique", described(&errors.technique)),
+                ("storage", storage_name(errors.storage).to_owned()),
+                ("bits", errors.bits_per_texel.to_string()),
+                ("surfaces", shading.samples.to_string()),
+                ("peels", errors.surfaces.peels.to_string()),
+                ("error", percent(shading.mean_absolute)),
+                ("leaking", percent(shading.leaking)),
+                ("too dark", percent(shading.overdarkening)),
+                ("95 %", percent(shading.percentile_95)),
+                ("maximum", percent(shading.maximum)),
+                ("facing", percent(facing)),
+                (
+                    "distribution",
+                    percent(errors.surfaces.distribution.mean_absolute),
+                ),
+                ("picture", percent(errors.picture.facing.mean_absolute)),
+            ]
+        };
+        columns(f, &self.rows.iter().map(cells).collect::<Vec<_>>())?;
         for plot in &self.plots {
             writeln!(f, "{}", plot.display())?;
         }

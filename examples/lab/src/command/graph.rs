@@ -47,11 +47,9 @@ impl Options {
 fn check(path: &Path, profile: Profile) -> Result<(String, Plan), LabError> {
     let file = GraphFile::read(path, None)?;
     let capabilities = Capabilities::of_profile(profile);
-    let failed = |error| LabError::Graph {
-        file: file.name.clone(),
-        error,
-    };
+    let failed = LabError::graph(&file.name);
     let plan = file.graph.compile(&capabilities, &[]).map_err(failed)?;
+    let failed = LabError::graph(&file.name);
     let nodes = file.graph.describe(&capabilities, &[]).map_err(failed)?;
     Ok((summary(&file.graph, &nodes), plan))
 }

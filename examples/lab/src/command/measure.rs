@@ -1,14 +1,15 @@
 //! `moment-shadows measure`: errors of a technique with every storage on several scenes, beside the exact bound.
 
-use std::fmt::Write;
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 
 use moment_shadows::Storage;
 
 use super::CommandResult;
+use super::error::storage_name;
 use super::render::RenderOptions;
 use crate::candidate::{Candidate, TechniqueChoice};
+use crate::cost::table::{Cell, Columns};
 use crate::error::LabError;
 use crate::gpu::Gpu;
 use crate::graph_frame::GraphFrame;
@@ -32,16 +33,6 @@ pub struct Options {
     graph: PathBuf,
 }
 
-/// Figures of one scene and storage.
-struct Row {
-    scene: String,
-    /// None where the technique reads the plain depth map.
-    storage: Option<Storage>,
-    judgement: Judgement,
-    /// The exact bound's own mean error over facing pixels.
-    bound_error: f64,
-}
-
 impl Options {
     /// Prints the table.
     pub fn run(self) -> CommandResult {
@@ -49,13 +40,17 @@ impl Options {
             technique: self.technique,
             ..self.frame
         };
-        print!("{}", table(&rows(&self.scene, &self.graph, &options)?));
+        print!("{}", Columns(&rows(&self.scene, &self.graph, &options)?));
         Ok(ExitCode::SUCCESS)
     }
 }
 
 /// Renders every scene with every storage of the technique, in single precision, and compares each with the truth.
-fn rows(scenes: &[String], graph: &Path, options: &RenderOptions) -> Result<Vec<Row>, LabError> {
+fn rows(
+    scenes: &[String],
+    graph: &Path,
+    options: &RenderOptions,
+) -> Result<Vec<Vec<Cell<'static>>>, LabError> {
     let storages = match &options.technique {
         None => Storage::OF_FOUR_MOMENTS.map(Some).to_vec(),
         Some(technique) => technique
@@ -81,54 +76,27 @@ fn rows(scenes: &[String], graph: &Path, options: &RenderOptions) -> Result<Vec<
                 Some(truth) => truth,
                 None => &*truth.insert(Truth::of(&gpu, &frame, &file)?),
             };
-            rows.push(Row {
-                scene: scene.name.clone(),
-                storage,
-                judgement: truth.judge(&shadow)?,
-                bound_error: truth.bound_error.facing.mean_absolute,
-            });
+            let Judgement { error, excess, .. } = truth.judge(&shadow)?;
+            let figure = |figure: f64| format!("{figure:.5}");
+            let percent = |ratio: Option<f64>| {
+                ratio.map_or("-".to_owned(), |ratio| format!("{:+.1} %", 100.0 * ratio))
+            };
+            let bound = truth.bound_error.facing.mean_absolute;
+            rows.push(vec![
+                ("scene", scene.name.clone()),
+                ("storage", storage_name(storage).to_owned()),
+                ("facing", figure(error.facing.mean_absolute)),
+                ("penumbra", figure(error.penumbra.mean_absolute)),
+                ("leaking", figure(error.facing.leaking)),
+                ("too dark", figure(error.facing.overdarkening)),
+                ("bound", figure(bound)),
+                ("excess", percent(excess.error)),
+                ("leak exc.", percent(excess.leaking)),
+                ("NaN", error.nan_pixels.to_string()),
+            ]);
             bar.inc(1);
         }
     }
     bar.finish_and_clear();
     Ok(rows)
-}
-
-/// The rows as a table.
-fn table(rows: &[Row]) -> String {
-    let mut text = format!(
-        "{:<20} {:<8} {:>9} {:>9} {:>9} {:>9} {:>9} {:>9} {:>9} {:>5}\n",
-        "scene",
-        "storage",
-        "facing",
-        "penumbra",
-        "leaking",
-        "too dark",
-        "bound",
-        "excess",
-        "leak exc.",
-        "NaN"
-    );
-    for row in rows {
-        let error = &row.judgement.error;
-        let percent = |ratio: Option<f64>| {
-            ratio.map_or("-".to_owned(), |ratio| format!("{:+.1} %", 100.0 * ratio))
-        };
-        // Writing to a string cannot fail.
-        let _ = writeln!(
-            text,
-            "{:<20} {:<8} {:>9.5} {:>9.5} {:>9.5} {:>9.5} {:>9.5} {:>9} {:>9} {:>5}",
-            row.scene,
-            row.storage.map_or("-", Storage::name),
-            error.facing.mean_absolute,
-            error.penumbra.mean_absolute,
-            error.facing.leaking,
-            error.facing.overdarkening,
-            row.bound_error,
-            percent(row.judgement.excess.error),
-            percent(row.judgement.excess.leaking),
-            error.nan_pixels
-        );
-    }
-    text
 }

@@ -1,16 +1,14 @@
 //! The subcommands of `moment-shadows`: a file has the options of each, and runs it.
 
 pub mod adapter;
-mod argument;
+pub(crate) mod argument;
 pub mod bias;
-pub mod contacts;
 pub mod cost;
 pub mod error;
 pub mod error_table;
 pub mod graph;
 pub mod isa;
 pub mod measure;
-pub mod minification;
 pub mod render;
 pub mod scattering_error;
 pub mod scattering_flicker;

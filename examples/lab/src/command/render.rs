@@ -56,7 +56,7 @@ pub struct Options {
 #[derive(Clone, Debug, clap::Args)]
 pub struct RenderOptions {
     /// A glTF file or the name of a procedural scene.
-    #[arg(skip)]
+    #[arg(skip = scene::PROCEDURAL[0].to_owned())]
     pub scene: String,
     /// One of the numbered viewpoints and light directions.
     #[arg(long, default_value_t = 0)]
@@ -86,17 +86,7 @@ pub struct RenderOptions {
 
 impl Default for RenderOptions {
     fn default() -> Self {
-        Self {
-            scene: scene::PROCEDURAL[0].to_owned(),
-            view: 0,
-            light: LightChoice::Sun,
-            reversed: false,
-            size: [1280, 720],
-            map: 1024,
-            samples: 4,
-            storage: None,
-            technique: None,
-        }
+        argument::defaults()
     }
 }
 
@@ -120,6 +110,18 @@ impl RenderOptions {
             samples: file.samples(self.samples),
             ..self.clone()
         }
+    }
+
+    /// Draws the scene as [`frame`](Self::frame) does, and with one sample per texel.
+    pub fn frames(&self, gpu: &Gpu, scene: &Scene, margin: u32) -> Result<[Frame; 2], LabError> {
+        let plain = Self {
+            samples: 1,
+            ..self.clone()
+        };
+        Ok([
+            self.frame(gpu, scene, margin)?,
+            plain.frame(gpu, scene, margin)?,
+        ])
     }
 
     /// Draws the scene as the options say, for a graph whose kernel has a radius of `margin` texels.

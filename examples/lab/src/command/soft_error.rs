@@ -1,11 +1,11 @@
 //! `moment-shadows soft-error`: soft shadows against a sampled area light, with pictures and costs.
 
 use crate::compare::{self, Report, compare};
-use crate::cost::CostError;
 use crate::cost::blur::PROFILE;
 use crate::cost::clock::FEATURES;
+use crate::error::LabError;
 use crate::gpu::Gpu;
-use crate::soft::{NamedGraph, SoftSetting, SoftStage, StageDesc, candidates};
+use crate::soft::{NamedGraph, SoftErrors, SoftStage, StageDesc, candidates};
 
 /// What to compare.
 #[derive(Clone, Debug, Default, PartialEq, clap::Args)]
@@ -22,7 +22,7 @@ pub struct SoftErrorOptions {
 }
 
 /// Judges hard and percentage closer soft shadows, moment soft shadows and the graphs on each scene.
-pub fn run(options: &SoftErrorOptions) -> Result<Vec<Report<SoftSetting>>, CostError> {
+pub fn run(options: &SoftErrorOptions) -> Result<Vec<Report<SoftErrors>>, LabError> {
     let candidates = candidates(&options.graph)?;
     let gpu = Gpu::open_with(PROFILE, FEATURES)?;
     compare(&gpu, &options.compare, candidates, |scene| {

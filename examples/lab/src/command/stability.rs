@@ -94,11 +94,10 @@ pub fn pairs(technique: Option<&str>, storage: Option<&str>) -> Result<Vec<MapEn
         .filter(|pair| storage.is_none_or(|name| pair.storage().name() == name))
         .collect();
     if pairs.is_empty() {
-        return Err(LabError::refused(format!(
-            "'{}' is not stored as {}; it is as {legal}",
-            technique.unwrap_or("any technique"),
-            storage.unwrap_or("any storage")
-        )));
+        let technique = technique.unwrap_or("any technique");
+        let storage = storage.unwrap_or("any storage");
+        let reason = format!("it is not stored as {storage}; it is as {legal}");
+        return Err(LabError::unsuitable(technique, reason));
     }
     Ok(pairs)
 }

@@ -1,14 +1,14 @@
 //! `moment-shadows technique-pictures`: every technique on one view, and where it fails.
 
-use std::fmt::Write;
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 
-use moment_shadows::{Profile, Storage, nearest};
+use moment_shadows::{MapEncoding, Profile, Storage, nearest};
 
 use super::CommandResult;
 use super::render::RenderOptions;
 use crate::candidate::TechniqueChoice;
+use crate::cost::table::{Cell, Columns};
 use crate::error::LabError;
 use crate::frame::Frame;
 use crate::gpu::Gpu;
@@ -39,8 +39,8 @@ pub struct Options {
 impl Options {
     /// Makes the pictures and prints what they show.
     pub fn run(self) -> CommandResult {
-        let made = draw(&self.out, &self.scene, self.only.as_deref())?;
-        print!("{}", table(&made));
+        let rows = draw(&self.out, &self.scene, self.only.as_deref())?;
+        print!("{}", Columns(&rows));
         Ok(ExitCode::SUCCESS)
     }
 }
@@ -57,90 +57,49 @@ const MAP: u32 = 1024;
 /// A difference of shadow intensity that is shown in full colour.
 const FULL_DIFFERENCE: f32 = 0.5;
 
-/// A technique, and what shows where it fails.
-struct Subject {
-    name: &'static str,
-    storage: Option<Storage>,
-    failure: Failure,
-}
+/// A technique's name, and where it fails: a scene, the texels per side of the light's map, and the technique and storage there,
+/// as a command line has them.
+type Subject = (
+    &'static str,
+    fn() -> Scene,
+    u32,
+    &'static str,
+    Option<Storage>,
+);
 
-struct Failure {
-    scene: fn() -> Scene,
-    /// Texels per side of the light's map.
-    map: u32,
-    /// The technique as a command line has it; the subject's own where empty.
-    technique: &'static str,
-    storage: Option<Storage>,
-}
-
-/// Occluders behind each other, where bounds leak.
-const STACK: Failure = Failure {
-    scene: stacked_boards,
-    map: 512,
-    technique: "",
-    storage: None,
-};
-
-/// Contacts in a map that is fine enough.
-const CONTACT: Failure = Failure {
-    scene: contacts,
-    map: 512,
-    technique: "",
-    storage: None,
-};
-
-fn subjects() -> Vec<Subject> {
-    let subject = |name, failure| Subject {
-        name,
-        storage: None,
-        failure,
-    };
-    vec![
-        subject(
-            "binary",
-            Failure {
-                map: 160,
-                ..CONTACT
-            },
-        ),
-        subject(
-            "pcf_gaussian",
-            Failure {
-                map: 160,
-                technique: r#"{"pcf": {"box": {"radius": 1}}}"#,
-                ..CONTACT
-            },
-        ),
-        subject(
-            "pcss",
-            Failure {
-                technique: r#"{"pcss": {"search_taps": 6, "filter_taps": 8}}"#,
-                ..STACK
-            },
-        ),
-        subject(
-            "esm",
-            Failure {
-                technique: r#"{"esm": {"exponent": 30.0}}"#,
-                ..CONTACT
-            },
-        ),
-        subject("vsm", STACK),
-        subject("evsm2", STACK),
-        subject(
-            "evsm4",
-            Failure {
-                storage: Some(Storage::Float16),
-                ..STACK
-            },
-        ),
-        subject("lvsm", STACK),
-        subject("lvsm_lloyd", STACK),
-        subject("convolution", CONTACT),
-        subject("hamburger4", STACK),
-        subject("hausdorff4", STACK),
-    ]
-}
+/// Bounds leak where occluders are stacked; elsewhere contacts fail, in a map that is fine enough.
+const SUBJECTS: [Subject; 12] = [
+    ("binary", contacts, 160, "binary", None),
+    (
+        "pcf_gaussian",
+        contacts,
+        160,
+        r#"{"pcf": {"box": {"radius": 1}}}"#,
+        None,
+    ),
+    (
+        "pcss",
+        stacked_boards,
+        512,
+        r#"{"pcss": {"search_taps": 6, "filter_taps": 8}}"#,
+        None,
+    ),
+    ("esm", contacts, 512, r#"{"esm": {"exponent": 30.0}}"#, None),
+    ("vsm", stacked_boards, 512, "vsm", None),
+    ("evsm2", stacked_boards, 512, "evsm2", None),
+    (
+        "evsm4",
+        stacked_boards,
+        512,
+        "evsm4",
+        Some(Storage::Float16),
+    ),
+    ("lvsm", stacked_boards, 512, "lvsm", None),
+    ("lvsm_lloyd", stacked_boards, 512, "lvsm_lloyd", None),
+    ("convolution", contacts, 512, "convolution", None),
+    ("hamburger4", stacked_boards, 512, "hamburger4", None),
+    ("hausdorff4", stacked_boards, 512, "hausdorff4", None),
+];
 
 /// A scene that is drawn for maps with several samples per texel and with one.
 struct Stage {
@@ -151,96 +110,59 @@ struct Stage {
     soft: Option<Vec<f32>>,
 }
 
-/// What was made.
-struct Made {
-    /// The technique's name.
-    name: String,
-    /// Bits per texel of the map on the common view; none where the plain depth map is read.
-    bits: Option<u32>,
-    /// Planes of that map.
-    planes: u32,
-    /// Mean absolute error over the lit side of surfaces, on the view and where the technique fails.
-    errors: [f64; 2],
-}
-
-/// Makes the pictures of all techniques in `out`, with `view` as the common scene; of one, if it is named.
-fn draw(out: &Path, view: &str, only: Option<&str>) -> Result<Vec<Made>, LabError> {
-    let mut subjects = subjects();
-    if let Some(only) = only {
-        let names: Vec<&str> = subjects.iter().map(|subject| subject.name).collect();
-        if !names.contains(&only) {
-            return Err(LabError::unsuitable(
-                only,
-                format!(
-                    "no technique of this name is pictured; the nearest are {}",
-                    nearest(only, names)
-                ),
-            ));
-        }
-        subjects.retain(|subject| subject.name == only);
+/// Makes the pictures of all techniques in `out`, with `view` as the common scene; of one, if it is named. Gives what a
+/// table says of each.
+fn draw(out: &Path, view: &str, only: Option<&str>) -> Result<Vec<Vec<Cell<'static>>>, LabError> {
+    let names = SUBJECTS.map(|(name, ..)| name);
+    if let Some(only) = only.filter(|only| !names.contains(only)) {
+        let nearest = nearest(only, names);
+        let reason = format!("no technique of this name is pictured; the nearest are {nearest}");
+        return Err(LabError::unsuitable(only, reason));
     }
     create_folder(out)?;
     let gpu = Gpu::open(Profile::NativeAdapter)?;
     let graph = GraphFile::parse("hard_shadows.json", GRAPH.to_owned(), None)?;
+    let mut subjects = SUBJECTS.to_vec();
+    subjects.retain(|(name, ..)| only.is_none_or(|only| only == *name));
     let bar = progress::bar(subjects.len() as u64, "drawing");
     let mut common = Stage::new(&gpu, scene::load(view)?, MAP, &graph)?;
-    let mut made = Vec::new();
-    for subject in &subjects {
-        let fails = &subject.failure;
-        let mut stage = Stage::new(&gpu, place_on_ground((fails.scene)()), fails.map, &graph)?;
-        let failing = match fails.technique {
-            "" => subject.name,
-            technique => technique,
-        };
-        let [on_view, failure] = [
-            common.shade(&gpu, &graph, subject.name, subject.storage)?,
-            stage.shade(&gpu, &graph, failing, fails.storage)?,
-        ];
+    let mut rows = Vec::new();
+    for (name, scene, map, technique, storage) in subjects {
+        let mut stage = Stage::new(&gpu, place_on_ground(scene()), map, &graph)?;
+        let on_view = common.shade(&gpu, &graph, name, None)?;
+        let failing = stage.shade(&gpu, &graph, technique, storage)?;
         let panels = [
             on_view.picture,
             on_view.difference,
-            failure.picture,
-            failure.difference,
+            failing.picture,
+            failing.difference,
         ];
-        let path = out.join(format!("{}.png", subject.name));
-        save_panels(&path, &panels, PANEL, 2)?;
-        made.push(Made {
-            name: subject.name.to_owned(),
-            bits: on_view.bits,
-            planes: on_view.planes,
-            errors: [on_view.error, failure.error],
-        });
+        save_panels(&out.join(format!("{name}.png")), &panels, PANEL, 2)?;
+        let map = on_view.map.as_ref();
+        rows.push(vec![
+            ("technique", name.to_owned()),
+            (
+                "bits per texel",
+                map.map_or("-".to_owned(), |map| map.bits_per_texel().to_string()),
+            ),
+            ("planes", map.map_or(0, MapEncoding::planes).to_string()),
+            ("on view", format!("{:.5}", on_view.error)),
+            ("failing", format!("{:.5}", failing.error)),
+        ]);
         bar.inc(1);
     }
     bar.finish_and_clear();
-    Ok(made)
-}
-
-/// What was made, as a table.
-fn table(made: &[Made]) -> String {
-    let mut text = format!(
-        "{:<14} {:>14} {:>7} {:>10} {:>10}\n",
-        "technique", "bits per texel", "planes", "on view", "failing"
-    );
-    for made in made {
-        let bits = made.bits.map_or("-".to_owned(), |bits| bits.to_string());
-        // Writing to a string cannot fail.
-        let _ = writeln!(
-            text,
-            "{:<14} {bits:>14} {:>7} {:>10.5} {:>10.5}",
-            made.name, made.planes, made.errors[0], made.errors[1]
-        );
-    }
-    text
+    Ok(rows)
 }
 
 /// A picture of a technique, its difference from the truth, and figures.
 struct Shaded {
     picture: Vec<u8>,
     difference: Vec<u8>,
+    /// Mean absolute error over the lit side of surfaces.
     error: f64,
-    bits: Option<u32>,
-    planes: u32,
+    /// The map; none where the plain depth map is read.
+    map: Option<MapEncoding>,
 }
 
 impl Stage {
@@ -250,15 +172,7 @@ impl Stage {
             map,
             ..RenderOptions::default()
         };
-        let margin = graph.radius()?;
-        let frame = |samples| {
-            let options = RenderOptions {
-                samples,
-                ..options.clone()
-            };
-            options.frame(gpu, &scene, margin)
-        };
-        let frames = [frame(4)?, frame(1)?];
+        let frames = options.frames(gpu, &scene, graph.radius()?)?;
         let truth = Unfiltered::of(gpu, &frames[0], graph)?.picture(gpu, &frames[0])?;
         Ok(Self {
             scene,
@@ -279,7 +193,10 @@ impl Stage {
             .parse()
             .map_err(|error: String| LabError::unsuitable(technique, error))?;
         let file = choice.graph(graph, storage)?.in_single_precision()?;
-        let soft = matches!(file.technique(), Some(moment_shadows::Technique::Pcss(_)));
+        let soft = matches!(
+            file.technique(),
+            Some(moment_shadows::Technique::Pcss { .. })
+        );
         if soft && self.soft.is_none() {
             self.soft = Some(self.area_light(gpu)?);
         }
@@ -299,13 +216,11 @@ impl Stage {
                 *found = *truth;
             }
         }
-        let encoding = file.encoding().filter(|_| !file.reads_depth());
         Ok(Shaded {
             picture,
             difference: signed_difference(&found, truth, FULL_DIFFERENCE),
             error: error.facing.mean_absolute,
-            bits: encoding.as_ref().map(|encoding| encoding.bits_per_texel()),
-            planes: encoding.map_or(0, |encoding| encoding.planes()),
+            map: file.encoding().filter(|_| !file.reads_depth()),
         })
     }
 

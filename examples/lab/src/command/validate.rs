@@ -5,10 +5,7 @@ use std::io::{self, Read};
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 
-use moment_shadows::{
-    LONGEST_SHADER, Outcome, Profile, Source, ValidateError, ValidationReport, validate,
-    validate_module,
-};
+use moment_shadows::{Profile, ShaderError, Source, ValidationReport, validate};
 
 use super::{CommandResult, argument};
 
@@ -44,7 +41,7 @@ pub enum CheckError {
     },
     /// The shader is not valid.
     #[error(transparent)]
-    Invalid(#[from] ValidateError),
+    Invalid(#[from] ShaderError),
 }
 
 /// Validates each of `files` under `profile` (`webgpu-core` without one). Prints a line for each valid file with the
@@ -83,21 +80,18 @@ pub fn check_file(path: &Path, profile: Profile) -> Result<ValidationReport, Che
         name: &name,
         text: &text,
     };
-    Ok(if source.is_library_module() {
-        validate_module(source, profile)?
-    } else {
-        validate(source, &[], profile)?
-    })
+    Ok(validate(source, &[], profile)?)
 }
 
 /// Reads no more than is needed to see that a file is too long.
 fn read(path: &Path) -> io::Result<String> {
+    const LONGEST: usize = ValidationReport::LONGEST_SHADER;
     let mut bytes = Vec::new();
     File::open(path)?
-        .take(LONGEST_SHADER as u64 + 1)
+        .take(LONGEST as u64 + 1)
         .read_to_end(&mut bytes)?;
-    if bytes.len() > LONGEST_SHADER {
-        let message = format!("it is longer than {LONGEST_SHADER} bytes");
+    if bytes.len() > LONGEST {
+        let message = format!("it is longer than {LONGEST} bytes");
         return Err(io::Error::new(io::ErrorKind::FileTooLarge, message));
     }
     String::from_utf8(bytes)
@@ -109,7 +103,7 @@ fn summary(report: &ValidationReport) -> String {
     let written: Vec<_> = report.written().map(|backend| backend.name()).collect();
     let mut line = written.join(" ");
     for (backend, outcome) in &report.outcomes {
-        if let Outcome::CannotExpress(reason) = outcome {
+        if let Err(reason) = outcome {
             line += &format!("; not {backend}: {reason}");
         }
     }

@@ -1,46 +1,36 @@
 //! What candidates cost per pixel.
 
 use moment_shadows_graph::Stage;
-use serde::{Serialize, Serializer};
+use serde::Serialize;
 
 use super::Technique;
-use crate::cost::CostError;
 use crate::cost::clock::Clock;
 use crate::cost::protocol::{Rounds, Subject};
 use crate::cost::statistics::Distribution;
+use crate::error::LabError;
+use crate::frame::FrameDesc;
 
 /// What a candidate costs.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Copy, Debug, Serialize)]
 pub struct Cost {
-    /// What JSON calls the following, in their order.
-    pub names: [&'static str; 4],
     /// Nanoseconds per pixel of all that is done per pixel.
     pub pixels: Distribution,
     /// The time per pixel as a ratio to the first candidate's, round by round.
     pub pixels_ratio: Distribution,
-    /// Nanoseconds of all that is made of the light's map, per pixel or texel. None where nothing is.
+    /// Nanoseconds of all that is made of the light's map, per texel. None where nothing is.
     pub map: Option<Distribution>,
     /// Time per pixel and time for the map together, as a ratio to the first candidate's.
     pub total_ratio: Distribution,
 }
 
-impl Serialize for Cost {
-    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
-        let pixels = [self.pixels, self.pixels_ratio].map(Some);
-        let [pixels, ratio] = pixels;
-        let figures = [pixels, ratio, self.map, Some(self.total_ratio)];
-        serializer.collect_map(self.names.into_iter().zip(figures))
-    }
-}
-
 /// Times all candidates in the same rounds.
 pub(super) fn costs(
     clock: &Clock<'_>,
-    (names, sizes): ([&'static str; 4], [[u32; 2]; 2]),
+    drawn: &FrameDesc,
     bound: &[(String, Box<dyn Technique>)],
     rounds: u32,
     progress: impl FnMut(),
-) -> Result<Vec<Cost>, CostError> {
+) -> Result<Vec<Cost>, LabError> {
     let mut subjects = Vec::new();
     // Per candidate the numbers of what it does to the map, if anything, and to pixels.
     let mut numbers = Vec::new();
@@ -50,20 +40,19 @@ pub(super) fn costs(
             if number.is_some() {
                 subjects.push(Subject {
                     name: format!("{name} {stage:?}"),
-                    record: Box::new(move |encoder| Ok(technique.record(stage, encoder)?)),
+                    record: Box::new(move |encoder| technique.record(stage, encoder)),
                 });
             }
             Vec::from_iter(number)
         }));
     }
     let times = Rounds::run(clock, &subjects, rounds, progress)?;
-    let [per_pixel, per_texel] =
-        sizes.map(|[width, height]| 1e9 / (f64::from(width) * f64::from(height)));
+    let [per_pixel, per_texel] = [drawn.picture, drawn.map]
+        .map(|[width, height]| 1e9 / (f64::from(width) * f64::from(height)));
     let first = numbers.first().cloned().unwrap_or_default();
     let costs = numbers.iter().map(|both| {
         let [map, pixels] = both;
         Cost {
-            names,
             pixels: times.seconds(pixels).scaled(per_pixel),
             pixels_ratio: times.ratio(pixels, &first[1]),
             map: (!map.is_empty()).then(|| times.seconds(map).scaled(per_texel)),

@@ -8,13 +8,13 @@ use std::path::{Path, PathBuf};
 use std::time::Instant;
 
 pub use self::cost::Cost;
-pub use self::report::{Report, Row, Setting, Table};
-pub use self::technique::{Technique, unsuitable};
-use crate::cost::CostError;
+pub use self::report::{Errors, Report, Row, Table};
+pub use self::technique::Technique;
 use crate::cost::clock::{Clock, ClockKind};
 use crate::cost::protocol::FEWEST_ROUNDS;
 use crate::cost::report::Conditions;
 use crate::error::LabError;
+use crate::frame::FrameDesc;
 use crate::gpu::Gpu;
 use crate::picture::{create_folder, save_atomically, save_panels, save_rgba};
 use crate::progress;
@@ -46,10 +46,8 @@ pub trait Stage {
     type Candidate;
     /// What a candidate gives.
     type Picture;
-    /// What the report tells of the stage, and how it shows errors.
-    type Setting: Setting;
-    /// What JSON calls the parts of [`Cost`].
-    const COSTS: [&'static str; 4];
+    /// What a candidate is judged by.
+    type Errors: Errors;
 
     /// What tables and files call a candidate.
     fn name(candidate: &Self::Candidate) -> &str;
@@ -65,16 +63,19 @@ pub trait Stage {
         &self,
         candidate: &Self::Candidate,
         picture: &Self::Picture,
-    ) -> Result<<Self::Setting as Setting>::Errors, LabError>;
+    ) -> Result<Self::Errors, LabError>;
 
     /// The truth and each picture with its difference from the truth, as sRGB bytes with alpha.
     fn show(&self, gpu: &Gpu, pictures: &[Self::Picture]) -> Result<Shown, LabError>;
 
     /// What the report tells of it.
-    fn setting(&self) -> Self::Setting;
+    fn setting(&self) -> String;
 
-    /// Pixels, and what the cost of the map is given for: pixels or texels.
-    fn sizes(&self) -> [[u32; 2]; 2];
+    /// What names of files begin with.
+    fn stem(&self) -> String;
+
+    /// What is drawn, and how large.
+    fn desc(&self) -> &FrameDesc;
 
     /// Makes a candidate's picture.
     fn picture(&self, gpu: &Gpu, candidate: &Self::Candidate) -> Result<Self::Picture, LabError> {
@@ -98,14 +99,14 @@ pub fn compare<S: Stage>(
     options: &Options,
     mut candidates: Vec<S::Candidate>,
     stage: impl Fn(&Scene) -> Result<S, LabError>,
-) -> Result<Vec<Report<S::Setting>>, CostError> {
+) -> Result<Vec<Report<S::Errors>>, LabError> {
     let known: Vec<&str> = candidates.iter().map(S::name).collect();
     if let Some(name) = (options.only.iter()).find(|name| !known.contains(&name.as_str())) {
         let reason = format!(
             "no technique of this name is compared; there are {}",
             known.join(", ")
         );
-        return Err(unsuitable(name, reason).into());
+        return Err(LabError::unsuitable(name, reason));
     }
     candidates
         .retain(|it| options.only.is_empty() || options.only.iter().any(|o| o == S::name(it)));
@@ -136,19 +137,16 @@ pub fn compare<S: Stage>(
             bar.inc(1);
         }
         bar.finish_and_clear();
-        let setting = stage.setting();
         if let Some(out) = &options.out {
             let names: Vec<&str> = candidates.iter().map(S::name).collect();
             let shown = stage.show(gpu, &pictures)?;
-            save(&out.join(setting.stem()), stage.sizes()[0], &names, shown)?;
+            save(&out.join(stage.stem()), stage.desc().picture, &names, shown)?;
         }
         let mut conditions = None;
         if let Some(rounds) = options.cost {
             let clock = Clock::new(gpu, ClockKind::for_device(gpu));
             let bar = progress::bar(u64::from(rounds.max(FEWEST_ROUNDS)), "timing");
-            let costs = cost::costs(&clock, (S::COSTS, stage.sizes()), &bound, rounds, || {
-                bar.inc(1)
-            })?;
+            let costs = cost::costs(&clock, stage.desc(), &bound, rounds, || bar.inc(1))?;
             bar.finish_and_clear();
             for (row, cost) in rows.iter_mut().zip(costs) {
                 row.cost = Some(cost);
@@ -156,7 +154,7 @@ pub fn compare<S: Stage>(
             conditions = Some(Conditions::of(&clock, rounds));
         }
         reports.push(Report {
-            setting,
+            setting: stage.setting(),
             truth_seconds,
             rows,
             conditions,

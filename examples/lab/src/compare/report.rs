@@ -11,31 +11,21 @@ use crate::cost::table::columns;
 /// Rows of cells after the names of their columns.
 pub type Table = Vec<Vec<(&'static str, String)>>;
 
-/// What a report tells of a stage; its text is the report's first line.
-pub trait Setting: Serialize + fmt::Display {
-    /// What candidates are judged by.
-    type Errors: Serialize;
-    /// What the column of the map's cost is called, with its unit.
-    const MAP_COST: &'static str;
-
-    /// What names of files begin with.
-    fn stem(&self) -> String;
-
+/// What candidates are judged by.
+pub trait Errors: Serialize + Sized {
     /// The errors of all candidates.
-    fn tables(&self, rows: &[Row<Self::Errors>]) -> Vec<Table>;
+    fn tables(rows: &[Row<Self>]) -> Vec<Table>;
 }
 
 /// How candidates compare on a scene.
 #[derive(Clone, Debug, Serialize)]
-#[serde(bound = "")]
-pub struct Report<S: Setting> {
-    /// Setting of the stage.
-    #[serde(flatten)]
-    pub setting: S,
+pub struct Report<E> {
+    /// The scene, and how it was drawn.
+    pub setting: String,
     /// Seconds that the truth took.
     pub truth_seconds: f64,
     /// The candidates.
-    pub rows: Vec<Row<S::Errors>>,
+    pub rows: Vec<Row<E>>,
     /// How costs were taken, if they were.
     pub conditions: Option<Conditions>,
 }
@@ -52,17 +42,17 @@ pub struct Row<E> {
     pub cost: Option<Cost>,
 }
 
-impl<S: Setting> fmt::Display for Report<S> {
+impl<E: Errors> fmt::Display for Report<E> {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         writeln!(f, "{} in {:.1} s", self.setting, self.truth_seconds)?;
-        for table in self.setting.tables(&self.rows) {
+        for table in E::tables(&self.rows) {
             columns(f, &table)?;
         }
         let Some(conditions) = &self.conditions else {
             return Ok(());
         };
         writeln!(f, "\n{conditions}")?;
-        let cells = |row: &Row<S::Errors>| {
+        let cells = |row: &Row<E>| {
             let cost = row.cost?;
             let ratio = |ratio: f64| format!("{ratio:.3}");
             let map = cost.map.map(|map| format!("{:.2}", map.median));
@@ -71,7 +61,7 @@ impl<S: Setting> fmt::Display for Report<S> {
                 ("per pixel", format!("{:.2}", cost.pixels.median)),
                 ("IQR", percent(cost.pixels.spread())),
                 ("x first", ratio(cost.pixels_ratio.median)),
-                (S::MAP_COST, map.unwrap_or("-".to_owned())),
+                ("map, per texel", map.unwrap_or("-".to_owned())),
                 ("total x first", ratio(cost.total_ratio.median)),
             ])
         };

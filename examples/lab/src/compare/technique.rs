@@ -29,15 +29,6 @@ pub trait Technique {
     }
 }
 
-/// What a graph gives in place of a picture that it is asked for.
-#[must_use]
-pub fn unsuitable(file: &str, reason: String) -> LabError {
-    LabError::Unsuitable {
-        file: file.to_owned(),
-        reason,
-    }
-}
-
 impl Technique for GraphFrame {
     fn works_in(&self, stage: Stage) -> bool {
         self.plan.passes.iter().any(|pass| pass.stage == stage)
@@ -50,7 +41,9 @@ impl Technique for GraphFrame {
     fn output(&self) -> Result<&wgpu::Texture, LabError> {
         let names = ["shadow_intensity", "scattering"];
         let output = names.iter().find_map(|name| self.bindings.output(name));
-        output.ok_or_else(|| unsuitable("a graph", format!("it has no output '{}'", names[0])))
+        output.ok_or_else(|| {
+            LabError::unsuitable("a graph", format!("it has no output '{}'", names[0]))
+        })
     }
 
     fn run(&self, gpu: &Gpu) -> Result<(), LabError> {

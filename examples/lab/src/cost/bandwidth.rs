@@ -8,8 +8,6 @@ use core::str::FromStr;
 
 use serde::Serialize;
 
-use super::CostError;
-
 /// A memory of a known bandwidth.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Memory {
@@ -56,7 +54,7 @@ impl Memory {
 }
 
 impl FromStr for Memory {
-    type Err = CostError;
+    type Err = String;
 
     /// `GB/S` or `GB/S:NAME`.
     fn from_str(text: &str) -> Result<Self, Self::Err> {
@@ -66,7 +64,11 @@ impl FromStr for Memory {
             .parse()
             .ok()
             .filter(|bandwidth: &f64| bandwidth.is_finite() && *bandwidth > 0.0)
-            .ok_or_else(|| CostError::Bandwidth(text.to_owned()))?;
+            .ok_or_else(|| {
+                format!(
+                    "'{text}' is no bandwidth; give gigabytes per second above 0, and a name after a colon if you like: 224:GTX 970"
+                )
+            })?;
         let name = match name.trim() {
             "" => format!("{gigabytes_per_second} GB/s"),
             name => name.to_owned(),

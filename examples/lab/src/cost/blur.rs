@@ -1,17 +1,18 @@
 //! The blur alone, on a map of noise, in both directions together.
 
 use moment_shadows::{Kernel, Profile, Storage};
-use moment_shadows_graph::nodes::KernelProperty;
+use moment_shadows_graph::record::Recording;
 use moment_shadows_graph::{Capabilities, TextureDesc};
 use serde_json::json;
 
 use super::copies::CopyWork;
 use super::harness::{Case, Difference};
-use super::node::{NodeOnMap, NodeText, upload};
 use super::table::{Facts, Gate};
 use super::texels::{Channels, decode, encode, noise};
-use super::{CostError, SubjectList, reference};
+use super::{SubjectList, reference};
+use crate::error::LabError;
 use crate::gpu::Gpu;
+use crate::node_on_map::{NodeOnMap, NodeText};
 
 /// Blurs of several radii of a map of one size.
 pub const BLURS: SubjectList = SubjectList {
@@ -47,23 +48,22 @@ impl BlurredMap {
         storage: Storage,
         size: [u32; 2],
         channels: &[[f64; 4]],
-        kernel: KernelProperty,
+        kernel: Kernel,
         per_frame: bool,
-    ) -> Result<Self, CostError> {
+    ) -> Result<Self, LabError> {
         let desc = TextureDesc::new(storage.format(), size);
         let text = NodeText {
-            node_type: "blur",
-            properties: json!({ "kernel": kernel, "per_frame": per_frame }),
-            input: "map",
-            output: "blurred",
+            node: "blur",
+            properties: json!({ "kernel": { "weights": kernel.weights() }, "per_frame": per_frame }),
+            slots: ["map", "blurred"],
         };
-        let map = upload(gpu, &desc, &encode(storage, channels));
+        let bytes = encode(storage, channels);
         let capabilities = Capabilities::of_device(&gpu.adapter, &gpu.device);
         Ok(Self {
             storage,
-            kernel: kernel.kernel()?,
+            kernel,
             size,
-            node: NodeOnMap::new(gpu, &capabilities, text, (&desc, &map), |_, _| Ok(()))?,
+            node: NodeOnMap::new(gpu, &capabilities, &text, &desc, &bytes)?,
         })
     }
 
@@ -72,22 +72,26 @@ impl BlurredMap {
         &self,
         passes: Option<&[usize]>,
         encoder: &mut wgpu::CommandEncoder,
-    ) -> Result<(), CostError> {
-        self.node.record(passes, encoder)
+    ) -> Result<(), LabError> {
+        let recording = Recording {
+            passes,
+            ..Recording::default()
+        };
+        self.node.record(recording, encoder)
     }
 
     /// The blurred channels, row by row.
-    pub fn run(&self, gpu: &Gpu) -> Result<Channels, CostError> {
-        Ok(decode(self.storage, &self.node.run(gpu)?.concat()))
+    pub fn run(&self, gpu: &Gpu) -> Result<Channels, LabError> {
+        Ok(decode(self.storage, &self.node.made(gpu)?.concat()))
     }
 
     /// What the output holds now.
-    pub fn read(&self, gpu: &Gpu) -> Result<Channels, CostError> {
+    pub fn read(&self, gpu: &Gpu) -> Result<Channels, LabError> {
         Ok(decode(self.storage, &self.node.read(gpu)?.concat()))
     }
 
     /// Runs the blur and compares it with the reference for the same stored channels.
-    pub fn difference(&self, gpu: &Gpu, channels: &[[f64; 4]]) -> Result<Difference, CostError> {
+    pub fn difference(&self, gpu: &Gpu, channels: &[[f64; 4]]) -> Result<Difference, LabError> {
         let stored = decode(self.storage, &encode(self.storage, channels));
         let reference = reference::blur(&stored, self.size.map(|side| side as usize), &self.kernel);
         let tolerance = reference::blur_tolerance(self.storage, &self.kernel);
@@ -99,14 +103,12 @@ impl BlurredMap {
     }
 }
 
-fn cases(gpu: &Gpu, size: u32) -> Result<Vec<Case>, CostError> {
+fn cases(gpu: &Gpu, size: u32) -> Result<Vec<Case>, LabError> {
     let storage = Storage::Unorm16;
     let channels = noise(storage, size as usize * size as usize);
     let case = |(radius, gate, goal)| {
-        let kernel = KernelProperty {
-            radius: Some(radius),
-            ..KernelProperty::default()
-        };
+        let kernel = Kernel::gaussian(radius, 0.6 * radius as f32)
+            .map_err(|error| LabError::unsuitable("blur", error.to_string()))?;
         let map = BlurredMap::new(gpu, storage, [size; 2], &channels, kernel, false)?;
         Ok(Case {
             name: format!("a blur of radius {radius}"),

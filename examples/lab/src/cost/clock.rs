@@ -8,7 +8,7 @@ use std::time::Instant;
 use cpu_time::ProcessTime;
 use serde::Serialize;
 
-use super::CostError;
+use crate::error::LabError;
 use crate::gpu::Gpu;
 
 /// The features that timestamps between passes need; the clock falls back to the wall without them.
@@ -99,8 +99,8 @@ impl<'gpu> Clock<'gpu> {
     pub fn time(
         &self,
         what: &str,
-        record: impl FnOnce(&mut wgpu::CommandEncoder) -> Result<(), CostError>,
-    ) -> Result<Reading, CostError> {
+        record: impl FnOnce(&mut wgpu::CommandEncoder) -> Result<(), LabError>,
+    ) -> Result<Reading, LabError> {
         let gpu = self.gpu;
         let mut encoder = gpu
             .device
@@ -118,10 +118,7 @@ impl<'gpu> Clock<'gpu> {
         gpu.queue.submit([commands]);
         gpu.device
             .poll(wgpu::PollType::wait_indefinitely())
-            .map_err(|error| CostError::Wait {
-                what: what.to_owned(),
-                reason: error.to_string(),
-            })?;
+            .map_err(|error| LabError::unsuitable(what, error))?;
         let (process, wall) = (
             process.elapsed().as_secs_f64(),
             wall.elapsed().as_secs_f64(),
@@ -135,7 +132,7 @@ impl<'gpu> Clock<'gpu> {
         Ok(Reading { seconds, wall })
     }
 
-    fn between(&self, stamps: &Stamps) -> Result<f64, CostError> {
+    fn between(&self, stamps: &Stamps) -> Result<f64, LabError> {
         let bytes = self.gpu.read_buffer(&stamps.buffer, "cost/timestamps")?;
         let ticks: Vec<u64> = bytemuck::pod_collect_to_vec(&bytes);
         let passed = match ticks.as_slice() {

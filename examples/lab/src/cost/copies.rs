@@ -3,28 +3,16 @@
 use moment_shadows::TextureFormat;
 use moment_shadows_graph::TextureDesc;
 
-use super::CostError;
 use super::protocol::Record;
+use crate::error::LabError;
 use crate::gpu::Gpu;
+use crate::pass::{Bound, Pass, Work};
+use crate::texture::texture;
 
 /// Pairs of textures of one format and size, and the shaders that copy one of a pair to the other.
 pub struct Copies {
     pairs: Vec<[wgpu::Texture; 2]>,
-    layers: Vec<Layer>,
-}
-
-/// A layer of a texture that is copied.
-struct Layer {
-    group: wgpu::BindGroup,
-    target: wgpu::TextureView,
-    size: [u32; 2],
-    pipeline: CopyPipeline,
-}
-
-#[derive(Clone)]
-enum CopyPipeline {
-    Compute(wgpu::ComputePipeline),
-    Fullscreen(wgpu::RenderPipeline),
+    layers: Vec<Pass>,
 }
 
 /// How the shader copies.
@@ -41,26 +29,24 @@ const WORKGROUP: u32 = 64;
 
 impl Copies {
     /// Textures as described: all layers of the first mip level of each.
-    pub fn new(gpu: &Gpu, descs: &[TextureDesc], work: CopyWork) -> Result<Self, CostError> {
+    pub fn new(gpu: &Gpu, descs: &[TextureDesc], work: CopyWork) -> Result<Self, LabError> {
         let mut copies = Self {
             pairs: Vec::new(),
             layers: Vec::new(),
         };
         for desc in descs {
-            let format = desc.wgpu_format();
             let scope = gpu.device.push_error_scope(wgpu::ErrorFilter::Validation);
-            copies.add(gpu, desc, format, work);
+            copies.add(gpu, desc, work);
             if let Some(error) = pollster::block_on(scope.pop()) {
-                return Err(CostError::Format {
-                    format: desc.format,
-                    reason: format!("a copy was refused: {error}"),
-                });
+                let reason =
+                    format!("a copy was refused: {error}; measure a graph with another format");
+                return Err(LabError::unsuitable(desc.format, reason));
             }
         }
         Ok(copies)
     }
 
-    fn add(&mut self, gpu: &Gpu, desc: &TextureDesc, format: wgpu::TextureFormat, work: CopyWork) {
+    fn add(&mut self, gpu: &Gpu, desc: &TextureDesc, work: CopyWork) {
         let target = match work {
             CopyWork::Compute => wgpu::TextureUsages::STORAGE_BINDING,
             CopyWork::Fullscreen => wgpu::TextureUsages::RENDER_ATTACHMENT,
@@ -69,53 +55,28 @@ impl Copies {
             wgpu::TextureUsages::TEXTURE_BINDING | wgpu::TextureUsages::COPY_SRC,
             target | wgpu::TextureUsages::COPY_DST,
         ]
-        .map(|usage| {
-            gpu.device.create_texture(&wgpu::TextureDescriptor {
-                label: Some("cost/copy"),
-                size: wgpu::Extent3d {
-                    width: desc.size[0],
-                    height: desc.size[1],
-                    depth_or_array_layers: desc.layers,
-                },
-                mip_level_count: 1,
-                sample_count: 1,
-                dimension: wgpu::TextureDimension::D2,
-                format,
-                usage,
-                view_formats: &[],
-            })
-        });
-        let pipeline = CopyPipeline::new(gpu, desc.format, format, work);
-        // A fullscreen copy has its target as an attachment.
-        let (layout, bound) = match &pipeline {
-            CopyPipeline::Compute(pipeline) => (pipeline.get_bind_group_layout(0), 2),
-            CopyPipeline::Fullscreen(pipeline) => (pipeline.get_bind_group_layout(0), 1),
-        };
-        for layer in 0..desc.layers {
-            let [source, target] = [0, 1].map(|end: usize| {
-                pair[end].create_view(&wgpu::TextureViewDescriptor {
+        .map(|usage| texture(gpu, "cost/copy", desc, usage));
+        for layer in 0..desc.array_layers() {
+            let [source, target] = pair.each_ref().map(|texture| {
+                texture.create_view(&wgpu::TextureViewDescriptor {
                     dimension: Some(wgpu::TextureViewDimension::D2),
                     base_array_layer: layer,
                     array_layer_count: Some(1),
                     ..Default::default()
                 })
             });
-            let entries =
-                [(0, &source), (1, &target)].map(|(binding, view)| wgpu::BindGroupEntry {
-                    binding,
-                    resource: wgpu::BindingResource::TextureView(view),
-                });
-            let group = gpu.device.create_bind_group(&wgpu::BindGroupDescriptor {
-                label: Some("cost/copy"),
-                layout: &layout,
-                entries: &entries[..bound],
-            });
-            self.layers.push(Layer {
-                group,
-                target,
-                size: desc.size,
-                pipeline: pipeline.clone(),
-            });
+            let mut bound = vec![(0, Bound::Texture(source))];
+            let [width, height] = desc.size;
+            let does = match work {
+                CopyWork::Compute => {
+                    bound.push((1, Bound::Texture(target)));
+                    Work::Dispatch([width.div_ceil(WORKGROUP), height])
+                }
+                CopyWork::Fullscreen => Work::Draw(target),
+            };
+            let wgsl = shader(work, desc.format);
+            self.layers
+                .push(Pass::new(gpu, "cost/copy", wgsl, &[], &bound, does));
         }
         self.pairs.push(pair);
     }
@@ -137,82 +98,6 @@ impl Copies {
             }
             Ok(())
         })
-    }
-}
-
-impl Layer {
-    fn record(&self, encoder: &mut wgpu::CommandEncoder) {
-        match &self.pipeline {
-            CopyPipeline::Compute(pipeline) => {
-                let mut pass = encoder.begin_compute_pass(&Default::default());
-                pass.set_pipeline(pipeline);
-                pass.set_bind_group(0, &self.group, &[]);
-                pass.dispatch_workgroups(self.size[0].div_ceil(WORKGROUP), self.size[1], 1);
-            }
-            CopyPipeline::Fullscreen(pipeline) => {
-                let mut pass = encoder.begin_render_pass(&wgpu::RenderPassDescriptor {
-                    color_attachments: &[Some(wgpu::RenderPassColorAttachment {
-                        view: &self.target,
-                        depth_slice: None,
-                        resolve_target: None,
-                        ops: wgpu::Operations {
-                            load: wgpu::LoadOp::Clear(wgpu::Color::TRANSPARENT),
-                            store: wgpu::StoreOp::Store,
-                        },
-                    })],
-                    ..Default::default()
-                });
-                pass.set_pipeline(pipeline);
-                pass.set_bind_group(0, &self.group, &[]);
-                pass.draw(0..3, 0..1);
-            }
-        }
-    }
-}
-
-impl CopyPipeline {
-    fn new(gpu: &Gpu, texel: TextureFormat, format: wgpu::TextureFormat, work: CopyWork) -> Self {
-        let (device, label) = (&gpu.device, Some("cost/copy"));
-        let module = &device.create_shader_module(wgpu::ShaderModuleDescriptor {
-            label,
-            source: wgpu::ShaderSource::Wgsl(shader(work, texel).into()),
-        });
-        let compilation_options = wgpu::PipelineCompilationOptions::default();
-        match work {
-            CopyWork::Compute => CopyPipeline::Compute(device.create_compute_pipeline(
-                &wgpu::ComputePipelineDescriptor {
-                    label,
-                    layout: None,
-                    module,
-                    entry_point: Some("copy"),
-                    compilation_options,
-                    cache: None,
-                },
-            )),
-            CopyWork::Fullscreen => CopyPipeline::Fullscreen(device.create_render_pipeline(
-                &wgpu::RenderPipelineDescriptor {
-                    label,
-                    layout: None,
-                    vertex: wgpu::VertexState {
-                        module,
-                        entry_point: Some("fullscreen"),
-                        compilation_options: compilation_options.clone(),
-                        buffers: &[],
-                    },
-                    primitive: wgpu::PrimitiveState::default(),
-                    depth_stencil: None,
-                    multisample: wgpu::MultisampleState::default(),
-                    fragment: Some(wgpu::FragmentState {
-                        module,
-                        entry_point: Some("copy"),
-                        compilation_options,
-                        targets: &[Some(format.into())],
-                    }),
-                    multiview_mask: None,
-                    cache: None,
-                },
-            )),
-        }
     }
 }
 

@@ -2,12 +2,12 @@
 
 use moment_shadows_graph::TextureDesc;
 
-use super::CostError;
 use super::clock::Clock;
 use super::copies::{Copies, CopyWork, storable};
 use super::protocol::{CopyNumbers, Record, Rounds, Subject};
 use super::statistics::Distribution;
 use super::table::{Facts, Gate, Row};
+use crate::error::LabError;
 use crate::gpu::Gpu;
 
 /// How far a result is from its reference in double precision.
@@ -81,13 +81,13 @@ impl Difference {
     }
 
     /// The error of a right result.
-    pub fn accepted(self, what: &str) -> Result<f64, CostError> {
+    pub fn accepted(self, what: &str) -> Result<f64, LabError> {
         let Self { error, tolerance } = self;
         // Not NaN, either.
         if error <= tolerance {
             return Ok(error);
         }
-        Err(CostError::WrongResult {
+        Err(LabError::WrongResult {
             what: what.to_owned(),
             error,
             tolerance,
@@ -111,7 +111,7 @@ impl Measured {
         cases: &[Case],
         rounds: u32,
         progress: impl FnMut(),
-    ) -> Result<Self, CostError> {
+    ) -> Result<Self, LabError> {
         let mut copies = CopySets::default();
         let (mut errors, mut copy_numbers) = (Vec::new(), Vec::new());
         for case in cases {
@@ -178,7 +178,7 @@ impl CopySets {
         gpu: &Gpu,
         written: &[TextureDesc],
         work: CopyWork,
-    ) -> Result<CopyNumbers, CostError> {
+    ) -> Result<CopyNumbers, LabError> {
         let storable: Vec<TextureDesc> = written.iter().map(storable).collect();
         let compute = self.number(gpu, &storable, CopyWork::Compute)?;
         let draw = match work {
@@ -197,7 +197,7 @@ impl CopySets {
         gpu: &Gpu,
         descs: &[TextureDesc],
         work: CopyWork,
-    ) -> Result<usize, CostError> {
+    ) -> Result<usize, LabError> {
         let same = |set: &(Vec<TextureDesc>, CopyWork, Copies)| set.0 == descs && set.1 == work;
         if let Some(set) = self.0.iter().position(same) {
             return Ok(2 * set);

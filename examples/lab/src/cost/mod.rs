@@ -8,10 +8,8 @@ pub mod bandwidth;
 pub mod blur;
 pub mod clock;
 pub mod copies;
-mod error;
 pub mod graph_cost;
 pub mod harness;
-mod node;
 mod opened;
 pub mod passes;
 pub mod protocol;
@@ -24,9 +22,8 @@ pub mod summed_area;
 pub mod table;
 pub mod texels;
 
-pub use error::CostError;
-
 use self::harness::Case;
+use crate::error::LabError;
 use crate::gpu::Gpu;
 
 /// A list of subjects: cases per size of a map.
@@ -36,5 +33,5 @@ pub struct SubjectList {
     /// Texels per side that are measured in turn; none where only the size that was asked for is.
     pub sizes: &'static [u32],
     /// Makes the subjects for a size, runs each once, and compares what it gives with its reference.
-    pub cases: fn(&Gpu, u32) -> Result<Vec<Case>, CostError>,
+    pub cases: fn(&Gpu, u32) -> Result<Vec<Case>, LabError>,
 }

@@ -2,13 +2,13 @@
 
 use moment_shadows::{DepthConversion, Storage, TextureFormat};
 use moment_shadows_graph::Named;
-use moment_shadows_graph::nodes::KernelProperty;
+use moment_shadows_graph::nodes::Blur;
 
-use super::CostError;
 use super::harness::Difference;
 use super::reference;
 use super::shading;
 use super::texels::{Channels, decode};
+use crate::error::LabError;
 use crate::frame::Frame;
 use crate::gpu::Gpu;
 use crate::graph_file::GraphFile;
@@ -22,7 +22,7 @@ pub(super) struct OpenedGraph {
 }
 
 /// A difference from the reference, if there is one.
-type Checked = Result<Option<Difference>, CostError>;
+type Checked = Result<Option<Difference>, LabError>;
 
 /// Channels of a mip level.
 struct Level {
@@ -36,7 +36,7 @@ const LIGHT_DEPTH: &str = "light_depth";
 
 impl OpenedGraph {
     /// Runs the graph on the frame with its connections as further outputs.
-    pub(super) fn run(gpu: &Gpu, frame: &Frame, file: &GraphFile) -> Result<Self, CostError> {
+    pub(super) fn run(gpu: &Gpu, frame: &Frame, file: &GraphFile) -> Result<Self, LabError> {
         let mut file = GraphFile::parse(&file.name, file.text.clone(), None)?;
         let given = file.graph.outputs.iter().map(|output| output.value.clone());
         // What a node changes in place is available only after it.
@@ -96,9 +96,13 @@ impl OpenedGraph {
         let (Some(source), Some(found)) = (source, found) else {
             return Ok(None);
         };
-        let kernel = self.file.node_entry(node, "properties")["kernel"].clone();
-        let kernel: KernelProperty = serde_json::from_value(kernel).unwrap_or_default();
-        let kernel = kernel.kernel()?;
+        let properties = self.file.node_entry(node, "properties");
+        let Ok(Blur {
+            kernel: Ok(kernel), ..
+        }) = serde_json::from_value(properties)
+        else {
+            return Ok(None);
+        };
         let reference = reference::blur(&source.channels, source.size, &kernel);
         found.difference(
             &reference,
@@ -140,7 +144,7 @@ impl OpenedGraph {
     }
 
     /// A mip level of an output that holds moments.
-    fn level(&self, gpu: &Gpu, output: &str, level: u32) -> Result<Option<Level>, CostError> {
+    fn level(&self, gpu: &Gpu, output: &str, level: u32) -> Result<Option<Level>, LabError> {
         let Self { frame, .. } = self;
         let desc = frame.plan.output_texture(output);
         let (Some(desc), Some(texture)) = (desc, frame.bindings.output(output)) else {
@@ -189,11 +193,9 @@ impl Level {
     }
 }
 
-fn storage(format: TextureFormat) -> Result<Storage, CostError> {
-    Storage::of_format(format).ok_or_else(|| CostError::Format {
-        format,
-        reason: "the reference knows moments alone".to_owned(),
-    })
+fn storage(format: TextureFormat) -> Result<Storage, LabError> {
+    Storage::of_format(format)
+        .ok_or_else(|| LabError::unsuitable(format, "the reference knows moments alone"))
 }
 
 /// The output of the node that an edge leads to, if it is the same texture as this input.

@@ -6,11 +6,11 @@ use std::rc::Rc;
 use moment_shadows_graph::record::Recording;
 use moment_shadows_graph::{Plan, PlannedBindingResource, PlannedPass, PlannedWork, TextureDesc};
 
-use super::CostError;
 use super::copies::CopyWork;
 use super::harness::Case;
 use super::opened::OpenedGraph;
 use super::table::{FEWEST_TEXELS, Facts, Gate, between, texels};
+use crate::error::LabError;
 use crate::frame::Frame;
 use crate::gpu::Gpu;
 use crate::graph_file::GraphFile;
@@ -22,7 +22,7 @@ pub fn cases(
     gpu: &Gpu,
     frame: &Frame,
     file: &GraphFile,
-) -> Result<(Vec<Case>, [u64; 2]), CostError> {
+) -> Result<(Vec<Case>, [u64; 2]), LabError> {
     let opened = OpenedGraph::run(gpu, frame, file)?;
     let graph = Rc::new(GraphFrame::new(gpu, frame, file)?);
     // Everything that the passes read has its contents before one of them is repeated alone.

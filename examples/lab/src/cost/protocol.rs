@@ -1,9 +1,9 @@
 //! Rounds: every subject in turn, so that whatever else the machine does meets all of them alike.
 
-use super::CostError;
 use super::clock::{Clock, Reading};
 use super::report::Time;
 use super::statistics::Distribution;
+use crate::error::LabError;
 
 /// Fewer rounds give no distribution.
 pub const FEWEST_ROUNDS: u32 = 9;
@@ -15,7 +15,7 @@ const SHORTEST: f64 = 1e-3;
 const MOST_REPEATS: u32 = 1024;
 
 /// What records a subject once.
-pub type Record<'a> = Box<dyn Fn(&mut wgpu::CommandEncoder) -> Result<(), CostError> + 'a>;
+pub type Record<'a> = Box<dyn Fn(&mut wgpu::CommandEncoder) -> Result<(), LabError> + 'a>;
 
 /// Something whose time is taken.
 pub struct Subject<'a> {
@@ -43,7 +43,7 @@ pub struct Rounds {
 }
 
 impl Subject<'_> {
-    fn time(&self, clock: &Clock<'_>, repeats: u32) -> Result<Reading, CostError> {
+    fn time(&self, clock: &Clock<'_>, repeats: u32) -> Result<Reading, LabError> {
         let reading = clock.time(&self.name, |encoder| {
             (0..repeats).try_for_each(|_| (self.record)(encoder))
         })?;
@@ -54,7 +54,7 @@ impl Subject<'_> {
     }
 
     /// Warms up, and finds how often the subject has to be repeated.
-    fn repeats(&self, clock: &Clock<'_>) -> Result<u32, CostError> {
+    fn repeats(&self, clock: &Clock<'_>) -> Result<u32, LabError> {
         let mut repeats = 1;
         self.time(clock, 1)?;
         while repeats < MOST_REPEATS {
@@ -75,7 +75,7 @@ impl Rounds {
         subjects: &[Subject<'_>],
         rounds: u32,
         mut progress: impl FnMut(),
-    ) -> Result<Self, CostError> {
+    ) -> Result<Self, LabError> {
         let repeats = subjects
             .iter()
             .map(|subject| subject.repeats(clock))

@@ -2,8 +2,8 @@
 
 use moment_shadows::Storage;
 
-use super::CostError;
 use super::harness::Difference;
+use crate::error::LabError;
 use crate::frame::Frame;
 use crate::gpu::Gpu;
 use crate::graph_file::GraphFile;
@@ -28,7 +28,7 @@ pub(super) fn difference(
     file: &GraphFile,
     intensity: &wgpu::Texture,
     storage: Storage,
-) -> Result<Option<Difference>, CostError> {
+) -> Result<Option<Difference>, LabError> {
     if intensity.format().components() != 1 {
         return Ok(None);
     }

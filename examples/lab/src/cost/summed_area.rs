@@ -1,19 +1,21 @@
 //! Summed-area tables: both tiles of the node, and the usual way, of maps of several sizes.
 
 use moment_shadows::{MapEncoding, MapRegion, Storage, Technique, TextureFormat};
-use moment_shadows_graph::nodes::LargestKernel;
+use moment_shadows_graph::nodes::SummedAreaTable;
+use moment_shadows_graph::record::Recording;
 use moment_shadows_graph::{Capabilities, TextureDesc};
-use serde_json::{Value, json};
+use serde_json::Value;
 
+use super::SubjectList;
 use super::copies::CopyWork;
 use super::harness::{Case, Difference};
-use super::node::{NodeOnMap, NodeText, upload};
 use super::protocol::Record;
 use super::table::{Facts, Gate};
 use super::texels::{encode, noise};
-use super::{CostError, SubjectList};
+use crate::error::LabError;
 use crate::gpu::Gpu;
-use crate::summed_area::{NaiveTable, reference};
+use crate::node_on_map::NodeOnMap;
+use crate::summed_area::{NaiveTable, node, reference};
 
 /// Tables of maps of up to a size.
 pub const TABLES: SubjectList = SubjectList {
@@ -29,7 +31,7 @@ const GATE: Gate = Gate {
     largest_growth: Some(1.3),
 };
 
-fn cases(gpu: &Gpu, size: u32) -> Result<Vec<Case>, CostError> {
+fn cases(gpu: &Gpu, size: u32) -> Result<Vec<Case>, LabError> {
     let source = MapEncoding::new(Technique::Hamburger4, Storage::Unorm16)?;
     let bytes = encode(
         source.storage(),
@@ -66,29 +68,23 @@ fn cases(gpu: &Gpu, size: u32) -> Result<Vec<Case>, CostError> {
         difference: Some(difference(found)),
         gate: if chosen { GATE } else { Gate::default() },
     };
-    let map = upload(gpu, &desc, &bytes);
     let mut cases = Vec::new();
     for (method, tile, software_adapter) in [
         ("software_tiles", [16, 16], true),
         ("hardware_tiles", [8, 16], false),
     ] {
-        let text = NodeText {
-            node_type: "summed_area_table",
-            properties: json!({ "largest_kernel": LargestKernel::default() }),
-            input: "map",
-            output: "table",
-        };
+        let text = node(SummedAreaTable::default().largest_kernel);
         let chosen = software_adapter == capabilities.software_adapter;
         let capabilities = Capabilities {
             software_adapter,
             ..capabilities.clone()
         };
-        let node = NodeOnMap::new(gpu, &capabilities, text, (&desc, &map), |_, _| Ok(()))?;
-        let found: Vec<u32> =
-            bytemuck::pod_collect_to_vec(&node.run(gpu)?.pop().unwrap_or_default());
-        let bytes = node.bytes();
-        let record: Record<'static> = Box::new(move |encoder| node.record(None, encoder));
-        cases.push(case(method, tile, chosen, bytes, &found, record));
+        let node = NodeOnMap::new(gpu, &capabilities, &text, &desc, &bytes)?;
+        let found: Vec<u32> = bytemuck::pod_collect_to_vec(&node.made(gpu)?.concat());
+        let moved = node.bytes();
+        let record: Record<'static> =
+            Box::new(move |encoder| node.record(Recording::default(), encoder));
+        cases.push(case(method, tile, chosen, moved, &found, record));
     }
     let naive = NaiveTable::new(gpu, &desc, &bytes)?;
     let found = naive.run(gpu)?;

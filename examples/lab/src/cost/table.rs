@@ -292,6 +292,15 @@ pub(super) fn between(texts: &[String], joint: &str) -> String {
 }
 
 /// Rows of named cells below their names, words to the left and figures to the right; a column without a figure is left out.
+pub(crate) struct Columns<'a>(pub(crate) &'a [Vec<Cell<'a>>]);
+
+impl fmt::Display for Columns<'_> {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        columns(f, self.0)
+    }
+}
+
+/// Writes [`Columns`].
 pub(crate) fn columns(f: &mut fmt::Formatter<'_>, rows: &[Vec<Cell<'_>>]) -> fmt::Result {
     let Some(first) = rows.first() else {
         return Ok(());

@@ -3,7 +3,7 @@
 use super::chip::Chip;
 use super::driver::{Driver, loaded_sha256};
 use super::spirv::SpirvModule;
-use super::subjects::{Subject, SubjectWork};
+use super::subjects::Subject;
 use super::vulkan::{Executable, NullDevice};
 use crate::error::LabError;
 use crate::shaders;
@@ -45,25 +45,20 @@ impl Compiler {
         let shader = shaders::Compiled::new(&subject.name, &subject.wgsl, &subject.constants)?;
         let write =
             |stage, entry_point| SpirvModule::new(&subject.name, &shader, stage, entry_point);
-        match subject.work {
-            SubjectWork::Compute {
-                texels_per_workgroup,
-            } => {
-                let module = write(naga::ShaderStage::Compute, &subject.entry_point)?;
-                Ok(Compiled {
-                    executable: self.device.compile(&module, None)?,
-                    outputs: f64::from(texels_per_workgroup) / f64::from(module.workgroup.max(1)),
-                })
-            }
-            SubjectWork::Fragment { target } => {
-                let vertex = write(naga::ShaderStage::Vertex, VERTEX_ENTRY_POINT)?;
-                let module = write(naga::ShaderStage::Fragment, &subject.entry_point)?;
-                Ok(Compiled {
-                    executable: self.device.compile(&module, Some((&vertex, target)))?,
-                    outputs: 1.0,
-                })
-            }
+        let texels = f64::from(subject.texels_per_workgroup);
+        if let Some(target) = subject.target {
+            let vertex = write(naga::ShaderStage::Vertex, VERTEX_ENTRY_POINT)?;
+            let module = write(naga::ShaderStage::Fragment, &subject.entry_point)?;
+            return Ok(Compiled {
+                executable: self.device.compile(&module, Some((&vertex, target)))?,
+                outputs: texels,
+            });
         }
+        let module = write(naga::ShaderStage::Compute, &subject.entry_point)?;
+        Ok(Compiled {
+            executable: self.device.compile(&module, None)?,
+            outputs: texels / f64::from(module.workgroup.max(1)),
+        })
     }
 }
 

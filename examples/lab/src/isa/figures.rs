@@ -93,20 +93,16 @@ impl Figures {
         compiled: &Compiled,
         chip: Chip,
     ) -> Result<Figures, LabError> {
+        let odd = |reason: String| {
+            let shader = format!("shader '{}'", subject.name);
+            LabError::unsuitable(shader, format!("on {chip}: {reason}"))
+        };
         let statistic = |name: &str| {
             let value = compiled.executable.statistics.get(name).copied();
-            value.ok_or_else(|| {
-                let reason = format!(
-                    "the driver does not tell '{name}'; use the version that the table names"
-                );
-                LabError::unsuitable(format!("shader '{}'", &subject.name), reason)
-            })
-        };
-        let odd = |reason: String| {
-            LabError::unsuitable(
-                format!("shader '{}'", &subject.name),
-                format!("on {chip}: {reason}"),
-            )
+            let untold = || {
+                format!("the driver does not tell '{name}'; use the version that the table names")
+            };
+            value.ok_or_else(|| odd(untold()))
         };
         let code = text::parse(&compiled.executable.isa).map_err(odd)?;
         let loops = loops::find(&code).map_err(odd)?;

@@ -10,7 +10,6 @@ use moment_shadows_graph::{
 
 use crate::catalogue::{self, Row, SIZE, Variant};
 use crate::error::LabError;
-use crate::shaders::ShadersError;
 use crate::summed_area::naive;
 
 /// A shader that is compiled.
@@ -24,52 +23,18 @@ pub struct Subject {
     pub entry_point: String,
     /// Values of `override` constants.
     pub constants: BTreeMap<String, f64>,
-    /// What an invocation makes.
-    pub work: SubjectWork,
+    /// The format of the target that a fragment shader draws a pixel of; none for texels of a storage texture.
+    pub target: Option<TextureFormat>,
+    /// Texels that a workgroup makes.
+    pub texels_per_workgroup: u32,
     /// Bytes of the widest texel that the shader reads or writes.
     pub texel_bytes: u32,
     /// How often each loop of the code runs, in the order in which they begin.
     pub trips: Vec<u32>,
 }
 
-/// What a subject's invocations make.
-#[derive(Clone, Debug, PartialEq, Eq)]
-pub enum SubjectWork {
-    /// Texels of a storage texture.
-    Compute {
-        /// Texels per workgroup.
-        texels_per_workgroup: u32,
-    },
-    /// A pixel of the target.
-    Fragment {
-        /// Its format.
-        target: TextureFormat,
-    },
-}
-
-/// Shaders that stand alone, with a target of 16 bits per channel: name, bytes of the widest texel, text.
-const REFERENCES: [(&str, u32, &str); 4] = [
-    (
-        "one bilinear fetch",
-        8,
-        include_str!("reference/bilinear.wgsl"),
-    ),
-    (
-        "Hamburger 4 (fetch, decoding, bias, leak reduction)",
-        8,
-        include_str!("reference/hamburger.wgsl"),
-    ),
-    (
-        "summed-area table, nine rectangles",
-        16,
-        include_str!("reference/summed_area_interpolated.wgsl"),
-    ),
-    (
-        "summed-area table, whole texels",
-        16,
-        include_str!("reference/summed_area_plain.wgsl"),
-    ),
-];
+/// Filtering with a table.
+const FILTER: &str = include_str!("reference/summed_area.wgsl");
 
 /// Every shader of the table: the references first.
 pub fn subjects() -> Result<Vec<Subject>, LabError> {
@@ -83,23 +48,39 @@ pub fn subjects() -> Result<Vec<Subject>, LabError> {
         wgsl,
         entry_point: "shade".to_owned(),
         constants: BTreeMap::new(),
-        work: SubjectWork::Fragment {
-            target: TextureFormat::Rgba16Float,
-        },
+        target: Some(TextureFormat::Rgba16Float),
+        texels_per_workgroup: 1,
         texel_bytes,
         trips: Vec::new(),
     };
-    for (name, texel_bytes, text) in REFERENCES {
-        let linked = link(Source { name, text }, &[fullscreen]).map_err(ShadersError::from)?;
+    // Shaders that stand alone, with a target of 16 bits per channel: name, text, bytes of the widest texel.
+    let plain = FILTER.replace(
+        "summed_area_table_mean_interpolated",
+        "summed_area_table_mean_plain",
+    );
+    for (name, text, texel_bytes) in [
+        (
+            "one bilinear fetch",
+            include_str!("reference/bilinear.wgsl"),
+            8,
+        ),
+        (
+            "Hamburger 4 (fetch, decoding, bias, leak reduction)",
+            include_str!("reference/hamburger.wgsl"),
+            8,
+        ),
+        ("summed-area table, nine rectangles", FILTER, 16),
+        ("summed-area table, whole texels", &plain, 16),
+    ] {
+        let linked = link(Source { name, text }, &[fullscreen])?;
         subjects.push(reference(name, linked.into_wgsl(), texel_bytes));
     }
     for (name, text, entry_point) in naive::SHADERS {
-        let wgsl = naive::linked(name, text).map_err(ShadersError::from)?;
+        let wgsl = naive::linked(name, text)?;
         subjects.push(Subject {
             entry_point: entry_point.to_owned(),
-            work: SubjectWork::Compute {
-                texels_per_workgroup: naive::LINES * SIZE[0],
-            },
+            target: None,
+            texels_per_workgroup: naive::LINES * SIZE[0],
             trips: vec![SIZE[0]],
             ..reference(&format!("summed-area table, {name}"), wgsl, 16)
         });
@@ -122,35 +103,30 @@ fn of_variant(variant: &Variant, row: &Row) -> Result<Vec<Subject>, LabError> {
     let mut subjects = Vec::new();
     for pass in &desc.passes {
         let name = format!("{}, {}: {}", desc.name, row.settings, pass.label);
-        let work = match &pass.work {
+        let (target, texels) = match &pass.work {
             Work::Compute {
-                texels_per_workgroup,
+                texels_per_workgroup: texels,
                 ..
-            } => SubjectWork::Compute {
-                // A workgroup for whole lines covers no more than there is.
-                texels_per_workgroup: texels_per_workgroup
-                    .iter()
-                    .zip(SIZE)
-                    .map(|(&texels, side)| texels.min(side))
-                    .product(),
-            },
+            } => (None, *texels),
             Work::Fullscreen { target, .. } => {
                 let format = formats.of(target).ok_or_else(|| {
-                    LabError::unsuitable(
-                        format!("shader '{}'", &name),
-                        format!("its target '{target}' has no format"),
-                    )
+                    let reason = format!("its target '{target}' has no format");
+                    LabError::unsuitable(format!("shader '{name}'"), reason)
                 })?;
-                SubjectWork::Fragment { target: format }
+                (Some(format), [1; 2])
             }
             Work::Host { .. } => continue,
         };
+        // A workgroup for whole lines covers no more than there is.
+        let texels = texels.into_iter().zip(SIZE);
+        let texels_per_workgroup = texels.map(|(texels, side)| texels.min(side)).product();
         subjects.push(Subject {
             name,
             wgsl: pass.wgsl.clone(),
             entry_point: pass.entry_point.clone(),
             constants: pass.constants.clone(),
-            work,
+            target,
+            texels_per_workgroup,
             texel_bytes: formats.widest(pass),
             trips: row.trips(&pass.label).to_vec(),
         });
@@ -217,19 +193,12 @@ mod tests {
         let subjects = subjects()?;
         let find = |name: &str| subjects.iter().find(|subject| subject.name == name);
         let blur = find("blur, float32, radius 64: blur along x");
-        let blur = blur.map(|blur| (&blur.work, blur.texel_bytes, &blur.trips));
-        let expected = SubjectWork::Compute {
-            // 64 invocations of 16 texels.
-            texels_per_workgroup: 1024,
-        };
-        // 128 + 16 taps in blocks of 16.
-        assert_eq!(blur, Some((&expected, 16, &vec![9])));
+        let blur = blur.map(|blur| (blur.texels_per_workgroup, blur.texel_bytes, &blur.trips));
+        // 64 invocations of 16 texels; 128 + 16 taps in blocks of 16.
+        assert_eq!(blur, Some((1024, 16, &vec![9])));
         let shade = find("shade_hard, unorm16, sampled: shade");
-        let shade = shade.map(|shade| (&shade.work, shade.texel_bytes));
-        let expected = SubjectWork::Fragment {
-            target: TextureFormat::R8Unorm,
-        };
-        assert_eq!(shade, Some((&expected, 8)));
+        let shade = shade.map(|shade| (shade.target, shade.texel_bytes));
+        assert_eq!(shade, Some((Some(TextureFormat::R8Unorm), 8)));
         Ok(())
     }
 }

@@ -1,6 +1,5 @@
 //! The table: every shader on every chip, and the driver that compiled them.
 
-use std::io::Write;
 use std::path::Path;
 
 use serde::{Deserialize, Serialize};
@@ -9,6 +8,7 @@ use super::chip::Chip;
 use super::driver::Driver;
 use super::figures::Row;
 use crate::error::LabError;
+use crate::picture::save_atomically;
 
 /// The shaders of one chip.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -45,14 +45,8 @@ impl Table {
 
     /// Writes the table beside `path` and renames it, so that an existing one is never half-replaced.
     pub fn write(&self, path: &Path) -> Result<(), LabError> {
-        let folder = path.parent().filter(|folder| *folder != Path::new(""));
-        let write = || -> std::io::Result<()> {
-            let mut file = tempfile::NamedTempFile::new_in(folder.unwrap_or(Path::new(".")))?;
-            file.write_all(self.to_json()?.as_bytes())?;
-            file.persist(path)?;
-            Ok(())
-        };
-        write().map_err(|error| LabError::unsuitable(path.display(), error))
+        let text = self.to_json()?;
+        save_atomically(path, |file| file.write_all(text.as_bytes()))
     }
 
     /// JSON with one row per line, so that a difference between two tables can be read.

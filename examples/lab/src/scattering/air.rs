@@ -1,15 +1,15 @@
 //! What is in the air of a scene.
 
 use glam::DVec3;
-use moment_shadows::{SingleScattering, SingleScatteringError};
+use moment_shadows::{SingleScattering, ValueError};
 
 use crate::scene::Scene;
 
-/// Optical thickness between the camera and the far end, unless another one is asked for.
+/// Optical thickness between the camera and the far end.
 pub(super) const THICKNESS: f64 = 0.7;
 
-/// Anisotropy of the phase function, unless another one is asked for.
-pub(super) const ANISOTROPY: f32 = 0.4;
+/// Anisotropy of the phase function.
+const ANISOTROPY: f32 = 0.4;
 
 /// How far behind the scene's middle the air ends, in parts of its radius.
 const BEHIND: f64 = 1.5;
@@ -33,23 +33,19 @@ const ALBEDO: f32 = 0.9;
 const IRRADIANCE: [f32; 3] = [9.0, 8.4, 7.5];
 
 impl Air {
-    /// Thin haze of an optical thickness between the camera and the far end, lit by a sun.
+    /// Thin haze between a camera and a little behind the middle of the scene that it sees, lit by a sun.
     ///
     /// # Errors
-    /// Thickness or anisotropy out of range.
-    pub fn new(thickness: f64, anisotropy: f32, far: f64) -> Result<Self, SingleScatteringError> {
-        let mean = (thickness / far) as f32;
+    /// A medium that cannot be.
+    pub(super) fn of(scene: &Scene, eye: DVec3) -> Result<Self, ValueError> {
+        let bounds = scene.bounds();
+        let far = (bounds.centre() - eye).length() + BEHIND * bounds.radius();
+        let mean = (THICKNESS / far) as f32;
         let extinction = COLOURS.map(|colour| colour * mean);
         let scattering = extinction.map(|extinction| ALBEDO * extinction);
         Ok(Self {
-            medium: SingleScattering::new(extinction, scattering, anisotropy, IRRADIANCE)?,
+            medium: SingleScattering::new(extinction, scattering, ANISOTROPY, IRRADIANCE)?,
             far,
         })
     }
-}
-
-/// Where the air of a scene ends, seen from a camera.
-pub(super) fn far(scene: &Scene, eye: DVec3) -> f64 {
-    let bounds = scene.bounds();
-    (bounds.centre() - eye).length() + BEHIND * bounds.radius()
 }

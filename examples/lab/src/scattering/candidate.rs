@@ -1,12 +1,10 @@
 //! Ways to light the air that are compared.
 
 use moment_shadows::{Profile, Storage, Technique as MapTechnique};
-use moment_shadows_graph::nodes::Overestimation;
-use serde_json::json;
 
-use super::chain::{Link, graph};
+use super::chain::Chain;
 use super::convolution::ConvolutionRows;
-use super::march::{Marcher, Marching};
+use super::march::Marcher;
 use super::stage::ScatteringStage;
 use crate::compare::Technique;
 use crate::error::LabError;
@@ -16,9 +14,6 @@ use crate::graph_frame::GraphFrame;
 
 /// Steps of marching.
 const STEPS: [u32; 4] = [16, 32, 64, 128];
-
-/// Steps of marching through the filtered map.
-const STEPS_THROUGH_MOMENTS: u32 = 1024;
 
 /// A way to light the air.
 #[derive(Debug)]
@@ -34,103 +29,46 @@ pub struct ScatteringCandidate {
 enum Way {
     /// The library's nodes: a graph with an output `scattering`.
     Graph(GraphFile),
-    March(Marching),
+    /// Marching through the plain map, with so many steps per ray. With `half`, half as many columns and rows are marched with
+    /// steps that are shifted from pixel to pixel, and the rest is interpolated bilaterally.
+    March { steps: u32, half: bool },
     /// A convolution map with these columns and rows.
     Convolution([u32; 2]),
 }
 
-/// Our nodes with six and four moments in float16, and in unorm16 where the device has it; the convolution map of the same
-/// extent; marching.
-pub fn candidates(
-    gpu: &Gpu,
-    radius: u32,
-    extent: [u32; 2],
-    overestimation: Overestimation,
-) -> Result<Vec<ScatteringCandidate>, LabError> {
-    let has_unorm16 = gpu
-        .device
-        .features()
-        .contains(wgpu::Features::TEXTURE_FORMAT_16BIT_NORM);
+/// Our nodes with six and four moments in float16; the convolution map of the same extent; marching.
+pub fn candidates(radius: u32, extent: [u32; 2]) -> Result<Vec<ScatteringCandidate>, LabError> {
     let mut all = Vec::new();
-    let mut storages = vec![Storage::Float16];
-    storages.extend(has_unorm16.then_some(Storage::Unorm16));
+    let mut push = |name: String, fetches: f64, way: Way| {
+        all.push(ScatteringCandidate { name, fetches, way });
+    };
     for (count, technique) in [(6, MapTechnique::Hamburger6), (4, MapTechnique::Hamburger4)] {
-        for &storage in &storages {
-            all.push(ScatteringCandidate {
-                name: format!("{count} moments {storage}"),
-                fetches: f64::from(count / 2 - 1).max(1.0),
-                way: Way::Graph(nodes(&technique, storage, radius, extent, overestimation)?),
-            });
-        }
+        let storage = Storage::Float16;
+        let chain = Chain {
+            map: storage,
+            radius: Some(radius),
+            rectify: "rectify_moments",
+            rectified: (technique, storage),
+            extent,
+        };
+        let fetches = f64::from(count / 2 - 1).max(1.0);
+        let way = Way::Graph(chain.graph()?);
+        push(format!("{count} moments {storage}"), fetches, way);
     }
-    all.push(ScatteringCandidate {
-        name: "convolution".to_owned(),
-        fetches: 4.0,
-        way: Way::Convolution(extent),
-    });
-    let mut march = |name: String, fetches: f64, how: Marching| {
-        all.push(ScatteringCandidate {
-            name,
-            fetches,
-            way: Way::March(how),
-        });
-    };
-    for half in [false, true] {
-        for steps in STEPS {
-            let (name, fetches) = match (half, f64::from(steps)) {
-                (true, fetches) => ("half march", fetches / 4.0 + 4.0),
-                (false, fetches) => ("march", fetches),
-            };
-            let how = Marching {
-                steps,
-                half,
-                filtered: None,
-            };
-            march(format!("{name} {steps}"), fetches, how);
-        }
+    push("convolution".to_owned(), 4.0, Way::Convolution(extent));
+    for steps in STEPS {
+        let way = Way::March { steps, half: false };
+        push(format!("march {steps}"), f64::from(steps), way);
     }
-    let storage = if has_unorm16 {
-        Storage::Unorm16
-    } else {
-        Storage::Float32
-    };
-    let links = [Link::resolve(storage), Link::blur(radius, None)];
-    let steps = STEPS_THROUGH_MOMENTS;
-    let how = Marching {
-        steps,
-        half: false,
-        filtered: Some((graph("filtered", &links)?, storage)),
-    };
-    march(format!("moments {steps}"), f64::from(steps), how);
+    for steps in STEPS {
+        let way = Way::March { steps, half: true };
+        push(
+            format!("half march {steps}"),
+            f64::from(steps) / 4.0 + 4.0,
+            way,
+        );
+    }
     Ok(all)
-}
-
-/// The chain of the library's nodes.
-fn nodes(
-    technique: &MapTechnique,
-    storage: Storage,
-    radius: u32,
-    extent: [u32; 2],
-    overestimation: Overestimation,
-) -> Result<GraphFile, LabError> {
-    let rectify =
-        json!({ "technique": technique, "storage": storage.to_string(), "extent": extent });
-    let links = [
-        Link::resolve(storage),
-        Link::blur(radius, None),
-        Link("rectify_moments", rectify, ["map", "rectified"]),
-        Link(
-            "integrate_scattering",
-            json!({}),
-            ["rectified", "integrated"],
-        ),
-        Link(
-            "composite_scattering",
-            json!({ "overestimation": overestimation }),
-            ["integrated", "scattering"],
-        ),
-    ];
-    graph("scattering", &links)
 }
 
 /// The profile of the device that candidates run on.
@@ -150,7 +88,7 @@ impl ScatteringCandidate {
                 file,
                 Some(&stage.air),
             )?),
-            Way::March(how) => Box::new(Marcher::new(gpu, stage, how)?),
+            Way::March { steps, half } => Box::new(Marcher::new(gpu, stage, *steps, *half)?),
             Way::Convolution(extent) => Box::new(ConvolutionRows::new(gpu, stage, *extent)?),
         })
     }
@@ -158,9 +96,9 @@ impl ScatteringCandidate {
     /// Steps, if it marches the plain map at full resolution.
     #[must_use]
     pub fn steps(&self) -> Option<u32> {
-        match &self.way {
-            Way::March(how) if !how.half && how.filtered.is_none() => Some(how.steps),
-            Way::March(_) | Way::Graph(_) | Way::Convolution(_) => None,
+        match self.way {
+            Way::March { steps, half: false } => Some(steps),
+            Way::March { .. } | Way::Graph(_) | Way::Convolution(_) => None,
         }
     }
 

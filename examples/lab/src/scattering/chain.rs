@@ -1,6 +1,6 @@
 //! Chains of nodes from the light's depth to light in the air.
 
-use moment_shadows::Storage;
+use moment_shadows::{Storage, Technique};
 use moment_shadows_graph::{Graph, NodeRegistry};
 use serde_json::{Value, json};
 
@@ -8,56 +8,72 @@ use super::flicker::RectifyNearest;
 use crate::error::LabError;
 use crate::graph_file::GraphFile;
 
-/// A node: its type and properties, the slot that the node before it is connected with, and what it gives.
-pub(super) struct Link(
-    pub(super) &'static str,
-    pub(super) Value,
-    pub(super) [&'static str; 2],
-);
+/// A chain: what resamples a map of moments, and what that is made of.
+pub(super) struct Chain {
+    /// Storage of the light's map.
+    pub(super) map: Storage,
+    /// Radius in texels of its blur, if it is blurred.
+    pub(super) radius: Option<u32>,
+    /// The type of the node that resamples it.
+    pub(super) rectify: &'static str,
+    /// The technique and the storage of the rectified map.
+    pub(super) rectified: (Technique, Storage),
+    /// Columns and rows of the rectified map.
+    pub(super) extent: [u32; 2],
+}
 
-impl Link {
-    /// The light's map in a storage.
-    pub(super) fn resolve(storage: Storage) -> Self {
-        let properties = json!({ "storage": storage.to_string() });
-        Self("resolve", properties, ["depth", "map"])
-    }
-
-    /// Its blur.
-    pub(super) fn blur(radius: u32, mip_levels: Option<&str>) -> Self {
-        let mut properties = json!({ "kernel": { "radius": radius } });
-        if let Some(levels) = mip_levels {
-            properties["mip_levels"] = levels.into();
+impl Chain {
+    /// The graph, whose output is `scattering`.
+    pub(super) fn graph(&self) -> Result<GraphFile, LabError> {
+        let (technique, storage) = &self.rectified;
+        let rectify = json!({ "technique": technique, "storage": storage, "extent": self.extent });
+        let resolve = json!({ "storage": self.map });
+        // Each with the slot that the node before it is connected with, and what it gives.
+        let mut links = vec![("resolve", resolve, ["depth", "map"])];
+        if let Some(radius) = self.radius {
+            let blur = json!({ "kernel": { "radius": radius } });
+            links.push(("blur", blur, ["map", "blurred"]));
         }
-        Self("blur", properties, ["map", "blurred"])
+        links.extend([
+            (self.rectify, rectify, ["map", "rectified"]),
+            (
+                "integrate_scattering",
+                json!({}),
+                ["rectified", "integrated"],
+            ),
+            (
+                "composite_scattering",
+                json!({}),
+                ["integrated", "scattering"],
+            ),
+        ]);
+        graph(&links)
     }
 }
 
-/// The graph, whose output is what its last node gives.
-pub(super) fn graph(name: &str, links: &[Link]) -> Result<GraphFile, LabError> {
-    let (mut nodes, mut edges) = (Vec::new(), Vec::new());
+fn graph(links: &[(&str, Value, [&str; 2])]) -> Result<GraphFile, LabError> {
+    let mut nodes = Vec::new();
+    let mut edges =
+        vec![json!({ "from": "camera_depth", "to": "composite_scattering.camera_depth" })];
     let mut from = "light_depth".to_owned();
-    for Link(node, properties, [input, output]) in links {
+    for (node, properties, [input, output]) in links {
         nodes.push(json!({ "name": node, "type": node, "properties": properties }));
         edges.push(json!({ "from": from, "to": format!("{node}.{input}") }));
-        if *node == "composite_scattering" {
-            edges.push(json!({ "from": "camera_depth", "to": format!("{node}.camera_depth") }));
-        }
         from = format!("{node}.{output}");
     }
-    let output = links.last().map(|Link(_, _, [_, output])| output);
     let text = json!({
         "version": 2,
         "imports": [{ "name": "light_depth" }, { "name": "camera_depth" }],
         "nodes": nodes,
         "edges": edges,
-        "outputs": [{ "name": output, "from": from }],
+        "outputs": [{ "name": "scattering", "from": from }],
     })
     .to_string();
     let mut registry = NodeRegistry::new();
     registry.register::<RectifyNearest>("rectify_nearest");
-    let name = name.to_owned();
-    match Graph::parse(&text, &registry) {
-        Ok(graph) => Ok(GraphFile { name, text, graph }),
-        Err(error) => Err(LabError::Graph { file: name, error }),
-    }
+    Ok(GraphFile {
+        name: "scattering".to_owned(),
+        graph: Graph::parse(&text, &registry).map_err(LabError::graph("scattering"))?,
+        text,
+    })
 }

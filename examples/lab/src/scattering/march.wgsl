@@ -1,14 +1,25 @@
 import node::scattering_view::{view, view_cosine, view_dimming, view_surface};
-import node::scattering_visibility::{visibility_shadow};
 import moment_shadows::air::single_scattering::{single_scattering_radiance, single_scattering_transmittance};
 
-// In-scattered radiance by marching: visibility at the middle of each step, everything else in closed form. Pixels of the
+// In-scattered radiance by marching: a load of the plain depth map at the middle of each step, everything else in closed form. Pixels of the
 // target are every so many pixels of the picture.
+
+@group(0) @binding(2) var light_depth: texture_depth_2d;
 
 override STEPS: u32 = 16;
 override PIXELS: i32 = 1;
 // Whether steps are shifted from pixel to pixel, as renderers do that blur the result.
 override DITHERED: bool = false;
+
+// Whether a moment depth is in shadow at a place of the map; outside of it nothing is.
+fn visibility_shadow(uv: vec2f, depth: f32) -> f32 {
+    let size = vec2f(textureDimensions(light_depth));
+    let inside = all(uv >= vec2f(0.0)) && all(uv <= vec2f(1.0));
+    let texel = vec2i(min(saturate(uv) * size, size - 1.0));
+    let stored = textureLoad(light_depth, texel, 0);
+    // The lab's directional lights store depth from 0 to 1; 1 means no caster.
+    return select(0.0, 1.0, inside && stored < 1.0 && fma(2.0, stored, -1.0) < depth);
+}
 
 // Interleaved gradient noise (Jimenez, "Next generation post processing in Call of Duty", SIGGRAPH 2014).
 fn dither(pixel: vec2f) -> f32 {

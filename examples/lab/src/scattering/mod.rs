@@ -15,10 +15,10 @@ mod truth;
 pub use air::Air;
 pub use candidate::{PROFILE, ScatteringCandidate, candidates};
 pub use flicker::{
-    Chain, Change, FRAMES, Flicker, FlickerDesc, GOAL, Path, RectifyNearest, STILL, WINDOW,
+    Change, FRAMES, Flicker, FlickerDesc, GOAL, Path, RectifyNearest, STILL, WINDOW, chains,
     flicker, static_region,
 };
 pub use look::{Look, LookDesc};
-pub use report::{ScatteringError, ScatteringErrors, ScatteringSetting};
+pub use report::{ScatteringError, ScatteringErrors};
 pub use stage::{ScatteringStage, ScatteringStageDesc};
 pub use truth::{MarchedRays, Rays, marched, marched_filtered};

@@ -1,34 +1,9 @@
 //! What a report tells of single scattering.
 
-use core::fmt;
-
 use serde::Serialize;
 
 use super::truth::MarchedRays;
-use crate::compare::{Row, Setting, Table};
-
-/// A scene with something in its air.
-#[derive(Clone, Debug, Serialize)]
-pub struct ScatteringSetting {
-    /// The scene's name.
-    pub scene: String,
-    /// The viewpoint's name.
-    pub look: String,
-    /// Texels per side of the light's map.
-    pub map: u32,
-    /// Columns and rows of rectified maps.
-    pub extent: [u32; 2],
-    /// Width and height of the picture.
-    pub picture: [u32; 2],
-    /// Steps of the truth.
-    pub steps: u32,
-    /// Optical thickness between the camera and the far end.
-    pub thickness: f64,
-    /// Mean radiance without shadows, by colour.
-    pub unshadowed: [f64; 3],
-    /// The share of it that shadows take.
-    pub shadowed: f64,
-}
+use crate::compare::{Errors, Row, Table};
 
 /// How far a picture is off.
 #[derive(Clone, Debug, Serialize)]
@@ -90,31 +65,8 @@ impl ScatteringError {
     }
 }
 
-impl fmt::Display for ScatteringSetting {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let ([columns, rows], [width, height], map) = (self.extent, self.picture, self.map);
-        write!(
-            f,
-            "{}, view {}: map {map}x{map}, rectified {columns}x{rows}, picture {width}x{height}, optical thickness {}; {:.0} % in \
-             shadow; errors are parts of the mean radiance without shadows; truths of {} steps",
-            self.scene,
-            self.look,
-            self.thickness,
-            100.0 * self.shadowed,
-            self.steps,
-        )
-    }
-}
-
-impl Setting for ScatteringSetting {
-    type Errors = ScatteringErrors;
-    const MAP_COST: &'static str = "map, per texel";
-
-    fn stem(&self) -> String {
-        format!("{}-{}", self.scene, self.look)
-    }
-
-    fn tables(&self, rows: &[Row<ScatteringErrors>]) -> Vec<Table> {
+impl Errors for ScatteringErrors {
+    fn tables(rows: &[Row<Self>]) -> Vec<Table> {
         let cells = |row: &Row<ScatteringErrors>| {
             let errors = &row.errors;
             let [red, green, blue] = errors.plain.mean_absolute.map(|it| format!("{it:.4}"));

@@ -5,10 +5,10 @@ use glam::DVec3;
 use moment_shadows::{Kernel, RectifiedFrame, ScatteringParameters, SingleScattering};
 use wgpu::util::DeviceExt;
 
-use super::air::{ANISOTROPY, Air, THICKNESS, far};
+use super::air::{Air, THICKNESS};
 use super::candidate::ScatteringCandidate;
 use super::look::LookDesc;
-use super::report::{ScatteringError, ScatteringErrors, ScatteringSetting};
+use super::report::{ScatteringError, ScatteringErrors};
 use super::truth::{MarchedRays, Rays, marched, marched_filtered};
 use crate::compare::{Shown, Stage, Technique};
 use crate::error::LabError;
@@ -21,6 +21,7 @@ use crate::light::LightShape;
 use crate::picture::signed_difference;
 use crate::scene::Scene;
 use crate::truth::kernel::TapPattern;
+use crate::view::View;
 
 /// Samples per texel of the map, for techniques that can have several.
 const SAMPLES: u32 = 4;
@@ -43,12 +44,6 @@ pub struct ScatteringStageDesc {
     /// The viewpoint.
     #[command(flatten)]
     pub look: LookDesc,
-    /// Optical thickness between the camera and the far end.
-    #[arg(long, default_value_t = THICKNESS)]
-    pub thickness: f64,
-    /// Anisotropy of the phase function, from -0.99 (backwards) to 0.99 (forwards).
-    #[arg(long, default_value_t = ANISOTROPY, allow_negative_numbers = true)]
-    pub anisotropy: f32,
     /// Texels per side of the light's map.
     #[arg(long, default_value_t = 1024, value_parser = clap::value_parser!(u32).range(16..=8192))]
     pub map: u32,
@@ -112,31 +107,17 @@ impl ScatteringStage {
     /// Draws the scene and marches its rays.
     pub fn new(gpu: &Gpu, scene: &Scene, desc: &ScatteringStageDesc) -> Result<Self, LabError> {
         let view = desc.look.view(scene);
-        let map = [desc.map; 2];
         let margin = f64::from(desc.radius) + MARGIN;
-        let light = view.sun(scene, map, margin, false)?;
-        let mut camera = view.camera;
-        camera.aspect = f64::from(desc.width) / f64::from(desc.height.max(1));
-        let far = far(scene, camera.eye);
-        let air = Air::new(desc.thickness, desc.anisotropy, far)?;
-        let drawn = FrameDesc {
-            picture: [desc.width, desc.height],
-            map,
-            samples: SAMPLES,
-            format: wgpu::TextureFormat::Depth32Float,
-            light,
-            shape: LightShape::Directional {
-                angular_diameter: 0.0,
-            },
-            camera,
-        };
+        let picture = [desc.width, desc.height];
+        let drawn = sunlit(scene, &view, picture, (desc.map, SAMPLES), margin)?;
+        let air = Air::of(scene, drawn.camera.eye)?;
         let frames = Frame::pair(gpu, scene, drawn)?;
-        let ends = ends(gpu, &frames[1].desc, &frames[1].surface, far)?;
+        let ends = ends(gpu, &frames[1].desc, &frames[1].surface, air.far)?;
         let depth = read_depth_samples(gpu, &frames[1].light_map.texture)?;
         let rays = Rays {
-            eye: camera.eye,
+            eye: drawn.camera.eye,
             ends: &ends,
-            light: &light,
+            light: &drawn.light,
             depth: &depth,
             medium: &air.medium,
             steps: desc.steps,
@@ -180,8 +161,7 @@ impl ScatteringStage {
 impl Stage for ScatteringStage {
     type Candidate = ScatteringCandidate;
     type Picture = Vec<[f32; 4]>;
-    type Setting = ScatteringSetting;
-    const COSTS: [&'static str; 4] = ["pixels", "pixels_ratio", "map", "total_ratio"];
+    type Errors = ScatteringErrors;
 
     fn name(candidate: &ScatteringCandidate) -> &str {
         &candidate.name
@@ -242,23 +222,33 @@ impl Stage for ScatteringStage {
         })
     }
 
-    fn setting(&self) -> ScatteringSetting {
-        let [unshadowed, lit] = [&self.truth.unshadowed, &self.truth.radiance].map(|it| mean(it));
-        ScatteringSetting {
-            scene: self.scene.clone(),
-            look: self.desc.look.look.name(),
-            map: self.desc.map,
-            extent: self.desc.extent(),
-            picture: self.frame().desc.picture,
-            steps: self.desc.steps,
-            thickness: self.desc.thickness,
-            unshadowed,
-            shadowed: 1.0 - lit.iter().sum::<f64>() / unshadowed.iter().sum::<f64>().max(1e-300),
-        }
+    fn setting(&self) -> String {
+        let [unshadowed, lit] = [&self.truth.unshadowed, &self.truth.radiance]
+            .map(|radiance| mean(radiance).iter().sum::<f64>());
+        let ScatteringStageDesc {
+            map,
+            columns,
+            rows,
+            width,
+            height,
+            steps,
+            ..
+        } = self.desc;
+        format!(
+            "{}, view {}: map {map}x{map}, rectified {columns}x{rows}, picture {width}x{height}, optical thickness {THICKNESS}; \
+             {:.0} % in shadow; errors are parts of the mean radiance without shadows; truths of {steps} steps",
+            self.scene,
+            self.desc.look.look.name(),
+            100.0 * (1.0 - lit / unshadowed.max(1e-300)),
+        )
     }
 
-    fn sizes(&self) -> [[u32; 2]; 2] {
-        [self.frame().desc.picture, self.frame().desc.map]
+    fn stem(&self) -> String {
+        format!("{}-{}", self.scene, self.desc.look.look.name())
+    }
+
+    fn desc(&self) -> &FrameDesc {
+        &self.frame().desc
     }
 }
 
@@ -307,6 +297,31 @@ impl ScatteringView {
             depth_per_length: rectify.depth_per_length,
         }
     }
+}
+
+/// A view of a scene under a sun, with the sides and the samples per texel of a map that leaves so many texels free around the
+/// casters.
+pub(super) fn sunlit(
+    scene: &Scene,
+    view: &View,
+    picture: [u32; 2],
+    (map, samples): (u32, u32),
+    margin: f64,
+) -> Result<FrameDesc, LabError> {
+    let map = [map; 2];
+    let mut camera = view.camera;
+    camera.aspect = f64::from(picture[0]) / f64::from(picture[1].max(1));
+    Ok(FrameDesc {
+        picture,
+        map,
+        samples,
+        format: wgpu::TextureFormat::Depth32Float,
+        light: view.sun(scene, map, margin, false)?,
+        shape: LightShape::Directional {
+            angular_diameter: 0.0,
+        },
+        camera,
+    })
 }
 
 /// From the camera to what each pixel shows, or to the far end.

@@ -1,20 +1,19 @@
 //! The one list of everything that the library hands to a shader compiler, for the tests and tools that judge it.
 
 mod calls;
-mod error;
 mod spirv;
 mod write;
 
 use std::collections::BTreeMap;
 
-use moment_shadows::{Profile, Source, link, link_module, modules};
+use moment_shadows::{Profile, Source, link, modules};
 use moment_shadows_graph::Pass;
 
 use crate::catalogue;
+use crate::error::LabError;
 
 pub use calls::calls;
-pub use error::ShadersError;
-pub use spirv::{Compiled, Target};
+pub use spirv::Compiled;
 pub use write::write;
 
 /// A linked shader.
@@ -58,7 +57,7 @@ pub enum Kind {
 }
 
 /// The shader of each pass of every variant in the [`catalogue`], but texts that a variant has already.
-pub fn nodes() -> Result<Vec<NodeShader>, ShadersError> {
+pub fn nodes() -> Result<Vec<NodeShader>, LabError> {
     let mut all = Vec::new();
     for variant in catalogue::variants()? {
         let Some(file) = &variant.file else {
@@ -94,7 +93,7 @@ pub fn nodes() -> Result<Vec<NodeShader>, ShadersError> {
 }
 
 /// Everything, in a fixed order. Modules come from the library's own registry, nodes from the [`catalogue`].
-pub fn all() -> Result<Vec<Shader>, ShadersError> {
+pub fn all() -> Result<Vec<Shader>, LabError> {
     let core = |name: String, kind, wgsl| Shader {
         name,
         kind,
@@ -105,7 +104,7 @@ pub fn all() -> Result<Vec<Shader>, ShadersError> {
     let mut all = Vec::new();
     for module in modules() {
         let (name, text) = (module.name, module.source);
-        let linked = link_module(Source { name, text })?.into_wgsl();
+        let linked = link(Source { name, text }, &[])?.into_wgsl();
         let called = calls(text, &linked);
         all.push(core(format!("calls_{name}"), Kind::Calls, called));
         all.push(core(format!("module_{name}"), Kind::Module, linked));

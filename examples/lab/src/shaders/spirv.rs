@@ -7,65 +7,36 @@ use naga::back::spv;
 use naga::proc::{BoundsCheckPolicies, BoundsCheckPolicy};
 use naga::valid::{Capabilities, ValidationFlags, Validator};
 
-use super::ShadersError;
+use crate::error::LabError;
 
-/// A version of Vulkan that SPIR-V is written for.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, serde::Serialize)]
-pub enum Target {
-    /// Vulkan 1.1, the oldest that most devices have.
-    #[serde(rename = "vulkan1.1")]
-    Vulkan11,
-    /// Vulkan 1.3.
-    #[serde(rename = "vulkan1.3")]
-    Vulkan13,
-}
+/// Versions of Vulkan that SPIR-V is written for, by the names that SPIRV-Tools know them by: the oldest that most devices
+/// have, and the newest; with the version of SPIR-V that wgpu chooses.
+pub(super) const TARGETS: [(&str, (u8, u8)); 2] = [("vulkan1.1", (1, 3)), ("vulkan1.3", (1, 6))];
 
-impl Target {
-    /// Both targets.
-    pub const ALL: [Target; 2] = [Target::Vulkan11, Target::Vulkan13];
-
-    /// The name that SPIRV-Tools know it by.
-    #[must_use]
-    pub fn name(self) -> &'static str {
-        match self {
-            Target::Vulkan11 => "vulkan1.1",
-            Target::Vulkan13 => "vulkan1.3",
-        }
-    }
-
-    /// The version of SPIR-V that wgpu chooses for it.
-    fn version(self) -> (u8, u8) {
-        match self {
-            Target::Vulkan11 => (1, 3),
-            Target::Vulkan13 => (1, 6),
-        }
-    }
-
-    /// wgpu's options for a device without optional features and without robust access to images and buffers.
-    pub(super) fn options(self) -> spv::Options<'static> {
-        let capabilities = [
-            spv::Capability::Shader,
-            spv::Capability::Matrix,
-            spv::Capability::Sampled1D,
-            spv::Capability::Image1D,
-            spv::Capability::ImageQuery,
-            spv::Capability::DerivativeControl,
-            spv::Capability::StorageImageExtendedFormats,
-            spv::Capability::SampledCubeArray,
-            spv::Capability::SampleRateShading,
-        ];
-        spv::Options {
-            lang_version: self.version(),
-            flags: spv::WriterFlags::LABEL_VARYINGS | spv::WriterFlags::FORCE_POINT_SIZE,
-            capabilities: Some(capabilities.into_iter().collect()),
-            bounds_check_policies: BoundsCheckPolicies {
-                index: BoundsCheckPolicy::Restrict,
-                buffer: BoundsCheckPolicy::Restrict,
-                image_load: BoundsCheckPolicy::Restrict,
-                binding_array: BoundsCheckPolicy::Unchecked,
-            },
-            ..spv::Options::default()
-        }
+/// wgpu's options for a device without optional features and without robust access to images and buffers.
+pub(super) fn options(lang_version: (u8, u8)) -> spv::Options<'static> {
+    let capabilities = [
+        spv::Capability::Shader,
+        spv::Capability::Matrix,
+        spv::Capability::Sampled1D,
+        spv::Capability::Image1D,
+        spv::Capability::ImageQuery,
+        spv::Capability::DerivativeControl,
+        spv::Capability::StorageImageExtendedFormats,
+        spv::Capability::SampledCubeArray,
+        spv::Capability::SampleRateShading,
+    ];
+    spv::Options {
+        lang_version,
+        flags: spv::WriterFlags::LABEL_VARYINGS | spv::WriterFlags::FORCE_POINT_SIZE,
+        capabilities: Some(capabilities.into_iter().collect()),
+        bounds_check_policies: BoundsCheckPolicies {
+            index: BoundsCheckPolicy::Restrict,
+            buffer: BoundsCheckPolicy::Restrict,
+            image_load: BoundsCheckPolicy::Restrict,
+            binding_array: BoundsCheckPolicy::Unchecked,
+        },
+        ..spv::Options::default()
     }
 }
 
@@ -84,11 +55,8 @@ impl<'a> Compiled<'a> {
         name: &'a str,
         wgsl: &str,
         constants: &'a BTreeMap<String, f64>,
-    ) -> Result<Self, ShadersError> {
-        let failed = |reason| ShadersError::Compile {
-            name: name.to_owned(),
-            reason,
-        };
+    ) -> Result<Self, LabError> {
+        let failed = |reason: String| LabError::unsuitable(name, reason);
         // What a shader may ask for is checked per profile by the tests; here only that it translates.
         let capabilities =
             Capabilities::default() | Capabilities::STORAGE_TEXTURE_16BIT_NORM_FORMATS;
@@ -124,10 +92,12 @@ impl<'a> Compiled<'a> {
         &self,
         entry_point: &naga::EntryPoint,
         options: &spv::Options<'_>,
-    ) -> Result<Vec<u32>, ShadersError> {
-        let failed = |reason| ShadersError::Compile {
-            name: format!("{}, entry point {}", self.name, entry_point.name),
-            reason,
+    ) -> Result<Vec<u32>, LabError> {
+        let failed = |reason: String| {
+            LabError::unsuitable(
+                format!("{}, entry point {}", self.name, entry_point.name),
+                reason,
+            )
         };
         let pipeline = spv::PipelineOptions {
             shader_stage: entry_point.stage,

@@ -1,59 +1,27 @@
 //! The shaders as files: WGSL, the SPIR-V of each entry point beside it, and an index.
 
-use std::collections::BTreeMap;
 use std::fs;
 use std::io;
 use std::path::Path;
 
-use moment_shadows::Profile;
 use naga::{Binding, ScalarKind, ShaderStage, TypeInner};
-use serde::Serialize;
+use serde_json::json;
 
-use super::spirv::{Compiled, Target};
-use super::{Kind, Shader, ShadersError};
-
-/// The file `index.json`.
-#[derive(Serialize)]
-struct Index<'a> {
-    version: u32,
-    shaders: Vec<Entry<'a>>,
-}
-
-#[derive(Serialize)]
-struct Entry<'a> {
-    name: &'a str,
-    kind: Kind,
-    profile: Profile,
-    wgsl: String,
-    constants: &'a BTreeMap<String, f64>,
-    entry_points: Vec<EntryPoint>,
-}
-
-#[derive(Serialize)]
-struct EntryPoint {
-    name: String,
-    stage: &'static str,
-    /// For a fragment stage, a format that each output can be drawn to, by location.
-    targets: Vec<Option<&'static str>>,
-    spirv: Vec<Spirv>,
-}
-
-#[derive(Serialize)]
-struct Spirv {
-    target: Target,
-    file: String,
-}
+use super::Shader;
+use super::spirv::{Compiled, TARGETS, options};
+use crate::error::LabError;
 
 /// Writes all of `shaders` into the new folder `folder`, with `index.json`: for each shader its name, kind, profile, constants
 /// and entry points, and the files of its WGSL and SPIR-V. The folder is written beside and renamed: it is there complete or
 /// not at all.
-pub fn write(shaders: &[Shader], folder: &Path) -> Result<(), ShadersError> {
-    let failed = |source| ShadersError::Write {
-        folder: folder.to_owned(),
-        source,
+pub fn write(shaders: &[Shader], folder: &Path) -> Result<(), LabError> {
+    let failed = |error: io::Error| {
+        let reason = format!("shaders cannot be written there: {error}; nothing is left there");
+        LabError::unsuitable(folder.display(), reason)
     };
     if is_taken(folder).map_err(failed)? {
-        return Err(ShadersError::Exists(folder.to_owned()));
+        let reason = "it exists and is not an empty folder; remove it or name another one";
+        return Err(LabError::unsuitable(folder.display(), reason));
     }
     let parent = match folder.parent() {
         Some(parent) if parent != Path::new("") => parent,
@@ -65,10 +33,7 @@ pub fn write(shaders: &[Shader], folder: &Path) -> Result<(), ShadersError> {
     #[cfg(unix)]
     builder.permissions(std::os::unix::fs::PermissionsExt::from_mode(0o777));
     let part = builder.tempdir_in(parent).map_err(failed)?;
-    let mut index = Index {
-        version: 1,
-        shaders: Vec::new(),
-    };
+    let mut entries = Vec::new();
     for shader in shaders {
         let wgsl = format!("{}.wgsl", shader.name);
         fs::write(part.path().join(&wgsl), &shader.wgsl).map_err(failed)?;
@@ -76,29 +41,31 @@ pub fn write(shaders: &[Shader], folder: &Path) -> Result<(), ShadersError> {
         let mut entry_points = Vec::new();
         for entry_point in compiled.entry_points() {
             let mut spirv = Vec::new();
-            for target in Target::ALL {
-                let file = format!("{}.{}.{}.spv", shader.name, entry_point.name, target.name());
-                let words = compiled.spirv(entry_point, &target.options())?;
+            for (target, version) in TARGETS {
+                let file = format!("{}.{}.{target}.spv", shader.name, entry_point.name);
+                let words = compiled.spirv(entry_point, &options(version))?;
                 fs::write(part.path().join(&file), bytemuck::cast_slice(&words)).map_err(failed)?;
-                spirv.push(Spirv { target, file });
+                spirv.push(json!({ "target": target, "file": file }));
             }
-            entry_points.push(EntryPoint {
-                name: entry_point.name.clone(),
-                stage: stage(entry_point.stage),
-                targets: targets(compiled.module(), entry_point),
-                spirv,
-            });
+            entry_points.push(json!({
+                "name": entry_point.name,
+                "stage": stage(entry_point.stage),
+                // For a fragment stage, a format that each output can be drawn to, by location.
+                "targets": targets(compiled.module(), entry_point),
+                "spirv": spirv,
+            }));
         }
-        index.shaders.push(Entry {
-            name: &shader.name,
-            kind: shader.kind,
-            profile: shader.profile,
-            wgsl,
-            constants: &shader.constants,
-            entry_points,
-        });
+        entries.push(json!({
+            "name": shader.name,
+            "kind": shader.kind,
+            "profile": shader.profile,
+            "wgsl": wgsl,
+            "constants": shader.constants,
+            "entry_points": entry_points,
+        }));
     }
-    let text = serde_json::to_string_pretty(&index).map_err(|error| failed(error.into()))?;
+    let index = json!({ "version": 1, "shaders": entries });
+    let text = serde_json::to_string_pretty(&index)?;
     fs::write(part.path().join("index.json"), text).map_err(failed)?;
     fs::rename(part.path(), folder).map_err(failed)?;
     // It has been renamed: there is nothing left to remove.

@@ -3,7 +3,7 @@
 use std::path::Path;
 use std::str::FromStr;
 
-use moment_shadows::{Pcss, Technique};
+use moment_shadows::Technique;
 
 use crate::error::LabError;
 use crate::graph_file::GraphFile;
@@ -38,10 +38,10 @@ pub fn candidates(given: &[NamedGraph]) -> Result<Vec<SoftCandidate>, LabError> 
     let soft = GraphFile::parse("soft_shadows.json", SOFT.to_owned(), None)?;
     let mut all = Vec::new();
     for (name, search_taps, filter_taps) in TAPS {
-        let technique = Technique::Pcss(Pcss {
+        let technique = Technique::Pcss {
             search_taps,
             filter_taps,
-        });
+        };
         all.push((name.to_owned(), hard.with_technique(&technique, None)?));
     }
     all.insert(0, ("hard".to_owned(), hard));

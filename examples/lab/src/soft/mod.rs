@@ -7,5 +7,5 @@ mod stage;
 
 pub use candidate::{NamedGraph, SoftCandidate, candidates};
 pub use light::{LightSize, SoftLightChoice};
-pub use report::{SoftEdges, SoftErrors, SoftSetting};
+pub use report::SoftErrors;
 pub use stage::{SoftPicture, SoftStage, StageDesc};

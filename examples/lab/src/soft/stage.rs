@@ -1,11 +1,13 @@
 //! A scene under an area light, drawn, with the truth of what the camera sees.
 
 use glam::DVec3;
-use wgpu::util::DeviceExt;
+use moment_shadows::TextureFormat;
+use moment_shadows_graph::TextureDesc;
 
 use super::candidate::SoftCandidate;
 use super::light::{LightSize, SoftLightChoice};
-use super::report::{SoftEdges, SoftErrors, SoftSetting, size};
+use super::report::SoftErrors;
+use crate::command::argument::defaults;
 use crate::compare::{Shown, Stage, Technique};
 use crate::error::LabError;
 use crate::frame::{Frame, FrameDesc};
@@ -13,10 +15,12 @@ use crate::gpu::Gpu;
 use crate::graph_frame::{GraphFrame, read_intensity};
 use crate::host::{SurfacePixels, read_gbuffer};
 use crate::judgement::facing;
+use crate::light::LightShape;
 use crate::metric::{Comparison, compare};
 use crate::penumbra::{Profile, edge_widths};
 use crate::picture::signed_difference;
 use crate::scene::{EDGE, EDGE_HEIGHTS, Scene};
+use crate::texture::upload;
 use crate::truth::area_light::{AreaLight, MOST_PLACES, USUAL_PLACES};
 use crate::view::View;
 
@@ -61,15 +65,7 @@ pub struct StageDesc {
 
 impl Default for StageDesc {
     fn default() -> Self {
-        Self {
-            light: SoftLightChoice::Directional,
-            size: None,
-            view: 0,
-            map: 1024,
-            width: 640,
-            height: 360,
-            places: USUAL_PLACES,
-        }
+        defaults()
     }
 }
 
@@ -130,32 +126,10 @@ impl SoftStage {
         })
     }
 
-    /// What was drawn, under which light.
-    #[must_use]
-    pub fn desc(&self) -> &FrameDesc {
-        &self.frames[0].desc
-    }
-
     /// The lit picture of the truth, sRGB bytes with alpha.
     fn lit_truth(&self, gpu: &Gpu) -> Result<Vec<u8>, LabError> {
-        let [width, height] = self.desc().picture;
-        let desc = wgpu::TextureDescriptor {
-            label: Some("lab/area light"),
-            size: wgpu::Extent3d {
-                width,
-                height,
-                depth_or_array_layers: 1,
-            },
-            mip_level_count: 1,
-            sample_count: 1,
-            dimension: wgpu::TextureDimension::D2,
-            format: wgpu::TextureFormat::R32Float,
-            usage: wgpu::TextureUsages::TEXTURE_BINDING,
-            view_formats: &[],
-        };
-        let texels = bytemuck::cast_slice(&self.truth);
-        let texture =
-            (gpu.device).create_texture_with_data(&gpu.queue, &desc, Default::default(), texels);
+        let desc = TextureDesc::new(TextureFormat::R32Float, self.desc().picture);
+        let texture = upload(gpu, &desc, bytemuck::cast_slice(&self.truth));
         self.frames[0].picture(gpu, &texture)
     }
 
@@ -187,8 +161,7 @@ impl SoftStage {
 impl Stage for SoftStage {
     type Candidate = SoftCandidate;
     type Picture = SoftPicture;
-    type Setting = SoftSetting;
-    const COSTS: [&'static str; 4] = ["shading", "shading_ratio", "preparation", "total_ratio"];
+    type Errors = SoftErrors;
 
     fn name(candidate: &SoftCandidate) -> &str {
         &candidate.name
@@ -212,7 +185,6 @@ impl Stage for SoftStage {
     fn errors(&self, _: &SoftCandidate, picture: &SoftPicture) -> Result<SoftErrors, LabError> {
         Ok(SoftErrors {
             error: self.judge(&picture.shadow)?,
-            edges: self.widths(&picture.shadow),
         })
     }
 
@@ -232,23 +204,35 @@ impl Stage for SoftStage {
         })
     }
 
-    fn setting(&self) -> SoftSetting {
-        let (drawn, choice) = (self.desc(), &self.choice);
-        let edges = self.exact_widths().zip(self.widths(&self.truth));
-        SoftSetting {
-            scene: self.scene.clone(),
-            light: choice.light,
-            light_size: size(drawn.shape),
-            light_range: drawn.light.range,
-            texel: drawn.light.texel_size(drawn.map),
-            map: choice.map,
-            picture: drawn.picture,
-            places: choice.places,
-            edges: edges.map(|(exact, truth)| SoftEdges { exact, truth }),
-        }
+    fn setting(&self) -> String {
+        let light = match self.desc().shape {
+            LightShape::Directional { angular_diameter } => {
+                format!("{:.3} degrees", angular_diameter.to_degrees())
+            }
+            LightShape::Disk { diameter } => format!("disk of {diameter:.3}"),
+            LightShape::Rectangle {
+                size: [width, height],
+            } => format!("{width:.3} x {height:.3}"),
+        };
+        let StageDesc {
+            map,
+            width,
+            height,
+            places,
+            ..
+        } = self.choice;
+        format!(
+            "{}: {} light, {light}; map {map}x{map}, picture {width}x{height}; truth of {places} places",
+            self.scene,
+            self.choice.light.name()
+        )
     }
 
-    fn sizes(&self) -> [[u32; 2]; 2] {
-        [self.desc().picture; 2]
+    fn stem(&self) -> String {
+        format!("{}-{}", self.scene, self.choice.light.name())
+    }
+
+    fn desc(&self) -> &FrameDesc {
+        &self.frames[0].desc
     }
 }

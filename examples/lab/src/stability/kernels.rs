@@ -1,6 +1,6 @@
 //! The kernels of patches, 3 to 129 texels wide, with the library's own normalised weights.
 
-use moment_shadows::{Kernel, KernelError};
+use moment_shadows::{Kernel, ValueError};
 
 /// Texels on either side of the centre.
 const RADII: [u32; 8] = [1, 2, 4, 8, 12, 16, 32, 64];
@@ -12,8 +12,8 @@ pub const NARROW: u32 = 6;
 pub const COUNT: u32 = 2 * RADII.len() as u32;
 
 /// A Gaussian and a box of each radius, in this order.
-pub fn kernels() -> Result<Vec<Kernel>, KernelError> {
-    let pairs: Result<Vec<[Kernel; 2]>, KernelError> = RADII
+pub fn kernels() -> Result<Vec<Kernel>, ValueError> {
+    let pairs: Result<Vec<[Kernel; 2]>, ValueError> = RADII
         .into_iter()
         .map(|radius| {
             let equal = vec![1.0; 2 * radius as usize + 1];

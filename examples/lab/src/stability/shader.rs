@@ -1,6 +1,6 @@
 //! The shader of a technique and a storage: the modules that the nodes link, with texels in place of textures.
 
-use moment_shadows::{Kernel, LinkError, MapEncoding, Row, Source, link};
+use moment_shadows::{Kernel, MapEncoding, Row, ShaderError, Source, link};
 
 use super::input::Input;
 use super::kernels::{kernels, table};
@@ -45,7 +45,7 @@ impl<'gpu> Evaluator<'gpu> {
     }
 }
 
-fn linked(encoding: &MapEncoding) -> Result<String, LinkError> {
+fn linked(encoding: &MapEncoding) -> Result<String, ShaderError> {
     let row = encoding.technique().row();
     let specialization = specialization(encoding, &row);
     // The node makes a plane per pass, here they are made in turn.

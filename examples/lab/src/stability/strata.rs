@@ -268,8 +268,10 @@ fn depth_range(random: &mut ChaCha8Rng) -> Input {
     let conversion = match kind {
         0 => DepthConversion::linear(range).ok(),
         1 => DepthConversion::perspective(near, far, range).ok(),
-        2 => DepthConversion::perspective_reversed(near, far, range).ok(),
-        3 => Some(DepthConversion::orthographic_reversed()),
+        2 => DepthConversion::perspective(near, far, range)
+            .map(DepthConversion::reversed)
+            .ok(),
+        3 => Some(DepthConversion::orthographic().reversed()),
         _ => Some(DepthConversion::orthographic()),
     };
     let stored = |moment_depth: f32| -> f32 {

@@ -132,7 +132,7 @@ mod tests {
             weights: [0.125; 8],
             fragment_depth: 0.25,
             converted: 1,
-            conversion: DepthConversion::orthographic_reversed(),
+            conversion: DepthConversion::orthographic().reversed(),
             ..Input::default()
         };
         assert_eq!(truth(&reversed, &[]), Some(1.0));

@@ -5,9 +5,9 @@ use moment_shadows::{MapRegion, Source, link};
 use wgpu::util::DeviceExt;
 
 use super::SummedMap;
-use super::map::no_table;
 use crate::error::LabError;
 use crate::gpu::Gpu;
+use crate::pass::{Bound, Pass, Work};
 
 /// A rectangle of a table's first layer; the struct of the shader `means.wgsl`.
 #[derive(Clone, Copy, Debug, Pod, Zeroable)]
@@ -45,47 +45,27 @@ const WORKGROUP: usize = 64;
 /// Queries of one dispatch.
 const MOST: usize = 65535 * WORKGROUP;
 
-/// A pipeline that answers queries of a table.
+/// Answers queries of a table.
 pub struct Means<'a> {
     gpu: &'a Gpu,
     table: wgpu::TextureView,
-    pipeline: wgpu::ComputePipeline,
+    wgsl: String,
 }
 
 impl<'a> Means<'a> {
-    /// The pipeline for the table that a map has now.
+    /// For the table that a map has now.
     pub fn new(gpu: &'a Gpu, summed: &SummedMap) -> Result<Self, LabError> {
-        let table = summed.table().ok_or_else(no_table)?;
-        let linked = link(
-            Source {
-                name: "means.wgsl",
-                text: include_str!("means.wgsl"),
-            },
-            &[],
-        )?;
-        let module = gpu
-            .device
-            .create_shader_module(wgpu::ShaderModuleDescriptor {
-                label: Some("summed area/means"),
-                source: wgpu::ShaderSource::Wgsl(linked.into_wgsl().into()),
-            });
-        let pipeline = gpu
-            .device
-            .create_compute_pipeline(&wgpu::ComputePipelineDescriptor {
-                label: Some("summed area/means"),
-                layout: None,
-                module: &module,
-                entry_point: Some("look_up"),
-                compilation_options: wgpu::PipelineCompilationOptions::default(),
-                cache: None,
-            });
+        let source = Source {
+            name: "means.wgsl",
+            text: include_str!("means.wgsl"),
+        };
         Ok(Self {
             gpu,
-            table: table.create_view(&wgpu::TextureViewDescriptor {
+            table: summed.table()?.create_view(&wgpu::TextureViewDescriptor {
                 dimension: Some(wgpu::TextureViewDimension::D2Array),
                 ..Default::default()
             }),
-            pipeline,
+            wgsl: link(source, &[])?.into_wgsl(),
         })
     }
 
@@ -111,32 +91,16 @@ impl<'a> Means<'a> {
             usage: wgpu::BufferUsages::STORAGE | wgpu::BufferUsages::COPY_SRC,
             mapped_at_creation: false,
         });
-        let group = device.create_bind_group(&wgpu::BindGroupDescriptor {
-            label: Some("summed area/means"),
-            layout: &self.pipeline.get_bind_group_layout(0),
-            entries: &[
-                wgpu::BindGroupEntry {
-                    binding: 0,
-                    resource: input.as_entire_binding(),
-                },
-                wgpu::BindGroupEntry {
-                    binding: 1,
-                    resource: output.as_entire_binding(),
-                },
-                wgpu::BindGroupEntry {
-                    binding: 2,
-                    resource: wgpu::BindingResource::TextureView(&self.table),
-                },
-            ],
-        });
+        let bound = [
+            (0, Bound::Buffer(&input)),
+            (1, Bound::Buffer(&output)),
+            (2, Bound::Texture(self.table.clone())),
+        ];
+        // At most 65535.
+        let work = Work::Dispatch([queries.len().div_ceil(WORKGROUP) as u32, 1]);
+        let pass = Pass::new(self.gpu, "means", self.wgsl.clone(), &[], &bound, work);
         let mut encoder = device.create_command_encoder(&Default::default());
-        {
-            let mut pass = encoder.begin_compute_pass(&Default::default());
-            pass.set_pipeline(&self.pipeline);
-            pass.set_bind_group(0, &group, &[]);
-            // At most 65535.
-            pass.dispatch_workgroups(queries.len().div_ceil(WORKGROUP) as u32, 1, 1);
-        }
+        pass.record(&mut encoder);
         self.gpu.queue.submit([encoder.finish()]);
         let bytes = self.gpu.read_buffer(&output, "means")?;
         Ok(bytemuck::pod_collect_to_vec(&bytes))

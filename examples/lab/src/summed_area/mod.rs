@@ -6,5 +6,6 @@ pub mod naive;
 pub mod reference;
 
 pub use map::SummedMap;
+pub(crate) use map::node;
 pub use means::{Mean, Means, Query};
 pub use naive::NaiveTable;

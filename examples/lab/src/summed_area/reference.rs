@@ -10,46 +10,31 @@ use moment_shadows::{MapEncoding, MapRegion, Storage, SummedAreaTable, Technique
 #[must_use]
 pub fn integers(source: &MapEncoding, table: &SummedAreaTable, bytes: &[u8]) -> Vec<u32> {
     let channels = source.technique().row().channels as usize;
-    match source.storage() {
-        Storage::Float16 => bytes
-            .chunks_exact(2 * channels)
-            .flat_map(|texel| {
-                let texel: Vec<f32> = texel
-                    .chunks_exact(2)
-                    .map(|pair| f16::from_le_bytes([pair[0], pair[1]]).to_f32())
-                    .collect();
-                let far = far(source.technique());
-                let finite = texel.iter().all(|channel| channel.is_finite());
-                (0..channels).map(move |channel| {
-                    let value = if finite {
-                        texel[channel] + 0.5
-                    } else {
-                        far[channel]
-                    };
-                    fixed_point(value, table.unit())
-                })
-            })
-            .collect(),
-        Storage::Float32 => bytes
-            .chunks_exact(4 * channels)
-            .flat_map(|texel| {
-                let texel: Vec<f32> = texel
-                    .chunks_exact(4)
-                    .map(|four| f32::from_le_bytes([four[0], four[1], four[2], four[3]]))
-                    .collect();
-                let encoded = if texel.iter().all(|channel| channel.is_finite()) {
-                    encoded(source.technique(), &texel)
-                } else {
-                    far(source.technique())
-                };
-                (0..channels).map(move |channel| fixed_point(encoded[channel], table.unit()))
-            })
-            .collect(),
-        _ => bytes
-            .chunks_exact(2)
-            .map(|pair| u32::from(u16::from_le_bytes([pair[0], pair[1]])))
-            .collect(),
-    }
+    let (size, read): (usize, fn(&[u8]) -> f32) = match source.storage() {
+        Storage::Float16 => (2, |pair| f16::from_le_bytes([pair[0], pair[1]]).to_f32()),
+        Storage::Float32 => (4, |four| {
+            f32::from_le_bytes([four[0], four[1], four[2], four[3]])
+        }),
+        _ => {
+            let pairs = bytes.chunks_exact(2);
+            let integer = |pair: &[u8]| u32::from(u16::from_le_bytes([pair[0], pair[1]]));
+            return pairs.map(integer).collect();
+        }
+    };
+    let texels = bytes.chunks_exact(size * channels);
+    texels
+        .flat_map(|bytes| {
+            let texel: Vec<f32> = bytes.chunks_exact(size).map(read).collect();
+            let values = match source.storage() {
+                _ if texel.iter().any(|channel| !channel.is_finite()) => far(source.technique()),
+                Storage::Float16 => {
+                    std::array::from_fn(|channel| texel.get(channel).map_or(0.0, |it| it + 0.5))
+                }
+                _ => encoded(source.technique(), &texel),
+            };
+            (0..channels).map(move |channel| fixed_point(values[channel], table.unit()))
+        })
+        .collect()
 }
 
 /// A channel in units, to the nearest.

@@ -2,7 +2,7 @@
 
 use bytemuck::{Pod, Zeroable};
 use moment_shadows::{AreaLight, DepthConversion, FourMomentsBias, LeakReduction, ReceiverBias};
-use moment_shadows_graph::nodes::{ShadeHard, TechniqueShader};
+use moment_shadows_graph::nodes::ShadeHard;
 use moment_shadows_graph::{BindingResource, Capabilities};
 
 use super::judged_map::JudgedMap;
@@ -73,7 +73,7 @@ impl<'a> MapEvaluator<'a> {
             ..ShadeHard::default()
         };
         let intensity = moment_bias.map_or(AS_THE_LIBRARY, |_| BIASED);
-        let shader = node
+        let (wgsl, bindings) = node
             .link_shader(
                 &map.desc,
                 &capabilities,
@@ -85,8 +85,8 @@ impl<'a> MapEvaluator<'a> {
                 file: map.name.clone(),
                 error,
             })?;
-        let pipeline = gpu.compute(LABEL, &shader.wgsl, "evaluate");
-        let map = map_bindings(device, &shader, &pipeline, map.texture);
+        let pipeline = gpu.compute(LABEL, &wgsl, "evaluate");
+        let map = map_bindings(device, &bindings, &pipeline, map.texture);
         gpu.check()?;
         Ok(Self {
             gpu,
@@ -138,7 +138,7 @@ impl<'a> MapEvaluator<'a> {
 /// The map, and a sampler where the shader wants one.
 fn map_bindings(
     device: &wgpu::Device,
-    shader: &TechniqueShader,
+    bindings: &[(u32, BindingResource)],
     pipeline: &wgpu::ComputePipeline,
     map: &wgpu::Texture,
 ) -> wgpu::BindGroup {
@@ -146,16 +146,11 @@ fn map_bindings(
         dimension: Some(wgpu::TextureViewDimension::D2Array),
         ..Default::default()
     });
-    let compare = shader
-        .bindings
-        .iter()
-        .find_map(|(_, resource)| match resource {
-            BindingResource::ComparisonSampler { reversed: true } => {
-                Some(wgpu::CompareFunction::Less)
-            }
-            BindingResource::ComparisonSampler { .. } => Some(wgpu::CompareFunction::Greater),
-            _ => None,
-        });
+    let compare = bindings.iter().find_map(|(_, resource)| match resource {
+        BindingResource::ComparisonSampler { reversed: true } => Some(wgpu::CompareFunction::Less),
+        BindingResource::ComparisonSampler { .. } => Some(wgpu::CompareFunction::Greater),
+        _ => None,
+    });
     let sampler = device.create_sampler(&wgpu::SamplerDescriptor {
         label: Some(LABEL),
         mag_filter: wgpu::FilterMode::Linear,
@@ -163,8 +158,7 @@ fn map_bindings(
         compare,
         ..Default::default()
     });
-    let entries: Vec<_> = shader
-        .bindings
+    let entries: Vec<_> = bindings
         .iter()
         .map(|(binding, resource)| {
             let resource = match resource {

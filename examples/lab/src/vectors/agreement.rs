@@ -6,8 +6,9 @@ use std::str::FromStr;
 
 use dashu::rational::RBig;
 
+use super::exact::{Bound, rationals};
 use super::file::{Bounds, Vector};
-use crate::oracle::{Extremal, OracleError, hamburger, hausdorff, rational};
+use crate::oracle::{Extremal, OracleError};
 
 /// The largest difference that counts as agreement. Files state 17 digits.
 pub const AGREEMENT: f64 = 1e-15;
@@ -52,20 +53,12 @@ pub fn agreement(vectors: &[Vector]) -> BTreeMap<String, Agreement> {
 /// Compares all bounds of a vector, those of its exact moments and of its biased ones.
 fn compare(vector: &Vector, by_kind: &mut BTreeMap<String, Agreement>) {
     let mut compare = |moments: &[RBig], depth: f64, kinds: [Option<Bounds>; 2]| {
-        let exact = || -> Result<_, OracleError> {
-            let [low, high] = vector.interval;
-            Ok((rational(depth)?, rational(low)?, rational(high)?))
-        };
-        for (kind, theirs) in ["Hamburger", "Hausdorff"].into_iter().zip(kinds) {
-            let Some(theirs) = theirs.and_then(Bounds::both) else {
-                continue;
-            };
-            let ours = exact().and_then(|(depth, low, high)| match kind {
-                "Hamburger" => hamburger(moments, &depth),
-                _ => hausdorff(moments, [&low, &high], &depth),
-            });
-            let name = format!("{kind}, {} moments", vector.m);
-            by_kind.entry(name).or_default().add(ours, theirs);
+        for (bound, theirs) in Bound::BOTH.into_iter().zip(kinds) {
+            if let Some(theirs) = theirs.and_then(Bounds::both) {
+                let ours = bound.extremal(moments, vector.interval, depth);
+                let name = format!("{}, {} moments", bound.name(), vector.m);
+                by_kind.entry(name).or_default().add(ours, theirs);
+            }
         }
     };
     // The file was checked when it was read.
@@ -74,9 +67,7 @@ fn compare(vector: &Vector, by_kind: &mut BTreeMap<String, Agreement>) {
         compare(&moments, vector.depth, [vector.hamburger, vector.hausdorff]);
     }
     for record in &vector.biased {
-        let input = record.input().unwrap_or_default();
-        let moments = input.into_iter().map(|moment| rational(f64::from(moment)));
-        if let Ok(moments) = moments.collect::<Result<Vec<RBig>, _>>() {
+        if let Ok(moments) = rationals(&record.input().unwrap_or_default()) {
             compare(&moments, record.depth, [record.hamburger, record.hausdorff]);
         }
     }

@@ -111,7 +111,7 @@ pub(super) fn collect<'a>(
     cases: &mut Vec<Case<'a>>,
     report: &mut VectorReport,
 ) {
-    for bound in [Bound::Hamburger, Bound::Hausdorff] {
+    for bound in Bound::BOTH {
         let mut skip = |reason: &str, count: usize| {
             let reason = format!("{} bounds of {} moments: {reason}", bound.name(), vector.m);
             if count > 0 {

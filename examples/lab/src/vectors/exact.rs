@@ -2,7 +2,9 @@
 
 use dashu::rational::RBig;
 
-use crate::oracle::{OracleError, hamburger, hausdorff, rational, sensitivity, tolerance_unit};
+use crate::oracle::{
+    Extremal, OracleError, hamburger, hausdorff, rational, sensitivity, tolerance_unit,
+};
 
 /// Which distributions bounds are taken over.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -14,6 +16,22 @@ pub(super) enum Bound {
 }
 
 impl Bound {
+    pub(super) const BOTH: [Bound; 2] = [Bound::Hamburger, Bound::Hausdorff];
+
+    /// The exact bounds of moments; of distributions on an interval for the latter.
+    pub(super) fn extremal(
+        self,
+        moments: &[RBig],
+        [low, high]: [f64; 2],
+        depth: f64,
+    ) -> Result<Extremal, OracleError> {
+        let depth = rational(depth)?;
+        match self {
+            Bound::Hamburger => hamburger(moments, &depth),
+            Bound::Hausdorff => hausdorff(moments, [&rational(low)?, &rational(high)?], &depth),
+        }
+    }
+
     pub(super) fn name(self) -> &'static str {
         match self {
             Bound::Hamburger => "Hamburger",
@@ -37,7 +55,6 @@ pub(super) fn exact(
     depth: f64,
     smallest_variance: f32,
 ) -> Result<([f64; 2], Option<[f64; 2]>), OracleError> {
-    let depth = rational(depth)?;
     if smallest_variance > 0.0
         && let [mean, mean_square, ..] = &mut moments[..]
     {
@@ -46,11 +63,8 @@ pub(super) fn exact(
             *mean_square = least;
         }
     }
-    let extremal = match bound {
-        Bound::Hamburger => hamburger(&moments, &depth)?,
-        Bound::Hausdorff => hausdorff(&moments, [&-RBig::ONE, &RBig::ONE], &depth)?,
-    };
-    let sensitivities = sensitivity(&moments, &depth, &extremal);
+    let extremal = bound.extremal(&moments, [-1.0, 1.0], depth)?;
+    let sensitivities = sensitivity(&moments, &rational(depth)?, &extremal);
     Ok(([extremal.lower, extremal.upper], sensitivities))
 }
 

@@ -1,44 +1,12 @@
 //! The format of moment-problem vectors: exact truths for explicit mixtures, as JSON.
 
-use std::path::{Path, PathBuf};
+use std::path::Path;
 use std::str::FromStr;
 
 use dashu::rational::RBig;
 use serde::Deserialize;
 
-/// Why a file of vectors cannot be read.
-#[derive(Debug, thiserror::Error)]
-#[non_exhaustive]
-pub enum VectorFileError {
-    /// The file is missing or cannot be read.
-    #[error("cannot read vectors from '{}': {source}", file.display())]
-    Unreadable {
-        /// The file.
-        file: PathBuf,
-        /// What the system said.
-        source: std::io::Error,
-    },
-    /// The file is not JSON, or not an object with a list of vectors.
-    #[error("'{}' is no file of moment-problem vectors: {source}", file.display())]
-    Malformed {
-        /// The file.
-        file: PathBuf,
-        /// What is wrong, with line and column.
-        source: serde_json::Error,
-    },
-    /// One vector is wrong.
-    #[error("'{}', vector {index} ('{id}'): {reason}", file.display())]
-    Vector {
-        /// The file.
-        file: PathBuf,
-        /// The vector's place in the list, from 0.
-        index: usize,
-        /// The vector's id, as far as it has one.
-        id: String,
-        /// What is wrong.
-        reason: String,
-    },
-}
+use crate::error::LabError;
 
 /// Bounds of shadow intensity; absent where the rounded input is not a moment vector.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Deserialize)]
@@ -132,40 +100,28 @@ impl Biased {
     }
 }
 
-/// Reads and checks a file.
-pub fn read(file: &Path) -> Result<Vec<Vector>, VectorFileError> {
+/// Reads and checks a file. Errors name what is wrong with it, or which of its vectors is wrong and how.
+pub fn read(file: &Path) -> Result<Vec<Vector>, LabError> {
     #[derive(Deserialize)]
     struct Top {
         vectors: Vec<serde_json::Value>,
     }
-    let text = std::fs::read_to_string(file).map_err(|source| VectorFileError::Unreadable {
-        file: file.to_owned(),
-        source,
+    let path = file.display().to_string();
+    let text = std::fs::read_to_string(file)
+        .map_err(|error| LabError::unsuitable(&path, format!("it cannot be read: {error}")))?;
+    let top: Top = serde_json::from_str(&text).map_err(|error| {
+        let reason = format!("it is no file of moment-problem vectors: {error}");
+        LabError::unsuitable(&path, reason)
     })?;
-    let top: Top = serde_json::from_str(&text).map_err(|source| VectorFileError::Malformed {
-        file: file.to_owned(),
-        source,
-    })?;
-    top.vectors
-        .into_iter()
-        .enumerate()
-        .map(|(index, value)| {
-            let id = value
-                .get("id")
-                .and_then(|id| id.as_str())
-                .unwrap_or("without id")
-                .to_owned();
-            Vector::deserialize(value)
-                .map_err(|error| error.to_string())
-                .and_then(checked)
-                .map_err(|reason| VectorFileError::Vector {
-                    file: file.to_owned(),
-                    index,
-                    id,
-                    reason,
-                })
+    let vectors = top.vectors.into_iter().enumerate();
+    let read = |(index, value): (usize, serde_json::Value)| {
+        let id = value["id"].as_str().unwrap_or("without id").to_owned();
+        let read = Vector::deserialize(value).map_err(|error| error.to_string());
+        read.and_then(checked).map_err(|reason| {
+            LabError::unsuitable(format!("{path}, vector {index} ('{id}')"), reason)
         })
-        .collect()
+    };
+    vectors.map(read).collect()
 }
 
 fn checked(vector: Vector) -> Result<Vector, String> {

@@ -1,22 +1,18 @@
+import moment_shadows::map::map_region::{MapRegion};
+import node::blur_source::{moments_map};
 import node::blur_texel::{blur_texel};
-import node::fullscreen::{Covered};
 import node::map_filtering::{filtering_texel};
-import node::region_pixel::{region_pixel};
-import node::specialization::{GROUP, REGIONS};
 
-// One direction of a separable filter over one layer of a map that is drawn: one texel per pixel.
+// What a texel of a map that is drawn holds after one direction of a separable filter.
 
-@group(GROUP) @binding(0) var moments_map: texture_2d<f32>;
+const LEVEL = 0u;
 
-@fragment
-fn blur(covered: Covered) -> @location(0) vec4f {
-    let pixel = region_pixel(covered.uv, textureDimensions(moments_map), 0u);
-    // What lies in no region is not this pass's.
-    if pixel.number == REGIONS {
-        discard;
-        return vec4f(0.0);
-    }
-    let low = vec2i(pixel.region.origin);
-    let last = low + vec2i(pixel.region.extent) - 1;
-    return filtering_texel(blur_texel(moments_map, vec2i(pixel.texel), low, last));
+fn written_size() -> vec2u {
+    return textureDimensions(moments_map);
+}
+
+fn written_texel(texel: vec2u, region: MapRegion, number: u32) -> vec4f {
+    let low = vec2i(region.origin);
+    let last = low + vec2i(region.extent) - 1;
+    return filtering_texel(blur_texel(vec2i(texel), low, last));
 }

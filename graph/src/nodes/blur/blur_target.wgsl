@@ -2,15 +2,14 @@ import moment_shadows::filter::separable::{SeparableEight, separable_outputs};
 import node::map_filtering::{filtering_texel};
 import node::specialization::{AXIS, GROUP, MomentsStorage};
 
-// Where a direction of the blur reads and writes: one layer each.
+// Where a direction of the blur writes, one layer.
 
-@group(GROUP) @binding(0) var moments_map: texture_2d<f32>;
-@group(GROUP) @binding(1) var blurred_map: MomentsStorage;
+@group(GROUP) @binding(3) var written_map: MomentsStorage;
 
 // Stores a filtered texel unless it lies beyond `last`, the last texel of the region.
 fn blur_store_one(texel: vec2i, last: vec2i, value: vec4f) {
     if all(texel <= last) {
-        textureStore(blurred_map, texel, filtering_texel(value));
+        textureStore(written_map, texel, filtering_texel(value));
     }
 }
 

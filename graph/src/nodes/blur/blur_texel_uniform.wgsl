@@ -1,11 +1,9 @@
 import moment_shadows::filter::separable::{separable_add};
-import node::blur_parameters::{parameters};
-import node::blur_source::{blur_source};
+import node::blur_source::{blur_source, parameters};
 import node::specialization::{AXIS};
 
-// One texel of a blur along AXIS with weights that a host can change per frame. Beyond `low` and `last`, the corners of the
-// region, its texels repeat.
-fn blur_texel(map: texture_2d<f32>, texel: vec2i, low: vec2i, last: vec2i) -> vec4f {
+// One texel of a blur along AXIS with weights that a host can change per frame.
+fn blur_texel(texel: vec2i, low: vec2i, last: vec2i) -> vec4f {
     // 40 vectors of weights hold no larger kernel.
     let radius = min(parameters.radius, 64u);
     var sum = vec4f(0.0);
@@ -13,7 +11,7 @@ fn blur_texel(map: texture_2d<f32>, texel: vec2i, low: vec2i, last: vec2i) -> ve
         // 15 zeros come first.
         let place = tap + 15u;
         let weight = parameters.weights[place / 4u][place % 4u];
-        let source = blur_source(map, texel + (i32(tap) - i32(radius)) * AXIS, low, last);
+        let source = blur_source(texel + (i32(tap) - i32(radius)) * AXIS, low, last);
         sum = separable_add(sum, weight, source, false);
     }
     return sum;

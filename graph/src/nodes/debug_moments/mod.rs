@@ -1,15 +1,13 @@
 //! Shows a map of moments as a picture.
 
 use moment_shadows::{Storage, TextureFormat};
-use serde::{Deserialize, Serialize};
+use serde::Deserialize;
 
-use super::shared::{FULLSCREEN, Specialization, map_input, wgsl};
-use crate::{
-    Connected, GraphError, GraphErrorKind, Node, NodeDesc, Pass, Stage, TextureRule, bind,
-};
+use super::shared::{Specialization, map_input, wgsl, wrong_property};
+use crate::{Connected, GraphError, Node, NodeDesc, Pass, Stage, TextureRule, bind};
 
 /// What [`DebugMoments`] shows.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Show {
     /// The first three moments as red, green and blue; odd ones from -1 to 1, black to full.
@@ -26,14 +24,12 @@ pub enum Show {
 }
 
 /// Node `debug_moments`: `map` to `picture`, rgba8unorm, of the map's size and layers.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
-#[serde(deny_unknown_fields)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Deserialize)]
+#[serde(default, deny_unknown_fields)]
 pub struct DebugMoments {
     /// What is shown.
-    #[serde(default)]
     pub show: Show,
     /// The mip level, magnified to the size of the map.
-    #[serde(default)]
     pub level: u32,
 }
 
@@ -41,34 +37,24 @@ impl Node for DebugMoments {
     fn describe(&self, upstream: &Connected<'_>) -> Result<NodeDesc, GraphError> {
         let (map, encoding) = map_input::of_four_moments(upstream, "shows")?;
         if self.level >= map.mips {
-            return Err(GraphError::new(
-                GraphErrorKind::Property,
-                format!(
-                    "'level' is {}, but the map has {} mip levels, counted from 0",
-                    self.level, map.mips
-                ),
-            ));
+            return Err(wrong_property(format!(
+                "'level' is {}, but the map has {} mip levels, counted from 0",
+                self.level, map.mips
+            )));
         }
         let wgsl = Specialization::new(upstream.capabilities())
             .unsigned("STORAGE", encoding.storage().wgsl_index())
             .unsigned("SHOW", self.show as u32)
-            .link(wgsl!("debug_moments.wgsl"), &[FULLSCREEN])?;
+            .link(wgsl!("debug_moments.wgsl"))?;
+        let pass = Pass::fullscreen("debug", "picture")
+            .each_layer()
+            .shader(wgsl, "debug")
+            .bind("moments_level", bind::level("map", self.level));
+        let rule = map_input::rule(Storage::OF_FOUR_MOMENTS.map(Storage::format).as_slice());
+        let picture = TextureRule::new(TextureFormat::Rgba8Unorm).like("map");
         Ok(NodeDesc::new("debug_moments", Stage::AfterShadowMaps)
-            .input(
-                "map",
-                "The map to show.",
-                map_input::rule(&Storage::OF_FOUR_MOMENTS.map(Storage::format)),
-            )
-            .output(
-                "picture",
-                "A colour per texel of the map.",
-                TextureRule::new(TextureFormat::Rgba8Unorm).like("map"),
-            )
-            .pass(
-                Pass::fullscreen("debug", "picture")
-                    .each_layer()
-                    .shader(wgsl, "debug")
-                    .bind("moments_level", bind::level("map", self.level)),
-            ))
+            .input("map", "The map to show.", rule)
+            .output("picture", "A colour per texel of the map.", picture)
+            .pass(pass))
     }
 }

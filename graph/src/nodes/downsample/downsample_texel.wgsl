@@ -1,5 +1,6 @@
-import node::map_filtering::{filtering_texel};
 import moment_shadows::map::map_region::{MapRegion};
+import node::map_filtering::{filtering_texel};
+import node::regions::{region_at};
 import node::specialization::{GROUP};
 
 // What a texel of a mip level holds, from one layer of the finer level.
@@ -7,6 +8,9 @@ import node::specialization::{GROUP};
 // A texel is the exact mean over the part of the finer level that it covers, whatever the region's size: two texels along
 // an axis where that is even, up to three where it is odd. Unlike a mean of the two nearest texels, it counts the last row
 // of a region with an odd size as much as the others.
+
+// The mip level that is made, at least 1.
+override LEVEL: u32;
 
 @group(GROUP) @binding(0) var finer_level: texture_2d<f32>;
 
@@ -18,10 +22,15 @@ fn box_weights(start: f32, width: f32) -> vec3f {
     return covered / (covered.x + covered.y + covered.z);
 }
 
-// The texel at `place` in a region of `extent` texels, which is the region `finer` of the finer level.
-fn downsample_texel(place: vec2u, extent: vec2u, finer: MapRegion) -> vec4f {
+fn written_size() -> vec2u {
+    return textureDimensions(finer_level) << vec2u(LEVEL - 1u);
+}
+
+fn written_texel(texel: vec2u, region: MapRegion, number: u32) -> vec4f {
+    let finer = region_at(number, written_size(), LEVEL - 1u);
+    let extent = region.extent;
     // In whole numbers as far as possible: a texel at the far end of a large map loses no digits.
-    let start = place * finer.extent;
+    let start = (texel - region.origin) * finer.extent;
     let width = vec2f(finer.extent) / vec2f(extent);
     let offset = vec2f(start % extent) / vec2f(extent);
     let across = box_weights(offset.x, width.x);

@@ -1,14 +1,10 @@
 //! Places the layers of a layered variance shadow map where light would bleed.
 
-use moment_shadows::{DepthConversion, LayerSplits, Technique, TextureFormat};
-use serde::{Deserialize, Serialize};
+use moment_shadows::{LayerSplits, Technique, TextureFormat};
+use serde::Deserialize;
 
-use super::shared::{self, Specialization, regions, wgsl};
-use super::techniques;
-use crate::{
-    Connected, GraphError, Node, NodeDesc, ParameterBlock, Pass, Rule, Slot, Stage, TextureRule,
-    bind,
-};
+use super::shared::{Specialization, depth_input, wgsl, wrong_property};
+use crate::{Connected, GraphError, Node, NodeDesc, Pass, Rule, Slot, Stage, TextureRule, bind};
 
 /// Footprints that a workgroup sums up, along each side (`TILE` in the shader).
 const TILE: u32 = 32;
@@ -22,23 +18,17 @@ const STATE: [u32; 2] = [5, 1];
 /// Each time a layer is dirty, Lloyd relaxation moves two of its splits towards the surfaces behind which light would bleed
 /// (Lauritzen & McCool, "Layered Variance Shadow Maps", GI 2008, section 5). It starts from layers of equal depth and goes on
 /// from where it was: `splits` and its state are persistent, and all zeros at first. Edges against the far end, where no caster
-/// is, do not count. Parameters: a [`DepthConversion`] per
-/// layer and region, the same as those of `resolve`.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
-#[serde(deny_unknown_fields)]
+/// is, do not count. Parameters: a [`moment_shadows::DepthConversion`] per layer and region, the same as those of `resolve`.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize)]
+#[serde(default, deny_unknown_fields)]
 pub struct PlaceLayers {
     /// Layers of the technique, 1 to 8: as many as the map has.
-    #[serde(default = "four")]
     pub layers: u32,
-}
-
-fn four() -> u32 {
-    4
 }
 
 impl Default for PlaceLayers {
     fn default() -> Self {
-        Self { layers: four() }
+        Self { layers: 4 }
     }
 }
 
@@ -49,13 +39,13 @@ impl Node for PlaceLayers {
             overlap: Default::default(),
             splits: LayerSplits::Lloyd,
         };
-        technique.check().map_err(techniques::property)?;
+        technique.check().map_err(wrong_property)?;
         let depth = upstream.texture("depth")?;
-        let specialization = Specialization::new(upstream.capabilities())
-            .alias("DepthTexture", shared::depth_texture(depth))
-            .unsigned("LAYERS", self.layers);
-        let wgsl =
-            regions::specialize(specialization, depth).link(wgsl!("place_layers.wgsl"), &[])?;
+        let wgsl = Specialization::new(upstream.capabilities())
+            .alias("DepthTexture", depth_input::texture_type(depth))
+            .unsigned("REGIONS", depth.regions)
+            .unsigned("LAYERS", self.layers)
+            .link(wgsl!("place_layers.wgsl"))?;
         // All passes follow the layers of the depth map; those of a single workgroup cover it whole.
         let pass = |label: &str, entry_point: &str, texels| {
             Pass::compute(label, "depth", texels)
@@ -67,20 +57,15 @@ impl Node for PlaceLayers {
                 .extent(size)
                 .layers(Rule::same_as("depth"))
         };
+        let tiles = depth.size.map(|side| side.div_ceil(TILE));
         let state = "Where the relaxation is, layer by layer.";
-        let next = "Where it is after this step.";
-        let sums = "What each tile says about the splits.";
         Ok(NodeDesc::new("place_layers", Stage::AfterShadowMaps)
-            .input("depth", "The light's depth map.", shared::light_depth())
+            .input("depth", "The light's depth map.", depth_input::light())
             .slots([
                 Slot::output("splits", "Where the layers lie.", made([2, 1])).persistent(),
                 Slot::internal("state", state, made(STATE)).persistent(),
-                Slot::internal("next", next, made(STATE)),
-                Slot::internal(
-                    "sums",
-                    sums,
-                    made(depth.size.map(|side| side.div_ceil(TILE))),
-                ),
+                Slot::internal("next", "Where it is after this step.", made(STATE)),
+                Slot::internal("sums", "What each tile says about the splits.", made(tiles)),
             ])
             .pass(
                 pass("sum tiles", "sum_tiles", [TILE; 2])
@@ -102,11 +87,6 @@ impl Node for PlaceLayers {
                     .bind("target_map", bind::store("state"))
                     .bind("splits_map", bind::store("splits")),
             )
-            .parameters(
-                ParameterBlock::of::<DepthConversion>("DepthConversion")
-                    .elements(depth.regions)
-                    .each_layer_of("depth")
-                    .initial(&DepthConversion::orthographic()),
-            ))
+            .parameters(depth_input::conversions(depth)))
     }
 }

@@ -1,7 +1,7 @@
 import moment_shadows::map::depth::{DepthConversion, depth_to_moment_depth};
 import moment_shadows::techniques::layered_variance::{LayeredVarianceLayers};
 import moment_shadows::techniques::lloyd::{LloydState, lloyd_contribution, lloyd_step};
-import moment_shadows::map::map_region::{MapRegion, map_region_within};
+import node::regions::{region_at};
 import node::specialization::{DepthTexture, GROUP, LAYERS, REGIONS};
 
 // One step of Lloyd relaxation per frame for the splits of one layer of a map, in three passes: sums over the footprints
@@ -14,7 +14,6 @@ import node::specialization::{DepthTexture, GROUP, LAYERS, REGIONS};
 @group(GROUP) @binding(1) var depth_map: DepthTexture;
 @group(GROUP) @binding(2) var state_map: texture_2d<f32>;
 @group(GROUP) @binding(3) var target_map: texture_storage_2d<rgba32float, write>;
-@group(GROUP) @binding(4) var<uniform> regions: array<MapRegion, REGIONS>;
 @group(GROUP) @binding(5) var sums_map: texture_2d<f32>;
 @group(GROUP) @binding(6) var splits_map: texture_storage_2d<rgba32float, write>;
 
@@ -76,7 +75,7 @@ fn depth_at(texel: vec2u, conversion: DepthConversion) -> f32 {
 fn footprint_sums(texel: vec2u, size: vec2u, placed: PlacedState) -> vec4f {
     var sums = vec4f(0.0);
     for (var number = 0u; number < REGIONS; number++) {
-        let region = map_region_within(regions[number], size);
+        let region = region_at(number, size, 0u);
         if any(texel < region.origin) || any(texel + 1u >= region.origin + region.extent) {
             continue;
         }

@@ -1,14 +1,13 @@
 //! Resamples a light's map in the rectified coordinates of a camera.
 
 use moment_shadows::{MapEncoding, RectifyMomentsParameters, Storage, Technique};
-use serde::{Deserialize, Serialize};
+use serde::Deserialize;
 
 use super::shared::lookup::moments_lookup;
-use super::shared::{Specialization, map_input, regions, wgsl};
-use super::techniques::{self, Bounded};
+use super::shared::{map_input, regions, wgsl, wrong_property};
+use super::techniques;
 use crate::{
-    Connected, GraphError, GraphErrorKind, Node, NodeDesc, ParameterBlock, Pass, Stage,
-    TextureRule, bind,
+    Connected, GraphError, Node, NodeDesc, ParameterBlock, Pass, Stage, TextureRule, bind,
 };
 
 /// Node `rectify_moments`: `map` (four moments, filtered, of any storage) to `rectified`, a map whose columns are distances
@@ -18,7 +17,7 @@ use crate::{
 ///
 /// Each texel is one light ray, looked up in the light's map over the texel's own footprint where that has mip levels; rays
 /// outside of the map are lit.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct RectifyMoments {
     /// `hamburger4` or `hamburger6`: how many moments the two depths of a texel are encoded as again.
@@ -41,78 +40,47 @@ const ANISOTROPY: u16 = 8;
 impl Node for RectifyMoments {
     fn describe(&self, upstream: &Connected<'_>) -> Result<NodeDesc, GraphError> {
         let (map, source) = map_input::of_four_moments(upstream, "resamples")?;
-        let (encoding, texel) = self.encoding()?;
-        let capabilities = upstream.capabilities();
-        let (lookup, sampler) =
-            moments_lookup(map.format, map.mips, ANISOTROPY, true, capabilities);
-        let specialization = Specialization::new(capabilities)
-            .unsigned("SOURCE_STORAGE", source.storage().wgsl_index())
-            .unsigned("LEVELS", map.mips)
-            .constant("ANISOTROPY", &format!("{ANISOTROPY}.0"));
-        let wgsl = techniques::specialize_map(specialization, &encoding).link(
-            wgsl!("rectify_moments.wgsl"),
-            &[("rectified_texel", texel), lookup],
-        )?;
-        let passes = (0..encoding.planes()).map(|plane| {
-            let named = techniques::encodes_planes(&self.technique);
-            let label = if named {
-                format!("rectify plane {plane}")
-            } else {
-                "rectify".to_owned()
-            };
-            let mut pass = Pass::compute(label, "rectified", [8, 8])
-                .shader(wgsl.as_str(), "rectify")
-                .bind("parameters", bind::parameters())
-                .bind("rectified_map", bind::store("rectified"))
-                .bind("moments_map", bind::layers("map"))
-                .plane(plane);
-            pass.bindings.extend(sampler.clone());
-            if named {
-                pass = pass.constant("PLANE", plane);
-            }
-            pass
-        });
-        Ok(NodeDesc::new("rectify_moments", Stage::AfterShadowMaps)
-            .input(
-                "map",
-                "The light's filtered map of four moments.",
-                map_input::rule(&map_input::FORMATS),
-            )
-            .output(
-                "rectified",
-                "The map by distance from the light ray through the camera, and by azimuth about it.",
-                TextureRule::of_map(encoding.clone()).extent(self.extent),
-            )
-            .passes(passes)
-            .parameters(ParameterBlock::of::<RectifyMomentsParameters>(
-                "RectifyMomentsParameters",
-            )))
-    }
-}
-
-impl RectifyMoments {
-    /// How the two depths of a texel are encoded, and the text that does it.
-    fn encoding(&self) -> Result<(MapEncoding, &'static str), GraphError> {
-        let property = |message: String| GraphError::new(GraphErrorKind::Property, message);
-        let texel = match techniques::both_bounds(&self.technique) {
-            Some(Bounded::Four) => include_str!("rectified_four_moments.wgsl"),
-            Some(Bounded::Six) => include_str!("rectified_six_moments.wgsl"),
-            None => {
-                return Err(property(format!(
-                    "'technique' is '{}'; single scattering has both bounds of 'hamburger4' and 'hamburger6' alone",
-                    self.technique
-                )));
-            }
-        };
-        if self.extent.iter().any(|side| !(2..=8192).contains(side)) {
-            return Err(property(format!(
-                "'extent' is {}x{}; columns and rows are 2 to 8192 each",
-                self.extent[0], self.extent[1]
+        let technique = &self.technique;
+        let texel = techniques::of_both_bounds(
+            technique,
+            include_str!("rectified_four_moments.wgsl"),
+            include_str!("rectified_six_moments.wgsl"),
+        )
+        .ok_or_else(|| {
+            wrong_property(format!(
+                "'technique' is '{technique}'; single scattering has both bounds of 'hamburger4' and 'hamburger6' alone"
+            ))
+        })?;
+        let [columns, rows] = self.extent;
+        if !(2..=8192).contains(&columns) || !(2..=8192).contains(&rows) {
+            return Err(wrong_property(format!(
+                "'extent' is {columns}x{rows}; columns and rows are 2 to 8192 each"
             )));
         }
-        let encoding =
-            MapEncoding::new(self.technique.clone(), self.storage).map_err(techniques::property)?;
-        regions::refuse_prefix_sums(&encoding, GraphErrorKind::Property)?;
-        Ok((encoding, texel))
+        let encoding = MapEncoding::new(technique.clone(), self.storage).map_err(wrong_property)?;
+        regions::refuse_prefix_sums(&encoding).map_err(wrong_property)?;
+        let capabilities = upstream.capabilities();
+        let specialization = techniques::of_map(capabilities, &encoding)
+            .unsigned("SOURCE_STORAGE", source.storage().wgsl_index())
+            .module("rectified_texel", texel);
+        let (specialization, sampler) =
+            moments_lookup(specialization, capabilities, &source, map.mips, ANISOTROPY);
+        let wgsl = specialization.link(wgsl!("rectify_moments.wgsl"))?;
+        let mut pass = Pass::compute("rectify", "rectified", [8, 8])
+            .shader(wgsl, "rectify")
+            .bind("parameters", bind::parameters())
+            .bind("rectified_map", bind::store("rectified"))
+            .bind("moments_map", bind::layers("map"));
+        pass.bindings.extend(sampler);
+        let rule = map_input::rule(map_input::formats());
+        let rectified = TextureRule::of_map(encoding.clone()).extent(self.extent);
+        let description =
+            "The map by distance from the light ray through the camera, and by azimuth about it.";
+        let block = ParameterBlock::of::<RectifyMomentsParameters>("RectifyMomentsParameters");
+        Ok(NodeDesc::new("rectify_moments", Stage::AfterShadowMaps)
+            .input("map", "The light's filtered map of four moments.", rule)
+            .output("rectified", description, rectified)
+            .passes(techniques::of_each_plane(&encoding, pass))
+            .parameters(block))
     }
 }

@@ -1,4 +1,5 @@
 import moment_shadows::map::depth::{DepthConversion, depth_to_moment_depth};
+import moment_shadows::map::map_region::{MapRegion};
 import node::map_encoding::{encoding_channels, encoding_texel};
 import node::specialization::{DepthTexture, GROUP, REGIONS, SAMPLES};
 
@@ -10,13 +11,18 @@ import node::specialization::{DepthTexture, GROUP, REGIONS, SAMPLES};
 @group(GROUP) @binding(0) var<uniform> conversions: array<DepthConversion, REGIONS>;
 @group(GROUP) @binding(1) var depth_map: DepthTexture;
 
-// The texel of the map, in the region of this number.
-fn resolve_texel(texel: vec2i, region: u32) -> vec4f {
-    let conversion = conversions[region];
+const LEVEL = 0u;
+
+fn written_size() -> vec2u {
+    return textureDimensions(depth_map);
+}
+
+fn written_texel(texel: vec2u, region: MapRegion, number: u32) -> vec4f {
+    let conversion = conversions[number];
     var sum = vec4f(0.0);
     // For a single sample the last argument of the load is its mip level, 0.
     for (var sample = 0; sample < SAMPLES; sample++) {
-        let stored = textureLoad(depth_map, texel, sample);
+        let stored = textureLoad(depth_map, vec2i(texel), sample);
         sum += encoding_channels(depth_to_moment_depth(stored, conversion));
     }
     return encoding_texel(sum / f32(SAMPLES));

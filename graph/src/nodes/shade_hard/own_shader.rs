@@ -1,23 +1,14 @@
 //! Users' shaders that shade with a technique as the node does.
 
-use super::super::shared::map_input;
-use super::super::techniques;
+use super::super::shared::{map_input, wrong_property};
 use super::ShadeHard;
 use crate::compile::binding_numbers;
-use crate::{BindingResource, Capabilities, GraphError, TextureDesc};
-
-/// A linked shader, and what it binds beside its own.
-#[derive(Clone, Debug, PartialEq)]
-pub struct TechniqueShader {
-    /// The text, with all that it imports.
-    pub wgsl: String,
-    /// The map and its sampler, if it has one, by binding number in the bind group of the capabilities.
-    pub bindings: Vec<(u32, BindingResource)>,
-}
+use crate::{Binding, BindingResource, Capabilities, GraphError, TextureDesc};
 
 impl ShadeHard {
     /// Links a user's shader with the technique that this node evaluates a map with, by the same text: one that
-    /// shades other points than the pixels of a picture.
+    /// shades other points than the pixels of a picture. Gives the linked text, and by binding number in the bind group of the
+    /// capabilities what it binds beside its own: the map and its sampler, if it has one.
     ///
     /// Besides the library's modules the shader imports `technique_shadow_intensity` from `node::technique`, which
     /// takes a `TechniqueReceiver` (`node::technique_receiver`); `technique_map_size` from
@@ -32,32 +23,23 @@ impl ShadeHard {
         file: &str,
         shader: &str,
         modules: &[(&str, &str)],
-    ) -> Result<TechniqueShader, GraphError> {
-        let moments = || {
-            Ok((
-                map,
-                map_input::encoding_of(map).map_err(|error| error.at_slot("map"))?,
-            ))
-        };
-        let (technique, map) = self.technique_and_map(capabilities, moments)?;
-        if techniques::places_layers(&technique) {
-            return Err(techniques::property(
+    ) -> Result<(String, Vec<(u32, BindingResource)>), GraphError> {
+        let encoding = || map_input::encoding_of(map).map_err(|error| error.at_slot("map"));
+        let evaluation = self.evaluation(capabilities, || Ok((map, encoding()?)))?;
+        if evaluation.technique.row().places_layers {
+            return Err(wrong_property(
                 "layers that are placed on the device are known to the graph alone; give the splits, or take uniform ones",
             ));
         }
-        let (specialization, adapters) = self.evaluation(&technique, &map, capabilities);
-        let all: Vec<(&str, &str)> = adapters
-            .into_iter()
-            .chain(modules.iter().copied())
-            .collect();
-        let wgsl = specialization.link((file, shader), &all)?;
+        let mut specialization = evaluation.specialization;
+        for &(name, text) in modules {
+            specialization = specialization.module(name, text.to_owned());
+        }
+        let wgsl = specialization.link((file, shader))?;
         let numbers = binding_numbers(&wgsl)?;
-        let bindings = map.bindings().into_iter();
+        let bindings = evaluation.bindings.into_iter();
         let numbered =
-            |binding: crate::Binding| Some((*numbers.get(&binding.variable)?, binding.resource));
-        Ok(TechniqueShader {
-            bindings: bindings.filter_map(numbered).collect(),
-            wgsl,
-        })
+            |binding: Binding| Some((*numbers.get(&binding.variable)?, binding.resource));
+        Ok((wgsl, bindings.filter_map(numbered).collect()))
     }
 }

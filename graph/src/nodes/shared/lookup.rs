@@ -1,43 +1,41 @@
 //! How shaders look up a filterable map: by a sampler, where the device can filter it, or by loads.
 
-use moment_shadows::TextureFormat;
+use moment_shadows::MapEncoding;
 
-use super::VirtualModule;
+use super::Specialization;
 use crate::{Binding, BindingResource, Capabilities};
 
-/// Loads, for maps that no sampler can average.
-pub(in crate::nodes) const LOADED: VirtualModule =
-    ("moments_lookup", include_str!("moments_lookup_loaded.wgsl"));
-
-/// The virtual module `moments_lookup` and the sampler that it binds, if it has one, for a map with mip levels or without.
-/// `sampled` is false for maps that no sampler can average.
+/// Adds the module `moments_lookup` for a map with `levels` mip levels, and gives the sampler that it binds, if it has one.
 pub(in crate::nodes) fn moments_lookup(
-    format: TextureFormat,
-    mips: u32,
-    anisotropy: u16,
-    sampled: bool,
+    specialization: Specialization,
     capabilities: &Capabilities,
-) -> (VirtualModule, Option<Binding>) {
-    let minified = mips > 1;
-    if !sampled
-        || !capabilities.support(format).filterable
-        || (minified && !capabilities.anisotropic_sampling)
-    {
-        return (LOADED, None);
-    }
-    let (text, sampler, anisotropy) = if minified {
-        let text = include_str!("moments_lookup_minified.wgsl");
-        (text, "anisotropic_sampler", anisotropy)
-    } else {
-        let text = include_str!("moments_lookup_sampled.wgsl");
-        (text, "moments_sampler", 1)
-    };
-    let resource = BindingResource::Sampler {
+    encoding: &MapEncoding,
+    levels: u32,
+    anisotropy: u16,
+) -> (Specialization, Option<Binding>) {
+    // Logarithms are averaged by no sampler, and have no mip levels.
+    let averaged = encoding.technique().row().averaged_by_samplers;
+    let levels = if averaged { levels } else { 1 };
+    let specialization = specialization
+        .unsigned("LEVELS", levels)
+        .constant("ANISOTROPY", format_args!("{anisotropy}.0"));
+    let minified = levels > 1;
+    let sampler = |anisotropy| BindingResource::Sampler {
         filtering: true,
         anisotropy,
     };
-    (
-        ("moments_lookup", text),
-        Some(Binding::new(sampler, resource)),
-    )
+    let (text, binding) = if !averaged
+        || !capabilities.support(encoding.format()).filterable
+        || (minified && !capabilities.anisotropic_sampling)
+    {
+        (include_str!("moments_lookup_loaded.wgsl"), None)
+    } else if minified {
+        let text = include_str!("moments_lookup_minified.wgsl");
+        (text, Some(("anisotropic_sampler", sampler(anisotropy))))
+    } else {
+        let text = include_str!("moments_lookup_sampled.wgsl");
+        (text, Some(("moments_sampler", sampler(1))))
+    };
+    let binding = binding.map(|(variable, sampler)| Binding::new(variable, sampler));
+    (specialization.module("moments_lookup", text), binding)
 }

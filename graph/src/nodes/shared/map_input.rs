@@ -1,30 +1,22 @@
 //! The input `map` that nodes share: a filterable map that knows its encoding.
 
-use moment_shadows::TextureFormat::{
-    R16Float, R16Unorm, R32Float, Rg16Float, Rg16Unorm, Rg32Float, Rgb10a2Unorm, Rgba8Unorm,
-    Rgba16Float, Rgba16Unorm, Rgba32Float,
-};
-use moment_shadows::{MapEncoding, Technique, TextureFormat};
+use moment_shadows::{MapEncoding, Storage, Technique, TextureFormat};
 
-use crate::{Connected, GraphError, GraphErrorKind, Rule, TextureDesc, TextureRule};
+use super::wrong_format;
+use crate::{Connected, GraphError, Rule, TextureDesc, TextureRule};
 
-/// The formats that a filterable map can have.
-pub(in crate::nodes) const FORMATS: [TextureFormat; 11] = [
-    Rgba16Unorm,
-    Rgba16Float,
-    Rgba32Float,
-    Rg16Unorm,
-    Rg16Float,
-    Rg32Float,
-    R16Unorm,
-    R16Float,
-    R32Float,
-    Rgba8Unorm,
-    Rgb10a2Unorm,
-];
+/// The formats that a filterable map can have: those of all storages but that of tables.
+pub(in crate::nodes) fn formats() -> Vec<TextureFormat> {
+    let storages = Storage::ALL.into_iter();
+    storages
+        .flat_map(|storage| [4, 2, 1].map(|channels| storage.format_of(channels)))
+        .flatten()
+        .filter(|format| !format.is_integer())
+        .collect()
+}
 
 /// A map of these formats, with any number of layers and mip levels.
-pub(in crate::nodes) fn rule(formats: &[TextureFormat]) -> TextureRule {
+pub(in crate::nodes) fn rule(formats: impl Into<Rule<TextureFormat>>) -> TextureRule {
     TextureRule::new(formats).layers(Rule::Any).mips(Rule::Any)
 }
 
@@ -46,7 +38,7 @@ pub(in crate::nodes) fn of_four_moments<'a>(
     if encoding.technique().shares_map_with(&Technique::Hamburger4) {
         return Ok((map, encoding));
     }
-    Err(format_error(format!(
+    Err(wrong_format(format!(
         "the map holds {encoding}; this node {what} four moments: give the node that makes the map the technique \
          'hamburger4'"
     ))
@@ -56,7 +48,7 @@ pub(in crate::nodes) fn of_four_moments<'a>(
 /// The encoding of a filterable map other than a table: four moments, unless the map says otherwise.
 pub(in crate::nodes) fn encoding_of(map: &TextureDesc) -> Result<MapEncoding, GraphError> {
     if map.format.is_integer() {
-        return Err(format_error(format!(
+        return Err(wrong_format(format!(
             "{} holds a summed-area table, which only nodes for soft shadows read; connect the map that it is made of",
             map.format
         )));
@@ -65,13 +57,9 @@ pub(in crate::nodes) fn encoding_of(map: &TextureDesc) -> Result<MapEncoding, Gr
     encoding
         .or_else(|| MapEncoding::of_four_moments(map.format))
         .ok_or_else(|| {
-            format_error(format!(
+            wrong_format(format!(
                 "{} holds no moments; connect a map of moments, or say in its description how it is encoded",
                 map.format
             ))
         })
-}
-
-fn format_error(message: String) -> GraphError {
-    GraphError::new(GraphErrorKind::Format, message)
 }

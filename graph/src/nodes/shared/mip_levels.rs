@@ -1,42 +1,39 @@
 //! Room for mip levels as a node's property.
 
-use serde::{Deserialize, Serialize};
+use serde::{Deserialize, Deserializer};
 
-use crate::{GraphError, GraphErrorKind, TextureDesc};
+use super::wrong_size;
+use crate::{GraphError, TextureDesc};
 
-/// How many mip levels a map has room for; `downsample` fills all but the first.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
-#[serde(rename_all = "snake_case")]
-pub enum MipLevels {
-    /// `"all"`: as many as the shorter side of the map allows.
-    All,
-    /// So many, the map itself included.
-    #[serde(untagged)]
-    Count(u32),
+/// One level, where a file does not say how many.
+pub(in crate::nodes) fn one() -> Option<u32> {
+    Some(1)
 }
 
-impl Default for MipLevels {
-    /// The map itself.
-    fn default() -> Self {
-        Self::Count(1)
+/// A number, or `"all"`, which is `None`.
+pub(in crate::nodes) fn read<'de, D: Deserializer<'de>>(file: D) -> Result<Option<u32>, D::Error> {
+    #[derive(Deserialize)]
+    #[serde(rename_all = "snake_case")]
+    enum MipLevels {
+        All,
+        #[serde(untagged)]
+        Count(u32),
     }
+    Ok(match MipLevels::deserialize(file)? {
+        MipLevels::All => None,
+        MipLevels::Count(count) => Some(count),
+    })
 }
 
-impl MipLevels {
-    /// The number for a map of a size. A region has texels on every level only if it is large enough for it, so more
-    /// levels than the shorter side of the whole map allows are refused.
-    pub(in crate::nodes) fn count(self, size: [u32; 2]) -> Result<u32, GraphError> {
-        let most = TextureDesc::most_levels(size);
-        match self {
-            MipLevels::All => Ok(most),
-            MipLevels::Count(count) if (1..=most).contains(&count) => Ok(count),
-            MipLevels::Count(count) => Err(GraphError::new(
-                GraphErrorKind::Size,
-                format!(
-                    "'mip_levels' is {count}; a map of {}x{} texels has from 1 to {most}, or \"all\"",
-                    size[0], size[1]
-                ),
-            )),
-        }
+/// The number for a map of a size. A region has texels on every level only if it is large enough for it, so more levels than
+/// the shorter side of the whole map allows are refused.
+pub(in crate::nodes) fn count(levels: Option<u32>, [x, y]: [u32; 2]) -> Result<u32, GraphError> {
+    let most = TextureDesc::most_levels([x, y]);
+    let count = levels.unwrap_or(most);
+    if (1..=most).contains(&count) {
+        return Ok(count);
     }
+    Err(wrong_size(format!(
+        "'mip_levels' is {count}; a map of {x}x{y} texels has from 1 to {most}, or \"all\""
+    )))
 }

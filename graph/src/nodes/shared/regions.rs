@@ -2,89 +2,81 @@
 
 use moment_shadows::{MapEncoding, Technique};
 
-use super::{FULLSCREEN, Specialization, VirtualModule};
-use crate::{GraphError, GraphErrorKind, Pass, TextureDesc, bind};
+use super::wgsl;
+use crate::{Pass, bind};
 
-/// The virtual module of shaders that compute the regions of a map.
-pub(in crate::nodes) const TILE: VirtualModule = ("region_tile", include_str!("region_tile.wgsl"));
+/// Texels that a row or column may have: more than any texture.
+pub(in crate::nodes) const ENDLESS: u32 = 65536;
 
-/// The virtual modules of shaders that draw them.
-const DRAWN: [VirtualModule; 2] = [
-    ("region_pixel", include_str!("region_pixel.wgsl")),
-    FULLSCREEN,
-];
-
-/// The virtual modules of shaders that write a map.
-pub(in crate::nodes) fn modules(encoding: &MapEncoding) -> &'static [VirtualModule] {
+/// The shader that writes a map texel by texel, as the module `written_texel` says.
+pub(in crate::nodes) fn shader(encoding: &MapEncoding) -> (&'static str, &'static str) {
     if encoding.storage().is_drawn() {
-        &DRAWN
+        wgsl!("write_drawn.wgsl")
     } else {
-        &[TILE]
+        wgsl!("write_computed.wgsl")
     }
 }
 
-/// Tells the shader how many regions the table holds.
-pub(in crate::nodes) fn specialize(
-    specialization: Specialization,
-    map: &TextureDesc,
-) -> Specialization {
-    specialization.constant("REGIONS", &format!("{}u", map.regions))
-}
-
-/// A dispatch over all regions of a slot's map.
+/// A dispatch over all regions, of at least `smallest` texels along each side, of a mip level of a slot's map.
 pub(in crate::nodes) fn compute(
     label: impl Into<String>,
-    slot: &str,
-    level: u32,
+    (slot, level): (&str, u32),
     texels_per_workgroup: [u32; 2],
+    smallest: u32,
 ) -> Pass {
     Pass::compute(label, slot, texels_per_workgroup)
         .over_regions(level)
-        .bind("regions", bind::regions(slot, 1))
+        .bind("regions", bind::regions(slot, smallest))
 }
 
-/// A pass that writes a mip level of a map, all its regions, of at least `smallest` texels along each side. Where it is
-/// no draw, it writes through the storage texture `variable`.
+/// A pass that writes all regions of a mip level of a map by the entry point `write_map` of a shader. Where it is no draw, it
+/// writes through the storage texture `written_map`.
 pub(in crate::nodes) fn write(
     label: impl Into<String>,
+    wgsl: &str,
     encoding: &MapEncoding,
     (slot, level): (&str, u32),
-    variable: &str,
     texels_per_workgroup: [u32; 2],
     smallest: u32,
 ) -> Pass {
     let pass = if encoding.storage().is_drawn() {
         Pass::fullscreen(label, slot)
+            .over_regions(level)
+            .bind("regions", bind::regions(slot, smallest))
     } else {
-        Pass::compute(label, slot, texels_per_workgroup)
-            .bind(variable, bind::store_level(slot, level))
+        compute(label, (slot, level), texels_per_workgroup, smallest)
+            .bind("written_map", bind::store_level(slot, level))
     };
-    pass.over_regions(level)
-        .bind("regions", bind::regions(slot, smallest))
+    pass.shader(wgsl, "write_map")
+}
+
+/// These passes for each plane of a map, labelled with its number where there are several.
+pub(in crate::nodes) fn of_each_plane(
+    planes: u32,
+    passes: Vec<Pass>,
+) -> impl Iterator<Item = Pass> {
+    (0..planes).flat_map(move |plane| {
+        passes.clone().into_iter().map(move |mut pass| {
+            if planes > 1 {
+                pass.label = format!("plane {plane}: {}", pass.label);
+            }
+            pass.plane(plane)
+        })
+    })
 }
 
 /// The refusal of drawn maps by nodes of single scattering, whose maps are prefix sums and no pixel's own business.
-pub(in crate::nodes) fn refuse_prefix_sums(
-    encoding: &MapEncoding,
-    kind: GraphErrorKind,
-) -> Result<(), GraphError> {
+pub(in crate::nodes) fn refuse_prefix_sums(encoding: &MapEncoding) -> Result<(), String> {
     let storage = encoding.storage();
     if !storage.is_drawn() {
         return Ok(());
     }
-    let alternative = Technique::Hamburger6
-        .storages()
-        .iter()
-        .filter(|other| !other.is_drawn())
-        .map(|other| format!("'{other}'"))
-        .collect::<Vec<_>>()
-        .join(", ");
-    Err(GraphError::new(
-        kind,
-        format!(
-            "prefix sums of a row are written by compute shaders, which cannot write {}, the format of '{storage}'; \
-             use one of {alternative}",
-            encoding.format()
-        ),
+    let others = Technique::Hamburger6.storages().iter();
+    let others = others.filter(|other| !other.is_drawn());
+    let others: Vec<String> = others.map(|other| format!("'{other}'")).collect();
+    Err(format!(
+        "prefix sums of a row are written by compute shaders, which cannot write {}, the format of '{storage}'; use one of {}",
+        encoding.format(),
+        others.join(", ")
     ))
 }

@@ -1,94 +1,65 @@
 //! What the nodes that shade a picture have in common: their shader, their target and their slots.
 
-use moment_shadows::{TextureFormat, ViewParameters};
-
-use super::{depth, wgsl};
-use crate::{
-    Binding, GraphError, GraphErrorKind, NodeDesc, ParameterBlock, Pass, Rule, Slot, Stage,
-    TextureRule, bind,
+use moment_shadows::{
+    TextureFormat::{self, R8Unorm, R16Float, R32Float, Rgba8Unorm, Rgba16Float, Rgba32Float},
+    ViewParameters,
 };
 
-/// The shader: it finds what a pixel's surface is to each view of a light, and leaves the rest to the virtual module
-/// `technique`.
-pub(in crate::nodes) const SHADER: (&str, &str) = wgsl!("shade.wgsl");
+use super::{Specialization, depth_input, wgsl, wrong_property};
+use crate::{
+    Binding, GraphError, NodeDesc, ParameterBlock, Pass, Rule, Slot, Stage, TextureRule, bind,
+};
 
-/// The format of the shadow intensity, if it has a channel for each light.
-pub(in crate::nodes) fn target_format(
-    format: Option<TextureFormat>,
-    lights: u32,
-    views: u32,
-) -> Result<TextureFormat, GraphError> {
-    let property = |message: String| Err(GraphError::new(GraphErrorKind::Property, message));
-    if !(1..=4).contains(&lights) {
-        return property(format!(
-            "'lights' is {lights}; a node shades 1 to 4 lights, one per channel of its output, and more nodes shade more"
-        ));
-    }
-    if views < lights {
-        return property(format!(
-            "'views' is {}, but there are {} lights; each has at least one view",
-            views, lights
-        ));
-    }
-    let one = [
-        TextureFormat::R8Unorm,
-        TextureFormat::R16Float,
-        TextureFormat::R32Float,
-    ];
-    let four = [
-        TextureFormat::Rgba8Unorm,
-        TextureFormat::Rgba16Float,
-        TextureFormat::Rgba32Float,
-    ];
-    let format = format.unwrap_or(if lights == 1 {
-        TextureFormat::R8Unorm
-    } else {
-        TextureFormat::Rgba8Unorm
-    });
-    if four.contains(&format) || (lights == 1 && one.contains(&format)) {
-        return Ok(format);
-    }
-    let names = |formats: &[TextureFormat]| {
-        let names: Vec<&str> = formats.iter().map(|format| format.name()).collect();
-        names.join(", ")
-    };
-    property(if lights == 1 {
-        format!(
-            "shadow intensity is one number per light; 'format' is {} or {}, not {format}",
-            names(&one),
-            names(&four)
-        )
-    } else {
-        format!(
-            "{} lights need a channel each; 'format' is {}, not {format}",
-            lights,
-            names(&four)
-        )
-    })
-}
-
-/// The node: a fullscreen pass from a map, whose inputs and bindings are given, and `camera_depth` to `shadow_intensity`.
+/// The node: a fullscreen pass from a map, whose input (and what belongs to it), bindings and modules are given, and
+/// `camera_depth` to `shadow_intensity`, of a format that has a channel for each light. The shader finds what a pixel's surface is
+/// to each view of a light, and leaves the rest to the module `technique`.
 pub(in crate::nodes) fn describe(
     name: &str,
+    (format, lights, views): (Option<TextureFormat>, u32, u32),
     inputs: impl IntoIterator<Item = Slot>,
     bindings: impl IntoIterator<Item = Binding>,
-    format: TextureFormat,
-    views: u32,
-    wgsl: String,
-) -> NodeDesc {
+    specialization: Specialization,
+) -> Result<NodeDesc, GraphError> {
+    if !(1..=4).contains(&lights) {
+        return Err(wrong_property(format!(
+            "'lights' is {lights}; a node shades 1 to 4 lights, one per channel of its output, and more nodes shade more"
+        )));
+    }
+    if views < lights {
+        return Err(wrong_property(format!(
+            "'views' is {views}, but there are {lights} lights; each has at least one view"
+        )));
+    }
+    let one_and_four = [
+        [R8Unorm, R16Float, R32Float],
+        [Rgba8Unorm, Rgba16Float, Rgba32Float],
+    ];
+    let allowed = &one_and_four[usize::from(lights > 1)..];
+    let format = format.unwrap_or(allowed[0][0]);
+    if !allowed.as_flattened().contains(&format) {
+        let names = allowed.iter().map(|all| all.map(TextureFormat::name));
+        let names: Vec<String> = names.map(|all| all.join(", ")).collect();
+        return Err(wrong_property(format!(
+            "lights need a channel each; for {lights} of them 'format' is {}, not {format}",
+            names.join(" or ")
+        )));
+    }
+    let wgsl = specialization
+        .unsigned("VIEWS", views)
+        .unsigned("LIGHTS", lights)
+        .link(wgsl!("shade.wgsl"))?;
     let mut pass = Pass::fullscreen("shade", "shadow_intensity")
         .shader(wgsl, "shade")
         .bind("views", bind::parameters())
         .bind("camera_depth", bind::layer("camera_depth"));
     pass.bindings.extend(bindings);
-    NodeDesc::new(name, Stage::AfterMainPass)
+    let block = ParameterBlock::of::<ViewParameters>("ViewParameters").elements(views);
+    let intensity = "How much of each light is shadowed, a light per channel.";
+    let target = TextureRule::new(format).extent(Rule::same_as("camera_depth"));
+    Ok(NodeDesc::new(name, Stage::AfterMainPass)
         .slots(inputs)
-        .input("camera_depth", "Where surfaces are.", depth())
-        .output(
-            "shadow_intensity",
-            "How much of each light is shadowed, a light per channel.",
-            TextureRule::new(format).extent(Rule::same_as("camera_depth")),
-        )
+        .input("camera_depth", "Where surfaces are.", depth_input::camera())
+        .output("shadow_intensity", intensity, target)
         .pass(pass)
-        .parameters(ParameterBlock::of::<ViewParameters>("ViewParameters").elements(views))
+        .parameters(block))
 }

@@ -1,28 +1,35 @@
-//! The generated module `specialization`: what a node's shader imports because it cannot be an ordinary value.
+//! The modules that a node's description makes for its shader, `specialization` among them: what that imports because it cannot
+//! be an ordinary value.
 //!
 //! Formats of storage textures are literals of a type, bind groups are attributes, unrolled loops are text. What else is generated
 //! comes from the rows of techniques.
 
-use core::fmt::Write;
+use core::fmt::{Display, Write};
+use std::borrow::Cow;
 
 use moment_shadows::{Source, link};
 
 use crate::{Capabilities, GraphError, GraphErrorKind};
 
-/// The text of a `specialization` module.
+/// The text of the module `specialization`, and the further modules of a shader.
 #[derive(Clone, Debug)]
 pub(in crate::nodes) struct Specialization {
     text: String,
-    modules: Vec<(&'static str, String)>,
+    modules: Vec<(String, Cow<'static, str>)>,
 }
 
 impl Specialization {
-    /// A module that knows the bind group.
+    /// A module that knows the bind group, and those that any shader can import.
     pub(in crate::nodes) fn new(capabilities: &Capabilities) -> Self {
+        let receiver = include_str!("../techniques/receiver.wgsl");
         Self {
             text: format!("const GROUP = {};\n", capabilities.bind_group),
             modules: Vec::new(),
         }
+        .module("fullscreen", include_str!("fullscreen.wgsl"))
+        .module("regions", include_str!("regions.wgsl"))
+        .module("map_texel", include_str!("../techniques/map_texel.wgsl"))
+        .module("technique_receiver", receiver)
     }
 
     pub(in crate::nodes) fn alias(mut self, name: &str, of: &str) -> Self {
@@ -31,35 +38,43 @@ impl Specialization {
         self
     }
 
-    pub(in crate::nodes) fn constant(mut self, name: &str, value: &str) -> Self {
+    pub(in crate::nodes) fn constant(mut self, name: &str, value: impl Display) -> Self {
         let _ = writeln!(self.text, "const {name} = {value};");
         self
     }
 
     /// A constant of type u32.
     pub(in crate::nodes) fn unsigned(self, name: &str, value: u32) -> Self {
-        self.constant(name, &format!("{value}u"))
+        self.constant(name, format_args!("{value}u"))
     }
 
-    /// A further generated module.
-    pub(in crate::nodes) fn module(mut self, name: &'static str, text: String) -> Self {
-        self.modules.push((name, text));
+    /// A constant of type vec2u.
+    pub(in crate::nodes) fn pair(self, name: &str, [x, y]: [u32; 2]) -> Self {
+        self.constant(name, format_args!("vec2u({x}u, {y}u)"))
+    }
+
+    /// A further module.
+    pub(in crate::nodes) fn module(
+        mut self,
+        name: &str,
+        text: impl Into<Cow<'static, str>>,
+    ) -> Self {
+        self.modules.push((name.to_owned(), text.into()));
         self
     }
 
-    /// Links a node's shader, a file with its text, with this module and further ones.
-    pub(in crate::nodes) fn link(
-        &self,
-        (name, text): (&str, &str),
-        others: &[(&str, &str)],
-    ) -> Result<String, GraphError> {
-        let mut generated = vec![Source {
-            name: "specialization",
-            text: &self.text,
-        }];
-        let own = self.modules.iter();
-        generated.extend(own.map(|(name, text)| Source { name, text }));
-        generated.extend(others.iter().map(|&(name, text)| Source { name, text }));
+    /// Links a node's shader, a file with its text.
+    pub(in crate::nodes) fn link(&self, (name, text): (&str, &str)) -> Result<String, GraphError> {
+        let modules = self
+            .modules
+            .iter()
+            .map(|(name, text)| Source { name, text });
+        let generated: Vec<Source<'_>> = modules
+            .chain([Source {
+                name: "specialization",
+                text: &self.text,
+            }])
+            .collect();
         let linked = link(Source { name, text }, &generated)
             .map_err(|error| GraphError::new(GraphErrorKind::Shader, error.to_string()))?;
         Ok(linked.into_wgsl())

@@ -1,4 +1,4 @@
-import node::region_tile::{region_tile};
+import node::regions::{region_tile};
 import node::specialization::{GROUP, TILE};
 import node::sums::{sums_texel, target_map};
 

@@ -1,5 +1,5 @@
 import moment_shadows::filter::prefix_sum::{prefix_sum_along};
-import node::region_tile::{region_tile};
+import node::regions::{region_tile};
 import node::specialization::{GROUP, TILE};
 import node::sums::{sums_load_four, sums_store_four};
 

@@ -1,4 +1,4 @@
-import node::region_tile::{region_tile};
+import node::regions::{region_tile};
 import node::specialization::{GROUP, TILE, WORKGROUP};
 import node::sums::{target_map};
 import node::tile_columns::{TileColumns, add_row, load_columns, store_columns};

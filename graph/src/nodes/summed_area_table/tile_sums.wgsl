@@ -1,4 +1,4 @@
-import node::region_tile::{region_tile};
+import node::regions::{region_tile};
 import node::specialization::{GROUP, SumsStorage, TILE, WORKGROUP};
 import node::sums::{sums_texel};
 import node::tile_columns::{TileColumns, last_column, add_row, moments_map, store_columns};

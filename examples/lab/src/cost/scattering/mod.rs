@@ -4,18 +4,20 @@ pub mod reference;
 mod view;
 
 use moment_shadows::{MapEncoding, Storage, Technique};
+use moment_shadows_graph::record::Recording;
 use moment_shadows_graph::{Capabilities, TextureDesc};
 use serde_json::json;
 
 use self::reference::{Resampled, sums_error, thicknesses};
 use self::view::{ScatteringView, two_surfaces};
+use super::SubjectList;
 use super::copies::CopyWork;
 use super::harness::{Case, Difference, largest};
-use super::node::{NodeOnMap, NodeText, upload};
 use super::table::{Facts, Gate};
 use super::texels::{encode, noise};
-use super::{CostError, SubjectList};
+use crate::error::LabError;
 use crate::gpu::Gpu;
+use crate::node_on_map::{NodeOnMap, NodeText};
 
 /// The nodes on maps of up to a size.
 pub const NODES: SubjectList = SubjectList {
@@ -37,7 +39,7 @@ const SUMS_TOLERANCE: f64 = 1.23e-4 + 1e-5;
 const RECTIFIED_TOLERANCE: f64 = 2.45e-4 + 1e-4;
 
 /// Resampling of a light's map of four moments, and sums of noise by a row per invocation and by a row per workgroup.
-pub fn cases(gpu: &Gpu, size: u32) -> Result<Vec<Case>, CostError> {
+pub fn cases(gpu: &Gpu, size: u32) -> Result<Vec<Case>, LabError> {
     let view = ScatteringView::new()?;
     let capabilities = Capabilities::of_device(&gpu.adapter, &gpu.device);
     let software = capabilities.software_adapter;
@@ -47,24 +49,22 @@ pub fn cases(gpu: &Gpu, size: u32) -> Result<Vec<Case>, CostError> {
     let desc = TextureDesc::of_map(encoding, [size; 2]);
     let texels = desc.array_layers() as usize * size as usize * size as usize;
     let noise = encode(Storage::Float16, &noise(Storage::Float16, texels));
-    let map = upload(gpu, &desc, &noise);
     for (method, software_adapter) in [("serial", true), ("parallel", false)] {
         let capabilities = Capabilities {
             software_adapter,
             ..capabilities.clone()
         };
         let text = NodeText {
-            node_type: "integrate_scattering",
+            node: "integrate_scattering",
             properties: json!({}),
-            input: "rectified",
-            output: "integrated",
+            slots: ["rectified", "integrated"],
         };
-        let parameters = &view.parameters.integrate;
-        let node = NodeOnMap::new(gpu, &capabilities, text, (&desc, &map), |plan, block| {
-            plan.parameters.write(block, "node", 0, parameters)
+        let node = NodeOnMap::new(gpu, &capabilities, &text, &desc, &noise)?;
+        node.fill(gpu, |layout, block| {
+            Ok(layout.write(block, text.node, 0, &view.parameters.integrate)?)
         })?;
         let difference = Difference {
-            error: sums_of_planes(&node.run(gpu)?, &noise, &view, size),
+            error: sums_of_planes(&node.made(gpu)?, &noise, &view, size),
             tolerance: SUMS_TOLERANCE,
         };
         let chosen = software_adapter == software;
@@ -93,7 +93,7 @@ fn case(method: &str, size: u32, node: NodeOnMap, difference: Difference, chosen
             goal: None,
             largest_growth: chosen.then_some(LARGEST_GROWTH),
         },
-        record: Box::new(move |encoder| node.record(None, encoder)),
+        record: Box::new(move |encoder| node.record(Recording::default(), encoder)),
     }
 }
 
@@ -103,20 +103,18 @@ fn rectified(
     capabilities: &Capabilities,
     view: &ScatteringView,
     size: u32,
-) -> Result<(NodeOnMap, Difference), CostError> {
+) -> Result<(NodeOnMap, Difference), LabError> {
     let bytes = two_surfaces(size);
     let encoding = MapEncoding::new(Technique::Hamburger4, Storage::Float16)?;
     let desc = TextureDesc::of_map(encoding, [size; 2]);
-    let map = upload(gpu, &desc, &bytes);
     let text = NodeText {
-        node_type: "rectify_moments",
+        node: "rectify_moments",
         properties: json!({ "technique": "hamburger6", "storage": "float16", "extent": [size, size] }),
-        input: "map",
-        output: "rectified",
+        slots: ["map", "rectified"],
     };
-    let parameters = &view.parameters.rectify;
-    let node = NodeOnMap::new(gpu, capabilities, text, (&desc, &map), |plan, block| {
-        plan.parameters.write(block, "node", 0, parameters)
+    let node = NodeOnMap::new(gpu, capabilities, &text, &desc, &bytes)?;
+    node.fill(gpu, |layout, block| {
+        Ok(layout.write(block, text.node, 0, &view.parameters.rectify)?)
     })?;
     let resampled = Resampled {
         map: &bytes,
@@ -126,7 +124,7 @@ fn rectified(
     };
     let difference = Difference {
         // At most a million texels, of all rows.
-        error: resampled.error(&node.run(gpu)?, (size / 1024).pow(2).max(1)),
+        error: resampled.error(&node.made(gpu)?, (size / 1024).pow(2).max(1)),
         tolerance: RECTIFIED_TOLERANCE,
     };
     Ok((node, difference))

@@ -8,8 +8,8 @@ use moment_shadows::{
     CameraView, LightView, RectifiedView, ScatteringParameters, SingleScattering, Storage,
 };
 
-use super::super::CostError;
 use super::super::reference::channels;
+use crate::error::LabError;
 use crate::view::Camera;
 
 /// Extinction per scene unit: a view ray to the far end is one and a half optical thicknesses long.
@@ -30,7 +30,7 @@ pub(super) struct ScatteringView {
 
 impl ScatteringView {
     /// A camera that looks across the light, amidst what the light's map sees.
-    pub(super) fn new() -> Result<Self, CostError> {
+    pub(super) fn new() -> Result<Self, LabError> {
         let direction = DVec3::new(0.5, -1.0, 0.3).normalize();
         let eye = DVec3::new(0.4, 1.7, 0.3);
         let across = direction.any_orthonormal_vector();
@@ -57,7 +57,8 @@ impl ScatteringView {
         )?;
         Ok(Self {
             light,
-            rectified: RectifiedView::new(&camera, FAR, direction.to_array())?,
+            rectified: RectifiedView::new(&camera, FAR, direction.to_array())
+                .map_err(|error| LabError::unsuitable("the view of the scattering nodes", error))?,
             parameters,
         })
     }

@@ -8,11 +8,10 @@ use super::refused;
 use crate::error::LabError;
 use crate::isa::driver::incomplete;
 
-/// An open device of the driver that the environment names.
+/// An open device of the driver that the environment names. It lasts as long as the process, which compiles for one chip.
 pub(in crate::isa) struct NullDevice {
     pub(super) device: ash::Device,
     pub(super) executables: ash::khr::pipeline_executable_properties::Device,
-    instance: ash::Instance,
     /// Holds the loader, and with it all functions.
     _entry: ash::Entry,
     /// The driver's name.
@@ -41,34 +40,15 @@ impl NullDevice {
         // SAFETY: `info` and all it points to live through the call.
         let instance =
             unsafe { entry.create_instance(&info, None) }.map_err(refused("an instance"))?;
-        match open_device(&instance) {
-            Ok((device, [driver_name, driver_version, chip_name])) => Ok(Self {
-                executables: ash::khr::pipeline_executable_properties::Device::new(
-                    &instance, &device,
-                ),
-                device,
-                instance,
-                _entry: entry,
-                driver_name,
-                driver_version,
-                chip_name,
-            }),
-            Err(error) => {
-                // SAFETY: nothing made from the instance is left.
-                unsafe { instance.destroy_instance(None) };
-                Err(error)
-            }
-        }
-    }
-}
-
-impl Drop for NullDevice {
-    fn drop(&mut self) {
-        // SAFETY: pipelines are destroyed as soon as they have been asked; nothing else was made from the device.
-        unsafe {
-            self.device.destroy_device(None);
-            self.instance.destroy_instance(None);
-        }
+        let (device, [driver_name, driver_version, chip_name]) = open_device(&instance)?;
+        Ok(Self {
+            executables: ash::khr::pipeline_executable_properties::Device::new(&instance, &device),
+            device,
+            _entry: entry,
+            driver_name,
+            driver_version,
+            chip_name,
+        })
     }
 }
 

@@ -1,4 +1,4 @@
-//! One pipeline per shader, made only to be asked.
+//! One pipeline per shader, made only to be asked. The driver frees everything when the process ends, which it does then.
 
 use ash::vk;
 
@@ -7,30 +7,8 @@ use crate::error::LabError;
 use crate::isa::spirv::{Bound, SpirvModule};
 use moment_shadows::TextureFormat;
 
-/// Vulkan objects that are destroyed with the scope they were made in.
-struct Objects<'a> {
-    device: &'a ash::Device,
-    modules: Vec<vk::ShaderModule>,
-    sets: Vec<vk::DescriptorSetLayout>,
-    layout: vk::PipelineLayout,
-    pipeline: vk::Pipeline,
-}
-
-impl Drop for Objects<'_> {
-    fn drop(&mut self) {
-        // SAFETY: every object was made from this device, is destroyed once, and is in no use; null handles are allowed.
-        unsafe {
-            self.device.destroy_pipeline(self.pipeline, None);
-            self.device.destroy_pipeline_layout(self.layout, None);
-            for &set in &self.sets {
-                self.device.destroy_descriptor_set_layout(set, None);
-            }
-            for &module in &self.modules {
-                self.device.destroy_shader_module(module, None);
-            }
-        }
-    }
-}
+/// Pipelines, or those that could be made and what went wrong.
+type Made = Result<Vec<vk::Pipeline>, (Vec<vk::Pipeline>, vk::Result)>;
 
 /// So that the driver keeps the text of what it makes.
 const FLAGS: vk::PipelineCreateFlags = vk::PipelineCreateFlags::from_raw(
@@ -46,36 +24,25 @@ impl NullDevice {
         module: &SpirvModule,
         drawn: Option<(&SpirvModule, TextureFormat)>,
     ) -> Result<Executable, LabError> {
-        let mut objects = Objects {
-            device: &self.device,
-            modules: Vec::new(),
-            sets: Vec::new(),
-            layout: vk::PipelineLayout::null(),
-            pipeline: vk::Pipeline::null(),
-        };
-        objects.layout(&module.bindings)?;
-        let mut stage = |module, flag| objects.stage(module, flag);
-        let asked = if let Some((vertex, target)) = drawn {
+        let layout = self.layout(&module.bindings)?;
+        let (pipelines, asked) = if let Some((vertex, target)) = drawn {
             let asked = vk::ShaderStageFlags::FRAGMENT;
             let stages = [
-                stage(vertex, vk::ShaderStageFlags::VERTEX)?,
-                stage(module, asked)?,
+                self.stage(vertex, vk::ShaderStageFlags::VERTEX)?,
+                self.stage(module, asked)?,
             ];
-            objects.fragment(&stages, target)?;
-            asked
+            (self.fragment(layout, &stages, target), asked)
         } else {
             let asked = vk::ShaderStageFlags::COMPUTE;
-            let stage = stage(module, asked)?;
-            objects.compute(stage)?;
-            asked
+            (self.compute(layout, self.stage(module, asked)?), asked)
         };
-        executable::of_pipeline(self, objects.pipeline, asked)
+        let pipelines = pipelines.map_err(|(_, error)| refused("a pipeline")(error))?;
+        let pipeline = pipelines.first().copied().unwrap_or_default();
+        executable::of_pipeline(self, pipeline, asked)
     }
-}
 
-impl Objects<'_> {
     fn stage<'m>(
-        &mut self,
+        &self,
         module: &'m SpirvModule,
         stage: vk::ShaderStageFlags,
     ) -> Result<vk::PipelineShaderStageCreateInfo<'m>, LabError> {
@@ -83,7 +50,6 @@ impl Objects<'_> {
         // SAFETY: the code is valid SPIR-V: naga wrote it from a validated module.
         let made = unsafe { self.device.create_shader_module(&info, None) }
             .map_err(refused("a shader module"))?;
-        self.modules.push(made);
         Ok(vk::PipelineShaderStageCreateInfo::default()
             .stage(stage)
             .module(made)
@@ -91,7 +57,8 @@ impl Objects<'_> {
     }
 
     /// A layout with exactly the bindings of the shader, for every stage.
-    fn layout(&mut self, bindings: &[Bound]) -> Result<(), LabError> {
+    fn layout(&self, bindings: &[Bound]) -> Result<vk::PipelineLayout, LabError> {
+        let mut sets = Vec::new();
         let groups = bindings.iter().map(|bound| bound.group + 1).max();
         for group in 0..groups.unwrap_or(0) {
             let entries: Vec<_> = bindings
@@ -109,34 +76,37 @@ impl Objects<'_> {
             // SAFETY: `info` and the entries live through the call; naga has checked that bindings are unique.
             let set = unsafe { self.device.create_descriptor_set_layout(&info, None) }
                 .map_err(refused("a descriptor set layout"))?;
-            self.sets.push(set);
+            sets.push(set);
         }
-        let info = vk::PipelineLayoutCreateInfo::default().set_layouts(&self.sets);
+        let info = vk::PipelineLayoutCreateInfo::default().set_layouts(&sets);
         // SAFETY: the sets were made from this device and are alive.
-        self.layout = unsafe { self.device.create_pipeline_layout(&info, None) }
-            .map_err(refused("a pipeline layout"))?;
-        Ok(())
+        unsafe { self.device.create_pipeline_layout(&info, None) }
+            .map_err(refused("a pipeline layout"))
     }
 
-    fn compute(&mut self, stage: vk::PipelineShaderStageCreateInfo<'_>) -> Result<(), LabError> {
+    fn compute(
+        &self,
+        layout: vk::PipelineLayout,
+        stage: vk::PipelineShaderStageCreateInfo<'_>,
+    ) -> Made {
         let info = vk::ComputePipelineCreateInfo::default()
             .flags(FLAGS)
             .stage(stage)
-            .layout(self.layout);
+            .layout(layout);
         // SAFETY: module and layout are alive, and the layout has every binding of the shader.
-        let pipelines = unsafe {
+        unsafe {
             self.device
                 .create_compute_pipelines(vk::PipelineCache::null(), &[info], None)
-        };
-        self.take(pipelines)
+        }
     }
 
     /// A triangle without vertex buffers into one sample per pixel, without blending.
     fn fragment(
-        &mut self,
+        &self,
+        layout: vk::PipelineLayout,
         stages: &[vk::PipelineShaderStageCreateInfo<'_>],
         target: TextureFormat,
-    ) -> Result<(), LabError> {
+    ) -> Made {
         let formats = [format(target)];
         let blends = [vk::PipelineColorBlendAttachmentState::default()
             .color_write_mask(vk::ColorComponentFlags::RGBA)];
@@ -164,27 +134,14 @@ impl Objects<'_> {
             .multisample_state(&samples)
             .color_blend_state(&blend)
             .dynamic_state(&dynamic)
-            .layout(self.layout)
+            .layout(layout)
             .push_next(&mut rendering);
         // SAFETY: modules and layout are alive, the layout has every binding of both stages, and all that `info` points to
         // lives through the call.
-        let pipelines = unsafe {
+        unsafe {
             self.device
                 .create_graphics_pipelines(vk::PipelineCache::null(), &[info], None)
-        };
-        self.take(pipelines)
-    }
-
-    fn take(
-        &mut self,
-        pipelines: Result<Vec<vk::Pipeline>, (Vec<vk::Pipeline>, vk::Result)>,
-    ) -> Result<(), LabError> {
-        let (pipelines, result) = match pipelines {
-            Ok(pipelines) => (pipelines, Ok(())),
-            Err((pipelines, error)) => (pipelines, Err(error)),
-        };
-        self.pipeline = pipelines.first().copied().unwrap_or_default();
-        result.map_err(refused("a pipeline"))
+        }
     }
 }
 

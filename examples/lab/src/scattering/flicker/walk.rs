@@ -1,6 +1,8 @@
 //! A path, drawn frame by frame with textures and pipelines that are made once.
 
-use super::{Chain, FlickerDesc, Path};
+use moment_shadows::{Storage, Technique as MapTechnique};
+
+use super::{FlickerDesc, Path};
 use crate::compare::Technique;
 use crate::error::LabError;
 use crate::frame::{Frame, FrameDesc};
@@ -8,24 +10,17 @@ use crate::gpu::Gpu;
 use crate::graph_file::GraphFile;
 use crate::graph_frame::GraphFrame;
 use crate::host::read_depth_samples;
-use crate::light::LightShape;
-use crate::scattering::air::{ANISOTROPY, Air, THICKNESS, far};
-use crate::scattering::stage::{ends, read_radiance};
+use crate::scattering::air::Air;
+use crate::scattering::chain::Chain;
+use crate::scattering::stage::{ends, read_radiance, sunlit};
 use crate::scattering::truth::{Rays, marched};
 use crate::scene::Scene;
 
 /// Texels that maps leave free around the casters.
 const MARGIN: f64 = 4.0;
 
-/// What a frame looks like: the mean of the colours' radiance of each pixel.
-pub(super) struct Seen {
-    /// Radiance by marched rays.
-    pub(super) truth: Vec<f32>,
-    /// Radiance by marched rays without shadows.
-    pub(super) unshadowed: Vec<f32>,
-    /// Radiance by each chain.
-    pub(super) chains: Vec<Vec<f32>>,
-}
+/// Texels of the blur, as in the example's graph.
+const RADIUS: u32 = 2;
 
 /// Everything that is drawn with.
 pub(super) struct Walk<'a> {
@@ -36,7 +31,27 @@ pub(super) struct Walk<'a> {
     air: Air,
     /// Frames with several samples per texel, with one, and that of the truth.
     frames: [Frame; 3],
-    chains: Vec<(Chain, GraphFile, GraphFrame)>,
+    /// A chain for each of the first two.
+    chains: [(GraphFile, GraphFrame); 2],
+}
+
+/// The chain of the example, with several samples per texel, a blur and bilinear lookups; and one with a sample per texel, no
+/// blur, and lookups of the nearest texel. Both have rectified maps of this extent.
+pub fn chains(extent: [u32; 2]) -> Result<[GraphFile; 2], LabError> {
+    let chain = |map, radius, rectify| {
+        let chain = Chain {
+            map,
+            radius,
+            rectify,
+            rectified: (MapTechnique::Hamburger6, Storage::Float16),
+            extent,
+        };
+        chain.graph()
+    };
+    Ok([
+        chain(Storage::Float16, Some(RADIUS), "rectify_moments")?,
+        chain(Storage::Float32, None, "rectify_nearest")?,
+    ])
 }
 
 impl<'a> Walk<'a> {
@@ -47,66 +62,62 @@ impl<'a> Walk<'a> {
         desc: &FlickerDesc,
     ) -> Result<Self, LabError> {
         let path = Path::new(scene);
-        let air = Air::new(THICKNESS, ANISOTROPY, far(scene, path.view(0).camera.eye))?;
+        let air = Air::of(scene, path.view(0).camera.eye)?;
         let frame = |index| Frame::draw(gpu, scene, frame_desc(scene, desc, &path, 0, index)?);
         let frames = [frame(0)?, frame(1)?, frame(2)?];
-        let chains = Chain::ALL.into_iter().map(|chain| {
-            let file = chain.graph(desc.extent())?;
-            let frame = &frames[usize::from(chain.is_plain())];
+        let bound = |frame: &Frame, file: GraphFile| -> Result<_, LabError> {
             let graph = GraphFrame::in_air(gpu, frame, &file, Some(&air))?;
-            Ok((chain, file, graph))
-        });
+            Ok((file, graph))
+        };
+        let [filtered, unfiltered] = chains([desc.columns, desc.rows])?;
+        let chains = [bound(&frames[0], filtered)?, bound(&frames[1], unfiltered)?];
         Ok(Self {
             gpu,
             scene,
             desc: *desc,
             path,
             air,
-            chains: chains.collect::<Result<_, LabError>>()?,
+            chains,
             frames,
         })
     }
 
-    /// Draws a frame and lights its air.
-    pub(super) fn see(&mut self, number: u32) -> Result<Seen, LabError> {
+    /// What a frame looks like, by the mean of the colours' radiance of each pixel: by marched rays with shadows and without, and
+    /// by either chain.
+    pub(super) fn see(&mut self, number: u32) -> Result<[Vec<f32>; 4], LabError> {
         let gpu = self.gpu;
         for (index, frame) in self.frames.iter_mut().enumerate() {
             let desc = frame_desc(self.scene, &self.desc, &self.path, number, index)?;
             frame.redraw(gpu, self.scene, desc)?;
         }
-        let [truth, unshadowed] = self.truth()?;
-        let chains = self.chains.iter().map(|(chain, file, graph)| {
-            let frame = &self.frames[usize::from(chain.is_plain())];
-            graph.fill(gpu, &frame.desc, file, Some(&self.air))?;
-            graph.run(gpu)?;
-            let pixels = read_radiance(gpu, graph.output()?)?;
-            let grey = |pixel: &[f32; 4]| pixel[..3].iter().sum::<f32>() / 3.0;
-            Ok(pixels.iter().map(grey).collect())
-        });
-        Ok(Seen {
-            truth,
-            unshadowed,
-            chains: chains.collect::<Result<_, LabError>>()?,
-        })
-    }
-
-    /// Radiance with shadows and without.
-    fn truth(&self) -> Result<[Vec<f32>; 2], LabError> {
         let frame = &self.frames[2];
         let rays = marched(&Rays {
             eye: frame.desc.camera.eye,
-            ends: &ends(self.gpu, &frame.desc, &frame.surface, self.air.far)?,
+            ends: &ends(gpu, &frame.desc, &frame.surface, self.air.far)?,
             light: &frame.desc.light,
-            depth: &read_depth_samples(self.gpu, &frame.light_map.texture)?,
+            depth: &read_depth_samples(gpu, &frame.light_map.texture)?,
             medium: &self.air.medium,
             steps: self.desc.steps,
         });
-        let grey = |pixels: &[[f32; 3]]| -> Vec<f32> {
-            let mean = |colours: &[f32; 3]| colours.iter().sum::<f32>() / 3.0;
-            pixels.iter().map(mean).collect()
+        let chain = |index: usize| -> Result<Vec<f32>, LabError> {
+            let (file, graph) = &self.chains[index];
+            graph.fill(gpu, &self.frames[index].desc, file, Some(&self.air))?;
+            graph.run(gpu)?;
+            let pixels = read_radiance(gpu, graph.output()?)?;
+            Ok(pixels.iter().map(|pixel| grey(&pixel[..3])).collect())
         };
-        Ok([grey(&rays.radiance), grey(&rays.unshadowed)])
+        let marched = |pixels: &[[f32; 3]]| pixels.iter().map(|pixel| grey(pixel)).collect();
+        Ok([
+            marched(&rays.radiance),
+            marched(&rays.unshadowed),
+            chain(0)?,
+            chain(1)?,
+        ])
     }
+}
+
+fn grey(colours: &[f32]) -> f32 {
+    colours.iter().sum::<f32>() / 3.0
 }
 
 /// A frame of the path, with one of the maps.
@@ -117,20 +128,7 @@ fn frame_desc(
     number: u32,
     index: usize,
 ) -> Result<FrameDesc, LabError> {
-    let view = path.view(number);
-    let mut camera = view.camera;
-    camera.aspect = f64::from(desc.width) / f64::from(desc.height.max(1));
-    let (map, samples) = [(desc.map, 4), (desc.map, 1), (desc.truth_map, 1)][index];
-    let map = [map; 2];
-    Ok(FrameDesc {
-        picture: [desc.width, desc.height],
-        map,
-        samples,
-        format: wgpu::TextureFormat::Depth32Float,
-        light: view.sun(scene, map, MARGIN, false)?,
-        shape: LightShape::Directional {
-            angular_diameter: 0.0,
-        },
-        camera,
-    })
+    let map = [(desc.map, 4), (desc.map, 1), (desc.truth_map, 1)][index];
+    let picture = [desc.width, desc.height];
+    sunlit(scene, &path.view(number), picture, map, MARGIN)
 }

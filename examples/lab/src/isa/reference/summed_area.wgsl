@@ -2,7 +2,8 @@ import node::fullscreen::{Interpolated};
 import moment_shadows::map::map_region::{MapRegion};
 import moment_shadows::filter::summed_area_table::{summed_area_table_mean_interpolated, summed_area_table_rectangle};
 
-// What filtering with a summed-area table costs: the mean over a rectangle of any size, interpolated.
+// What filtering with a summed-area table costs: the mean over a rectangle of any size, interpolated. Another subject has the
+// mean over whole texels in its place.
 
 struct Filter {
     region: MapRegion,

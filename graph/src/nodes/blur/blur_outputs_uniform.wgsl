@@ -1,37 +1,25 @@
 import moment_shadows::filter::separable::{SeparableSixteen, separable_add_to_sixteen};
-import node::blur_parameters::{parameters};
-import node::blur_source::{blur_source};
-import node::blur_target::{blur_store, blurred_map, moments_map};
-import node::region_tile::{region_tile};
-import node::specialization::{AXIS, OUTPUTS, SPLIT_SUMS, WORKGROUP_X, WORKGROUP_Y};
+import node::blur_source::{blur_source, parameters};
+import node::blur_target::{blur_store};
+import node::specialization::{AXIS, SPLIT_SUMS};
 
-// One direction of a separable filter over the regions of one layer, with weights that a host can change per frame.
-// An invocation makes OUTPUTS texels in a row along AXIS; it runs through the texels in blocks of 16 and through the
-// weights in step, keeping the half that the next block needs again.
+// 16 outputs in a row along AXIS, with weights that a host can change per frame. The texels are run through in blocks of 16
+// and the weights in step, of which the next block needs half again.
 
 // Adds the four texels from `texel` on, whose weights begin in `w0`.
 fn blur_four(sums: SeparableSixteen, texel: vec2i, low: vec2i, last: vec2i, w0: vec4f, w1: vec4f, w2: vec4f, w3: vec4f, w4: vec4f) -> SeparableSixteen {
-    let t0 = blur_source(moments_map, texel, low, last);
+    let t0 = blur_source(texel, low, last);
     let s0 = separable_add_to_sixteen(sums, t0, w0, w1, w2, w3, SPLIT_SUMS);
-    let t1 = blur_source(moments_map, texel + AXIS, low, last);
+    let t1 = blur_source(texel + AXIS, low, last);
     let s1 = separable_add_to_sixteen(s0, t1, vec4f(w0.yzw, w1.x), vec4f(w1.yzw, w2.x), vec4f(w2.yzw, w3.x), vec4f(w3.yzw, w4.x), SPLIT_SUMS);
-    let t2 = blur_source(moments_map, texel + 2 * AXIS, low, last);
+    let t2 = blur_source(texel + 2 * AXIS, low, last);
     let s2 = separable_add_to_sixteen(s1, t2, vec4f(w0.zw, w1.xy), vec4f(w1.zw, w2.xy), vec4f(w2.zw, w3.xy), vec4f(w3.zw, w4.xy), SPLIT_SUMS);
-    let t3 = blur_source(moments_map, texel + 3 * AXIS, low, last);
+    let t3 = blur_source(texel + 3 * AXIS, low, last);
     return separable_add_to_sixteen(s2, t3, vec4f(w0.w, w1.xyz), vec4f(w1.w, w2.xyz), vec4f(w2.w, w3.xyz), vec4f(w3.w, w4.xyz), SPLIT_SUMS);
 }
 
-@compute @workgroup_size(WORKGROUP_X, WORKGROUP_Y)
-fn blur(@builtin(local_invocation_id) local: vec3u, @builtin(workgroup_id) workgroup: vec3u, @builtin(num_workgroups) workgroups: vec3u) {
-    let outputs = vec2u(1 + (OUTPUTS - 1) * AXIS);
-    let tile = region_tile(workgroup, workgroups, textureDimensions(blurred_map), 0u, vec2u(WORKGROUP_X, WORKGROUP_Y) * outputs);
-    let place = tile.first + local.xy * outputs;
-    if any(place >= tile.region.extent) {
-        return;
-    }
-    let low = vec2i(tile.region.origin);
-    let last = low + vec2i(tile.region.extent) - 1;
-    let first = low + vec2i(place);
+// Stores the outputs from the texel `first` on.
+fn blur_outputs(first: vec2i, low: vec2i, last: vec2i) {
     var sums: SeparableSixteen;
     var w0 = parameters.weights[0];
     var w1 = parameters.weights[1];

@@ -1,0 +1,44 @@
+//! Textures of one mip level and one sample.
+
+use moment_shadows_graph::TextureDesc;
+use wgpu::util::DeviceExt;
+
+use crate::gpu::Gpu;
+
+/// A texture of all layers and planes of a description.
+pub(crate) fn texture(
+    gpu: &Gpu,
+    label: &str,
+    desc: &TextureDesc,
+    usage: wgpu::TextureUsages,
+) -> wgpu::Texture {
+    gpu.device.create_texture(&descriptor(label, desc, usage))
+}
+
+/// A texture to be read, with these bytes layer by layer and row by row.
+pub(crate) fn upload(gpu: &Gpu, desc: &TextureDesc, bytes: &[u8]) -> wgpu::Texture {
+    let descriptor = descriptor("lab/upload", desc, wgpu::TextureUsages::TEXTURE_BINDING);
+    let order = wgpu::util::TextureDataOrder::LayerMajor;
+    (gpu.device).create_texture_with_data(&gpu.queue, &descriptor, order, bytes)
+}
+
+fn descriptor<'a>(
+    label: &'a str,
+    desc: &TextureDesc,
+    usage: wgpu::TextureUsages,
+) -> wgpu::TextureDescriptor<'a> {
+    wgpu::TextureDescriptor {
+        label: Some(label),
+        size: wgpu::Extent3d {
+            width: desc.size[0],
+            height: desc.size[1],
+            depth_or_array_layers: desc.array_layers(),
+        },
+        mip_level_count: 1,
+        sample_count: 1,
+        dimension: wgpu::TextureDimension::D2,
+        format: desc.wgpu_format(),
+        usage,
+        view_formats: &[],
+    }
+}

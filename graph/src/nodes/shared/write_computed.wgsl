@@ -1,0 +1,18 @@
+import node::regions::{region_tile};
+import node::specialization::{GROUP, MomentsStorage};
+import node::written_texel::{LEVEL, written_size, written_texel};
+
+// Writes a mip level of the regions of one layer of a map: one texel per invocation.
+
+@group(GROUP) @binding(3) var written_map: MomentsStorage;
+
+@compute @workgroup_size(8, 8)
+fn write_map(@builtin(local_invocation_id) local: vec3u, @builtin(workgroup_id) workgroup: vec3u, @builtin(num_workgroups) workgroups: vec3u) {
+    let tile = region_tile(workgroup, workgroups, written_size(), LEVEL, vec2u(8u));
+    let place = tile.first + local.xy;
+    if any(place >= tile.region.extent) {
+        return;
+    }
+    let texel = tile.region.origin + place;
+    textureStore(written_map, texel, written_texel(texel, tile.region, tile.number));
+}
