@@ -46,9 +46,7 @@ impl Table {
     /// Writes the table beside `path` and renames it, so that an existing one is never half-replaced.
     pub fn write(&self, path: &Path) -> Result<(), LabError> {
         let text = self.to_json()?;
-        Ok(save_atomically(path, |file| {
-            file.write_all(text.as_bytes())
-        })?)
+        save_atomically(path, |file| file.write_all(text.as_bytes()))
     }
 
     /// JSON with one row per line, so that a difference between two tables can be read.
