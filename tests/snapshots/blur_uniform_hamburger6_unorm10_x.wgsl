@@ -6,7 +6,7 @@
 // blur_source: moments_map BlurParameters parameters blur_source
 // moment_shadows/filter/separable.wgsl: separable_add
 // written_texel: LEVEL written_size written_texel
-// write_drawn.wgsl: write_map
+// write_drawn.wgsl: RegionPixel region_of write_map
 
 // specialization
 const GROUP = 0;

@@ -4,7 +4,7 @@
 // regions: regions region_at
 // moment_shadows/map/storage.wgsl: STORAGE_FLOAT16 STORAGE_UNORM10 storage_round_to_float16 storage_round_to_unorm10 storage_round_texel
 // written_texel: LEVEL finer_level box_weights written_size written_texel
-// write_drawn.wgsl: write_map
+// write_drawn.wgsl: RegionPixel region_of write_map
 
 // specialization
 const GROUP = 0;

@@ -1,5 +1,5 @@
 import node::blur_outputs::{blur_outputs};
-import node::blur_source::{moments_map};
+import node::blur_target::{written_map};
 import node::regions::{region_tile};
 import node::specialization::{AXIS, OUTPUTS, WORKGROUP};
 
@@ -8,7 +8,7 @@ import node::specialization::{AXIS, OUTPUTS, WORKGROUP};
 @compute @workgroup_size(WORKGROUP.x, WORKGROUP.y)
 fn write_map(@builtin(local_invocation_id) local: vec3u, @builtin(workgroup_id) workgroup: vec3u, @builtin(num_workgroups) workgroups: vec3u) {
     let outputs = vec2u(1 + (OUTPUTS - 1) * AXIS);
-    let tile = region_tile(workgroup, workgroups, textureDimensions(moments_map), 0u, WORKGROUP * outputs);
+    let tile = region_tile(workgroup, workgroups, textureDimensions(written_map), 0u, WORKGROUP * outputs);
     let place = tile.first + local.xy * outputs;
     if any(place >= tile.region.extent) {
         return;
