@@ -5,7 +5,7 @@
 // moment_shadows/map/map_region.wgsl: MapRegion map_region_within
 // moment_shadows/map/minification.wgsl: MINIFICATION_LARGEST_ANISOTROPY MINIFICATION_TEXEL_PER_WIDTH MinificationFootprint minification_footprint minification_depth_variance
 // moment_shadows/shade/area_light.wgsl: AreaLight
-// moment_shadows/shade/receiver_bias.wgsl: RECEIVER_BIAS_STANDARD_DEVIATIONS RECEIVER_BIAS_EDGE_ON ReceiverBias receiver_bias_plane receiver_bias_depth receiver_bias_depth_minified
+// moment_shadows/shade/receiver_bias.wgsl: RECEIVER_BIAS_STANDARD_DEVIATIONS RECEIVER_BIAS_EDGE_ON ReceiverBias receiver_bias_plane receiver_bias_step receiver_bias_depth receiver_bias_depth_minified
 // moment_shadows/shade/receiver_plane.wgsl: ReceiverPlane RECEIVER_PLANE_LARGEST receiver_plane_through receiver_plane_depth
 // moment_shadows/techniques/percentage_closer.wgsl: percentage_closer_texel percentage_closer_map_depth percentage_closer_plane_depth percentage_closer_tap percentage_closer_binary
 // technique_map: depth_map technique_map_size

@@ -5,7 +5,7 @@
 // moment_shadows/map/map_region.wgsl: MapRegion map_region_within map_region_at_level map_region_place
 // moment_shadows/map/minification.wgsl: MINIFICATION_LARGEST_ANISOTROPY MINIFICATION_TEXEL_PER_WIDTH MinificationFootprint minification_footprint minification_depth_variance
 // moment_shadows/shade/area_light.wgsl: AreaLight
-// moment_shadows/shade/receiver_bias.wgsl: RECEIVER_BIAS_STANDARD_DEVIATIONS RECEIVER_BIAS_EDGE_ON ReceiverBias receiver_bias_plane receiver_bias_depth receiver_bias_depth_minified
+// moment_shadows/shade/receiver_bias.wgsl: RECEIVER_BIAS_STANDARD_DEVIATIONS RECEIVER_BIAS_EDGE_ON ReceiverBias receiver_bias_plane receiver_bias_step receiver_bias_depth receiver_bias_depth_minified
 // moment_shadows/map/storage.wgsl: STORAGE_FLOAT16 STORAGE_FLOAT32 storage_is_float storage_finite_texel
 // moment_shadows/techniques/convolution.wgsl: CONVOLUTION_LARGEST_TERMS CONVOLUTION_DAMPING CONVOLUTION_BOUNDS convolution_terms convolution_bound convolution_place convolution_waves convolution_receiver convolution_plane convolution_shadow_intensity
 // moment_shadows/map/map_lookup.wgsl: map_lookup_bilinear
