@@ -91,20 +91,20 @@ fn main() -> Result<(), Box<dyn Error>> {
         dimension: Some(wgpu::TextureViewDimension::D2Array),
         ..Default::default()
     });
-    let resources = [
-        frame.as_entire_binding(),
+    let shadows = [
         wgpu::BindingResource::TextureView(&map),
         wgpu::BindingResource::Sampler(&sampler),
     ];
-    let entries: Vec<_> = (0..)
-        .zip(resources)
-        .map(|(binding, resource)| wgpu::BindGroupEntry { binding, resource })
-        .collect();
     let picture = yours.texture(SIZE, 1, colour);
     let depth = yours.texture(SIZE, 1, wgpu::TextureFormat::Depth32Float);
     let mut lit = pass(&mut encoder, &[(&picture, SKY)], Some((&depth, 0.0)));
     lit.set_pipeline(&pipeline);
-    lit.set_bind_group(0, &yours.group(&pipeline, &entries), &[]);
+    lit.set_bind_group(
+        0,
+        &yours.group(&pipeline, 0, &[frame.as_entire_binding()]),
+        &[],
+    );
+    lit.set_bind_group(1, &yours.group(&pipeline, 1, &shadows), &[]);
     yours.draw_boxes(&mut lit);
     drop(lit);
     yours.save_texture(encoder, &picture, &out)

@@ -19,8 +19,8 @@ struct Frame {
 }
 
 @group(0) @binding(0) var<uniform> frame: Frame;
-@group(0) @binding(1) var shadow_map: texture_2d_array<f32>;
-@group(0) @binding(2) var shadow_sampler: sampler;
+@group(1) @binding(0) var shadow_map: texture_2d_array<f32>;
+@group(1) @binding(1) var shadow_sampler: sampler;
 
 // Probes of an anisotropic lookup, at most.
 const ANISOTROPY = 8.0;

@@ -27,12 +27,8 @@ pub struct ReceiverBias {
     pub slope_scale: f32,
     /// The largest bias in moment depth.
     pub maximum: f32,
-    /// Unused; keeps the WGSL layout.
-    pub padding: f32,
-    /// One step of the light's stored depth is `(step_root[0] + step_root[1] z)^2` of moment depth, at the moment depth z.
-    pub step_root: [f32; 2],
-    /// Unused; keeps the WGSL layout.
-    pub padding_of_step: [f32; 2],
+    /// How coarsely the light's depth is stored, in two numbers of 16 bits ([`for_stored_depth`](Self::for_stored_depth)).
+    pub step: u32,
 }
 
 impl ReceiverBias {
@@ -48,9 +44,7 @@ impl ReceiverBias {
         constant: 0.0,
         slope_scale: 0.0,
         maximum: 0.0,
-        padding: 0.0,
-        step_root: [0.0; 2],
-        padding_of_step: [0.0; 2],
+        step: 0,
     };
 
     /// The bias that follows from a kernel, for all scenes.
@@ -71,26 +65,24 @@ impl ReceiverBias {
     }
 
     /// This bias for a light whose depth map has the format `format`: 16 bits of hyperbolic depth are coarse far from the
-    /// near plane.
+    /// near plane. Reversed floats are nowhere: their steps shrink with the depth that they store.
     #[must_use]
     pub fn for_stored_depth(self, format: TextureFormat, conversion: &DepthConversion) -> Self {
+        let [n0, n1] = conversion.numerator.map(f64::from);
+        let [m0, m1] = conversion.denominator.map(f64::from);
         let step = match format.depth_step() {
+            Some(_) if format != TextureFormat::Depth16Unorm && n1 * m0 < n0 * m1 => return self,
             Some(step) => step * f64::from(conversion.scale.abs()),
             None => return self,
         };
-        // z(d) = n / m with n and m linear in d, so |dz/dd| = (n' - z m')^2 / |m' n(0) - n' m(0)|.
-        let [numerator, denominator] = [conversion.numerator, conversion.denominator];
-        let change = |ends: [f32; 2]| f64::from(ends[1]) - f64::from(ends[0]);
-        let (n, m) = (change(numerator), change(denominator));
-        let determinant = m * f64::from(numerator[0]) - n * f64::from(denominator[0]);
-        let factor = (step / determinant.abs().max(f64::from(f32::MIN_POSITIVE))).sqrt();
-        let root = [n * factor, -m * factor].map(|value| value as f32);
+        // z(d) = n / m with n and m linear in d, so |dz/dd| = (n' - z m')^2 / |m' n0 - n' m0|.
+        let determinant = ((m1 - m0) * n0 - (n1 - n0) * m0).abs();
+        let factor = (step / determinant.max(f64::MIN_POSITIVE)).sqrt();
+        // As WGSL's unpack2x16snorm has it, of half the numbers: both ends of the range are at most 2 moment depths coarse.
+        let packed = |root: f64| (root * factor * 0.5 * 32767.0).round() as i16 as u16;
+        let [root, slope] = [n1 - n0, m0 - m1].map(packed);
         Self {
-            step_root: if root.iter().all(|value| value.is_finite()) {
-                root
-            } else {
-                [0.0; 2]
-            },
+            step: u32::from(root) | u32::from(slope) << 16,
             ..self
         }
     }

@@ -219,14 +219,8 @@ impl Renderer {
             scattering.unwrap_or(&clear),
         ];
         let views = textures.map(|texture| texture.create_view(&Default::default()));
-        let entries: Vec<_> = (1..)
-            .zip(&views)
-            .map(|(binding, view)| wgpu::BindGroupEntry {
-                binding,
-                resource: wgpu::BindingResource::TextureView(view),
-            })
-            .collect();
-        let group = self.group(&pipeline, &entries);
+        let resources = views.each_ref().map(wgpu::BindingResource::TextureView);
+        let group = self.group(&pipeline, 0, &resources);
         let mut pass = pass(encoder, &[(&picture.lit, wgpu::Color::BLACK)], None);
         pass.set_pipeline(&pipeline);
         pass.set_bind_group(0, &group, &[]);
@@ -305,12 +299,20 @@ impl Renderer {
     pub(crate) fn group(
         &self,
         pipeline: &wgpu::RenderPipeline,
-        entries: &[wgpu::BindGroupEntry<'_>],
+        index: u32,
+        resources: &[wgpu::BindingResource<'_>],
     ) -> wgpu::BindGroup {
+        let entries: Vec<_> = (0..)
+            .zip(resources)
+            .map(|(binding, resource)| wgpu::BindGroupEntry {
+                binding,
+                resource: resource.clone(),
+            })
+            .collect();
         self.device.create_bind_group(&wgpu::BindGroupDescriptor {
             label: None,
-            layout: &pipeline.get_bind_group_layout(0),
-            entries,
+            layout: &pipeline.get_bind_group_layout(index),
+            entries: &entries,
         })
     }
 
@@ -340,11 +342,7 @@ impl Renderer {
             Some(compare),
             depth.sample_count(),
         );
-        let entry = wgpu::BindGroupEntry {
-            binding: 0,
-            resource: frame.as_entire_binding(),
-        };
-        let group = self.group(&pipeline, &[entry]);
+        let group = self.group(&pipeline, 0, &[frame.as_entire_binding()]);
         let mut pass = pass(encoder, colours, Some((depth, far)));
         pass.set_pipeline(&pipeline);
         pass.set_bind_group(0, &group, &[]);

@@ -48,11 +48,11 @@ fn surface(vertex: Vertex) -> Surface {
     return Surface(vec4f(sky * vertex.colour, 1.0), vec4f(sun * vertex.colour, 1.0));
 }
 
-@group(0) @binding(1) var ambient: texture_2d<f32>;
-@group(0) @binding(2) var direct: texture_2d<f32>;
-@group(0) @binding(3) var shadow_intensity: texture_2d<f32>;
+@group(0) @binding(0) var ambient: texture_2d<f32>;
+@group(0) @binding(1) var direct: texture_2d<f32>;
+@group(0) @binding(2) var shadow_intensity: texture_2d<f32>;
 // Radiance of the air, and its transmittance.
-@group(0) @binding(4) var scattering: texture_2d<f32>;
+@group(0) @binding(3) var scattering: texture_2d<f32>;
 
 @vertex
 fn cover(@builtin(vertex_index) index: u32) -> @builtin(position) vec4f {

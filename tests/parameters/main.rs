@@ -89,9 +89,7 @@ fn structs_of_the_modules_are_laid_out_alike() {
             constant: f32,
             slope_scale: f32,
             maximum: f32,
-            padding: f32,
-            step_root: [f32; 2],
-            padding_of_step: [f32; 2]
+            step: u32
         }),
     );
     assert_same_layout(

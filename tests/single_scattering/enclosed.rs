@@ -28,7 +28,7 @@ struct Output {
     of_texels: [f32; 2],
     padding: [f32; 2],
     /// Odd and even moments apart from the ends, then those of the whole.
-    texels: [[f64; 4]; 4],
+    texels: [[f32; 4]; 4],
 }
 
 fn run(inputs: &[Input]) -> Vec<Output> {

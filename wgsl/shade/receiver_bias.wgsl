@@ -22,11 +22,9 @@ struct ReceiverBias {
     slope_scale: f32,
     // The largest bias in moment depth; reached where the surface is seen edge-on by the light.
     maximum: f32,
-    padding: f32,
-    // One step of the light's stored depth is (step_root.x + step_root.y z)^2 of moment depth at the moment depth z: the same
-    // everywhere for linear depth, and for hyperbolic depth the square of the distance to the light, times a factor.
-    step_root: vec2f,
-    padding_of_step: vec2f,
+    // Two numbers a and b as halves of 16-bit snorms: one step of the light's stored depth is (a + b z)^2 of moment depth at the
+    // moment depth z. It is the same everywhere for linear depth, and for hyperbolic depth grows with the square of the distance.
+    step: u32,
 }
 
 // The gradient of moment depth per texel on the receiver's plane, from the differences of two neighbouring points on it
@@ -50,8 +48,9 @@ fn receiver_bias_plane(difference_x: vec3f, difference_y: vec3f) -> vec2f {
 // depth is off by; the other half is for the variance that steps add under a kernel. To be subtracted from the fragment depth
 // before anything else.
 fn receiver_bias_step(bias: ReceiverBias, fragment_depth: f32) -> f32 {
-    let root = fma(bias.step_root.y, clamp(fragment_depth, -1.0, 1.0), bias.step_root.x);
-    return min(root * root, 2.0);
+    let halves = unpack2x16snorm(bias.step);
+    let half_root = fma(halves.y, clamp(fragment_depth, -1.0, 1.0), halves.x);
+    return min(4.0 * half_root * half_root, 2.0);
 }
 
 // The receiver bias in moment depth, to be subtracted from the fragment depth.

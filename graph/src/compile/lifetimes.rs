@@ -2,6 +2,8 @@
 
 use std::collections::BTreeMap;
 
+use moment_shadows::Finite;
+
 use super::Known;
 use crate::plan::Part;
 use crate::{Home, Plan, PlannedMemory, ResourceDesc, Stage};
@@ -90,7 +92,12 @@ pub(super) fn share_memory(plan: &mut Plan, known: &[&Known]) {
         let free_after = (!life.keeps_memory()).then_some(life.last);
         let written_when_dirty = !life.written_every_time;
         let mut taken = blocks.iter();
-        let home = match taken.position(|block| block.takes(life, &resource.desc, root)) {
+        // Memory knows nothing of what a filter made of its contents.
+        let mut desc = resource.desc.clone();
+        if let ResourceDesc::Texture(texture) = &mut desc {
+            texture.deviation = Finite::ZERO;
+        }
+        let home = match taken.position(|block| block.takes(life, &desc, root)) {
             Some(home) => {
                 let block = &mut blocks[home];
                 block.memory.label += &format!(" | {}", resource.name);
@@ -104,7 +111,7 @@ pub(super) fn share_memory(plan: &mut Plan, known: &[&Known]) {
                 blocks.push(Block {
                     memory: PlannedMemory {
                         label: resource.name.clone(),
-                        desc: resource.desc.clone(),
+                        desc,
                         access: resource.access,
                         exported,
                     },

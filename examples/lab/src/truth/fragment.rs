@@ -104,7 +104,8 @@ impl Camera<'_> {
         let [constant, slope_scale, maximum] =
             [rule.constant, rule.slope_scale, rule.maximum].map(f64::from);
         let bias = (constant + slope_scale * gradient).clamp(0.0, maximum);
-        let [root, slope] = rule.step_root.map(f64::from);
+        let [root, slope] = [rule.step as u16, (rule.step >> 16) as u16]
+            .map(|bits| f64::from(bits as i16) / 16383.5);
         let step = (root + slope * receiver.moment_depth.clamp(-1.0, 1.0)).powi(2);
         Some(Lookup {
             uv: uv.to_array(),
