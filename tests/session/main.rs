@@ -8,6 +8,7 @@
 
 mod cameras;
 mod far;
+mod frames;
 mod refused;
 mod same;
 mod stored;

@@ -30,6 +30,8 @@ pub struct Session {
     /// The imports as the graph file describes them.
     expected: Vec<Named<Option<ResourceDesc>>>,
     cut: Cut,
+    /// The import that is the light's depth map.
+    light_depth: Option<String>,
     /// What all cameras share, unless a camera has its own.
     imports: Vec<Given>,
     maps: Part,
@@ -81,12 +83,14 @@ impl Session {
                  session per map",
             ));
         }
+        let light_depth = lights.first().map(|&name| name.to_owned());
         let mut maker = Maker::new(device, capabilities, options);
         let maps = maker.part(&cut.maps, &[&imports]).await?;
         let mut session = Self {
             maker,
             expected,
             cut,
+            light_depth,
             imports,
             maps,
             views: Vec::new(),
@@ -252,8 +256,8 @@ impl Session {
 
     /// How the light's depth is stored.
     fn depth_format(&self) -> Option<TextureFormat> {
-        let name = *self.cut.light_depths().first()?;
-        let given = self.imports.iter().find(|given| given.name == name)?;
+        let name = self.light_depth.as_ref()?;
+        let given = self.imports.iter().find(|given| given.name == *name)?;
         Some(given.desc.texture()?.format)
     }
 
