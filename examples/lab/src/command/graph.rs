@@ -4,7 +4,8 @@ use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 
 use moment_shadows::Profile;
-use moment_shadows_graph::{Capabilities, Direction, Graph, NodeDesc, Plan};
+use moment_shadows_graph::{Capabilities, Direction, NodeDesc, Plan};
+use serde_json::Value;
 
 use super::{CommandResult, argument};
 use crate::error::LabError;
@@ -51,11 +52,12 @@ fn check(path: &Path, profile: Profile) -> Result<(String, Plan), LabError> {
     let plan = file.graph.compile(&capabilities, &[]).map_err(failed)?;
     let failed = LabError::graph(&file.name);
     let nodes = file.graph.describe(&capabilities, &[]).map_err(failed)?;
-    Ok((summary(&file.graph, &nodes), plan))
+    Ok((summary(&file, &nodes), plan))
 }
 
-/// The graph as text: imports, nodes with their slots, edges and outputs.
-fn summary(graph: &Graph, described: &[NodeDesc]) -> String {
+/// The graph as text: imports, nodes with their properties and slots, edges and outputs.
+fn summary(file: &GraphFile, described: &[NodeDesc]) -> String {
+    let graph = &file.graph;
     let mut lines = Vec::new();
     for import in &graph.imports {
         let expected = import.value.as_ref();
@@ -63,7 +65,14 @@ fn summary(graph: &Graph, described: &[NodeDesc]) -> String {
         lines.push(format!("import  {:<24} {expected}", import.name));
     }
     for (node, desc) in graph.nodes.iter().zip(described) {
-        lines.push(format!("node    {:<24} {:?}", node.name, node.value));
+        let properties = match file.node_entry(&node.name, "properties") {
+            Value::Null => String::new(),
+            given => format!(" {given}"),
+        };
+        lines.push(format!(
+            "node    {:<24} {}{properties}",
+            node.name, desc.name
+        ));
         for slot in &desc.slots {
             let arrow = match slot.direction {
                 Direction::In => "<-",
