@@ -158,16 +158,9 @@ fn values_of_the_wrong_kind_are_refused_where_they_stand() {
 
 #[test]
 fn missing_properties_name_the_node_without_a_place_in_nothing() {
-    let text = edited(", \"properties\": { \"storage\": \"unorm16\" }", "");
-    let error = refused(&text);
-    assert_error(
-        &error,
-        Syntax,
-        "resolve",
-        "",
-        "8:5",
-        "missing field `storage`",
-    );
+    let properties = ", \"properties\": { \"kernel\": { \"radius\": 4, \"sigma\": 2.4 } }";
+    let error = refused(&edited(properties, ""));
+    assert_error(&error, Syntax, "blur", "", "9:5", "missing field `kernel`");
     assert!(!error.message.contains("at line"), "{error}");
 }
 

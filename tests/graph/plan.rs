@@ -95,7 +95,7 @@ fn compiling_and_describing_are_repeatable() {
     let nodes: [Box<dyn Node>; 4] = [
         Box::new(Resolve {
             technique: moment_shadows::Technique::Hamburger4,
-            storage: moment_shadows::Storage::Float16,
+            storage: vec![moment_shadows::Storage::Float16],
             mip_levels: Some(1),
         }),
         Box::new(Blur {

@@ -3,7 +3,8 @@
 use moment_shadows::{Profile, Storage};
 use moment_shadows_graph::GraphErrorKind::{Capability, Format, Size};
 use moment_shadows_graph::{
-    Access, Capabilities, Direction, NodeDesc, ResourceDesc, Slot, SlotResource, Stage,
+    Access, Capabilities, Direction, Graph, NodeDesc, NodeRegistry, ResourceDesc, Slot,
+    SlotResource, Stage,
 };
 
 use crate::example::{TEXT, assert_error, compiled, edited, native, refused};
@@ -243,4 +244,27 @@ fn layers_are_inherited_along_the_chain() {
     let layers: Vec<u32> = plan.passes.iter().map(|pass| pass.layers).collect();
     assert_eq!(layers, [3, 3, 3, 1]);
     assert_eq!(plan.parameters.blocks[0].count, 3, "a conversion per layer");
+}
+
+#[test]
+fn the_first_storage_that_the_device_can_write_is_taken() {
+    let encoded = |storage: &str, profile| {
+        let text = edited("\"unorm16\"", storage);
+        let graph = Graph::parse(&text, &NodeRegistry::new()).unwrap();
+        let plan = graph.compile(&Capabilities::of_profile(profile), &[]);
+        let resources = plan.unwrap().resources;
+        let map = resources.iter().find(|it| it.name == "resolve.map");
+        map.unwrap().desc.texture().unwrap().format
+    };
+    let (core, native) = (Profile::WebgpuCore, Profile::Native);
+    for best in ["\"best\"", "[]", "[\"unorm16\", \"float16\"]"] {
+        assert_eq!(encoded(best, native), TextureFormat::Rgba16Unorm);
+        assert_eq!(encoded(best, core), TextureFormat::Rgba16Float);
+    }
+    let wide = "[\"float32\", \"unorm16\"]";
+    assert_eq!(encoded(wide, native), TextureFormat::Rgba32Float);
+    let found = refused(&edited("\"unorm16\"", "[\"unorm16\", \"unorm8\"]"));
+    assert!(found.message.contains("unorm8"), "{found}");
+    let found = refused(&edited("\"unorm16\"", "7"));
+    assert!(found.message.contains("\"best\""), "{found}");
 }

@@ -280,7 +280,7 @@ fn nodes_declare_the_structs_that_their_shaders_bind() {
     let nodes = [
         described(&Resolve {
             technique: Technique::Hamburger4,
-            storage: Storage::Float16,
+            storage: vec![Storage::Float16],
             mip_levels: Some(1),
         }),
         per_frame_blur(),

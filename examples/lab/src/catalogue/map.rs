@@ -14,7 +14,7 @@ const REGIONS: u32 = 16;
 fn resolve(map: &MapEncoding) -> Variant {
     let node = Resolve {
         technique: map.technique().clone(),
-        storage: map.storage(),
+        storage: vec![map.storage()],
         mip_levels: Some(1),
     };
     Variant::new(node, map)

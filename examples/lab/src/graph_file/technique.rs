@@ -1,6 +1,7 @@
 //! A graph with another technique than its own.
 
 use moment_shadows::{EsmFiltering, Kernel, LayerSplits, MapEncoding, Profile, Storage, Technique};
+use moment_shadows_graph::nodes::Resolve;
 use serde_json::{Value, json};
 
 use super::{GraphFile, items, push, remove_property};
@@ -82,11 +83,12 @@ impl GraphFile {
     #[must_use]
     pub fn encoding(&self) -> Option<MapEncoding> {
         let node = self.node_of("resolve")?;
-        let mut properties = node["properties"].clone();
-        if let Some(properties) = properties.as_object_mut() {
-            properties.retain(|key, _| key == "technique" || key == "storage");
-        }
-        serde_json::from_value(properties).ok()
+        let properties = match node["properties"].clone() {
+            Value::Null => json!({}),
+            given => given,
+        };
+        let resolve: Resolve = serde_json::from_value(properties).ok()?;
+        resolve.encoding(Profile::Native).ok()
     }
 
     /// The technique that the graph shades with.
