@@ -31,6 +31,20 @@ pub struct AreaLight {
     pub rectangular: u32,
 }
 
+/// How large a light is.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub enum LightSize {
+    /// Without size: all shadows are as hard as the filter allows.
+    #[default]
+    Point,
+    /// A light with parallel rays that appears as a disk of this many radians, at least 0 and below pi; the sun's is 0.0093.
+    AngularDiameter(f64),
+    /// A disk of this diameter in scene units, at least 0, facing along the axis of a light with a perspective map.
+    Disk(f64),
+    /// A rectangle of this width and height in scene units, each at least 0, along x and y of a perspective map.
+    Rectangle([f64; 2]),
+}
+
 impl AreaLight {
     /// A light without size: shadows without penumbrae.
     pub const NONE: AreaLight = AreaLight {
@@ -43,142 +57,68 @@ impl AreaLight {
         rectangular: 0,
     };
 
-    /// A light with parallel rays that appears as a disk of `angular_diameter` radians, at least 0 and below pi; the sun's is
-    /// 0.0093. `texel` is a texel's width and height in scene units, `range` that of the map's moment depth.
+    /// The light of some size over a map. `texel` is a texel's width and height in scene units: for rays from a point at
+    /// distance 1 along the light's axis, which is 2 tan(full angle / 2) over the texels. `range` is that of the map's moment
+    /// depth; for rays from a point it begins in front of the light.
     ///
     /// Search and filter keep to `radii`, half widths in texels. The smallest is at least 0; 0.5 and more softens the edges of
-    /// texels near contacts, and those of a light without size. The largest is above 0, at most 4096: n taps on a disk are 1.8
-    /// times as much over sqrt(n) apart; for a summed-area table it is half of the largest kernel's side.
+    /// texels near contacts, and those of a light whose size is 0. The largest is above 0, at most 4096: n taps on a disk are
+    /// 1.8 times as much over sqrt(n) apart; for a summed-area table it is half of the largest kernel's side.
     ///
     /// # Errors
     /// [`ValueError`], which names the number that is out of range.
-    pub fn directional(
-        angular_diameter: f64,
+    pub fn new(
+        size: LightSize,
         texel: [f64; 2],
         range: DepthRange,
         radii: RangeInclusive<f64>,
     ) -> Result<Self, ValueError> {
-        check(
-            (0.0..std::f64::consts::PI).contains(&angular_diameter),
-            OF,
-            "the angular diameter",
-            angular_diameter,
-            "at least 0 and below pi radians",
-        )?;
-        let size = 2.0 * (0.5 * angular_diameter).tan();
-        Self::new([size; 2], texel, range, radii)
-    }
-
-    /// A light with rays from a point: a disk of the given diameter in scene units, at least 0, facing along the light's
-    /// axis. `texel` is a texel's width and height at distance 1 along it: 2 tan(full angle / 2) over the texels. `range` is
-    /// that of the map's moment depth; it begins in front of the light. `radii` are as in [`AreaLight::directional`].
-    ///
-    /// # Errors
-    /// [`ValueError`], which names the number that is out of range.
-    pub fn spot(
-        diameter: f64,
-        texel: [f64; 2],
-        range: DepthRange,
-        radii: RangeInclusive<f64>,
-    ) -> Result<Self, ValueError> {
-        check_length("the diameter", diameter)?;
-        Self::from_point([diameter; 2], texel, range, radii)
-    }
-
-    /// A light with rays from a point: a rectangle of the given width and height in scene units, each at least 0, along the
-    /// map's x and y. `texel`, `range` and `radii` are as in [`AreaLight::spot`].
-    ///
-    /// # Errors
-    /// [`ValueError`], which names the number that is out of range.
-    pub fn rectangle(
-        size: [f64; 2],
-        texel: [f64; 2],
-        range: DepthRange,
-        radii: RangeInclusive<f64>,
-    ) -> Result<Self, ValueError> {
-        check_length("the width", size[0])?;
-        check_length("the height", size[1])?;
-        Ok(Self {
-            rectangular: 1,
-            ..Self::from_point(size, texel, range, radii)?
-        })
-    }
-
-    fn from_point(
-        size: [f64; 2],
-        texel: [f64; 2],
-        range: DepthRange,
-        radii: RangeInclusive<f64>,
-    ) -> Result<Self, ValueError> {
+        let width = match size {
+            LightSize::Point => return Ok(Self::NONE),
+            LightSize::AngularDiameter(angle) => {
+                let valid = (0.0..std::f64::consts::PI).contains(&angle);
+                let legal = "at least 0 and below pi radians";
+                check(valid, OF, "the angular diameter", angle, legal)?;
+                [2.0 * (0.5 * angle).tan(); 2]
+            }
+            LightSize::Disk(diameter) => {
+                check_length("the diameter", diameter)?;
+                [diameter; 2]
+            }
+            LightSize::Rectangle([width, height]) => {
+                check_length("the width", width)?;
+                check_length("the height", height)?;
+                [width, height]
+            }
+        };
+        let parallel = matches!(size, LightSize::AngularDiameter(_));
+        let valid = parallel || range.near > 0.0;
         let name = "the distance of the range's near end";
         let legal = "above 0, in front of the light";
-        check(range.near > 0.0, OF, name, range.near, legal)?;
-        Ok(Self {
-            perspective: 1,
-            ..Self::new(size, texel, range, radii)?
-        })
-    }
-
-    fn new(
-        size: [f64; 2],
-        texel: [f64; 2],
-        range: DepthRange,
-        radii: RangeInclusive<f64>,
-    ) -> Result<Self, ValueError> {
+        check(valid, OF, name, range.near, legal)?;
         range.check()?;
         let (smallest, largest) = radii.into_inner();
-        let most = f64::from(AREA_LIGHT_LARGEST_RADIUS);
-        let texels = [size[0] / texel[0], size[1] / texel[1]];
-        let is_length = |length: f64| length > 0.0 && length.is_finite();
-        let is_size = |value: f64| (value as f32).is_normal() || value == 0.0;
-        let is_single = |value: f64| (value as f32).is_finite();
-        let above_zero = "above 0 and finite";
+        let valid = smallest >= 0.0 && smallest <= largest;
+        let legal = "at least 0 and at most the largest";
+        check(valid, OF, "the smallest radius", smallest, legal)?;
+        let valid = largest > 0.0 && largest <= f64::from(AREA_LIGHT_LARGEST_RADIUS);
+        let legal = "above 0 and at most 4096 texels";
+        check(valid, OF, "the largest radius", largest, legal)?;
+        let texels = [width[0] / texel[0], width[1] / texel[1]];
         // Sizes beyond single precision come from units that do not fit together.
         let single = "within single precision; choose another unit of length";
-        for (valid, name, value, legal) in [
-            (is_length(texel[0]), "a texel's width", texel[0], above_zero),
-            (
-                is_length(texel[1]),
-                "a texel's height",
-                texel[1],
-                above_zero,
-            ),
-            (
-                smallest >= 0.0 && smallest <= largest,
-                "the smallest radius",
-                smallest,
-                "at least 0 and at most the largest",
-            ),
-            (
-                largest > 0.0 && largest <= most,
-                "the largest radius",
-                largest,
-                "above 0 and at most 4096 texels",
-            ),
-            (
-                is_size(texels[0]),
-                "the light's size in texels",
-                texels[0],
-                single,
-            ),
-            (
-                is_size(texels[1]),
-                "the light's size in texels",
-                texels[1],
-                single,
-            ),
-            (
-                is_single(range.near),
-                "the range's near end",
-                range.near,
-                single,
-            ),
-            (
-                is_single(range.far),
-                "the range's far end",
-                range.far,
-                single,
-            ),
+        let above_zero = "above 0 and finite";
+        let length = |value: f64| (value > 0.0 && value.is_finite(), value, above_zero);
+        let size_in_texels =
+            |value: f64| ((value as f32).is_normal() || value == 0.0, value, single);
+        let end = |value: f64| ((value as f32).is_finite(), value, single);
+        for (name, (valid, value, legal)) in [
+            ("a texel's width", length(texel[0])),
+            ("a texel's height", length(texel[1])),
+            ("the light's size in texels", size_in_texels(texels[0])),
+            ("the light's size in texels", size_in_texels(texels[1])),
+            ("the range's near end", end(range.near)),
+            ("the range's far end", end(range.far)),
         ] {
             check(valid, OF, name, value, legal)?;
         }
@@ -186,10 +126,10 @@ impl AreaLight {
             size: texels.map(|value| value as f32),
             near: range.near as f32,
             far: range.far as f32,
-            perspective: 0,
+            perspective: u32::from(!parallel),
             smallest_radius: smallest as f32,
             largest_radius: largest as f32,
-            rectangular: 0,
+            rectangular: u32::from(matches!(size, LightSize::Rectangle(_))),
         })
     }
 }

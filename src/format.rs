@@ -78,25 +78,25 @@ impl TextureFormat {
         TextureFormat::Depth32Float,
     ];
 
-    /// The name, and bytes of a texel.
-    fn row(self) -> (&'static str, u32) {
+    /// The name, channels, and bytes of a texel.
+    fn row(self) -> (&'static str, u32, u32) {
         match self {
-            TextureFormat::R8Unorm => ("r8unorm", 1),
-            TextureFormat::Rgba8Unorm => ("rgba8unorm", 4),
-            TextureFormat::R16Unorm => ("r16unorm", 2),
-            TextureFormat::Rg16Unorm => ("rg16unorm", 4),
-            TextureFormat::R16Float => ("r16float", 2),
-            TextureFormat::Rg16Float => ("rg16float", 4),
-            TextureFormat::R32Float => ("r32float", 4),
-            TextureFormat::Rg32Float => ("rg32float", 8),
-            TextureFormat::Rgb10a2Unorm => ("rgb10a2unorm", 4),
-            TextureFormat::Rgba16Unorm => ("rgba16unorm", 8),
-            TextureFormat::Rgba16Float => ("rgba16float", 8),
-            TextureFormat::Rgba32Float => ("rgba32float", 16),
-            TextureFormat::Rg32Uint => ("rg32uint", 8),
-            TextureFormat::Rgba32Uint => ("rgba32uint", 16),
-            TextureFormat::Depth16Unorm => ("depth16unorm", 2),
-            TextureFormat::Depth32Float => ("depth32float", 4),
+            TextureFormat::R8Unorm => ("r8unorm", 1, 1),
+            TextureFormat::Rgba8Unorm => ("rgba8unorm", 4, 4),
+            TextureFormat::R16Unorm => ("r16unorm", 1, 2),
+            TextureFormat::Rg16Unorm => ("rg16unorm", 2, 4),
+            TextureFormat::R16Float => ("r16float", 1, 2),
+            TextureFormat::Rg16Float => ("rg16float", 2, 4),
+            TextureFormat::R32Float => ("r32float", 1, 4),
+            TextureFormat::Rg32Float => ("rg32float", 2, 8),
+            TextureFormat::Rgb10a2Unorm => ("rgb10a2unorm", 4, 4),
+            TextureFormat::Rgba16Unorm => ("rgba16unorm", 4, 8),
+            TextureFormat::Rgba16Float => ("rgba16float", 4, 8),
+            TextureFormat::Rgba32Float => ("rgba32float", 4, 16),
+            TextureFormat::Rg32Uint => ("rg32uint", 2, 8),
+            TextureFormat::Rgba32Uint => ("rgba32uint", 4, 16),
+            TextureFormat::Depth16Unorm => ("depth16unorm", 1, 2),
+            TextureFormat::Depth32Float => ("depth32float", 1, 4),
         }
     }
 
@@ -109,30 +109,13 @@ impl TextureFormat {
     /// How many channels a texel has: 1, 2 or 4.
     #[must_use]
     pub fn channels(self) -> u32 {
-        match self {
-            TextureFormat::R8Unorm
-            | TextureFormat::R16Unorm
-            | TextureFormat::R16Float
-            | TextureFormat::R32Float
-            | TextureFormat::Depth16Unorm
-            | TextureFormat::Depth32Float => 1,
-            TextureFormat::Rg16Unorm
-            | TextureFormat::Rg16Float
-            | TextureFormat::Rg32Float
-            | TextureFormat::Rg32Uint => 2,
-            TextureFormat::Rgba8Unorm
-            | TextureFormat::Rgb10a2Unorm
-            | TextureFormat::Rgba16Unorm
-            | TextureFormat::Rgba16Float
-            | TextureFormat::Rgba32Float
-            | TextureFormat::Rgba32Uint => 4,
-        }
+        self.row().1
     }
 
     /// Bytes of one texel (of one sample, where multisampled).
     #[must_use]
     pub fn bytes_per_texel(self) -> u32 {
-        self.row().1
+        self.row().2
     }
 
     /// Whether this is a depth format.
@@ -147,25 +130,11 @@ impl TextureFormat {
     /// The largest step between neighbouring depths in [0, 1] of a format that stores depth; `None` for others.
     #[must_use]
     pub fn depth_step(self) -> Option<f64> {
-        match self {
-            TextureFormat::Depth16Unorm => Some(1.0 / 65535.0),
-            TextureFormat::Depth32Float | TextureFormat::R32Float => {
-                Some(0.5 * f64::from(f32::EPSILON))
-            }
-            TextureFormat::R8Unorm
-            | TextureFormat::Rgba8Unorm
-            | TextureFormat::R16Unorm
-            | TextureFormat::Rg16Unorm
-            | TextureFormat::R16Float
-            | TextureFormat::Rg16Float
-            | TextureFormat::Rg32Float
-            | TextureFormat::Rgb10a2Unorm
-            | TextureFormat::Rgba16Unorm
-            | TextureFormat::Rgba16Float
-            | TextureFormat::Rgba32Float
-            | TextureFormat::Rg32Uint
-            | TextureFormat::Rgba32Uint => None,
+        if self == TextureFormat::Depth16Unorm {
+            return Some(1.0 / 65535.0);
         }
+        let is_single = matches!(self, TextureFormat::Depth32Float | TextureFormat::R32Float);
+        is_single.then_some(0.5 * f64::from(f32::EPSILON))
     }
 
     /// Whether texels are integers, which no sampler filters.

@@ -84,18 +84,13 @@ impl Kernel {
     /// The kernel's standard deviation in texels: smaller than the sigma of a Gaussian, which the radius cuts off.
     #[must_use]
     pub fn standard_deviation(&self) -> f32 {
-        let positions = || {
-            self.weights
-                .iter()
-                .enumerate()
-                .map(|(index, &weight)| (index as f64, f64::from(weight)))
+        let mean_of = |value: &dyn Fn(f64) -> f64| -> f64 {
+            let weights = self.weights.iter().enumerate();
+            let weighted = weights.map(|(index, &weight)| value(index as f64) * f64::from(weight));
+            weighted.sum()
         };
-        let mean: f64 = positions()
-            .map(|(position, weight)| position * weight)
-            .sum();
-        let variance: f64 = positions()
-            .map(|(position, weight)| (position - mean).powi(2) * weight)
-            .sum();
+        let mean = mean_of(&|position| position);
+        let variance = mean_of(&|position| (position - mean).powi(2));
         variance.max(0.0).sqrt() as f32
     }
 

@@ -6,6 +6,8 @@ use serde::{Deserialize, Serialize};
 use crate::ValueError;
 use crate::value_error::check;
 
+const OF: &str = "leak reduction";
+
 /// The reduction of light leaking after the bound: the uniform struct of the WGSL module `leak_reduction`.
 #[derive(Clone, Copy, Debug, PartialEq, Pod, Zeroable, Serialize, Deserialize)]
 #[repr(C)]
@@ -37,34 +39,17 @@ impl LeakReduction {
 
     /// Checks that every field is in its range.
     pub fn check(self) -> Result<(), ValueError> {
-        let [full, bleed, exponent] = [
-            self.full_shadow,
-            self.bleed_reduction,
-            self.visibility_exponent,
-        ];
-        for (name, value, valid, range) in [
-            (
-                "full_shadow",
-                full,
-                full > 0.0 && full <= 1.0,
-                "above 0 and at most 1",
-            ),
-            (
-                "bleed_reduction",
-                bleed,
-                (0.0..1.0).contains(&bleed),
-                "at least 0 and below 1",
-            ),
-            (
-                "visibility_exponent",
-                exponent,
-                exponent > 0.0 && exponent.is_finite(),
-                "above 0 and finite",
-            ),
-        ] {
-            check(valid, "leak reduction", name, value, range)?;
-        }
-        Ok(())
+        let full = self.full_shadow;
+        let valid = full > 0.0 && full <= 1.0;
+        check(valid, OF, "full_shadow", full, "above 0 and at most 1")?;
+        let bleed = self.bleed_reduction;
+        let valid = (0.0..1.0).contains(&bleed);
+        let range = "at least 0 and below 1";
+        check(valid, OF, "bleed_reduction", bleed, range)?;
+        let exponent = self.visibility_exponent;
+        let valid = exponent > 0.0 && exponent.is_finite();
+        let range = "above 0 and finite";
+        check(valid, OF, "visibility_exponent", exponent, range)
     }
 }
 

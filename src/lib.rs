@@ -54,7 +54,7 @@ mod validate;
 mod value_error;
 mod view;
 
-pub use area_light::AreaLight;
+pub use area_light::{AreaLight, LightSize};
 pub use depth::{DepthConversion, DepthRange};
 pub use format::{FormatSupport, TextureFormat};
 pub use kernel::Kernel;
@@ -75,8 +75,8 @@ pub use value_error::ValueError;
 
 pub use view::{
     CameraView, CompositeScatteringParameters, IntegrateScatteringParameters, LightDepth,
-    LightSize, LightView, RectifiedFrame, RectifiedView, RectifyMomentsParameters,
-    ScatteringParameters, ViewParameters,
+    LightView, RectifiedFrame, RectifiedView, RectifyMomentsParameters, ScatteringParameters,
+    ViewParameters,
 };
 
 #[cfg(doctest)]

@@ -32,18 +32,18 @@ use crate::{Profile, TextureFormat, ValueError};
 #[serde(rename_all = "lowercase")]
 pub enum Storage {
     /// 16-bit normalised channels with the optimised basis.
-    Unorm16,
+    Unorm16 = STORAGE_UNORM16 as isize,
     /// Half precision, the optimised basis less one half in every channel.
-    Float16,
+    Float16 = STORAGE_FLOAT16 as isize,
     /// Single precision, raw moments.
-    Float32,
+    Float32 = STORAGE_FLOAT32 as isize,
     /// 8-bit normalised channels: for bounded functions of depth, not for moments.
-    Unorm8,
+    Unorm8 = STORAGE_UNORM8 as isize,
     /// 10-bit normalised channels, three to a texel: for six moments alone. Devices need not be able to write the format from
     /// compute shaders, so such maps are [drawn](Storage::is_drawn).
-    Unorm10,
+    Unorm10 = STORAGE_UNORM10 as isize,
     /// Sums of 32-bit integers: a summed-area table, see [`SummedAreaTable`](crate::SummedAreaTable).
-    Fixed32,
+    Fixed32 = STORAGE_FIXED32 as isize,
 }
 
 impl Storage {
@@ -74,34 +74,33 @@ impl Storage {
         }
     }
 
+    /// The formats of textures with one, two and four channels.
+    fn formats(self) -> (Option<TextureFormat>, Option<TextureFormat>, TextureFormat) {
+        use TextureFormat as F;
+        match self {
+            Storage::Unorm16 => (Some(F::R16Unorm), Some(F::Rg16Unorm), F::Rgba16Unorm),
+            Storage::Float16 => (Some(F::R16Float), Some(F::Rg16Float), F::Rgba16Float),
+            Storage::Float32 => (Some(F::R32Float), Some(F::Rg32Float), F::Rgba32Float),
+            Storage::Unorm8 => (None, None, F::Rgba8Unorm),
+            Storage::Unorm10 => (None, None, F::Rgb10a2Unorm),
+            Storage::Fixed32 => (None, Some(F::Rg32Uint), F::Rgba32Uint),
+        }
+    }
+
     /// The format of a texture with four channels.
     #[must_use]
     pub fn format(self) -> TextureFormat {
-        match self {
-            Storage::Unorm16 => TextureFormat::Rgba16Unorm,
-            Storage::Float16 => TextureFormat::Rgba16Float,
-            Storage::Float32 => TextureFormat::Rgba32Float,
-            Storage::Unorm8 => TextureFormat::Rgba8Unorm,
-            Storage::Unorm10 => TextureFormat::Rgb10a2Unorm,
-            Storage::Fixed32 => TextureFormat::Rgba32Uint,
-        }
+        self.formats().2
     }
 
     /// The format of a texture with 1, 2 or 4 channels, if there is one.
     #[must_use]
     pub fn format_of(self, channels: u32) -> Option<TextureFormat> {
-        use TextureFormat as F;
-        let (one, two) = match self {
-            Storage::Unorm16 => (Some(F::R16Unorm), Some(F::Rg16Unorm)),
-            Storage::Float16 => (Some(F::R16Float), Some(F::Rg16Float)),
-            Storage::Float32 => (Some(F::R32Float), Some(F::Rg32Float)),
-            Storage::Unorm8 | Storage::Unorm10 => (None, None),
-            Storage::Fixed32 => (None, Some(F::Rg32Uint)),
-        };
+        let (one, two, four) = self.formats();
         match channels {
             1 => one,
             2 => two,
-            4 => Some(self.format()),
+            4 => Some(four),
             _ => None,
         }
     }
@@ -114,23 +113,10 @@ impl Storage {
             .find(|storage| storage.format() == format)
     }
 
-    /// Bits of one texel of four channels.
-    #[must_use]
-    pub fn bits_per_texel(self) -> u32 {
-        self.format().bytes_per_texel() * 8
-    }
-
     /// The number by which the WGSL module `storage` knows this storage (`STORAGE_UNORM16` and so on).
     #[must_use]
     pub fn wgsl_index(self) -> u32 {
-        match self {
-            Storage::Unorm16 => STORAGE_UNORM16,
-            Storage::Float16 => STORAGE_FLOAT16,
-            Storage::Float32 => STORAGE_FLOAT32,
-            Storage::Unorm8 => STORAGE_UNORM8,
-            Storage::Fixed32 => STORAGE_FIXED32,
-            Storage::Unorm10 => STORAGE_UNORM10,
-        }
+        self as u32
     }
 
     /// Whether maps are drawn by render passes, since compute shaders cannot write the format.

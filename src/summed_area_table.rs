@@ -97,32 +97,19 @@ impl SummedAreaTable {
     /// in the maps themselves; for others floor((2^32 - 1) / largest area), less the bits that f32 would round.
     #[must_use]
     pub fn unit(&self) -> u32 {
-        match self.source {
-            Storage::Unorm16 => SUMMED_AREA_ENCODING_UNIT_UNORM16 as u32,
-            Storage::Float16
-            | Storage::Float32
-            | Storage::Unorm8
-            | Storage::Unorm10
-            | Storage::Fixed32 => {
-                let most = u32::MAX / self.largest_area();
-                let rounded = 8_u32.saturating_sub(most.leading_zeros());
-                most >> rounded << rounded
-            }
+        if self.source == Storage::Unorm16 {
+            return SUMMED_AREA_ENCODING_UNIT_UNORM16 as u32;
         }
+        let most = u32::MAX / self.largest_area();
+        let rounded = 8_u32.saturating_sub(most.leading_zeros());
+        most >> rounded << rounded
     }
 
     /// The largest error of a mean's channels, apart from that of f32: half a unit, and the rounding of the source's storage.
     #[must_use]
     pub fn error(&self) -> f32 {
-        let source = match self.source {
-            Storage::Float16 => 1.0 / 8192.0,
-            Storage::Unorm16
-            | Storage::Float32
-            | Storage::Unorm8
-            | Storage::Unorm10
-            | Storage::Fixed32 => 0.0,
-        };
-        0.5 / self.unit() as f32 + source
+        let is_half = self.source == Storage::Float16;
+        0.5 / self.unit() as f32 + if is_half { 1.0 / 8192.0 } else { 0.0 }
     }
 
     /// The smallest safe moment bias for four moments on the real line: for a float32 map 1e-6 for kernels up to 27x27 texels

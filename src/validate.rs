@@ -5,6 +5,7 @@ mod diagnostic;
 mod exercise;
 mod storage_format;
 
+use naga::front::wgsl::ParseError;
 use naga::valid::{Capabilities, ModuleInfo, ValidationFlags, Validator};
 
 pub use backend::Backend;
@@ -88,16 +89,13 @@ fn on_large_stack<T: Send>(work: impl FnOnce() -> T + Send) -> Option<T> {
 
 fn compile(linked: &Linked, profile: Profile) -> Result<ValidationReport, ShaderError> {
     let capabilities = capabilities(profile);
-    let mut options = naga::front::wgsl::Options::new();
-    options.capabilities = capabilities;
-    let module = naga::front::wgsl::Frontend::new_with_options(options)
-        .parse(linked.wgsl())
+    let module = parse(linked.wgsl(), capabilities)
         .map_err(|error| diagnostic::of_parse_error(linked, &error))?;
     storage_format::check(&module, linked, profile)?;
     let info = check(&module, capabilities)
         .map_err(|error| diagnostic::of_validation_error(linked, &module, &error))?;
     let shader = if module.entry_points.is_empty() {
-        exercise::exercise(&module, info, capabilities)
+        exercise::exercise(linked.wgsl(), module, info, capabilities)
     } else {
         backend::Shader {
             module,
@@ -106,6 +104,13 @@ fn compile(linked: &Linked, profile: Profile) -> Result<ValidationReport, Shader
         }
     };
     backend::write_all(&shader)
+}
+
+fn parse(text: &str, capabilities: Capabilities) -> Result<naga::Module, Box<ParseError>> {
+    let mut options = naga::front::wgsl::Options::new();
+    options.capabilities = capabilities;
+    let mut frontend = naga::front::wgsl::Frontend::new_with_options(options);
+    frontend.parse(text).map_err(Box::new)
 }
 
 fn check(

@@ -5,7 +5,7 @@ use std::collections::BTreeSet;
 
 use super::import::{self, Form, Import};
 use super::prune::{Declaration, declarations};
-use super::tokens::{Kind, Token, UnterminatedComment, tokens};
+use super::tokens::{Kind, Token, tokens};
 use crate::{Location, ShaderError};
 
 /// A file whose text follows the import rules.
@@ -45,12 +45,8 @@ impl<'a> File<'a> {
             declared: BTreeSet::new(),
             left_out: Vec::new(),
         };
-        let tokens = tokens(text).map_err(|UnterminatedComment(start)| {
-            file.error(
-                start..start + 2,
-                "this comment does not end; close it with `*/`",
-            )
-        })?;
+        let open = "this comment does not end; close it with `*/`";
+        let tokens = tokens(text).map_err(|start| file.error(start..start + 2, open))?;
         let mut code = tokens.as_slice();
         while code.first().is_some_and(|token| token.is_word("import")) {
             let (import, rest) = import::parse(&file, code)?;

@@ -79,7 +79,8 @@ impl Linked {
             self.push_line("", None);
         }
         // A line break in a name would end the comment.
-        let name: String = file.name.chars().filter(|c| !is_break(*c)).collect();
+        let is_break = |c: char| c.is_control() || matches!(c, '\u{2028}' | '\u{2029}');
+        let name = file.name.replace(is_break, "");
         self.push_line(&format!("// {name}"), None);
 
         let text = without(file.text, &file.left_out);
@@ -104,10 +105,6 @@ impl Linked {
         self.wgsl.push('\n');
         self.lines.push(origin);
     }
-}
-
-fn is_break(c: char) -> bool {
-    c.is_control() || matches!(c, '\u{2028}' | '\u{2029}')
 }
 
 /// `text` with spaces for every character in `ranges`, which are in order. Lines and columns stay.

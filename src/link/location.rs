@@ -31,13 +31,17 @@ impl Location {
             .get(range)
             .and_then(|span| span.lines().next())
             .unwrap_or_default();
-        let count = |part: &str| u32::try_from(part.chars().count()).unwrap_or(u32::MAX);
+        let number = |count: usize| u32::try_from(count).unwrap_or(u32::MAX);
+        let printable = |c: char| {
+            let kept = !c.is_control() || c == '\t';
+            if kept { c } else { char::REPLACEMENT_CHARACTER }
+        };
         let before_span = before.get(line_start..).unwrap_or_default();
         Self {
             file: file.to_owned(),
-            line: line_ends(before) + 1,
-            column: count(before_span).saturating_add(1),
-            width: count(covered).max(1),
+            line: number(before.matches('\n').count()).saturating_add(1),
+            column: number(before_span.chars().count()).saturating_add(1),
+            width: number(covered.chars().count()).max(1),
             text: line.chars().map(printable).collect(),
             label: String::new(),
         }
@@ -68,19 +72,5 @@ impl fmt::Display for Location {
         writeln!(f, "{margin}--> {file}:{number}:{column}")?;
         writeln!(f, "{margin} |\n{number} | {}", self.text)?;
         f.write_str(marked.trim_end())
-    }
-}
-
-/// How many lines end in `text`.
-fn line_ends(text: &str) -> u32 {
-    let ends = text.bytes().filter(|&byte| byte == b'\n').count();
-    u32::try_from(ends).unwrap_or(u32::MAX - 1)
-}
-
-fn printable(c: char) -> char {
-    if c.is_control() && c != '\t' {
-        char::REPLACEMENT_CHARACTER
-    } else {
-        c
     }
 }

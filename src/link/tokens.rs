@@ -36,19 +36,16 @@ impl Token<'_> {
     }
 }
 
-/// A block comment that starts at this byte offset and does not end.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(crate) struct UnterminatedComment(pub(crate) usize);
-
-/// The tokens of `text` in order.
-pub(crate) fn tokens(text: &str) -> Result<Vec<Token<'_>>, UnterminatedComment> {
+/// The tokens of `text` in order; as an error, the byte offset where a block comment starts that does not end.
+pub(crate) fn tokens(text: &str) -> Result<Vec<Token<'_>>, usize> {
     let mut found = Vec::new();
-    let mut start = 0;
-    while let Some((rest, first)) = rest_at(text, start) {
+    let mut rest = text;
+    while let Some(first) = rest.chars().next() {
+        let start = text.len() - rest.len();
         let (kind, length) = if rest.starts_with("//") {
             (None, rest.find(is_line_break).unwrap_or(rest.len()))
         } else if rest.starts_with("/*") {
-            let length = block_comment_length(rest).ok_or(UnterminatedComment(start))?;
+            let length = block_comment_length(rest).ok_or(start)?;
             (None, length)
         } else if first.is_whitespace() {
             (None, first.len_utf8())
@@ -63,18 +60,11 @@ pub(crate) fn tokens(text: &str) -> Result<Vec<Token<'_>>, UnterminatedComment> 
         } else {
             (Some(Kind::Symbol), first.len_utf8())
         };
-        if let Some(kind) = kind {
-            let text = rest.get(..length).unwrap_or_default();
-            found.push(Token { kind, text, start });
-        }
-        start += length;
+        let (text, after) = rest.split_at(length);
+        found.extend(kind.map(|kind| Token { kind, text, start }));
+        rest = after;
     }
     Ok(found)
-}
-
-fn rest_at(text: &str, start: usize) -> Option<(&str, char)> {
-    let rest = text.get(start..)?;
-    Some((rest, rest.chars().next()?))
 }
 
 fn is_word_part(c: char) -> bool {

@@ -1,6 +1,8 @@
 //! Tests on the plain depth map: `binary`, `pcf`, `pcss`.
 
-use super::row::{Constant, Row, float};
+use core::fmt::Display;
+
+use super::row::{Constant, Row, float, vec4};
 use super::{Finite, PcfTaps, count, setting};
 use crate::constants::{
     PERCENTAGE_CLOSER_LARGEST_DISK as LARGEST_DISK, PERCENTAGE_CLOSER_SOFT_MOST_TAPS as MOST_TAPS,
@@ -32,11 +34,11 @@ pub(super) fn pcss(search_taps: u32, filter_taps: u32) -> Row {
 
 const PCF: &str = "pcf";
 
-const BOX: &str = "return percentage_closer_box(depth_map, receiver.layer, receiver.region, plane, receiver.conversion, RADIUS, true);";
+const BOX: &str = "return percentage_closer_box(depth_map, receiver.layer, receiver.region, plane, receiver.conversion, RADIUS);";
 
-const GAUSSIAN: &str = "return percentage_closer_gaussian(depth_map, receiver.layer, receiver.region, plane, receiver.conversion, RADIUS, SIGMA, true);";
+const GAUSSIAN: &str = "return percentage_closer_gaussian(depth_map, receiver.layer, receiver.region, plane, receiver.conversion, RADIUS, SIGMA);";
 
-const WEIGHTS: &str = "return percentage_closer_kernel(depth_map, receiver.layer, receiver.region, plane, receiver.conversion, PercentageCloserKernel(u32(RADIUS), KERNEL_WEIGHTS), true);";
+const WEIGHTS: &str = "return percentage_closer_kernel(depth_map, receiver.layer, receiver.region, plane, receiver.conversion, PercentageCloserKernel(u32(RADIUS), KERNEL_WEIGHTS));";
 
 const POISSON: &str = "return percentage_closer_poisson(depth_map, receiver.layer, receiver.region, plane, receiver.conversion, DISK_RADIUS, disk_samples_angle(receiver.pixel));";
 
@@ -45,15 +47,16 @@ const HARDWARE: &str = "return percentage_closer_hardware_box(depth_map, compari
 /// Percentage-closer filtering: the mean of comparisons (Reeves, Salesin & Cook, SIGGRAPH 1987).
 pub(super) fn pcf(taps: &PcfTaps) -> Row {
     let radius_constant = |radius: u32| Constant::of_evaluation("RADIUS", format!("{radius}i"));
+    let of_square = |radius: u32| check_radius(radius, LARGEST_RADIUS);
     let row = |settings, evaluation, constants| Row {
         settings,
         constants,
         ..Row::of_depth(PCF, evaluation)
     };
     match taps {
-        PcfTaps::Box { radius } => row(check_radius(*radius), BOX, vec![radius_constant(*radius)]),
+        PcfTaps::Box { radius } => row(of_square(*radius), BOX, vec![radius_constant(*radius)]),
         PcfTaps::Gaussian { radius, sigma } => row(
-            check_radius(*radius).and_then(|()| check_sigma(*sigma)),
+            of_square(*radius).and_then(|()| check_sigma(*sigma)),
             GAUSSIAN,
             vec![
                 radius_constant(*radius),
@@ -69,41 +72,32 @@ pub(super) fn pcf(taps: &PcfTaps) -> Row {
             ],
         ),
         PcfTaps::Poisson { radius } => row(
-            check_disk(*radius),
+            check_radius(radius.get(), LARGEST_DISK),
             POISSON,
             vec![Constant::of_evaluation("DISK_RADIUS", float(radius.get()))],
         ),
         PcfTaps::Hardware { radius, reversed } => Row {
             comparison: Some(*reversed),
-            ..row(
-                check_radius(*radius),
-                HARDWARE,
-                vec![radius_constant(*radius)],
-            )
+            ..row(of_square(*radius), HARDWARE, vec![radius_constant(*radius)])
         },
     }
 }
 
 /// The weights as WGSL has them, followed by zeros.
 fn weight_vectors(weights: &[Finite]) -> String {
+    let weights: Vec<f32> = weights.iter().map(|weight| weight.get()).collect();
     let vectors = (2 * LARGEST_RADIUS as usize + 1).div_ceil(4);
-    let of = |index: usize| weights.get(index).map_or(0.0, |weight| weight.get());
-    let four = |at: usize| {
-        format!(
-            "vec4f({:?}, {:?}, {:?}, {:?})",
-            of(at),
-            of(at + 1),
-            of(at + 2),
-            of(at + 3)
-        )
-    };
-    let all: Vec<String> = (0..vectors).map(|vector| four(4 * vector)).collect();
+    let all: Vec<String> = (0..vectors).map(|at| vec4(&weights, 4 * at, 0.0)).collect();
     format!("array<vec4f, {vectors}>({})", all.join(", "))
 }
 
-fn check_radius(radius: u32) -> Result<(), ValueError> {
-    let legal = format!("from 0 to {LARGEST_RADIUS} texels");
-    setting(radius <= LARGEST_RADIUS, PCF, "radius", radius, &legal)
+fn check_radius<T>(radius: T, largest: T) -> Result<(), ValueError>
+where
+    T: Copy + Default + Display + PartialOrd,
+{
+    let valid = (T::default()..=largest).contains(&radius);
+    let legal = format!("from 0 to {largest} texels");
+    setting(valid, PCF, "radius", radius, &legal)
 }
 
 fn check_sigma(sigma: Finite) -> Result<(), ValueError> {
@@ -129,10 +123,4 @@ fn check_weights(weights: &[Finite]) -> Result<(), ValueError> {
         weights.len()
     );
     Err(ValueError::new("weights", message))
-}
-
-fn check_disk(radius: Finite) -> Result<(), ValueError> {
-    let valid = (0.0..=LARGEST_DISK).contains(&radius.get());
-    let legal = format!("from 0 to {LARGEST_DISK} texels");
-    setting(valid, PCF, "radius", radius, &legal)
 }

@@ -85,12 +85,8 @@ impl MapEncoding {
     /// The encoding of four moments in this format, which both `hamburger4` and `hausdorff4` read.
     #[must_use]
     pub fn of_four_moments(format: TextureFormat) -> Option<Self> {
-        Storage::of_format(format).map(|storage| Self {
-            technique: Technique::Hamburger4,
-            storage,
-            format,
-            table: None,
-        })
+        let storage = Storage::of_format(format)?;
+        Self::new(Technique::Hamburger4, storage).ok()
     }
 
     /// The technique that the map was made for.
@@ -127,7 +123,7 @@ impl MapEncoding {
     /// Texture layers that a layer of the map consists of.
     #[must_use]
     pub fn planes(&self) -> u32 {
-        self.technique.planes()
+        self.technique.row().planes
     }
 
     /// Bits of a texel of the map, all planes.

@@ -15,25 +15,16 @@ const ENCODING: Encoding = Encoding {
 
 const EVALUATION: &str = "return exponential_variance_shadow_intensity_of_texel(map_texel(receiver, 0u), receiver.fragment_depth, STORAGE, EXPONENTS, BOTH_WARPS);";
 
-/// With the positive warp alone: the negative one is not stored.
-pub(super) fn row_of_one(exponent: Finite) -> Row {
-    row("evsm2", 2, [exponent.get(), 0.0], vec![exponent])
-}
-
-/// With both warps.
-pub(super) fn row_of_both(positive: Finite, negative: Finite) -> Row {
-    let exponents = vec![positive, negative];
-    row("evsm4", 4, [positive.get(), negative.get()], exponents)
-}
-
-fn row(name: &'static str, channels: u32, of_warps: [f32; 2], exponents: Vec<Finite>) -> Row {
-    let [positive, negative] = of_warps;
+/// With the positive warp alone or with both.
+pub(super) fn row(positive: Finite, negative: Option<Finite>) -> Row {
+    let (name, channels) = negative.map_or(("evsm2", 2), |_| ("evsm4", 4));
+    let [x, y] = [positive, negative.unwrap_or_default()].map(Finite::get);
     Row {
         constants: vec![
-            Constant::of_map("EXPONENTS", format!("vec2f({positive:?}, {negative:?})")),
-            Constant::of_evaluation("BOTH_WARPS", exponents.len() == 2),
+            Constant::of_map("EXPONENTS", format!("vec2f({x:?}, {y:?})")),
+            Constant::of_evaluation("BOTH_WARPS", negative.is_some()),
         ],
-        exponents,
+        exponents: core::iter::once(positive).chain(negative).collect(),
         largest_exponents: &[
             EXPONENTIAL_VARIANCE_LARGEST_EXPONENT_FLOAT32,
             EXPONENTIAL_VARIANCE_LARGEST_EXPONENT_FLOAT16,

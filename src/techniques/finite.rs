@@ -41,12 +41,6 @@ impl Hash for Finite {
     }
 }
 
-impl From<u16> for Finite {
-    fn from(value: u16) -> Self {
-        Self(f32::from(value))
-    }
-}
-
 impl From<Finite> for f32 {
     fn from(value: Finite) -> f32 {
         value.0

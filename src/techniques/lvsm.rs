@@ -1,6 +1,6 @@
 //! Layered variance shadow maps (Lauritzen & McCool, GI 2008).
 
-use super::row::{Constant, Encoding, LINEAR, Row, float};
+use super::row::{Constant, Encoding, LINEAR, Row, float, vec4};
 use super::{Finite, LayerSplits, count, setting};
 use crate::Storage::{Float16, Float32, Unorm16};
 use crate::ValueError;
@@ -44,13 +44,9 @@ pub(super) fn row(layers: u32, overlap: Finite, splits: &LayerSplits) -> Row {
 
 /// The splits in two vectors; missing ones are at the far end.
 fn of_splits(known: &[f32]) -> [Constant; 2] {
-    let vector = |first: usize| {
-        let of = |index: usize| known.get(first + index).copied().unwrap_or(1.0);
-        format!("vec4f({:?}, {:?}, {:?}, {:?})", of(0), of(1), of(2), of(3))
-    };
     [
-        Constant::of_map("LAYER_SPLITS_LOW", vector(0)),
-        Constant::of_map("LAYER_SPLITS_HIGH", vector(4)),
+        Constant::of_map("LAYER_SPLITS_LOW", vec4(known, 0, 1.0)),
+        Constant::of_map("LAYER_SPLITS_HIGH", vec4(known, 4, 1.0)),
     ]
 }
 

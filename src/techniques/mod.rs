@@ -169,8 +169,8 @@ impl Technique {
                 filtering,
             } => esm::row(*exponent, *filtering),
             Technique::Vsm => vsm::row(),
-            Technique::Evsm2 { exponent } => evsm::row_of_one(*exponent),
-            Technique::Evsm4 { positive, negative } => evsm::row_of_both(*positive, *negative),
+            Technique::Evsm2 { exponent } => evsm::row(*exponent, None),
+            Technique::Evsm4 { positive, negative } => evsm::row(*positive, Some(*negative)),
             Technique::Lvsm {
                 layers,
                 overlap,
@@ -200,13 +200,7 @@ impl Technique {
         self.row().reads_depth()
     }
 
-    /// The storages of the technique's map, the one with the least error per bit first. Empty if the technique reads depth.
-    #[must_use]
-    pub fn storages(&self) -> &'static [Storage] {
-        self.row().storages
-    }
-
-    /// The first of [`Technique::storages`] that every device of the profile can write; `None` if the technique reads depth.
+    /// The first of the row's [`storages`](Row::storages) that every device of the profile can write; `None` if the technique reads depth.
     #[must_use]
     pub fn best_storage(&self, profile: Profile) -> Option<Storage> {
         let row = self.row();
@@ -214,24 +208,6 @@ impl Technique {
             let format = storage.format_of(row.channels);
             format.is_some_and(|format| storage.can_write(format, profile))
         })
-    }
-
-    /// Texture layers that a layer of the map consists of.
-    #[must_use]
-    pub fn planes(&self) -> u32 {
-        self.row().planes
-    }
-
-    /// Whether both techniques read the same map.
-    #[must_use]
-    pub fn shares_map_with(&self, other: &Technique) -> bool {
-        self.row().shares_map_with(&other.row())
-    }
-
-    /// The largest exponent that range and precision of one of its storages allow; `None` for techniques without one.
-    #[must_use]
-    pub fn largest_exponent(&self, storage: Storage) -> Option<f32> {
-        self.row().largest_exponent(storage)
     }
 }
 

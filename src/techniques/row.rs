@@ -160,6 +160,12 @@ impl Row {
     }
 }
 
+/// Four of `values` from `first` on as a WGSL vector, with `missing` where there are none.
+pub(super) fn vec4(values: &[f32], first: usize, missing: f32) -> String {
+    let of = |index: usize| values.get(first + index).copied().unwrap_or(missing);
+    format!("vec4f({:?}, {:?}, {:?}, {:?})", of(0), of(1), of(2), of(3))
+}
+
 /// A number as a WGSL literal.
 pub(super) fn float(value: f32) -> String {
     format!("f32({value:?})")

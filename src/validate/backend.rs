@@ -62,37 +62,32 @@ pub(super) struct Shader {
     pub(super) no_entry_point: Option<String>,
 }
 
-/// Writes `shader` for every backend.
+/// Writes `shader` for every backend. SPIR-V, HLSL and MSL can express whatever a profile allows, so there a failure is an error.
 pub(super) fn write_all(shader: &Shader) -> Result<ValidationReport, ShaderError> {
-    let outcome = |backend| match write(backend, shader) {
-        Ok(outcome) => Ok((backend, outcome)),
-        Err(message) => Err(ShaderError::new(format!(
-            "{backend} cannot be written: {message}"
-        ))),
-    };
-    let outcomes = Backend::ALL.into_iter().map(outcome);
-    outcomes
-        .collect::<Result<_, _>>()
-        .map(|outcomes| ValidationReport { outcomes })
-}
-
-/// Whether the language can express the shader. SPIR-V, HLSL and MSL can express whatever a profile allows, so there a failure is an
-/// error.
-fn write(backend: Backend, shader: &Shader) -> Result<Result<(), String>, String> {
     // Backends want constants in place of overrides.
     let constants = missing_overrides(&shader.module);
     let (module, info) =
         pipeline_constants::process_overrides(&shader.module, &shader.info, None, &constants)
-            .map_err(|error| format!("overrides: {error}"))?;
-    match backend {
-        Backend::SpirV => write_spirv(&module, &info).map(Ok),
-        Backend::Hlsl => write_hlsl(&module, &info).map(Ok),
-        Backend::Msl => write_msl(&module, &info).map(Ok),
-        Backend::Glsl450 | Backend::GlslEs300 => match &shader.no_entry_point {
-            Some(reason) => Ok(Err(reason.clone())),
-            None => write_glsl(backend, &module, &info),
-        },
-    }
+            .map_err(|error| ShaderError::new(format!("overrides: {error}")))?;
+    let outcome = |backend| {
+        let written = match backend {
+            Backend::SpirV => write_spirv(&module, &info),
+            Backend::Hlsl => write_hlsl(&module, &info),
+            Backend::Msl => write_msl(&module, &info),
+            Backend::Glsl450 | Backend::GlslEs300 => {
+                let no_entry_point = shader.no_entry_point.clone().map_or(Ok(()), Err);
+                let written = no_entry_point.and_then(|()| write_glsl(backend, &module, &info));
+                return Ok((backend, written));
+            }
+        };
+        written
+            .map(|()| (backend, Ok(())))
+            .map_err(|message| ShaderError::new(format!("{backend} cannot be written: {message}")))
+    };
+    let outcomes = Backend::ALL.into_iter().map(outcome);
+    Ok(ValidationReport {
+        outcomes: outcomes.collect::<Result<_, _>>()?,
+    })
 }
 
 /// The value 1 for each override without a default: it is a legal workgroup size, array length and factor.
@@ -142,11 +137,7 @@ fn write_msl(module: &Module, info: &ModuleInfo) -> Result<(), String> {
 }
 
 /// GLSL has one entry point per text.
-fn write_glsl(
-    backend: Backend,
-    module: &Module,
-    info: &ModuleInfo,
-) -> Result<Result<(), String>, String> {
+fn write_glsl(backend: Backend, module: &Module, info: &ModuleInfo) -> Result<(), String> {
     let options = glsl::Options {
         version: if backend == Backend::GlslEs300 {
             glsl::Version::new_gles(300)
@@ -163,25 +154,9 @@ fn write_glsl(
         };
         let mut text = String::new();
         let policies = BoundsCheckPolicies::default();
-        let written = glsl::Writer::new(&mut text, module, info, &options, &pipeline, policies)
-            .and_then(|mut writer| writer.write());
-        if let Err(error) = written {
-            let message = format!("entry point `{}`: {error}", entry_point.name);
-            return if is_limit_of_glsl(&error) {
-                Ok(Err(message))
-            } else {
-                Err(message)
-            };
-        }
+        glsl::Writer::new(&mut text, module, info, &options, &pipeline, policies)
+            .and_then(|mut writer| writer.write())
+            .map_err(|error| format!("entry point `{}`: {error}", entry_point.name))?;
     }
-    Ok(Ok(()))
-}
-
-/// Whether the error says that GLSL lacks something, rather than that the writing went wrong.
-fn is_limit_of_glsl(error: &glsl::Error) -> bool {
-    use glsl::Error as E;
-    !matches!(
-        error,
-        E::FmtError(_) | E::EntryPointNotFound | E::Override | E::ResolveArraySizeError(_)
-    )
+    Ok(())
 }

@@ -3,6 +3,7 @@
 use core::ops::Range;
 use std::error::Error;
 
+use naga::common::wgsl::TryToWgsl;
 use naga::front::wgsl::ParseError;
 use naga::valid::ValidationError;
 
@@ -67,7 +68,8 @@ fn headline<'a>(module: &naga::Module, error: &'a ValidationError) -> (String, O
         E::Type { name, .. } if !name.is_empty() => of("type", name),
         E::Type { handle, .. } => {
             let ty = module.types.get_handle(*handle).ok();
-            match ty.and_then(|ty| ty.inner.scalar()).and_then(scalar_name) {
+            let scalar = ty.and_then(|ty| ty.inner.scalar());
+            match scalar.and_then(TryToWgsl::try_to_wgsl) {
                 Some(name) => of("type", name),
                 None => ("a type is not valid".to_owned(), None),
             }
@@ -77,17 +79,6 @@ fn headline<'a>(module: &naga::Module, error: &'a ValidationError) -> (String, O
         | E::ConstExpression { .. }
         | E::ArraySizeError { .. }
         | E::Corrupted => (error.to_string(), None),
-    }
-}
-
-/// Scalars that some profiles lack.
-fn scalar_name(scalar: naga::Scalar) -> Option<&'static str> {
-    match (scalar.kind, scalar.width) {
-        (naga::ScalarKind::Float, 8) => Some("f64"),
-        (naga::ScalarKind::Float, 2) => Some("f16"),
-        (naga::ScalarKind::Sint, 8) => Some("i64"),
-        (naga::ScalarKind::Uint, 8) => Some("u64"),
-        _ => None,
     }
 }
 

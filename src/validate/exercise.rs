@@ -1,149 +1,96 @@
 //! Entry points for text without any, so that every backend translates every function as a shader would call it.
 
+use core::fmt::Write;
+
+use naga::common::wgsl::TypeContext;
 use naga::valid::{Capabilities, ModuleInfo};
-use naga::{
-    AddressSpace, ArraySize, Block, EntryPoint, Expression, Function, GlobalVariable, Handle,
-    LocalVariable, Module, ResourceBinding, ShaderStage, Span, Statement, Type, TypeInner,
-};
+use naga::{AddressSpace, Module, TypeInner};
 
 use super::backend::Shader;
 
-/// `module` with an entry point per function that does nothing but call it: in a fragment shader, or in a compute shader
-/// where a function is only valid there. If no argument can be made for a function, `module` as it was, with the reason.
-pub(super) fn exercise(module: &Module, info: ModuleInfo, capabilities: Capabilities) -> Shader {
-    let mut failure = String::from("the text has neither functions nor entry points");
-    if !module.functions.is_empty() {
-        for stage in [ShaderStage::Fragment, ShaderStage::Compute] {
-            let exercised = match with_entry_points(module, stage) {
-                Ok(exercised) => exercised,
-                Err(reason) => {
-                    failure = reason;
-                    break;
-                }
-            };
-            match super::check(&exercised, capabilities) {
-                Ok(info) => {
-                    return Shader {
-                        module: exercised,
-                        info,
-                        no_entry_point: None,
-                    };
-                }
-                Err(error) => failure = format!("no entry point can call every function: {error}"),
-            }
-        }
-    }
-    Shader {
-        module: module.clone(),
-        info,
-        no_entry_point: Some(failure),
-    }
+/// `text`, of which `module` was made, with an entry point per function that does nothing but call it: in a fragment shader, or
+/// in a compute shader where a function is only valid there. If that cannot be, `module` as it was, with the reason.
+pub(super) fn exercise(
+    text: &str,
+    module: Module,
+    info: ModuleInfo,
+    capabilities: Capabilities,
+) -> Shader {
+    let fragment = exercised(text, &module, "@fragment", capabilities);
+    fragment
+        .or_else(|_| exercised(text, &module, "@compute @workgroup_size(1)", capabilities))
+        .unwrap_or_else(|reason| Shader {
+            module,
+            info,
+            no_entry_point: Some(reason),
+        })
 }
 
-fn with_entry_points(module: &Module, stage: ShaderStage) -> Result<Module, String> {
-    let mut exercised = module.clone();
-    for (index, (callee, function)) in module.functions.iter().enumerate() {
-        let caller = call(module, &mut exercised, callee, function)?;
-        exercised.entry_points.push(EntryPoint {
-            name: format!("exercise_{index}"),
-            stage,
-            early_depth_test: None,
-            workgroup_size: if stage == ShaderStage::Compute {
-                [1; 3]
-            } else {
-                [0; 3]
-            },
-            workgroup_size_overrides: None,
-            function: caller,
-            mesh_info: None,
-            task_payload: None,
-            incoming_ray_payload: None,
-        });
-    }
-    Ok(exercised)
-}
-
-/// A function that calls `callee`, and the resources that it needs in `exercised`.
-fn call(
+fn exercised(
+    text: &str,
     module: &Module,
-    exercised: &mut Module,
-    callee: Handle<Function>,
-    function: &Function,
-) -> Result<Function, String> {
-    let mut caller = Function::default();
-    let mut arguments = Vec::new();
-    for argument in &function.arguments {
-        let inner = &module.types[argument.ty].inner;
-        let expression = if matches!(inner, TypeInner::Image { .. } | TypeInner::Sampler { .. }) {
-            Expression::GlobalVariable(resource(exercised, argument.ty))
-        } else if let TypeInner::Pointer {
-            base,
-            space: AddressSpace::Function,
-        } = *inner
-            && is_value(module, base)
-        {
-            let local = LocalVariable {
-                name: None,
-                ty: base,
-                init: None,
-            };
-            Expression::LocalVariable(caller.local_variables.append(local, Span::UNDEFINED))
-        } else if is_value(module, argument.ty) {
-            Expression::ZeroValue(argument.ty)
-        } else {
-            let of = |name: &Option<String>| name.clone().unwrap_or_default();
-            return Err(format!(
-                "no value can be made up for `{}` of function `{}`; validate a shader that calls it",
-                of(&argument.name),
-                of(&function.name),
-            ));
-        };
-        arguments.push(caller.expressions.append(expression, Span::UNDEFINED));
-    }
-    let result = function.result.is_some().then(|| {
-        let result = Expression::CallResult(callee);
-        caller.expressions.append(result, Span::UNDEFINED)
-    });
-    let call = Statement::Call {
-        function: callee,
-        arguments,
-        result,
-    };
-    caller.body = Block::from_vec(vec![call, Statement::Return { value: None }]);
-    Ok(caller)
-}
-
-/// A new texture or sampler, in a bind group that the text does not use.
-fn resource(module: &mut Module, ty: Handle<Type>) -> Handle<GlobalVariable> {
-    let binding = u32::try_from(module.global_variables.len()).unwrap_or(u32::MAX);
-    let variable = GlobalVariable {
-        name: Some(format!("exercise_resource_{binding}")),
-        space: AddressSpace::Handle,
-        binding: Some(ResourceBinding {
-            group: UNUSED_GROUP,
-            binding,
-        }),
-        ty,
-        init: None,
-        memory_decorations: naga::MemoryDecorations::empty(),
-    };
-    module.global_variables.append(variable, Span::UNDEFINED)
+    stage: &str,
+    capabilities: Capabilities,
+) -> Result<Shader, String> {
+    let text = text.to_owned() + &entry_points(module, stage)?;
+    let refused = |error| format!("no entry point can call every function: {error}");
+    let module = super::parse(&text, capabilities).map_err(|error| refused(error.to_string()))?;
+    let info = super::check(&module, capabilities).map_err(|error| refused(error.to_string()))?;
+    Ok(Shader {
+        module,
+        info,
+        no_entry_point: None,
+    })
 }
 
 /// HLSL keeps group indices in a byte; no device has as many groups.
 const UNUSED_GROUP: u32 = 200;
 
-/// Whether a value of the type can be a zero.
-fn is_value(module: &Module, ty: Handle<Type>) -> bool {
-    let inner = &module.types[ty].inner;
-    if let TypeInner::Array { base, size, .. } = inner {
-        return matches!(size, ArraySize::Constant(_)) && is_value(module, *base);
+/// An entry point per function, with the textures and samplers that they give it in a bind group that the text does not use.
+fn entry_points(module: &Module, stage: &str) -> Result<String, String> {
+    if module.functions.is_empty() {
+        return Err("the text has neither functions nor entry points".to_owned());
     }
-    if let TypeInner::Struct { members, .. } = inner {
-        return members.iter().all(|member| is_value(module, member.ty));
+    let types = module.to_ctx();
+    let mut text = String::new();
+    let mut bindings = 0..;
+    for (index, (_, function)) in module.functions.iter().enumerate() {
+        let name = |name: &Option<String>| name.clone().unwrap_or_default();
+        let callee = name(&function.name);
+        let mut variables = String::new();
+        let mut arguments = Vec::new();
+        for argument in &function.arguments {
+            let variable = format!("exercise_{index}_{}", arguments.len());
+            let ty = types.type_to_string(argument.ty);
+            let inner = &module.types[argument.ty].inner;
+            // Writing to a string cannot fail.
+            arguments.push(
+                if matches!(inner, TypeInner::Image { .. } | TypeInner::Sampler { .. }) {
+                    let binding = bindings.next().unwrap_or_default();
+                    let place = format!("@group({UNUSED_GROUP}) @binding({binding})");
+                    let _ = writeln!(text, "{place} var {variable}: {ty};");
+                    variable
+                } else if let TypeInner::Pointer { base, space } = *inner {
+                    if space != AddressSpace::Function {
+                        return Err(format!(
+                            "no value can be made up for `{}` of function `{callee}`; validate a shader that calls it",
+                            name(&argument.name),
+                        ));
+                    }
+                    let base = types.type_to_string(base);
+                    let _ = write!(variables, "var {variable}: {base}; ");
+                    format!("&{variable}")
+                } else {
+                    format!("{ty}()")
+                },
+            );
+        }
+        let result = function.result.as_ref().map_or("", |_| "_ = ");
+        let call = format!("{result}{callee}({})", arguments.join(", "));
+        let _ = writeln!(
+            text,
+            "{stage} fn exercise_{index}() {{ {variables}{call}; }}"
+        );
     }
-    matches!(
-        inner,
-        TypeInner::Scalar(_) | TypeInner::Vector { .. } | TypeInner::Matrix { .. }
-    )
+    Ok(text)
 }

@@ -1,5 +1,6 @@
 //! Storage texture formats by profile. naga accepts formats that core WebGPU refuses, so they are checked here.
 
+use naga::common::wgsl::ToWgsl;
 use naga::{ImageClass, StorageAccess, StorageFormat, TypeInner};
 
 use crate::link::tokens::{Kind, Token, tokens};
@@ -22,8 +23,8 @@ pub(super) fn check(
         let Some(note) = objection(format, access, profile) else {
             continue;
         };
-        let (format, access) = (name(format), access_name(access));
-        let uses = uses(linked.wgsl(), &format, access);
+        let (format, access) = (format.to_wgsl(), access_name(access));
+        let uses = uses(linked.wgsl(), format, access);
         return Err(ShaderError {
             message: format!(
                 "profile `{profile}` has no storage texture of format `{format}` with access `{access}`"
@@ -100,11 +101,6 @@ fn is_norm16(format: StorageFormat) -> bool {
         format,
         F::R16Unorm | F::R16Snorm | F::Rg16Unorm | F::Rg16Snorm | F::Rgba16Unorm | F::Rgba16Snorm
     )
-}
-
-/// The format's name in WGSL: naga's variants are spelt alike but for case.
-fn name(format: StorageFormat) -> String {
-    format!("{format:?}").to_lowercase()
 }
 
 fn access_name(access: StorageAccess) -> &'static str {

@@ -5,7 +5,7 @@ use core::ops::RangeInclusive;
 use glam::{DMat4, DVec4};
 use serde::{Deserialize, Serialize};
 
-use crate::{AreaLight, DepthConversion, DepthRange, MapRegion, ValueError};
+use crate::{AreaLight, DepthConversion, DepthRange, LightSize, MapRegion, ValueError};
 
 /// A view of a light: what one region of its map was drawn with.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -22,20 +22,6 @@ pub struct LightView {
     pub channel: u32,
     /// How large the light is; for soft shadows.
     pub size: LightSize,
-}
-
-/// How large a light is.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub enum LightSize {
-    /// Without size: all shadows are as hard as the filter allows.
-    #[default]
-    Point,
-    /// A light with parallel rays that appears as a disk of this many radians; the sun's is 0.0093.
-    AngularDiameter(f64),
-    /// A disk of this diameter in scene units, facing along the axis of a light with a perspective map.
-    Disk(f64),
-    /// A rectangle of this width and height in scene units, along x and y of a perspective map.
-    Rectangle([f64; 2]),
 }
 
 impl LightView {
@@ -125,27 +111,18 @@ impl LightView {
         extent: [u32; 2],
         radii: RangeInclusive<f64>,
     ) -> Result<AreaLight, ValueError> {
-        let (texel, range) = (self.texel_size(extent), self.range());
-        match (self.size, self.depth) {
-            (LightSize::Point, _) => Ok(AreaLight::NONE),
-            (LightSize::AngularDiameter(angle), LightDepth::Orthographic { .. }) => {
-                AreaLight::directional(angle, texel, range, radii)
-            }
-            (LightSize::Disk(diameter), LightDepth::Perspective { .. }) => {
-                AreaLight::spot(diameter, texel, range, radii)
-            }
-            (LightSize::Rectangle(size), LightDepth::Perspective { .. }) => {
-                AreaLight::rectangle(size, texel, range, radii)
-            }
-            (LightSize::AngularDiameter(_), LightDepth::Perspective { .. })
-            | (LightSize::Disk(_) | LightSize::Rectangle(_), LightDepth::Orthographic { .. }) => {
-                Err(ValueError::new(
-                    "size",
-                    "a light with parallel rays has an angular diameter as its size, one with a perspective map is a disk or \
-                     a rectangle",
-                ))
-            }
+        let parallel = matches!(self.depth, LightDepth::Orthographic { .. });
+        let suits = match self.size {
+            LightSize::Point => true,
+            LightSize::AngularDiameter(_) => parallel,
+            LightSize::Disk(_) | LightSize::Rectangle(_) => !parallel,
+        };
+        if !suits {
+            let message = "a light with parallel rays has an angular diameter as its size, one with a perspective map is a disk or \
+                           a rectangle";
+            return Err(ValueError::new("size", message));
         }
+        AreaLight::new(self.size, self.texel_size(extent), self.range(), radii)
     }
 }
 

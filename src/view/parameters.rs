@@ -3,7 +3,7 @@
 use bytemuck::{Pod, Zeroable};
 use glam::DMat4;
 
-use super::{CameraView, LightView, inverse, singular_camera, singular_light};
+use super::{CameraView, LightView, inverse};
 use crate::{AreaLight, DepthConversion, LeakReduction, MapRegion, ReceiverBias, ValueError};
 
 /// What nodes that shade a picture need to know of a view of a light: the uniform struct of their shader.
@@ -46,10 +46,10 @@ impl ViewParameters {
         receiver_bias: ReceiverBias,
         leak_reduction: LeakReduction,
     ) -> Result<Self, ValueError> {
-        let world_from_clip = inverse(DMat4::from_cols_array_2d(&camera.clip_from_world))
-            .ok_or_else(singular_camera)?;
+        let camera_clip = DMat4::from_cols_array_2d(&camera.clip_from_world);
+        let world_from_clip = inverse(camera_clip, "camera")?;
         let light_clip = DMat4::from_cols_array_2d(&light.clip_from_world);
-        inverse(light_clip).ok_or_else(singular_light)?;
+        inverse(light_clip, "light")?;
         let conversion = light.depth.conversion()?;
         let [x, y, w] = [0, 1, 3].map(|index| light_clip.row(index));
         // From clip space to the map: u = (x + w) / 2, v = (w - y) / 2, both still times w.

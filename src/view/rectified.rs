@@ -5,7 +5,7 @@ use core::f64::consts::{PI, TAU};
 use bytemuck::{Pod, Zeroable};
 use glam::{DMat4, DVec3, DVec4};
 
-use super::{inverse, singular_camera};
+use super::{inverse, singular};
 use crate::ValueError;
 
 /// The rectified coordinates of a camera and a directional light: the uniform struct of the WGSL module `rectified_frame`.
@@ -66,8 +66,7 @@ impl RectifiedView {
         far: f64,
         light_direction: [f64; 3],
     ) -> Result<Self, ValueError> {
-        let world_from_clip =
-            inverse(DMat4::from_cols_array_2d(clip_from_world)).ok_or_else(singular_camera)?;
+        let world_from_clip = inverse(DMat4::from_cols_array_2d(clip_from_world), "camera")?;
         if !(far > 0.0 && far.is_finite()) {
             let message = format!(
                 "the far distance is {far}, but must be above 0 and finite: how far along the camera's axis light is scattered"
@@ -96,7 +95,7 @@ impl RectifiedView {
             DVec3::from(axes.map(|axis| axis.dot(scene)))
         };
         let along = [direction(x), direction(y), direction(middle)];
-        let normal = normalized(along[0].cross(along[1])).ok_or_else(singular_camera)?;
+        let normal = normalized(along[0].cross(along[1])).ok_or_else(|| singular("camera"))?;
         let farthest_w = normal.dot(along[2]).abs() / far;
         let bounds = Bounds::new(along.map(|vector| vector / farthest_w));
         let single = |value: f64| value as f32;
@@ -196,8 +195,8 @@ fn azimuths(corners: &[DVec3; 4], middle: DVec3, inside: [bool; 2]) -> [f64; 2] 
 
 fn inclinations(edges: &[[DVec3; 2]; 4], inside: [bool; 2]) -> [f64; 2] {
     let inclination = |point: DVec3| point.x.hypot(point.y).atan2(point.z);
-    let mut low = PI;
-    let mut high = 0.0;
+    let mut low = if inside[0] { 0.0 } else { PI };
+    let mut high = if inside[1] { PI } else { 0.0 };
     for &[from, to] in edges {
         let step = to - from;
         // Where the inclination is extremal on the line of the edge.
@@ -209,16 +208,5 @@ fn inclinations(edges: &[[DVec3; 2]; 4], inside: [bool; 2]) -> [f64; 2] {
             high = inclination(point).max(high);
         }
     }
-    [
-        if inside[0] {
-            0.0
-        } else {
-            (low - MARGIN).max(0.0)
-        },
-        if inside[1] {
-            PI
-        } else {
-            (high + MARGIN).min(PI)
-        },
-    ]
+    [(low - MARGIN).max(0.0), (high + MARGIN).min(PI)]
 }

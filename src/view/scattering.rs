@@ -3,7 +3,7 @@
 use bytemuck::{Pod, Zeroable};
 use glam::{DMat4, DVec3, DVec4};
 
-use super::{CameraView, LightDepth, LightView, RectifiedFrame, RectifiedView, singular_light};
+use super::{CameraView, LightDepth, LightView, RectifiedFrame, RectifiedView, singular};
 use crate::{MapRegion, SingleScattering, ValueError};
 
 /// The parameters of a `rectify_moments` node: the uniform struct of its shader.
@@ -90,7 +90,7 @@ impl ScatteringParameters {
         let grows = depth.truncate().dot(across);
         let finite = x.is_finite() && y.is_finite() && depth.is_finite();
         if !(grows.abs() > 0.0 && grows.is_finite() && finite) {
-            return Err(singular_light());
+            return Err(singular("light"));
         }
         let direction = across * grows.signum();
         let RectifiedView {

@@ -173,7 +173,7 @@ fn nodes_of_four_moments_refuse_six_by_name() {
         largest_kernel: [9; 2],
     };
     let debug = DebugMoments::default();
-    for &storage in Technique::Hamburger6.storages() {
+    for &storage in Technique::Hamburger6.row().storages {
         let six = || map(Technique::Hamburger6, storage);
         let error = described(&debug, "map", six()).unwrap_err();
         assert_eq!(error.kind, GraphErrorKind::Format, "{error}");

@@ -73,7 +73,8 @@ fn biases() -> Vec<SixMomentsBias> {
         alpha: 5e-6,
     };
     Technique::Hamburger6
-        .storages()
+        .row()
+        .storages
         .iter()
         .map(|storage| storage.six_moments_bias().unwrap())
         .chain([published])

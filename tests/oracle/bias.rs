@@ -37,7 +37,7 @@ fn error_factors_are_the_known_ones() {
             form.name
         );
     }
-    for &storage in Technique::Hamburger6.storages() {
+    for &storage in Technique::Hamburger6.row().storages {
         // All have the same basis and the same target.
         let found = error_factor(&Form::of_six_moments(storage).unwrap());
         assert!((found / 7.15 - 1.0).abs() < 2e-3, "{storage}: {found}");

@@ -40,7 +40,7 @@ fn storages_of_other_techniques_have_the_numbers_and_biases_of_the_modules() {
         let found = constant(&module("storage", &index), &index);
         assert_eq!(found, [f64::from(storage.wgsl_index())], "{index}");
     }
-    for &storage in Technique::Hamburger6.storages() {
+    for &storage in Technique::Hamburger6.row().storages {
         let name = format!("SIX_MOMENTS_BIAS_{}", storage.name().to_uppercase());
         let found = constant(&module("six_moments", &name), &name);
         let SixMomentsBias { even, alpha } = storage.six_moments_bias().unwrap();
@@ -139,7 +139,7 @@ fn techniques_have_the_limits_of_their_modules() {
             "exponential"
         };
         let found = constant(&module(of, name), name);
-        let largest = technique.largest_exponent(storage).unwrap();
+        let largest = technique.row().largest_exponent(storage).unwrap();
         assert_eq!(found, [f64::from(largest)], "{name}");
     }
     // One more than the most is refused.
@@ -188,16 +188,9 @@ fn the_receiver_bias_moves_by_as_many_standard_deviations_on_both_sides() {
 
 #[test]
 fn percentage_closer_filtering_takes_the_largest_kernel() {
-    for (name, item) in [
-        ("percentage_closer", "PERCENTAGE_CLOSER_LARGEST_RADIUS"),
-        (
-            "percentage_closer_hardware",
-            "PERCENTAGE_CLOSER_HARDWARE_LARGEST_RADIUS",
-        ),
-    ] {
-        let found = constant(&module(name, item), item);
-        assert_eq!(found, [f64::from(Kernel::LARGEST_RADIUS)]);
-    }
+    let name = "PERCENTAGE_CLOSER_LARGEST_RADIUS";
+    let found = constant(&module("percentage_closer", name), name);
+    assert_eq!(found, [f64::from(Kernel::LARGEST_RADIUS)]);
 }
 
 #[test]

@@ -19,11 +19,9 @@ pub(crate) struct Query {
     pub(crate) radius: f32,
     pub(crate) angle: f32,
     pub(crate) layer: u32,
-    pub(crate) interpolated: u32,
     pub(crate) taps: u32,
     pub(crate) steepest: f32,
     pub(crate) bias: f32,
-    pub(crate) padding: f32,
 }
 
 /// Any separable kernel: the struct `PercentageCloserKernel` of the library.
@@ -47,11 +45,9 @@ impl Query {
             radius: 0.0,
             angle: 0.0,
             layer: 0,
-            interpolated: 0,
             taps: 1,
             steepest: 1e9,
             bias: 0.0,
-            padding: 0.0,
         }
     }
 }
@@ -71,11 +67,9 @@ struct Query {
     radius: f32,
     angle: f32,
     layer: u32,
-    interpolated: u32,
     taps: u32,
     steepest: f32,
     bias: f32,
-    padding: f32,
 }
 
 @group(0) @binding(0) var<storage, read> queries: array<Query>;

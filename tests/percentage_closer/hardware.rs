@@ -16,7 +16,7 @@ const BODY: &str = "
 alias Extra = vec4f;
 fn answer(query: Query, plane: ReceiverPlane) -> f32 {
     if query.taps == 0u {
-        return percentage_closer_box(map, query.layer, query.region, plane, conversion, i32(query.radius), true);
+        return percentage_closer_box(map, query.layer, query.region, plane, conversion, i32(query.radius));
     }
     return percentage_closer_hardware_box(map, comparison, query.layer, query.region, plane, conversion, i32(query.radius));
 }

@@ -1,6 +1,6 @@
 //! Lights that no soft shadows can be made of.
 
-use moment_shadows::{AreaLight, DepthRange, ValueError};
+use moment_shadows::{AreaLight, DepthRange, LightSize, ValueError};
 
 const RANGE: DepthRange = DepthRange {
     near: 1.0,
@@ -18,8 +18,13 @@ fn culprit(light: Result<AreaLight, ValueError>) -> &'static str {
 
 #[test]
 fn each_number_out_of_range_is_named() {
-    let directional = AreaLight::directional;
-    let spot = AreaLight::spot;
+    let directional = |angle, texel, range, radii| {
+        AreaLight::new(LightSize::AngularDiameter(angle), texel, range, radii)
+    };
+    let spot = |diameter, texel, range, radii| {
+        AreaLight::new(LightSize::Disk(diameter), texel, range, radii)
+    };
+    let rectangle = |size| AreaLight::new(LightSize::Rectangle(size), [0.1; 2], RANGE, RADII);
     for wrong in [-0.1, f64::NAN, f64::INFINITY, 3.2] {
         assert_eq!(
             culprit(directional(wrong, [0.1; 2], RANGE, RADII)),
@@ -28,14 +33,8 @@ fn each_number_out_of_range_is_named() {
     }
     for wrong in [-0.1, f64::NAN, f64::INFINITY] {
         assert_eq!(culprit(spot(wrong, [0.1; 2], RANGE, RADII)), "the diameter");
-        assert_eq!(
-            culprit(AreaLight::rectangle([wrong, 1.0], [0.1; 2], RANGE, RADII)),
-            "the width"
-        );
-        assert_eq!(
-            culprit(AreaLight::rectangle([1.0, wrong], [0.1; 2], RANGE, RADII)),
-            "the height"
-        );
+        assert_eq!(culprit(rectangle([wrong, 1.0])), "the width");
+        assert_eq!(culprit(rectangle([1.0, wrong])), "the height");
     }
     for wrong in [0.0, -0.1, f64::NAN, f64::INFINITY] {
         assert_eq!(
@@ -102,11 +101,11 @@ fn each_number_out_of_range_is_named() {
 #[test]
 fn sizes_are_in_texels() {
     // Half a right angle: 2 tan(pi / 8) wide per unit of distance.
-    let sun =
-        AreaLight::directional(std::f64::consts::FRAC_PI_4, [0.5, 0.25], RANGE, RADII).unwrap();
+    let eighth = LightSize::AngularDiameter(std::f64::consts::FRAC_PI_4);
+    let sun = AreaLight::new(eighth, [0.5, 0.25], RANGE, RADII).unwrap();
     let width = 2.0 * (2.0_f32.sqrt() - 1.0);
     assert!((sun.size[0] - 2.0 * width).abs() < 1e-6 && (sun.size[1] - 4.0 * width).abs() < 1e-6);
-    let spot = AreaLight::spot(0.5, [0.5, 0.25], RANGE, RADII).unwrap();
+    let spot = AreaLight::new(LightSize::Disk(0.5), [0.5, 0.25], RANGE, RADII).unwrap();
     assert_eq!((spot.size, spot.perspective), ([1.0, 2.0], 1));
     assert_eq!(
         (

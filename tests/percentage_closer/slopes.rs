@@ -1,7 +1,7 @@
 //! Planes do not shadow themselves, whatever the filter; what stands in front of them does.
 
 use glam::{DVec2, DVec3};
-use moment_shadows::{AreaLight, DepthConversion, DepthRange, MapRegion};
+use moment_shadows::{AreaLight, DepthConversion, DepthRange, LightSize, MapRegion};
 use moment_shadows_lab::light::LightView;
 
 use crate::device::{self, Query, Shader};
@@ -18,11 +18,10 @@ pub(crate) const BODY: &str = "
 alias Extra = AreaLight;
 fn answer(query: Query, plane: ReceiverPlane) -> f32 {
     let region = query.region;
-    let interpolated = query.interpolated != 0u;
     switch query.taps {
         case 0u: { return percentage_closer_binary(map, query.layer, region, plane, conversion); }
-        case 1u: { return percentage_closer_box(map, query.layer, region, plane, conversion, i32(query.radius), interpolated); }
-        case 2u: { return percentage_closer_gaussian(map, query.layer, region, plane, conversion, i32(query.radius), 0.5 * query.radius, interpolated); }
+        case 1u: { return percentage_closer_box(map, query.layer, region, plane, conversion, i32(query.radius)); }
+        case 2u: { return percentage_closer_gaussian(map, query.layer, region, plane, conversion, i32(query.radius), 0.5 * query.radius); }
         case 3u: { return percentage_closer_poisson(map, query.layer, region, plane, conversion, query.radius, query.angle); }
         case 4u: { return percentage_closer_hardware_box(map, comparison, query.layer, region, plane, conversion, i32(query.radius)); }
         default: { return percentage_closer_soft_intensity(map, query.layer, region, plane, conversion, extra, 16u, 25u, query.angle); }
@@ -111,8 +110,8 @@ fn plane_depth(light: &LightView, texel: DVec2, point: DVec3, normal: DVec3) -> 
 fn a_plane_is_lit_by_itself_and_shadowed_by_what_is_in_front_of_it() {
     let gpu = device::open();
     let shader = Shader::new(&gpu, IMPORTS, BODY);
-    let soft = AreaLight::directional(
-        0.2,
+    let soft = AreaLight::new(
+        LightSize::AngularDiameter(0.2),
         [0.3, 0.3],
         DepthRange {
             near: 1.0,
@@ -178,7 +177,6 @@ fn a_plane_is_lit_by_itself_and_shadowed_by_what_is_in_front_of_it() {
                                 light_depth,
                                 radius: 4.0,
                                 angle: place as f32,
-                                interpolated: place % 2,
                                 taps: test,
                                 bias,
                                 ..Query::new([0.0; 2], z as f32, SIZE)

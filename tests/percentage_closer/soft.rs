@@ -1,6 +1,6 @@
 //! Percentage closer soft shadows.
 
-use moment_shadows::{AreaLight, DepthRange};
+use moment_shadows::{AreaLight, DepthRange, LightSize};
 use moment_shadows_lab::gpu::Gpu;
 
 use crate::brute_force::Convention;
@@ -116,7 +116,8 @@ fn a_sun_throws_penumbrae_as_wide_as_its_angle_says() {
         far: 25.0,
     };
     let angle = 0.15_f64;
-    let light = AreaLight::directional(angle, [0.05, 0.1], range, RADII).unwrap();
+    let light =
+        AreaLight::new(LightSize::AngularDiameter(angle), [0.05, 0.1], range, RADII).unwrap();
     for axis in [0, 1] {
         for caster in [-0.6, 0.0, 0.5] {
             let map = edge(&gpu, convention, axis, caster);
@@ -144,7 +145,7 @@ fn a_spot_light_throws_penumbrae_as_wide_as_its_disk_says() {
     };
     let range = convention.range();
     let texel = [1.0 / 256.0, 1.0 / 128.0];
-    let light = AreaLight::spot(0.6, texel, range, RADII).unwrap();
+    let light = AreaLight::new(LightSize::Disk(0.6), texel, range, RADII).unwrap();
     for axis in [0, 1] {
         for caster in [-0.5, 0.2] {
             let map = edge(&gpu, convention, axis, caster);
@@ -174,7 +175,8 @@ fn the_largest_radius_bounds_the_penumbra() {
         far: 20.0,
     };
     let radii = 0.5..=8.0;
-    let light = AreaLight::directional(0.5, [0.05, 0.05], range, radii).unwrap();
+    let light =
+        AreaLight::new(LightSize::AngularDiameter(0.5), [0.05, 0.05], range, radii).unwrap();
     let map = edge(&gpu, convention, 0, -0.5);
     assert_close(
         width(&shader, &map, convention, 0, light, 0.9),
@@ -182,7 +184,8 @@ fn the_largest_radius_bounds_the_penumbra() {
         "at most 8 texels",
     );
     let radii = 6.0..=40.0;
-    let light = AreaLight::directional(1e-4, [0.05, 0.05], range, radii).unwrap();
+    let light =
+        AreaLight::new(LightSize::AngularDiameter(1e-4), [0.05, 0.05], range, radii).unwrap();
     assert_close(
         width(&shader, &map, convention, 0, light, 0.9),
         12.0,
@@ -199,7 +202,8 @@ fn any_counts_of_taps_agree_on_what_is_lit_and_what_is_dark() {
         near: 0.0,
         far: 20.0,
     };
-    let light = AreaLight::directional(0.1, [0.05, 0.05], range, RADII).unwrap();
+    let light =
+        AreaLight::new(LightSize::AngularDiameter(0.1), [0.05, 0.05], range, RADII).unwrap();
     let map = edge(&gpu, convention, 0, 0.0);
     let counts = [0_u32, 1, 2, 3, 5, 16, 333, 4096, u32::MAX];
     let mut queries = Vec::new();

@@ -27,9 +27,9 @@ fn the_gaussian_kernel_equals_the_ground_truth() {
 alias Extra = PercentageCloserKernel;
 fn answer(query: Query, plane: ReceiverPlane) -> f32 {
     if query.taps == 0u {
-        return percentage_closer_gaussian(map, 0u, query.region, plane, conversion, 4, 2.4, true);
+        return percentage_closer_gaussian(map, 0u, query.region, plane, conversion, 4, 2.4);
     }
-    return percentage_closer_kernel(map, 0u, query.region, plane, conversion, extra, true);
+    return percentage_closer_kernel(map, 0u, query.region, plane, conversion, extra);
 }
 ";
     let shader = Shader::new(&gpu, imports, body);

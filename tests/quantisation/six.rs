@@ -66,7 +66,7 @@ fn the_basis_of_six_moments_fills_the_unit_range_and_is_undone_by_its_inverse() 
         .map(|step| f64::from(step) / 4096.0 - 1.0)
         .collect();
     let (mut low, mut high) = ([f64::MAX; 6], [f64::MIN; 6]);
-    for &storage in Technique::Hamburger6.storages() {
+    for &storage in Technique::Hamburger6.row().storages {
         let inputs: Vec<Input> = depths
             .iter()
             .map(|&depth| Input::of_moments(powers::<6>(depth), storage))
@@ -149,7 +149,7 @@ fn the_bias_of_six_moments_is_applied_with_a_single_rounding_and_the_same_on_bot
     let mut random = ChaCha8Rng::seed_from_u64(34);
     let cases: Vec<(Input, Storage)> = (0..30_000)
         .map(|index| {
-            let storage = Technique::Hamburger6.storages()[index % 4];
+            let storage = Technique::Hamburger6.row().storages[index % 4];
             let moments = [-1.0, 0.0, -1.0, 0.0, -1.0, 0.0]
                 .map(|low| f64::from(random.random_range(low..=1.0_f32)));
             (Input::of_moments(moments, storage), storage)
@@ -191,7 +191,7 @@ fn the_bias_of_six_moments_is_applied_with_a_single_rounding_and_the_same_on_bot
 fn the_bias_of_six_moments_covers_three_roundings_to_each_storage() {
     const PATCHES: u64 = 100_000;
     let basis = six_moments();
-    for &storage in Technique::Hamburger6.storages() {
+    for &storage in Technique::Hamburger6.row().storages {
         let middle = match storage {
             Storage::Unorm10 | Storage::Unorm16 => 0.0,
             _ => 0.5,

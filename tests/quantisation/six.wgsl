@@ -1,4 +1,4 @@
-import moment_shadows::moments::six_moments::{SixMoments, SIX_MOMENTS_EVEN_BASIS, SIX_MOMENTS_EVEN_OFFSET, SIX_MOMENTS_ODD_BASIS, SIX_MOMENTS_ODD_OFFSET, six_moments_affine, six_moments_apply_bias, six_moments_bias_of, six_moments_from_texels, six_moments_to_texels};
+import moment_shadows::moments::six_moments::{SixMoments, SIX_MOMENTS_EVEN_BASIS, SIX_MOMENTS_EVEN_OFFSET, SIX_MOMENTS_ODD_BASIS, SIX_MOMENTS_ODD_OFFSET, six_moments_affine, six_moments_apply_bias, six_moments_bias_of, six_moments_from_texels, six_moments_to_even_texel, six_moments_to_odd_texel};
 
 // Moments, and the channels of two texels.
 struct BatchInput {
@@ -38,7 +38,9 @@ struct BatchOutput {
 fn batch(input: BatchInput) -> BatchOutput {
     let moments = SixMoments(input.odd, input.even);
     let bias = six_moments_bias_of(input.storage);
-    let decoded = six_moments_from_texels(six_moments_to_texels(moments, input.storage), input.storage);
+    let odd = six_moments_to_odd_texel(input.odd, input.storage);
+    let encoded = array<vec4f, 2>(odd, six_moments_to_even_texel(input.even, input.storage));
+    let decoded = six_moments_from_texels(encoded, input.storage);
     let biased = six_moments_apply_bias(moments, bias);
     let texels = array<vec4f, 2>(vec4f(input.odd_texel, 1.0), vec4f(input.even_texel, 1.0));
     let of_texels = six_moments_apply_bias(six_moments_from_texels(texels, input.storage), bias);

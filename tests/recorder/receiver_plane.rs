@@ -1,6 +1,6 @@
 //! Receivers that slope along the map: filters on the plain depth map compare each tap with the receiver's plane there.
 
-use moment_shadows::{AreaLight, DepthRange, ReceiverBias, TextureFormat};
+use moment_shadows::{AreaLight, DepthRange, LightSize, ReceiverBias, TextureFormat};
 use moment_shadows_lab::techniques;
 
 use crate::depth_map;
@@ -30,7 +30,13 @@ fn a_floor_that_slopes_either_way_is_lit_and_what_lies_behind_it_is_not() {
         far: 1.0,
     };
     let radii = 1.0..=6.0;
-    view.light = AreaLight::directional(1.0, [1.0 / f64::from(SIDE); 2], range, radii).unwrap();
+    view.light = AreaLight::new(
+        LightSize::AngularDiameter(1.0),
+        [1.0 / f64::from(SIDE); 2],
+        range,
+        radii,
+    )
+    .unwrap();
     for technique in techniques::reading_depth() {
         // Stored depth per texel along u and v. With both, neither sign nor axis is left to chance.
         for [u, v] in [[0.0, 0.01], [0.0, -0.01], [-0.008, 0.005_f32]] {

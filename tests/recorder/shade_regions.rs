@@ -254,7 +254,7 @@ fn searches_and_filters_of_soft_shadows_end_at_their_region() {
         far: 1.0,
     };
     // Penumbrae of up to 56 texels to either side: wider than the region.
-    let light = AreaLight::directional(1.0, [0.01; 2], range, radii).unwrap();
+    let light = AreaLight::new(LightSize::AngularDiameter(1.0), [0.01; 2], range, radii).unwrap();
     for caster_in_the_middle in [false, true] {
         let map = depth_map::of(&gpu, MAP, |x, y| {
             if inside(x, y) == caster_in_the_middle {

@@ -190,7 +190,7 @@ pub(crate) fn opened() -> Gpu {
 fn a_resolved_texel_is_the_nearest_to_the_mean_of_its_samples_in_every_storage() {
     let gpu = opened();
     let basis = six_moments();
-    for &storage in Technique::Hamburger6.storages() {
+    for &storage in Technique::Hamburger6.row().storages {
         let text = graph(storage, "\"kernel\": { \"radius\": 1 }", "downsample.map");
         for (layers, samples) in [(2, 1), (1, 4)] {
             let map = Map::new(&gpu, &text, layers, samples);
@@ -261,7 +261,7 @@ fn a_blur_is_the_filter_of_each_plane_within_each_region_in_every_storage() {
         ("\"kernel\": { \"radius\": 12, \"sigma\": 1.3 }", 12),
     ] {
         let weights = Kernel::gaussian(radius, 1.3).unwrap();
-        for &storage in Technique::Hamburger6.storages() {
+        for &storage in Technique::Hamburger6.row().storages {
             let text = graph(storage, kernel, "downsample.map");
             let map = Map::new(&gpu, &text, 2, 1);
             map.bound.run(&gpu);
@@ -293,7 +293,7 @@ fn a_blur_is_the_filter_of_each_plane_within_each_region_in_every_storage() {
 #[test]
 fn a_mip_level_is_the_mean_of_the_finer_one_in_each_plane_and_every_storage() {
     let gpu = opened();
-    for &storage in Technique::Hamburger6.storages() {
+    for &storage in Technique::Hamburger6.row().storages {
         let text = graph(storage, "\"kernel\": { \"radius\": 1 }", "downsample.map");
         let map = Map::new(&gpu, &text, 2, 1);
         map.bound.run(&gpu);
@@ -344,7 +344,7 @@ fn a_mip_level_is_the_mean_of_the_finer_one_in_each_plane_and_every_storage() {
 #[test]
 fn layers_and_texels_that_are_not_asked_for_keep_their_contents() {
     let gpu = opened();
-    for &storage in Technique::Hamburger6.storages() {
+    for &storage in Technique::Hamburger6.row().storages {
         let text = graph(storage, "\"kernel\": { \"radius\": 1 }", "downsample.map");
         let map = Map::new(&gpu, &text, 2, 1);
         map.bound.run(&gpu);

@@ -74,7 +74,7 @@ fn a_minified_lookup_averages_surfaces_whether_sampled_or_loaded() {
         anisotropic_sampling,
         ..device.clone()
     });
-    for &storage in Technique::Hamburger6.storages() {
+    for &storage in Technique::Hamburger6.row().storages {
         let alpha = storage.six_moments_bias().unwrap().alpha;
         let pictures = [&sampled, &loaded].map(|capabilities| shade(&gpu, capabilities, storage));
         for index in 0..32 * 24 {

@@ -1,6 +1,6 @@
 import moment_shadows::moments::enclosed_moments::{EnclosedMoments, enclosed_moments_bounds, enclosed_moments_of_occluder, enclosed_moments_sum, enclosed_moments_to_even_texel, enclosed_moments_to_odd_texel};
 import moment_shadows::bounds::hamburger6::{hamburger6_bounds};
-import moment_shadows::moments::six_moments::{SixMoments, six_moments_apply_bias, six_moments_bias_of, six_moments_from_depth, six_moments_from_texels, six_moments_to_texels};
+import moment_shadows::moments::six_moments::{SixMoments, six_moments_apply_bias, six_moments_bias_of, six_moments_from_depth, six_moments_from_texels, six_moments_to_even_texel, six_moments_to_odd_texel};
 import moment_shadows::map::storage::{STORAGE_UNORM16};
 
 // Bounds of occluders with weights, stored and read again: with their ends apart, and as one distribution; and of texels as
@@ -43,8 +43,9 @@ fn batch(input: BatchInput) -> BatchOutput {
     }
     let odd = kept(enclosed_moments_to_odd_texel(sums, input.storage), input.storage);
     let even = kept(enclosed_moments_to_even_texel(sums, input.storage), input.storage);
-    let texels = six_moments_to_texels(whole, input.storage);
-    let kept_whole = array<vec4f, 2>(kept(texels[0], input.storage), kept(texels[1], input.storage));
+    let whole_odd = six_moments_to_odd_texel(whole.odd, input.storage);
+    let whole_even = six_moments_to_even_texel(whole.even, input.storage);
+    let kept_whole = array<vec4f, 2>(kept(whole_odd, input.storage), kept(whole_even, input.storage));
     let bias = six_moments_bias_of(input.storage);
     let biased = six_moments_apply_bias(six_moments_from_texels(kept_whole, input.storage), bias);
     return BatchOutput(

@@ -88,7 +88,12 @@ pub(crate) fn limits(storage: Storage) -> Limits {
     let evsm = Technique::Evsm2 {
         exponent: Finite::ZERO,
     };
-    let of = |technique: Technique| technique.largest_exponent(storage).unwrap_or_default();
+    let of = |technique: Technique| {
+        technique
+            .row()
+            .largest_exponent(storage)
+            .unwrap_or_default()
+    };
     Limits {
         exponential: [EsmFiltering::Linear, EsmFiltering::Logarithmic].map(|it| of(esm(it))),
         exponential_variance: of(evsm),

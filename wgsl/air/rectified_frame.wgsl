@@ -1,4 +1,4 @@
-import super::super::maths::angle::{ANGLE_PI, angle_atan2, angle_finite, angle_sin_cos};
+import super::super::maths::angle::{ANGLE_PI, angle_atan2, angle_finite};
 
 // Rectified coordinates of a camera and a directional light, in which both view rays and light rays are lines along axes.
 //
@@ -48,17 +48,6 @@ fn rectified_frame_coordinates(position: vec3f) -> vec3f {
     return vec3f(radius, angle_atan2(y, x), angle_atan2(radius, z));
 }
 
-// The position that has the coordinates. On the light ray through the camera (inclination 0 or pi) the distance is unknown;
-// the camera's position stands for all of it.
-fn rectified_frame_position(coordinates: vec3f) -> vec3f {
-    let around = angle_sin_cos(coordinates.y);
-    let inclined = angle_sin_cos(clamp(angle_finite(coordinates.z), 0.0, ANGLE_PI));
-    let radius = rectified_frame_component(coordinates.x);
-    // sin(theta) of the f32 nearest to pi is -9e-8; no inclination has a smaller sine.
-    let along = select(0.0, radius * inclined.y / inclined.x, inclined.x > 1e-7);
-    return vec3f(radius * around.y, radius * around.x, along);
-}
-
 // The place of coordinates across the map's columns and rows, from 0 to 1. Azimuths outside the frame take its nearer end.
 fn rectified_frame_place(frame: RectifiedFrame, coordinates: vec3f) -> vec2f {
     let turn = 2.0 * ANGLE_PI;
@@ -80,11 +69,6 @@ fn rectified_frame_ray(frame: RectifiedFrame, place: vec2f) -> vec2f {
 fn rectified_frame_depth(frame: RectifiedFrame, inclination: f32) -> f32 {
     let extent = frame.largest_inclination - frame.smallest_inclination;
     return clamp(fma(2.0 / extent, frame.largest_inclination - inclination, -1.0), -1.0, 1.0);
-}
-
-// The inclination of a depth in [-1, 1].
-fn rectified_frame_inclination(frame: RectifiedFrame, depth: f32) -> f32 {
-    return mix(frame.largest_inclination, frame.smallest_inclination, 0.5 * depth + 0.5);
 }
 
 // The position of a pixel's surface, or of the point where its view ray reaches the far end. `device` is in normalised device

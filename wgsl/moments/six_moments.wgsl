@@ -108,11 +108,6 @@ fn six_moments_to_texel(mean: vec4f, plane: u32, storage: u32) -> vec4f {
     return six_moments_to_even_texel(mean.xyz, storage);
 }
 
-// Both texels to write in the storage.
-fn six_moments_to_texels(b: SixMoments, storage: u32) -> array<vec4f, 2> {
-    return array<vec4f, 2>(six_moments_to_odd_texel(b.odd, storage), six_moments_to_even_texel(b.even, storage));
-}
-
 // The moments in the two (filtered) texels of the storage, |b| < 1.05. Float storage can hold anything: channels beyond their
 // range count as its ends. Channels are clamped rather than moments, since the bias covers errors of channels; moments at the
 // ends of their ranges, one of which rounding has moved inwards, would need a bias ten times as large if the others were

@@ -56,14 +56,8 @@ fn moment_soft_shadows_mean(sums: texture_2d_array<u32>, table: MomentSoftShadow
     return summed_area_table_mean_plain(sums, table.layer, table.region, rectangle, table.unit);
 }
 
-// The rectangle that is searched for blockers: a blocker at the light's near end appears widest.
-fn moment_soft_shadows_search(table: MomentSoftShadowTable, receiver: MomentSoftShadowReceiver, light: AreaLight) -> SummedAreaTableRectangle {
-    let half_extent = max(area_light_box(light, -1.0, receiver.depth), receiver.footprint);
-    return summed_area_table_rectangle(table.region, receiver.place, half_extent, table.largest_kernel);
-}
-
-// The rectangle that is filtered for a mean blocker depth.
-fn moment_soft_shadows_filter(table: MomentSoftShadowTable, receiver: MomentSoftShadowReceiver, light: AreaLight, blocker_depth: f32) -> SummedAreaTableRectangle {
+// The rectangle that is filtered for a mean blocker depth; the widest, for -1, the light's near end, is searched for blockers.
+fn moment_soft_shadows_rectangle(table: MomentSoftShadowTable, receiver: MomentSoftShadowReceiver, light: AreaLight, blocker_depth: f32) -> SummedAreaTableRectangle {
     let half_extent = max(area_light_box(light, blocker_depth, receiver.depth), receiver.footprint);
     return summed_area_table_rectangle(table.region, receiver.place, half_extent, table.largest_kernel);
 }
@@ -80,10 +74,10 @@ fn moment_soft_shadows_fragment_depth(receiver: MomentSoftShadowReceiver, rectan
 // Shadow intensity in [0, 1] (1 = shadowed) of a receiver, from a table of four moments. `bias` is the table's
 // (`summed_area_encoding_moment_bias`). 8 loads, or 16 for a query that interpolates in place of 4.
 fn moment_soft_shadows_intensity(sums: texture_2d_array<u32>, table: MomentSoftShadowTable, bias: FourMomentsBias, receiver: MomentSoftShadowReceiver, light: AreaLight) -> f32 {
-    let search = moment_soft_shadows_search(table, receiver, light);
+    let search = moment_soft_shadows_rectangle(table, receiver, light, -1.0);
     let searched = four_moments_dequantize(moment_soft_shadows_mean(sums, table, search, table.search_interpolated));
     let blockers = soft_blockers_of_four_moments(four_moments_apply_bias(searched, bias), receiver.depth, bias.alpha);
-    let rectangle = moment_soft_shadows_filter(table, receiver, light, blockers.depth);
+    let rectangle = moment_soft_shadows_rectangle(table, receiver, light, blockers.depth);
     let filtered = four_moments_dequantize(moment_soft_shadows_mean(sums, table, rectangle, table.filter_interpolated));
     let depth = moment_soft_shadows_fragment_depth(receiver, rectangle);
     return hamburger4_lower_bound(four_moments_apply_bias(filtered, bias), depth, bias.alpha);
@@ -92,10 +86,10 @@ fn moment_soft_shadows_intensity(sums: texture_2d_array<u32>, table: MomentSoftS
 // Shadow intensity in [0, 1] (1 = shadowed) of a receiver, from a table of two moments. `smallest_variance` is the table's
 // (`summed_area_encoding_smallest_variance`). The loads are those of `moment_soft_shadows_intensity`.
 fn moment_soft_shadows_variance_intensity(sums: texture_2d_array<u32>, table: MomentSoftShadowTable, smallest_variance: f32, receiver: MomentSoftShadowReceiver, light: AreaLight) -> f32 {
-    let search = moment_soft_shadows_search(table, receiver, light);
+    let search = moment_soft_shadows_rectangle(table, receiver, light, -1.0);
     let searched = two_moments_from_texel(moment_soft_shadows_mean(sums, table, search, table.search_interpolated), STORAGE_UNORM16).xy;
     let blockers = soft_blockers_of_two_moments(searched, receiver.depth, smallest_variance);
-    let rectangle = moment_soft_shadows_filter(table, receiver, light, blockers.depth);
+    let rectangle = moment_soft_shadows_rectangle(table, receiver, light, blockers.depth);
     let filtered = two_moments_from_texel(moment_soft_shadows_mean(sums, table, rectangle, table.filter_interpolated), STORAGE_UNORM16).xy;
     return chebyshev_lower_bound(filtered, moment_soft_shadows_fragment_depth(receiver, rectangle), smallest_variance);
 }

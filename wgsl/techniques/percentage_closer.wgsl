@@ -62,15 +62,12 @@ fn percentage_closer_binary(map: texture_depth_2d_array, layer: u32, region: Map
     return percentage_closer_tap(map, layer, region, plane, conversion, vec2i(plane.uv * vec2f(region.extent)));
 }
 
-// Where a kernel is centred: at the nearest texel, or, interpolated as in a bilinear lookup, between the four nearest ones.
-fn percentage_closer_place(region: MapRegion, plane: ReceiverPlane, interpolated: bool) -> PercentageCloserPlace {
+// Where a kernel is centred: between the four nearest texels, as a bilinear lookup is.
+fn percentage_closer_place(region: MapRegion, plane: ReceiverPlane) -> PercentageCloserPlace {
     let extent = max(vec2f(region.extent), vec2f(1.0));
     let place = clamp(plane.uv * extent, vec2f(0.5), extent - 0.5);
     let low = floor(place - 0.5);
-    if interpolated {
-        return PercentageCloserPlace(vec2i(low), place - 0.5 - low);
-    }
-    return PercentageCloserPlace(vec2i(place), vec2f(0.0));
+    return PercentageCloserPlace(vec2i(low), place - 0.5 - low);
 }
 
 // The weight of an offset along one axis: the Gaussian, or 1 for a sigma of 0, up to the radius `reach`.
@@ -84,28 +81,27 @@ fn percentage_closer_weight(offset: i32, reach: i32, sigma: f32) -> f32 {
     return gaussian_weight(f32(offset), sigma);
 }
 
-// Shadow intensity with equal weights: n x n texels with n = 2 radius + 1. `radius` from 0 to 64. Interpolated, results are
+// Shadow intensity with equal weights: n x n texels with n = 2 radius + 1. `radius` from 0 to 64. Results are
 // blended as a bilinear lookup in a filtered map does, with n + 1 taps along each axis.
-fn percentage_closer_box(map: texture_depth_2d_array, layer: u32, region: MapRegion, plane: ReceiverPlane, conversion: DepthConversion, radius: i32, interpolated: bool) -> f32 {
-    return percentage_closer_filter(map, layer, region, plane, conversion, radius, 0.0, interpolated);
+fn percentage_closer_box(map: texture_depth_2d_array, layer: u32, region: MapRegion, plane: ReceiverPlane, conversion: DepthConversion, radius: i32) -> f32 {
+    return percentage_closer_filter(map, layer, region, plane, conversion, radius, 0.0);
 }
 
 // Shadow intensity with the weights of a Gaussian of standard deviation `sigma` > 0 texels, cut off at `radius`; a smaller
-// sigma counts as 1e-3. `radius` and `interpolated` are as in `percentage_closer_box`.
-fn percentage_closer_gaussian(map: texture_depth_2d_array, layer: u32, region: MapRegion, plane: ReceiverPlane, conversion: DepthConversion, radius: i32, sigma: f32, interpolated: bool) -> f32 {
-    return percentage_closer_filter(map, layer, region, plane, conversion, radius, max(sigma, 1e-3), interpolated);
+// sigma counts as 1e-3. `radius` and blending are as in `percentage_closer_box`.
+fn percentage_closer_gaussian(map: texture_depth_2d_array, layer: u32, region: MapRegion, plane: ReceiverPlane, conversion: DepthConversion, radius: i32, sigma: f32) -> f32 {
+    return percentage_closer_filter(map, layer, region, plane, conversion, radius, max(sigma, 1e-3));
 }
 
 // Shadow intensity with equal weights or those of a Gaussian: a sigma of 0 stands for equal weights.
-fn percentage_closer_filter(map: texture_depth_2d_array, layer: u32, region: MapRegion, plane: ReceiverPlane, conversion: DepthConversion, radius: i32, sigma: f32, interpolated: bool) -> f32 {
+fn percentage_closer_filter(map: texture_depth_2d_array, layer: u32, region: MapRegion, plane: ReceiverPlane, conversion: DepthConversion, radius: i32, sigma: f32) -> f32 {
     let reach = clamp(radius, 0, PERCENTAGE_CLOSER_LARGEST_RADIUS);
-    let place = percentage_closer_place(region, plane, interpolated);
-    let end = reach + select(0, 1, interpolated);
+    let place = percentage_closer_place(region, plane);
     var sum = 0.0;
     var total = 0.0;
-    for (var y = -reach; y <= end; y++) {
+    for (var y = -reach; y <= reach + 1; y++) {
         let row = mix(percentage_closer_weight(y, reach, sigma), percentage_closer_weight(y - 1, reach, sigma), place.fraction.y);
-        for (var x = -reach; x <= end; x++) {
+        for (var x = -reach; x <= reach + 1; x++) {
             let column = mix(percentage_closer_weight(x, reach, sigma), percentage_closer_weight(x - 1, reach, sigma), place.fraction.x);
             sum = fma(row * column, percentage_closer_tap(map, layer, region, plane, conversion, place.base + vec2i(x, y)), sum);
             total = fma(row, column, total);
@@ -125,16 +121,15 @@ fn percentage_closer_kernel_weight(weights: ptr<function, array<vec4f, 33>>, off
 }
 
 // Shadow intensity with any separable kernel. Without a positive weight nothing is shadowed.
-fn percentage_closer_kernel(map: texture_depth_2d_array, layer: u32, region: MapRegion, plane: ReceiverPlane, conversion: DepthConversion, kernel: PercentageCloserKernel, interpolated: bool) -> f32 {
+fn percentage_closer_kernel(map: texture_depth_2d_array, layer: u32, region: MapRegion, plane: ReceiverPlane, conversion: DepthConversion, kernel: PercentageCloserKernel) -> f32 {
     let reach = i32(min(kernel.radius, u32(PERCENTAGE_CLOSER_LARGEST_RADIUS)));
     var weights = kernel.weights;
-    let place = percentage_closer_place(region, plane, interpolated);
-    let end = reach + select(0, 1, interpolated);
+    let place = percentage_closer_place(region, plane);
     var sum = 0.0;
     var total = 0.0;
-    for (var y = -reach; y <= end; y++) {
+    for (var y = -reach; y <= reach + 1; y++) {
         let row = mix(percentage_closer_kernel_weight(&weights, y, reach), percentage_closer_kernel_weight(&weights, y - 1, reach), place.fraction.y);
-        for (var x = -reach; x <= end; x++) {
+        for (var x = -reach; x <= reach + 1; x++) {
             let column = mix(percentage_closer_kernel_weight(&weights, x, reach), percentage_closer_kernel_weight(&weights, x - 1, reach), place.fraction.x);
             sum = fma(row * column, percentage_closer_tap(map, layer, region, plane, conversion, place.base + vec2i(x, y)), sum);
             total = fma(row, column, total);

@@ -1,5 +1,6 @@
 import super::super::map::depth::{DepthConversion, depth_from_moment_depth};
 import super::super::map::map_region::{MapRegion};
+import super::super::techniques::percentage_closer::{PERCENTAGE_CLOSER_LARGEST_RADIUS};
 import super::super::shade::receiver_plane::{ReceiverPlane, receiver_plane_depth};
 
 // Percentage closer filtering by comparison samplers: each tap tests 2 x 2 texels and blends the results, as hardware does
@@ -7,9 +8,6 @@ import super::super::shade::receiver_plane::{ReceiverPlane, receiver_plane_depth
 //
 // The sampler filters linearly, and its comparison tells whether a texel is nearer to the light than the reference value:
 // `greater` (reference > texel) where stored depth grows away from the light, `less` where it is reversed.
-
-// The largest radius of a kernel in texels.
-const PERCENTAGE_CLOSER_HARDWARE_LARGEST_RADIUS: i32 = 64;
 
 // How far, in texels, taps keep from the border of a region beyond the half texel that a filter reaches: coordinates are
 // rounded, and by less than that in maps of up to 16384 texels. A region a single texel wide has no room for it.
@@ -36,7 +34,7 @@ fn percentage_closer_hardware_box(map: texture_depth_2d_array, comparison: sampl
     if any(region.extent == vec2u(0u)) {
         return 0.0;
     }
-    let reach = clamp(radius, 0, PERCENTAGE_CLOSER_HARDWARE_LARGEST_RADIUS);
+    let reach = clamp(radius, 0, PERCENTAGE_CLOSER_LARGEST_RADIUS);
     let extent = vec2f(region.extent);
     let low = min(vec2f(0.5 + PERCENTAGE_CLOSER_HARDWARE_INSET), 0.5 * extent);
     let centre = clamp(plane.uv * extent, low, extent - low);

@@ -156,7 +156,7 @@ impl TechniqueChoice {
     fn named(name: &str) -> Option<Self> {
         let mut candidates = known();
         candidates.retain(|(known, _)| known == name);
-        let order = candidates.first()?.1.technique()?.storages();
+        let order = candidates.first()?.1.technique()?.row().storages;
         candidates.sort_by_key(|(_, it)| order.iter().position(|&of| Some(of) == it.storage()));
         Some(Self {
             candidates: candidates.into_iter().map(|(_, it)| it).collect(),
@@ -168,7 +168,7 @@ impl TechniqueChoice {
         technique.check()?;
         let mut candidates = Vec::new();
         let mut refused = Ok(());
-        for &storage in technique.storages() {
+        for &storage in technique.row().storages {
             match MapEncoding::new(technique.clone(), storage) {
                 Ok(encoding) => candidates.push(Candidate::Filterable(encoding)),
                 Err(error) => refused = refused.and(Err(error)),

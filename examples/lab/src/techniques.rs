@@ -24,7 +24,7 @@ pub fn filterable() -> Vec<MapEncoding> {
 
 /// The technique with exponents that the storage allows.
 fn fitted(technique: Technique, storage: Storage) -> Technique {
-    let largest = technique.largest_exponent(storage);
+    let largest = technique.row().largest_exponent(storage);
     let fit = |wished: Finite| match largest.map(Finite::new) {
         Some(Ok(largest)) if largest < wished => largest,
         _ => wished,

@@ -48,9 +48,9 @@ impl BiasTechnique {
     #[must_use]
     pub fn storages(self) -> &'static [Storage] {
         match self {
-            BiasTechnique::Hamburger4 => Technique::Hamburger4.storages(),
-            BiasTechnique::Hausdorff4 => Technique::Hausdorff4.storages(),
-            BiasTechnique::Hamburger6 => Technique::Hamburger6.storages(),
+            BiasTechnique::Hamburger4 => Technique::Hamburger4.row().storages,
+            BiasTechnique::Hausdorff4 => Technique::Hausdorff4.row().storages,
+            BiasTechnique::Hamburger6 => Technique::Hamburger6.row().storages,
         }
     }
 }

@@ -149,7 +149,7 @@ pub(super) fn of_technique(map: &MapEncoding) -> Vec<Variant> {
     let suffix = format!("{}_{}", techniques::label(map.technique()), map.storage());
     let mut all = Vec::new();
     // A map that several techniques read is made and filtered alike for all of them.
-    let reads = |other: &Technique| other.shares_map_with(map.technique());
+    let reads = |other: &Technique| other.row().shares_map_with(&map.technique().row());
     let first = Technique::examples().into_iter().find(reads);
     if first.is_none_or(|first| first.name() == map.technique().name()) {
         let name = format!("resolve_{suffix}");

@@ -48,7 +48,7 @@ pub(super) fn of_four_moments(input: Input, random: &mut ChaCha8Rng) -> Input {
 
 /// A Gauss node of three points for the moments of the mixture, with the bias of a storage of six moments.
 pub(super) fn of_six_moments(input: Input, random: &mut ChaCha8Rng) -> Input {
-    let storages = Technique::Hamburger6.storages();
+    let storages = Technique::Hamburger6.row().storages;
     let storage = storages[random.random_range(0..storages.len())];
     let which = random.random_range(0..3);
     let Some(bias) = storage.six_moments_bias() else {

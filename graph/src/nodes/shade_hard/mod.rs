@@ -118,7 +118,7 @@ impl ShadeHard {
         let (map, encoding) = moments()?;
         let made_for = encoding.technique();
         let technique = given.unwrap_or(made_for);
-        if !technique.shares_map_with(made_for) {
+        if !technique.row().shares_map_with(&made_for.row()) {
             let message = format!(
                 "the map was made for '{made_for}', with its settings; '{technique}' cannot read it: give the node that makes it \
                  the same 'technique', or leave it out here"

@@ -35,7 +35,11 @@ pub(in crate::nodes) fn of_four_moments<'a>(
     what: &str,
 ) -> Result<(&'a TextureDesc, MapEncoding), GraphError> {
     let (map, encoding) = connected(upstream, "map")?;
-    if encoding.technique().shares_map_with(&Technique::Hamburger4) {
+    if encoding
+        .technique()
+        .row()
+        .shares_map_with(&Technique::Hamburger4.row())
+    {
         return Ok((map, encoding));
     }
     Err(wrong_format(format!(
