@@ -159,9 +159,15 @@ impl Storage {
         if self.can_write(format, profile) {
             return Ok(());
         }
+        // By wgpu's name: what a host asks a device for.
+        let feature = if self == Storage::Unorm16 && profile == Profile::WebgpuCore {
+            "TEXTURE_FORMAT_16BIT_NORM"
+        } else {
+            "TEXTURE_ADAPTER_SPECIFIC_FORMAT_FEATURES"
+        };
         let message = format!(
-            "storage '{self}' needs {format} as a storage texture, which the profile {profile} does not offer; \
-             use storage '{alternative}' instead"
+            "storage '{self}' needs {format} as a storage texture, which the profile {profile} does not offer; request the \
+             device with the feature {feature}, or use storage '{alternative}' instead"
         );
         Err(ValueError::new("storage", message))
     }

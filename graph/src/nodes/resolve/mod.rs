@@ -63,7 +63,7 @@ impl Resolve {
     /// [`ValueError`], if the technique has not one of the storages, or its settings are out of range.
     pub fn encoding(&self, profile: Profile) -> Result<MapEncoding, ValueError> {
         let storages = match self.storage.as_slice() {
-            [] => self.technique.storages(),
+            [] => self.technique.row().storages,
             given => given,
         };
         let encodings = storages
