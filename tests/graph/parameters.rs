@@ -43,13 +43,13 @@ fn parameters_are_aligned_to_the_device_and_do_not_overlap() {
         .iter()
         .map(|block| (block.node.as_str(), block.offset, block.size, block.count))
         .collect();
-    // 32 bytes of a conversion for each of three layers, the regions of each, 656 of a kernel, 208 of a view.
+    // 32 bytes of a conversion for each of three layers, the regions of each, 656 of a kernel, 224 of a view.
     assert_eq!(
         blocks,
         [
             ("resolve", 0, 32, 3),
             ("blur", 1536, 656, 1),
-            ("shade", 2304, 208, 1)
+            ("shade", 2304, 224, 1)
         ]
     );
 }
