@@ -1,6 +1,7 @@
 //! Pipelines, one per distinct shader text, constants and formats.
 
 use std::collections::HashMap;
+use std::collections::hash_map::Entry;
 
 use wgpu::BlendFactor;
 
@@ -167,11 +168,11 @@ impl Pipelines {
                 keys.push(drawn);
             }
             for key in keys {
-                if !self.pipelines.contains_key(&key) {
-                    let create = || key.create(device, &label, options.cache.as_ref());
+                if let Entry::Vacant(place) = self.pipelines.entry(key) {
+                    let create = || place.key().create(device, &label, options.cache.as_ref());
                     let pipeline = scoped(device, &label, create).await?;
                     check_alive(device)?;
-                    self.pipelines.insert(key, pipeline);
+                    place.insert(pipeline);
                     made += 1;
                 }
             }
