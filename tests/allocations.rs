@@ -72,7 +72,7 @@ fn plan(gpu: &Gpu, draws: bool) -> Plan {
 fn bound(
     gpu: &Gpu,
     plan: &Plan,
-    imports: &[(&str, ImportedResource<'_>)],
+    imports: &[(&str, ImportedResource)],
     parameters: &wgpu::Buffer,
 ) -> Bindings {
     let device = &gpu.device;

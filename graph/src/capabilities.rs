@@ -52,15 +52,11 @@ impl Capabilities {
     /// What can be done with a format.
     #[must_use]
     pub fn support(&self, format: TextureFormat) -> FormatSupport {
-        let support = format.support(self.profile);
-        let float32 = matches!(
-            format,
-            TextureFormat::R32Float | TextureFormat::Rg32Float | TextureFormat::Rgba32Float
-        );
-        FormatSupport {
-            filterable: support.filterable || (float32 && self.float32_filterable),
-            ..support
-        }
+        use TextureFormat::{R32Float, Rg32Float, Rgba32Float};
+        let mut support = format.support(self.profile);
+        let is_float32 = matches!(format, R32Float | Rg32Float | Rgba32Float);
+        support.filterable |= is_float32 && self.float32_filterable;
+        support
     }
 
     /// What a device offers. The profile follows from the device's features; the limits are the device's.
@@ -80,14 +76,10 @@ impl Capabilities {
         let flags = adapter
             .get_texture_format_features(wgpu::TextureFormat::Depth32Float)
             .flags;
-        let depth_samples = [1, 2, 4, 8]
-            .into_iter()
-            .filter(|&count| {
-                count == 1
-                    || count == 4
-                    || (adapter_specific && flags.sample_count_supported(count))
-            })
-            .collect();
+        let mut depth_samples = vec![1, 2, 4, 8];
+        depth_samples.retain(|&count| {
+            [1, 4].contains(&count) || (adapter_specific && flags.sample_count_supported(count))
+        });
         let software_adapter = adapter.get_info().device_type == wgpu::DeviceType::Cpu;
         let limits = device.limits();
         Self {

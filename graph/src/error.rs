@@ -148,11 +148,8 @@ pub(crate) fn ensure<M: Into<String>>(
     kind: GraphErrorKind,
     message: impl FnOnce() -> M,
 ) -> Result<(), GraphError> {
-    if holds {
-        Ok(())
-    } else {
-        Err(GraphError::new(kind, message()))
-    }
+    let held = holds.then_some(());
+    held.ok_or_else(|| GraphError::new(kind, message()))
 }
 
 /// The error about a name that is none of the `known` ones.

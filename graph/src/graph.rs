@@ -15,7 +15,7 @@ pub(crate) const VERSION: u32 = 2;
 const LARGEST_FILE: usize = 1 << 20;
 
 /// A graph: nodes, and what connects them to each other and to the host.
-#[derive(Debug)]
+#[derive(Debug, Default)]
 pub struct Graph {
     /// What the host owns and gives, as the graph expects it; a host's own description takes its place.
     pub imports: Vec<Named<Option<ResourceDesc>>>,
@@ -58,6 +58,11 @@ impl<T> Named<T> {
             position: Some(position),
             ..self
         }
+    }
+
+    /// An error, said of this node.
+    pub(crate) fn placed(&self, error: GraphError) -> GraphError {
+        error.at_node(&self.name).at_position(self.position)
     }
 }
 
@@ -132,29 +137,24 @@ impl Graph {
             )
         })?;
         let FileVersion { version } = read(text, text)?;
-        ensure(
-            (1..=VERSION).contains(&version),
-            GraphErrorKind::Version,
-            || {
-                format!(
-                    "the file has version {version}, this library reads versions 1 to {VERSION}; use a library of the file's version"
-                )
-            },
-        )?;
+        let known = (1..=VERSION).contains(&version);
+        ensure(known, GraphErrorKind::Version, || {
+            format!(
+                "the file has version {version}, this library reads versions 1 to {VERSION}; use a library of the file's version"
+            )
+        })?;
         let file: File<'_> = read(text, text)?;
         let mut renamed = (version == 1).then(Renamed::default);
         let mut graph = Self {
             imports: each(text, &file.imports, read_import)?,
-            nodes: each(text, &file.nodes, |text, raw, position| {
-                read_node(text, raw, position, registry, renamed.as_mut())
+            nodes: each(text, &file.nodes, |raw: &RawValue, position| {
+                read_node(text, raw.get(), position, registry, renamed.as_mut())
             })?,
-            edges: each(text, &file.edges, |text, raw, position| {
-                let edge: Edge = read(text, raw)?;
+            edges: each(text, &file.edges, |edge: Edge, position| {
                 let position = Some(position);
                 Ok(Edge { position, ..edge })
             })?,
-            outputs: each(text, &file.outputs, |text, raw, position| {
-                let output: FileOutput = read(text, raw)?;
+            outputs: each(text, &file.outputs, |output: FileOutput, position| {
                 Ok(Named::new(output.name, output.from).at(position))
             })?,
             notes: Vec::new(),
@@ -179,10 +179,10 @@ impl core::str::FromStr for Graph {
     }
 }
 
-fn each<T>(
+fn each<'a, F: Deserialize<'a>, T>(
     text: &str,
-    values: &[&RawValue],
-    mut one: impl FnMut(&str, &str, Position) -> Result<T, GraphError>,
+    values: &[&'a RawValue],
+    mut one: impl FnMut(F, Position) -> Result<T, GraphError>,
 ) -> Result<Vec<T>, GraphError> {
     let (mut position, mut offset) = (Position::START, 0);
     values
@@ -191,7 +191,7 @@ fn each<T>(
             let begin = offset_in(text, raw.get());
             position = position.after(text.as_bytes().get(offset..begin).unwrap_or_default());
             offset = begin;
-            one(text, raw.get(), position)
+            one(read(text, raw.get())?, position)
         })
         .collect()
 }
@@ -229,11 +229,9 @@ fn sentence(error: &serde_json::Error) -> String {
 }
 
 fn read_import(
-    text: &str,
-    raw: &str,
+    import: FileImport,
     position: Position,
 ) -> Result<Named<Option<ResourceDesc>>, GraphError> {
-    let import: FileImport = read(text, raw)?;
     let both = import.texture.is_some() && import.buffer_size.is_some();
     ensure(!both, GraphErrorKind::Syntax, || {
         format!(
@@ -295,13 +293,8 @@ fn refused(type_name: &str, error: &serde_json::Error) -> Option<GraphError> {
 
 /// The name of a node whose description is wrong elsewhere.
 fn name_of(raw: &str) -> Option<String> {
-    #[derive(Deserialize)]
-    struct Named {
-        name: String,
-    }
-    serde_json::from_str(raw)
-        .ok()
-        .map(|named: Named| named.name)
+    let node: serde_json::Value = serde_json::from_str(raw).ok()?;
+    Some(node["name"].as_str()?.to_owned())
 }
 
 fn unknown_type(type_name: &str, registry: &NodeRegistry) -> GraphError {

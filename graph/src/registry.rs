@@ -1,17 +1,16 @@
 //! Node types by name: ours, and a host's own.
 
 use std::collections::BTreeMap;
-use std::sync::Arc;
 
 use serde::de::DeserializeOwned;
 
 use crate::{Node, nodes};
 
 /// Makes a node of its properties, which are JSON text.
-type Factory = Arc<dyn Fn(&str) -> Result<Box<dyn Node>, serde_json::Error> + Send + Sync>;
+type Factory = fn(&str) -> Result<Box<dyn Node>, serde_json::Error>;
 
 /// The node types that a graph file can name.
-#[derive(Clone)]
+#[derive(Clone, Debug)]
 pub struct NodeRegistry {
     factories: BTreeMap<String, Factory>,
 }
@@ -30,10 +29,7 @@ impl NodeRegistry {
     /// Adds a node type, whose properties are what `N` deserialises from. It should deny unknown fields. A type of the
     /// same name is replaced.
     pub fn register<N: Node + DeserializeOwned + 'static>(&mut self, type_name: &str) {
-        let factory: Factory = Arc::new(|properties| {
-            let node: N = serde_json::from_str(properties)?;
-            Ok(Box::new(node))
-        });
+        let factory: Factory = |properties| Ok(Box::new(serde_json::from_str::<N>(properties)?));
         self.factories.insert(type_name.to_owned(), factory);
     }
 
@@ -48,20 +44,13 @@ impl NodeRegistry {
         type_name: &str,
         properties: &str,
     ) -> Option<Result<Box<dyn Node>, serde_json::Error>> {
-        self.factories
-            .get(type_name)
-            .map(|factory| factory(properties))
+        let factory = self.factories.get(type_name)?;
+        Some(factory(properties))
     }
 }
 
 impl Default for NodeRegistry {
     fn default() -> Self {
         Self::new()
-    }
-}
-
-impl core::fmt::Debug for NodeRegistry {
-    fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
-        f.debug_set().entries(self.factories.keys()).finish()
     }
 }

@@ -109,22 +109,15 @@ impl TextureDesc {
 impl fmt::Display for TextureDesc {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         write!(f, "{} {}x{}", self.format, self.size[0], self.size[1])?;
-        if self.layers > 1 {
-            write!(f, " x {} layers", self.layers)?;
-        }
-        if self.planes > 1 {
-            write!(f, " of {} planes", self.planes)?;
-        }
-        if self.mips > 1 {
-            write!(f, ", {} mips", self.mips)?;
-        }
-        if self.regions > 1 {
-            write!(f, ", {} regions", self.regions)?;
-        }
-        if self.samples > 1 {
-            write!(f, ", {} samples", self.samples)?;
-        }
-        Ok(())
+        let counts = [
+            (" x", self.layers, "layers"),
+            (" of", self.planes, "planes"),
+            (",", self.mips, "mips"),
+            (",", self.regions, "regions"),
+            (",", self.samples, "samples"),
+        ];
+        let mut several = counts.into_iter().filter(|(_, count, _)| *count > 1);
+        several.try_for_each(|(joined, count, what)| write!(f, "{joined} {count} {what}"))
     }
 }
 

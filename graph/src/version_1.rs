@@ -82,10 +82,10 @@ impl Graph {
                 node["type"] = renamed.type_name(name, old).into();
             }
         }
-        for (list, ends) in [("edges", ["from", "to"].as_slice()), ("outputs", &["from"])] {
+        for list in ["edges", "outputs"] {
             for connection in array(file, list) {
-                for end in ends {
-                    if let Some(Value::String(end)) = connection.get_mut(*end) {
+                for end in ["from", "to"] {
+                    if let Some(Value::String(end)) = connection.get_mut(end) {
                         renamed.endpoint(end);
                     }
                 }

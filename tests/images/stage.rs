@@ -140,8 +140,8 @@ impl Stage {
             &pipelines,
             &resources,
             &[
-                ("light_depth", ImportedResource::Texture(&light_map.texture)),
-                ("camera_depth", ImportedResource::Texture(&surface.depth)),
+                ("light_depth", ImportedResource::from(&light_map.texture)),
+                ("camera_depth", ImportedResource::from(&surface.depth)),
             ],
             Some(&parameters),
         ))

@@ -41,7 +41,7 @@ fn picture(gpu: &Gpu, show: &str, moments: &[[f32; 4]]) -> Vec<[u8; 4]> {
         wgpu::util::TextureDataOrder::LayerMajor,
         bytemuck::cast_slice(moments),
     );
-    let bound = bind(gpu, plan, &[("map", ImportedResource::Texture(&map))], &[]);
+    let bound = bind(gpu, plan, &[("map", ImportedResource::from(&map))], &[]);
     bound.run(gpu);
     bytemuck::pod_collect_to_vec(&bound.read(gpu, "picture", 0))
 }

@@ -53,8 +53,8 @@ pub(crate) fn picture(
     let mut bytes = plan.parameters.initial();
     plan.parameters.write(&mut bytes, "shade", 0, view).unwrap();
     let imports = [
-        ("light_depth", ImportedResource::Texture(map)),
-        ("camera_depth", ImportedResource::Texture(camera)),
+        ("light_depth", ImportedResource::from(map)),
+        ("camera_depth", ImportedResource::from(camera)),
     ];
     let bound = bind(gpu, plan, &imports, &bytes);
     bound.run(gpu);

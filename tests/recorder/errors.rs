@@ -38,7 +38,7 @@ pub(crate) fn is_wrong(error: &GraphError, says: &str) {
 }
 
 /// The error of binding the example to these imports.
-fn refused(gpu: &Gpu, imports: &[(&str, ImportedResource<'_>)]) -> GraphError {
+fn refused(gpu: &Gpu, imports: &[(&str, ImportedResource)]) -> GraphError {
     let plan = plan(gpu);
     let bytes = plan.parameters.initial();
     try_bind(gpu, plan, imports, &bytes).err().unwrap()
@@ -48,8 +48,8 @@ fn refused(gpu: &Gpu, imports: &[(&str, ImportedResource<'_>)]) -> GraphError {
 fn imports_have_to_be_there_and_as_the_plan_describes_them() {
     let gpu = gpu();
     let good = depth(&gpu);
-    let camera = ("camera_depth", ImportedResource::Texture(&good));
-    let missing = refused(&gpu, &[camera]);
+    let camera = ("camera_depth", ImportedResource::from(&good));
+    let missing = refused(&gpu, std::slice::from_ref(&camera));
     assert_eq!(
         missing,
         GraphError::new(
@@ -82,7 +82,10 @@ fn imports_have_to_be_there_and_as_the_plan_describes_them() {
     for (texture, given) in &wrong {
         let error = refused(
             &gpu,
-            &[("light_depth", ImportedResource::Texture(texture)), camera],
+            &[
+                ("light_depth", ImportedResource::from(texture)),
+                camera.clone(),
+            ],
         );
         let says = format!(
             "import 'light_depth' is {given}, but the plan was compiled for depth32float 32x24; compile the graph for what is bound"
@@ -101,14 +104,20 @@ fn imports_have_to_be_there_and_as_the_plan_describes_them() {
     });
     let error = refused(
         &gpu,
-        &[("light_depth", ImportedResource::Texture(&unbound)), camera],
+        &[
+            ("light_depth", ImportedResource::from(&unbound)),
+            camera.clone(),
+        ],
     );
     is_wrong(&error, "is without the usage");
     is_wrong(&error, "TEXTURE_BINDING");
     let buffer = uniform(&gpu, &[]);
     let error = refused(
         &gpu,
-        &[("light_depth", ImportedResource::Buffer(&buffer)), camera],
+        &[
+            ("light_depth", ImportedResource::Buffer(buffer)),
+            camera.clone(),
+        ],
     );
     is_wrong(&error, "is a buffer,");
 }
@@ -163,28 +172,28 @@ fn a_buffer_import_has_the_size_and_usage_of_storage() {
         })
     };
     let with =
-        |import: ImportedResource<'_>| try_bind(&gpu, plan.clone(), &[("data", import)], &[]).err();
+        |import: ImportedResource| try_bind(&gpu, plan.clone(), &[("data", import)], &[]).err();
     assert_eq!(
-        with(ImportedResource::Buffer(&buffer(
+        with(ImportedResource::Buffer(buffer(
             64,
             wgpu::BufferUsages::STORAGE
         ))),
         None
     );
-    let small = with(ImportedResource::Buffer(&buffer(
+    let small = with(ImportedResource::Buffer(buffer(
         32,
         wgpu::BufferUsages::STORAGE,
     )))
     .unwrap();
     is_wrong(&small, "is a buffer of 32 bytes");
-    let usage = with(ImportedResource::Buffer(&buffer(
+    let usage = with(ImportedResource::Buffer(buffer(
         64,
         wgpu::BufferUsages::COPY_DST,
     )))
     .unwrap();
     is_wrong(&usage, "compiled for buffer of 64 bytes;");
     let texture = depth(&gpu);
-    let kind = with(ImportedResource::Texture(&texture)).unwrap();
+    let kind = with(ImportedResource::from(&texture)).unwrap();
     is_wrong(&kind, "is a texture,");
 }
 
@@ -195,8 +204,8 @@ fn pipelines_and_resources_belong_to_their_plan() {
     let plan = plan(&gpu);
     let map = depth(&gpu);
     let imports = [
-        ("light_depth", ImportedResource::Texture(&map)),
-        ("camera_depth", ImportedResource::Texture(&map)),
+        ("light_depth", ImportedResource::from(&map)),
+        ("camera_depth", ImportedResource::from(&map)),
     ];
     let parameters = uniform(&gpu, &plan.parameters.initial());
     let resources = block_on(Resources::create(device, &plan)).unwrap();

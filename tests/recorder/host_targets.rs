@@ -56,10 +56,10 @@ fn a_multisampled_pass_with_depth_is_darkened_within_its_viewport() {
         ..HostTarget::darkened(wgpu::TextureFormat::Rgba8Unorm)
     };
     let options = PipelineOptions {
-        host_targets: &[(PASS, target)],
+        host_targets: vec![(PASS.to_owned(), target)],
         ..PipelineOptions::default()
     };
-    let mut pipelines = block_on(Pipelines::create(&gpu.device, &plan, options)).unwrap();
+    let mut pipelines = block_on(Pipelines::create(&gpu.device, &plan, options.clone())).unwrap();
     let of_plan = Pipelines::create(&gpu.device, &plan, PipelineOptions::default());
     assert_eq!(pipelines.len(), block_on(of_plan).unwrap().len() + 1);
     let again = block_on(pipelines.extend(&gpu.device, &plan, options));
@@ -68,8 +68,8 @@ fn a_multisampled_pass_with_depth_is_darkened_within_its_viewport() {
     let light = depth_map::of(&gpu, MAP, |x, y| if x + y < 20 { 0.2 } else { 1.0 });
     let camera = depth_map::of(&gpu, PICTURE, |_, _| 0.7);
     let imports = [
-        ("light_depth", ImportedResource::Texture(&light)),
-        ("camera_depth", ImportedResource::Texture(&camera)),
+        ("light_depth", ImportedResource::from(&light)),
+        ("camera_depth", ImportedResource::from(&camera)),
     ];
     let resources = block_on(Resources::create(&gpu.device, &plan)).unwrap();
     let parameters = uniform(&gpu, &block(&plan, &aligned_view(0)));
@@ -159,7 +159,7 @@ fn a_target_for_no_fullscreen_pass_is_an_error() {
     let target = HostTarget::new(wgpu::TextureFormat::Rgba8Unorm);
     for pass in ["shade", "resolve/resolve"] {
         let options = PipelineOptions {
-            host_targets: &[(pass, target)],
+            host_targets: vec![(pass.to_owned(), target)],
             ..PipelineOptions::default()
         };
         let refused = block_on(Pipelines::create(&gpu.device, &plan, options));

@@ -56,7 +56,7 @@ fn layers_of_an_array_that_are_not_dirty_keep_their_contents() {
     let bound = bind(
         &gpu,
         plan,
-        &[("light_depth", ImportedResource::Texture(&map))],
+        &[("light_depth", ImportedResource::from(&map))],
         &bytes,
     );
     draw(0);
@@ -92,7 +92,7 @@ fn multisampled_layers_are_a_list_of_textures() {
         }
     };
     let bytes = plan.parameters.initial();
-    let imports = [("light_depth", ImportedResource::Layers(&maps))];
+    let imports = [("light_depth", ImportedResource::Layers(maps.clone()))];
     let bound = bind(&gpu, plan.clone(), &imports, &bytes);
     draw(0);
     bound.run(&gpu);
@@ -102,7 +102,7 @@ fn multisampled_layers_are_a_list_of_textures() {
     let after = layers_of(&gpu, &bound);
     assert_eq!(before[..2], after[..2]);
     assert_ne!(before[2], after[2]);
-    let two = [("light_depth", ImportedResource::Layers(&maps[..2]))];
+    let two = [("light_depth", ImportedResource::Layers(maps[..2].to_vec()))];
     let error = crate::setup::try_bind(&gpu, plan, &two, &bytes)
         .err()
         .unwrap();
@@ -125,8 +125,8 @@ fn single_sampled_layers_may_be_a_list_too() {
         })
         .collect();
     let pictures = [
-        ImportedResource::Texture(&array),
-        ImportedResource::Layers(&list),
+        ImportedResource::from(&array),
+        ImportedResource::Layers(list.clone()),
     ]
     .map(|import| {
         let bound = bind(&gpu, plan.clone(), &[("light_depth", import)], &bytes);
@@ -149,8 +149,8 @@ fn shading_reads_clean_layers_although_their_memory_is_shared() {
     let map = depth_map::texture(&gpu, wgpu::TextureFormat::Depth32Float, MAP, 3, 1);
     let camera = depth_map::of(&gpu, PICTURE, |_, _| 0.7);
     let imports = [
-        ("light_depth", ImportedResource::Texture(&map)),
-        ("camera_depth", ImportedResource::Texture(&camera)),
+        ("light_depth", ImportedResource::from(&map)),
+        ("camera_depth", ImportedResource::from(&camera)),
     ];
     let views: Vec<u8> = (0..3)
         .flat_map(|layer| block(&plan, &aligned_view(layer)))

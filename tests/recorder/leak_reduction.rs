@@ -26,8 +26,8 @@ fn all_three_settings_act_on_the_bound_of_every_pixel() {
         let mut view = aligned_view(0);
         view.leak_reduction = leak_reduction;
         let imports = [
-            ("light_depth", ImportedResource::Texture(&map)),
-            ("camera_depth", ImportedResource::Texture(&camera)),
+            ("light_depth", ImportedResource::from(&map)),
+            ("camera_depth", ImportedResource::from(&camera)),
         ];
         let bytes = block(&plan, &view);
         let bound = bind(&gpu, plan.clone(), &imports, &bytes);

@@ -27,8 +27,8 @@ fn picture(gpu: &Gpu, pipelines: &Pipelines, map: [u32; 2], size: [u32; 2]) -> V
     let camera = depth_map::of(gpu, size, |_, _| 0.8);
     let resources = block_on(Resources::create(&gpu.device, &plan)).unwrap();
     let imports = [
-        ("light_depth", ImportedResource::Texture(&light)),
-        ("camera_depth", ImportedResource::Texture(&camera)),
+        ("light_depth", ImportedResource::from(&light)),
+        ("camera_depth", ImportedResource::from(&camera)),
     ];
     let parameters = uniform(gpu, &block(&plan, &aligned_view(0)));
     let bindings = block_on(Bindings::create(
@@ -59,7 +59,7 @@ fn a_resize_makes_no_pipeline() {
     assert!(pipelines.is_empty());
     let small = plan(&gpu, [64, 64], [32, 32]);
     let options = PipelineOptions::default();
-    let made = block_on(pipelines.extend(&gpu.device, &small, options)).unwrap();
+    let made = block_on(pipelines.extend(&gpu.device, &small, options.clone())).unwrap();
     assert_eq!((made, pipelines.len()), (4, 4));
     let large = plan(&gpu, [128, 256], [100, 50]);
     assert_eq!(
@@ -111,8 +111,8 @@ fn stages_are_recorded_apart() {
     let light = depth_map::of(&gpu, size, |_, _| 0.2);
     let camera = depth_map::texture(&gpu, wgpu::TextureFormat::Depth32Float, size, 1, 1);
     let imports = [
-        ("light_depth", ImportedResource::Texture(&light)),
-        ("camera_depth", ImportedResource::Texture(&camera)),
+        ("light_depth", ImportedResource::from(&light)),
+        ("camera_depth", ImportedResource::from(&camera)),
     ];
     let plan = plan(&gpu, size, size);
     let bytes = block(&plan, &aligned_view(0));
@@ -152,8 +152,8 @@ fn every_pass_writes_its_timestamps() {
     let size = [64, 64];
     let light = depth_map::of(&gpu, size, |_, _| 0.2);
     let imports = [
-        ("light_depth", ImportedResource::Texture(&light)),
-        ("camera_depth", ImportedResource::Texture(&light)),
+        ("light_depth", ImportedResource::from(&light)),
+        ("camera_depth", ImportedResource::from(&light)),
     ];
     let plan = plan(&gpu, size, size);
     let bytes = block(&plan, &aligned_view(0));
@@ -200,8 +200,8 @@ fn errors_of_the_device_carry_the_labels_of_the_plan() {
     let size = [32, 32];
     let light = depth_map::of(&gpu, size, |_, _| 0.2);
     let imports = [
-        ("light_depth", ImportedResource::Texture(&light)),
-        ("camera_depth", ImportedResource::Texture(&light)),
+        ("light_depth", ImportedResource::from(&light)),
+        ("camera_depth", ImportedResource::from(&light)),
     ];
     let plan = plan(&gpu, size, size);
     let bytes = block(&plan, &aligned_view(0));

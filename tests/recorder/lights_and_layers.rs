@@ -83,8 +83,8 @@ fn only_the_dirty_layers_of_the_named_map_are_recorded() {
         .map(|layers| depth_map::texture(&gpu, wgpu::TextureFormat::Depth32Float, MAP, layers, 1));
     let bytes = plan.parameters.initial();
     let imports = [
-        ("sun", ImportedResource::Texture(&maps[0])),
-        ("spots", ImportedResource::Texture(&maps[1])),
+        ("sun", ImportedResource::from(&maps[0])),
+        ("spots", ImportedResource::from(&maps[1])),
     ];
     let bound = bind(&gpu, plan, &imports, &bytes);
     let clear = |value: f32| {

@@ -37,7 +37,7 @@ fn a_destroyed_device_gives_errors_and_no_panic() {
         usage: wgpu::TextureUsages::TEXTURE_BINDING,
         view_formats: &[],
     });
-    let imports = [("map", ImportedResource::Texture(&map))];
+    let imports = [("map", ImportedResource::from(&map))];
     let bound = bind(&gpu, plan.clone(), &imports, &[]);
     let parameters = uniform(&gpu, &[]);
     device.destroy();

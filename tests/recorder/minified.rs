@@ -50,8 +50,8 @@ fn a_sloping_plane_is_lit_however_many_texels_a_pixel_covers() {
                 .write(&mut bytes, "shade", 0, &view)
                 .unwrap();
             let imports = [
-                ("light_depth", ImportedResource::Texture(&map)),
-                ("camera_depth", ImportedResource::Texture(&camera)),
+                ("light_depth", ImportedResource::from(&map)),
+                ("camera_depth", ImportedResource::from(&camera)),
             ];
             let bound = bind(&gpu, plan, &imports, &bytes);
             bound.run(&gpu);

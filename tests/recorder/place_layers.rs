@@ -63,7 +63,7 @@ impl Map {
         );
         let texture = depth_map::texture(gpu, wgpu::TextureFormat::Depth32Float, MAP, layers, 1);
         let bytes = plan.parameters.initial();
-        let imports = [("light_depth", ImportedResource::Texture(&texture))];
+        let imports = [("light_depth", ImportedResource::from(&texture))];
         let bound = bind(gpu, plan, &imports, &bytes);
         Self { bound, texture }
     }
@@ -211,7 +211,7 @@ fn samples_of_a_texel_do_not_matter_where_they_agree() {
         depth_map::draw(&gpu, map, 0, &values);
     }
     let bytes = plan.parameters.initial();
-    let imports = [("light_depth", ImportedResource::Layers(&maps))];
+    let imports = [("light_depth", ImportedResource::Layers(maps.clone()))];
     let bound = bind(&gpu, plan, &imports, &bytes);
     for _ in 0..FRAMES {
         bound.run(&gpu);
@@ -334,8 +334,8 @@ fn placed_layers_do_not_bleed_where_layers_of_equal_depth_do() {
             .write(&mut bytes, "shade", 0, &aligned_view(0))
             .unwrap();
         let imports = [
-            ("light_depth", ImportedResource::Texture(&light)),
-            ("camera_depth", ImportedResource::Texture(&camera)),
+            ("light_depth", ImportedResource::from(&light)),
+            ("camera_depth", ImportedResource::from(&camera)),
         ];
         let bound = bind(&gpu, plan, &imports, &bytes);
         for _ in 0..frames {

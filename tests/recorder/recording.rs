@@ -13,8 +13,8 @@ pub(crate) fn bound(gpu: &Gpu, views: usize) -> Bound {
     let plan = plan(gpu);
     let map = depth(gpu);
     let imports = [
-        ("light_depth", ImportedResource::Texture(&map)),
-        ("camera_depth", ImportedResource::Texture(&map)),
+        ("light_depth", ImportedResource::from(&map)),
+        ("camera_depth", ImportedResource::from(&map)),
     ];
     let bytes = block(&plan, &aligned_view(0)).repeat(views);
     bind(gpu, plan, &imports, &bytes)
@@ -26,8 +26,8 @@ fn the_parameter_buffer_holds_a_views_block() {
     let bound = bound(&gpu, 1);
     let map = depth(&gpu);
     let imports = [
-        ("light_depth", ImportedResource::Texture(&map)),
-        ("camera_depth", ImportedResource::Texture(&map)),
+        ("light_depth", ImportedResource::from(&map)),
+        ("camera_depth", ImportedResource::from(&map)),
     ];
     let with = |buffer: Option<&wgpu::Buffer>| {
         let bindings = block_on(Bindings::create(

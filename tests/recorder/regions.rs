@@ -102,7 +102,7 @@ impl Atlas {
         let bound = bind(
             gpu,
             plan,
-            &[("light_depth", ImportedResource::Texture(&texture))],
+            &[("light_depth", ImportedResource::from(&texture))],
             &bytes,
         );
         Self {

@@ -29,12 +29,7 @@ fn bound(gpu: &Gpu, map: &wgpu::Texture, conversion: &DepthConversion) -> Bound 
     plan.parameters
         .write(&mut bytes, "resolve", 0, conversion)
         .unwrap();
-    let bound = bind(
-        gpu,
-        plan,
-        &[("depth", ImportedResource::Texture(map))],
-        &bytes,
-    );
+    let bound = bind(gpu, plan, &[("depth", ImportedResource::from(map))], &bytes);
     bound.run(gpu);
     bound
 }

@@ -56,7 +56,7 @@ pub(crate) fn uniform(gpu: &Gpu, bytes: &[u8]) -> wgpu::Buffer {
 pub(crate) fn try_bind(
     gpu: &Gpu,
     plan: Plan,
-    imports: &[(&str, ImportedResource<'_>)],
+    imports: &[(&str, ImportedResource)],
     views: &[u8],
 ) -> Result<Bound, GraphError> {
     let device = &gpu.device;
@@ -83,7 +83,7 @@ pub(crate) fn try_bind(
 pub(crate) fn bind(
     gpu: &Gpu,
     plan: Plan,
-    imports: &[(&str, ImportedResource<'_>)],
+    imports: &[(&str, ImportedResource)],
     views: &[u8],
 ) -> Bound {
     try_bind(gpu, plan, imports, views).unwrap()

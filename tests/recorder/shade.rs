@@ -39,8 +39,8 @@ fn shaded(
         gpu,
         plan,
         &[
-            ("light_depth", ImportedResource::Texture(light)),
-            ("camera_depth", ImportedResource::Texture(camera)),
+            ("light_depth", ImportedResource::from(light)),
+            ("camera_depth", ImportedResource::from(camera)),
         ],
         &bytes,
     );

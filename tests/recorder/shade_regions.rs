@@ -111,8 +111,8 @@ impl Shading {
                 .unwrap();
         }
         let imports = [
-            ("light_depth", ImportedResource::Texture(light.0)),
-            ("camera_depth", ImportedResource::Texture(camera.0)),
+            ("light_depth", ImportedResource::from(light.0)),
+            ("camera_depth", ImportedResource::from(camera.0)),
         ];
         let bound = bind(gpu, plan, &imports, &bytes);
         Self {

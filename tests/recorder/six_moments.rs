@@ -155,7 +155,7 @@ impl Map {
                 .write_all(&mut bytes, "resolve", layer, &conversions())
                 .unwrap();
         }
-        let imports = [("light_depth", ImportedResource::Texture(&depth))];
+        let imports = [("light_depth", ImportedResource::from(&depth))];
         let bound = bind(gpu, plan, &imports, &bytes);
         Self { bound, depth }
     }

@@ -58,8 +58,8 @@ fn shade(gpu: &Gpu, capabilities: &Capabilities, storage: Storage) -> Vec<f32> {
         .write(&mut bytes, "shade", 0, &parameters)
         .unwrap();
     let imports = [
-        ("light_depth", ImportedResource::Texture(&light)),
-        ("camera_depth", ImportedResource::Texture(&camera)),
+        ("light_depth", ImportedResource::from(&light)),
+        ("camera_depth", ImportedResource::from(&camera)),
     ];
     let bound = bind(gpu, plan, &imports, &bytes);
     bound.run(gpu);

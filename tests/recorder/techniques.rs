@@ -106,8 +106,8 @@ fn shade(gpu: &Gpu, capabilities: &Capabilities, text: &str, layer: u32) -> Vec<
         .write(&mut bytes, "shade", 0, &view)
         .unwrap();
     let imports = [
-        ("light_depth", ImportedResource::Texture(&light)),
-        ("camera_depth", ImportedResource::Texture(&camera)),
+        ("light_depth", ImportedResource::from(&light)),
+        ("camera_depth", ImportedResource::from(&camera)),
     ];
     let bound: Bound = bind(gpu, plan, &imports, &bytes);
     bound.run(gpu);

@@ -60,7 +60,7 @@ fn a_threshold_is_white_above_its_level() {
         wgpu::util::TextureDataOrder::LayerMajor,
         bytemuck::cast_slice(&texels),
     );
-    let bound = bind(&gpu, plan, &[("map", ImportedResource::Texture(&map))], &[]);
+    let bound = bind(&gpu, plan, &[("map", ImportedResource::from(&map))], &[]);
     bound.run(&gpu);
     let of_layer = values.chunks_exact((size[0] * size[1]) as usize);
     for (layer, values) in (0..).zip(of_layer) {

@@ -27,7 +27,7 @@ fn threshold(@builtin(global_invocation_id) id: vec3u) {
 
 impl Node for Threshold {
     fn describe(&self, _: &Connected<'_>) -> Result<NodeDesc, GraphError> {
-        let map = TextureRule::new([Rgba16Float, Rgba32Float].as_slice()).layers(Rule::Any);
+        let map = TextureRule::new(vec![Rgba16Float, Rgba32Float]).layers(Rule::Any);
         let picture = TextureRule::new(Rgba8Unorm).like("map");
         Ok(NodeDesc::new("threshold", Stage::AfterShadowMaps)
             .input("map", "The map to look at.", map)

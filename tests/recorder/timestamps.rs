@@ -40,7 +40,7 @@ fn a_pass_drawn_to_several_layers_writes_its_first_and_its_last_query() {
     let bytes = plan.parameters.initial();
     let count = 2 * plan.passes.len() as u32;
     let passes = plan.passes.len();
-    let imports = [("light_depth", ImportedResource::Texture(&map))];
+    let imports = [("light_depth", ImportedResource::from(&map))];
     let bound = bind(&gpu, plan, &imports, &bytes);
     let device = &gpu.device;
     for dirty in [&[0, 1, 2, 3][..], &[2], &[3, 1], &[1, 0, 3], &[]] {

@@ -32,8 +32,8 @@ fn two_views(gpu: &Gpu, plan: Plan) -> Bound {
     let views = [view(IDENTITY, IDENTITY, 0), view(IDENTITY, mirrored, 0)];
     let bytes: Vec<u8> = views.iter().flat_map(|view| block(&plan, view)).collect();
     let imports = [
-        ("light_depth", ImportedResource::Texture(&light)),
-        ("camera_depth", ImportedResource::Texture(&camera)),
+        ("light_depth", ImportedResource::from(&light)),
+        ("camera_depth", ImportedResource::from(&camera)),
     ];
     bind(gpu, plan, &imports, &bytes)
 }

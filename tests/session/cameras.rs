@@ -12,7 +12,7 @@ fn every_camera_has_the_picture_that_it_has_alone() {
     let others = [frame(&gpu, 1, [96, 54]), frame(&gpu, 2, [320, 180])];
     let alone = |frame: &_| {
         let mut given = imports(&first);
-        given[1] = imports(frame)[1];
+        given[1] = imports(frame)[1].clone();
         let mut session = session(&gpu, HARD, &given);
         session
             .view(&gpu.queue, 0, &places(frame).0, &[light])

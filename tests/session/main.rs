@@ -48,13 +48,13 @@ pub(crate) fn frame(gpu: &Gpu, view: u32, size: [u32; 2]) -> Frame {
     options.frame(gpu, &scene, 4).unwrap()
 }
 
-pub(crate) fn imports(frame: &Frame) -> [(&'static str, ImportedResource<'_>); 2] {
-    let light = ImportedResource::Texture(&frame.light_map.texture);
-    let camera = ImportedResource::Texture(&frame.surface.depth);
+pub(crate) fn imports(frame: &Frame) -> [(&'static str, ImportedResource); 2] {
+    let light = ImportedResource::from(&frame.light_map.texture);
+    let camera = ImportedResource::from(&frame.surface.depth);
     [("light_depth", light), ("camera_depth", camera)]
 }
 
-pub(crate) fn session(gpu: &Gpu, text: &str, imports: &[(&str, ImportedResource<'_>)]) -> Session {
+pub(crate) fn session(gpu: &Gpu, text: &str, imports: &[(&str, ImportedResource)]) -> Session {
     let options = Default::default();
     let session = Session::new(&gpu.adapter, &gpu.device, parsed(text), imports, options);
     block_on(session).unwrap()

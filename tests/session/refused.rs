@@ -95,23 +95,30 @@ fn textures_that_the_graph_cannot_take_are_named() {
         );
         block_on(session).unwrap_err()
     };
-    let colour =
-        moment_shadows_graph::record::ImportedResource::Texture(&frame.surface.base_colour);
+    let colour = moment_shadows_graph::record::ImportedResource::from(&frame.surface.base_colour);
     for (imports, words) in [
         (
-            vec![given[0], ("camera_depth", colour)],
+            vec![given[0].clone(), ("camera_depth", colour.clone())],
             ["camera_depth", "format"],
         ),
         (
-            vec![given[0], given[1], ("camera", colour)],
+            vec![
+                given[0].clone(),
+                given[1].clone(),
+                ("camera", colour.clone()),
+            ],
             ["camera", "format"],
         ),
         (
-            vec![given[0], given[1], ("depth", given[0].1)],
+            vec![
+                given[0].clone(),
+                given[1].clone(),
+                ("depth", given[0].1.clone()),
+            ],
             ["depth", "import"],
         ),
         (
-            vec![given[0], ("light_depth", colour)],
+            vec![given[0].clone(), ("light_depth", colour.clone())],
             ["light_depth", "format"],
         ),
     ] {

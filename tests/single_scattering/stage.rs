@@ -234,8 +234,11 @@ pub(crate) fn bind(
         .compile(capabilities, &descs)
         .unwrap_or_else(|error| panic!("{error}"));
     let device = &gpu.device;
+    let host_targets = host_targets.iter();
     let options = PipelineOptions {
-        host_targets,
+        host_targets: host_targets
+            .map(|(pass, target)| ((*pass).to_owned(), *target))
+            .collect(),
         ..PipelineOptions::default()
     };
     let pipelines = block_on(Pipelines::create(device, &plan, options)).unwrap();
@@ -245,9 +248,9 @@ pub(crate) fn bind(
         contents: &contents(&plan, blocks),
         usage: wgpu::BufferUsages::UNIFORM | wgpu::BufferUsages::COPY_DST,
     });
-    let imports: Vec<(&str, ImportedResource<'_>)> = imports
+    let imports: Vec<(&str, ImportedResource)> = imports
         .iter()
-        .map(|(name, (_, texture))| (*name, ImportedResource::Texture(texture)))
+        .map(|(name, (_, texture))| (*name, ImportedResource::from(texture)))
         .collect();
     let bindings = block_on(Bindings::create(
         device,

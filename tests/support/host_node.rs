@@ -26,7 +26,7 @@ pub(crate) fn empty(stage: Stage) -> NodeDesc {
 
 /// An input that takes any texture.
 pub(crate) fn input(name: &str) -> Slot {
-    let rule = TextureRule::new(TextureFormat::ALL.as_slice())
+    let rule = TextureRule::new(TextureFormat::ALL.to_vec())
         .layers(Rule::Any)
         .mips(Rule::Any)
         .samples(Rule::Any);

@@ -22,7 +22,7 @@ impl App {
         let capabilities = Capabilities::of_device(&egui.adapter, device);
         let plan = graph.compile(&capabilities, &[])?;
         let options = PipelineOptions {
-            host_targets: &[(PASS, HostTarget::darkened(egui.target_format))],
+            host_targets: vec![(PASS.to_owned(), HostTarget::darkened(egui.target_format))],
             ..Default::default()
         };
         let pipelines = Pipelines::create(device, &plan, options).await?;

@@ -35,9 +35,9 @@ impl StandIn {
     }
 
     /// What the graph takes from the host.
-    pub(crate) fn imports(&self) -> [(&str, ImportedResource<'_>); 2] {
-        let light = ImportedResource::Texture(&self.0.light_map.texture);
-        let camera = ImportedResource::Texture(&self.0.surface.depth);
+    pub(crate) fn imports(&self) -> [(&str, ImportedResource); 2] {
+        let light = ImportedResource::from(&self.0.light_map.texture);
+        let camera = ImportedResource::from(&self.0.surface.depth);
         [("light_depth", light), ("camera_depth", camera)]
     }
 

@@ -82,12 +82,9 @@ impl GraphFrame {
             &[
                 (
                     "light_depth",
-                    ImportedResource::Texture(&frame.light_map.texture),
+                    ImportedResource::from(&frame.light_map.texture),
                 ),
-                (
-                    "camera_depth",
-                    ImportedResource::Texture(&frame.surface.depth),
-                ),
+                ("camera_depth", ImportedResource::from(&frame.surface.depth)),
             ],
             Some(&parameters),
         ))?;

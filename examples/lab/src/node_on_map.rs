@@ -80,7 +80,7 @@ impl NodeOnMap {
             &plan,
             &pipelines,
             &resources,
-            &[("map", ImportedResource::Texture(&map))],
+            &[("map", ImportedResource::from(&map))],
             Some(&parameters),
         ))?;
         let node = Self {

@@ -12,11 +12,12 @@ use crate::{Home, Plan, PlannedMemory, ResourceDesc, Stage};
 struct Life {
     /// Index into the plan's resources.
     resource: usize,
-    /// The first and the last pass that touch it, and their stages.
+    /// The first and the last pass that touch it, and the stage of the first.
     first: usize,
     last: usize,
-    first_stage: Stage,
-    last_stage: Stage,
+    stage: Stage,
+    /// The host may record its last stage several times for one recording of its first, as for several views.
+    spans_stages: bool,
     /// It never shares: an output, or persistent.
     alone: bool,
     /// Some pass writes it only where layers are dirty.
@@ -33,14 +34,9 @@ impl Life {
         self.written_when_dirty && self.read_whole
     }
 
-    /// Whether the host may record its last stage several times for one recording of its first, as for several views.
-    fn spans_stages(&self) -> bool {
-        self.first_stage != self.last_stage
-    }
-
     /// Whether its memory stays its own from its first pass on.
     fn keeps_memory(&self) -> bool {
-        self.alone || self.keeps_layers() || self.spans_stages()
+        self.alone || self.keeps_layers() || self.spans_stages
     }
 }
 
@@ -67,13 +63,13 @@ impl Block {
         let free = self.free_after.is_some_and(|pass| pass < life.first);
         let layers_survive = self.written_when_dirty
             && self.root == Some(root)
-            && self.stage == life.first_stage
+            && self.stage == life.stage
             && desc.texture().is_some();
         !life.alone
             && free
             && self.memory.desc == *desc
             && (!life.keeps_layers() || layers_survive)
-            && (!life.spans_stages() || self.stage == life.first_stage)
+            && (!life.spans_stages || self.stage == life.stage)
     }
 }
 
@@ -91,12 +87,12 @@ pub(super) fn share_memory(plan: &mut Plan, known: &[&Known]) {
         let resource = &mut plan.resources[life.resource];
         let free_after = (!life.keeps_memory()).then_some(life.last);
         let written_when_dirty = !life.written_every_time;
-        let mut taken = blocks.iter();
-        // Memory knows nothing of what a filter made of its contents.
         let mut desc = resource.desc.clone();
         if let ResourceDesc::Texture(texture) = &mut desc {
+            // What a map has been through is not its memory's.
             texture.deviation = Finite::ZERO;
         }
+        let mut taken = blocks.iter();
         let home = match taken.position(|block| block.takes(life, &desc, root)) {
             Some(home) => {
                 let block = &mut blocks[home];
@@ -115,7 +111,7 @@ pub(super) fn share_memory(plan: &mut Plan, known: &[&Known]) {
                         access: resource.access,
                         exported,
                     },
-                    stage: life.first_stage,
+                    stage: life.stage,
                     free_after,
                     written_when_dirty,
                     root: Some(root),
@@ -140,14 +136,15 @@ fn lives(plan: &Plan) -> BTreeMap<usize, Life> {
                 resource: touch.resource,
                 first: index,
                 last: index,
-                first_stage: pass.stage,
-                last_stage: pass.stage,
+                stage: pass.stage,
+                spans_stages: false,
                 alone: false,
                 written_when_dirty: false,
                 written_every_time: false,
                 read_whole: false,
             });
-            (life.last, life.last_stage) = (index, pass.stage);
+            life.last = index;
+            life.spans_stages |= pass.stage != life.stage;
             let of_layer = matches!(touch.part, Part::Level { .. }) && pass.each_layer;
             life.written_when_dirty |= touch.access.writes() && pass.each_layer;
             life.written_every_time |= touch.access.writes() && !pass.each_layer;

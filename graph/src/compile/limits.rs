@@ -50,17 +50,12 @@ pub(super) fn limits(texture: &TextureDesc, capabilities: &Capabilities) -> Resu
         || "the texture is multisampled and has mip levels; no device has both",
     )?;
     let allowed = &capabilities.depth_samples;
-    ensure(
-        samples == 1 || allowed.contains(&samples),
-        Capability,
-        || {
-            let counts: Vec<String> = allowed.iter().map(u32::to_string).collect();
-            format!(
-                "the texture has {samples} samples per texel; the device allows {}",
-                counts.join(" or ")
-            )
-        },
-    )
+    let offered = samples == 1 || allowed.contains(&samples);
+    ensure(offered, Capability, || {
+        let counts: Vec<String> = allowed.iter().map(u32::to_string).collect();
+        let counts = counts.join(" or ");
+        format!("the texture has {samples} samples per texel; the device allows {counts}")
+    })
 }
 
 /// Whether the profile allows what passes do with the format.

@@ -29,13 +29,12 @@ use crate::{
     NodeDesc, Plan, PlannedResource, ResourceDesc, Slot,
 };
 pub(crate) use reflect::numbers as binding_numbers;
-use wiring::{Source, Wiring};
+use wiring::Wiring;
 
-/// An import, or what a node makes, whether or not a pass touches it.
+/// An import, or what a node makes, whether or not a pass touches it. Imports come first.
 struct Known {
     name: String,
     desc: ResourceDesc,
-    is_import: bool,
     /// Some slot that it is connected to keeps its contents from frame to frame.
     persistent: bool,
     /// The one whose layers and regions it follows: itself, or that of the slot whose extent it takes.
@@ -72,12 +71,11 @@ impl Graph {
     ) -> Result<Plan, GraphError> {
         let wiring = Wiring::of(self)?;
         let mut known = import_resources(self, imports)?;
-        let described = describe_all(self, &wiring, capabilities, &mut known)?;
-        let outputs = outputs(self, &described)?;
+        let mut kept = describe_all(self, &wiring, capabilities, &mut known)?;
+        let outputs = outputs(self, &kept)?;
         let needed = wiring.needed(self)?;
-        order::stages_in_order(self, &wiring, &described)?;
-        order::changed_in_place_by_one(self, &wiring, &described)?;
-        let mut kept = described;
+        order::stages_in_order(self, &wiring, &kept)?;
+        order::changed_in_place_by_one(self, &wiring, &kept)?;
         kept.retain(|described| needed.contains(&described.node));
         // Stable: within a stage the order of dependencies remains.
         kept.sort_by_key(|described| described.desc.stage);
@@ -99,9 +97,10 @@ impl Graph {
                 .collect(),
             parameters: layout,
         };
-        for known in used.iter().map(|&index| &known[index]) {
+        for &index in &used {
+            let known = &known[index];
             let mut home = Home::Memory(0);
-            if known.is_import {
+            if index < self.imports.len() {
                 home = Home::Import(plan.imports.len());
                 let import = Named::new(known.name.clone(), plan.resources.len());
                 plan.imports.push(import);
@@ -115,19 +114,20 @@ impl Graph {
         }
         let mut shaders = reflect::Shaders::default();
         for described in &kept {
-            let Named { name, position, .. } = &self.nodes[described.node];
-            let placed = |error: GraphError| error.at_node(name).at_position(*position);
-            let planner = passes::Planner {
-                node: name,
-                described,
-                known: &known,
-                indices: &indices,
-                layout: &plan.parameters,
-                capabilities,
-            };
+            let node = &self.nodes[described.node];
+            let placed = |error| node.placed(error);
             for pass in &described.desc.passes {
+                let planner = passes::Planner {
+                    node: &node.name,
+                    described,
+                    pass,
+                    known: &known,
+                    indices: &indices,
+                    layout: &plan.parameters,
+                    capabilities,
+                };
                 let resources = &mut plan.resources;
-                let mut planned = planner.plan(pass, resources).map_err(placed)?;
+                let mut planned = planner.plan(resources).map_err(placed)?;
                 usage::check_pass(&planned, resources, capabilities).map_err(placed)?;
                 shaders
                     .bind(pass, &mut planned, resources, capabilities)
@@ -206,7 +206,6 @@ fn import_resources(
         Ok(Known {
             name: name.clone(),
             desc: desc.clone(),
-            is_import: true,
             persistent: false,
             root,
         })
@@ -224,15 +223,12 @@ fn describe_all(
     let mut described: Vec<Described> = Vec::new();
     for &node in &wiring.order {
         let graph_node = &graph.nodes[node];
-        let placed = |error: GraphError| {
-            error
-                .at_node(&graph_node.name)
-                .at_position(graph_node.position)
-        };
+        let placed = |error| graph_node.placed(error);
         let mut slots = BTreeMap::new();
-        for (slot, (source, edge)) in &wiring.inputs[node] {
-            let resource = find(graph, &described, source)
-                .map_err(|error| error.at_position(graph.edges[*edge].position))?;
+        for (slot, (_, edge)) in &wiring.inputs[node] {
+            let edge = &graph.edges[*edge];
+            let resource = find(graph, &described, &edge.from)
+                .map_err(|error| error.at_position(edge.position))?;
             slots.insert(slot.clone(), resource);
         }
         let inputs: BTreeMap<String, ResourceDesc> = slots
@@ -248,10 +244,8 @@ fn describe_all(
         for (slot, (_, edge)) in &wiring.inputs[node] {
             if !names.clone().any(|name| name == slot) {
                 let remark = "an edge leads to an input of the node";
-                return Err(unknown("input", slot, names.by_ref(), remark)
-                    .at_node(&graph_node.name)
-                    .at_slot(slot)
-                    .at_position(graph.edges[*edge].position));
+                let error = unknown("input", slot, names.by_ref(), remark).at_slot(slot);
+                return Err(placed(error.at_position(graph.edges[*edge].position)));
             }
         }
         let resolved = slots::resolve(&desc, &inputs, capabilities).map_err(placed)?;
@@ -266,7 +260,6 @@ fn describe_all(
             known.push(Known {
                 name: format!("{}.{}", graph_node.name, slot.name),
                 desc: made.clone(),
-                is_import: false,
                 persistent: false,
                 root: from.map_or(index, |&from| known[from].root),
             });
@@ -290,31 +283,28 @@ fn with_connected(mut error: GraphError, inputs: &BTreeMap<String, ResourceDesc>
     error
 }
 
-/// The resource behind a source.
-fn find(graph: &Graph, described: &[Described], source: &Source) -> Result<usize, GraphError> {
-    match source {
-        Source::Import(import) => Ok(*import),
-        Source::Node(node, slot) => {
-            let owner = described.iter().find(|described| described.node == *node);
-            let slots = owner.map_or(&[][..], |owner| &owner.desc.slots);
-            let gives = |slot: &&Slot| matches!(slot.direction, Direction::Out | Direction::InOut);
-            let mut given = slots.iter().filter(gives).map(|slot| slot.name.as_str());
-            let known = given.clone().any(|name| name == slot);
-            let resource = owner.and_then(|owner| owner.slots.get(slot).copied());
-            resource.filter(|_| known).ok_or_else(|| {
-                let remark = "an edge starts from an output of a node";
-                unknown("output", slot, given.by_ref(), remark)
-                    .at_node(&graph.nodes[*node].name)
-                    .at_slot(slot)
-            })
-        }
-    }
+/// The resource that an edge or an output starts from. Imports are the first that are known.
+fn find(graph: &Graph, described: &[Described], from: &str) -> Result<usize, GraphError> {
+    let Some((name, slot)) = from.split_once('.') else {
+        return wiring::import_index(graph, from);
+    };
+    let node = wiring::node_index(graph, name)?;
+    let owner = described.iter().find(|described| described.node == node);
+    let slots = owner.map_or(&[][..], |owner| &owner.desc.slots);
+    let gives = |slot: &&Slot| matches!(slot.direction, Direction::Out | Direction::InOut);
+    let mut given = slots.iter().filter(gives).map(|slot| slot.name.as_str());
+    let known = given.clone().any(|name| name == slot);
+    let resource = owner.and_then(|owner| owner.slots.get(slot).copied());
+    resource.filter(|_| known).ok_or_else(|| {
+        let remark = "an edge starts from an output of a node";
+        let error = unknown("output", slot, given.by_ref(), remark);
+        error.at_node(name).at_slot(slot)
+    })
 }
 
 fn outputs(graph: &Graph, described: &[Described]) -> Result<Vec<Named<usize>>, GraphError> {
     let outputs = graph.outputs.iter().map(|output| {
-        let resource = wiring::source(graph, &output.value)
-            .and_then(|source| find(graph, described, &source))
+        let resource = find(graph, described, &output.value)
             .map_err(|error| error.at_position(output.position))?;
         Ok(Named::new(output.name.clone(), resource))
     });

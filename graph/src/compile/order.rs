@@ -1,9 +1,11 @@
 //! What nodes may take of each other: nothing of a later stage, and nothing that another one changes in place.
 
+use std::collections::BTreeMap;
+
 use super::Described;
 use super::wiring::Wiring;
 use crate::error::ensure;
-use crate::{Direction, Graph, GraphError, GraphErrorKind, Slot};
+use crate::{Direction, Graph, GraphError, GraphErrorKind, Slot, Stage};
 
 /// A node cannot be recorded before one that it depends on.
 pub(super) fn stages_in_order(
@@ -11,28 +13,22 @@ pub(super) fn stages_in_order(
     wiring: &Wiring,
     described: &[Described],
 ) -> Result<(), GraphError> {
-    let stage = |node: usize| {
-        let mut described = described.iter();
-        let described = described.find(|described| described.node == node);
-        described.map(|described| described.desc.stage)
-    };
+    let stages = described
+        .iter()
+        .map(|described| (described.node, described.desc.stage));
+    let stages: BTreeMap<usize, Stage> = stages.collect();
     for (node, inputs) in wiring.inputs.iter().enumerate() {
+        let name = &graph.nodes[node].name;
         for (source, edge) in inputs.values() {
-            let Some(upstream) = source.node() else {
-                continue;
-            };
-            let in_order = stage(upstream) <= stage(node);
+            let Some(upstream) = *source else { continue };
+            let in_order = stages.get(&upstream) <= stages.get(&node);
             ensure(in_order, GraphErrorKind::StageOrder, || {
                 format!(
                     "it is recorded before '{}', whose output it reads; connect it to a node of an earlier stage",
                     graph.nodes[upstream].name
                 )
             })
-            .map_err(|error| {
-                error
-                    .at_node(&graph.nodes[node].name)
-                    .at_position(graph.edges[*edge].position)
-            })?;
+            .map_err(|error| error.at_node(name).at_position(graph.edges[*edge].position))?;
         }
     }
     Ok(())
@@ -53,12 +49,12 @@ pub(super) fn changed_in_place_by_one(
             };
             let from = &graph.edges[*edge].from;
             let edges = graph.edges.iter().enumerate();
-            let mut others = edges.filter(|(other, _)| other != edge);
-            let other_edge = others.find(|(_, other)| other.from == *from);
-            let mut outputs = graph.outputs.iter();
-            let output = outputs.find(|output| output.value == *from);
-            let other_edge = other_edge.map(|(_, other)| other.position);
-            if let Some(position) = other_edge.or(output.map(|output| output.position)) {
+            let others = edges.filter(|(other, _)| other != edge);
+            let others = others.map(|(_, other)| (&other.from, other.position));
+            let outputs = graph.outputs.iter();
+            let outputs = outputs.map(|output| (&output.value, output.position));
+            let taken = others.chain(outputs).find(|(other, _)| *other == from);
+            if let Some((_, position)) = taken {
                 return Err(GraphError::new(
                     GraphErrorKind::TwoWriters,
                     format!(

@@ -16,11 +16,7 @@ pub(super) fn lay_out(
     known: &[Known],
     capabilities: &Capabilities,
 ) -> Result<ParameterLayout, GraphError> {
-    let mut layout = ParameterLayout {
-        size: 0,
-        blocks: Vec::new(),
-        regions: Vec::new(),
-    };
+    let mut layout = ParameterLayout::default();
     for described in kept {
         let node = &graph.nodes[described.node].name;
         layout
@@ -150,15 +146,12 @@ impl ParameterLayout {
         let offset = self.size;
         let end = u64::from(offset) + stride * u64::from(count);
         let most = u32::MAX;
-        ensure(
-            stride.max(end) <= u64::from(most),
-            GraphErrorKind::Size,
-            || {
-                format!(
-                    "a view's parameters take {end} bytes with those of this node; at most {most} can be addressed"
-                )
-            },
-        )?;
+        let fits = stride.max(end) <= u64::from(most);
+        ensure(fits, GraphErrorKind::Size, || {
+            format!(
+                "a view's parameters take {end} bytes with those of this node; at most {most} can be addressed"
+            )
+        })?;
         self.size = end as u32;
         Ok((offset, stride as u32))
     }

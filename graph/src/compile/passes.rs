@@ -10,10 +10,11 @@ use crate::{
     Work,
 };
 
-/// What a node's passes are resolved with.
+/// What a node's pass is resolved with.
 pub(super) struct Planner<'a> {
     pub(super) node: &'a str,
     pub(super) described: &'a Described,
+    pub(super) pass: &'a Pass,
     pub(super) known: &'a [Known],
     /// The plan's index of each known resource that passes touch.
     pub(super) indices: &'a BTreeMap<usize, usize>,
@@ -25,20 +26,22 @@ impl Planner<'_> {
     /// Resolves a pass and records in the plan's resources how it touches them.
     pub(super) fn plan(
         &self,
-        pass: &Pass,
         resources: &mut [PlannedResource],
     ) -> Result<PlannedPass, GraphError> {
-        let bindings = pass.bindings.iter().map(|binding| {
+        let bindings = self.pass.bindings.iter().map(|binding| {
             Ok(Binding {
                 // The shader's declaration has it.
                 variable: 0,
-                resource: self.binding(pass, &binding.resource)?,
+                resource: self.binding(&binding.resource)?,
             })
         });
         let bindings = bindings.collect::<Result<_, GraphError>>()?;
-        let (work, followed) = self.work(pass)?;
+        let (work, followed) = self.work()?;
         let followed = &self.known[followed];
+        let pass = self.pass;
         let each_layer = pass.each_layer && !matches!(work, PlannedWork::Host { .. });
+        let layers = followed.desc.layers();
+        let layers = if each_layer { layers } else { 1 };
         let mut planned = PlannedPass {
             node: self.node.to_owned(),
             label: pass.label.clone(),
@@ -48,11 +51,7 @@ impl Planner<'_> {
             constants: pass.constants.clone(),
             bindings,
             work,
-            layers: if each_layer {
-                followed.desc.layers()
-            } else {
-                1
-            },
+            layers,
             each_layer,
             map: self.known[followed.root].name.clone(),
             bytes_read: 0,
@@ -66,10 +65,7 @@ impl Planner<'_> {
             if let Some((slot, _)) = slots.iter().find(|(_, known)| touches(known))
                 && !self.described.access(slot).contains(touch.access)
             {
-                let fault = fault(
-                    pass,
-                    "does more with this slot than its declared access allows",
-                );
+                let fault = self.fault("does more with this slot than its declared access allows");
                 return Err(fault.at_slot(slot));
             }
             let access = &mut resources[touch.resource].access;
@@ -78,52 +74,35 @@ impl Planner<'_> {
         Ok(planned)
     }
 
-    fn slot(&self, pass: &Pass, slot: &str) -> Result<usize, GraphError> {
+    fn slot(&self, slot: &str) -> Result<usize, GraphError> {
         let known = self.described.slots.get(slot).copied();
-        known.ok_or_else(|| {
-            fault(
-                pass,
-                format!("uses slot '{slot}', which the node does not have"),
-            )
-        })
+        known.ok_or_else(|| self.fault(format!("uses slot '{slot}', which the node does not have")))
     }
 
     /// The texture behind a slot, which has to have this mip level.
-    fn texture(
-        &self,
-        pass: &Pass,
-        slot: &str,
-        level: u32,
-    ) -> Result<(usize, &TextureDesc), GraphError> {
-        let index = self.slot(pass, slot)?;
+    fn texture(&self, slot: &str, level: u32) -> Result<(usize, &TextureDesc), GraphError> {
+        let index = self.slot(slot)?;
         let texture = self.known[index].desc.texture();
         let texture =
-            texture.ok_or_else(|| fault(pass, format!("uses the buffer '{slot}' as a texture")))?;
+            texture.ok_or_else(|| self.fault(format!("uses the buffer '{slot}' as a texture")))?;
         if level < texture.mips {
             return Ok((index, texture));
         }
         let mips = texture.mips;
         let what = format!("uses mip level {level} of '{slot}', which has {mips}");
-        Err(fault(pass, what).at_slot(slot))
+        Err(self.fault(what).at_slot(slot))
     }
 
-    fn binding(
-        &self,
-        pass: &Pass,
-        resource: &BindingResource,
-    ) -> Result<PlannedBindingResource, GraphError> {
+    fn binding(&self, resource: &BindingResource) -> Result<PlannedBindingResource, GraphError> {
         let loaded = |slot: &str, one_layer: bool, level: u32| {
-            let (known, texture) = self.texture(pass, slot, level)?;
+            let (known, texture) = self.texture(slot, level)?;
+            let plane = one_layer.then(|| self.plane(slot, texture)).transpose()?;
             Ok(PlannedBindingResource::Texture {
                 resource: self.indices[&known],
                 one_layer,
                 level,
-                plane: if one_layer {
-                    plane(pass, slot, texture)?
-                } else {
-                    0
-                },
-                sample: self.sample(pass, texture),
+                plane: plane.unwrap_or(0),
+                sample: self.sample(texture),
                 multisampled: texture.samples > 1,
             })
         };
@@ -132,21 +111,18 @@ impl Planner<'_> {
                 let mut blocks = self.layout.blocks.iter();
                 let block = blocks.position(|block| block.node == self.node);
                 let block =
-                    block.ok_or_else(|| fault(pass, "uses parameters, but the node has none"))?;
+                    block.ok_or_else(|| self.fault("uses parameters, but the node has none"))?;
                 // Within the limit of a uniform binding.
                 let size = self.layout.blocks[block].array_size() as u32;
                 Ok(PlannedBindingResource::Parameters { block, size })
             }
             BindingResource::Regions { slot, .. } => {
-                let (known, _) = self.texture(pass, slot, 0)?;
+                let (known, _) = self.texture(slot, 0)?;
                 let map = &self.known[self.known[known].root].name;
                 let mut tables = self.layout.regions.iter();
                 let table = tables.position(|table| table.map == *map);
                 let table = table.ok_or_else(|| {
-                    fault(
-                        pass,
-                        format!("uses the regions of '{slot}', which has none"),
-                    )
+                    self.fault(format!("uses the regions of '{slot}', which has none"))
                 })?;
                 let size = self.layout.regions[table].size() as u32;
                 Ok(PlannedBindingResource::Regions { table, size })
@@ -154,15 +130,15 @@ impl Planner<'_> {
             BindingResource::Level { slot, level } => loaded(slot, true, *level),
             BindingResource::Layers(slot) => loaded(slot, false, 0),
             BindingResource::StorageLevel { slot, level } => {
-                let (known, texture) = self.texture(pass, slot, *level)?;
+                let (known, texture) = self.texture(slot, *level)?;
                 Ok(PlannedBindingResource::StorageTexture {
                     resource: self.indices[&known],
                     level: *level,
-                    plane: plane(pass, slot, texture)?,
+                    plane: self.plane(slot, texture)?,
                 })
             }
             BindingResource::Buffer(slot) => Ok(PlannedBindingResource::Buffer {
-                resource: self.indices[&self.slot(pass, slot)?],
+                resource: self.indices[&self.slot(slot)?],
                 writable: self.described.access(slot).storage_write,
             }),
             &BindingResource::Sampler {
@@ -173,7 +149,7 @@ impl Planner<'_> {
                     let what = format!(
                         "has a sampler with an anisotropy of {anisotropy}; it is from 1 to 16, and above 1 the sampler filters"
                     );
-                    return Err(fault(pass, what));
+                    return Err(self.fault(what));
                 }
                 Ok(PlannedBindingResource::Sampler {
                     filtering,
@@ -187,7 +163,7 @@ impl Planner<'_> {
     }
 
     /// What a pass gets when it loads from a texture.
-    fn sample(&self, pass: &Pass, texture: &TextureDesc) -> SampleType {
+    fn sample(&self, texture: &TextureDesc) -> SampleType {
         let filters = |binding: &Binding| {
             matches!(
                 binding.resource,
@@ -203,7 +179,7 @@ impl Planner<'_> {
             SampleType::Integer
         } else if self.capabilities.support(texture.format).filterable
             && texture.samples <= 1
-            && pass.bindings.iter().any(filters)
+            && self.pass.bindings.iter().any(filters)
         {
             SampleType::Filterable
         } else {
@@ -212,15 +188,15 @@ impl Planner<'_> {
     }
 
     /// The work of a pass, and the resource whose layers it follows.
-    fn work(&self, pass: &Pass) -> Result<(PlannedWork, usize), GraphError> {
-        match &pass.work {
+    fn work(&self) -> Result<(PlannedWork, usize), GraphError> {
+        match &self.pass.work {
             Work::Compute {
                 covers,
                 level,
                 texels_per_workgroup,
                 regions,
             } => {
-                let (known, covered) = self.texture(pass, covers, *level)?;
+                let (known, covered) = self.texture(covers, *level)?;
                 let workgroups = workgroups::for_regions(
                     covered.size_at(*level),
                     if *regions { covered.regions } else { 1 },
@@ -235,11 +211,11 @@ impl Planner<'_> {
                 level,
                 regions,
             } => {
-                let (known, texture) = self.texture(pass, target, *level)?;
+                let (known, texture) = self.texture(target, *level)?;
                 let work = PlannedWork::Fullscreen {
                     target: self.indices[&known],
                     level: *level,
-                    plane: plane(pass, target, texture)?,
+                    plane: self.plane(target, texture)?,
                     keeps: *regions,
                 };
                 Ok((work, known))
@@ -251,8 +227,8 @@ impl Planner<'_> {
             } => {
                 let mut drawn = targets.iter().chain(depth);
                 let first = drawn.next();
-                let first = first.ok_or_else(|| fault(pass, "draws to nothing"))?;
-                let target = |slot: &String| Ok(self.indices[&self.texture(pass, slot, 0)?.0]);
+                let first = first.ok_or_else(|| self.fault("draws to nothing"))?;
+                let target = |slot: &String| Ok(self.indices[&self.texture(slot, 0)?.0]);
                 let work = PlannedWork::Host {
                     targets: targets
                         .iter()
@@ -261,7 +237,7 @@ impl Planner<'_> {
                     blend: *blend,
                     depth: depth.as_ref().map(target).transpose()?,
                 };
-                Ok((work, self.slot(pass, first)?))
+                Ok((work, self.slot(first)?))
             }
         }
     }
@@ -298,21 +274,22 @@ impl Planner<'_> {
             )),
         }
     }
-}
 
-/// The plane that a pass means of a slot's texture.
-fn plane(pass: &Pass, slot: &str, texture: &TextureDesc) -> Result<u32, GraphError> {
-    match texture.planes {
-        1 => Ok(0),
-        planes if pass.plane < planes => Ok(pass.plane),
-        planes => {
-            let what = format!("uses plane {} of '{slot}', which has {planes}", pass.plane);
-            Err(fault(pass, what).at_slot(slot))
+    /// The plane that the pass means of a slot's texture.
+    fn plane(&self, slot: &str, texture: &TextureDesc) -> Result<u32, GraphError> {
+        let plane = self.pass.plane;
+        match texture.planes {
+            1 => Ok(0),
+            planes if plane < planes => Ok(plane),
+            planes => {
+                let what = format!("uses plane {plane} of '{slot}', which has {planes}");
+                Err(self.fault(what).at_slot(slot))
+            }
         }
     }
-}
 
-/// A pass that contradicts its node.
-fn fault(pass: &Pass, what: impl core::fmt::Display) -> GraphError {
-    declaration(format!("pass '{}' {what}", pass.label))
+    /// The pass contradicts its node.
+    fn fault(&self, what: impl core::fmt::Display) -> GraphError {
+        declaration(format!("pass '{}' {what}", self.pass.label))
+    }
 }

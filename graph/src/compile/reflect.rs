@@ -38,27 +38,22 @@ impl Shaders {
             }
             return Ok(());
         }
-        let (module, info) = match self.parsed.get(&pass.wgsl) {
-            Some(parsed) => parsed,
-            None => {
-                let parsed = parse(&pass.wgsl, capabilities.profile)?;
-                self.parsed.entry(pass.wgsl.clone()).or_insert(parsed)
-            }
-        };
+        if !self.parsed.contains_key(&pass.wgsl) {
+            let parsed = parse(&pass.wgsl, capabilities.profile)?;
+            self.parsed.insert(pass.wgsl.clone(), parsed);
+        }
+        let (module, info) = &self.parsed[&pass.wgsl];
+        let mut stage = ShaderStage::Compute;
         if matches!(pass.work, PlannedWork::Fullscreen { .. }) {
-            let vertex =
-                info.get_entry_point(entry_point(module, "fullscreen", ShaderStage::Vertex)?);
-            if let Some((name, ..)) = variables(module, vertex).next() {
+            stage = ShaderStage::Fragment;
+            let vertex = entry_point(module, "fullscreen", ShaderStage::Vertex)?;
+            if let Some((name, ..)) = variables(module, info.get_entry_point(vertex)).next() {
                 return Err(mismatch(format!(
                     "the vertex entry point 'fullscreen' uses '{name}'; bindings are the fragment entry point's"
                 )));
             }
         }
         check_constants(module, pass)?;
-        let stage = match pass.work {
-            PlannedWork::Compute { .. } => ShaderStage::Compute,
-            PlannedWork::Fullscreen { .. } | PlannedWork::Host { .. } => ShaderStage::Fragment,
-        };
         let uses = info.get_entry_point(entry_point(module, &pass.entry_point, stage)?);
         let mut open: BTreeMap<&str, &mut Planned> = BTreeMap::new();
         for (binding, planned) in described.bindings.iter().zip(&mut pass.bindings) {
@@ -78,12 +73,9 @@ impl Shaders {
             }
             let Some(planned) = open.remove(name) else {
                 return Err(mismatch(format!(
-                    "the shader uses the variable '{name}', which the node does not describe; {}",
-                    among(
-                        "what it describes and the shader does not use",
-                        name,
-                        open.keys().copied()
-                    )
+                    "the shader uses the variable '{name}', which the node does not describe; what it describes and the \
+                     shader does not use: {}",
+                    among(name, open.keys().copied())
                 )));
             };
             planned.variable = number.binding;
@@ -97,9 +89,9 @@ impl Shaders {
         if let Some(name) = open.keys().next() {
             let used = variables(module, uses).map(|(name, ..)| name);
             return Err(mismatch(format!(
-                "the node describes the variable '{name}', which the entry point '{}' does not use; {}",
+                "the node describes the variable '{name}', which the entry point '{}' does not use; what it uses: {}",
                 pass.entry_point,
-                among("what it uses", name, used)
+                among(name, used)
             )));
         }
         pass.bindings.sort_by_key(|planned| planned.variable);
@@ -107,11 +99,11 @@ impl Shaders {
     }
 }
 
-/// The names nearest to one, after what they are.
-fn among<'a>(what: &str, name: &str, known: impl Iterator<Item = &'a str>) -> String {
+/// The names nearest to one.
+fn among<'a>(name: &str, known: impl Iterator<Item = &'a str>) -> String {
     match nearest(name, known) {
-        none if none.is_empty() => format!("{what}: nothing"),
-        nearest => format!("{what}: {nearest}"),
+        none if none.is_empty() => "nothing".to_owned(),
+        nearest => nearest,
     }
 }
 
@@ -191,35 +183,26 @@ fn check_filtering(
     let planned = |variable: naga::Handle<naga::GlobalVariable>| {
         let index = module.global_variables[variable].binding?.binding;
         let mut bindings = pass.bindings.iter();
-        bindings.find(|planned| planned.variable == index)
+        let found = bindings.find(|planned| planned.variable == index)?;
+        Some(&found.resource)
     };
     for key in &uses.sampling_set {
-        let (Some(image), Some(sampler)) = (planned(key.image), planned(key.sampler)) else {
-            continue;
-        };
-        if let PlannedBindingResource::Texture {
+        if let Some(&PlannedBindingResource::Texture {
             resource,
             sample: SampleType::Unfilterable,
             ..
-        } = image.resource
-            && matches!(
-                sampler.resource,
-                PlannedBindingResource::Sampler {
-                    filtering: true,
-                    ..
-                }
-            )
+        }) = planned(key.image)
+            && let Some(PlannedBindingResource::Sampler {
+                filtering: true, ..
+            }) = planned(key.sampler)
         {
+            let name = module.global_variables[key.image].name.as_deref();
+            let PlannedResource { name: of, desc, .. } = &resources[resource];
             return Err(GraphError::new(
                 GraphErrorKind::Capability,
                 format!(
-                    "'{}' samples '{}', {}, which this device cannot filter; load its texels and blend them in the shader",
-                    module.global_variables[key.image]
-                        .name
-                        .as_deref()
-                        .unwrap_or("?"),
-                    resources[resource].name,
-                    resources[resource].desc
+                    "'{}' samples '{of}', {desc}, which this device cannot filter; load its texels and blend them in the shader",
+                    name.unwrap_or("?")
                 ),
             ));
         }
@@ -230,27 +213,21 @@ fn check_filtering(
 /// Every constant is an `override` of the shader, and every `override` without a value has a constant.
 fn check_constants(module: &naga::Module, pass: &PlannedPass) -> Result<(), GraphError> {
     // An override with an `@id` is known by that number.
-    let key = |constant: &naga::Override| match constant.id {
-        Some(id) => Some(id.to_string()),
-        None => constant.name.clone(),
-    };
-    let overrides = || module.overrides.iter().map(|(_, constant)| constant);
-    for name in pass.constants.keys() {
-        if overrides().all(|constant| key(constant).as_ref() != Some(name)) {
-            return Err(mismatch(format!(
-                "the node gives the constant '{name}', which is no override of the shader"
-            )));
-        }
+    let overrides = module.overrides.iter().filter_map(|(_, constant)| {
+        let id = constant.id.map(|id| id.to_string());
+        Some((id.or(constant.name.clone())?, constant.init.is_some()))
+    });
+    let overrides: BTreeMap<String, bool> = overrides.collect();
+    let (given, mut names) = (&pass.constants, pass.constants.keys());
+    if let Some(name) = names.find(|name| !overrides.contains_key(*name)) {
+        return Err(mismatch(format!(
+            "the node gives the constant '{name}', which is no override of the shader"
+        )));
     }
-    let open = overrides()
-        .filter(|constant| constant.init.is_none())
-        .filter_map(key);
-    match open
-        .into_iter()
-        .find(|name| !pass.constants.contains_key(name))
-    {
+    let mut open = overrides.iter().filter(|(_, has_value)| !**has_value);
+    match open.find(|(name, _)| !given.contains_key(*name)) {
         None => Ok(()),
-        Some(name) => Err(mismatch(format!(
+        Some((name, _)) => Err(mismatch(format!(
             "the shader's override '{name}' has no value; the node has to give one among its constants"
         ))),
     }

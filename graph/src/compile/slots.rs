@@ -2,13 +2,13 @@
 
 use std::collections::{BTreeMap, BTreeSet};
 
-use moment_shadows::Finite;
+use moment_shadows::{Finite, TextureFormat};
 
 use super::declaration;
 use super::limits::{limits, usable};
 use crate::GraphErrorKind::{Declaration, DuplicateName, Format, Size};
 use crate::error::ensure;
-use crate::node::missing_input;
+use crate::node::{missing_input, wrong_kind};
 use crate::{
     Capabilities, Direction, GraphError, NodeDesc, ResourceDesc, Rule, Slot, SlotResource,
     TextureDesc, TextureRule,
@@ -24,22 +24,18 @@ pub(super) fn resolve(
     for slot in &desc.slots {
         let described = !slot.description.trim().is_empty();
         let writes_input = slot.direction == Direction::In && slot.resource.access().writes();
-        ensure(
-            names.insert(slot.name.as_str()),
-            DuplicateName,
-            || "the node declares two slots of this name",
-        )
-        .and(ensure(
-            described,
-            Declaration,
-            || "the slot has no description; say in a sentence what it is for",
-        ))
-        .and(ensure(
-            !writes_input,
-            Declaration,
-            || "the node writes to an input; declare it as changed in place ('in_out')",
-        ))
-        .map_err(|error| error.at_slot(&slot.name))?;
+        let is_new = names.insert(slot.name.as_str());
+        let wrong = if !is_new {
+            "the node declares two slots of this name"
+        } else if !described {
+            "the slot has no description; say in a sentence what it is for"
+        } else if writes_input {
+            "the node writes to an input; declare it as changed in place ('in_out')"
+        } else {
+            continue;
+        };
+        let kind = if is_new { Declaration } else { DuplicateName };
+        return Err(GraphError::new(kind, wrong).at_slot(&slot.name));
     }
     let mut resolved = inputs.clone();
     let (inputs_of, made): (Vec<&Slot>, Vec<&Slot>) =
@@ -52,7 +48,7 @@ pub(super) fn resolve(
         }
     }
     for slot in made {
-        let resource = make(slot, &resolved)?;
+        let resource = make(slot, &resolved).map_err(|error| error.at_slot(&slot.name))?;
         check(slot, &resource, &resolved, capabilities)?;
         let texture = resource.texture();
         if texture.is_some_and(|texture| texture.samples > 1 && texture.layers > 1) {
@@ -69,29 +65,27 @@ fn make(
     slot: &Slot,
     resolved: &BTreeMap<String, ResourceDesc>,
 ) -> Result<ResourceDesc, GraphError> {
-    fn exact<T: Clone>(
-        slot: &Slot,
+    fn exact<T: Copy>(
         resolved: &BTreeMap<String, ResourceDesc>,
         rule: &Rule<T>,
         what: &str,
         of: fn(&TextureDesc) -> T,
     ) -> Result<T, GraphError> {
         match rule {
-            Rule::Exact(value) => Ok(value.clone()),
-            Rule::SameAs(other) => Ok(of(texture_of(slot, other, resolved)?)),
+            Rule::Exact(value) => Ok(*value),
+            Rule::SameAs(other) => Ok(of(texture_of(other, resolved)?)),
             Rule::OneOf(_) | Rule::Any => Err(declaration(format!(
                 "the node makes this resource, but leaves its {what} open"
-            ))
-            .at_slot(&slot.name)),
+            ))),
         }
     }
     let rule = match &slot.resource {
         SlotResource::Buffer { size, .. } => return Ok(ResourceDesc::Buffer { size: *size }),
         SlotResource::Texture(rule) => rule,
     };
-    let count = |rule, what, of| exact(slot, resolved, rule, what, of);
-    let format = exact(slot, resolved, &rule.format, "format", |other| other.format)?;
-    let size = exact(slot, resolved, &rule.extent, "extent", |other| other.size)?;
+    let count = |rule, what, of| exact(resolved, rule, what, of);
+    let format = exact(resolved, &rule.format, "format", |other| other.format)?;
+    let size = exact(resolved, &rule.extent, "extent", |other| other.size)?;
     let mut texture = TextureDesc {
         layers: count(&rule.layers, "number of layers", |other| other.layers)?,
         mips: count(&rule.mips, "number of mip levels", |other| other.mips)?,
@@ -104,13 +98,13 @@ fn make(
         texture.encoding = Some(encoding.as_ref().clone());
     }
     if let Rule::SameAs(other) = &rule.format {
-        let other = texture_of(slot, other, resolved)?;
+        let other = texture_of(other, resolved)?;
         texture.planes = other.planes;
         texture.encoding = other.encoding.clone();
         texture.deviation = added(other.deviation, rule.deviation);
     }
     if let Rule::SameAs(other) = &rule.extent {
-        texture.regions = texture_of(slot, other, resolved)?.regions;
+        texture.regions = texture_of(other, resolved)?.regions;
     }
     Ok(ResourceDesc::Texture(texture))
 }
@@ -133,7 +127,6 @@ pub(super) fn extent_from(slot: &Slot) -> Option<&str> {
 }
 
 fn texture_of<'a>(
-    slot: &Slot,
     other: &str,
     resolved: &'a BTreeMap<String, ResourceDesc>,
 ) -> Result<&'a TextureDesc, GraphError> {
@@ -142,7 +135,6 @@ fn texture_of<'a>(
         declaration(format!(
             "its rule refers to '{other}', which is no connected texture of the node"
         ))
-        .at_slot(&slot.name)
     })
 }
 
@@ -165,16 +157,14 @@ fn check(
                 )
             }))
         }
-        (SlotResource::Buffer { .. }, ResourceDesc::Texture(_)) => Err(GraphError::new(
-            Format,
-            "a texture is connected, but this input takes a buffer",
-        )),
-        (SlotResource::Texture(_), ResourceDesc::Buffer { .. }) => Err(GraphError::new(
-            Format,
-            "a buffer is connected, but this input takes a texture",
-        )),
+        (SlotResource::Buffer { .. }, ResourceDesc::Texture(_)) => {
+            Err(wrong_kind("texture", "buffer"))
+        }
+        (SlotResource::Texture(_), ResourceDesc::Buffer { .. }) => {
+            Err(wrong_kind("buffer", "texture"))
+        }
         (SlotResource::Texture(rule), ResourceDesc::Texture(texture)) => {
-            check_texture(slot, rule, texture, resolved)
+            check_texture(rule, texture, resolved)
                 .and_then(|()| limits(texture, capabilities))
                 .and_then(|()| usable(texture, rule.access, capabilities))
         }
@@ -184,32 +174,18 @@ fn check(
 
 /// Whether a texture keeps to the rules of its slot.
 fn check_texture(
-    slot: &Slot,
     rule: &TextureRule,
     texture: &TextureDesc,
     resolved: &BTreeMap<String, ResourceDesc>,
 ) -> Result<(), GraphError> {
-    let other = |other: &str| texture_of(slot, other, resolved);
-    let count = |rule, of: fn(&TextureDesc) -> u32| {
-        let allowed = allowed(rule, u32::to_string, |name| Ok(of(other(name)?)));
-        Ok::<_, GraphError>((of(texture).to_string(), allowed?))
-    };
-    let format = (
-        texture.format.name().to_owned(),
-        allowed(
-            &rule.format,
-            |format| format.name().to_owned(),
-            |name| Ok(other(name)?.format),
-        )?,
-    );
+    let count = |rule, of| allowed(rule, u32::to_string, of, texture, resolved);
+    let format = |format: &TextureFormat| format.name().to_owned();
     let size = |size: &[u32; 2]| format!("{}x{}", size[0], size[1]);
-    let extent = (
-        size(&texture.size),
-        allowed(&rule.extent, size, |name| Ok(other(name)?.size))?,
-    );
-    let layers = count(&rule.layers, |texture| texture.layers)?;
-    let mips = count(&rule.mips, |texture| texture.mips)?;
-    let samples = count(&rule.samples, |texture| texture.samples)?;
+    let format = allowed(&rule.format, format, |it| it.format, texture, resolved)?;
+    let extent = allowed(&rule.extent, size, |it| it.size, texture, resolved)?;
+    let layers = count(&rule.layers, |it| it.layers)?;
+    let mips = count(&rule.mips, |it| it.mips)?;
+    let samples = count(&rule.samples, |it| it.samples)?;
     for ((found, allowed), kind, has, has_to) in [
         (format, Format, "the format {}", "be"),
         (extent, Size, "{} texels", "have"),
@@ -227,18 +203,21 @@ fn check_texture(
     Ok(())
 }
 
-/// What a rule allows, as texts; nothing where it allows anything.
+/// A property of a texture and what a rule allows of it, as texts; nothing where it allows anything.
 fn allowed<T>(
     rule: &Rule<T>,
     text: impl Fn(&T) -> String,
-    other: impl Fn(&str) -> Result<T, GraphError>,
-) -> Result<Vec<String>, GraphError> {
-    Ok(match rule {
+    of: fn(&TextureDesc) -> T,
+    texture: &TextureDesc,
+    resolved: &BTreeMap<String, ResourceDesc>,
+) -> Result<(String, Vec<String>), GraphError> {
+    let allowed = match rule {
         Rule::Any => Vec::new(),
         Rule::Exact(value) => vec![text(value)],
-        Rule::OneOf(values) => values.iter().map(text).collect(),
-        Rule::SameAs(slot) => vec![text(&other(slot)?)],
-    })
+        Rule::OneOf(values) => values.iter().map(&text).collect(),
+        Rule::SameAs(slot) => vec![text(&of(texture_of(slot, resolved)?))],
+    };
+    Ok((text(&of(texture)), allowed))
 }
 
 /// Sizes of storage buffers are multiples of this in WebGPU.

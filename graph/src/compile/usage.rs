@@ -61,18 +61,17 @@ pub(super) fn check_pass(
         })?;
     }
     let mut all = colours.into_iter().chain(depth);
+    // A pass that draws to nothing is no longer here.
     let Some(first) = all.next() else {
-        return Err(declaration(format!("pass '{label}' draws to nothing")));
+        return Ok(());
     };
-    match all.find(|other| other.size != first.size || other.samples != first.samples) {
-        None => Ok(()),
-        Some(other) => Err(GraphError::new(
-            GraphErrorKind::Size,
-            format!(
-                "pass '{label}' draws to {first} and to {other} at once; all its targets have one size and number of samples"
-            ),
-        )),
-    }
+    let differs = |other: &&TextureDesc| (other.size, other.samples) != (first.size, first.samples);
+    all.find(differs).map_or(Ok(()), |other| {
+        let message = format!(
+            "pass '{label}' draws to {first} and to {other} at once; all its targets have one size and number of samples"
+        );
+        Err(GraphError::new(GraphErrorKind::Size, message))
+    })
 }
 
 /// A node makes what it promises: some pass of it writes every output.

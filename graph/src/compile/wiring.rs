@@ -5,31 +5,12 @@ use std::collections::{BTreeMap, BTreeSet};
 use crate::error::{ensure, unknown};
 use crate::{Graph, GraphError, GraphErrorKind, Position};
 
-/// Where an input comes from.
-#[derive(Clone, Debug)]
-pub(super) enum Source {
-    /// An import's index.
-    Import(usize),
-    /// A node's index and the name of its slot.
-    Node(usize, String),
-}
-
-impl Source {
-    /// The node's index.
-    pub(super) fn node(&self) -> Option<usize> {
-        match self {
-            Source::Import(_) => None,
-            Source::Node(node, _) => Some(*node),
-        }
-    }
-}
-
-/// What leads to each of a node's slots, with the edge's index.
-type Inputs = BTreeMap<String, (Source, usize)>;
+/// For each of a node's slots the node that an edge leads from, unless it is an import, and the edge's index.
+type Inputs = BTreeMap<String, (Option<usize>, usize)>;
 
 /// The nodes that a node depends on.
 fn upstream(inputs: &Inputs) -> impl Iterator<Item = usize> {
-    inputs.values().filter_map(|(source, _)| source.node())
+    inputs.values().filter_map(|(node, _)| *node)
 }
 
 /// A graph's connections, checked.
@@ -58,14 +39,9 @@ impl Wiring {
             let source = source(graph, &edge.from).map_err(placed)?;
             let (node, slot) = target(graph, &edge.to).map_err(placed)?;
             if inputs[node].insert(slot.clone(), (source, index)).is_some() {
-                return Err(placed(
-                    GraphError::new(
-                        GraphErrorKind::TwoWriters,
-                        "two edges lead to this input; remove one of them",
-                    )
-                    .at_node(&graph.nodes[node].name)
-                    .at_slot(&slot),
-                ));
+                let message = "two edges lead to this input; remove one of them";
+                let error = GraphError::new(GraphErrorKind::TwoWriters, message).at_slot(&slot);
+                return Err(placed(error.at_node(&graph.nodes[node].name)));
             }
         }
         let order = order(graph, &inputs)?;
@@ -76,9 +52,8 @@ impl Wiring {
     pub(super) fn needed(&self, graph: &Graph) -> Result<BTreeSet<usize>, GraphError> {
         let mut pending = Vec::new();
         for output in &graph.outputs {
-            let source = source(graph, &output.value);
-            let source = source.map_err(|error| error.at_position(output.position))?;
-            pending.extend(source.node());
+            let source = source(graph, &output.value)?;
+            pending.extend(source);
         }
         let mut needed = BTreeSet::new();
         while let Some(node) = pending.pop() {
@@ -90,14 +65,18 @@ impl Wiring {
     }
 }
 
-/// What an edge or an output starts from.
-pub(super) fn source(graph: &Graph, from: &str) -> Result<Source, GraphError> {
-    if let Some((node, slot)) = from.split_once('.') {
-        return Ok(Source::Node(node_index(graph, node)?, slot.to_owned()));
+/// The node that an edge or an output starts from; `None` for an import.
+fn source(graph: &Graph, from: &str) -> Result<Option<usize>, GraphError> {
+    match from.split_once('.') {
+        Some((node, _)) => node_index(graph, node).map(Some),
+        None => import_index(graph, from).map(|_| None),
     }
+}
+
+pub(super) fn import_index(graph: &Graph, from: &str) -> Result<usize, GraphError> {
     let mut names = graph.imports.iter().map(|import| import.name.as_str());
     let index = names.clone().position(|name| name == from);
-    index.map(Source::Import).ok_or_else(|| {
+    index.ok_or_else(|| {
         let remark = "an output of a node is written 'node.slot'";
         unknown("import", from, names.by_ref(), remark)
     })
@@ -106,16 +85,14 @@ pub(super) fn source(graph: &Graph, from: &str) -> Result<Source, GraphError> {
 fn target(graph: &Graph, to: &str) -> Result<(usize, String), GraphError> {
     let (node, slot) = to.split_once('.').unwrap_or((to, ""));
     let index = node_index(graph, node)?;
-    ensure(
-        node != to,
-        GraphErrorKind::UnknownName,
-        || "an edge leads to a slot of a node; write 'node.slot'",
-    )
-    .map_err(|error| error.at_node(node))?;
+    if node == to {
+        let message = "an edge leads to a slot of a node; write 'node.slot'";
+        return Err(GraphError::new(GraphErrorKind::UnknownName, message).at_node(node));
+    }
     Ok((index, slot.to_owned()))
 }
 
-fn node_index(graph: &Graph, name: &str) -> Result<usize, GraphError> {
+pub(super) fn node_index(graph: &Graph, name: &str) -> Result<usize, GraphError> {
     let names = graph.nodes.iter().map(|node| node.name.as_str());
     let index = names.clone().position(|node| node == name);
     index.ok_or_else(|| {
@@ -179,13 +156,12 @@ fn cycle(graph: &Graph, inputs: &[Inputs], placed: &[bool]) -> GraphError {
         .map(|&node| graph.nodes[node].name.as_str())
         .collect();
     let first = path.last().copied().unwrap_or_default();
-    GraphError::new(
+    let error = GraphError::new(
         GraphErrorKind::Cycle,
         format!(
             "the nodes {} wait for each other; remove one of the edges between them",
             names.join(" -> ")
         ),
-    )
-    .at_node(&graph.nodes[first].name)
-    .at_position(graph.nodes[first].position)
+    );
+    graph.nodes[first].placed(error)
 }

@@ -86,19 +86,13 @@ mod tests {
             (state >> 8) % below.max(1)
         };
         while regions.len() < count {
-            let index = next(regions.len() as u32) as usize;
-            let axis = if seed % 3 == 2 {
-                next(2) as usize
-            } else {
-                (seed % 3) as usize
+            let axis = [0, 1, next(2)][(seed % 3) as usize] as usize;
+            let large = |&index: &usize| regions[index].extent[axis] > 1;
+            let large: Vec<usize> = (0..regions.len()).filter(large).collect();
+            let Some(&index) = large.get(next(large.len() as u32) as usize) else {
+                break;
             };
             let region = regions[index];
-            if region.extent[axis] < 2 {
-                if regions.iter().all(|region| region.extent[axis] < 2) {
-                    break;
-                }
-                continue;
-            }
             let at = 1 + next(region.extent[axis] - 1);
             regions[index].extent[axis] = at;
             let mut rest = region;

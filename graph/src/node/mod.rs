@@ -140,14 +140,15 @@ impl<'a> Connected<'a> {
     /// The texture that is connected to a required slot.
     pub fn texture(&self, slot: &str) -> Result<&'a TextureDesc, GraphError> {
         let resource = self.get(slot).ok_or_else(|| missing_input(slot))?;
-        resource.texture().ok_or_else(|| {
-            GraphError::new(
-                GraphErrorKind::Format,
-                "a buffer is connected, but this input takes a texture",
-            )
-            .at_slot(slot)
-        })
+        let texture = resource.texture();
+        texture.ok_or_else(|| wrong_kind("buffer", "texture").at_slot(slot))
     }
+}
+
+/// The error about a texture where a buffer is needed, or the other way round.
+pub(crate) fn wrong_kind(connected: &str, taken: &str) -> GraphError {
+    let message = format!("a {connected} is connected, but this input takes a {taken}");
+    GraphError::new(GraphErrorKind::Format, message)
 }
 
 /// The error about a required input.

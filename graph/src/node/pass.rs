@@ -249,29 +249,32 @@ impl Pass {
 
     /// The slots that the pass touches, and how. Whether a buffer is written is its slot's to say.
     pub(crate) fn touched(&self) -> Vec<(&str, Access)> {
-        let bound = self
-            .bindings
-            .iter()
-            .filter_map(|binding| match &binding.resource {
+        let mut touched: Vec<(&str, Access)> = Vec::new();
+        for binding in &self.bindings {
+            match &binding.resource {
                 BindingResource::Level { slot, .. }
                 | BindingResource::Layers(slot)
-                | BindingResource::Buffer(slot) => Some((slot, Access::READ)),
-                BindingResource::StorageLevel { slot, .. } => Some((slot, Access::STORAGE_WRITE)),
+                | BindingResource::Buffer(slot) => touched.push((slot, Access::READ)),
+                BindingResource::StorageLevel { slot, .. } => {
+                    touched.push((slot, Access::STORAGE_WRITE));
+                }
                 BindingResource::Parameters
                 | BindingResource::Regions { .. }
                 | BindingResource::Sampler { .. }
-                | BindingResource::ComparisonSampler { .. } => None,
-            });
+                | BindingResource::ComparisonSampler { .. } => {}
+            }
+        }
         let drawn: Vec<&String> = match &self.work {
             Work::Compute { .. } => Vec::new(),
             Work::Fullscreen { target, .. } => vec![target],
             Work::Host { targets, depth, .. } => targets.iter().chain(depth).collect(),
         };
-        let drawn = drawn.into_iter().map(|slot| (slot, Access::RENDER_TARGET));
-        let touched = bound.chain(drawn);
+        touched.extend(
+            drawn
+                .into_iter()
+                .map(|slot| (slot.as_str(), Access::RENDER_TARGET)),
+        );
         touched
-            .map(|(slot, access)| (slot.as_str(), access))
-            .collect()
     }
 }
 

@@ -117,12 +117,6 @@ impl<T> From<Vec<T>> for Rule<T> {
     }
 }
 
-impl<T: Clone> From<&[T]> for Rule<T> {
-    fn from(values: &[T]) -> Self {
-        Rule::OneOf(values.to_vec())
-    }
-}
-
 impl Slot {
     fn new(
         direction: Direction,

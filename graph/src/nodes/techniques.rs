@@ -96,12 +96,8 @@ pub(super) fn of_map(capabilities: &Capabilities, encoding: &MapEncoding) -> Spe
 /// This pass for each plane of a map that is encoded, told which where the encoding asks.
 pub(super) fn of_each_plane(encoding: &MapEncoding, pass: Pass) -> impl Iterator<Item = Pass> {
     let asks = encoding.technique().row().encodes_planes();
-    regions::of_each_plane(encoding.planes(), vec![pass]).map(move |pass| {
-        let plane = pass.plane;
-        if asks {
-            pass.constant("PLANE", plane)
-        } else {
-            pass
-        }
+    regions::of_each_plane(encoding.planes(), vec![pass]).map(move |pass| match pass.plane {
+        plane if asks => pass.constant("PLANE", plane),
+        _ => pass,
     })
 }

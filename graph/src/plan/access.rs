@@ -38,63 +38,58 @@ impl Touch {
 impl PlannedPass {
     /// Everything that the pass touches, and how: what its bindings hold, then its targets.
     pub(crate) fn touches(&self) -> Vec<Touch> {
-        let bound = self.bindings.iter();
-        let bound = bound.filter_map(|binding| binding.resource.touch());
-        let target = |resource: usize, level: u32, plane: u32| Touch {
-            resource,
-            access: Access::RENDER_TARGET,
-            part: Part::Level { level, plane },
+        let bindings = self.bindings.iter();
+        let mut touches: Vec<Touch> = bindings.filter_map(|it| it.resource.touch()).collect();
+        let mut draw = |resource: usize, level: u32, plane: u32| {
+            touches.push(Touch {
+                resource,
+                access: Access::RENDER_TARGET,
+                part: Part::Level { level, plane },
+            });
         };
         match &self.work {
-            PlannedWork::Compute { .. } => bound.collect(),
+            PlannedWork::Compute { .. } => {}
             &PlannedWork::Fullscreen {
-                target: resource,
+                target,
                 level,
                 plane,
                 ..
-            } => bound.chain([target(resource, level, plane)]).collect(),
+            } => draw(target, level, plane),
             PlannedWork::Host { targets, depth, .. } => {
                 let drawn = targets.iter().chain(depth);
-                bound
-                    .chain(drawn.map(|&resource| target(resource, 0, 0)))
-                    .collect()
+                drawn.for_each(|&target| draw(target, 0, 0));
             }
         }
+        touches
     }
 }
 
 impl PlannedBindingResource {
     /// The resource that it touches, if any.
-    fn touch(&self) -> Option<Touch> {
+    pub(crate) fn touch(&self) -> Option<Touch> {
         let (resource, access, part) = match *self {
             PlannedBindingResource::Texture {
                 resource,
-                one_layer,
+                one_layer: false,
+                ..
+            } => (resource, Access::READ, Part::Layers),
+            PlannedBindingResource::Texture {
+                resource,
                 level,
                 plane,
                 ..
-            } => {
-                let part = if one_layer {
-                    Part::Level { level, plane }
-                } else {
-                    Part::Layers
-                };
-                (resource, Access::READ, part)
-            }
+            } => (resource, Access::READ, Part::Level { level, plane }),
             PlannedBindingResource::StorageTexture {
                 resource,
                 level,
                 plane,
-            } => (
-                resource,
-                Access::STORAGE_WRITE,
-                Part::Level { level, plane },
-            ),
+            } => {
+                let part = Part::Level { level, plane };
+                (resource, Access::STORAGE_WRITE, part)
+            }
             PlannedBindingResource::Buffer { resource, writable } => {
-                let access = Access {
-                    storage_write: writable,
-                    ..Access::READ
-                };
+                let mut access = Access::READ;
+                access.storage_write = writable;
                 (resource, access, Part::Buffer)
             }
             PlannedBindingResource::Parameters { .. }

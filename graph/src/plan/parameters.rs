@@ -1,5 +1,6 @@
 //! Uniform data: where each node's lies in the block of a view, and writing it there.
 
+use moment_shadows::MapRegion;
 use serde::{Deserialize, Serialize};
 
 use super::PlannedRegions;
@@ -7,7 +8,7 @@ use crate::error::{ensure, unknown};
 use crate::{GraphError, GraphErrorKind};
 
 /// Where uniform data lies in the block of one view. A host keeps one block per view in a buffer of its own.
-#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[derive(Clone, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct ParameterLayout {
     /// Bytes of one view's block; blocks of several views follow each other at multiples of this.
@@ -76,7 +77,10 @@ impl ParameterLayout {
             (0..block.count).for_each(|layer| block.reset(&mut bytes, layer, 0));
         }
         for table in &self.regions {
-            (0..table.layers).for_each(|layer| table.reset(&mut bytes, layer));
+            for layer in 0..table.layers {
+                // Only a plan from elsewhere, which nothing records, has no room for a region.
+                let _ = self.write_regions(&mut bytes, &table.map, layer, &[MapRegion::WHOLE]);
+            }
         }
         bytes
     }

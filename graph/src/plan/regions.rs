@@ -40,14 +40,6 @@ impl PlannedRegions {
         self.offset as usize + layer as usize * self.stride as usize
     }
 
-    /// The whole layer as its one region.
-    pub(super) fn reset(&self, block: &mut [u8], layer: u32) {
-        let start = self.start(layer);
-        if let Some(place) = block.get_mut(start..start + self.size() as usize) {
-            fill(place, &[MapRegion::WHOLE]);
-        }
-    }
-
     fn check(&self, regions: &[MapRegion]) -> Result<(), GraphError> {
         let (map, smallest, capacity) = (&self.map, self.smallest, self.capacity);
         let given = regions.len();
@@ -75,26 +67,17 @@ impl PlannedRegions {
                     extent[0], extent[1]
                 )
             })?;
-        }
-        for (second, region) in regions.iter().enumerate() {
-            let mut earlier = regions[..second].iter();
+            let mut earlier = regions[..index].iter();
             let first = earlier.position(|earlier| earlier.overlaps(region));
             fits(first.is_none(), || {
                 let first = first.unwrap_or_default();
                 format!(
-                    "regions {first} and {second} of map '{map}' overlap; each texel belongs to one region"
+                    "regions {first} and {index} of map '{map}' overlap; each texel belongs to one region"
                 )
             })?;
         }
         Ok(())
     }
-}
-
-/// Writes regions, and zeros behind them.
-fn fill(place: &mut [u8], regions: &[MapRegion]) {
-    let bytes: &[u8] = bytemuck::cast_slice(regions);
-    place.fill(0);
-    place[..bytes.len()].copy_from_slice(bytes);
 }
 
 impl ParameterLayout {
@@ -120,10 +103,10 @@ impl ParameterLayout {
             format!("map '{map}' has {layers} layers; layer {layer} is none of them")
         })?;
         planned.check(regions)?;
-        fill(
-            self.place(block, planned.start(layer), planned.size())?,
-            regions,
-        );
+        let place = self.place(block, planned.start(layer), planned.size())?;
+        let bytes: &[u8] = bytemuck::cast_slice(regions);
+        place.fill(0);
+        place[..bytes.len()].copy_from_slice(bytes);
         Ok(())
     }
 }

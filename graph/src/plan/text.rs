@@ -30,11 +30,10 @@ impl fmt::Display for Plan {
                     }
                     PlannedWork::Host { .. } => "the host draws".to_owned(),
                 };
-                let layers = if pass.each_layer {
-                    format!(" x {} layers", pass.layers)
-                } else {
-                    String::new()
-                };
+                let layers = pass
+                    .each_layer
+                    .then(|| format!(" x {} layers", pass.layers));
+                let layers = layers.unwrap_or_default();
                 let [read, written] = [pass.bytes_read, pass.bytes_written].map(Bytes);
                 let text = format!("{work}{layers}, {read} read, {written} written");
                 (pass.name(), text)

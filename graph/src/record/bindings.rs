@@ -3,8 +3,7 @@
 use super::given::{ImportedResource, check_parameters, find_import};
 use super::objects::Objects;
 use super::pipelines::{Made, Pipeline, label, missing};
-use super::resources::Created;
-use super::samplers::{comparison_sampler, sampler};
+use super::samplers::sampler;
 use super::scope::{check_alive, scoped};
 use super::{Pipelines, Resources};
 use crate::error::ensure;
@@ -21,7 +20,8 @@ pub struct Bindings {
     pub(super) parameter_size: u64,
     pub(super) uniform_alignment: u32,
     pub(super) bind_group: u32,
-    outputs: Vec<(String, Created)>,
+    /// What the plan created of the graph's outputs.
+    pub(crate) outputs: Vec<(String, ImportedResource)>,
 }
 
 /// A pass, ready to be recorded.
@@ -61,12 +61,11 @@ pub(super) enum Action {
     },
     Draw {
         pipeline: wgpu::RenderPipeline,
-        /// For a render pass of the host that looks different.
-        drawn: Option<wgpu::RenderPipeline>,
+        /// For a render pass of the host.
+        drawn: wgpu::RenderPipeline,
         /// One per layer.
         targets: Vec<wgpu::TextureView>,
-        /// Whether they are not cleared.
-        keeps: bool,
+        load: wgpu::LoadOp<wgpu::Color>,
     },
     Host {
         targets: Vec<wgpu::TextureView>,
@@ -85,7 +84,7 @@ impl Bindings {
         plan: &Plan,
         pipelines: &Pipelines,
         resources: &Resources,
-        imports: &[(&str, ImportedResource<'_>)],
+        imports: &[(&str, ImportedResource)],
         parameters: Option<&wgpu::Buffer>,
     ) -> Result<Self, GraphError> {
         plan.check()?;
@@ -96,90 +95,66 @@ impl Bindings {
         )?;
         let uniform_alignment = device.limits().min_uniform_buffer_offset_alignment;
         check_parameters(plan, parameters, uniform_alignment)?;
-        let binder = Binder {
+        let found = plan.imports.iter();
+        let found = found.map(|import| find_import(plan, import, imports));
+        let objects = Objects {
             device,
-            objects: Objects {
-                plan,
-                resources,
-                imports: plan
-                    .imports
-                    .iter()
-                    .map(|import| find_import(plan, import, imports))
-                    .collect::<Result<_, _>>()?,
-            },
+            plan,
+            resources,
+            imports: found.collect::<Result<_, _>>()?,
             parameters,
         };
         let mut steps = Vec::with_capacity(plan.passes.len());
         for pass in &plan.passes {
-            let made = match pass.work {
-                PlannedWork::Host { .. } => None,
-                PlannedWork::Compute { .. } | PlannedWork::Fullscreen { .. } => {
-                    Some(pipelines.get(plan, pass)?)
-                }
-            };
-            steps.push(scoped(device, &label(pass), || binder.step(pass, made)).await??);
+            let is_host = matches!(pass.work, PlannedWork::Host { .. });
+            let made = (!is_host).then(|| pipelines.get(plan, pass)).transpose()?;
+            steps.push(scoped(device, &label(pass), || objects.step(pass, made)).await??);
         }
         check_alive(device)?;
-        let outputs = plan
-            .outputs
-            .iter()
-            .filter_map(|output| {
-                let created = resources.get(&plan.resources[output.value])?;
-                Some((output.name.clone(), created.clone()))
-            })
-            .collect();
+        let outputs = plan.outputs.iter().filter_map(|output| {
+            let created = resources.get(&plan.resources[output.value])?;
+            Some((output.name.clone(), created.clone()))
+        });
         Ok(Self {
             steps,
             parameters: parameters.cloned(),
             parameter_size: u64::from(plan.parameters.size),
             uniform_alignment,
             bind_group: plan.bind_group,
-            outputs,
+            outputs: outputs.collect(),
         })
     }
 
     /// The texture behind an output of the graph that the plan created.
     #[must_use]
     pub fn output(&self, name: &str) -> Option<&wgpu::Texture> {
-        match self.created(name)? {
-            Created::Texture(texture) => Some(texture),
-            Created::Buffer(_) => None,
-        }
+        let mut outputs = self.outputs.iter();
+        let (_, ImportedResource::Texture(texture)) = outputs.find(|it| it.0 == name)? else {
+            return None;
+        };
+        Some(texture)
     }
 
     /// The buffer behind an output of the graph that the plan created.
     #[must_use]
     pub fn output_buffer(&self, name: &str) -> Option<&wgpu::Buffer> {
-        match self.created(name)? {
-            Created::Texture(_) => None,
-            Created::Buffer(buffer) => Some(buffer),
-        }
-    }
-
-    fn created(&self, name: &str) -> Option<&Created> {
         let mut outputs = self.outputs.iter();
-        let (_, created) = outputs.find(|(output, _)| output == name)?;
-        Some(created)
+        let (_, ImportedResource::Buffer(buffer)) = outputs.find(|it| it.0 == name)? else {
+            return None;
+        };
+        Some(buffer)
     }
-}
-
-/// What binding a pass draws from.
-struct Binder<'a> {
-    device: &'a wgpu::Device,
-    objects: Objects<'a>,
-    parameters: Option<&'a wgpu::Buffer>,
 }
 
 /// An object of a bind group, kept until the group is made.
 enum Bound {
     View(wgpu::TextureView),
-    Buffer(wgpu::Buffer),
-    /// So many bytes of the parameter buffer.
-    Parameters(wgpu::Buffer, u32),
+    /// So many bytes of a buffer; all, where `None`.
+    Buffer(wgpu::Buffer, Option<wgpu::BufferSize>),
     Sampler(wgpu::Sampler),
 }
 
-impl Binder<'_> {
+impl Objects<'_> {
     fn step(&self, pass: &PlannedPass, made: Option<Made<'_>>) -> Result<Step, GraphError> {
         let label = label(pass);
         let mut bind_groups = Vec::new();
@@ -189,22 +164,16 @@ impl Binder<'_> {
             }
         }
         let uniforms = self.uniforms(pass);
-        ensure(
-            uniforms.len() <= MOST_UNIFORMS,
-            GraphErrorKind::Plan,
-            || {
-                format!(
-                    "{label} has {} uniform bindings, more than {MOST_UNIFORMS}",
-                    uniforms.len()
-                )
-            },
-        )?;
+        let count = uniforms.len();
+        ensure(count <= MOST_UNIFORMS, GraphErrorKind::Plan, || {
+            format!("{label} has {count} uniform bindings, more than {MOST_UNIFORMS}")
+        })?;
         let view = |target: usize, level, plane, layer| {
             let part = Part::Level { level, plane };
-            self.objects.view(target, part, layer)
+            self.view(target, part, layer)
         };
-        let action = match (&pass.work, made.map(|made| made.pipeline)) {
-            (PlannedWork::Compute { workgroups }, Some(Pipeline::Compute(pipeline))) => {
+        let action = match (&pass.work, made.map(|made| [made.pipeline, made.drawn])) {
+            (PlannedWork::Compute { workgroups }, Some([Pipeline::Compute(pipeline), _])) => {
                 Action::Dispatch {
                     pipeline: pipeline.clone(),
                     workgroups: *workgroups,
@@ -217,11 +186,15 @@ impl Binder<'_> {
                     plane,
                     keeps,
                 },
-                Some(Pipeline::Render(pipeline)),
+                Some([Pipeline::Render(pipeline), Pipeline::Render(drawn)]),
             ) => Action::Draw {
                 pipeline: pipeline.clone(),
-                drawn: made.and_then(|made| made.drawn).cloned(),
-                keeps,
+                drawn: drawn.clone(),
+                load: if keeps {
+                    wgpu::LoadOp::Load
+                } else {
+                    wgpu::LoadOp::Clear(wgpu::Color::TRANSPARENT)
+                },
                 targets: (0..pass.layers)
                     .map(|layer| view(target, level, plane, layer))
                     .collect::<Result<_, _>>()?,
@@ -258,32 +231,24 @@ impl Binder<'_> {
 
     /// Uniform data in the order of the bindings, which is that of dynamic offsets.
     fn uniforms(&self, pass: &PlannedPass) -> Vec<Uniform> {
-        let layout = &self.objects.plan.parameters;
+        let layout = &self.plan.parameters;
         // The compiler sorts bindings; a plan from elsewhere may not.
         let mut bindings: Vec<_> = pass.bindings.iter().collect();
         bindings.sort_by_key(|binding| binding.variable);
-        let uniform = |resource: &PlannedBindingResource| {
-            let (offset, stride, count) = match *resource {
-                PlannedBindingResource::Parameters { block, .. } => {
+        let uniforms = bindings.into_iter().filter_map(|binding| {
+            let (offset, stride, count) =
+                if let PlannedBindingResource::Parameters { block, .. } = binding.resource {
                     let block = &layout.blocks[block];
                     (block.offset, block.stride, block.count)
-                }
-                PlannedBindingResource::Regions { table, .. } => {
+                } else if let PlannedBindingResource::Regions { table, .. } = binding.resource {
                     let table = &layout.regions[table];
                     (table.offset, table.stride, table.layers)
-                }
-                PlannedBindingResource::Texture { .. }
-                | PlannedBindingResource::StorageTexture { .. }
-                | PlannedBindingResource::Buffer { .. }
-                | PlannedBindingResource::Sampler { .. }
-                | PlannedBindingResource::ComparisonSampler { .. } => return None,
-            };
+                } else {
+                    return None;
+                };
             let stride = if count > 1 { stride } else { 0 };
             Some(Uniform { offset, stride })
-        };
-        let uniforms = bindings
-            .iter()
-            .filter_map(|binding| uniform(&binding.resource));
+        });
         uniforms.collect()
     }
 
@@ -297,23 +262,22 @@ impl Binder<'_> {
         let bindings = pass.bindings.iter();
         let bound = bindings.map(|binding| self.bound(&binding.resource, layer, label));
         let bound = bound.collect::<Result<Vec<_>, GraphError>>()?;
-        let entries = pass.bindings.iter().zip(&bound).map(|(binding, bound)| {
+        let numbers = pass.bindings.iter().map(|binding| binding.variable);
+        let entries = numbers.zip(&bound).map(|(binding, bound)| {
             let resource = match bound {
                 Bound::View(view) => wgpu::BindingResource::TextureView(view),
                 Bound::Sampler(sampler) => wgpu::BindingResource::Sampler(sampler),
-                Bound::Buffer(buffer) => buffer.as_entire_binding(),
-                Bound::Parameters(buffer, size) => {
-                    wgpu::BindingResource::Buffer(wgpu::BufferBinding {
+                &Bound::Buffer(ref buffer, size) => {
+                    let offset = 0;
+                    let binding = wgpu::BufferBinding {
                         buffer,
-                        offset: 0,
-                        size: wgpu::BufferSize::new(u64::from(*size)),
-                    })
+                        offset,
+                        size,
+                    };
+                    wgpu::BindingResource::Buffer(binding)
                 }
             };
-            wgpu::BindGroupEntry {
-                binding: binding.variable,
-                resource,
-            }
+            wgpu::BindGroupEntry { binding, resource }
         });
         let entries: Vec<wgpu::BindGroupEntry<'_>> = entries.collect();
         Ok(self.device.create_bind_group(&wgpu::BindGroupDescriptor {
@@ -329,50 +293,21 @@ impl Binder<'_> {
         layer: u32,
         label: &str,
     ) -> Result<Bound, GraphError> {
-        let view = |resource, part| Ok(Bound::View(self.objects.view(resource, part, layer)?));
-        match *resource {
-            PlannedBindingResource::Parameters { size, .. }
-            | PlannedBindingResource::Regions { size, .. } => match self.parameters {
-                Some(buffer) => Ok(Bound::Parameters(buffer.clone(), size)),
-                None => Err(GraphError::new(
-                    GraphErrorKind::Parameters,
-                    format!("the parameter buffer is missing; {label} needs {size} bytes of it"),
-                )),
-            },
-            PlannedBindingResource::Texture {
-                resource,
-                one_layer,
-                level,
-                plane,
-                ..
-            } => {
-                let part = if one_layer {
-                    Part::Level { level, plane }
-                } else {
-                    Part::Layers
-                };
-                view(resource, part)
-            }
-            PlannedBindingResource::StorageTexture {
-                resource,
-                level,
-                plane,
-            } => view(resource, Part::Level { level, plane }),
-            PlannedBindingResource::Buffer { resource, .. } => {
-                Ok(Bound::Buffer(self.objects.buffer(resource)?))
-            }
-            PlannedBindingResource::Sampler {
-                filtering,
-                anisotropy,
-            } => Ok(Bound::Sampler(sampler(
-                self.device,
-                filtering,
-                anisotropy,
-                label,
-            ))),
-            PlannedBindingResource::ComparisonSampler { reversed } => Ok(Bound::Sampler(
-                comparison_sampler(self.device, reversed, label),
-            )),
+        if let Some(size) = resource.uniform_size() {
+            let buffer = self.parameters.ok_or_else(|| {
+                let message =
+                    format!("the parameter buffer is missing; {label} needs {size} bytes of it");
+                GraphError::new(GraphErrorKind::Parameters, message)
+            })?;
+            let size = wgpu::BufferSize::new(u64::from(size));
+            return Ok(Bound::Buffer(buffer.clone(), size));
         }
+        Ok(match resource.touch() {
+            None => Bound::Sampler(sampler(self.device, resource, label)),
+            Some(touch) if touch.part == Part::Buffer => {
+                Bound::Buffer(self.buffer(touch.resource)?, None)
+            }
+            Some(touch) => Bound::View(self.view(touch.resource, touch.part, layer)?),
+        })
     }
 }

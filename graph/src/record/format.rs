@@ -8,28 +8,24 @@ impl TextureDesc {
     /// The format in wgpu's terms.
     #[must_use]
     pub fn wgpu_format(&self) -> wgpu::TextureFormat {
-        texture_format(self.format)
-    }
-}
-
-pub(super) fn texture_format(format: TextureFormat) -> wgpu::TextureFormat {
-    match format {
-        TextureFormat::R8Unorm => wgpu::TextureFormat::R8Unorm,
-        TextureFormat::Rgba8Unorm => wgpu::TextureFormat::Rgba8Unorm,
-        TextureFormat::R16Unorm => wgpu::TextureFormat::R16Unorm,
-        TextureFormat::Rg16Unorm => wgpu::TextureFormat::Rg16Unorm,
-        TextureFormat::R16Float => wgpu::TextureFormat::R16Float,
-        TextureFormat::Rg16Float => wgpu::TextureFormat::Rg16Float,
-        TextureFormat::R32Float => wgpu::TextureFormat::R32Float,
-        TextureFormat::Rg32Float => wgpu::TextureFormat::Rg32Float,
-        TextureFormat::Rgb10a2Unorm => wgpu::TextureFormat::Rgb10a2Unorm,
-        TextureFormat::Rgba16Unorm => wgpu::TextureFormat::Rgba16Unorm,
-        TextureFormat::Rgba16Float => wgpu::TextureFormat::Rgba16Float,
-        TextureFormat::Rgba32Float => wgpu::TextureFormat::Rgba32Float,
-        TextureFormat::Rg32Uint => wgpu::TextureFormat::Rg32Uint,
-        TextureFormat::Rgba32Uint => wgpu::TextureFormat::Rgba32Uint,
-        TextureFormat::Depth16Unorm => wgpu::TextureFormat::Depth16Unorm,
-        TextureFormat::Depth32Float => wgpu::TextureFormat::Depth32Float,
+        match self.format {
+            TextureFormat::R8Unorm => wgpu::TextureFormat::R8Unorm,
+            TextureFormat::Rgba8Unorm => wgpu::TextureFormat::Rgba8Unorm,
+            TextureFormat::R16Unorm => wgpu::TextureFormat::R16Unorm,
+            TextureFormat::Rg16Unorm => wgpu::TextureFormat::Rg16Unorm,
+            TextureFormat::R16Float => wgpu::TextureFormat::R16Float,
+            TextureFormat::Rg16Float => wgpu::TextureFormat::Rg16Float,
+            TextureFormat::R32Float => wgpu::TextureFormat::R32Float,
+            TextureFormat::Rg32Float => wgpu::TextureFormat::Rg32Float,
+            TextureFormat::Rgb10a2Unorm => wgpu::TextureFormat::Rgb10a2Unorm,
+            TextureFormat::Rgba16Unorm => wgpu::TextureFormat::Rgba16Unorm,
+            TextureFormat::Rgba16Float => wgpu::TextureFormat::Rgba16Float,
+            TextureFormat::Rgba32Float => wgpu::TextureFormat::Rgba32Float,
+            TextureFormat::Rg32Uint => wgpu::TextureFormat::Rg32Uint,
+            TextureFormat::Rgba32Uint => wgpu::TextureFormat::Rgba32Uint,
+            TextureFormat::Depth16Unorm => wgpu::TextureFormat::Depth16Unorm,
+            TextureFormat::Depth32Float => wgpu::TextureFormat::Depth32Float,
+        }
     }
 }
 
@@ -53,24 +49,26 @@ pub(super) fn texture_difference(
     access: Access,
 ) -> Option<String> {
     let usages = texture_usages(access, false);
-    let same = texture.format() == texture_format(desc.format)
-        && [texture.width(), texture.height()] == desc.size
-        && texture.depth_or_array_layers() == layers
-        && texture.sample_count() == desc.samples
-        && texture.mip_level_count() == desc.mips;
-    if !same {
-        return Some(format!(
-            "{:?} {}x{} x {} layers, {} mips, {} samples",
-            texture.format(),
-            texture.width(),
-            texture.height(),
-            texture.depth_or_array_layers(),
-            texture.mip_level_count(),
-            texture.sample_count()
-        ));
+    let text = |format: wgpu::TextureFormat, [width, height]: [u32; 2], layers, mips, samples| {
+        format!("{format:?} {width}x{height} x {layers} layers, {mips} mips, {samples} samples")
+    };
+    let (size, mips) = (
+        [texture.width(), texture.height()],
+        texture.mip_level_count(),
+    );
+    let (array_layers, samples) = (texture.depth_or_array_layers(), texture.sample_count());
+    let found = text(texture.format(), size, array_layers, mips, samples);
+    if found
+        != text(
+            desc.wgpu_format(),
+            desc.size,
+            layers,
+            desc.mips,
+            desc.samples,
+        )
+    {
+        return Some(found);
     }
-    if !texture.usage().contains(usages) {
-        return Some(format!("without the usage {:?}", usages - texture.usage()));
-    }
-    None
+    let missing = usages - texture.usage();
+    (!missing.is_empty()).then(|| format!("without the usage {missing:?}"))
 }

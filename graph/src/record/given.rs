@@ -4,20 +4,20 @@ use super::format::texture_difference;
 use crate::error::ensure;
 use crate::{GraphError, GraphErrorKind, Named, Plan, PlannedResource, ResourceDesc};
 
-/// A resource that the host owns, as it is bound.
-#[derive(Clone, Copy, Debug)]
-pub enum ImportedResource<'a> {
+/// A handle of a resource that the host owns, as it is bound.
+#[derive(Clone, Debug)]
+pub enum ImportedResource {
     /// A texture with all its layers.
-    Texture(&'a wgpu::Texture),
+    Texture(wgpu::Texture),
     /// One texture per layer: the form of multisampled textures with several layers.
-    Layers(&'a [wgpu::Texture]),
+    Layers(Vec<wgpu::Texture>),
     /// A buffer.
-    Buffer(&'a wgpu::Buffer),
+    Buffer(wgpu::Buffer),
 }
 
-impl<'a> From<&'a wgpu::Texture> for ImportedResource<'a> {
-    fn from(texture: &'a wgpu::Texture) -> Self {
-        Self::Texture(texture)
+impl From<&wgpu::Texture> for ImportedResource {
+    fn from(texture: &wgpu::Texture) -> Self {
+        Self::Texture(texture.clone())
     }
 }
 
@@ -58,8 +58,8 @@ pub(super) fn check_parameters(
 pub(super) fn find_import<'a>(
     plan: &Plan,
     import: &Named<usize>,
-    imports: &[(&str, ImportedResource<'a>)],
-) -> Result<ImportedResource<'a>, GraphError> {
+    imports: &'a [(&str, ImportedResource)],
+) -> Result<&'a ImportedResource, GraphError> {
     let (name, planned) = (&import.name, &plan.resources[import.value]);
     let expected = &planned.desc;
     let Some((_, given)) = imports.iter().find(|(given, _)| given == name) else {
@@ -72,13 +72,11 @@ pub(super) fn find_import<'a>(
             texture_difference(texture, desc, desc.array_layers(), planned.access)
         }
         (ImportedResource::Layers(textures), ResourceDesc::Texture(desc)) => {
-            if textures.len() == desc.array_layers() as usize {
-                textures
-                    .iter()
-                    .find_map(|texture| texture_difference(texture, desc, 1, planned.access))
-            } else {
-                Some(format!("a list of {} textures", textures.len()))
-            }
+            let listed = textures.len();
+            let mut all = textures.iter();
+            (listed != desc.array_layers() as usize)
+                .then(|| format!("a list of {listed} textures"))
+                .or_else(|| all.find_map(|it| texture_difference(it, desc, 1, planned.access)))
         }
         (ImportedResource::Buffer(buffer), ResourceDesc::Buffer { size }) => {
             let (given, usage) = (buffer.size(), buffer.usage());
@@ -89,7 +87,7 @@ pub(super) fn find_import<'a>(
         (_, ResourceDesc::Buffer { .. }) => Some("a texture".to_owned()),
     };
     match difference {
-        None => Ok(*given),
+        None => Ok(given),
         Some(given) => Err(wrong_import(planned, &given)),
     }
 }

@@ -2,7 +2,7 @@
 
 use crate::{Plan, PlannedBindingResource, PlannedPass, PlannedWork, SampleType};
 
-/// The entries of a pass's layout. Passes with equal ones share it.
+/// The entries of a pass's layout.
 pub(super) fn entries(plan: &Plan, pass: &PlannedPass) -> Vec<wgpu::BindGroupLayoutEntry> {
     let visibility = match pass.work {
         PlannedWork::Fullscreen { .. } => wgpu::ShaderStages::FRAGMENT,

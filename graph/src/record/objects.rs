@@ -2,15 +2,16 @@
 
 use super::Resources;
 use super::given::{ImportedResource, wrong_import};
-use super::resources::Created;
 use crate::plan::Part;
 use crate::{GraphError, Home, Plan, PlannedResource};
 
-/// Where a plan's resources are found.
+/// What passes are bound to: where a plan's resources are found.
 pub(super) struct Objects<'a> {
+    pub(super) device: &'a wgpu::Device,
     pub(super) plan: &'a Plan,
     pub(super) resources: &'a Resources,
-    pub(super) imports: Vec<ImportedResource<'a>>,
+    pub(super) imports: Vec<&'a ImportedResource>,
+    pub(super) parameters: Option<&'a wgpu::Buffer>,
 }
 
 impl Objects<'_> {
@@ -56,21 +57,17 @@ impl Objects<'_> {
 
     pub(super) fn buffer(&self, resource: usize) -> Result<wgpu::Buffer, GraphError> {
         let planned = &self.plan.resources[resource];
-        match self.object(planned) {
-            Some(ImportedResource::Buffer(buffer)) => Ok(buffer.clone()),
-            Some(ImportedResource::Texture(_) | ImportedResource::Layers(_)) | None => {
-                Err(wrong_import(planned, "a texture"))
-            }
+        if let Some(ImportedResource::Buffer(buffer)) = self.object(planned) {
+            Ok(buffer.clone())
+        } else {
+            Err(wrong_import(planned, "a texture"))
         }
     }
 
-    fn object(&self, planned: &PlannedResource) -> Option<ImportedResource<'_>> {
+    fn object(&self, planned: &PlannedResource) -> Option<&ImportedResource> {
         match planned.home {
             Home::Import(index) => self.imports.get(index).copied(),
-            Home::Memory(_) => self.resources.get(planned).map(|created| match created {
-                Created::Texture(texture) => ImportedResource::Texture(texture),
-                Created::Buffer(buffer) => ImportedResource::Buffer(buffer),
-            }),
+            Home::Memory(_) => self.resources.get(planned),
         }
     }
 }

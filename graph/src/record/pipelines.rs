@@ -1,20 +1,23 @@
 //! Pipelines, one per distinct shader text, constants and formats.
 
 use std::collections::HashMap;
+use std::collections::hash_map::Entry;
+
+use wgpu::BlendFactor;
 
 use super::layout;
 use super::scope::{check_alive, scoped};
 use crate::error::unknown;
-use crate::{GraphError, GraphErrorKind, Plan, PlannedPass, PlannedWork, TextureDesc};
+use crate::{GraphError, GraphErrorKind, Plan, PlannedPass, PlannedWork};
 
 /// How pipelines are made.
-#[derive(Clone, Copy, Debug, Default)]
-pub struct PipelineOptions<'a> {
+#[derive(Clone, Debug, Default)]
+pub struct PipelineOptions {
     /// A cache of compiled shaders that the host keeps.
-    pub cache: Option<&'a wgpu::PipelineCache>,
+    pub cache: Option<wgpu::PipelineCache>,
     /// The fullscreen passes (`node/pass`) that [`crate::record::Bindings::draw`] draws into render passes other than
     /// those of the plan, and what these look like.
-    pub host_targets: &'a [(&'a str, HostTarget)],
+    pub host_targets: Vec<(String, HostTarget)>,
 }
 
 /// A render pass that the host has open, as far as a pipeline depends on it.
@@ -46,26 +49,18 @@ impl HostTarget {
     /// [`new`](Self::new).
     #[must_use]
     pub fn darkened(format: wgpu::TextureFormat) -> Self {
-        Self::blended(
-            format,
-            wgpu::BlendFactor::Zero,
-            wgpu::BlendFactor::OneMinusSrc,
-        )
+        Self::blended(format, BlendFactor::Zero, BlendFactor::OneMinusSrc)
     }
 
     /// A target for `composite_scattering`: its colours are multiplied by the transmittance, in-scattered radiance is added
     /// to them, and its alpha stays. Otherwise like [`new`](Self::new).
     #[must_use]
     pub fn scattered(format: wgpu::TextureFormat) -> Self {
-        Self::blended(format, wgpu::BlendFactor::One, wgpu::BlendFactor::SrcAlpha)
+        Self::blended(format, BlendFactor::One, BlendFactor::SrcAlpha)
     }
 
     /// A target whose colours become `source` x drawn + `target` x what is there; its alpha stays.
-    fn blended(
-        format: wgpu::TextureFormat,
-        source: wgpu::BlendFactor,
-        target: wgpu::BlendFactor,
-    ) -> Self {
+    fn blended(format: wgpu::TextureFormat, source: BlendFactor, target: BlendFactor) -> Self {
         let sum = |src_factor, dst_factor| wgpu::BlendComponent {
             src_factor,
             dst_factor,
@@ -74,7 +69,7 @@ impl HostTarget {
         Self {
             blend: Some(wgpu::BlendState {
                 color: sum(source, target),
-                alpha: sum(wgpu::BlendFactor::Zero, wgpu::BlendFactor::One),
+                alpha: sum(BlendFactor::Zero, BlendFactor::One),
             }),
             ..Self::new(format)
         }
@@ -84,10 +79,9 @@ impl HostTarget {
 /// Every pipeline that one or more plans need. Made once; a change of sizes needs no new one.
 #[derive(Debug, Default)]
 pub struct Pipelines {
-    layouts: HashMap<Vec<wgpu::BindGroupLayoutEntry>, wgpu::BindGroupLayout>,
-    pipelines: HashMap<PipelineKey, Pipeline>,
-    /// Pipelines for render passes of the host: for each shader the last one that was asked for.
-    drawn: HashMap<PipelineKey, (HostTarget, wgpu::RenderPipeline)>,
+    pipelines: HashMap<PipelineKey, (Pipeline, wgpu::BindGroupLayout)>,
+    /// For each pipeline that of a render pass of the host, the last one that was asked for.
+    drawn: HashMap<PipelineKey, PipelineKey>,
 }
 
 /// What a pipeline depends on.
@@ -98,7 +92,7 @@ struct PipelineKey {
     /// Bit patterns, so that the key can be compared and hashed.
     constants: Vec<(String, u64)>,
     layout: Vec<wgpu::BindGroupLayoutEntry>,
-    target: Option<wgpu::TextureFormat>,
+    target: Option<HostTarget>,
     bind_group: u32,
 }
 
@@ -113,8 +107,8 @@ pub(super) enum Pipeline {
 pub(super) struct Made<'a> {
     pub(super) pipeline: &'a Pipeline,
     pub(super) layout: &'a wgpu::BindGroupLayout,
-    /// The pipeline that draws a fullscreen pass into a render pass of the host, where one was asked for.
-    pub(super) drawn: Option<&'a wgpu::RenderPipeline>,
+    /// What draws a fullscreen pass into a render pass of the host: the same, unless another was asked for.
+    pub(super) drawn: &'a Pipeline,
 }
 
 impl Pipelines {
@@ -122,7 +116,7 @@ impl Pipelines {
     pub async fn create(
         device: &wgpu::Device,
         plan: &Plan,
-        options: PipelineOptions<'_>,
+        options: PipelineOptions,
     ) -> Result<Self, GraphError> {
         let mut pipelines = Self::default();
         pipelines.extend(device, plan, options).await?;
@@ -134,22 +128,28 @@ impl Pipelines {
         &mut self,
         device: &wgpu::Device,
         plan: &Plan,
-        options: PipelineOptions<'_>,
+        options: PipelineOptions,
+    ) -> Result<usize, GraphError> {
+        let is_drawn = |pass: &&PlannedPass| matches!(pass.work, PlannedWork::Fullscreen { .. });
+        let drawn = plan.passes.iter().filter(is_drawn);
+        let drawn: Vec<String> = drawn.map(PlannedPass::name).collect();
+        for (pass, _) in &options.host_targets {
+            if !drawn.contains(pass) {
+                return Err(no_such_pass(pass, drawn.iter().map(String::as_str)));
+            }
+        }
+        self.extend_by_part(device, plan, &options).await
+    }
+
+    /// As [`extend`](Self::extend), for a plan that need not have all the passes that the options name.
+    pub(crate) async fn extend_by_part(
+        &mut self,
+        device: &wgpu::Device,
+        plan: &Plan,
+        options: &PipelineOptions,
     ) -> Result<usize, GraphError> {
         plan.check()?;
         check_alive(device)?;
-        let is_drawn = |pass: &&PlannedPass| matches!(pass.work, PlannedWork::Fullscreen { .. });
-        let fullscreen: Vec<String> = plan
-            .passes
-            .iter()
-            .filter(is_drawn)
-            .map(PlannedPass::name)
-            .collect();
-        for (pass, _) in options.host_targets {
-            if !fullscreen.iter().any(|name| name == pass) {
-                return Err(no_such_pass(pass, fullscreen.iter().map(String::as_str)));
-            }
-        }
         let mut made = 0;
         for pass in &plan.passes {
             if matches!(pass.work, PlannedWork::Host { .. }) {
@@ -157,38 +157,24 @@ impl Pipelines {
             }
             let label = label(pass);
             let key = PipelineKey::of(plan, pass);
-            if !self.layouts.contains_key(&key.layout) {
-                let create = || {
-                    device.create_bind_group_layout(&wgpu::BindGroupLayoutDescriptor {
-                        label: Some(&label),
-                        entries: &key.layout,
-                    })
+            let mut keys = vec![key];
+            let mut hosts = options.host_targets.iter();
+            if let Some((_, target)) = hosts.find(|(of, _)| *of == pass.name()) {
+                let drawn = PipelineKey {
+                    target: Some(*target),
+                    ..keys[0].clone()
                 };
-                let layout = scoped(device, &label, create).await?;
-                self.layouts.insert(key.layout.clone(), layout);
+                self.drawn.insert(keys[0].clone(), drawn.clone());
+                keys.push(drawn);
             }
-            let layout = self.layouts.get(&key.layout);
-            if !self.pipelines.contains_key(&key) {
-                let target = key.target.map(HostTarget::new);
-                let create = || key.create(device, &label, layout, pass, target, options.cache);
-                let pipeline = scoped(device, &label, create).await?;
-                check_alive(device)?;
-                self.pipelines.insert(key.clone(), pipeline);
-                made += 1;
-            }
-            let host = options
-                .host_targets
-                .iter()
-                .find(|(of, _)| *of == pass.name());
-            let Some(&(_, target)) = host else { continue };
-            if self.drawn.get(&key).is_some_and(|(of, _)| *of == target) {
-                continue;
-            }
-            let create = || key.create(device, &label, layout, pass, Some(target), options.cache);
-            if let Pipeline::Render(pipeline) = scoped(device, &label, create).await? {
-                check_alive(device)?;
-                self.drawn.insert(key, (target, pipeline));
-                made += 1;
+            for key in keys {
+                if let Entry::Vacant(place) = self.pipelines.entry(key) {
+                    let create = || place.key().create(device, &label, options.cache.as_ref());
+                    let pipeline = scoped(device, &label, create).await?;
+                    check_alive(device)?;
+                    place.insert(pipeline);
+                    made += 1;
+                }
             }
         }
         Ok(made)
@@ -197,7 +183,7 @@ impl Pipelines {
     /// How many pipelines there are.
     #[must_use]
     pub fn len(&self) -> usize {
-        self.pipelines.len() + self.drawn.len()
+        self.pipelines.len()
     }
 
     /// Whether there is no pipeline.
@@ -208,12 +194,13 @@ impl Pipelines {
 
     pub(super) fn get(&self, plan: &Plan, pass: &PlannedPass) -> Result<Made<'_>, GraphError> {
         let key = PipelineKey::of(plan, pass);
-        let pipeline = self.pipelines.get(&key).zip(self.layouts.get(&key.layout));
-        let (pipeline, layout) = pipeline.ok_or_else(|| missing(pass))?;
+        let (pipeline, layout) = self.pipelines.get(&key).ok_or_else(|| missing(pass))?;
+        let drawn = self.drawn.get(&key);
+        let drawn = drawn.and_then(|drawn| self.pipelines.get(drawn));
         Ok(Made {
             pipeline,
             layout,
-            drawn: self.drawn.get(&key).map(|(_, pipeline)| pipeline),
+            drawn: drawn.map_or(pipeline, |(drawn, _)| drawn),
         })
     }
 }
@@ -253,7 +240,7 @@ impl PipelineKey {
                 .map(|(name, value)| (name.clone(), value.to_bits()))
                 .collect(),
             layout: layout::entries(plan, pass),
-            target: target.map(TextureDesc::wgpu_format),
+            target: target.map(|texture| HostTarget::new(texture.wgpu_format())),
             bind_group: plan.bind_group,
         }
     }
@@ -262,33 +249,33 @@ impl PipelineKey {
         &self,
         device: &wgpu::Device,
         label: &str,
-        layout: Option<&wgpu::BindGroupLayout>,
-        pass: &PlannedPass,
-        target: Option<HostTarget>,
         cache: Option<&wgpu::PipelineCache>,
-    ) -> Pipeline {
+    ) -> (Pipeline, wgpu::BindGroupLayout) {
         let shader = device.create_shader_module(wgpu::ShaderModuleDescriptor {
             label: Some(label),
             source: wgpu::ShaderSource::Wgsl(self.wgsl.as_str().into()),
         });
+        let group = device.create_bind_group_layout(&wgpu::BindGroupLayoutDescriptor {
+            label: Some(label),
+            entries: &self.layout,
+        });
         // Groups below ours are the host's; they stay empty here.
         let mut groups = vec![None; self.bind_group as usize];
-        groups.push(layout);
+        groups.push(Some(&group));
         let layout = device.create_pipeline_layout(&wgpu::PipelineLayoutDescriptor {
             label: Some(label),
             bind_group_layouts: &groups,
             immediate_size: 0,
         });
-        let constants: Vec<(&str, f64)> = pass
-            .constants
-            .iter()
-            .map(|(name, value)| (name.as_str(), *value))
+        let constants = self.constants.iter();
+        let constants: Vec<(&str, f64)> = constants
+            .map(|(name, bits)| (name.as_str(), f64::from_bits(*bits)))
             .collect();
         let compilation_options = wgpu::PipelineCompilationOptions {
             constants: &constants,
             ..Default::default()
         };
-        match target {
+        let pipeline = match self.target {
             None => Pipeline::Compute(device.create_compute_pipeline(
                 &wgpu::ComputePipelineDescriptor {
                     label: Some(label),
@@ -334,6 +321,7 @@ impl PipelineKey {
                     cache,
                 },
             )),
-        }
+        };
+        (pipeline, group)
     }
 }

@@ -82,15 +82,10 @@ impl Bindings {
                 Action::Draw {
                     pipeline,
                     targets,
-                    keeps,
+                    load,
                     ..
                 } => {
-                    let load = if *keeps {
-                        wgpu::LoadOp::Load
-                    } else {
-                        wgpu::LoadOp::Clear(wgpu::Color::TRANSPARENT)
-                    };
-                    let targets = (&targets[..], load);
+                    let targets = (&targets[..], *load);
                     self.draw_layers(step, pipeline, targets, encoder, &recording, queries);
                 }
                 Action::Host {
@@ -127,9 +122,7 @@ impl Bindings {
         self.check_offset(parameter_offset)?;
         let draws = || {
             self.steps.iter().filter_map(|step| match &step.action {
-                Action::Draw {
-                    pipeline, drawn, ..
-                } => Some((step, drawn.as_ref().unwrap_or(pipeline))),
+                Action::Draw { drawn, .. } => Some((step, drawn)),
                 Action::Dispatch { .. } | Action::Host { .. } => None,
             })
         };
@@ -257,15 +250,12 @@ impl Bindings {
         if let Some((queries, first)) = recording.timestamps {
             let (needed, count) = (2 * count as u32, queries.count());
             let end = first.checked_add(needed);
-            ensure(
-                end.is_some_and(|end| end <= count),
-                GraphErrorKind::Recording,
-                || {
-                    format!(
-                        "timestamps need {needed} queries from index {first}, but the query set has {count}"
-                    )
-                },
-            )?;
+            let fits = end.is_some_and(|end| end <= count);
+            ensure(fits, GraphErrorKind::Recording, || {
+                format!(
+                    "timestamps need {needed} queries from index {first}, but the query set has {count}"
+                )
+            })?;
         }
         if let Layers::OfMaps(maps) = recording.layers {
             let mut followed = self.steps.iter().map(|step| step.map.as_str());
@@ -310,13 +300,11 @@ impl Step {
         ensure(drawn, GraphErrorKind::Recording, || {
             format!("stage {stage:?} has the host's pass '{name}'; give a handler that draws it")
         })?;
-        let mut dirty = self.dirty(recording.layers);
-        dirty
-            .find(|&layer| layer >= layers)
-            .map_or(Ok(()), |layer| {
-                let message =
-                    format!("layer {layer} is marked dirty, but pass '{name}' has {layers} layers");
-                Err(GraphError::new(GraphErrorKind::Recording, message))
-            })
+        for layer in self.dirty(recording.layers) {
+            ensure(layer < layers, GraphErrorKind::Recording, || {
+                format!("layer {layer} is marked dirty, but pass '{name}' has {layers} layers")
+            })?;
+        }
+        Ok(())
     }
 }

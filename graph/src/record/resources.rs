@@ -1,5 +1,6 @@
 //! The textures and buffers that a plan creates.
 
+use super::ImportedResource;
 use super::format::texture_usages;
 use super::scope::{check_alive, scoped};
 use crate::{GraphError, Home, Plan, PlannedMemory, PlannedResource, ResourceDesc};
@@ -7,13 +8,7 @@ use crate::{GraphError, Home, Plan, PlannedMemory, PlannedResource, ResourceDesc
 /// Everything that a plan creates for one set of sizes. A resize makes new resources and no pipeline.
 #[derive(Debug)]
 pub struct Resources {
-    memory: Vec<(PlannedMemory, Created)>,
-}
-
-#[derive(Clone, Debug)]
-pub(super) enum Created {
-    Texture(wgpu::Texture),
-    Buffer(wgpu::Buffer),
+    memory: Vec<(PlannedMemory, ImportedResource)>,
 }
 
 impl Resources {
@@ -23,9 +18,9 @@ impl Resources {
         let mut memory = Vec::with_capacity(plan.memory.len());
         for planned in &plan.memory {
             let label = format!("moment-shadows/{}", planned.label);
-            let created = match &planned.desc {
+            let create = || match &planned.desc {
                 ResourceDesc::Texture(texture) => {
-                    let descriptor = wgpu::TextureDescriptor {
+                    ImportedResource::Texture(device.create_texture(&wgpu::TextureDescriptor {
                         label: Some(&label),
                         size: wgpu::Extent3d {
                             width: texture.size[0],
@@ -38,23 +33,20 @@ impl Resources {
                         format: texture.wgpu_format(),
                         usage: texture_usages(planned.access, planned.exported),
                         view_formats: &[],
-                    };
-                    let create = || device.create_texture(&descriptor);
-                    Created::Texture(scoped(device, &label, create).await?)
+                    }))
                 }
                 ResourceDesc::Buffer { size } => {
                     let mut usage = wgpu::BufferUsages::STORAGE;
                     usage.set(wgpu::BufferUsages::COPY_SRC, planned.exported);
-                    let descriptor = wgpu::BufferDescriptor {
+                    ImportedResource::Buffer(device.create_buffer(&wgpu::BufferDescriptor {
                         label: Some(&label),
                         size: *size,
                         usage,
                         mapped_at_creation: false,
-                    };
-                    let create = || device.create_buffer(&descriptor);
-                    Created::Buffer(scoped(device, &label, create).await?)
+                    }))
                 }
             };
+            let created = scoped(device, &label, create).await?;
             memory.push((planned.clone(), created));
         }
         check_alive(device)?;
@@ -70,7 +62,7 @@ impl Resources {
     }
 
     /// The object behind a resource that is not an import.
-    pub(super) fn get(&self, resource: &PlannedResource) -> Option<&Created> {
+    pub(super) fn get(&self, resource: &PlannedResource) -> Option<&ImportedResource> {
         match resource.home {
             Home::Import(_) => None,
             Home::Memory(index) => self.memory.get(index).map(|(_, created)| created),

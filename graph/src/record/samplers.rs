@@ -1,40 +1,38 @@
 //! The samplers of a plan's passes. They clamp to the edge, which is wgpu's default.
 
+use crate::PlannedBindingResource;
+
+/// The sampler that a binding holds.
 pub(super) fn sampler(
     device: &wgpu::Device,
-    filtering: bool,
-    anisotropy: u16,
+    resource: &PlannedBindingResource,
     label: &str,
 ) -> wgpu::Sampler {
-    let (filter, mipmap_filter) = if filtering {
-        (wgpu::FilterMode::Linear, wgpu::MipmapFilterMode::Linear)
-    } else {
-        (wgpu::FilterMode::Nearest, wgpu::MipmapFilterMode::Nearest)
-    };
-    device.create_sampler(&wgpu::SamplerDescriptor {
-        label: Some(label),
-        mag_filter: filter,
-        min_filter: filter,
-        mipmap_filter,
-        anisotropy_clamp: anisotropy,
-        ..Default::default()
-    })
-}
-
-pub(super) fn comparison_sampler(
-    device: &wgpu::Device,
-    reversed: bool,
-    label: &str,
-) -> wgpu::Sampler {
-    device.create_sampler(&wgpu::SamplerDescriptor {
+    let mut descriptor = wgpu::SamplerDescriptor {
         label: Some(label),
         mag_filter: wgpu::FilterMode::Linear,
         min_filter: wgpu::FilterMode::Linear,
-        compare: Some(if reversed {
+        ..Default::default()
+    };
+    if let PlannedBindingResource::ComparisonSampler { reversed } = *resource {
+        descriptor.compare = Some(if reversed {
             wgpu::CompareFunction::Less
         } else {
             wgpu::CompareFunction::Greater
-        }),
-        ..Default::default()
-    })
+        });
+    }
+    if let PlannedBindingResource::Sampler {
+        filtering,
+        anisotropy,
+    } = *resource
+    {
+        descriptor.anisotropy_clamp = anisotropy;
+        if filtering {
+            descriptor.mipmap_filter = wgpu::MipmapFilterMode::Linear;
+        } else {
+            descriptor.mag_filter = wgpu::FilterMode::Nearest;
+            descriptor.min_filter = wgpu::FilterMode::Nearest;
+        }
+    }
+    device.create_sampler(&descriptor)
 }

@@ -50,13 +50,7 @@ const OF_CAMERAS: [&str; 4] = [
 pub(super) fn cut(graph: Graph, descs: &[NodeDesc]) -> Cut {
     let pictured = of_cameras(&graph, descs);
     let is_pictured = |end: &str| pictured.contains(owner(end));
-    let [mut maps, mut picture] = [(); 2].map(|()| Graph {
-        imports: Vec::new(),
-        nodes: Vec::new(),
-        edges: Vec::new(),
-        outputs: Vec::new(),
-        notes: Vec::new(),
-    });
+    let (mut maps, mut picture) = (Graph::default(), Graph::default());
     let outputs = graph.outputs.iter().map(|output| &output.name);
     let imports = graph.imports.iter().map(|import| &import.name);
     let mut names: BTreeSet<String> = outputs.chain(imports).cloned().collect();
@@ -89,11 +83,8 @@ pub(super) fn cut(graph: Graph, descs: &[NodeDesc]) -> Cut {
         let part = if of_picture { &mut picture } else { &mut maps };
         part.outputs.push(output);
     }
-    for node in graph.nodes {
-        let of_picture = is_pictured(&node.name);
-        let part = if of_picture { &mut picture } else { &mut maps };
-        part.nodes.push(node);
-    }
+    let nodes = graph.nodes.into_iter();
+    (picture.nodes, maps.nodes) = nodes.partition(|node| is_pictured(&node.name));
     for import in graph.imports {
         let used = |part: &Graph| part.edges.iter().any(|edge| edge.from == import.name);
         let [of_maps, of_picture] = [&maps, &picture].map(used);

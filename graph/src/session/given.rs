@@ -3,103 +3,66 @@
 use super::unsuitable;
 use crate::record::ImportedResource;
 use crate::{GraphError, Named, ResourceDesc, TextureDesc};
-use moment_shadows::{Finite, TextureFormat};
+use moment_shadows::TextureFormat;
 
 /// An import by name, with its description.
 #[derive(Clone, Debug)]
 pub(super) struct Given {
     pub(super) name: String,
     pub(super) desc: ResourceDesc,
-    pub(super) resource: Owned,
-}
-
-/// The session's own handles of what the host gives.
-#[derive(Clone, Debug)]
-pub(super) enum Owned {
-    Texture(wgpu::Texture),
-    Layers(Vec<wgpu::Texture>),
-    Buffer(wgpu::Buffer),
-}
-
-impl Owned {
-    pub(super) fn as_imported(&self) -> ImportedResource<'_> {
-        match self {
-            Owned::Texture(texture) => ImportedResource::Texture(texture),
-            Owned::Layers(textures) => ImportedResource::Layers(textures),
-            Owned::Buffer(buffer) => ImportedResource::Buffer(buffer),
-        }
-    }
+    pub(super) resource: ImportedResource,
 }
 
 /// Keeps what the host gives. Regions and encodings are not to be seen in a texture: they are those that the graph file
 /// expects.
 pub(super) fn take(
-    imports: &[(&str, ImportedResource<'_>)],
+    imports: &[(&str, ImportedResource)],
     expected: &[Named<Option<ResourceDesc>>],
 ) -> Result<Vec<Given>, GraphError> {
-    let mut taken: Vec<Given> = Vec::with_capacity(imports.len());
-    for &(name, resource) in imports {
-        let expected = expected.iter().find(|import| import.name == name);
-        let expected = expected.and_then(|import| import.value.as_ref());
-        let expected = expected.and_then(ResourceDesc::texture);
-        let (resource, desc) = match resource {
-            ImportedResource::Texture(texture) => {
-                let layers = texture.depth_or_array_layers();
-                let desc = described_texture(name, texture, layers, expected)?;
-                (Owned::Texture(texture.clone()), desc)
-            }
-            ImportedResource::Layers(textures) => {
-                let first = textures.first().ok_or_else(|| {
-                    unsuitable(
-                        format!("import '{name}'"),
-                        "it is a list of no textures; give one per layer",
-                    )
-                })?;
-                let desc = described_texture(name, first, textures.len() as u32, expected)?;
-                (Owned::Layers(textures.to_vec()), desc)
-            }
-            ImportedResource::Buffer(buffer) => {
-                let size = buffer.size();
-                (Owned::Buffer(buffer.clone()), ResourceDesc::Buffer { size })
-            }
-        };
-        taken.retain(|earlier| earlier.name != name);
-        taken.push(Given {
-            name: name.to_owned(),
-            desc,
-            resource,
-        });
-    }
-    Ok(taken)
+    let given = imports.iter().map(|(name, resource)| {
+        let expected = expected.iter().find(|import| import.name == *name);
+        let expected = expected.and_then(|import| import.value.as_ref()?.texture());
+        Ok(Given {
+            name: (*name).to_owned(),
+            desc: describe(resource, expected)
+                .map_err(|reason| unsuitable(format!("import '{name}'"), reason))?,
+            resource: resource.clone(),
+        })
+    });
+    given.collect()
 }
 
-fn described_texture(
-    name: &str,
-    texture: &wgpu::Texture,
-    array_layers: u32,
+/// What a resource is, or what is wrong with it.
+fn describe(
+    resource: &ImportedResource,
     expected: Option<&TextureDesc>,
-) -> Result<ResourceDesc, GraphError> {
-    let mut formats = TextureFormat::ALL.into_iter();
-    let is_same = |format: &TextureFormat| {
-        TextureDesc::new(*format, [1; 2]).wgpu_format() == texture.format()
+) -> Result<ResourceDesc, String> {
+    let (texture, array_layers) = match resource {
+        ImportedResource::Texture(texture) => (Some(texture), texture.depth_or_array_layers()),
+        ImportedResource::Layers(textures) => (textures.first(), textures.len() as u32),
+        ImportedResource::Buffer(buffer) => {
+            let size = buffer.size();
+            return Ok(ResourceDesc::Buffer { size });
+        }
     };
-    let format = formats.find(is_same);
-    let format = format.ok_or_else(|| {
+    let texture = texture.ok_or("it is a list of no textures; give one per layer")?;
+    let (format, size) = (texture.format(), [texture.width(), texture.height()]);
+    let mut known = TextureFormat::ALL
+        .map(|format| TextureDesc::new(format, size))
+        .into_iter();
+    let desc = known.find(|desc| desc.wgpu_format() == format);
+    let desc = desc.ok_or_else(|| {
         let known = TextureFormat::ALL.map(TextureFormat::name).join(", ");
-        let reason = format!("its format is {:?}; nodes take {known}", texture.format());
-        unsuitable(format!("import '{name}'"), reason)
+        format!("its format is {format:?}; nodes take {known}")
     })?;
-    let planes = expected.map_or(1, |expected| expected.planes.max(1));
+    let expected = expected.unwrap_or(&desc).clone();
     Ok(ResourceDesc::Texture(TextureDesc {
-        format,
-        size: [texture.width(), texture.height()],
-        layers: array_layers / planes,
+        format: desc.format,
+        size,
+        layers: array_layers / expected.planes.max(1),
         mips: texture.mip_level_count(),
-        regions: expected.map_or(1, |expected| expected.regions),
-        planes,
-        encoding: expected.and_then(|expected| expected.encoding.clone()),
-        deviation: expected.map_or(Finite::ZERO, |expected| expected.deviation),
         samples: texture.sample_count(),
+        ..expected
     }))
 }
 

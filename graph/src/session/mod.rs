@@ -14,7 +14,7 @@ use moment_shadows::{
 use part::{Maker, Part};
 use scratch::{Scratch, Told};
 
-use crate::record::{Bindings, ImportedResource, PipelineOptions, Recording};
+use crate::record::{Bindings, ImportedResource, PipelineOptions, Pipelines, Recording};
 use crate::{Capabilities, Graph, GraphError, GraphErrorKind, Named, ResourceDesc, Stage};
 
 /// A graph at work: pipelines, textures, bindings and uniform data for one set of light maps and any number of cameras.
@@ -30,7 +30,7 @@ pub struct Session {
     /// The imports as the graph file describes them.
     expected: Vec<Named<Option<ResourceDesc>>>,
     cut: Cut,
-    /// The import that is the light's depth map.
+    /// The import that is the light's depth map, if one is.
     light_depth: Option<String>,
     /// What all cameras share, unless a camera has its own.
     imports: Vec<Given>,
@@ -59,15 +59,13 @@ impl Session {
     ///
     /// Formats, sizes, layers and samples are those of the textures, whatever the graph file says of its imports. How many
     /// regions a layer has is what the file says.
-    ///
-    /// # Errors
-    /// [`GraphError`], if the device or the textures do not fit the graph.
+    /// Refused, if the device or the textures do not fit the graph.
     pub async fn new(
         adapter: &wgpu::Adapter,
         device: &wgpu::Device,
         graph: Graph,
-        imports: &[(&str, ImportedResource<'_>)],
-        options: PipelineOptions<'_>,
+        imports: &[(&str, ImportedResource)],
+        options: PipelineOptions,
     ) -> Result<Self, GraphError> {
         let capabilities = Capabilities::of_device(adapter, device);
         let expected = graph.imports.clone();
@@ -83,8 +81,13 @@ impl Session {
                  session per map",
             ));
         }
-        let light_depth = lights.first().map(|&name| name.to_owned());
-        let mut maker = Maker::new(device, capabilities, options);
+        let light_depth = lights.first().map(|name| (*name).to_owned());
+        let mut maker = Maker {
+            device: device.clone(),
+            capabilities,
+            pipelines: Pipelines::default(),
+            options,
+        };
         let maps = maker.part(&cut.maps, &[&imports]).await?;
         let mut session = Self {
             maker,
@@ -103,12 +106,10 @@ impl Session {
     }
 
     /// Adds a camera and gives its number. Imports that are not given are those of the session.
-    ///
-    /// # Errors
-    /// [`GraphError`], if the textures do not fit the graph, or the light maps are made of one of them.
+    /// Refused, if the textures do not fit the graph, or the light maps are made of one of them.
     pub async fn add_view(
         &mut self,
-        imports: &[(&str, ImportedResource<'_>)],
+        imports: &[(&str, ImportedResource)],
     ) -> Result<usize, GraphError> {
         let imports = given::take(imports, &self.expected)?;
         if let Some(shared) = imports.iter().find(|given| self.cut.of_maps(&given.name)) {
@@ -129,13 +130,11 @@ impl Session {
 
     /// Takes other textures, as after a resize. Those that light maps are made of are replaced for all cameras, others for
     /// one. Imports that are not given stay. [`view`](Self::view) comes before the next frame.
-    ///
-    /// # Errors
-    /// [`GraphError`], if there is no such camera or the textures do not fit the graph. The session is then as before.
+    /// Refused, if there is no such camera or the textures do not fit the graph. The session is then as before.
     pub async fn replace(
         &mut self,
         view: usize,
-        imports: &[(&str, ImportedResource<'_>)],
+        imports: &[(&str, ImportedResource)],
     ) -> Result<(), GraphError> {
         self.checked(view)?;
         let (shared, own): (Vec<_>, Vec<_>) = given::take(imports, &self.expected)?
@@ -171,9 +170,7 @@ impl Session {
 
     /// Says where a camera and the lights are, for the frame that is recorded next. The views of lights that share a layer
     /// are its regions, in this order; all cameras have the same lights.
-    ///
-    /// # Errors
-    /// [`GraphError`], if there is no such camera, or what is given does not suit the graph. Nothing is then written.
+    /// Refused, if there is no such camera, or what is given does not suit the graph. Nothing is then written.
     pub fn view(
         &mut self,
         queue: &wgpu::Queue,
@@ -182,7 +179,6 @@ impl Session {
         lights: &[LightView],
     ) -> Result<(), GraphError> {
         self.checked(view)?;
-        self.scratch.maps(&mut self.maps, lights)?;
         let told = Told {
             camera,
             lights,
@@ -191,7 +187,8 @@ impl Session {
             depth_format: self.depth_format(),
         };
         let view = &mut self.views[view];
-        self.scratch.picture(&mut view.part, &told)?;
+        self.scratch.write(&mut self.maps, &told, true)?;
+        self.scratch.write(&mut view.part, &told, false)?;
         view.placed = true;
         self.maps.upload(queue);
         view.part.upload(queue);
@@ -200,9 +197,7 @@ impl Session {
 
     /// Records a stage for the light maps and all cameras. A host that draws one camera after the other records the maps by
     /// the first stage, and each camera by [`record_view`](Self::record_view).
-    ///
-    /// # Errors
-    /// [`GraphError`], if a camera was never placed by [`view`](Self::view); the encoder is then as it was.
+    /// Refused, if a camera was never placed by [`view`](Self::view); the encoder is then as it was.
     pub fn record(
         &self,
         stage: Stage,
@@ -216,9 +211,7 @@ impl Session {
     }
 
     /// Records a stage for one camera, without the light maps.
-    ///
-    /// # Errors
-    /// [`GraphError`], if there is no such camera or it was never placed; the encoder is then as it was.
+    /// Refused, if there is no such camera or it was never placed; the encoder is then as it was.
     pub fn record_view(
         &self,
         view: usize,
@@ -237,9 +230,7 @@ impl Session {
     }
 
     /// The receiver bias of a view of a light whose map is an output of the graph, for shaders of your own.
-    ///
-    /// # Errors
-    /// [`GraphError`], if there is no such output.
+    /// Refused, if there is no such output.
     pub fn receiver_bias(
         &self,
         output: &str,

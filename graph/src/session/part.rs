@@ -1,20 +1,17 @@
 //! One part of a graph, ready to be recorded.
 
-use super::given::{Given, Owned};
+use super::given::{Given, described};
 use super::shading::Shading;
-use crate::record::{
-    Bindings, HostTarget, ImportedResource, PipelineOptions, Pipelines, Resources,
-};
-use crate::{Capabilities, Graph, GraphError, Named, Plan, ResourceDesc};
+use crate::record::{Bindings, ImportedResource, PipelineOptions, Pipelines, Resources};
+use crate::{Capabilities, Graph, GraphError, Plan};
 
 /// What all parts of a session are made with.
 #[derive(Debug)]
 pub(super) struct Maker {
-    device: wgpu::Device,
+    pub(super) device: wgpu::Device,
     pub(super) capabilities: Capabilities,
-    pipelines: Pipelines,
-    cache: Option<wgpu::PipelineCache>,
-    host_targets: Vec<(String, HostTarget)>,
+    pub(super) pipelines: Pipelines,
+    pub(super) options: PipelineOptions,
 }
 
 /// A compiled and bound part.
@@ -30,61 +27,19 @@ pub(super) struct Part {
 }
 
 impl Maker {
-    pub(super) fn new(
-        device: &wgpu::Device,
-        capabilities: Capabilities,
-        options: PipelineOptions<'_>,
-    ) -> Self {
-        let targets = options.host_targets.iter();
-        Self {
-            device: device.clone(),
-            capabilities,
-            pipelines: Pipelines::default(),
-            cache: options.cache.cloned(),
-            host_targets: targets
-                .map(|&(pass, target)| (pass.to_owned(), target))
-                .collect(),
-        }
-    }
-
     /// Makes a part of what is given, where the first of each name counts.
     pub(super) async fn part(
         &mut self,
         graph: &Graph,
         given: &[&[Given]],
     ) -> Result<Part, GraphError> {
-        let find = |name: &str| {
-            given
-                .iter()
-                .copied()
-                .flatten()
-                .find(|given| given.name == name)
-        };
-        let used: Vec<&Given> = graph
-            .imports
-            .iter()
-            .filter_map(|import| find(&import.name))
-            .collect();
-        let described = used
-            .iter()
-            .map(|given| (given.name.as_str(), given.desc.clone()));
-        let described: Vec<(&str, ResourceDesc)> = described.collect();
-        let plan = graph.compile(&self.capabilities, &described)?;
-        let is_of_plan = |(pass, _): &&(String, HostTarget)| {
-            let mut passes = plan.passes.iter();
-            passes.any(|planned| *pass == planned.name())
-        };
-        let host_targets: Vec<(&str, HostTarget)> = self
-            .host_targets
-            .iter()
-            .filter(is_of_plan)
-            .map(|(pass, target)| (pass.as_str(), *target))
-            .collect();
-        let options = PipelineOptions {
-            cache: self.cache.as_ref(),
-            host_targets: &host_targets,
-        };
-        self.pipelines.extend(&self.device, &plan, options).await?;
+        let find = |name: &str| given.iter().copied().flatten().find(|it| it.name == name);
+        let imports = graph.imports.iter();
+        let used: Vec<Given> = imports.filter_map(|it| find(&it.name).cloned()).collect();
+        let plan = graph.compile(&self.capabilities, &described(&used))?;
+        let pipelines = &mut self.pipelines;
+        let extended = pipelines.extend_by_part(&self.device, &plan, &self.options);
+        extended.await?;
         let resources = Resources::create(&self.device, &plan).await?;
         let size = u64::from(plan.parameters.size);
         let buffer = (size > 0).then(|| {
@@ -95,10 +50,9 @@ impl Maker {
                 mapped_at_creation: false,
             })
         });
-        let imports: Vec<(&str, ImportedResource<'_>)> = used
-            .iter()
-            .map(|given| (given.name.as_str(), given.resource.as_imported()))
-            .collect();
+        let imports = used.iter();
+        let imports = imports.map(|it| (it.name.as_str(), it.resource.clone()));
+        let imports: Vec<(&str, ImportedResource)> = imports.collect();
         let bindings = Bindings::create(
             &self.device,
             &plan,
@@ -120,18 +74,16 @@ impl Maker {
 impl Part {
     /// The outputs, as another part imports them.
     pub(super) fn outputs(&self) -> Vec<Given> {
-        let given = |output: &Named<usize>| {
-            let resource = match self.bindings.output(&output.name) {
-                Some(texture) => Owned::Texture(texture.clone()),
-                None => Owned::Buffer(self.bindings.output_buffer(&output.name)?.clone()),
-            };
+        let given = |(name, resource): &(String, ImportedResource)| {
+            let mut planned = self.plan.outputs.iter();
+            let output = planned.find(|output| output.name == *name)?;
             Some(Given {
-                name: output.name.clone(),
+                name: name.clone(),
                 desc: self.plan.resources[output.value].desc.clone(),
-                resource,
+                resource: resource.clone(),
             })
         };
-        self.plan.outputs.iter().filter_map(given).collect()
+        self.bindings.outputs.iter().filter_map(given).collect()
     }
 
     /// Writes uniform data to the device.

@@ -28,72 +28,60 @@ pub(super) struct Told<'a> {
 }
 
 impl Scratch {
-    /// Writes what the nodes that make light maps are told. An error leaves the part's block as it was.
-    pub(super) fn maps(&mut self, part: &mut Part, lights: &[LightView]) -> Result<(), GraphError> {
+    /// Writes what the nodes of a part are told, and the lights' regions where they are those of its maps. An error leaves the
+    /// part's block as it was.
+    pub(super) fn write(
+        &mut self,
+        part: &mut Part,
+        told: &Told<'_>,
+        with_regions: bool,
+    ) -> Result<(), GraphError> {
         self.block.clone_from(&part.block);
-        let layout = &part.plan.parameters;
-        for block in &layout.blocks {
-            if block.name != "DepthConversion" {
-                continue;
-            }
-            for layer in 0..block.count {
-                self.conversions.clear();
-                for (index, light) in of_layer(lights, layer) {
-                    self.conversions.push(
-                        light.depth.conversion().map_err(|error| {
-                            unsuitable(format!("view {index} of a light"), error)
-                        })?,
-                    );
-                }
-                if !self.conversions.is_empty() {
-                    layout.write_all(&mut self.block, &block.node, layer, &self.conversions)?;
-                }
-            }
-        }
-        for table in &layout.regions {
-            for layer in 0..table.layers {
-                self.regions.clear();
-                self.regions
-                    .extend(of_layer(lights, layer).map(|(_, light)| light.region));
-                if !self.regions.is_empty() {
-                    layout.write_regions(&mut self.block, &table.map, layer, &self.regions)?;
-                }
-            }
-        }
-        core::mem::swap(&mut self.block, &mut part.block);
-        Ok(())
-    }
-
-    /// Writes what the nodes of a camera are told. An error leaves the part's block as it was.
-    pub(super) fn picture(&mut self, part: &mut Part, told: &Told<'_>) -> Result<(), GraphError> {
-        self.block.clone_from(&part.block);
-        let layout = &part.plan.parameters;
+        let (bytes, layout) = (&mut self.block, &part.plan.parameters);
         for shading in &part.shading {
             self.views.clear();
             for (index, light) in told.lights.iter().enumerate() {
-                let view = shading.parameters(told, light, index)?;
-                self.views.push(view);
+                self.views.push(shading.parameters(told, light, index)?);
             }
-            layout.write_all(&mut self.block, &shading.node, 0, &self.views)?;
+            layout.write_all(bytes, &shading.node, 0, &self.views)?;
         }
-        let mut scattering = None;
         for block in &layout.blocks {
-            let parameters = match block.name.as_str() {
-                "RectifyMomentsParameters"
-                | "IntegrateScatteringParameters"
-                | "CompositeScatteringParameters" => match scattering {
-                    Some(parameters) => parameters,
-                    None => *scattering.insert(told.scattering()?),
-                },
-                _ => continue,
-            };
-            let (bytes, node) = (&mut self.block, block.node.as_str());
+            let node = block.node.as_str();
             match block.name.as_str() {
-                "RectifyMomentsParameters" => layout.write(bytes, node, 0, &parameters.rectify)?,
-                "IntegrateScatteringParameters" => {
-                    layout.write(bytes, node, 0, &parameters.integrate)?;
+                "DepthConversion" => {
+                    for layer in 0..block.count {
+                        self.conversions.clear();
+                        for (index, light) in told.of_layer(layer) {
+                            let conversion = light.depth.conversion();
+                            self.conversions.push(conversion.map_err(|error| {
+                                unsuitable(format!("view {index} of a light"), error)
+                            })?);
+                        }
+                        if !self.conversions.is_empty() {
+                            layout.write_all(bytes, node, layer, &self.conversions)?;
+                        }
+                    }
                 }
-                _ => layout.write(bytes, node, 0, &parameters.composite)?,
+                "RectifyMomentsParameters" => {
+                    layout.write(bytes, node, 0, &told.scattering()?.rectify)?;
+                }
+                "IntegrateScatteringParameters" => {
+                    layout.write(bytes, node, 0, &told.scattering()?.integrate)?;
+                }
+                "CompositeScatteringParameters" => {
+                    layout.write(bytes, node, 0, &told.scattering()?.composite)?;
+                }
+                _ => {}
+            }
+        }
+        for table in layout.regions.iter().filter(|_| with_regions) {
+            for layer in 0..table.layers {
+                let regions = told.of_layer(layer).map(|(_, light)| light.region);
+                self.regions.clear();
+                self.regions.extend(regions);
+                if !self.regions.is_empty() {
+                    layout.write_regions(bytes, &table.map, layer, &self.regions)?;
+                }
             }
         }
         core::mem::swap(&mut self.block, &mut part.block);
@@ -112,10 +100,10 @@ impl Told<'_> {
         ScatteringParameters::new(self.camera, far, light, medium)
             .map_err(|error| unsuitable("single scattering", error))
     }
-}
 
-/// The views of a layer, with their numbers.
-fn of_layer(lights: &[LightView], layer: u32) -> impl Iterator<Item = (usize, &LightView)> {
-    let lights = lights.iter().enumerate();
-    lights.filter(move |(_, light)| light.layer == layer)
+    /// The views of a layer, with their numbers.
+    fn of_layer(&self, layer: u32) -> impl Iterator<Item = (usize, &LightView)> {
+        let lights = self.lights.iter().enumerate();
+        lights.filter(move |(_, light)| light.layer == layer)
+    }
 }

@@ -9,9 +9,6 @@ use super::scratch::Told;
 use super::unsuitable;
 use crate::{Graph, GraphError, Plan, TextureDesc};
 
-/// The struct that a node which shades has an array of.
-const PARAMETERS: &str = "ViewParameters";
-
 /// Half widths in texels where the map is no summed-area table, which limits them. The smallest makes shadows hard where they
 /// touch what casts them.
 const RADII: RangeInclusive<f64> = 1.0..=64.5;
@@ -31,10 +28,9 @@ impl Shading {
     /// The nodes of a plan that shade.
     pub(super) fn all(graph: &Graph, plan: &Plan) -> Result<Vec<Self>, GraphError> {
         let blocks = plan.parameters.blocks.iter();
-        let nodes = blocks.filter(|block| block.name == PARAMETERS);
-        nodes
-            .map(|block| Self::of(graph, plan, &block.node))
-            .collect()
+        let blocks = blocks.filter(|block| block.name == "ViewParameters");
+        let all = blocks.map(|block| Self::of(graph, plan, &block.node));
+        all.collect()
     }
 
     fn of(graph: &Graph, plan: &Plan, node: &str) -> Result<Self, GraphError> {
@@ -74,12 +70,8 @@ impl Shading {
         light: &LightView,
         index: usize,
     ) -> Result<ViewParameters, GraphError> {
-        let unsuitable = |reason: String| {
-            unsuitable(
-                format!("view {index} of a light, for node '{}'", self.node),
-                reason,
-            )
-        };
+        let what = format_args!("view {index} of a light, for node '{}'", self.node);
+        let unsuitable = |reason: String| unsuitable(what, reason);
         if light.layer >= self.map.layers {
             return Err(unsuitable(format!(
                 "its layer is {}, but the map has {}, counted from 0",

@@ -50,7 +50,7 @@ impl Node for DebugMoments {
             .each_layer()
             .shader(wgsl, "debug")
             .bind("moments_level", bind::level("map", self.level));
-        let rule = map_input::rule(Storage::OF_FOUR_MOMENTS.map(Storage::format).as_slice());
+        let rule = map_input::rule(Storage::OF_FOUR_MOMENTS.map(Storage::format).to_vec());
         let picture = TextureRule::new(TextureFormat::Rgba8Unorm).like("map");
         Ok(NodeDesc::new("debug_moments", Stage::AfterShadowMaps)
             .input("map", "The map to show.", rule)

@@ -11,12 +11,10 @@ use crate::{
 
 /// Node `integrate_scattering`: `rectified` (from [`super::RectifyMoments`]) to `integrated`, of the same size, encoding and
 /// storage: each texel is the mean of the texels of its row up to itself, weighted with the transmittance of the medium
-/// between camera and texel. Means need no more range than what they are made of, whatever the storage. Parameters:
-/// [`IntegrateScatteringParameters`].
+/// between camera and texel. Parameters: [`IntegrateScatteringParameters`].
 ///
 /// Sums are f32 and rounded once. On a GPU a workgroup sums up a row, on a software adapter an invocation does. Which
-/// transmittance serves all view rays of a row, and what that costs, is said in the WGSL module `scattering_weights`. The medium
-/// is homogeneous: otherwise sums along rows would be of another medium for each view ray.
+/// transmittance serves all view rays of a row, and what that costs, is said in the WGSL module `scattering_weights`.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct IntegrateScattering {}

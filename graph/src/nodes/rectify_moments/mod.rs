@@ -11,12 +11,10 @@ use crate::{
 };
 
 /// Node `rectify_moments`: `map` (four moments, filtered, of any storage) to `rectified`, a map whose columns are distances
-/// from the light ray through the camera and whose rows are azimuths about it, as the WGSL module `rectified_frame`
-/// describes. A first step to single scattering; [`super::IntegrateScattering`] is the second. Parameters:
-/// [`RectifyMomentsParameters`].
+/// from the light ray through the camera and whose rows are azimuths about it (WGSL module `rectified_frame`), for
+/// [`super::IntegrateScattering`]. Parameters: [`RectifyMomentsParameters`].
 ///
-/// Each texel is one light ray, looked up in the light's map over the texel's own footprint where that has mip levels; rays
-/// outside of the map are lit.
+/// Each texel is one light ray, looked up over the texel's own footprint where the map has mip levels; rays outside are lit.
 #[derive(Clone, Debug, PartialEq, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct RectifyMoments {

@@ -13,8 +13,7 @@ use crate::{Connected, GraphError, Node, NodeDesc, Stage, TextureRule, bind};
 /// Node `resolve`: `depth` (1, 2, 4 or 8 samples of depth32float or depth16unorm, any number of layers) to
 /// `map`, a filterable map of the same size, layers and regions, encoded for a technique. The *moments* (or what else the
 /// technique stores) of the samples are averaged, not their depths, so edges are antialiased. With splits placed by Lloyd
-/// relaxation there is a second input, `splits`. The storage `unorm10` is drawn by render passes, others are written by compute
-/// shaders. Parameters: a [`moment_shadows::DepthConversion`] per layer and region.
+/// relaxation there is a second input, `splits`. Parameters: a [`moment_shadows::DepthConversion`] per layer and region.
 #[derive(Clone, Debug, PartialEq, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Resolve {

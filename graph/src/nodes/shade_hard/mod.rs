@@ -10,7 +10,7 @@ use super::shared::{
 use super::techniques;
 use crate::{
     Binding, BindingResource, Capabilities, Connected, GraphError, Node, NodeDesc, Slot,
-    TextureDesc, TextureRule, bind,
+    TextureDesc, bind,
 };
 
 mod own_shader;
@@ -20,8 +20,7 @@ mod own_shader;
 /// take it as the input `depth` instead of `map`; layers that are placed on the device come from the input `splits`.
 ///
 /// It shades up to four lights, one in each channel of its output (a single one is in all of them), through any number of
-/// views: cascades, faces and spots, each a region of a layer. Parameters: an array of [`moment_shadows::ViewParameters`], one per view. Where the map has mip
-/// levels, lookups average the texels that a pixel covers.
+/// views: cascades, faces and spots, each a region of a layer. Parameters: a [`moment_shadows::ViewParameters`] per view.
 #[derive(Clone, Debug, PartialEq, Deserialize)]
 #[serde(default, deny_unknown_fields)]
 pub struct ShadeHard {
@@ -57,7 +56,8 @@ impl Node for ShadeHard {
     fn describe(&self, upstream: &Connected<'_>) -> Result<NodeDesc, GraphError> {
         let moments = || map_input::connected(upstream, "map");
         let evaluation = self.evaluation(upstream.capabilities(), moments)?;
-        let input = Slot::input(evaluation.slot, "The light's map.", evaluation.rule);
+        let rule = map_input::rule(evaluation.formats);
+        let input = Slot::input(evaluation.slot, "The light's map.", rule);
         let (splits, splits_binding) = techniques::splits(&evaluation.technique, false);
         shading::describe(
             "shade_hard",
@@ -75,7 +75,7 @@ struct Evaluation {
     /// What a shader imports that evaluates the technique.
     specialization: Specialization,
     slot: &'static str,
-    rule: TextureRule,
+    formats: Vec<TextureFormat>,
     /// The map and its sampler, if it has one.
     bindings: Vec<Binding>,
 }
@@ -111,8 +111,8 @@ impl ShadeHard {
                 technique: technique.clone(),
                 specialization: techniques::evaluation(specialization, technique),
                 slot: "depth",
-                rule: map_input::rule(depth_input::FORMATS.as_slice()),
-                bindings: core::iter::once(map).chain(sampler).collect(),
+                formats: depth_input::FORMATS.to_vec(),
+                bindings: [Some(map), sampler].into_iter().flatten().collect(),
             });
         }
         let (map, encoding) = moments()?;
@@ -134,8 +134,8 @@ impl ShadeHard {
             technique: technique.clone(),
             specialization,
             slot: "map",
-            rule: map_input::rule(map_input::formats()),
-            bindings: core::iter::once(map).chain(sampler).collect(),
+            formats: map_input::formats(),
+            bindings: [Some(map), sampler].into_iter().flatten().collect(),
         })
     }
 }

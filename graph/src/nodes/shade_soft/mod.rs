@@ -11,10 +11,9 @@ use crate::{Binding, Connected, GraphError, Node, NodeDesc, Slot, bind};
 /// area lights, hard at contacts and softer with distance, with a number of loads per pixel that does not depend on their
 /// width. A fullscreen pass: it can also be drawn into a render pass that the host has open.
 ///
-/// Lights, views and parameters are those of [`super::ShadeHard`]: an array of [`moment_shadows::ViewParameters`], one per
-/// view, whose `light` says how large the light is ([`moment_shadows::AreaLight`]). Of the receiver bias the constant counts
-/// and the steepest slope, which [`moment_shadows::ReceiverBias::for_kernel`] with a standard deviation of 0 gives; the rest
-/// follows from each pixel's own filter. No filter is larger than the table's largest kernel.
+/// Lights, views and parameters are those of [`super::ShadeHard`]; `light` of the parameters says how large the light is. Of the
+/// receiver bias only the constant and the steepest slope count ([`moment_shadows::ReceiverBias::for_kernel`] with a deviation
+/// of 0); the rest follows from each pixel's own filter. No filter is larger than the table's largest kernel.
 #[derive(Clone, Debug, PartialEq, Eq, Deserialize)]
 #[serde(default, deny_unknown_fields)]
 pub struct ShadeSoft {

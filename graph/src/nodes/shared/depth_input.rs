@@ -10,7 +10,7 @@ pub(in crate::nodes) const FORMATS: [TextureFormat; 2] =
 
 /// The camera's depth: one layer, one sample.
 pub(in crate::nodes) fn camera() -> TextureRule {
-    TextureRule::new(FORMATS.as_slice())
+    TextureRule::new(FORMATS.to_vec())
 }
 
 /// A light's depth map: any number of layers, one sample or several.

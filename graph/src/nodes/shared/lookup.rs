@@ -20,22 +20,25 @@ pub(in crate::nodes) fn moments_lookup(
         .unsigned("LEVELS", levels)
         .constant("ANISOTROPY", format_args!("{anisotropy}.0"));
     let minified = levels > 1;
-    let sampler = |anisotropy| BindingResource::Sampler {
-        filtering: true,
-        anisotropy,
-    };
-    let (text, binding) = if !averaged
+    let (text, sampler) = if !averaged
         || !capabilities.support(encoding.format()).filterable
         || (minified && !capabilities.anisotropic_sampling)
     {
         (include_str!("moments_lookup_loaded.wgsl"), None)
     } else if minified {
         let text = include_str!("moments_lookup_minified.wgsl");
-        (text, Some(("anisotropic_sampler", sampler(anisotropy))))
+        (text, Some(("anisotropic_sampler", anisotropy)))
     } else {
         let text = include_str!("moments_lookup_sampled.wgsl");
-        (text, Some(("moments_sampler", sampler(1))))
+        (text, Some(("moments_sampler", 1)))
     };
-    let binding = binding.map(|(variable, sampler)| Binding::new(variable, sampler));
+    let binding = sampler.map(|(variable, anisotropy)| {
+        let filtering = true;
+        let sampler = BindingResource::Sampler {
+            filtering,
+            anisotropy,
+        };
+        Binding::new(variable, sampler)
+    });
     (specialization.module("moments_lookup", text), binding)
 }

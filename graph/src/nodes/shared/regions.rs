@@ -17,20 +17,8 @@ pub(in crate::nodes) fn shader(encoding: &MapEncoding) -> (&'static str, &'stati
     }
 }
 
-/// A dispatch over all regions, of at least `smallest` texels along each side, of a mip level of a slot's map.
-pub(in crate::nodes) fn compute(
-    label: impl Into<String>,
-    (slot, level): (&str, u32),
-    texels_per_workgroup: [u32; 2],
-    smallest: u32,
-) -> Pass {
-    Pass::compute(label, slot, texels_per_workgroup)
-        .over_regions(level)
-        .bind("regions", bind::regions(slot, smallest))
-}
-
-/// A pass that writes all regions of a mip level of a map by the entry point `write_map` of a shader. Where it is no draw, it
-/// writes through the storage texture `written_map`.
+/// A pass that writes all regions, of at least `smallest` texels along each side, of a mip level of a map by the entry point
+/// `write_map` of a shader. Where it is no draw, it writes through the storage texture `written_map`.
 pub(in crate::nodes) fn write(
     label: impl Into<String>,
     wgsl: &str,
@@ -41,13 +29,13 @@ pub(in crate::nodes) fn write(
 ) -> Pass {
     let pass = if encoding.storage().is_drawn() {
         Pass::fullscreen(label, slot)
-            .over_regions(level)
-            .bind("regions", bind::regions(slot, smallest))
     } else {
-        compute(label, (slot, level), texels_per_workgroup, smallest)
+        Pass::compute(label, slot, texels_per_workgroup)
             .bind("written_map", bind::store_level(slot, level))
     };
-    pass.shader(wgsl, "write_map")
+    pass.over_regions(level)
+        .bind("regions", bind::regions(slot, smallest))
+        .shader(wgsl, "write_map")
 }
 
 /// These passes for each plane of a map, labelled with its number where there are several.

@@ -1,8 +1,5 @@
-//! The modules that a node's description makes for its shader, `specialization` among them: what that imports because it cannot
-//! be an ordinary value.
-//!
-//! Formats of storage textures are literals of a type, bind groups are attributes, unrolled loops are text. What else is generated
-//! comes from the rows of techniques.
+//! The modules that a node's description makes for its shader, `specialization` among them: what cannot be an ordinary value.
+//! Formats of storage textures are literals of a type, bind groups are attributes, unrolled loops are text.
 
 use core::fmt::{Display, Write};
 use std::borrow::Cow;

@@ -3,9 +3,9 @@
 use moment_shadows::{MapEncoding, Storage, SummedAreaTable as TableEncoding};
 use serde::{Deserialize, Deserializer};
 
-use super::shared::regions::{self, ENDLESS};
+use super::shared::regions::ENDLESS;
 use super::shared::{Specialization, map_input, wgsl, wrong_property};
-use crate::{Connected, GraphError, Node, NodeDesc, Rule, Slot, Stage, TextureRule, bind};
+use crate::{Connected, GraphError, Node, NodeDesc, Pass, Rule, Slot, Stage, TextureRule, bind};
 
 /// Node `summed_area_table`: `map` (four moments or two, of any storage, straight from a resolve) to `table`, of the same
 /// size, layers and regions: in each texel of a region the sum of all its texels that lie neither below nor to the right,
@@ -85,8 +85,10 @@ impl Node for SummedAreaTable {
             .module("map_encoding", row.map_encoding())
             .module("tile_columns", include_str!("tile_columns.wgsl"));
         let pass = |label: &str, shader, texels| {
+            let pass = Pass::compute(label, "table", texels)
+                .over_regions(0)
+                .bind("regions", bind::regions("table", 1));
             let wgsl = specialization.link(shader)?;
-            let pass = regions::compute(label, ("table", 0), texels, 1);
             Ok::<_, GraphError>(pass.shader(wgsl, &label.replace(' ', "_")))
         };
         let between = |name: &str, description: &str, size: [u32; 2]| {
