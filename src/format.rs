@@ -143,6 +143,17 @@ impl TextureFormat {
         matches!(self, TextureFormat::Rg32Uint | TextureFormat::Rgba32Uint)
     }
 
+    /// The wgpu feature to request of a device so that shaders can write a format that not every device lets them.
+    #[must_use]
+    pub fn feature_to_write(self) -> &'static str {
+        let is_norm16 = matches!(self, Self::R16Unorm | Self::Rg16Unorm | Self::Rgba16Unorm);
+        if is_norm16 {
+            "TEXTURE_FORMAT_16BIT_NORM"
+        } else {
+            "TEXTURE_ADAPTER_SPECIFIC_FORMAT_FEATURES"
+        }
+    }
+
     /// What every device of the profile can do with the format, without optional features beyond the profile's own.
     #[must_use]
     pub fn support(self, profile: Profile) -> FormatSupport {

@@ -159,12 +159,7 @@ impl Storage {
         if self.can_write(format, profile) {
             return Ok(());
         }
-        // By wgpu's name: what a host asks a device for.
-        let feature = if self == Storage::Unorm16 && profile == Profile::WebgpuCore {
-            "TEXTURE_FORMAT_16BIT_NORM"
-        } else {
-            "TEXTURE_ADAPTER_SPECIFIC_FORMAT_FEATURES"
-        };
+        let feature = format.feature_to_write();
         let message = format!(
             "storage '{self}' needs {format} as a storage texture, which the profile {profile} does not offer; request the \
              device with the feature {feature}, or use storage '{alternative}' instead"

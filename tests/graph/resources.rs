@@ -176,7 +176,8 @@ fn a_storage_that_the_profile_lacks_names_one_that_works() {
         "resolve",
         "map",
         "8:5",
-        "rgba16unorm cannot be written as a storage texture under the profile webgpu-core; use storage 'float16'",
+        "rgba16unorm cannot be written as a storage texture under the profile webgpu-core; request the device with the \
+         feature TEXTURE_FORMAT_16BIT_NORM, or use storage 'float16'",
     );
     let works = edited(
         "\"unorm16\"",

@@ -78,7 +78,11 @@ pub(super) fn usable(
         format!("{format} cannot be {missing} under the profile {profile}; {alternative}")
     };
     let stored = !access.storage_write || support.storage_write;
-    ensure(stored, Capability, || fails("written as a storage texture"))?;
+    ensure(stored, Capability, || {
+        let feature = format.feature_to_write();
+        let or = format!("; request the device with the feature {feature}, or use ");
+        fails("written as a storage texture").replacen("; use ", &or, 1)
+    })?;
     let drawn = !access.render_target || support.renderable;
     ensure(drawn, Capability, || fails("drawn to"))
 }
