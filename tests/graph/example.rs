@@ -3,7 +3,7 @@
 use moment_shadows::Profile;
 use moment_shadows_graph::{Capabilities, Graph, GraphError, GraphErrorKind, NodeRegistry, Plan};
 
-pub(crate) const TEXT: &str = include_str!("example.json");
+pub(crate) const TEXT: &str = include_str!("../support/example.json");
 
 /// The example with one piece of text replaced.
 pub(crate) fn edited(from: &str, to: &str) -> String {

@@ -14,7 +14,7 @@ use moment_shadows_lab::gpu::Gpu;
 use pollster::block_on;
 use wgpu::util::DeviceExt as _;
 
-pub(crate) const EXAMPLE: &str = include_str!("../../examples/hard_shadows.json");
+pub(crate) const EXAMPLE: &str = include_str!("../support/example.json");
 
 pub(crate) const IDENTITY: [[f64; 4]; 4] = [
     [1.0, 0.0, 0.0, 0.0],
