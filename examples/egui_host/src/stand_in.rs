@@ -5,10 +5,7 @@ use std::error::Error;
 
 use eframe::egui_wgpu::RenderState;
 use eframe::{egui, wgpu};
-use moment_shadows::{
-    CameraView, Kernel, LeakReduction, LightDepth, LightView, MapRegion, ReceiverBias,
-    ViewParameters,
-};
+use moment_shadows::{CameraView, Kernel, LeakReduction, LightView, ReceiverBias, ViewParameters};
 use moment_shadows_graph::Plan;
 use moment_shadows_graph::record::ImportedResource;
 use moment_shadows_lab::command::render::RenderOptions;
@@ -55,21 +52,13 @@ impl StandIn {
     ) -> Result<wgpu::Buffer, Failure> {
         let desc = &self.0.desc;
         let kernel = Kernel::gaussian(4, 2.4)?;
-        let [width, height] = desc.light.texel_size(desc.map);
-        let [near, far] = desc.light.range;
-        let depth_per_texel = 2.0 * width.max(height) / (far - near);
-        let light = LightView {
-            clip_from_world: desc.light.clip_from_world().to_cols_array_2d(),
-            depth: LightDepth::Orthographic { reversed: false },
-            layer: 0,
-            region: MapRegion::WHOLE,
-            channel: 0,
-        };
+        let light = LightView::orthographic(desc.light.clip_from_world().to_cols_array_2d());
         let camera = CameraView {
             clip_from_world: desc.camera.clip_from_world_columns()?,
             far_depth: 0.0,
         };
-        let bias = ReceiverBias::for_kernel(kernel.standard_deviation(), depth_per_texel as f32);
+        let depth_per_texel = light.depth_per_texel(desc.map) as f32;
+        let bias = ReceiverBias::for_kernel(kernel.standard_deviation(), depth_per_texel);
         let shade = ViewParameters::new(&camera, &light, bias, LeakReduction::DEFAULT)?;
         let mut block = plan.parameters.initial();
         let layout = &plan.parameters;
