@@ -60,16 +60,24 @@ async function scoped(device, work) {
   return [result, objections];
 }
 
+// Attributes 0 to 7 of any vertex shader: it takes of each as many components as it declares.
+const BUFFERS = [
+  {
+    arrayStride: 128,
+    attributes: Array.from({ length: 8 }, (_, index) => ({ shaderLocation: index, offset: 16 * index, format: 'float32x4' })),
+  },
+];
+
 // The ways to make a pipeline of an entry point, one of which has to do: a fragment stage fits one of the vertex stages.
 function pipelines(device, module, { name: entryPoint, stage, targets }, entryPoints, constants) {
-  const stageOf = ({ name }) => ({ module, entryPoint: name, constants });
+  const stageOf = ({ name }) => ({ module, entryPoint: name, constants, buffers: BUFFERS });
   const layout = 'auto';
   if (stage === 'compute') {
     return [() => device.createComputePipelineAsync({ layout, compute: { module, entryPoint, constants } })];
   }
   if (stage === 'vertex') {
     const depthStencil = { format: 'depth32float', depthWriteEnabled: true, depthCompare: 'less' };
-    return [() => device.createRenderPipelineAsync({ layout, vertex: { module, entryPoint, constants }, depthStencil })];
+    return [() => device.createRenderPipelineAsync({ layout, vertex: { module, entryPoint, constants, buffers: BUFFERS }, depthStencil })];
   }
   const fragment = { module, entryPoint, constants, targets: targets.map((format) => format && { format }) };
   const vertices = entryPoints.filter(({ stage }) => stage === 'vertex').map(stageOf);
