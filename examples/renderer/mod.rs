@@ -2,12 +2,16 @@
 //! intensity. Nothing in here belongs to the library.
 #![allow(dead_code, reason = "each example uses a part of it")]
 
+mod boxes;
+mod pass;
+
 use std::error::Error;
 use std::path::Path;
 
 use glam::dcamera::rh::proj::directx::{orthographic, perspective, perspective_infinite_reverse};
 use glam::dcamera::rh::view::look_at_mat4;
 use glam::{DMat4, DVec3};
+pub(crate) use pass::pass;
 use pollster::block_on;
 use wgpu::util::DeviceExt as _;
 
@@ -39,29 +43,6 @@ pub(crate) struct Picture {
     ambient: wgpu::Texture,
     direct: wgpu::Texture,
     lit: wgpu::Texture,
-}
-
-/// A colonnade with a roof of slats on a wide floor.
-fn boxes() -> Vec<[[f32; 3]; 3]> {
-    let floor = [[0.0, -0.1, 0.0], [14.0, 0.1, 14.0], [0.62, 0.6, 0.56]];
-    let wall = [[0.0, 1.6, -3.3], [4.6, 1.6, 0.1], [0.7, 0.66, 0.6]];
-    let pillars = (0..10).map(|index| {
-        let x = -4.0 + 2.0 * (index / 2) as f32;
-        let z = if index % 2 == 0 { -2.4 } else { 1.6 };
-        [[x, 1.5, z], [0.16, 1.5, 0.16], [0.72, 0.64, 0.52]]
-    });
-    let slats = (0..13).map(|index| {
-        let x = -4.5 + 0.75 * index as f32;
-        [[x, 3.1, -0.4], [0.24, 0.08, 2.9], [0.45, 0.36, 0.28]]
-    });
-    let crates = [[-1.2, 0.3, 0.4], [0.9, 0.2, -0.8], [2.6, 0.35, 0.7]]
-        .map(|centre: [f32; 3]| [centre, [centre[1]; 3], [0.5, 0.58, 0.66]]);
-    [floor, wall]
-        .into_iter()
-        .chain(pillars)
-        .chain(slats)
-        .chain(crates)
-        .collect()
 }
 
 /// A sun from `towards`, whose map covers the colonnade: 0 is stored at the near plane.
@@ -96,7 +77,7 @@ impl Renderer {
             ..Default::default()
         }))?;
         let shader = device.create_shader_module(wgpu::include_wgsl!("renderer.wgsl"));
-        let boxes = boxes();
+        let boxes = boxes::boxes();
         Ok(Self {
             shader,
             count: boxes.len() as u32,
@@ -398,49 +379,4 @@ impl Renderer {
                 cache: None,
             })
     }
-}
-
-/// A render pass that clears its targets.
-pub(crate) fn pass<'a>(
-    encoder: &'a mut wgpu::CommandEncoder,
-    colours: &[(&wgpu::Texture, wgpu::Color)],
-    depth: Option<(&wgpu::Texture, f32)>,
-) -> wgpu::RenderPass<'a> {
-    let view = |texture: &wgpu::Texture| texture.create_view(&Default::default());
-    let colours: Vec<_> = colours
-        .iter()
-        .map(|(colour, clear)| (view(colour), *clear))
-        .collect();
-    let attachments: Vec<_> = colours
-        .iter()
-        .map(|(view, clear)| {
-            Some(wgpu::RenderPassColorAttachment {
-                view,
-                depth_slice: None,
-                resolve_target: None,
-                ops: wgpu::Operations {
-                    load: wgpu::LoadOp::Clear(*clear),
-                    store: wgpu::StoreOp::Store,
-                },
-            })
-        })
-        .collect();
-    let depth = depth.map(|(depth, far)| (view(depth), far));
-    encoder.begin_render_pass(&wgpu::RenderPassDescriptor {
-        label: None,
-        color_attachments: &attachments,
-        depth_stencil_attachment: depth.as_ref().map(|(view, far)| {
-            wgpu::RenderPassDepthStencilAttachment {
-                view,
-                depth_ops: Some(wgpu::Operations {
-                    load: wgpu::LoadOp::Clear(*far),
-                    store: wgpu::StoreOp::Store,
-                }),
-                stencil_ops: None,
-            }
-        }),
-        timestamp_writes: None,
-        occlusion_query_set: None,
-        multiview_mask: None,
-    })
 }
