@@ -29,7 +29,12 @@
 #![warn(clippy::wildcard_enum_match_arm)]
 
 /// Numbers that stand in WGSL, and only there.
-#[allow(dead_code, clippy::excessive_precision, clippy::approx_constant)]
+#[allow(
+    dead_code,
+    clippy::excessive_precision,
+    clippy::approx_constant,
+    reason = "made of all of WGSL's numbers, as they stand there"
+)]
 mod constants {
     include!(concat!(env!("OUT_DIR"), "/constants.rs"));
 }

@@ -1,7 +1,10 @@
 //! What does not suit a session is an error that says so, and the session stays as it was.
 
-use moment_shadows::{LightDepth, LightSize, LightView};
-use moment_shadows_graph::{GraphErrorKind, Session, Stage};
+use moment_shadows::{Kernel, LightDepth, LightSize, LightView};
+use moment_shadows_graph::nodes::Blur;
+use moment_shadows_graph::{
+    Connected, GraphError, GraphErrorKind, Node, NodeDesc, ParameterBlock, Session, Stage,
+};
 use pollster::block_on;
 
 use crate::{HARD, frame, gpu, imports, parsed, places, recorded, session};
@@ -133,4 +136,57 @@ fn textures_that_the_graph_cannot_take_are_named() {
         found.kind == GraphErrorKind::Parameters && found.to_string().contains("'replace'"),
         "{found}"
     );
+}
+
+/// A node with parameters of its own.
+#[derive(Debug)]
+struct WithParameters(Blur);
+
+impl Node for WithParameters {
+    fn describe(&self, inputs: &Connected<'_>) -> Result<NodeDesc, GraphError> {
+        let own = ParameterBlock::of::<[f32; 4]>("Own");
+        Ok(self.0.describe(inputs)?.parameters(own))
+    }
+}
+
+#[test]
+fn parameters_that_only_the_host_knows_are_refused() {
+    let gpu = gpu();
+    let frame = frame(&gpu, 0, [96, 54]);
+    let (camera, light) = places(&frame);
+    let mut graph = parsed(HARD);
+    let blur = graph.nodes.iter_mut().find(|node| node.name == "blur");
+    blur.unwrap().value = Box::new(WithParameters(Blur {
+        kernel: Kernel::gaussian(4, 2.4),
+        per_frame: false,
+        mip_levels: Some(1),
+    }));
+    let (adapter, device) = (&gpu.adapter, &gpu.device);
+    let given = imports(&frame);
+    let session = Session::new(adapter, device, graph, &given, Default::default());
+    let mut session = block_on(session).unwrap();
+    let found = session.view(&gpu.queue, 0, &camera, &[light]).unwrap_err();
+    let found = found.to_string();
+    assert!(found.contains("'blur'") && found.contains("Own"), "{found}");
+}
+
+#[test]
+fn a_single_light_is_in_all_channels_whichever_it_asks_for() {
+    let gpu = gpu();
+    let frame = frame(&gpu, 0, [96, 54]);
+    let (camera, light) = places(&frame);
+    let shade = r#""type": "shade_hard""#;
+    let four = HARD.replace(
+        shade,
+        r#""type": "shade_hard", "properties": { "format": "rgba8unorm" }"#,
+    );
+    let mut session = session(&gpu, &four, &imports(&frame));
+    let mut shaded = |channel| {
+        let light = LightView { channel, ..light };
+        session.view(&gpu.queue, 0, &camera, &[light]).unwrap();
+        recorded(&gpu, &session, 0, "shadow_intensity")
+    };
+    let first = shaded(0);
+    assert!(first.iter().any(|&byte| byte > 128));
+    assert_eq!(shaded(2), first);
 }

@@ -71,7 +71,14 @@ impl Scratch {
                 "CompositeScatteringParameters" => {
                     layout.write(bytes, node, 0, &told.scattering()?.composite)?;
                 }
-                _ => {}
+                // Those above, and a kernel, which is that of the graph file.
+                "ViewParameters" | "BlurParameters" => {}
+                other => {
+                    let reason = format!(
+                        "its parameters ({other}) are known to the host alone; record this graph with the objects of 'record'"
+                    );
+                    return Err(unsuitable(format!("node '{node}'"), reason));
+                }
             }
         }
         for table in layout.regions.iter().filter(|_| with_regions) {

@@ -155,7 +155,8 @@ fn shade(covered: Covered) -> @location(0) vec4f {
     let neighbour_y = neighbour_of(pixel, vec2i(0, 1), stored_depth);
     var open_channels = vec4<bool>(true);
     for (var view = 0u; view < VIEWS; view++) {
-        let channel = vec4<bool>(vec4u(views[view].channel) == vec4u(0u, 1u, 2u, 3u));
+        // A single light is in all channels, so that a host can blend with it or show it.
+        let channel = vec4<bool>(LIGHTS == 1u) | vec4<bool>(vec4u(views[view].channel) == vec4u(0u, 1u, 2u, 3u));
         let region = map_region_within(views[view].region, technique_map_size());
         let receiver = receiver_at(view, pixel, stored_depth);
         let uv = receiver.place.xy;
@@ -166,6 +167,5 @@ fn shade(covered: Covered) -> @location(0) vec4f {
             open_channels = open_channels & !channel;
         }
     }
-    // A single light is in all channels, so that a host can blend with it or show it.
-    return select(intensities, intensities.xxxx, LIGHTS == 1u);
+    return intensities;
 }
