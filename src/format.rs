@@ -42,6 +42,14 @@ pub enum TextureFormat {
     Depth16Unorm,
     /// Single-precision depth.
     Depth32Float,
+    /// Depth of at least 24 bits in [0, 1]: of integers or in single precision, as the device likes.
+    Depth24Plus,
+    /// The same beside a stencil of 8 bits. Nodes read its depth.
+    #[serde(rename = "depth24plus-stencil8")]
+    Depth24PlusStencil8,
+    /// Single-precision depth beside a stencil of 8 bits. Nodes read its depth.
+    #[serde(rename = "depth32float-stencil8")]
+    Depth32FloatStencil8,
 }
 
 /// What a format can be used for.
@@ -59,7 +67,7 @@ pub struct FormatSupport {
 
 impl TextureFormat {
     /// Every format.
-    pub const ALL: [TextureFormat; 16] = [
+    pub const ALL: [TextureFormat; 19] = [
         TextureFormat::R8Unorm,
         TextureFormat::Rgba8Unorm,
         TextureFormat::R16Unorm,
@@ -76,6 +84,9 @@ impl TextureFormat {
         TextureFormat::Rgba32Uint,
         TextureFormat::Depth16Unorm,
         TextureFormat::Depth32Float,
+        TextureFormat::Depth24Plus,
+        TextureFormat::Depth24PlusStencil8,
+        TextureFormat::Depth32FloatStencil8,
     ];
 
     /// The name, channels, and bytes of a texel.
@@ -97,6 +108,10 @@ impl TextureFormat {
             TextureFormat::Rgba32Uint => ("rgba32uint", 4, 16),
             TextureFormat::Depth16Unorm => ("depth16unorm", 1, 2),
             TextureFormat::Depth32Float => ("depth32float", 1, 4),
+            TextureFormat::Depth24Plus => ("depth24plus", 1, 4),
+            TextureFormat::Depth24PlusStencil8 => ("depth24plus-stencil8", 1, 4),
+            // What devices take, padded.
+            TextureFormat::Depth32FloatStencil8 => ("depth32float-stencil8", 1, 8),
         }
     }
 
@@ -121,20 +136,32 @@ impl TextureFormat {
     /// Whether this is a depth format.
     #[must_use]
     pub fn is_depth(self) -> bool {
-        matches!(
-            self,
-            TextureFormat::Depth16Unorm | TextureFormat::Depth32Float
-        )
+        self.depth_step().is_some() && self != TextureFormat::R32Float
     }
 
     /// The largest step between neighbouring depths in [0, 1] of a format that stores depth; `None` for others.
     #[must_use]
     pub fn depth_step(self) -> Option<f64> {
-        if self == TextureFormat::Depth16Unorm {
-            return Some(1.0 / 65535.0);
+        use TextureFormat as F;
+        match self {
+            F::Depth16Unorm => Some(1.0 / 65535.0),
+            F::Depth24Plus | F::Depth24PlusStencil8 => Some(1.0 / 16_777_215.0),
+            F::Depth32Float | F::Depth32FloatStencil8 | F::R32Float => {
+                Some(0.5 * f64::from(f32::EPSILON))
+            }
+            F::R8Unorm | F::Rgba8Unorm | F::R16Unorm | F::Rg16Unorm | F::Rgba16Unorm => None,
+            F::R16Float | F::Rg16Float | F::Rgba16Float | F::Rg32Float | F::Rgba32Float => None,
+            F::Rgb10a2Unorm | F::Rg32Uint | F::Rgba32Uint => None,
         }
-        let is_single = matches!(self, TextureFormat::Depth32Float | TextureFormat::R32Float);
-        is_single.then_some(0.5 * f64::from(f32::EPSILON))
+    }
+
+    /// Whether depth is stored in floating point whatever the device: steps shrink with what is stored.
+    pub(crate) fn is_floating_depth(self) -> bool {
+        use TextureFormat as F;
+        matches!(
+            self,
+            F::Depth32Float | F::Depth32FloatStencil8 | F::R32Float
+        )
     }
 
     /// Whether texels are integers, which no sampler filters.
@@ -171,7 +198,11 @@ impl TextureFormat {
                 let native = profile != Profile::WebgpuCore;
                 (native, native, false, false)
             }
-            F::Depth16Unorm | F::Depth32Float => (false, false, true, false),
+            F::Depth16Unorm | F::Depth32Float | F::Depth24Plus | F::Depth24PlusStencil8 => {
+                (false, false, true, false)
+            }
+            // An optional feature of devices.
+            F::Depth32FloatStencil8 => (false, false, false, false),
         };
         FormatSupport {
             filterable,

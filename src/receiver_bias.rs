@@ -70,8 +70,13 @@ impl ReceiverBias {
     pub fn for_stored_depth(self, format: TextureFormat, conversion: &DepthConversion) -> Self {
         let [n0, n1] = conversion.numerator.map(f64::from);
         let [m0, m1] = conversion.denominator.map(f64::from);
+        let offset = f64::from(conversion.offset);
         let step = match format.depth_step() {
-            Some(_) if format != TextureFormat::Depth16Unorm && n1 * m0 < n0 * m1 => return self,
+            Some(_) if format.is_floating_depth() && n1 * m0 < n0 * m1 => return self,
+            // Its share of the largest number that is stored, near plane or far.
+            Some(step) if format.is_floating_depth() => {
+                step * offset.abs().max((1.0 - offset).abs())
+            }
             Some(step) => step * f64::from(conversion.scale.abs()),
             None => return self,
         };

@@ -52,7 +52,7 @@ impl MapEncoding {
             })?;
         check_exponents(&row, storage)?;
         Ok(Self {
-            technique,
+            technique: technique.in_storage(storage),
             storage,
             format,
             table: None,

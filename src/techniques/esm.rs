@@ -23,7 +23,7 @@ const LOGARITHMIC: Encoding = Encoding {
     ..ENCODING
 };
 
-pub(super) fn row(exponent: Finite, filtering: EsmFiltering) -> Row {
+pub(super) fn row(exponent: Option<Finite>, filtering: EsmFiltering) -> Row {
     let row = match filtering {
         EsmFiltering::Linear => Row {
             largest_exponents: &[
@@ -50,9 +50,9 @@ pub(super) fn row(exponent: Finite, filtering: EsmFiltering) -> Row {
         },
     };
     Row {
-        exponents: vec![exponent],
+        exponents: Vec::from_iter(exponent),
         constants: vec![
-            Constant::of_map("EXPONENT", float(exponent.get())),
+            Constant::of_map("EXPONENT", float(exponent.unwrap_or_default().get())),
             Constant::of_map("LOGARITHMIC", filtering == EsmFiltering::Logarithmic),
         ],
         ..row

@@ -15,16 +15,24 @@ const ENCODING: Encoding = Encoding {
 
 const EVALUATION: &str = "return exponential_variance_shadow_intensity_of_texel(map_texel(receiver, 0u), receiver.fragment_depth, STORAGE, EXPONENTS, BOTH_WARPS);";
 
-/// With the positive warp alone or with both.
-pub(super) fn row(positive: Finite, negative: Option<Finite>) -> Row {
-    let (name, channels) = negative.map_or(("evsm2", 2), |_| ("evsm4", 4));
-    let [x, y] = [positive, negative.unwrap_or_default()].map(Finite::get);
+/// With the positive warp alone.
+pub(super) fn evsm2(exponent: Option<Finite>) -> Row {
+    row("evsm2", 2, [exponent, None], false)
+}
+
+/// With both warps.
+pub(super) fn evsm4(positive: Option<Finite>, negative: Option<Finite>) -> Row {
+    row("evsm4", 4, [positive, negative], true)
+}
+
+fn row(name: &'static str, channels: u32, exponents: [Option<Finite>; 2], both: bool) -> Row {
+    let [x, y] = exponents.map(|exponent| exponent.unwrap_or_default().get());
     Row {
         constants: vec![
             Constant::of_map("EXPONENTS", format!("vec2f({x:?}, {y:?})")),
-            Constant::of_evaluation("BOTH_WARPS", negative.is_some()),
+            Constant::of_evaluation("BOTH_WARPS", both),
         ],
-        exponents: core::iter::once(positive).chain(negative).collect(),
+        exponents: exponents.into_iter().flatten().collect(),
         largest_exponents: &[
             EXPONENTIAL_VARIANCE_LARGEST_EXPONENT_FLOAT32,
             EXPONENTIAL_VARIANCE_LARGEST_EXPONENT_FLOAT16,

@@ -5,10 +5,12 @@ mod depth_tests;
 mod encoding;
 mod esm;
 mod evsm;
+mod exponents;
 mod finite;
 mod lvsm;
 mod modules;
 mod moments;
+mod name;
 mod row;
 mod settings;
 mod vsm;
@@ -27,8 +29,10 @@ use crate::{Profile, Storage, ValueError};
 ///
 /// The first three read the plain depth map, at a cost that grows with the filter. The others read a *filterable* map, which
 /// is blurred once and looked up once.
+///
+/// In files a technique is a name alone, for usual settings, or a name with settings: `"evsm4"`, `{"evsm4": {"positive": 20}}`.
 #[derive(Clone, Debug, Default, PartialEq, Eq, Hash, Serialize, Deserialize)]
-#[serde(rename_all = "lowercase", deny_unknown_fields)]
+#[serde(rename_all = "lowercase", deny_unknown_fields, remote = "Self")]
 pub enum Technique {
     /// The comparison with the nearest texel (Williams, SIGGRAPH 1978).
     Binary,
@@ -44,8 +48,10 @@ pub enum Technique {
     },
     /// Exponential shadow maps (Annen et al., GI 2008; Salvi 2008).
     Esm {
-        /// The exponent c over moment depth, at least 1: shadows fade in over a depth of 1 / c.
-        exponent: Finite,
+        /// The exponent c over moment depth, at least 1: shadows fade in over a depth of 1 / c. Where it is left out, 80, or the
+        /// largest that the storage takes.
+        #[serde(skip_serializing_if = "Option::is_none")]
+        exponent: Option<Finite>,
         /// What is filtered.
         #[serde(default)]
         filtering: EsmFiltering,
@@ -54,15 +60,18 @@ pub enum Technique {
     Vsm,
     /// Exponential variance shadow maps with the positive warp (Lauritzen & McCool, GI 2008).
     Evsm2 {
-        /// The exponent of e^(c z).
-        exponent: Finite,
+        /// The exponent of e^(c z). Where it is left out, 40, or the largest that the storage takes.
+        #[serde(skip_serializing_if = "Option::is_none")]
+        exponent: Option<Finite>,
     },
     /// Exponential variance shadow maps with both warps (Lauritzen & McCool, GI 2008).
     Evsm4 {
-        /// The exponent of e^(c z).
-        positive: Finite,
-        /// The exponent of -e^(-c z).
-        negative: Finite,
+        /// The exponent of e^(c z). Where it is left out, 40, or the largest that the storage takes.
+        #[serde(skip_serializing_if = "Option::is_none")]
+        positive: Option<Finite>,
+        /// The exponent of -e^(-c z). Where it is left out, 5.
+        #[serde(skip_serializing_if = "Option::is_none")]
+        negative: Option<Finite>,
     },
     /// Layered variance shadow maps (Lauritzen & McCool, GI 2008).
     Lvsm {
@@ -99,15 +108,16 @@ fn yes() -> bool {
 }
 
 impl Technique {
-    /// Every technique with usual settings, percentage-closer filtering and exponential maps with each kind of them.
+    /// Every technique with usual settings, percentage-closer filtering and exponential maps with each kind of them. The first
+    /// of each name is what the name alone stands for.
     #[must_use]
     pub fn examples() -> Vec<Technique> {
         let pcf = [
-            PcfTaps::Box { radius: 2 },
             PcfTaps::Gaussian {
                 radius: 4,
                 sigma: Finite(2.4),
             },
+            PcfTaps::Box { radius: 2 },
             PcfTaps::Weights([1.0, 2.0, 3.0, 2.0, 1.0].map(Finite).to_vec()),
             PcfTaps::Poisson {
                 radius: Finite(4.0),
@@ -122,7 +132,7 @@ impl Technique {
             filter_taps: 32,
         };
         let esm = |filtering| Technique::Esm {
-            exponent: Finite(80.0),
+            exponent: None,
             filtering,
         };
         let tests = [Technique::Binary].into_iter();
@@ -131,12 +141,10 @@ impl Technique {
             esm(EsmFiltering::Linear),
             esm(EsmFiltering::Logarithmic),
             Technique::Vsm,
-            Technique::Evsm2 {
-                exponent: Finite(40.0),
-            },
+            Technique::Evsm2 { exponent: None },
             Technique::Evsm4 {
-                positive: Finite(40.0),
-                negative: Finite(5.0),
+                positive: None,
+                negative: None,
             },
             Technique::Lvsm {
                 layers: 4,
@@ -169,8 +177,8 @@ impl Technique {
                 filtering,
             } => esm::row(*exponent, *filtering),
             Technique::Vsm => vsm::row(),
-            Technique::Evsm2 { exponent } => evsm::row(*exponent, None),
-            Technique::Evsm4 { positive, negative } => evsm::row(*positive, Some(*negative)),
+            Technique::Evsm2 { exponent } => evsm::evsm2(*exponent),
+            Technique::Evsm4 { positive, negative } => evsm::evsm4(*positive, *negative),
             Technique::Lvsm {
                 layers,
                 overlap,

@@ -2,7 +2,7 @@
 
 use core::ops::RangeInclusive;
 
-use glam::{DMat4, DVec4};
+use glam::{DMat4, DVec3, DVec4};
 use serde::{Deserialize, Serialize};
 
 use crate::{AreaLight, DepthConversion, DepthRange, LightSize, MapRegion, ValueError};
@@ -67,7 +67,7 @@ impl LightView {
         let length = |row: usize| clip.row(row).truncate().length();
         let divisor = match self.depth {
             LightDepth::Orthographic { .. } => clip.row(3).w.abs(),
-            LightDepth::Perspective { .. } => length(3),
+            LightDepth::Perspective { .. } | LightDepth::Linear { .. } => length(3),
         };
         [0, 1].map(|axis| 2.0 * divisor / (length(axis) * f64::from(extent[axis])))
     }
@@ -76,7 +76,7 @@ impl LightView {
     #[must_use]
     pub fn range(&self) -> DepthRange {
         match self.depth {
-            LightDepth::Perspective { range, .. } => range,
+            LightDepth::Perspective { range, .. } | LightDepth::Linear { range } => range,
             LightDepth::Orthographic { .. } => {
                 let clip = DMat4::from_cols_array_2d(&self.clip_from_world);
                 let per_unit = self.depth.row(clip).truncate().length() / clip.row(3).w.abs();
@@ -96,7 +96,7 @@ impl LightView {
         let DepthRange { near, far } = self.range();
         let spread = match self.depth {
             LightDepth::Orthographic { .. } => 1.0,
-            LightDepth::Perspective { .. } => far,
+            LightDepth::Perspective { .. } | LightDepth::Linear { .. } => far,
         };
         2.0 * width.max(height) * spread / (far - near)
     }
@@ -146,6 +146,11 @@ pub enum LightDepth {
         /// The distances that map to the moment depths -1 and 1.
         range: DepthRange,
     },
+    /// The distance along the light's axis in scene units, clip space w, as an r32float map of a perspective light holds it.
+    Linear {
+        /// The distances that map to the moment depths -1 and 1.
+        range: DepthRange,
+    },
 }
 
 impl LightDepth {
@@ -159,12 +164,25 @@ impl LightDepth {
                 reversed,
                 range,
             } => (DepthConversion::perspective(near, far, range)?, reversed),
+            LightDepth::Linear { range } => (DepthConversion::linear(range)?, false),
         };
         Ok(if reversed {
             forward.reversed()
         } else {
             forward
         })
+    }
+
+    /// Checks that depth is stored as maps with such a matrix store it.
+    pub(super) fn check_matrix(&self, clip_from_world: DMat4) -> Result<(), ValueError> {
+        let stored_parallel = matches!(self, LightDepth::Orthographic { .. });
+        let parallel = clip_from_world.row(3).truncate() == DVec3::ZERO;
+        if parallel == stored_parallel {
+            return Ok(());
+        }
+        let message = "the light's matrix and its depth do not agree: a matrix with parallel rays goes with orthographic depth, one \
+                       with perspective with the other kinds";
+        Err(ValueError::new("depth", message))
     }
 
     /// The linear function of a scene position (x, y, z, 1) that gives its moment depth, for the map's matrix.
@@ -184,7 +202,7 @@ impl LightDepth {
                 let sign = if reversed { -1.0 } else { 1.0 };
                 (clip_from_world.row(2), 2.0 * sign, -sign)
             }
-            LightDepth::Perspective { range, .. } => {
+            LightDepth::Perspective { range, .. } | LightDepth::Linear { range } => {
                 let extent = range.far - range.near;
                 (
                     clip_from_world.row(3),

@@ -16,6 +16,8 @@ pub struct ViewParameters {
     pub light_from_camera: [[f32; 4]; 4],
     /// The homogeneous coordinate of the scene position.
     pub scene_w_from_camera: [f32; 4],
+    /// By rows, the scene position relative to the camera, times that coordinate: for normals.
+    pub position_from_camera: [[f32; 4]; 3],
     /// How far fragments move towards the light.
     pub receiver_bias: ReceiverBias,
     /// The reduction of light leaking after the bound.
@@ -51,16 +53,26 @@ impl ViewParameters {
         let light_clip = DMat4::from_cols_array_2d(&light.clip_from_world);
         inverse(light_clip, "light")?;
         let conversion = light.depth.conversion()?;
+        light.depth.check_matrix(light_clip)?;
         let [x, y, w] = [0, 1, 3].map(|index| light_clip.row(index));
         // From clip space to the map: u = (x + w) / 2, v = (w - y) / 2, both still times w.
         let rows = [0.5 * (w + x), 0.5 * (w - y), w, light.depth.row(light_clip)];
         let light_from_world =
             DMat4::from_cols_array_2d(&rows.map(|row| row.to_array())).transpose();
+        // Rays of a perspective camera meet in what depth alone leads to, those of another begin at its near plane.
+        let scene_w = world_from_clip.row(3);
+        let eye = match world_from_clip.z_axis {
+            meeting if meeting.w != 0.0 => meeting,
+            _ => world_from_clip.w_axis,
+        };
+        let position =
+            [0, 1, 2].map(|axis| world_from_clip.row(axis) - eye[axis] / eye.w * scene_w);
         Ok(Self {
             light_from_camera: (light_from_world * world_from_clip)
                 .as_mat4()
                 .to_cols_array_2d(),
-            scene_w_from_camera: world_from_clip.row(3).as_vec4().to_array(),
+            scene_w_from_camera: scene_w.as_vec4().to_array(),
+            position_from_camera: position.map(|row| row.as_vec4().to_array()),
             receiver_bias,
             leak_reduction,
             region: light.region,

@@ -49,7 +49,7 @@ fn parameters_are_aligned_to_the_device_and_do_not_overlap() {
         [
             ("resolve", 0, 32, 3),
             ("blur", 1536, 656, 1),
-            ("shade", 2304, 208, 1)
+            ("shade", 2304, 256, 1)
         ]
     );
 }

@@ -135,12 +135,12 @@ fn bytes_are_those_counted_by_hand() {
         .map(|pass| (pass.bytes_read, pass.bytes_written))
         .collect();
     // Four samples of four bytes, a conversion of 32 and a region of 16; two blurs; the camera's depth, the map and a view
-    // of 208 bytes.
+    // of 256 bytes.
     let expected = [
         (1024 * 1024 * 16 + 32 + 16, map),
         (map + 16, map),
         (map + 16, map),
-        (picture * 4 + map + 208, picture),
+        (picture * 4 + map + 256, picture),
     ];
     assert_eq!(moved, expected);
     assert_eq!(
@@ -274,7 +274,7 @@ memory (16.88 MiB resident)
   shade.shadow_intensity       r8unorm 1280x720, 0.88 MiB
 parameters (768 bytes per view)
   resolve                      DepthConversion at 0, 32 bytes x 1
-  shade                        ViewParameters at 512, 208 bytes x 1
+  shade                        ViewParameters at 512, 256 bytes x 1
   light_depth                  MapRegion at 256, up to 1 regions x 1 layers
 outputs
   shadow_intensity             shade.shadow_intensity

@@ -280,3 +280,47 @@ fn logarithms_have_no_mip_levels() {
     assert_eq!(error.kind, GraphErrorKind::Property, "{error}");
     assert!(error.to_string().contains("no mip levels"), "{error}");
 }
+
+#[test]
+fn a_name_alone_stands_for_what_its_storage_takes() {
+    let exponents = |technique: &str, storage: &str| {
+        let plan = compiled(&example(technique, storage), &native()).unwrap();
+        let mut maps = plan.resources.iter().filter_map(|it| it.desc.texture());
+        let encoding = maps.find_map(|map| map.encoding.clone()).unwrap();
+        serde_json::to_value(encoding.technique()).unwrap()
+    };
+    for (technique, storage, expected) in [
+        (r#""evsm4""#, "float32", [40.0, 5.0]),
+        (r#""evsm4""#, "float16", [5.54, 5.0]),
+        (r#"{ "evsm4": { "positive": 3 } }"#, "float16", [3.0, 5.0]),
+        (r#"{ "evsm4": { "negative": 3 } }"#, "float32", [40.0, 3.0]),
+    ] {
+        let found = exponents(technique, storage);
+        for (name, expected) in ["positive", "negative"].into_iter().zip(expected) {
+            let found = found["evsm4"][name].as_f64().unwrap();
+            assert!(
+                (found - expected).abs() < 0.01,
+                "{technique} {storage}: {found}"
+            );
+        }
+    }
+    // What shades takes the exponents of the map where it has none of its own, and refuses others.
+    let shaded = |technique: &str| {
+        let text = example(
+            r#"{ "evsm4": { "positive": 20, "negative": 4 } }"#,
+            "float32",
+        )
+        .replace(
+            "\"type\": \"shade_hard\"",
+            &format!("\"type\": \"shade_hard\", \"properties\": {{ \"technique\": {technique} }}"),
+        );
+        compiled(&text, &native())
+    };
+    shaded(r#""evsm4""#).unwrap();
+    shaded(r#"{ "evsm4": { "negative": 4 } }"#).unwrap();
+    let error = shaded(r#"{ "evsm4": { "negative": 5 } }"#).unwrap_err();
+    assert_eq!(error.kind, GraphErrorKind::Format, "{error}");
+    let error = compiled(&example(r#""evsm5""#, "float32"), &native()).unwrap_err();
+    assert!(error.to_string().contains("nearest are `evsm"), "{error}");
+    assert_eq!(error.kind, GraphErrorKind::Property, "{error}");
+}

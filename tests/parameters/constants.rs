@@ -88,13 +88,11 @@ fn tables_are_biased_alike_on_both_sides() {
 #[test]
 fn techniques_have_the_limits_of_their_modules() {
     let esm = |filtering| Technique::Esm {
-        exponent: Finite::ZERO,
+        exponent: None,
         filtering,
     };
     let (linear, logarithmic) = (esm(EsmFiltering::Linear), esm(EsmFiltering::Logarithmic));
-    let evsm = Technique::Evsm2 {
-        exponent: Finite::ZERO,
-    };
+    let evsm = Technique::Evsm2 { exponent: None };
     for (name, technique, storage) in [
         ("EXPONENTIAL_LARGEST_EXPONENT", &linear, Storage::Float32),
         (

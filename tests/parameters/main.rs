@@ -251,6 +251,7 @@ fn structs_of_the_nodes_are_laid_out_alike() {
         &fields!(ViewParameters {
             light_from_camera: [[f32; 4]; 4],
             scene_w_from_camera: [f32; 4],
+            position_from_camera: [[f32; 4]; 3],
             receiver_bias: ReceiverBias,
             leak_reduction: LeakReduction,
             region: MapRegion,

@@ -15,6 +15,64 @@ override samples: u32;
 }
 ";
 
+/// A pipeline that draws depth to a texture, by `triangle` of a shader and a fragment stage, if it has one.
+fn pipeline(
+    gpu: &Gpu,
+    texture: &wgpu::Texture,
+    shader: &str,
+    fragment: Option<(&str, &[(&str, f64)])>,
+) -> wgpu::RenderPipeline {
+    let module = gpu
+        .device
+        .create_shader_module(wgpu::ShaderModuleDescriptor {
+            label: None,
+            source: wgpu::ShaderSource::Wgsl(shader.into()),
+        });
+    gpu.device
+        .create_render_pipeline(&wgpu::RenderPipelineDescriptor {
+            label: None,
+            layout: None,
+            vertex: wgpu::VertexState {
+                module: &module,
+                entry_point: Some("triangle"),
+                compilation_options: Default::default(),
+                buffers: &[],
+            },
+            primitive: Default::default(),
+            depth_stencil: Some(wgpu::DepthStencilState {
+                format: texture.format(),
+                depth_write_enabled: Some(true),
+                depth_compare: Some(wgpu::CompareFunction::Always),
+                stencil: Default::default(),
+                bias: Default::default(),
+            }),
+            multisample: wgpu::MultisampleState {
+                count: texture.sample_count(),
+                ..Default::default()
+            },
+            fragment: fragment.map(|(entry_point, constants)| wgpu::FragmentState {
+                module: &module,
+                entry_point: Some(entry_point),
+                compilation_options: wgpu::PipelineCompilationOptions {
+                    constants,
+                    ..Default::default()
+                },
+                targets: &[],
+            }),
+            multiview_mask: None,
+            cache: None,
+        })
+}
+
+/// Draws the triangle of a shader's vertex stage, for the rasteriser to say what depth samples have.
+pub(crate) fn draw_by(gpu: &Gpu, texture: &wgpu::Texture, shader: &str) {
+    let pipeline = pipeline(gpu, texture, shader, None);
+    with_pass(gpu, texture, 0, 1.0, |pass| {
+        pass.set_pipeline(&pipeline);
+        pass.draw(0..3, 0..1);
+    });
+}
+
 /// Draws depths, row by row and sample by sample, to a layer of a depth texture.
 pub(crate) fn draw(gpu: &Gpu, texture: &wgpu::Texture, layer: u32, depths: &[f32]) {
     let device = &gpu.device;
@@ -28,47 +86,11 @@ pub(crate) fn draw(gpu: &Gpu, texture: &wgpu::Texture, layer: u32, depths: &[f32
         contents: bytemuck::cast_slice(depths),
         usage: wgpu::BufferUsages::STORAGE,
     });
-    let module = device.create_shader_module(wgpu::ShaderModuleDescriptor {
-        label: None,
-        source: wgpu::ShaderSource::Wgsl(DRAW.into()),
-    });
     let constants = [
         ("width", f64::from(texture.width())),
         ("samples", f64::from(samples)),
     ];
-    let pipeline = device.create_render_pipeline(&wgpu::RenderPipelineDescriptor {
-        label: None,
-        layout: None,
-        vertex: wgpu::VertexState {
-            module: &module,
-            entry_point: Some("triangle"),
-            compilation_options: Default::default(),
-            buffers: &[],
-        },
-        primitive: Default::default(),
-        depth_stencil: Some(wgpu::DepthStencilState {
-            format: texture.format(),
-            depth_write_enabled: Some(true),
-            depth_compare: Some(wgpu::CompareFunction::Always),
-            stencil: Default::default(),
-            bias: Default::default(),
-        }),
-        multisample: wgpu::MultisampleState {
-            count: samples,
-            ..Default::default()
-        },
-        fragment: Some(wgpu::FragmentState {
-            module: &module,
-            entry_point: Some("depth"),
-            compilation_options: wgpu::PipelineCompilationOptions {
-                constants: &constants,
-                ..Default::default()
-            },
-            targets: &[],
-        }),
-        multiview_mask: None,
-        cache: None,
-    });
+    let pipeline = pipeline(gpu, texture, DRAW, Some(("depth", &constants)));
     let group = device.create_bind_group(&wgpu::BindGroupDescriptor {
         label: None,
         layout: &pipeline.get_bind_group_layout(0),

@@ -6,6 +6,7 @@
     reason = "a test that fails says where"
 )]
 
+mod camera_samples;
 mod debug;
 mod depth_map;
 mod depth_tests;

@@ -145,7 +145,7 @@ fn check(name: &str, intensities: &[f32], shadow: f32, lit: f32) {
 fn full_shadow(encoding: &MapEncoding) -> f32 {
     match encoding.technique() {
         // 1 - e^-c less the rounding of the storage, which the largest exponents hold to 1 %.
-        Technique::Esm { exponent, .. } => 1.0 - (-exponent.get()).exp() - 0.02,
+        Technique::Esm { exponent, .. } => 1.0 - (-exponent.unwrap().get()).exp() - 0.02,
         // The largest overshoot of the damped series is subtracted.
         Technique::Convolution { .. } => 0.93,
         // Behind one surface the bound leaks by about the moment bias over the squared distance, or the smallest variance.

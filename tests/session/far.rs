@@ -51,6 +51,11 @@ fn shadows_stay_in_place_however_far_the_origin_is() {
             largest[0] = largest[0].max(texels);
             largest[1] = largest[1].max((found[2] - expected[2]).abs());
         }
+        // Rows of what gives positions from the camera on: they are of its size.
+        let rows = [&here, &there].map(|of| of.position_from_camera);
+        let entries = rows[0].as_flattened().iter().zip(rows[1].as_flattened());
+        let moved = entries.map(|(a, b)| (a - b).abs()).fold(0.0, f32::max);
+        assert!(moved < 1e-5, "{t:e}: {moved}");
         println!(
             "{t:e}: {:.2e} texels, {:.2e} moment depth",
             largest[0], largest[1]

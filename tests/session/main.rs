@@ -8,7 +8,9 @@
 
 mod cameras;
 mod far;
+mod formats;
 mod frames;
+mod normals;
 mod refused;
 mod same;
 mod stored;

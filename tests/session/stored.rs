@@ -2,6 +2,8 @@
 //! still casts its shadow.
 
 use glam::DVec3;
+use moment_shadows::TextureFormat;
+use moment_shadows_graph::TextureDesc;
 use moment_shadows_lab::frame::{Frame, FrameDesc};
 use moment_shadows_lab::gpu::Gpu;
 use moment_shadows_lab::light::{LightShape, LightView};
@@ -34,8 +36,8 @@ fn boards(heights: &[f32]) -> Scene {
     }
 }
 
-/// The mean shadow intensity of a floor 7.5 units below a spot, within the light's cone.
-fn mean(gpu: &Gpu, format: wgpu::TextureFormat, near: f64, board: bool) -> f64 {
+/// A floor 7.5 units below a spot, within the light's cone.
+pub(crate) fn floor(gpu: &Gpu, format: wgpu::TextureFormat, near: f64, board: bool) -> Frame {
     let scene = boards(if board { &[0.0, 2.5] } else { &[0.0] });
     let along = DVec3::new(0.1, -1.0, 0.07).normalize();
     let eye = DVec3::new(0.0, 7.5, 0.0);
@@ -58,7 +60,12 @@ fn mean(gpu: &Gpu, format: wgpu::TextureFormat, near: f64, board: bool) -> f64 {
             far: None,
         },
     };
-    let frame = Frame::draw(gpu, &scene, desc).unwrap();
+    Frame::draw(gpu, &scene, desc).unwrap()
+}
+
+/// The mean shadow intensity of that floor.
+fn mean(gpu: &Gpu, format: wgpu::TextureFormat, near: f64, board: bool) -> f64 {
+    let frame = floor(gpu, format, near, board);
     let (camera, light) = places(&frame);
     let mut session = session(gpu, HARD, &imports(&frame));
     session.view(&gpu.queue, 0, &camera, &[light]).unwrap();
@@ -69,10 +76,8 @@ fn mean(gpu: &Gpu, format: wgpu::TextureFormat, near: f64, board: bool) -> f64 {
 #[test]
 fn a_floor_far_from_the_near_plane_is_lit_in_every_format() {
     let gpu = gpu();
-    for format in [
-        wgpu::TextureFormat::Depth32Float,
-        wgpu::TextureFormat::Depth16Unorm,
-    ] {
+    for format in TextureFormat::ALL.into_iter().filter(|it| it.is_depth()) {
+        let format = TextureDesc::new(format, [1, 1]).wgpu_format();
         for near in [1.0, 0.1, 0.01] {
             let lit = mean(&gpu, format, near, false);
             let shadowed = mean(&gpu, format, near, true);

@@ -1,4 +1,5 @@
 // What is linked of files:
+// camera_depth: camera_depth camera_depth_size camera_depth_at camera_depth_clip
 // fullscreen: Covered fullscreen
 // moment_shadows/map/map_region.wgsl: MapRegion map_region_at_level map_region_place
 // moment_shadows/map/map_lookup.wgsl: map_lookup_bilinear
@@ -15,10 +16,12 @@
 // moment_shadows/air/phase_function.wgsl: PHASE_FUNCTION_ISOTROPIC PHASE_FUNCTION_LARGEST_ANISOTROPY phase_function_henyey_greenstein
 // moment_shadows/air/single_scattering.wgsl: SingleScattering single_scattering_mean_transmittance SINGLE_SCATTERING_LARGEST single_scattering_transmittance single_scattering_radiance single_scattering_pixel
 // occluders.: SINGLE_SCATTERING_DEPTH_BIAS single_scattering_fragment_depth single_scattering_shadow
-// composite_scattering.wgsl: CompositeScatteringParameters parameters camera_depth composite
+// composite_scattering.wgsl: CompositeScatteringParameters parameters composite
 
 // specialization
 const GROUP = 0;
 const STORAGE = 1u;
 const OVERESTIMATION = vec2f(0.2, 0.35);
+alias CameraDepth = texture_depth_2d;
+const CAMERA_SAMPLE = vec2f(0.5, 0.5);
 

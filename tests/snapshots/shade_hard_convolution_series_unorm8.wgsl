@@ -1,4 +1,5 @@
 // What is linked of files:
+// camera_depth: camera_depth camera_depth_size camera_depth_at camera_depth_clip
 // fullscreen: Covered fullscreen
 // moment_shadows/map/depth.wgsl: DepthConversion depth_is_nan depth_of_fragment
 // moment_shadows/shade/leak_reduction.wgsl: LeakReduction leak_reduction_full_shadow leak_reduction_apply
@@ -6,6 +7,7 @@
 // moment_shadows/map/minification.wgsl: MINIFICATION_LARGEST_ANISOTROPY MINIFICATION_TEXEL_PER_WIDTH MinificationFootprint minification_footprint minification_depth_variance
 // moment_shadows/shade/area_light.wgsl: AreaLight
 // moment_shadows/shade/receiver_bias.wgsl: RECEIVER_BIAS_STANDARD_DEVIATIONS RECEIVER_BIAS_EDGE_ON ReceiverBias receiver_bias_plane receiver_bias_step receiver_bias_depth receiver_bias_depth_minified
+// surface: surface_extrapolation_error SURFACE_UNUSABLE surface_neighbour surface_neighbours
 // moment_shadows/map/storage.wgsl: STORAGE_FLOAT16 STORAGE_FLOAT32 storage_is_float storage_finite_texel
 // moment_shadows/techniques/convolution.wgsl: CONVOLUTION_LARGEST_TERMS CONVOLUTION_DAMPING CONVOLUTION_BOUNDS convolution_terms convolution_bound convolution_place convolution_waves convolution_receiver convolution_plane convolution_shadow_intensity
 // moment_shadows/map/map_lookup.wgsl: map_lookup_bilinear
@@ -13,7 +15,7 @@
 // technique_receiver: TechniqueReceiver
 // map_texel: map_texel
 // technique_map: technique_map_size
-// shade.wgsl: ViewParameters views camera_depth Receiver receiver_at camera_depth_at extrapolation_error UNUSABLE LARGEST_DIFFERENCE neighbour_of receiver_difference view_shadow_intensity shade
+// shade.wgsl: ViewParameters views Receiver receiver_at LARGEST_DIFFERENCE receiver_difference view_shadow_intensity shade
 
 // specialization
 const GROUP = 0;
@@ -23,6 +25,8 @@ const LOWER_BOUND = false;
 const PLANES = 4u;
 const LEVELS = 1u;
 const ANISOTROPY = 8.0;
+alias CameraDepth = texture_depth_2d;
+const CAMERA_SAMPLE = vec2f(0.5, 0.5);
 const VIEWS = 1u;
 const LIGHTS = 1u;
 

@@ -1,4 +1,5 @@
 // What is linked of files:
+// camera_depth: camera_depth camera_depth_size camera_depth_at camera_depth_clip
 // fullscreen: Covered fullscreen
 // moment_shadows/map/depth.wgsl: DepthConversion
 // moment_shadows/shade/leak_reduction.wgsl: LeakReduction leak_reduction_full_shadow leak_reduction_apply
@@ -6,6 +7,7 @@
 // moment_shadows/map/minification.wgsl: MINIFICATION_LARGEST_ANISOTROPY MINIFICATION_TEXEL_PER_WIDTH MinificationFootprint minification_footprint minification_depth_variance
 // moment_shadows/shade/area_light.wgsl: AreaLight AREA_LIGHT_LARGEST_RADIUS AREA_LIGHT_BOX_OF_DISK area_light_half_extent area_light_limited area_light_box
 // moment_shadows/shade/receiver_bias.wgsl: RECEIVER_BIAS_STANDARD_DEVIATIONS RECEIVER_BIAS_EDGE_ON ReceiverBias receiver_bias_plane receiver_bias_step receiver_bias_depth receiver_bias_depth_minified receiver_bias_depth_of_kernel
+// surface: surface_extrapolation_error SURFACE_UNUSABLE surface_neighbour surface_neighbours
 // moment_shadows/map/storage.wgsl: STORAGE_UNORM16 STORAGE_FLOAT16 STORAGE_FLOAT32 storage_is_float storage_finite_texel
 // moment_shadows/filter/summed_area_encoding.wgsl: SUMMED_AREA_ENCODING_VARIANCE_PER_ERROR SUMMED_AREA_ENCODING_VARIANCE_OF_F32 SUMMED_AREA_ENCODING_SMALLEST_VARIANCE summed_area_encoding_smallest_variance
 // moment_shadows/shade/soft_blockers.wgsl: SoftBlockers SOFT_BLOCKERS_SMALLEST_SHARE soft_blockers_from soft_blockers_of_two_moments
@@ -16,7 +18,7 @@
 // technique_map: table_sums technique_map_size
 // technique_receiver: TechniqueReceiver
 // technique_soft: soft_table soft_receiver
-// shade.wgsl: ViewParameters views camera_depth Receiver receiver_at camera_depth_at extrapolation_error UNUSABLE LARGEST_DIFFERENCE neighbour_of receiver_difference view_shadow_intensity shade
+// shade.wgsl: ViewParameters views Receiver receiver_at LARGEST_DIFFERENCE receiver_difference view_shadow_intensity shade
 
 // specialization
 const GROUP = 0;
@@ -27,6 +29,8 @@ const TABLE_UNIT = f32(1016560u);
 const TABLE_ERROR = f32(4.918549e-7);
 const SEARCH_INTERPOLATED = false;
 const FILTER_INTERPOLATED = true;
+alias CameraDepth = texture_depth_2d;
+const CAMERA_SAMPLE = vec2f(0.5, 0.5);
 const VIEWS = 1u;
 const LIGHTS = 1u;
 

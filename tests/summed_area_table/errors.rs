@@ -66,7 +66,7 @@ fn a_map_beyond_the_limits_names_the_largest() {
 #[test]
 fn maps_that_hold_something_else_are_refused() {
     let evsm = Technique::Evsm2 {
-        exponent: 5.0_f32.try_into().unwrap(),
+        exponent: Some(5.0_f32.try_into().unwrap()),
     };
     let error = plan(
         &map(&encoding(evsm, Storage::Float32), [64, 64], 1),

@@ -1,7 +1,7 @@
 //! Mixtures of surfaces, evaluated by every technique on the adapter.
 
 use bytemuck::{Pod, Zeroable};
-use moment_shadows::{EsmFiltering, Finite, Profile, Storage, Technique};
+use moment_shadows::{EsmFiltering, Profile, Storage, Technique};
 use moment_shadows_lab::batch::Batch;
 use moment_shadows_lab::gpu::Gpu;
 use rand::RngExt;
@@ -82,12 +82,10 @@ pub(crate) struct Limits {
 
 pub(crate) fn limits(storage: Storage) -> Limits {
     let esm = |filtering| Technique::Esm {
-        exponent: Finite::ZERO,
+        exponent: None,
         filtering,
     };
-    let evsm = Technique::Evsm2 {
-        exponent: Finite::ZERO,
-    };
+    let evsm = Technique::Evsm2 { exponent: None };
     let of = |technique: Technique| {
         technique
             .row()

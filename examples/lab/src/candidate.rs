@@ -152,19 +152,8 @@ impl TechniqueChoice {
         candidate.graph(file)
     }
 
-    /// The usual settings under a name.
-    fn named(name: &str) -> Option<Self> {
-        let mut candidates = known();
-        candidates.retain(|(known, _)| known == name);
-        let order = candidates.first()?.1.technique()?.row().storages;
-        candidates.sort_by_key(|(_, it)| order.iter().position(|&of| Some(of) == it.storage()));
-        Some(Self {
-            candidates: candidates.into_iter().map(|(_, it)| it).collect(),
-        })
-    }
-
-    /// A technique with its settings. Exponents belong to a storage: they have to be legal in one at least.
-    fn given(technique: Technique) -> Result<Self, ValueError> {
+    /// A technique with its settings. Exponents that are given have to be legal in one storage at least.
+    fn of(technique: Technique) -> Result<Self, ValueError> {
         technique.check()?;
         let mut candidates = Vec::new();
         let mut refused = Ok(());
@@ -184,21 +173,12 @@ impl TechniqueChoice {
     }
 }
 
-/// All techniques with usual settings, by name.
-fn known() -> Vec<(String, Candidate)> {
-    let mut all = techniques::filterable();
-    for index in 0..all.len() {
-        let variant = techniques::variant(all[index].technique());
-        all.extend(variant.and_then(|it| MapEncoding::new(it, all[index].storage()).ok()));
-    }
-    let filterable = all.into_iter().map(Candidate::Filterable);
-    let reading_depth = techniques::reading_depth()
-        .into_iter()
-        .map(Candidate::ReadingDepth);
-    filterable
-        .chain(reading_depth)
-        .filter_map(|it| Some((label(it.technique()?), it)))
-        .collect()
+/// All techniques with usual settings, and with others that have a name.
+fn known() -> Vec<Technique> {
+    let mut all = Technique::examples();
+    let variants: Vec<_> = all.iter().filter_map(techniques::variant).collect();
+    all.extend(variants);
+    all
 }
 
 impl FromStr for TechniqueChoice {
@@ -212,22 +192,22 @@ impl FromStr for TechniqueChoice {
                 candidates: vec![Candidate::PercentageCloser],
             });
         }
-        if text.starts_with('{') {
-            let technique = serde_json::from_str(text)
-                .map_err(|error| format!("this is no technique as a graph file has it: {error}"))?;
-            return Self::given(technique).map_err(|error| error.to_string());
-        }
-        Self::named(text).ok_or_else(|| {
-            let mut names: Vec<String> = known().into_iter().map(|(name, _)| name).collect();
+        let known = known();
+        let technique = if text.starts_with('{') {
+            serde_json::from_str(text)
+                .map_err(|error| format!("this is no technique as a graph file has it: {error}"))?
+        } else if let Some(named) = known.iter().find(|technique| label(technique) == text) {
+            named.clone()
+        } else {
+            let mut names: Vec<String> = known.iter().map(label).collect();
             names.push(PCF.to_owned());
-            names.sort();
-            names.dedup();
             let nearest = nearest(text, names.iter().map(String::as_str));
-            format!(
+            return Err(format!(
                 "there is no technique '{text}'; the nearest are {nearest}, and settings can be given as JSON: \
                  {{\"esm\": {{\"exponent\": 40.0}}}}"
-            )
-        })
+            ));
+        };
+        Self::of(technique).map_err(|error| error.to_string())
     }
 }
 
@@ -260,7 +240,7 @@ mod tests {
 
     #[test]
     fn every_name_is_a_technique_in_the_storages_of_its_settings() {
-        let names: Vec<String> = known().into_iter().map(|(name, _)| name).collect();
+        let names: Vec<String> = known().iter().map(label).collect();
         for name in [
             "binary",
             "pcf_gaussian",

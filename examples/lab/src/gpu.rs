@@ -20,9 +20,9 @@ pub struct Gpu {
 }
 
 impl Gpu {
-    /// Opens the best adapter with exactly the features of `profile`.
+    /// Opens the best adapter with the features of `profile`, and every depth format that it has.
     pub fn open(profile: Profile) -> Result<Self, LabError> {
-        Self::open_with(profile, wgpu::Features::empty())
+        Self::open_with(profile, wgpu::Features::DEPTH32FLOAT_STENCIL8)
     }
 
     /// Opens the best adapter with the features of `profile` and those of `optional` that it has.

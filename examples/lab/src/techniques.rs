@@ -1,6 +1,6 @@
 //! Every technique with settings that are in use, as reports, shader checks and tables go through them.
 
-use moment_shadows::{EsmFiltering, Finite, LayerSplits, MapEncoding, PcfTaps, Storage, Technique};
+use moment_shadows::{EsmFiltering, LayerSplits, MapEncoding, PcfTaps, Storage, Technique};
 
 /// The storages of maps that are made by drawing a light's depth.
 pub const STORAGES: [Storage; 5] = [
@@ -16,36 +16,9 @@ pub const STORAGES: [Storage; 5] = [
 pub fn filterable() -> Vec<MapEncoding> {
     let in_storage = |storage: Storage| {
         let techniques = Technique::examples().into_iter();
-        techniques
-            .filter_map(move |technique| MapEncoding::new(fitted(technique, storage), storage).ok())
+        techniques.filter_map(move |technique| MapEncoding::new(technique, storage).ok())
     };
     STORAGES.into_iter().flat_map(in_storage).collect()
-}
-
-/// The technique with exponents that the storage allows.
-fn fitted(technique: Technique, storage: Storage) -> Technique {
-    let largest = technique.row().largest_exponent(storage);
-    let fit = |wished: Finite| match largest.map(Finite::new) {
-        Some(Ok(largest)) if largest < wished => largest,
-        _ => wished,
-    };
-    match technique {
-        Technique::Esm {
-            exponent,
-            filtering,
-        } => Technique::Esm {
-            exponent: fit(exponent),
-            filtering,
-        },
-        Technique::Evsm2 { exponent } => Technique::Evsm2 {
-            exponent: fit(exponent),
-        },
-        Technique::Evsm4 { positive, negative } => Technique::Evsm4 {
-            positive: fit(positive),
-            negative: fit(negative),
-        },
-        other => other,
-    }
 }
 
 /// The same technique with another of its settings, if it has one that makes another shader.
@@ -97,8 +70,17 @@ pub fn label(technique: &Technique) -> String {
 #[must_use]
 pub fn described(technique: &Technique) -> String {
     let settings = match technique {
-        Technique::Esm { exponent, .. } | Technique::Evsm2 { exponent } => format!(" {exponent}"),
-        Technique::Evsm4 { positive, negative } => format!(" {positive}/{negative}"),
+        Technique::Esm {
+            exponent: Some(exponent),
+            ..
+        }
+        | Technique::Evsm2 {
+            exponent: Some(exponent),
+        } => format!(" {exponent}"),
+        Technique::Evsm4 {
+            positive: Some(positive),
+            negative: Some(negative),
+        } => format!(" {positive}/{negative}"),
         Technique::Lvsm { layers, .. } => format!(" {layers}"),
         Technique::Convolution { terms, .. } => format!(" {terms}"),
         _ => String::new(),

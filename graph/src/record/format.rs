@@ -25,6 +25,9 @@ impl TextureDesc {
             TextureFormat::Rgba32Uint => wgpu::TextureFormat::Rgba32Uint,
             TextureFormat::Depth16Unorm => wgpu::TextureFormat::Depth16Unorm,
             TextureFormat::Depth32Float => wgpu::TextureFormat::Depth32Float,
+            TextureFormat::Depth24Plus => wgpu::TextureFormat::Depth24Plus,
+            TextureFormat::Depth24PlusStencil8 => wgpu::TextureFormat::Depth24PlusStencil8,
+            TextureFormat::Depth32FloatStencil8 => wgpu::TextureFormat::Depth32FloatStencil8,
         }
     }
 }

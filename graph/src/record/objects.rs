@@ -41,12 +41,18 @@ impl Objects<'_> {
                 return Err(wrong_import(planned, "a buffer"));
             }
         };
+        // A stencil beside the depth is nothing that a shader reads with it.
+        let is_depth = texture.format().has_depth_aspect();
         Ok(texture.create_view(&wgpu::TextureViewDescriptor {
             label: Some(&planned.name),
             dimension: Some(match layer {
                 Some(_) => wgpu::TextureViewDimension::D2,
                 None => wgpu::TextureViewDimension::D2Array,
             }),
+            aspect: match is_depth {
+                true => wgpu::TextureAspect::DepthOnly,
+                false => wgpu::TextureAspect::All,
+            },
             base_array_layer: layer.unwrap_or(0),
             array_layer_count: layer.map(|_| 1),
             base_mip_level: level.unwrap_or(0),

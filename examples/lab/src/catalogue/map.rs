@@ -1,6 +1,6 @@
 //! What makes, filters, sums and shows maps.
 
-use moment_shadows::{Kernel, MapEncoding, Storage, Technique, ValueError};
+use moment_shadows::{Kernel, MapEncoding, Storage, Technique, TextureFormat, ValueError};
 use moment_shadows_graph::nodes::{
     Blur, DebugMoments, Downsample, PlaceLayers, Resolve, Show, SummedAreaTable,
 };
@@ -50,6 +50,12 @@ pub(super) fn of_four_moments(four: &MapEncoding) -> Result<Vec<Variant>, ValueE
         let name = format!("resolve_{storage}_{samples}");
         let settings = format!("{storage}, {samples} samples");
         all.push(made.file(name, listed).row(listed, settings, &[]));
+    }
+    for (kind, samples) in [("distances", 1), ("distances_samples", 4)] {
+        let made = resolve(four)
+            .samples(samples)
+            .depth(TextureFormat::R32Float);
+        all.push(made.file(format!("resolve_{kind}_{storage}"), false));
     }
     let blurred = |kind: &str, radius, per_frame, regions, kept| {
         blur(four, radius, per_frame)

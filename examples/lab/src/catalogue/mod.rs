@@ -23,8 +23,12 @@ pub struct Variant {
     node: Box<dyn Node>,
     /// The map of moments, or the table of one.
     map: TextureDesc,
-    /// Samples per texel of the depth map.
+    /// Samples per texel of the depth maps of light and camera.
     samples: u32,
+    /// The format of the light's depth map.
+    depth: TextureFormat,
+    /// Normals, if there are any.
+    normals: Option<TextureFormat>,
     capabilities: Capabilities,
     /// The beginning of the names of its files, if it has any.
     pub file: Option<String>,
@@ -60,6 +64,8 @@ impl Variant {
             node: Box::new(node),
             map: TextureDesc::of_map(map.clone(), SIZE),
             samples: 1,
+            depth: TextureFormat::Depth32Float,
+            normals: None,
             capabilities: Capabilities::of_profile(profile(map)),
             file: None,
             kept: 0,
@@ -73,9 +79,20 @@ impl Variant {
         self
     }
 
-    /// Samples per texel of the depth map.
+    /// Samples per texel of the depth maps.
     fn samples(self, samples: u32) -> Self {
         Self { samples, ..self }
+    }
+
+    /// The format of the light's depth map.
+    fn depth(self, depth: TextureFormat) -> Self {
+        Self { depth, ..self }
+    }
+
+    /// Connects normals of this format.
+    fn normals(self, format: TextureFormat) -> Self {
+        let normals = Some(format);
+        Self { normals, ..self }
     }
 
     fn mips(mut self, mips: u32) -> Self {
@@ -141,10 +158,15 @@ impl Variant {
         let depth = TextureDesc {
             samples: self.samples,
             regions: self.map.regions,
-            ..TextureDesc::new(TextureFormat::Depth32Float, SIZE)
+            ..TextureDesc::new(self.depth, SIZE)
         };
         let splits = TextureDesc::new(TextureFormat::Rgba32Float, [2, 1]);
-        let camera = TextureDesc::new(TextureFormat::Depth32Float, SIZE);
+        let camera = TextureDesc {
+            samples: self.samples,
+            ..TextureDesc::new(TextureFormat::Depth32Float, SIZE)
+        };
+        let normals = self.normals.map(|format| TextureDesc::new(format, SIZE));
+        let normals = normals.iter().map(|desc| ("normals", desc));
         let map = ["map", "table", "rectified", "integrated"].map(|name| (name, &self.map));
         map.into_iter()
             .chain([
@@ -152,6 +174,7 @@ impl Variant {
                 ("splits", &splits),
                 ("camera_depth", &camera),
             ])
+            .chain(normals)
             .map(|(name, desc)| (name.to_owned(), ResourceDesc::Texture(desc.clone())))
             .collect()
     }

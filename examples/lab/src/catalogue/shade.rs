@@ -1,5 +1,6 @@
 //! What shades with maps, tables and plain depth.
 
+use moment_shadows::TextureFormat::{Rg16Float, Rgb10a2Unorm};
 use moment_shadows::{MapEncoding, PcfTaps, Profile, Storage, SummedAreaTable, Technique};
 use moment_shadows_graph::nodes::{ShadeHard, ShadeSoft};
 
@@ -43,6 +44,14 @@ pub(super) fn of_four_moments(four: &MapEncoding) -> Result<Vec<Variant>, LabErr
                 .mips(4)
                 .file(format!("{name}_mips_views"), false),
             shade(1, 4).row(unorm16, format!("{row}, 4 views"), &[4]),
+            shade(1, 1)
+                .samples(4)
+                .normals(Rgb10a2Unorm)
+                .file(format!("{name}_normals"), unorm16)
+                .row(unorm16, format!("{row}, normals, 4 samples"), &[]),
+            shade(1, 1)
+                .normals(Rg16Float)
+                .file(format!("{name}_octahedral_normals"), false),
         ]);
     }
     all.extend(soft(four)?);

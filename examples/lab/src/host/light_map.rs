@@ -14,7 +14,7 @@ pub struct LightMapDesc {
     pub size: [u32; 2],
     /// Samples per texel: 1 and 4 everywhere, 2 and 8 where the device can.
     pub samples: u32,
-    /// `Depth32Float` or `Depth16Unorm`.
+    /// A depth format; of those with a stencil the depth is drawn.
     pub format: wgpu::TextureFormat,
     /// Whether depth is stored reversed: 1 at the near plane. As in the light that is drawn into it.
     pub reversed: bool,
@@ -22,7 +22,7 @@ pub struct LightMapDesc {
 
 /// A depth map of a light, and what draws into it.
 pub struct LightMap {
-    /// The depth texture: render attachment, texture binding, and copy source if it has one sample per texel.
+    /// The depth texture: render attachment, texture binding, and copy source if it has one sample per texel and no stencil.
     pub texture: wgpu::Texture,
     /// A view of all of it.
     pub view: wgpu::TextureView,
@@ -52,12 +52,9 @@ impl Renderer {
     /// A depth map and its pipelines.
     pub fn light_map(&self, gpu: &Gpu, desc: &LightMapDesc) -> Result<LightMap, LabError> {
         let format = desc.format;
-        if !matches!(
-            format,
-            wgpu::TextureFormat::Depth32Float | wgpu::TextureFormat::Depth16Unorm
-        ) {
+        if !format.has_depth_aspect() {
             return Err(LabError::refused(format!(
-                "light depth cannot be rendered as {format:?}; use Depth32Float or Depth16Unorm"
+                "light depth cannot be rendered as {format:?}; use a depth format"
             )));
         }
         check_size(gpu, "the light's depth map", desc.size)?;
@@ -70,7 +67,7 @@ impl Renderer {
         }
         let mut usage =
             wgpu::TextureUsages::RENDER_ATTACHMENT | wgpu::TextureUsages::TEXTURE_BINDING;
-        if desc.samples == 1 {
+        if desc.samples == 1 && !format.is_combined_depth_stencil_format() {
             usage |= wgpu::TextureUsages::COPY_SRC;
         }
         created(gpu, "the light's depth map", || {

@@ -37,7 +37,12 @@ pub fn allowed_excess(encoding: &MapEncoding, wide: bool) -> f64 {
         Technique::Esm {
             exponent,
             filtering,
-        } => exponential(storage, f64::from(exponent.get()), *filtering, sums),
+        } => exponential(
+            storage,
+            f64::from(exponent.unwrap_or_default().get()),
+            *filtering,
+            sums,
+        ),
         Technique::Vsm | Technique::Lvsm { .. } => {
             let (floor, step) = match storage {
                 Storage::Unorm16 => (6e-5, 0.5 / 65535.0),

@@ -1,3 +1,4 @@
+import node::camera_depth::{camera_depth_at, camera_depth_clip, camera_depth_size};
 import node::fullscreen::{Covered};
 import moment_shadows::map::map_region::{MapRegion};
 import node::moments_lookup::{moments_map};
@@ -15,15 +16,13 @@ struct CompositeScatteringParameters {
 }
 
 @group(GROUP) @binding(0) var<uniform> parameters: CompositeScatteringParameters;
-@group(GROUP) @binding(1) var camera_depth: texture_depth_2d;
 
 @fragment
 fn composite(covered: Covered) -> @location(0) vec4f {
-    let picture = vec2i(textureDimensions(camera_depth));
+    let picture = camera_depth_size();
     let pixel = clamp(vec2i(covered.uv * vec2f(picture)), vec2i(0), picture - 1);
-    let uv = (vec2f(pixel) + 0.5) / vec2f(picture);
-    let device = vec2f(2.0, -2.0) * uv + vec2f(-1.0, 1.0);
-    let surface = rectified_frame_surface(parameters.frame, device, textureLoad(camera_depth, pixel, 0));
+    let clip = camera_depth_clip(pixel, camera_depth_at(pixel));
+    let surface = rectified_frame_surface(parameters.frame, clip.xy, clip.z);
     let coordinates = rectified_frame_coordinates(surface);
     let distance = length(surface);
     let cosine = clamp(surface.z / max(distance, 1e-30), -1.0, 1.0);

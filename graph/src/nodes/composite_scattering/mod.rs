@@ -101,7 +101,9 @@ impl Node for CompositeScattering {
             .module("scattering_bounds", bounds);
         let (specialization, sampler) =
             moments_lookup(specialization, capabilities, &encoding, 1, 1);
-        let wgsl = specialization.link(wgsl!("composite_scattering.wgsl"))?;
+        let camera = upstream.texture("camera_depth")?;
+        let wgsl = depth_input::of_camera(specialization, camera)
+            .link(wgsl!("composite_scattering.wgsl"))?;
         let mut pass = Pass::fullscreen("composite", "scattering")
             .shader(wgsl, "composite")
             .bind("parameters", bind::parameters())

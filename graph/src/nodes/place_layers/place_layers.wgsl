@@ -67,7 +67,7 @@ fn sum_of_workgroup(index: u32, own: vec4f) -> vec4f {
 // Samples of a texel lie elsewhere each, but the first ones of all texels lie on one grid, which is all that a footprint
 // needs. For a single sample the last argument of the load is its mip level, 0.
 fn depth_at(texel: vec2u, conversion: DepthConversion) -> f32 {
-    return depth_to_moment_depth(textureLoad(depth_map, vec2i(texel), 0), conversion);
+    return depth_to_moment_depth(vec4f(textureLoad(depth_map, vec2i(texel), 0)).x, conversion);
 }
 
 // What the footprint of a texel, the next one to the right and the two below adds. It lies within one region or does not

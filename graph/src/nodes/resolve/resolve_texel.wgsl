@@ -22,7 +22,8 @@ fn written_texel(texel: vec2u, region: MapRegion, number: u32) -> vec4f {
     var sum = vec4f(0.0);
     // For a single sample the last argument of the load is its mip level, 0.
     for (var sample = 0; sample < SAMPLES; sample++) {
-        let stored = textureLoad(depth_map, vec2i(texel), sample);
+        // The first of four channels, where the map is no depth texture.
+        let stored = vec4f(textureLoad(depth_map, vec2i(texel), sample)).x;
         sum += encoding_channels(depth_to_moment_depth(stored, conversion));
     }
     return encoding_texel(sum / f32(SAMPLES));

@@ -61,6 +61,7 @@ impl Node for ShadeHard {
         let (splits, splits_binding) = techniques::splits(&evaluation.technique, false);
         shading::describe(
             "shade_hard",
+            upstream,
             (self.format, self.lights, self.views),
             core::iter::once(input).chain(splits),
             evaluation.bindings.into_iter().chain(splits_binding),
@@ -117,7 +118,7 @@ impl ShadeHard {
         }
         let (map, encoding) = moments()?;
         let made_for = encoding.technique();
-        let technique = given.unwrap_or(made_for);
+        let technique = given.map_or(made_for.clone(), |it| it.clone().on_map_of(made_for));
         if !technique.row().shares_map_with(&made_for.row()) {
             let message = format!(
                 "the map was made for '{made_for}', with its settings; '{technique}' cannot read it: give the node that makes it \
@@ -126,12 +127,12 @@ impl ShadeHard {
             return Err(wrong_format(message).at_slot("map"));
         }
         let specialization = specialization.unsigned("STORAGE", encoding.storage().wgsl_index());
-        let specialization = techniques::evaluation(specialization, technique);
+        let specialization = techniques::evaluation(specialization, &technique);
         let (specialization, sampler) =
             moments_lookup(specialization, capabilities, &encoding, map.mips, probes);
         let map = Binding::new("moments_map", bind::layers("map"));
         Ok(Evaluation {
-            technique: technique.clone(),
+            technique,
             specialization,
             slot: "map",
             formats: map_input::formats(),

@@ -84,6 +84,7 @@ impl Node for ShadeSoft {
         let rule = map_input::rule(encoding.format());
         shading::describe(
             "shade_soft",
+            upstream,
             (self.format, self.lights, self.views),
             [Slot::input("table", "The light's summed-area table.", rule)],
             [Binding::new("table_sums", bind::layers("table"))],

@@ -1,3 +1,4 @@
+import node::camera_depth::{camera_depth_at, camera_depth_clip, camera_depth_size};
 import node::fullscreen::{Covered};
 import moment_shadows::map::depth::{DepthConversion};
 import moment_shadows::shade::leak_reduction::{LeakReduction, leak_reduction_apply};
@@ -6,6 +7,7 @@ import moment_shadows::map::minification::{minification_depth_variance, minifica
 import moment_shadows::shade::area_light::{AreaLight};
 import moment_shadows::shade::receiver_bias::{ReceiverBias, receiver_bias_depth, receiver_bias_depth_minified, receiver_bias_plane, receiver_bias_step};
 import node::specialization::{ANISOTROPY, GROUP, LEVELS, LIGHTS, VIEWS};
+import node::surface::{surface_neighbours};
 import node::technique::{technique_shadow_intensity};
 import node::technique_map::{technique_map_size};
 import node::technique_receiver::{TechniqueReceiver};
@@ -20,6 +22,8 @@ struct ViewParameters {
     light_from_camera: mat4x4f,
     // The homogeneous coordinate of the scene position, which divides the moment depth.
     scene_w_from_camera: vec4f,
+    // By rows, the scene position relative to the camera, times that coordinate: for normals.
+    position_from_camera: mat3x4f,
     receiver_bias: ReceiverBias,
     leak_reduction: LeakReduction,
     // The view's place in its layer; a view without texels is unused.
@@ -37,7 +41,6 @@ struct ViewParameters {
 }
 
 @group(GROUP) @binding(0) var<uniform> views: array<ViewParameters, VIEWS>;
-@group(GROUP) @binding(1) var camera_depth: texture_depth_2d;
 
 // A pixel's surface as the light sees it.
 struct Receiver {
@@ -50,46 +53,15 @@ struct Receiver {
 }
 
 fn receiver_at(view: u32, pixel: vec2i, stored_depth: f32) -> Receiver {
-    let uv = (vec2f(pixel) + 0.5) / vec2f(textureDimensions(camera_depth));
-    let clip = vec4f(2.0 * uv.x - 1.0, 1.0 - 2.0 * uv.y, stored_depth, 1.0);
+    let clip = camera_depth_clip(pixel, stored_depth);
     let light = views[view].light_from_camera * clip;
     // Results behind the camera or the light are not used.
     let scene_w = max(dot(views[view].scene_w_from_camera, clip), 1e-30);
     return Receiver(vec3f(light.xy / max(light.z, 1e-30), light.w / scene_w), light.z, scene_w);
 }
 
-fn camera_depth_at(pixel: vec2i) -> f32 {
-    return textureLoad(camera_depth, clamp(pixel, vec2i(0), vec2i(textureDimensions(camera_depth)) - 1), 0);
-}
-
-// By how much the two pixels next to `pixel` along `step`, extrapolated, miss its stored depth; huge if the first one
-// shows no surface or lies outside of the picture.
-fn extrapolation_error(pixel: vec2i, step: vec2i, stored_depth: f32) -> f32 {
-    let neighbour = pixel + step;
-    let outside = any(neighbour < vec2i(0)) || any(neighbour >= vec2i(textureDimensions(camera_depth)));
-    let depth = camera_depth_at(neighbour);
-    let error = abs(2.0 * depth - camera_depth_at(neighbour + step) - stored_depth);
-    return select(error, UNUSABLE, outside || depth == views[0].far_depth);
-}
-
-// Above every difference of stored depths.
-const UNUSABLE: f32 = 1e30;
-
 // No place in the map is that many texels away. Products of two differences must not overflow.
 const LARGEST_DIFFERENCE: f32 = 1e9;
-
-// The neighbour of a pixel along `axis` on the side that continues its surface: xy is the step to it and z the change of
-// stored depth. Stored depth is linear on the screen where a surface is plane, so that is the side which extrapolates to
-// the pixel best; the other one may lie beyond a silhouette or an edge. Zero without a neighbour.
-fn neighbour_of(pixel: vec2i, axis: vec2i, stored_depth: f32) -> vec3f {
-    let error_before = extrapolation_error(pixel, -axis, stored_depth);
-    let error_after = extrapolation_error(pixel, axis, stored_depth);
-    if min(error_before, error_after) == UNUSABLE {
-        return vec3f(0.0);
-    }
-    let direction = select(axis, -axis, error_before < error_after);
-    return vec3f(vec2f(direction), camera_depth_at(pixel + direction) - stored_depth);
-}
 
 // How the place in the map (in texels) and the moment depth change from a pixel to its neighbour; zero without a neighbour,
 // as on a surface that is edge-on to the light.
@@ -97,7 +69,7 @@ fn receiver_difference(view: u32, neighbour: vec3f, receiver: Receiver, texels: 
     if all(neighbour.xy == vec2f(0.0)) {
         return vec3f(0.0);
     }
-    let across_screen = vec2f(2.0, -2.0) * neighbour.xy / vec2f(textureDimensions(camera_depth));
+    let across_screen = vec2f(2.0, -2.0) * neighbour.xy / vec2f(camera_depth_size());
     let step = vec4f(across_screen, neighbour.z, 0.0);
     // With numerators n and divisors w, n1 / w1 - n0 / w0 = (dn - (n0 / w0) dw) / w1. Unlike the difference of two
     // places, this keeps its digits where a pixel covers a small part of a texel.
@@ -109,10 +81,10 @@ fn receiver_difference(view: u32, neighbour: vec3f, receiver: Receiver, texels: 
 }
 
 // Shadow intensity of a receiver that a view contains.
-fn view_shadow_intensity(view: u32, pixel: vec2i, receiver: Receiver, neighbour_x: vec3f, neighbour_y: vec3f, region: MapRegion) -> f32 {
+fn view_shadow_intensity(view: u32, pixel: vec2i, receiver: Receiver, neighbours: mat2x3f, region: MapRegion) -> f32 {
     let texels = vec2f(region.extent);
-    let difference_x = receiver_difference(view, neighbour_x, receiver, texels);
-    let difference_y = receiver_difference(view, neighbour_y, receiver, texels);
+    let difference_x = receiver_difference(view, neighbours[0], receiver, texels);
+    let difference_y = receiver_difference(view, neighbours[1], receiver, texels);
     let gradient = receiver_bias_plane(difference_x, difference_y);
     let settings = views[view].receiver_bias;
     var bias = receiver_bias_depth(settings, length(gradient));
@@ -143,16 +115,15 @@ fn view_shadow_intensity(view: u32, pixel: vec2i, receiver: Receiver, neighbour_
 
 @fragment
 fn shade(covered: Covered) -> @location(0) vec4f {
-    let size = vec2i(textureDimensions(camera_depth));
+    let size = camera_depth_size();
     let pixel = clamp(vec2i(covered.uv * vec2f(size)), vec2i(0), size - 1);
-    let stored_depth = textureLoad(camera_depth, pixel, 0);
+    let stored_depth = camera_depth_at(pixel);
     // A light casts no shadow outside its map, nor where the camera sees no surface.
     var intensities = vec4f(0.0);
     if stored_depth == views[0].far_depth {
         return intensities;
     }
-    let neighbour_x = neighbour_of(pixel, vec2i(1, 0), stored_depth);
-    let neighbour_y = neighbour_of(pixel, vec2i(0, 1), stored_depth);
+    let neighbours = surface_neighbours(pixel, stored_depth, views[0].far_depth, views[0].position_from_camera, views[0].scene_w_from_camera);
     var open_channels = vec4<bool>(true);
     for (var view = 0u; view < VIEWS; view++) {
         // A single light is in all channels, so that a host can blend with it or show it.
@@ -162,7 +133,7 @@ fn shade(covered: Covered) -> @location(0) vec4f {
         let uv = receiver.place.xy;
         let inside = receiver.light_w > 0.0 && all(uv >= vec2f(0.0)) && all(uv <= vec2f(1.0));
         if inside && all(region.extent > vec2u(0u)) && any(channel & open_channels) {
-            let intensity = view_shadow_intensity(view, pixel, receiver, neighbour_x, neighbour_y, region);
+            let intensity = view_shadow_intensity(view, pixel, receiver, neighbours, region);
             intensities = select(intensities, vec4f(intensity), channel);
             open_channels = open_channels & !channel;
         }

@@ -1,13 +1,17 @@
 //! What the nodes that shade a picture have in common: their shader, their target and their slots.
 
 use moment_shadows::{
-    TextureFormat::{self, R8Unorm, R16Float, R32Float, Rgba8Unorm, Rgba16Float, Rgba32Float},
+    TextureFormat::{
+        self, R8Unorm, R16Float, R32Float, Rg16Float, Rg16Unorm, Rg32Float, Rgb10a2Unorm,
+        Rgba8Unorm, Rgba16Float, Rgba32Float,
+    },
     ViewParameters,
 };
 
 use super::{Specialization, depth_input, wgsl, wrong_property};
 use crate::{
-    Binding, GraphError, NodeDesc, ParameterBlock, Pass, Rule, Slot, Stage, TextureRule, bind,
+    Binding, Connected, GraphError, NodeDesc, ParameterBlock, Pass, ResourceDesc, Rule, Slot,
+    Stage, TextureRule, bind,
 };
 
 /// The node: a fullscreen pass from a map, whose input (and what belongs to it), bindings and modules are given, and
@@ -15,6 +19,7 @@ use crate::{
 /// to each view of a light, and leaves the rest to the module `technique`.
 pub(in crate::nodes) fn describe(
     name: &str,
+    upstream: &Connected<'_>,
     (format, lights, views): (Option<TextureFormat>, u32, u32),
     inputs: impl IntoIterator<Item = Slot>,
     bindings: impl IntoIterator<Item = Binding>,
@@ -44,7 +49,9 @@ pub(in crate::nodes) fn describe(
             names.join(" or ")
         )));
     }
-    let wgsl = specialization
+    let camera = upstream.texture("camera_depth")?;
+    let (specialization, normals) = surface(specialization, upstream);
+    let wgsl = depth_input::of_camera(specialization, camera)
         .unsigned("VIEWS", views)
         .unsigned("LIGHTS", lights)
         .link(wgsl!("shade.wgsl"))?;
@@ -52,14 +59,54 @@ pub(in crate::nodes) fn describe(
         .shader(wgsl, "shade")
         .bind("views", bind::parameters())
         .bind("camera_depth", bind::layer("camera_depth"));
-    pass.bindings.extend(bindings);
+    pass.bindings.extend(bindings.into_iter().chain(normals));
     let block = ParameterBlock::of::<ViewParameters>("ViewParameters").elements(views);
     let intensity = "How much of each light is shadowed, a light per channel.";
     let target = TextureRule::new(format).extent(Rule::same_as("camera_depth"));
     Ok(NodeDesc::new(name, Stage::AfterMainPass)
         .slots(inputs)
         .input("camera_depth", "Where surfaces are.", depth_input::camera())
+        .slots([normals_slot()])
         .output("shadow_intensity", intensity, target)
         .pass(pass)
         .parameters(block))
+}
+
+/// Formats of normals: those of two channels hold an octahedron, those without a sign hold [-1, 1] in [0, 1].
+const NORMALS: [TextureFormat; 7] = [
+    Rgba8Unorm,
+    Rgb10a2Unorm,
+    Rgba16Float,
+    Rgba32Float,
+    Rg16Unorm,
+    Rg16Float,
+    Rg32Float,
+];
+
+/// The optional input of normals.
+fn normals_slot() -> Slot {
+    let rule = TextureRule::new(NORMALS.to_vec()).extent(Rule::same_as("camera_depth"));
+    let description = "Where surfaces face, in the scene's axes: x, y and z, or an octahedron in two channels; from 0 to 1 where \
+                       the format has no sign. Of curved and thin things they say more than depth does.";
+    Slot::input("normals", description, rule).optional()
+}
+
+/// How a pixel's surface continues: the module `surface`, from normals where they are connected.
+fn surface(
+    specialization: Specialization,
+    upstream: &Connected<'_>,
+) -> (Specialization, Option<Binding>) {
+    let normals = upstream.get("normals").and_then(ResourceDesc::texture);
+    let Some(normals) = normals else {
+        let from_depth = include_str!("surface_from_depth.wgsl");
+        return (specialization.module("surface", from_depth), None);
+    };
+    let format = normals.format;
+    let unsigned = [Rgba8Unorm, Rgb10a2Unorm, Rg16Unorm].contains(&format);
+    let specialization = specialization
+        .constant("NORMALS_OCTAHEDRAL", format.channels() == 2)
+        .constant("NORMALS_UNSIGNED", unsigned)
+        .module("surface", include_str!("surface_from_normals.wgsl"));
+    let binding = Binding::new("normals", bind::layer("normals"));
+    (specialization, Some(binding))
 }

@@ -1,0 +1,21 @@
+import node::specialization::{CAMERA_SAMPLE, CameraDepth, GROUP};
+
+// The camera's depth: where surfaces are. Of several samples of a pixel the first one counts, at its own place.
+
+@group(GROUP) @binding(1) var camera_depth: CameraDepth;
+
+// Width and height of the picture.
+fn camera_depth_size() -> vec2i {
+    return vec2i(textureDimensions(camera_depth));
+}
+
+// The depth that is stored for a pixel; beyond the picture for the nearest one.
+fn camera_depth_at(pixel: vec2i) -> f32 {
+    return textureLoad(camera_depth, clamp(pixel, vec2i(0), camera_depth_size() - 1), 0);
+}
+
+// A pixel's surface in the camera's clip space: x, y, stored depth and 1.
+fn camera_depth_clip(pixel: vec2i, stored_depth: f32) -> vec4f {
+    let uv = (vec2f(pixel) + CAMERA_SAMPLE) / vec2f(camera_depth_size());
+    return vec4f(2.0 * uv.x - 1.0, 1.0 - 2.0 * uv.y, stored_depth, 1.0);
+}
