@@ -322,5 +322,5 @@ fn a_name_alone_stands_for_what_its_storage_takes() {
     assert_eq!(error.kind, GraphErrorKind::Format, "{error}");
     let error = compiled(&example(r#""evsm5""#, "float32"), &native()).unwrap_err();
     assert!(error.to_string().contains("nearest are `evsm"), "{error}");
-    assert_eq!(error.kind, GraphErrorKind::Property, "{error}");
+    assert_eq!(error.kind, GraphErrorKind::Syntax, "{error}");
 }

@@ -9,7 +9,7 @@ use moment_shadows_lab::host::{
 use moment_shadows_lab::light::LightView;
 use moment_shadows_lab::scene::{self, Image, Material, Mesh, Scene};
 use moment_shadows_lab::view::View;
-use wgpu::TextureFormat::{Depth16Unorm, Depth24Plus, Depth32Float};
+use wgpu::TextureFormat::{Depth16Unorm, Depth32Float, Rgba8Unorm};
 
 fn vector(value: [f32; 3]) -> DVec3 {
     DVec3::from_array(value.map(f64::from))
@@ -201,11 +201,11 @@ fn impossible_maps_are_refused() {
         );
     }
     let error = refused(LightMapDesc {
-        format: Depth24Plus,
+        format: Rgba8Unorm,
         ..desc
     });
     assert!(
-        error.to_string().contains("rendered as Depth24Plus"),
+        error.to_string().contains("rendered as Rgba8Unorm"),
         "{error}"
     );
     for size in [[0, 32], [64, 1 << 20]] {

@@ -1,8 +1,8 @@
 //! A plan, bound and ready.
 
 use moment_shadows::{
-    CameraView, DepthConversion, LeakReduction, LightDepth, LightSize, LightView, MapRegion,
-    Profile, ReceiverBias, ViewParameters,
+    CameraView, DepthConversion, DepthRange, LeakReduction, LightDepth, LightSize, LightView,
+    MapRegion, Profile, ReceiverBias, ViewParameters,
 };
 use moment_shadows_graph::record::{
     Bindings, ImportedResource, PipelineOptions, Pipelines, Recording, Resources,
@@ -142,8 +142,18 @@ pub(crate) fn aligned_view(layer: u32) -> ViewParameters {
     view(IDENTITY, IDENTITY, layer)
 }
 
-/// The parameters of an orthographic light without any bias or leak reduction; the camera's far depth is 1.
+/// The parameters of a light without any bias or leak reduction, which is orthographic or has a range from 0 to 1; the camera's
+/// far depth is 1.
 pub(crate) fn view(camera: [[f64; 4]; 4], light: [[f64; 4]; 4], layer: u32) -> ViewParameters {
+    let parallel = light.iter().take(3).all(|column| column[3] == 0.0);
+    let range = DepthRange {
+        near: 0.0,
+        far: 1.0,
+    };
+    let depth = match parallel {
+        true => LightDepth::Orthographic { reversed: false },
+        false => LightDepth::Linear { range },
+    };
     ViewParameters::new(
         &CameraView {
             clip_from_world: camera,
@@ -151,7 +161,7 @@ pub(crate) fn view(camera: [[f64; 4]; 4], light: [[f64; 4]; 4], layer: u32) -> V
         },
         &LightView {
             clip_from_world: light,
-            depth: LightDepth::Orthographic { reversed: false },
+            depth,
             layer,
             region: MapRegion::WHOLE,
             channel: 0,

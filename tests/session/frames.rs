@@ -1,5 +1,7 @@
 //! Per frame a session allocates what wgpu does for the same calls, and nothing of its own.
 
+use std::time::Instant;
+
 use moment_shadows_graph::Stage;
 use moment_shadows_graph::record::Recording;
 use moment_shadows_lab::gpu::Gpu;
@@ -14,6 +16,58 @@ fn fewest(gpu: &Gpu, mut act: impl FnMut()) -> u64 {
         counted
     });
     counts.min().unwrap()
+}
+
+/// The median time of a call, in microseconds.
+fn median(gpu: &Gpu, mut act: impl FnMut()) -> f64 {
+    let mut times: Vec<f64> = (0..501)
+        .map(|_| {
+            let start = Instant::now();
+            act();
+            let time = start.elapsed().as_secs_f64() * 1e6;
+            gpu.queue.submit([]);
+            time
+        })
+        .collect();
+    times.sort_by(f64::total_cmp);
+    times[times.len() / 2]
+}
+
+#[test]
+#[ignore = "a benchmark: cargo test --release --test session -- --ignored --nocapture"]
+fn time_of_a_frame_beside_its_objects() {
+    let gpu = gpu();
+    let frame = frame(&gpu, 0, [96, 54]);
+    let (camera, light) = places(&frame);
+    for (name, graph) in [("hard shadows", HARD), ("scattering", AIR)] {
+        let mut session = session(&gpu, graph, &imports(&frame));
+        session.view(&gpu.queue, 0, &camera, &[light]).unwrap();
+        let new_encoder = || gpu.device.create_command_encoder(&Default::default());
+        for round in 0..3 {
+            let ours = median(&gpu, || {
+                let mut encoder = new_encoder();
+                for stage in Stage::ALL {
+                    session.record(stage, &mut encoder).unwrap();
+                }
+            });
+            let theirs = median(&gpu, || {
+                let mut encoder = new_encoder();
+                for stage in Stage::ALL {
+                    for bindings in [session.maps(), session.bindings(0).unwrap()] {
+                        let recording = Recording::default();
+                        bindings.record(stage, &mut encoder, recording).unwrap();
+                    }
+                }
+            });
+            let told = median(&gpu, || {
+                session.view(&gpu.queue, 0, &camera, &[light]).unwrap();
+            });
+            println!(
+                "{name}, round {round}: {ours:.1} us by the session, {theirs:.1} us by its objects, ratio {:.3}; view {told:.1} us",
+                ours / theirs
+            );
+        }
+    }
 }
 
 #[test]

@@ -1,6 +1,6 @@
 //! What a device allows of a texture.
 
-use moment_shadows::Storage;
+use moment_shadows::{Profile, Storage};
 
 use crate::GraphErrorKind::{Capability, Format, Size};
 use crate::error::ensure;
@@ -54,7 +54,13 @@ pub(super) fn limits(texture: &TextureDesc, capabilities: &Capabilities) -> Resu
     ensure(offered, Capability, || {
         let counts: Vec<String> = allowed.iter().map(u32::to_string).collect();
         let counts = counts.join(" or ");
-        format!("the texture has {samples} samples per texel; the device allows {counts}")
+        let more = match capabilities.profile {
+            Profile::NativeAdapter => "",
+            Profile::WebgpuCore | Profile::Native => {
+                "; adapters that have more allow them with the feature TEXTURE_ADAPTER_SPECIFIC_FORMAT_FEATURES"
+            }
+        };
+        format!("the texture has {samples} samples per texel; the device allows {counts}{more}")
     })
 }
 
