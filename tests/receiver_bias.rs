@@ -9,7 +9,7 @@
 //! far below the width that the moment bias gives; the third is what asks for 1.25 standard deviations.
 #![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic)]
 
-use moment_shadows::{Kernel, ReceiverBias, Storage};
+use moment_shadows::{DepthConversion, DepthRange, Kernel, ReceiverBias, Storage, TextureFormat};
 use moment_shadows_lab::truth::exact_bound::{lower_bound, lower_bound_of_moments};
 use moment_shadows_lab::truth::kernel::sample_positions;
 
@@ -257,6 +257,42 @@ fn the_largest_kernel_needs_no_more() {
             let fragment = -f64::from(bias.slope_scale) * gradient;
             let bound = lower_bound_of_moments(moments, fragment);
             assert!(bound <= LARGEST, "{storage} at {tilt} degrees: {bound}");
+        }
+    }
+}
+
+/// The step of stored depth at a moment depth, as the shader unpacks it.
+fn step(bias: &ReceiverBias, z: f64) -> f64 {
+    let half = |bits: u32| f64::from(bits as u16 as i16) / 32767.0;
+    (2.0 * (half(bias.step) + half(bias.step >> 16) * z)).powi(2)
+}
+
+#[test]
+fn steps_of_stored_distances_are_shares_of_the_farthest() {
+    // Numbers up to ten thousand in single precision, for a range of ten.
+    let range = DepthRange {
+        near: 9_990.0,
+        far: 10_000.0,
+    };
+    let conversion = DepthConversion::linear(range).unwrap();
+    let bias = ReceiverBias::NONE.for_stored_depth(TextureFormat::R32Float, &conversion);
+    let expected = 2.0 / 10.0 * 10_000.0 * 2.0_f64.powi(-24);
+    for z in [-1.0, 0.0, 1.0] {
+        assert!((step(&bias, z) / expected - 1.0).abs() < 0.01, "{z}");
+    }
+    // Of 24 bits as of 16, reversed or not, for integers are as coarse at both ends.
+    for (format, most) in [
+        (TextureFormat::Depth16Unorm, 65535.0),
+        (TextureFormat::Depth24Plus, 16_777_215.0),
+        (TextureFormat::Depth24PlusStencil8, 16_777_215.0),
+    ] {
+        let forward = DepthConversion::orthographic();
+        for conversion in [forward, forward.reversed()] {
+            let bias = ReceiverBias::NONE.for_stored_depth(format, &conversion);
+            assert!(
+                (step(&bias, 0.3) * most / 2.0 - 1.0).abs() < 0.2,
+                "{format}"
+            );
         }
     }
 }
