@@ -52,7 +52,7 @@ fn shapes_and_places_that_do_not_fit_are_refused() {
     let (sun, angle) = light(&scene, SoftLightChoice::Directional, [2.0; 2]);
     let (lamp, disk) = light(&scene, SoftLightChoice::Spot, [2.0; 2]);
     let refused = |light, shape, places| {
-        let truth = AreaLight::new(&scene, light, shape, [64; 2], places);
+        let truth = AreaLight::new(&scene, light, shape, places);
         truth.err().unwrap().to_string()
     };
     for (light, shape) in [(&sun, disk), (&lamp, angle)] {

@@ -21,7 +21,7 @@ fn behind_straight_edges_it_is_the_hidden_share_of_the_light() {
     let scene = scene::load("edge").unwrap();
     for (choice, size) in LIGHTS {
         let (light, shape) = light(&scene, choice, size);
-        let truth = AreaLight::new(&scene, &light, shape, [512; 2], 256).unwrap();
+        let truth = AreaLight::new(&scene, &light, shape, 256).unwrap();
         for (number, height) in EDGE_HEIGHTS.into_iter().enumerate() {
             let [low, high] = edge_strip(number);
             let mut errors = Vec::new();
@@ -51,7 +51,7 @@ fn a_small_hole_casts_the_picture_of_the_light() {
     let scene = scene::load(HOLE).unwrap();
     let size = [1.6, 0.5];
     let (light, shape) = light(&scene, SoftLightChoice::Rectangle, size);
-    let truth = AreaLight::new(&scene, &light, shape, [512; 2], 1024).unwrap();
+    let truth = AreaLight::new(&scene, &light, shape, 1024).unwrap();
     // The wall is 4 above the ground; its hole is 0.04 wide.
     let enlarged = 4.0 / (light.distance(DVec3::ZERO) - 4.0);
     for (axis, size) in size.into_iter().enumerate() {
@@ -135,7 +135,7 @@ fn a_light_without_size_casts_hard_shadows() {
             let (light, shape) = light(&scene, choice, [0.0; 2]);
             let frame = drawn(&gpu, &scene, light, shape);
             let pixels = read_gbuffer(&gpu, &frame.surface).unwrap();
-            let truth = AreaLight::new(&scene, &light, shape, [2048; 2], 256).unwrap();
+            let truth = AreaLight::new(&scene, &light, shape, 256).unwrap();
             let found = truth.picture(&pixels).unwrap();
             assert!(found.iter().all(|&value| value == 0.0 || value == 1.0));
             let facing = facing(&light, &pixels);
@@ -197,7 +197,7 @@ fn any_number_of_threads_gives_the_same_bits() {
             .build()
             .unwrap();
         pool.install(|| {
-            let truth = AreaLight::new(&scene, &light, shape, [2048; 2], 300).unwrap();
+            let truth = AreaLight::new(&scene, &light, shape, 300).unwrap();
             truth.picture(&pixels).unwrap()
         })
     };
@@ -219,7 +219,7 @@ fn holes_of_masked_materials_let_light_through() {
     scene.materials[0].mask = Some(0.5);
     for (choice, size) in LIGHTS {
         let (light, shape) = light(&scene, choice, size);
-        let truth = AreaLight::new(&scene, &light, shape, [512; 2], 64).unwrap();
+        let truth = AreaLight::new(&scene, &light, shape, 64).unwrap();
         let below = |x: f64| {
             let board = DVec3::new(x, EDGE_HEIGHTS[1], 0.0);
             let (origin, direction) = light.ray(light.uv(board).unwrap());

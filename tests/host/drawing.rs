@@ -237,8 +237,7 @@ fn masked_square(alpha: u8) -> Scene {
             normals: vec![[0.0, 1.0, 0.0]; 4],
             uvs: vec![[0.0, 0.0], [0.0, 1.0], [1.0, 1.0], [1.0, 0.0]],
             indices: vec![0, 1, 2, 0, 2, 3],
-            material: 0,
-            ground: false,
+            ..Mesh::default()
         }],
         materials: vec![material],
         images: vec![Image {
@@ -246,9 +245,7 @@ fn masked_square(alpha: u8) -> Scene {
             height: 2,
             rgba: [255, 255, 255, alpha].repeat(4),
         }],
-        ground: None,
-        stand: None,
-        warnings: Vec::new(),
+        ..Scene::default()
     })
 }
 

@@ -244,10 +244,7 @@ pub(crate) fn scene_of(name: &str, quads: &[[DVec3; 4]]) -> Scene {
         name: name.to_owned(),
         meshes: vec![mesh],
         materials: vec![Material::plain("grey", [0.5; 3])],
-        images: Vec::new(),
-        ground: None,
-        stand: None,
-        warnings: Vec::new(),
+        ..Scene::default()
     }
 }
 

@@ -29,10 +29,7 @@ fn boards(heights: &[f32]) -> Scene {
         name: "boards".to_owned(),
         meshes: vec![mesh],
         materials: vec![Material::plain("grey", [0.5; 3])],
-        images: Vec::new(),
-        ground: None,
-        stand: None,
-        warnings: Vec::new(),
+        ..Scene::default()
     }
 }
 

@@ -72,11 +72,10 @@ fn the_first_surfaces_are_those_of_the_device_s_map() {
         let hall = disagreement("hall", light);
         println!("hall {light:?}: {hall:.6}");
         assert!(hall < 1e-3, "{light:?}: {hall}");
-        // Drivers choose mips of the masked leaves within what their interfaces allow, so leaves end a part of a texel
-        // apart.
+        // Leaves end where a linear filter says, whose weights devices round to 1/256.
         let leaves = disagreement("fence-and-foliage", light);
         println!("fence-and-foliage {light:?}: {leaves:.6}");
-        assert!(leaves < 5e-3, "{light:?}: {leaves}");
+        assert!(leaves < 2e-3, "{light:?}: {leaves}");
     }
 }
 

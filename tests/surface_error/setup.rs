@@ -109,9 +109,6 @@ pub(crate) fn scene(meshes: Vec<Mesh>) -> Scene {
         name: "test".to_owned(),
         meshes,
         materials: vec![Material::plain("grey", [0.5; 3])],
-        images: Vec::new(),
-        ground: None,
-        stand: None,
-        warnings: Vec::new(),
+        ..Scene::default()
     }
 }

@@ -134,6 +134,20 @@ impl View {
         }
     }
 
+    /// This view from `eye` towards `target`, in the coordinates of the scene's file.
+    pub fn seen_from(self, scene: &Scene, [eye, target]: [DVec3; 2]) -> Result<Self, LabError> {
+        let [eye, target] = [eye - scene.origin, target - scene.origin];
+        rotation_towards(target - eye)?;
+        let mut view = Self::new(eye, target, self.light_direction);
+        // What is far away may be looked at past what is near.
+        let distance = (target - eye).length();
+        view.camera.near = view
+            .camera
+            .near
+            .min(1e-3 * scene.bounds().radius().max(1e-6 * distance));
+        Ok(view)
+    }
+
     /// The sun of this viewpoint, fitted to the scene's casters for a map of `map` texels with `margin` texels left
     /// free at each border.
     pub fn sun(

@@ -17,7 +17,7 @@ use crate::graph_file::GraphFile;
 use crate::judgement::{PictureTruth, Unfiltered};
 use crate::metric::{Comparison, ErrorFigures, compare};
 use crate::progress;
-use crate::scene::{self, Scene};
+use crate::scene::Scene;
 use crate::surface_error::{MapRun, SurfaceErrors, SurfaceTruth};
 use crate::techniques::described;
 use crate::truth::kernel::TapPattern;
@@ -93,6 +93,14 @@ pub struct Setting {
     pub light: &'static str,
     /// The numbered viewpoint, which the light's direction belongs to.
     pub view: u32,
+    /// Along which the light shines, in place of the view's direction.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub light_direction: Option<[f64; 3]>,
+    /// Where the camera stands and what it looks at, in place of the view's, in the file's coordinates.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub camera: Option<[[f64; 3]; 2]>,
+    /// Whether the scene was given a ground plane.
+    pub ground: bool,
     /// Texels per side of the light's map.
     pub map: u32,
     /// Samples per texel of the light's depth.
@@ -225,6 +233,11 @@ impl Setting {
                 LightChoice::Spot => "spot",
             },
             view: options.view,
+            light_direction: options.light_direction.map(|along| along.to_array()),
+            camera: options
+                .camera
+                .map(|camera| camera.map(|point| point.to_array())),
+            ground: !options.no_ground,
             map: options.map,
             samples: options.samples,
             picture: options.size,
@@ -252,7 +265,7 @@ pub fn measure(
         file = candidate.graph(&file)?;
         profile = candidate.profile_with(profile);
     }
-    let scene = scene::load(&options.scene)?;
+    let scene = options.load(&options.scene)?;
     let gpu = Gpu::open(profile)?;
     let bar = progress::bar(ErrorSubject::steps(options) + 1, "measuring surfaces");
     let subject = ErrorSubject::new(&gpu, &scene, options, &file, || bar.inc(1))?;
@@ -281,7 +294,14 @@ impl fmt::Display for Setting {
             f,
             "{} on {}; {} of view {}, map {}x{} with {} samples per texel, picture {width}x{height}",
             self.graph, self.adapter, self.light, self.view, self.map, self.map, self.samples
-        )
+        )?;
+        if let Some(along) = self.light_direction {
+            write!(f, ", light along {along:?}")?;
+        }
+        if let Some([eye, target]) = self.camera {
+            write!(f, ", camera at {eye:?} towards {target:?}")?;
+        }
+        f.write_str(if self.ground { "" } else { ", no ground" })
     }
 }
 

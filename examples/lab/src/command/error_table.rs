@@ -19,7 +19,6 @@ use crate::error::LabError;
 use crate::gpu::Gpu;
 use crate::graph_file::GraphFile;
 use crate::progress;
-use crate::scene;
 use crate::techniques::described;
 
 /// What `error-table` takes.
@@ -119,7 +118,7 @@ impl Options {
         let bar = progress::bar(self.scene.len() as u64 * steps, "measuring surfaces");
         let mut rows = Vec::new();
         for name in &self.scene {
-            let scene = scene::load(name)?;
+            let scene = render.load(name)?;
             let subjects =
                 ErrorSubject::of_kernels(&gpu, &scene, render, &files, self.stride, || bar.inc(1))?;
             for ((subject, file), &radius) in subjects.iter().zip(&files).zip(&self.radius) {

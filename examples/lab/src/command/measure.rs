@@ -15,7 +15,6 @@ use crate::gpu::Gpu;
 use crate::graph_frame::GraphFrame;
 use crate::judgement::{Judgement, Truth};
 use crate::progress;
-use crate::scene;
 
 /// What `measure` takes.
 #[derive(clap::Args)]
@@ -62,7 +61,7 @@ fn rows(
     let bar = progress::bar((scenes.len() * storages.len()) as u64, "measuring");
     let mut rows = Vec::new();
     for name in scenes {
-        let scene = scene::load(name)?;
+        let scene = options.load(name)?;
         let mut truth = None;
         for &storage in &storages {
             let file = options.graph(graph, storage)?.in_single_precision()?;

@@ -4,6 +4,7 @@ use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 
 use clap::builder::TypedValueParser;
+use glam::DVec3;
 use moment_shadows::{Profile, Storage};
 
 use super::{CommandResult, argument};
@@ -64,6 +65,16 @@ pub struct RenderOptions {
     /// The light.
     #[arg(long, value_enum, default_value = "sun")]
     pub light: LightChoice,
+    /// Along which the light shines, in place of the viewpoint's direction: in the axes of the file, of any length but zero.
+    #[arg(long, value_name = "X,Y,Z", allow_hyphen_values = true, value_parser = argument::direction)]
+    pub light_direction: Option<DVec3>,
+    /// Where the camera stands and what it looks at, in place of the viewpoint: in the coordinates of the file, although a
+    /// scene is moved so that the middle of its lowest points is at zero.
+    #[arg(long, value_name = "EX,EY,EZ,TX,TY,TZ", allow_hyphen_values = true, value_parser = argument::camera)]
+    pub camera: Option<[DVec3; 2]>,
+    /// Leaves out the ground plane, which otherwise touches the scene's lowest point.
+    #[arg(long)]
+    pub no_ground: bool,
     /// Stores the light's depth reversed.
     #[arg(long)]
     pub reversed: bool,
@@ -112,6 +123,19 @@ impl RenderOptions {
         }
     }
 
+    /// Loads a scene, and says which ground it is given.
+    pub fn load(&self, name: &str) -> Result<Scene, LabError> {
+        let scene = scene::load(name)?;
+        if self.no_ground {
+            return Ok(scene.without_ground());
+        }
+        if let Some(height) = scene.ground {
+            let height = scene.origin.y + height;
+            eprintln!("{name}: a ground plane at y = {height} is added; --no-ground leaves it out");
+        }
+        Ok(scene)
+    }
+
     /// Draws the scene as [`frame`](Self::frame) does, and with one sample per texel.
     pub fn frames(&self, gpu: &Gpu, scene: &Scene, margin: u32) -> Result<[Frame; 2], LabError> {
         let plain = Self {
@@ -126,7 +150,11 @@ impl RenderOptions {
 
     /// Draws the scene as the options say, for a graph whose kernel has a radius of `margin` texels.
     pub fn frame(&self, gpu: &Gpu, scene: &Scene, margin: u32) -> Result<Frame, LabError> {
-        let view = View::numbered(scene, self.view);
+        let mut view = View::numbered(scene, self.view);
+        view.light_direction = self.light_direction.unwrap_or(view.light_direction);
+        if let Some(camera) = self.camera {
+            view = view.seen_from(scene, camera)?;
+        }
         let map = [self.map; 2];
         // The kernel and the bilinear lookup find the far end beyond the outermost caster.
         let light = match self.light {
@@ -192,7 +220,7 @@ fn render(
     let file = options.graph(graph, None)?;
     let options = &options.for_graph(&file);
     let bar = progress::bar(if truth { 5 } else { 4 }, "loading");
-    let scene = scene::load(&options.scene)?;
+    let scene = options.load(&options.scene)?;
     bar.inc(1);
     bar.set_message("drawing");
     let gpu = Gpu::open(file.profile(options.samples))?;

@@ -228,7 +228,7 @@ impl Stage {
     fn area_light(&self, gpu: &Gpu) -> Result<Vec<f32>, LabError> {
         let frame = &self.frames[1];
         let desc = &frame.desc;
-        let light = AreaLight::new(&self.scene, &desc.light, desc.shape, desc.map, USUAL_PLACES)?;
+        let light = AreaLight::new(&self.scene, &desc.light, desc.shape, USUAL_PLACES)?;
         light.picture(&read_gbuffer(gpu, &frame.surface)?)
     }
 }

@@ -23,13 +23,16 @@ struct Vertex {
     @location(0) position: vec3f,
     @location(1) normal: vec3f,
     @location(2) uv: vec2f,
+    @location(3) alpha: f32,
 }
 
 struct Point {
     @builtin(position) clip: vec4f,
     @location(0) world: vec3f,
     @location(1) normal: vec3f,
-    @location(2) uv: vec2f,
+    // Per sample, so that a hole is seen by as many samples as one between triangles.
+    @location(2) @interpolate(perspective, sample) uv: vec2f,
+    @location(3) @interpolate(perspective, sample) alpha: f32,
 }
 
 @vertex
@@ -39,14 +42,21 @@ fn place(vertex: Vertex) -> Point {
     point.world = vertex.position;
     point.normal = vertex.normal;
     point.uv = vertex.uv;
+    point.alpha = vertex.alpha;
     return point;
+}
+
+// The image is read at its full size, however small it is seen: mips hold means of alpha, in which all that is fine has
+// vanished or is solid.
+fn is_hole(point: Point) -> bool {
+    let image = textureSampleLevel(base_colour_texture, base_colour_sampler, point.uv, 0.0);
+    return surface.base_colour.a * point.alpha * image.a < surface.mask;
 }
 
 // Depth only, for masked materials.
 @fragment
 fn depth_masked(point: Point) {
-    let colour = surface.base_colour * textureSample(base_colour_texture, base_colour_sampler, point.uv);
-    if colour.a < surface.mask {
+    if is_hole(point) {
         discard;
     }
 }
@@ -65,7 +75,7 @@ fn seen(point: Point) -> Pixel {
     let across = dpdx(point.world);
     let down = dpdy(point.world);
     let colour = surface.base_colour * textureSample(base_colour_texture, base_colour_sampler, point.uv);
-    if colour.a < surface.mask {
+    if is_hole(point) {
         discard;
     }
     let towards_eye = normalize(view.eye - point.world);

@@ -6,7 +6,7 @@ use super::Renderer;
 use super::error::created;
 use crate::error::LabError;
 use crate::gpu::Gpu;
-use crate::scene::{Image, Scene, mips};
+use crate::scene::{Image, Material, Scene, mips};
 
 /// A scene in the device's memory, ready to be drawn.
 pub struct Model {
@@ -29,6 +29,7 @@ struct Vertex {
     position: [f32; 3],
     normal: [f32; 3],
     uv: [f32; 2],
+    alpha: f32,
 }
 
 /// `Surface` of `geometry.wgsl`.
@@ -50,8 +51,8 @@ pub(super) struct ViewUniform {
 }
 
 /// Attributes of [`Vertex`].
-const ATTRIBUTES: [wgpu::VertexAttribute; 3] =
-    wgpu::vertex_attr_array![0 => Float32x3, 1 => Float32x3, 2 => Float32x2];
+const ATTRIBUTES: [wgpu::VertexAttribute; 4] =
+    wgpu::vertex_attr_array![0 => Float32x3, 1 => Float32x3, 2 => Float32x2, 3 => Float32];
 
 /// How pipelines read [`Vertex`].
 pub(super) fn vertex_layout() -> wgpu::VertexBufferLayout<'static> {
@@ -126,18 +127,29 @@ impl Renderer {
     /// Copies a scene to the device. Meshes of one material become one draw.
     pub fn upload(&self, gpu: &Gpu, scene: &Scene) -> Result<Model, LabError> {
         let limit = gpu.device.limits().max_buffer_size;
+        let mut of_material = vec![Vec::new(); scene.materials.len()];
+        for mesh in &scene.meshes {
+            if let Some(meshes) = of_material.get_mut(mesh.material) {
+                meshes.push(mesh);
+            }
+        }
         let mut drawn = Vec::new();
-        for material in 0..scene.materials.len() {
+        for (material, meshes) in of_material.into_iter().enumerate() {
             let mut vertices = Vec::new();
             let mut indices = Vec::new();
-            for mesh in scene.meshes.iter().filter(|mesh| mesh.material == material) {
+            for mesh in meshes {
                 let first = vertices.len() as u32;
+                let alphas = mesh.alphas.iter().copied();
                 let attributes = mesh.positions.iter().zip(&mesh.normals).zip(&mesh.uvs);
-                vertices.extend(attributes.map(|((&position, &normal), &uv)| Vertex {
-                    position,
-                    normal,
-                    uv,
-                }));
+                let attributes = attributes.zip(alphas.chain(std::iter::repeat(1.0)));
+                vertices.extend(
+                    attributes.map(|(((&position, &normal), &uv), alpha)| Vertex {
+                        position,
+                        normal,
+                        uv,
+                        alpha,
+                    }),
+                );
                 indices.extend(mesh.indices.iter().map(|index| first + index));
             }
             let bytes = size_of_val(&vertices[..]).max(size_of_val(&indices[..])) as u64;
@@ -187,7 +199,7 @@ impl Renderer {
                             wgpu::BufferUsages::INDEX,
                         ),
                         count: indices.len() as u32,
-                        material: self.material_group(gpu, &surface, image, material.wrap),
+                        material: self.material_group(gpu, &surface, image, material),
                         masked: material.mask.is_some(),
                     }
                 })
@@ -201,14 +213,14 @@ impl Renderer {
         gpu: &Gpu,
         surface: &SurfaceUniform,
         image: &wgpu::TextureView,
-        wrap: [wgpu::AddressMode; 2],
+        material: &Material,
     ) -> wgpu::BindGroup {
         let sampler = gpu.device.create_sampler(&wgpu::SamplerDescriptor {
             label: Some("host/base colour"),
-            address_mode_u: wrap[0],
-            address_mode_v: wrap[1],
-            mag_filter: wgpu::FilterMode::Linear,
-            min_filter: wgpu::FilterMode::Linear,
+            address_mode_u: material.wrap[0],
+            address_mode_v: material.wrap[1],
+            mag_filter: material.filter,
+            min_filter: material.filter,
             mipmap_filter: wgpu::MipmapFilterMode::Linear,
             ..Default::default()
         });

@@ -2,39 +2,17 @@
 
 use std::path::Path;
 
-use glam::{DMat4, DVec4};
+use glam::DMat4;
 
-use super::Scene;
 use super::caught::caught;
 use super::gltf_mesh::Loader;
 use super::gltf_source::{Source, check_file, check_uri};
+use super::{Scene, extensions, gltf_instances};
 use crate::error::LabError;
 
-/// Whether a file that needs this extension is shown: it is read, or only changes how surfaces look.
-fn is_supported(extension: &str) -> bool {
-    extension.starts_with("KHR_materials_")
-        || matches!(
-            extension,
-            "KHR_mesh_quantization"
-                | "KHR_node_visibility"
-                | "KHR_texture_transform"
-                | "KHR_lights_punctual"
-        )
-}
-
-/// Whether an extension of materials changes what casts a shadow. None of these is read.
-fn changes_casters(extension: &str) -> bool {
-    matches!(
-        extension,
-        "KHR_materials_diffuse_transmission"
-            | "KHR_materials_pbrSpecularGlossiness"
-            | "KHR_materials_transmission"
-            | "KHR_materials_variants"
-    )
-}
-
-/// Loads a glTF or GLB file: triangles of the default scene in world space, base colour and alpha mask. What is left
-/// out (extensions, skins, morph targets, points and lines, blending) is said in `warnings`.
+/// Loads a glTF or GLB file: triangles of the default scene in world space, base colour and alpha mask. The middle of its
+/// lowest points is moved to zero before anything is rounded to single precision. What is left out (extensions, skins, morph
+/// targets, points and lines, blending) is said in `warnings`.
 pub fn load_gltf(file: &Path) -> Result<Scene, LabError> {
     caught(|| load(file)).map_err(|reason| {
         LabError::refused(format!("'{}' cannot be shown: {reason}", file.display()))
@@ -49,7 +27,7 @@ fn load(file: &Path) -> Result<Scene, String> {
     let mut root = gltf.document.into_json();
     // The library would refuse those that it does not know itself.
     let required = std::mem::take(&mut root.extensions_required);
-    if let Some(extension) = required.iter().find(|name| !is_supported(name)) {
+    if let Some(extension) = required.iter().find(|name| !extensions::is_shown(name)) {
         return Err(format!(
             "it requires the extension '{extension}', which is not supported; export it without compression and texture extensions"
         ));
@@ -66,8 +44,11 @@ fn load(file: &Path) -> Result<Scene, String> {
     let name = file.file_stem().unwrap_or(file.as_os_str());
     let source = Source::new(folder, &buffers);
     let mut loader = Loader::new(source, &document, &name.to_string_lossy());
-    for extension in document.extensions_used() {
-        if !is_supported(extension) || changes_casters(extension) {
+    for extension in document
+        .extensions_used()
+        .chain(required.iter().map(String::as_str))
+    {
+        if extensions::is_warned_of(extension) {
             loader.warn(format!(
                 "the extension {extension} is not read; shadows may differ"
             ));
@@ -75,6 +56,8 @@ fn load(file: &Path) -> Result<Scene, String> {
     }
     for (node, world) in placed_nodes(&document)? {
         if let Some(mesh) = node.mesh() {
+            let instances = gltf_instances::of_mesh(&node, world, &document, &mut loader.source)
+                .map_err(|reason| format!("{}: {reason}", describe(&node)))?;
             if node.skin().is_some() {
                 loader.warn(format!("{}: its skin is ignored", describe(&node)));
             }
@@ -86,7 +69,7 @@ fn load(file: &Path) -> Result<Scene, String> {
                     primitive.index()
                 );
                 loader
-                    .primitive(&primitive, &world, &item)
+                    .primitive(&primitive, &instances, &item)
                     .map_err(|reason| format!("{item}: {reason}"))?;
             }
         }
@@ -94,7 +77,7 @@ fn load(file: &Path) -> Result<Scene, String> {
     if loader.scene.triangles() == 0 {
         return Err("it has no triangles".to_owned());
     }
-    Ok(loader.scene)
+    Ok(loader.finish())
 }
 
 /// A node for messages.
@@ -106,11 +89,10 @@ fn describe(node: &gltf::Node<'_>) -> String {
     )
 }
 
-/// Whether neither the node nor what is under it can be seen.
+/// Whether the file says that neither the node nor what is under it is seen.
 fn is_hidden(node: &gltf::Node<'_>) -> bool {
     let visibility = node.extension_value("KHR_node_visibility");
     visibility.is_some_and(|extension| extension["visible"] == false)
-        || node.transform().decomposed().2 == [0.0; 3]
 }
 
 /// All visible nodes of the default scene with their transforms to world space. Without a scene: all roots.
@@ -139,12 +121,10 @@ fn placed_nodes(document: &gltf::Document) -> Result<Vec<(gltf::Node<'_>, DMat4)
             let node = describe(&node);
             return Err(format!("{node}: it is the child of two nodes or its own"));
         }
-        if is_hidden(&node) {
+        let world = parent * gltf_instances::of_node(&node);
+        if is_hidden(&node) || gltf_instances::vanishes(&world) {
             continue;
         }
-        let columns = node.transform().matrix();
-        let [x, y, z, w] = columns.map(|column| DVec4::from_array(column.map(f64::from)));
-        let world = parent * DMat4::from_cols(x, y, z, w);
         if !world.is_finite() {
             return Err(format!("{}: its transform is not finite", describe(&node)));
         }

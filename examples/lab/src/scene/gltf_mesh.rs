@@ -3,24 +3,26 @@
 use std::collections::HashMap;
 
 use glam::{DMat3, DMat4, DVec3, Vec2};
-use gltf::accessor::Dimensions;
+use gltf::accessor::{Dimensions, Item};
 use gltf::material::AlphaMode;
 use gltf::mesh::{Mode, Semantic};
-use gltf::texture::{MagFilter, WrappingMode};
-use wgpu::AddressMode;
+use gltf::texture::{MagFilter, MinFilter, Sampler, WrappingMode};
+use wgpu::{AddressMode, FilterMode};
 
 use super::gltf_source::{Source, check};
-use super::{Material, Mesh, Scene};
+use super::{Bounds, Material, Mesh, Scene};
 
 /// Products of two lengths in a scene, its ground plane among them, fit in single precision.
 const LARGEST_COORDINATE: f32 = 1e15;
 
-/// A vertex and its index in a [`Mesh`].
-const VERTEX_BYTES: usize = 36;
+/// A vertex in a [`Mesh`] and its place in double precision.
+const VERTEX_BYTES: usize = 64;
 
 /// A scene that is being loaded.
 pub(super) struct Loader<'a> {
-    source: Source<'a>,
+    pub(super) source: Source<'a>,
+    /// Where the vertices of each of the scene's meshes lie.
+    placed: Vec<Vec<DVec3>>,
     /// Whether the file's materials are loaded: those that nothing uses may be broken.
     loaded: Vec<bool>,
     /// The file's images that are loaded, as indices in the scene.
@@ -34,6 +36,7 @@ impl<'a> Loader<'a> {
         let default = Material::plain("default", [0.8, 0.8, 0.8]);
         Self {
             source,
+            placed: Vec::new(),
             loaded: vec![false; count],
             images: HashMap::new(),
             scene: Scene {
@@ -58,11 +61,29 @@ impl<'a> Loader<'a> {
         }
     }
 
-    /// Adds one primitive, placed by `world`, if it has triangles.
+    /// The scene with the middle of its lowest points at zero. Only then are places rounded to single precision, which far
+    /// from zero is coarse.
+    pub(super) fn finish(mut self) -> Scene {
+        let meshes = self.scene.meshes.iter().zip(&self.placed);
+        let corners = meshes.flat_map(|(mesh, placed)| {
+            let corners = mesh.indices.iter();
+            corners.map(|&corner| placed[corner as usize])
+        });
+        let bounds = Bounds::of(corners);
+        let origin = bounds.centre().with_y(bounds.min.y);
+        for (mesh, placed) in self.scene.meshes.iter_mut().zip(self.placed) {
+            let moved = placed.into_iter().map(|place| (place - origin).as_vec3());
+            mesh.positions = moved.map(|place| place.to_array()).collect();
+        }
+        self.scene.origin = origin;
+        self.scene
+    }
+
+    /// Adds one primitive, placed by each of `worlds`, if it has triangles.
     pub(super) fn primitive(
         &mut self,
         primitive: &gltf::Primitive<'_>,
-        world: &DMat4,
+        worlds: &[DMat4],
         item: &str,
     ) -> Result<(), String> {
         self.source.take(1, size_of::<Mesh>())?;
@@ -77,10 +98,7 @@ impl<'a> Loader<'a> {
             self.warn(format!("{item}: points and lines are ignored"));
             return Ok(());
         }
-        let Some(local) = self
-            .source
-            .attribute::<3>(primitive, &Semantic::Positions)?
-        else {
+        let Some(local) = self.attribute::<3>(primitive, &Semantic::Positions)? else {
             self.warn(format!("{item}: it has no positions and is ignored"));
             return Ok(());
         };
@@ -92,51 +110,90 @@ impl<'a> Loader<'a> {
                 "it has the index {index}, but only {vertices} vertices"
             ));
         }
-        let normals = self.source.attribute::<3>(primitive, &Semantic::Normals)?;
+        let normals = self.attribute::<3>(primitive, &Semantic::Normals)?;
         let material = self.material(&primitive.material())?;
         let uvs = self.uvs(primitive, item)?;
-        let uvs = uvs.unwrap_or_else(|| vec![[0.0; 2]; vertices]);
-        if uvs.len() != vertices || normals.as_ref().is_some_and(|all| all.len() != vertices) {
-            return Err(format!(
-                "it has {vertices} positions, but another number of normals or texture coordinates"
-            ));
-        }
-        let color = primitive.get(&Semantic::Colors(0));
-        if self.scene.materials[material].mask.is_some()
-            && color.is_some_and(|color| color.dimensions() == Dimensions::Vec4)
-        {
-            self.warn(format!(
-                "{item}: the alpha of its vertices (COLOR_0) is ignored"
-            ));
-        }
-        let place = |&position: &[f32; 3]| world.transform_point3(to_f64(position)).as_vec3();
-        let positions: Vec<_> = local.iter().map(|local| place(local).to_array()).collect();
-        check("placed POSITION", &positions, LARGEST_COORDINATE)?;
-        // A node that is flat along an axis leaves normals without a direction.
-        let to_world = DMat3::from_mat4(*world).inverse().transpose();
-        let normals = normals.filter(|_| to_world.is_finite());
-        let indices = triangles(mode, &indices);
-        let mesh = match normals {
-            Some(normals) => Mesh {
-                positions,
-                normals: normals
-                    .iter()
-                    .map(|&normal| unit(to_world * to_f64(normal)))
-                    .collect(),
-                uvs,
-                indices,
-                material,
-                ground: false,
-            },
-            None => {
-                self.source.take(indices.len(), VERTEX_BYTES)?;
-                flat(&positions, &uvs, &indices, material)
-            }
+        let alphas = self.alphas(primitive, material)?;
+        let mesh = Mesh {
+            uvs: uvs.unwrap_or_else(|| vec![[0.0; 2]; vertices]),
+            alphas: alphas.unwrap_or_default(),
+            indices: triangles(mode, &indices),
+            material,
+            ..Mesh::default()
         };
-        if !mesh.indices.is_empty() {
+        if mesh.uvs.len() != vertices
+            || normals.as_ref().is_some_and(|all| all.len() != vertices)
+            || !(mesh.alphas.is_empty() || mesh.alphas.len() == vertices)
+        {
+            return Err(format!(
+                "it has {vertices} positions, but another number of normals, texture coordinates or colours"
+            ));
+        }
+        if mesh.indices.is_empty() {
+            return Ok(());
+        }
+        for world in worlds {
+            self.source.take(1, size_of::<Mesh>())?;
+            self.source.take(mesh.indices.len(), size_of::<u32>())?;
+            self.source.take(vertices, VERTEX_BYTES)?;
+            let place = |&local: &[f32; 3]| world.transform_point3(to_f64(local));
+            let placed: Vec<DVec3> = local.iter().map(place).collect();
+            let rounded: Vec<_> = placed.iter().map(|at| at.as_vec3().to_array()).collect();
+            check("placed POSITION", &rounded, LARGEST_COORDINATE)?;
+            // A node that is flat along an axis leaves normals without a direction.
+            let to_world = DMat3::from_mat4(*world).inverse().transpose();
+            let (mesh, placed) = match normals.as_ref().filter(|_| to_world.is_finite()) {
+                Some(normals) => {
+                    let turned = normals
+                        .iter()
+                        .map(|&normal| unit(to_world * to_f64(normal)));
+                    let normals = turned.collect();
+                    let mesh = mesh.clone();
+                    (Mesh { normals, ..mesh }, placed)
+                }
+                None => {
+                    self.source.take(mesh.indices.len(), VERTEX_BYTES)?;
+                    flat(&mesh, &placed)
+                }
+            };
             self.scene.meshes.push(mesh);
+            self.placed.push(placed);
         }
         Ok(())
+    }
+
+    /// An attribute of a primitive, if it has it.
+    fn attribute<const N: usize>(
+        &mut self,
+        primitive: &gltf::Primitive<'_>,
+        semantic: &Semantic,
+    ) -> Result<Option<Vec<[f32; N]>>, String>
+    where
+        [i8; N]: Item,
+        [u8; N]: Item,
+        [i16; N]: Item,
+        [u16; N]: Item,
+        [f32; N]: Item,
+    {
+        let accessor = primitive.get(semantic);
+        let mut read = |accessor| self.source.floats(&accessor, &semantic.to_string());
+        accessor.map(&mut read).transpose()
+    }
+
+    /// What the vertices' colours make of a mask.
+    fn alphas(
+        &mut self,
+        primitive: &gltf::Primitive<'_>,
+        material: usize,
+    ) -> Result<Option<Vec<f32>>, String> {
+        let semantic = Semantic::Colors(0);
+        let colours = primitive.get(&semantic);
+        let has_alpha = colours.is_some_and(|it| it.dimensions() == Dimensions::Vec4);
+        if self.scene.materials[material].mask.is_none() || !has_alpha {
+            return Ok(None);
+        }
+        let colours = self.attribute::<4>(primitive, &semantic)?;
+        Ok(colours.map(|colours| colours.iter().map(|colour| colour[3]).collect()))
     }
 
     /// Where the base colour's texture lies on the primitive.
@@ -151,7 +208,7 @@ impl<'a> Loader<'a> {
         let set = transform.as_ref().and_then(|change| change.tex_coord());
         let set = set.or(info.as_ref().map(|info| info.tex_coord()));
         let semantic = Semantic::TexCoords(set.unwrap_or(0));
-        let mut uvs = self.source.attribute::<2>(primitive, &semantic)?;
+        let mut uvs = self.attribute::<2>(primitive, &semantic)?;
         if uvs.is_none() && info.is_some() {
             self.warn(format!("{item}: its texture has no coordinates"));
         }
@@ -189,6 +246,7 @@ impl<'a> Loader<'a> {
         let surface = material.pbr_metallic_roughness();
         let mut texture = None;
         let mut wrap = [AddressMode::Repeat; 2];
+        let mut filter = FilterMode::Linear;
         if let Some(info) = surface.base_color_texture() {
             let sampler = info.texture().sampler();
             wrap = [sampler.wrap_s(), sampler.wrap_t()].map(|mode| match mode {
@@ -196,11 +254,7 @@ impl<'a> Loader<'a> {
                 WrappingMode::MirroredRepeat => AddressMode::MirrorRepeat,
                 WrappingMode::Repeat => AddressMode::Repeat,
             });
-            if mask.is_some() && sampler.mag_filter() == Some(MagFilter::Nearest) {
-                self.warn(format!(
-                    "material '{name}': its mask is filtered linearly, not by the nearest texel"
-                ));
-            }
+            filter = between_texels(&sampler);
             let image = info.texture().source().map(|image| self.image(&image));
             let image =
                 image.unwrap_or_else(|| Err("there is no image that can be read".to_owned()));
@@ -219,6 +273,7 @@ impl<'a> Loader<'a> {
             base_colour: surface.base_color_factor(),
             texture,
             wrap,
+            filter,
             mask,
             double_sided: material.double_sided(),
         };
@@ -239,6 +294,26 @@ impl<'a> Loader<'a> {
         };
         self.images.insert(source.index(), loaded.clone());
         loaded
+    }
+}
+
+/// What lies between texels of a large image. Where a file leaves that open, it is as with a small one.
+fn between_texels(sampler: &Sampler<'_>) -> FilterMode {
+    let nearest = match (sampler.mag_filter(), sampler.min_filter()) {
+        (Some(large), _) => large == MagFilter::Nearest,
+        (None, small) => matches!(
+            small,
+            Some(
+                MinFilter::Nearest
+                    | MinFilter::NearestMipmapNearest
+                    | MinFilter::NearestMipmapLinear
+            )
+        ),
+    };
+    if nearest {
+        FilterMode::Nearest
+    } else {
+        FilterMode::Linear
     }
 }
 
@@ -268,22 +343,25 @@ fn triangles(mode: Mode, indices: &[u32]) -> Vec<u32> {
         .collect()
 }
 
-/// A mesh whose triangles share no vertices, with the triangles' own normals: what glTF asks for where it gives none.
-fn flat(positions: &[[f32; 3]], uvs: &[[f32; 2]], indices: &[u32], material: usize) -> Mesh {
-    let mut mesh = Mesh {
-        material,
+/// A mesh whose triangles share no vertices, with the triangles' own normals: what glTF asks for where it gives none. Also
+/// where its vertices lie.
+fn flat(shared: &Mesh, placed: &[DVec3]) -> (Mesh, Vec<DVec3>) {
+    let corners = |at: &[u32; 3]| at.map(|corner| placed[corner as usize]);
+    let of_triangle = |at: &[u32; 3]| {
+        let [p, q, r] = corners(at);
+        [unit((q - p).cross(r - p)); 3]
+    };
+    let indices = shared.indices.as_chunks::<3>().0;
+    let vertices = || shared.indices.iter().map(|&corner| corner as usize);
+    let mesh = Mesh {
+        normals: indices.iter().flat_map(of_triangle).collect(),
+        uvs: vertices().map(|vertex| shared.uvs[vertex]).collect(),
+        alphas: vertices()
+            .filter_map(|vertex| shared.alphas.get(vertex).copied())
+            .collect(),
+        indices: (0..shared.indices.len() as u32).collect(),
+        material: shared.material,
         ..Mesh::default()
     };
-    for corners in indices.chunks_exact(3) {
-        let corners = [corners[0], corners[1], corners[2]].map(|corner| corner as usize);
-        let [p, q, r] = corners.map(|corner| to_f64(positions[corner]));
-        let normal = unit((q - p).cross(r - p));
-        for corner in corners {
-            mesh.indices.push(mesh.positions.len() as u32);
-            mesh.positions.push(positions[corner]);
-            mesh.normals.push(normal);
-            mesh.uvs.push(uvs[corner]);
-        }
-    }
-    mesh
+    (mesh, indices.iter().flat_map(corners).collect())
 }

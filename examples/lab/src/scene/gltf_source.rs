@@ -5,7 +5,6 @@ use std::path::Path;
 use gltf::accessor::{Accessor, DataType, Item, Iter};
 use gltf::buffer::{self, Data};
 use gltf::image::Source as ImageSource;
-use gltf::mesh::Semantic;
 
 use super::Image;
 
@@ -43,9 +42,8 @@ impl<'a> Source<'a> {
     }
 
     /// The accessor's elements, as they are stored. Where it has no data, they are zero.
-    fn read<T: Item + Clone>(&mut self, accessor: &Accessor<'_>) -> Result<Vec<T>, String> {
+    fn read<T: Item + Clone>(&self, accessor: &Accessor<'_>) -> Result<Vec<T>, String> {
         let count = accessor.count();
-        self.take(count, size_of::<T>())?;
         if count == 0 || accessor.view().is_none() && accessor.sparse().is_none() {
             return Ok(vec![T::zero(); count]);
         }
@@ -57,12 +55,12 @@ impl<'a> Source<'a> {
             .ok_or_else(|| format!("its {count} elements reach beyond the buffer view or buffer"))
     }
 
-    /// An attribute of a primitive as floats, which have to be finite.
-    pub(super) fn attribute<const N: usize>(
+    /// An accessor's vectors as floats, which have to be finite. Messages call it `name`.
+    pub(super) fn floats<const N: usize>(
         &mut self,
-        primitive: &gltf::Primitive<'_>,
-        semantic: &Semantic,
-    ) -> Result<Option<Vec<[f32; N]>>, String>
+        accessor: &Accessor<'_>,
+        name: &str,
+    ) -> Result<Vec<[f32; N]>, String>
     where
         [i8; N]: Item,
         [u8; N]: Item,
@@ -70,25 +68,23 @@ impl<'a> Source<'a> {
         [u16; N]: Item,
         [f32; N]: Item,
     {
-        let Some(accessor) = primitive.get(semantic) else {
-            return Ok(None);
-        };
+        let failed = |reason| format!("{name} (accessor {}): {reason}", accessor.index());
+        self.take(accessor.count(), size_of::<[f32; N]>())
+            .map_err(failed)?;
         let most = |most: f32| accessor.normalized().then_some(most);
         let size = accessor.dimensions().multiplicity();
         let values = match accessor.data_type() {
             _ if size != N => Err(format!("it has {size} components, not {N}")),
-            DataType::F32 => self.read(&accessor),
-            DataType::I8 => self.read::<[i8; N]>(&accessor).map(floats(most(127.0))),
-            DataType::U8 => self.read::<[u8; N]>(&accessor).map(floats(most(255.0))),
-            DataType::I16 => self.read::<[i16; N]>(&accessor).map(floats(most(32767.0))),
-            DataType::U16 => self.read::<[u16; N]>(&accessor).map(floats(most(65535.0))),
+            DataType::F32 => self.read(accessor),
+            DataType::I8 => self.read::<[i8; N]>(accessor).map(floats(most(127.0))),
+            DataType::U8 => self.read::<[u8; N]>(accessor).map(floats(most(255.0))),
+            DataType::I16 => self.read::<[i16; N]>(accessor).map(floats(most(32767.0))),
+            DataType::U16 => self.read::<[u16; N]>(accessor).map(floats(most(65535.0))),
             DataType::U32 => Err("its components are of type U32".to_owned()),
         };
-        let name = semantic.to_string();
-        let values =
-            values.map_err(|reason| format!("{name} (accessor {}): {reason}", accessor.index()))?;
-        check(&name, &values, f32::MAX)?;
-        Ok(Some(values))
+        let values = values.map_err(failed)?;
+        check(name, &values, f32::MAX)?;
+        Ok(values)
     }
 
     /// The vertex indices of a primitive that has them.
@@ -99,13 +95,16 @@ impl<'a> Source<'a> {
         let Some(accessor) = primitive.indices() else {
             return Ok(None);
         };
+        let failed = |reason| format!("indices (accessor {}): {reason}", accessor.index());
+        // A strip becomes a list of up to three times as many.
+        self.take(accessor.count(), size_of::<[u32; 3]>())
+            .map_err(failed)?;
         let indices = match accessor.data_type() {
             DataType::U8 => self.read::<u8>(&accessor).map(widened),
             DataType::U16 => self.read::<u16>(&accessor).map(widened),
             DataType::U32 => self.read(&accessor),
             other => Err(format!("they cannot be of type {other:?}")),
         };
-        let failed = |reason| format!("indices (accessor {}): {reason}", accessor.index());
         indices.map(Some).map_err(failed)
     }
 

@@ -10,6 +10,7 @@ pub fn place_on_ground(mut scene: Scene) -> Scene {
     let bounds = scene.bounds();
     let centre = bounds.centre();
     let offset = [centre.x, bounds.min.y, centre.z];
+    scene.origin += glam::DVec3::from_array(offset);
     for position in scene.meshes.iter_mut().flat_map(|mesh| &mut mesh.positions) {
         for (coordinate, offset) in position.iter_mut().zip(offset) {
             *coordinate = (f64::from(*coordinate) - offset) as f32;
@@ -35,6 +36,7 @@ pub(super) fn add_ground(scene: &mut Scene, radius: f64) {
         ],
         normals: vec![[0.0, 1.0, 0.0]; 4],
         uvs: vec![[0.0; 2]; 4],
+        alphas: Vec::new(),
         indices: vec![0, 1, 2, 0, 2, 3],
         material: scene.materials.len(),
         ground: true,

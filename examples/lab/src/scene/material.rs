@@ -22,7 +22,10 @@ pub struct Material {
     pub texture: Option<usize>,
     /// How the image goes on beyond its edges, along u and v.
     pub wrap: [wgpu::AddressMode; 2],
-    /// The alpha below which a point is a hole; `None` for an opaque surface.
+    /// What lies between the centres of the image's texels: the nearest one, or a blend.
+    pub filter: wgpu::FilterMode,
+    /// The alpha below which a point is a hole; `None` for an opaque surface. A point's alpha is the product of that of
+    /// `base_colour`, the vertices' and the image's at its full size: means of alpha, as mips hold, are no mask.
     pub mask: Option<f32>,
     /// Whether both sides are meant to be seen. The host always draws both.
     pub double_sided: bool,
@@ -36,6 +39,7 @@ impl Material {
             base_colour: [red, green, blue, 1.0],
             texture: None,
             wrap: [wgpu::AddressMode::Repeat; 2],
+            filter: wgpu::FilterMode::Linear,
             mask: None,
             double_sided: false,
         }

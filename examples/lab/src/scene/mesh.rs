@@ -2,7 +2,7 @@
 
 use glam::DVec3;
 
-/// Indexed triangles in world space. All attributes have one entry per vertex.
+/// Indexed triangles in world space. All attributes but `alphas` have one entry per vertex.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Mesh {
     /// Positions, finite.
@@ -11,6 +11,8 @@ pub struct Mesh {
     pub normals: Vec<[f32; 3]>,
     /// Texture coordinates, (0, 0) at the image's top left.
     pub uvs: Vec<[f32; 2]>,
+    /// Alpha, which masked materials multiply with theirs; empty where it is 1.
+    pub alphas: Vec<f32>,
     /// Three per triangle, each below the number of vertices.
     pub indices: Vec<u32>,
     /// Index of the material in the scene.

@@ -3,9 +3,11 @@
 mod caught;
 mod chairs;
 mod edge_and_hole;
+mod extensions;
 mod failures;
 mod fence_and_foliage;
 mod gltf_file;
+mod gltf_instances;
 mod gltf_mesh;
 mod gltf_source;
 mod ground;
@@ -21,6 +23,7 @@ use glam::DVec3;
 
 pub use chairs::{CHAIRS, Foot, chairs, feet};
 pub use edge_and_hole::{EDGE, EDGE_HEIGHTS, HOLE, edge_strip, small_hole, straight_edges};
+pub use extensions::{EXTENSIONS, Extensions};
 pub use failures::{contacts, stacked_boards};
 pub use fence_and_foliage::fence_and_foliage;
 pub use gltf_file::load_gltf;
@@ -28,7 +31,7 @@ pub use ground::place_on_ground;
 pub use hall::hall_with_open_roof;
 pub use material::{Image, Material};
 pub use mesh::{Bounds, Mesh};
-pub(crate) use mips::{Mip, mips};
+pub(crate) use mips::mips;
 
 use crate::error::LabError;
 
@@ -58,6 +61,8 @@ pub struct Scene {
     pub materials: Vec<Material>,
     /// What the materials' `texture` counts in.
     pub images: Vec<Image>,
+    /// What of the file, or of the procedural scene, has been moved to zero.
+    pub origin: DVec3,
     /// Height of the ground plane, if the scene stands on one.
     pub ground: Option<f64>,
     /// Where to stand; `None` to look at the scene from outside.
@@ -72,13 +77,22 @@ impl Scene {
         Bounds::of(self.casters())
     }
 
-    /// The vertices of all meshes but the ground: what a directional light is fitted to.
+    /// The corners of all triangles but the ground's: what a directional light is fitted to.
     pub fn casters(&self) -> impl Iterator<Item = DVec3> + '_ {
-        self.meshes
-            .iter()
-            .filter(|mesh| !mesh.ground)
-            .flat_map(|mesh| mesh.positions.iter())
-            .map(|&[x, y, z]| DVec3::new(f64::from(x), f64::from(y), f64::from(z)))
+        let casters = self.meshes.iter().filter(|mesh| !mesh.ground);
+        casters.flat_map(|mesh| {
+            let corners = mesh.indices.iter();
+            let positions = corners.filter_map(|&corner| mesh.positions.get(corner as usize));
+            positions.map(|&[x, y, z]| DVec3::new(f64::from(x), f64::from(y), f64::from(z)))
+        })
+    }
+
+    /// This scene where nothing but its casters receives shadows.
+    #[must_use]
+    pub fn without_ground(mut self) -> Self {
+        self.meshes.retain(|mesh| !mesh.ground);
+        self.ground = None;
+        self
     }
 
     /// How many triangles there are, those of the ground included.

@@ -110,7 +110,7 @@ impl SoftStage {
         };
         let frames = Frame::pair(gpu, scene, drawn)?;
         let pixels = read_gbuffer(gpu, &frames[0].surface)?;
-        let truth = AreaLight::new(scene, &light, shape, map, desc.places)?.picture(&pixels)?;
+        let truth = AreaLight::new(scene, &light, shape, desc.places)?.picture(&pixels)?;
         let mut judged = facing(&light, &pixels);
         for (judged, position) in judged.iter_mut().zip(&pixels.position) {
             let uv = light.uv(DVec3::from(position.map(f64::from)));

@@ -4,7 +4,7 @@
 //! tested against the scene's triangles themselves, which is the limit of ever larger maps, without a texel or a bias.
 //! All rays of a receiver lie in one pyramid; each triangle in it hides the places within its shadow on the light, which
 //! three edge functions tell. Two triangles with a common edge leave no gap between them. Masked materials have their
-//! holes, sampled as the map of the light's centre samples them.
+//! holes.
 //!
 //! Shadow intensity is the share of hidden places among those that the receiver's surface faces.
 
@@ -17,14 +17,13 @@ use rayon::prelude::*;
 
 use self::bvh::Bvh;
 use self::shaft::{Affine, Shade, Shaft, Target};
-use super::opacity::Opacity;
-use super::peel::triangle::{Projection, Triangle};
+use super::opacity::{MaskedCorners, Opacity};
 use super::peel::{check, position};
 use super::surface::pixels;
 use crate::error::LabError;
 use crate::host::SurfacePixels;
 use crate::light::{LightKind, LightShape, LightView};
-use crate::scene::{Mesh, Scene};
+use crate::scene::Scene;
 
 /// Places per light where nothing else is said.
 pub const USUAL_PLACES: u32 = 256;
@@ -64,11 +63,7 @@ struct Caster {
 /// A triangle of a masked material.
 struct Holes {
     material: usize,
-    u: DVec3,
-    v: DVec3,
-    /// How the texture's coordinates change from a texel of the central map to the next.
-    across: DVec2,
-    down: DVec2,
+    corners: MaskedCorners,
 }
 
 /// Lists that are reused from pixel to pixel.
@@ -80,13 +75,11 @@ struct Scratch {
 }
 
 impl<'a> AreaLight<'a> {
-    /// Prepares a scene: `light` is the centre of a light of this shape, with `count` places, 1 to [`MOST_PLACES`]. `map` is
-    /// the size of its map in texels, which only matters to masked materials.
+    /// Prepares a scene: `light` is the centre of a light of this shape, with `count` places, 1 to [`MOST_PLACES`].
     pub fn new(
         scene: &Scene,
         light: &'a LightView,
         shape: LightShape,
-        map: [u32; 2],
         count: u32,
     ) -> Result<Self, LabError> {
         shape.check(light.kind())?;
@@ -100,7 +93,6 @@ impl<'a> AreaLight<'a> {
             .iter()
             .map(|material| Opacity::of(material, &scene.images))
             .collect();
-        let projection = Projection { light, map };
         let mut casters = Vec::new();
         for (index, mesh) in scene.meshes.iter().enumerate() {
             check(scene, index, mesh)?;
@@ -111,7 +103,10 @@ impl<'a> AreaLight<'a> {
                 casters.push(Caster {
                     corners,
                     normal: (b - a).cross(c - a),
-                    holes: masked.then(|| Holes::new(mesh, indices, corners, &projection)),
+                    holes: masked.then(|| Holes {
+                        material: mesh.material,
+                        corners: MaskedCorners::of(mesh, indices),
+                    }),
                 });
             }
         }
@@ -249,38 +244,6 @@ impl<'a> AreaLight<'a> {
         };
         let [a, b, c, _] = shade.bounds.map(|bound| bound.at(place));
         let weights = DVec3::new(a, b, c) / (a + b + c);
-        let uv = DVec2::new(weights.dot(holes.u), weights.dot(holes.v));
-        opacity.is_hole(uv, holes.across, holes.down)
-    }
-}
-
-impl Holes {
-    fn new(
-        mesh: &Mesh,
-        indices: [u32; 3],
-        corners: [DVec3; 3],
-        projection: &Projection<'_>,
-    ) -> Self {
-        let [u, v] = [0, 1].map(|axis| {
-            let at = |corner: u32| f64::from(mesh.uvs[corner as usize][axis]);
-            DVec3::from_array(indices.map(at))
-        });
-        let middle = corners.iter().sum::<DVec3>() / 3.0;
-        let place = projection.light.uv(middle);
-        // What the map does not show has its finest holes.
-        let gradients = place
-            .zip(Triangle::new(projection, corners))
-            .map(|(uv, seen)| {
-                let place = uv * DVec2::from_array(projection.map.map(f64::from));
-                [u, v].map(|values| seen.gradient(place, values))
-            });
-        let [du, dv] = gradients.unwrap_or_default();
-        Self {
-            material: mesh.material,
-            u,
-            v,
-            across: DVec2::new(du.x, dv.x),
-            down: DVec2::new(du.y, dv.y),
-        }
+        opacity.is_hole(&holes.corners, weights)
     }
 }

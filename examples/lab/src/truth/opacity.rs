@@ -1,20 +1,40 @@
-//! Where alpha-masked materials have holes, in f64: what the host's fragment shader discards.
+//! Where alpha-masked materials have holes, in f64: what the host's fragment shader discards. Images are read at
+//! their full size, as ever finer pixels would show them.
 
-use glam::DVec2;
-use wgpu::AddressMode;
+use glam::{DVec2, DVec3};
+use wgpu::{AddressMode, FilterMode};
 
-use crate::scene::{Image, Material, Mip, mips};
+use crate::scene::{Image, Material, Mesh};
 
 /// The holes of a masked material.
 pub(super) struct Opacity {
-    /// Multiplied with the texture's alpha.
+    /// Multiplied with the vertices' and the image's alpha.
     alpha: f64,
     /// Alpha below this is a hole.
     mask: f64,
-    /// Empty for a material without a texture.
-    mips: Vec<Mip>,
+    image: Option<Alphas>,
+}
+
+/// Alpha of an image at its full size.
+struct Alphas {
+    size: [i64; 2],
+    values: Vec<u8>,
     /// How it goes on beyond its edges.
     wrap: [AddressMode; 2],
+    filter: FilterMode,
+}
+
+/// What a mask needs of the corners of a triangle: texture coordinates and alpha, each at all three.
+pub(super) struct MaskedCorners([DVec3; 3]);
+
+impl MaskedCorners {
+    /// Those of a mesh's triangle.
+    pub(super) fn of(mesh: &Mesh, corners: [u32; 3]) -> Self {
+        let corners = corners.map(|corner| corner as usize);
+        let along = |axis: usize| corners.map(|corner| f64::from(mesh.uvs[corner][axis]));
+        let alphas = corners.map(|corner| mesh.alphas.get(corner).copied().unwrap_or(1.0).into());
+        Self([along(0), along(1), alphas].map(DVec3::from_array))
+    }
 }
 
 impl Opacity {
@@ -24,48 +44,45 @@ impl Opacity {
         Some(Self {
             alpha: f64::from(material.base_colour[3]),
             mask: f64::from(material.mask?),
-            mips: image.map_or_else(Vec::new, mips),
-            wrap: material.wrap,
+            image: image.map(|image| Alphas {
+                size: [image.width.into(), image.height.into()],
+                values: image.rgba.iter().skip(3).step_by(4).copied().collect(),
+                wrap: material.wrap,
+                filter: material.filter,
+            }),
         })
     }
 
-    /// Whether there is a hole at `uv`, which changes by `across` from a pixel to the next one in its row and by `down`
-    /// to that in the next row. Sampled as the host does: trilinearly, with the mip that the longer of the two
-    /// asks for.
-    pub(super) fn is_hole(&self, uv: DVec2, across: DVec2, down: DVec2) -> bool {
-        let Some(finest) = self.mips.first() else {
-            return self.alpha < self.mask;
-        };
-        let size = DVec2::from_array(finest.size.map(f64::from));
-        let footprint = (across * size).length().max((down * size).length());
-        let last = self.mips.len() - 1;
-        // Beyond all numbers where the surface is edge-on: the coarsest mip.
-        let lod = if footprint.is_finite() {
-            footprint.log2().clamp(0.0, last as f64)
-        } else {
-            last as f64
-        };
-        let fine = (lod as usize).min(last);
-        let coarse = (fine + 1).min(last);
-        let [near, far] = [fine, coarse].map(|mip| bilinear_alpha(&self.mips[mip], uv, self.wrap));
-        self.alpha * (near + (lod - fine as f64) * (far - near)) < self.mask
+    /// Whether there is a hole where a triangle's corners have these weights.
+    pub(super) fn is_hole(&self, corners: &MaskedCorners, weights: DVec3) -> bool {
+        let [u, v, alpha] = corners.0.map(|values| weights.dot(values));
+        let image = self.image.as_ref();
+        let of_image = image.map_or(1.0, |image| image.at(DVec2::new(u, v)));
+        self.alpha * alpha * of_image < self.mask
     }
 }
 
-/// Alpha from 0 to 1 at `uv`, filtered linearly.
-fn bilinear_alpha(mip: &Mip, uv: DVec2, wrap: [AddressMode; 2]) -> f64 {
-    let [width, height] = mip.size.map(i64::from);
-    let place = uv * DVec2::new(width as f64, height as f64) - 0.5;
-    let base = place.floor();
-    let weight = place - base;
-    let texel = |dx: i64, dy: i64| {
-        let x = wrapped((base.x as i64).saturating_add(dx), width, wrap[0]);
-        let y = wrapped((base.y as i64).saturating_add(dy), height, wrap[1]);
-        let index = ((y * width + x) * 4 + 3) as usize;
-        f64::from(mip.rgba.get(index).copied().unwrap_or(255)) / 255.0
-    };
-    let row = |dy: i64| texel(0, dy) + weight.x * (texel(1, dy) - texel(0, dy));
-    row(0) + weight.y * (row(1) - row(0))
+impl Alphas {
+    /// Alpha from 0 to 1 at `uv`.
+    fn at(&self, uv: DVec2) -> f64 {
+        let place = uv * DVec2::from_array(self.size.map(|side| side as f64));
+        let texel = |at: DVec2| {
+            let [x, y] =
+                [0, 1].map(|axis| wrapped(at[axis] as i64, self.size[axis], self.wrap[axis]));
+            let value = self.values.get((y * self.size[0] + x) as usize);
+            f64::from(value.copied().unwrap_or(255)) / 255.0
+        };
+        if self.filter == FilterMode::Nearest {
+            return texel(place.floor());
+        }
+        let base = (place - 0.5).floor();
+        let weight = place - 0.5 - base;
+        let row = |y: f64| {
+            let [left, right] = [0.0, 1.0].map(|x| texel(base + DVec2::new(x, y)));
+            left + weight.x * (right - left)
+        };
+        row(0.0) + weight.y * (row(1.0) - row(0.0))
+    }
 }
 
 /// The texel of `size` ones in a row that stands for texel `at` beyond its ends.

@@ -14,7 +14,7 @@ use rayon::prelude::*;
 use triangle::{Hit, Projection, Triangle};
 
 use super::check_map;
-use super::opacity::Opacity;
+use super::opacity::{MaskedCorners, Opacity};
 use crate::error::LabError;
 use crate::light::LightView;
 use crate::scene::{Mesh, Scene};
@@ -129,7 +129,7 @@ impl<'a> Peeler<'a> {
             for column in first..end {
                 let place = centre([column, row]);
                 let hit = triangle.seen.hit(place).filter(|hit| {
-                    hit.distance >= self.projection.near() && !self.is_hole(triangle, place, hit)
+                    hit.distance >= self.projection.near() && !self.is_hole(triangle, hit)
                 });
                 hits.extend(hit.map(|hit| RowHit {
                     column,
@@ -194,18 +194,12 @@ impl<'a> Peeler<'a> {
         }
     }
 
-    fn is_hole(&self, triangle: &SceneTriangle, place: DVec2, hit: &Hit) -> bool {
+    fn is_hole(&self, triangle: &SceneTriangle, hit: &Hit) -> bool {
         let mesh = &self.scene.meshes[triangle.mesh as usize];
-        let Some(opacity) = self.opacity.get(mesh.material).and_then(Option::as_ref) else {
-            return false;
-        };
-        let [u, v] = [0, 1].map(|axis| {
-            let at = |corner: u32| f64::from(mesh.uvs[corner as usize][axis]);
-            DVec3::from_array(triangle.corners.map(at))
-        });
-        let uv = DVec2::new(hit.weights.dot(u), hit.weights.dot(v));
-        let [u, v] = [u, v].map(|values| triangle.seen.gradient(place, values));
-        opacity.is_hole(uv, DVec2::new(u.x, v.x), DVec2::new(u.y, v.y))
+        let opacity = self.opacity.get(mesh.material).and_then(Option::as_ref);
+        opacity.is_some_and(|opacity| {
+            opacity.is_hole(&MaskedCorners::of(mesh, triangle.corners), hit.weights)
+        })
     }
 }
 
