@@ -103,6 +103,7 @@ fn drawn(gpu: &Gpu, scene: &Scene, light: LightView, shape: LightShape) -> Frame
         map: [2048; 2],
         samples: 1,
         format: wgpu::TextureFormat::Depth32Float,
+        camera_depth: (wgpu::TextureFormat::Depth32Float, 1),
         light,
         shape,
         camera: View::numbered(scene, 0).camera,

@@ -21,7 +21,7 @@ fn the_example_graph_is_checked_and_its_bytes_are_counted() {
     let memories: Vec<Memory> = vec!["224:GTX 970".parse().unwrap(), "100".parse().unwrap()];
     let cost = cost::graph(
         &example("hard_shadows.json"),
-        256,
+        Some(256),
         FEWEST_ROUNDS,
         memories.clone(),
     )
@@ -107,7 +107,7 @@ fn mip_levels_are_checked_and_small_ones_are_summed() {
     let folder = tempfile::tempdir().unwrap();
     let path = folder.path().join("mipmapped.json");
     std::fs::write(&path, fewer).unwrap();
-    let cost = cost::graph(&path, 256, FEWEST_ROUNDS, Memory::known()).unwrap();
+    let cost = cost::graph(&path, Some(256), FEWEST_ROUNDS, Memory::known()).unwrap();
     let rows: Vec<_> = cost
         .passes
         .iter()

@@ -4,7 +4,7 @@ use glam::{DVec2, DVec3};
 use moment_shadows::Profile;
 use moment_shadows_lab::gpu::Gpu;
 use moment_shadows_lab::host::{
-    LightMap, LightMapDesc, Lighting, Renderer, Surface, read_depth_samples, read_gbuffer,
+    DepthMap, DepthMapDesc, Lighting, Renderer, Surface, read_depth_samples, read_gbuffer,
 };
 use moment_shadows_lab::light::LightView;
 use moment_shadows_lab::scene::{self, Image, Material, Mesh, Scene};
@@ -17,7 +17,7 @@ fn vector(value: [f32; 3]) -> DVec3 {
 
 /// A scene drawn once: from the light and from the camera.
 struct Drawn {
-    map: LightMap,
+    map: DepthMap,
     surface: Surface,
 }
 
@@ -27,13 +27,13 @@ fn draw(
     scene: &Scene,
     view: &View,
     light: &LightView,
-    desc: LightMapDesc,
+    desc: DepthMapDesc,
 ) -> Drawn {
     let model = renderer.upload(gpu, scene).unwrap();
-    let map = renderer.light_map(gpu, &desc).unwrap();
+    let map = renderer.depth_map(gpu, &desc).unwrap();
     let surface = renderer.surface(gpu, [320, 180]).unwrap();
     let mut encoder = gpu.device.create_command_encoder(&Default::default());
-    renderer.draw_light_depth(gpu, &mut encoder, &model, &map, light);
+    renderer.draw_depth(gpu, &mut encoder, &model, &map, light.clip_from_world());
     renderer
         .draw_surface(gpu, &mut encoder, &model, &surface, &view.camera)
         .unwrap();
@@ -79,7 +79,7 @@ fn light_depth_agrees_with_the_surfaces_that_the_camera_sees() {
             1e-4,
         ),
     ] {
-        let desc = LightMapDesc {
+        let desc = DepthMapDesc {
             size,
             samples: 1,
             format,
@@ -142,7 +142,7 @@ fn positions_and_normals_are_those_of_the_pixel() {
     let scene = scene::load("hall").unwrap();
     let view = View::numbered(&scene, 0);
     let light = view.sun(&scene, [64, 64], 4.0, false).unwrap();
-    let desc = LightMapDesc {
+    let desc = DepthMapDesc {
         size: [64, 64],
         samples: 1,
         format: Depth32Float,
@@ -181,18 +181,18 @@ fn positions_and_normals_are_those_of_the_pixel() {
 fn impossible_maps_are_refused() {
     let gpu = Gpu::open(Profile::WebgpuCore).unwrap();
     let renderer = Renderer::new(&gpu).unwrap();
-    let desc = LightMapDesc {
+    let desc = DepthMapDesc {
         size: [64, 32],
         samples: 1,
         format: Depth32Float,
         reversed: false,
     };
-    let refused = |desc: LightMapDesc| match renderer.light_map(&gpu, &desc) {
+    let refused = |desc: DepthMapDesc| match renderer.depth_map(&gpu, &desc) {
         Ok(_) => panic!("{desc:?} was made"),
         Err(error) => error,
     };
     for samples in [0, 2, 3, 8] {
-        let error = refused(LightMapDesc { samples, ..desc });
+        let error = refused(DepthMapDesc { samples, ..desc });
         let text = error.to_string();
         let expected = format!("Depth32Float with {samples} samples");
         assert!(
@@ -200,7 +200,7 @@ fn impossible_maps_are_refused() {
             "{text}"
         );
     }
-    let error = refused(LightMapDesc {
+    let error = refused(DepthMapDesc {
         format: Rgba8Unorm,
         ..desc
     });
@@ -209,7 +209,7 @@ fn impossible_maps_are_refused() {
         "{error}"
     );
     for size in [[0, 32], [64, 1 << 20]] {
-        let error = refused(LightMapDesc { size, ..desc });
+        let error = refused(DepthMapDesc { size, ..desc });
         assert!(
             error.to_string().contains("depth map would have"),
             "{error}"
@@ -258,7 +258,7 @@ fn samples_are_read_apart_and_masks_leave_holes() {
         scene.meshes.retain(|mesh| !mesh.ground);
         let view = View::numbered(&scene, 0);
         let light = view.sun(&scene, [64, 64], 8.0, true).unwrap();
-        let desc = LightMapDesc {
+        let desc = DepthMapDesc {
             size: [64, 64],
             samples,
             format: Depth32Float,
@@ -293,7 +293,7 @@ fn shadow_intensity_darkens_the_picture() {
     let scene = masked_square(255);
     let view = View::numbered(&scene, 0);
     let light = view.sun(&scene, [64, 64], 4.0, false).unwrap();
-    let desc = LightMapDesc {
+    let desc = DepthMapDesc {
         size: [64, 64],
         samples: 1,
         format: Depth32Float,

@@ -12,7 +12,7 @@ use moment_shadows_lab::gpu::Gpu;
 use moment_shadows_lab::graph_file::GraphFile;
 use moment_shadows_lab::graph_frame::{imports, parameter_bytes};
 use moment_shadows_lab::host::{
-    LightMap, LightMapDesc, Model, Renderer, Surface, SurfacePixels, read_gbuffer,
+    DepthMap, DepthMapDesc, Model, Renderer, Surface, SurfacePixels, read_gbuffer,
 };
 use moment_shadows_lab::light::{LightShape, LightView};
 use moment_shadows_lab::scene::{Material, Mesh, Scene};
@@ -92,7 +92,7 @@ pub(crate) struct Stage {
     pub(crate) gpu: Gpu,
     file: GraphFile,
     renderer: Renderer,
-    light_map: LightMap,
+    light_map: DepthMap,
     surface: Surface,
     plan: Plan,
     bindings: Bindings,
@@ -105,9 +105,9 @@ impl Stage {
         let file = desc.graph();
         let renderer = Renderer::new(&gpu).unwrap();
         let light_map = renderer
-            .light_map(
+            .depth_map(
                 &gpu,
-                &LightMapDesc {
+                &DepthMapDesc {
                     size: [desc.map; 2],
                     samples: desc.samples,
                     format: desc.format,
@@ -170,8 +170,13 @@ impl Stage {
         let bytes = parameter_bytes(&self.plan, &frame, &self.file, None).unwrap();
         gpu.queue.write_buffer(&self.parameters, 0, &bytes);
         let mut encoder = gpu.device.create_command_encoder(&Default::default());
-        self.renderer
-            .draw_light_depth(gpu, &mut encoder, model, &self.light_map, light);
+        self.renderer.draw_depth(
+            gpu,
+            &mut encoder,
+            model,
+            &self.light_map,
+            light.clip_from_world(),
+        );
         self.renderer
             .draw_surface(gpu, &mut encoder, model, &self.surface, camera)
             .unwrap();
@@ -199,6 +204,7 @@ pub(crate) fn frame_desc(desc: &StageDesc, light: LightView, camera: Camera) -> 
         map: [desc.map; 2],
         samples: desc.samples,
         format: desc.format,
+        camera_depth: (wgpu::TextureFormat::Depth32Float, 1),
         shape: LightShape::usual(&light),
         light,
         camera,

@@ -4,6 +4,7 @@
 //! blurs (the error of the bound of biased moments, less that), and rounding (the rest).
 
 use moment_shadows::Storage;
+use moment_shadows_lab::command::drawn::Drawn;
 use moment_shadows_lab::command::render::{LightChoice, RenderOptions, profile_for};
 use moment_shadows_lab::gpu::Gpu;
 use moment_shadows_lab::graph_frame::GraphFrame;
@@ -58,21 +59,24 @@ fn check(name: &str, light: LightChoice) {
     let options = RenderOptions {
         scene: name.to_owned(),
         light,
-        size: [320, 180],
-        map: 512,
         ..RenderOptions::default()
+    };
+    let drawn = Drawn {
+        picture: [320, 180],
+        map: [512; 2],
+        ..Drawn::default()
     };
     let mut truth = None;
     for limits in LIMITS {
         let storage = limits.storage;
         let file = StageDesc {
-            picture: options.size,
-            map: options.map,
+            picture: drawn.picture,
+            map: drawn.map[0],
             ..StageDesc::new(storage)
         }
         .graph();
-        let gpu = Gpu::open(profile_for(Some(storage), options.samples)).unwrap();
-        let frame = options.frame(&gpu, &scene, 4).unwrap();
+        let gpu = Gpu::open(profile_for(Some(storage), drawn.samples)).unwrap();
+        let frame = options.frame(&gpu, &scene, &drawn, 4).unwrap();
         let graph = GraphFrame::new(&gpu, &frame, &file).unwrap();
         graph.run(&gpu).unwrap();
         let shadow = graph.read_shadow(&gpu, &file).unwrap();

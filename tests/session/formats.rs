@@ -2,17 +2,24 @@
 //! own step.
 
 use moment_shadows::{LightDepth, LightView, Technique, TextureFormat};
-use moment_shadows_graph::TextureDesc;
 use moment_shadows_graph::record::ImportedResource;
+use moment_shadows_lab::command::drawn::Drawn;
 use moment_shadows_lab::command::render::{LightChoice, RenderOptions};
-use moment_shadows_lab::frame::{Frame, FrameDesc};
+use moment_shadows_lab::frame::Frame;
 use moment_shadows_lab::gpu::Gpu;
 use moment_shadows_lab::scene;
 
 use crate::normals::texture;
 use crate::{HARD, gpu, imports, places, recorded, session};
 
-const SIZE: [u32; 2] = [96, 54];
+const DRAWN: Drawn = Drawn {
+    map: [128; 2],
+    samples: 1,
+    format: TextureFormat::Depth32Float,
+    picture: [96, 54],
+    camera_samples: 1,
+    camera_format: TextureFormat::Depth32Float,
+};
 
 /// The picture of a frame by a technique, named in the graph file.
 fn picture(gpu: &Gpu, frame: &Frame, technique: &Technique) -> Vec<f64> {
@@ -43,17 +50,18 @@ fn picture(gpu: &Gpu, frame: &Frame, technique: &Technique) -> Vec<f64> {
 }
 
 /// The hall, its light's depth stored in a format.
-fn frame(gpu: &Gpu, format: wgpu::TextureFormat, samples: u32, reversed: bool) -> Frame {
+fn frame(gpu: &Gpu, format: TextureFormat, samples: u32, reversed: bool) -> Frame {
     let options = RenderOptions {
-        size: SIZE,
-        map: 128,
-        samples,
         reversed,
         ..Default::default()
     };
+    let drawn = Drawn {
+        samples,
+        format,
+        ..DRAWN
+    };
     let scene = scene::load("hall").unwrap();
-    let desc = options.frame(gpu, &scene, 4).unwrap().desc;
-    Frame::draw(gpu, &scene, FrameDesc { format, ..desc }).unwrap()
+    options.frame(gpu, &scene, &drawn, 4).unwrap()
 }
 
 fn mean_difference(a: &[f64], b: &[f64]) -> f64 {
@@ -69,22 +77,20 @@ fn every_depth_format_of_a_light_gives_what_depth32float_gives() {
     let formats = TextureFormat::ALL
         .into_iter()
         .filter(|format| format.is_depth());
-    let formats: Vec<_> = formats
-        .map(|format| (format, TextureDesc::new(format, [1, 1]).wgpu_format()))
-        .collect();
+    let formats: Vec<TextureFormat> = formats.collect();
     for reversed in [false, true] {
         for samples in [1, 4] {
             let frames = formats
                 .iter()
-                .map(|(_, format)| frame(&gpu, *format, samples, reversed));
+                .map(|format| frame(&gpu, *format, samples, reversed));
             let frames: Vec<Frame> = frames.collect();
-            let reference = frame(&gpu, wgpu::TextureFormat::Depth32Float, samples, reversed);
+            let reference = frame(&gpu, TextureFormat::Depth32Float, samples, reversed);
             for technique in &names {
                 if technique.reads_depth() && samples > 1 {
                     continue;
                 }
                 let expected = picture(&gpu, &reference, technique);
-                for ((format, _), frame) in formats.iter().zip(&frames) {
+                for (format, frame) in formats.iter().zip(&frames) {
                     let off = mean_difference(&picture(&gpu, frame, technique), &expected);
                     println!(
                         "{technique}, {format}, {samples} samples, reversed {reversed}: {off:.5}"
@@ -103,13 +109,10 @@ fn distances_in_r32float_give_what_perspective_depth_gives() {
     let gpu = gpu();
     let options = RenderOptions {
         light: LightChoice::Spot,
-        size: SIZE,
-        map: 128,
-        samples: 1,
         ..Default::default()
     };
     let frame = options
-        .frame(&gpu, &scene::load("hall").unwrap(), 4)
+        .frame(&gpu, &scene::load("hall").unwrap(), &DRAWN, 4)
         .unwrap();
     let (camera, light) = places(&frame);
     let stored = gpu

@@ -18,6 +18,7 @@ mod stored;
 use moment_shadows::{CameraView, LightView, Profile};
 use moment_shadows_graph::record::ImportedResource;
 use moment_shadows_graph::{Graph, NodeRegistry, Session, Stage};
+use moment_shadows_lab::command::drawn::Drawn;
 use moment_shadows_lab::command::render::RenderOptions;
 use moment_shadows_lab::frame::Frame;
 use moment_shadows_lab::gpu::Gpu;
@@ -42,12 +43,15 @@ pub(crate) fn parsed(text: &str) -> Graph {
 pub(crate) fn frame(gpu: &Gpu, view: u32, size: [u32; 2]) -> Frame {
     let options = RenderOptions {
         view,
-        size,
-        map: 256,
         ..Default::default()
     };
+    let drawn = Drawn {
+        picture: size,
+        map: [256; 2],
+        ..Drawn::default()
+    };
     let scene = scene::load("hall").unwrap();
-    options.frame(gpu, &scene, 4).unwrap()
+    options.frame(gpu, &scene, &drawn, 4).unwrap()
 }
 
 pub(crate) fn imports(frame: &Frame) -> [(&'static str, ImportedResource); 2] {

@@ -44,6 +44,7 @@ pub(crate) fn floor(gpu: &Gpu, format: wgpu::TextureFormat, near: f64, board: bo
         map: [256; 2],
         samples: 1,
         format,
+        camera_depth: (wgpu::TextureFormat::Depth32Float, 1),
         light,
         shape: LightShape::Directional {
             angular_diameter: 0.0,

@@ -90,7 +90,7 @@ fn graphs_take_other_techniques() {
         .and_then(|file| {
             let gpu = crate::setup::open();
             let scene = moment_shadows_lab::scene::load("hall").unwrap();
-            let frame = crate::setup::options(32, 4).frame(&gpu, &scene, 3).unwrap();
+            let frame = crate::setup::frame(&gpu, &scene, (32, 4), 3);
             moment_shadows_lab::graph_frame::GraphFrame::new(&gpu, &frame, &file).map(|_| ())
         })
         .unwrap_err();

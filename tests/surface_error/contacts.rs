@@ -11,7 +11,7 @@ use moment_shadows_lab::truth::exact_bound::{Lookup, biased_bound};
 use moment_shadows_lab::truth::pcf::Receiver;
 use moment_shadows_lab::truth::peel::Peeler;
 
-use crate::setup::{graph, open, options};
+use crate::setup::{frame, graph, open, options};
 
 const RADIUS: u32 = 4;
 
@@ -44,7 +44,7 @@ fn every_leg_stands_on_the_ground() {
 fn points_of_planes_are_what_is_peeled_of_them() {
     let gpu = open();
     let scene = scene::load("chairs").unwrap();
-    let frame = options(64, 1).frame(&gpu, &scene, 4).unwrap();
+    let frame = frame(&gpu, &scene, (64, 1), 4);
     let (light, map) = (&frame.desc.light, frame.desc.map);
     let per_distance = 2.0 / (light.range[1] - light.range[0]);
     let surfaces = Peeler::new(&scene, light, map).unwrap().rows(0..map[1]);
@@ -144,7 +144,7 @@ fn percentage_closer_filtering_does_not_leak_at_contacts() {
     let gpu = open();
     let contacts = contacts(&gpu);
     let chairs = scene::load("chairs").unwrap();
-    let plain = options(512, 1).frame(&gpu, &chairs, RADIUS).unwrap();
+    let plain = frame(&gpu, &chairs, (512, 1), RADIUS);
     let candidate = Candidate::PercentageCloser;
     let file = candidate.graph(&graph(Storage::Float32, RADIUS)).unwrap();
     let found = contacts.judge(&gpu, &plain, &file).unwrap();

@@ -14,7 +14,7 @@ use moment_shadows_lab::techniques::{self, label};
 use moment_shadows_lab::truth::fragment::fragments;
 use moment_shadows_lab::truth::peel::Peeler;
 
-use crate::setup::{graph, open, options, subject};
+use crate::setup::{frame, graph, open, options, subject};
 
 /// The share of the texels whose centre has been peeled in which the first surface is not what the device's map of one
 /// sample holds.
@@ -23,7 +23,9 @@ fn disagreement(name: &str, light: LightChoice) -> f64 {
     let scene = scene::load(name).unwrap();
     let mut options = options(256, 1);
     options.light = light;
-    let frame = options.frame(&gpu, &scene, 4).unwrap();
+    let file = graph(Storage::Float32, 4);
+    let drawn = options.drawn(&file).unwrap();
+    let frame = options.frame(&gpu, &scene, &drawn, 4).unwrap();
     let light = &frame.desc.light;
     let stored = read_depth_samples(&gpu, &frame.light_map.texture).unwrap();
     let map = frame.desc.map;
@@ -109,7 +111,7 @@ fn differences(found: &[f32], shaded: &[f32]) -> Vec<f32> {
 fn points_are_evaluated_as_by_shade_hard() {
     let gpu = Gpu::open(Profile::NativeAdapter).unwrap();
     let scene = scene::load("hall").unwrap();
-    let frame = options(256, 4).frame(&gpu, &scene, 4).unwrap();
+    let frame = frame(&gpu, &scene, (256, 4), 4);
     for encoding in techniques::filterable() {
         let candidate = Candidate::Filterable(encoding.clone());
         let file = candidate.graph(&graph(Storage::Float32, 4)).unwrap();

@@ -232,10 +232,12 @@ fn what_cannot_be_measured_is_named() {
         .for_each(|position| position[0] -= 0.8);
     let scene = scene_of(vec![speck, other, ground]);
     let file = graph(Storage::Float32, 1);
+    let options = options(16, 1);
+    let drawn = options.drawn(&file).unwrap();
     let refused = moment_shadows_lab::command::error::ErrorSubject::new(
         &gpu,
         &scene,
-        &options(16, 1),
+        (&options, &drawn),
         &file,
         || (),
     )

@@ -9,13 +9,13 @@ use moment_shadows_lab::metric::{Comparison, compare};
 use moment_shadows_lab::scene::{self, Scene, Stand};
 use moment_shadows_lab::surface_error::SurfaceErrors;
 
-use crate::setup::{graph, open, options, plate, scene as scene_of, subject};
+use crate::setup::{frame, graph, open, options, plate, scene as scene_of, subject};
 
 /// A picture's truth from a map so fine that its texels hardly matter, under a kernel of the same width in the scene as
 /// that of a radius of 1 in a map of 256 texels.
 fn fine_truth(gpu: &Gpu, scene: &Scene) -> PictureTruth {
     let radius = 8;
-    let frame = options(2048, 4).frame(gpu, scene, radius).unwrap();
+    let frame = frame(gpu, scene, (2048, 4), radius);
     let unfiltered = Unfiltered::of(gpu, &frame, &graph(Storage::Float32, radius)).unwrap();
     unfiltered.picture(gpu, &frame).unwrap()
 }
@@ -30,7 +30,7 @@ fn picture_error(
     let file = graph(Storage::Float32, radius)
         .in_single_precision()
         .unwrap();
-    let frame = options(map, samples).frame(gpu, scene, radius).unwrap();
+    let frame = frame(gpu, scene, (map, samples), radius);
     let graph_frame = GraphFrame::new(gpu, &frame, &file).unwrap();
     graph_frame.run(gpu).unwrap();
     let shadow = graph_frame.read_shadow(gpu, &file).unwrap();

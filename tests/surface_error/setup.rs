@@ -3,9 +3,11 @@
 use std::path::Path;
 
 use moment_shadows::Storage;
+use moment_shadows_lab::command::drawn::Drawn;
 use moment_shadows_lab::command::error::ErrorSubject;
 use moment_shadows_lab::command::error_table;
 use moment_shadows_lab::command::render::{RenderOptions, profile_for};
+use moment_shadows_lab::frame::Frame;
 use moment_shadows_lab::gpu::Gpu;
 use moment_shadows_lab::graph_file::GraphFile;
 use moment_shadows_lab::scene::{Material, Mesh, Scene};
@@ -22,11 +24,23 @@ pub(crate) fn graph(storage: Storage, radius: u32) -> GraphFile {
 /// A map of `map` texels squared with `samples` each, and a small picture.
 pub(crate) fn options(map: u32, samples: u32) -> RenderOptions {
     RenderOptions {
-        size: [320, 180],
-        map,
-        samples,
+        size: Some([320, 180]),
+        map: Some(map),
+        samples: Some(samples),
         ..RenderOptions::default()
     }
+}
+
+/// The frame of a scene with so many texels per side and samples per texel, for a kernel of this radius.
+pub(crate) fn frame(gpu: &Gpu, scene: &Scene, (map, samples): (u32, u32), margin: u32) -> Frame {
+    let drawn = Drawn {
+        picture: [320, 180],
+        map: [map; 2],
+        samples,
+        ..Drawn::default()
+    };
+    let options = RenderOptions::default();
+    options.frame(gpu, scene, &drawn, margin).unwrap()
 }
 
 /// A table of a graph.
@@ -62,7 +76,8 @@ pub(crate) fn subject(
     radius: u32,
 ) -> ErrorSubject {
     let file = graph(Storage::Float32, radius);
-    ErrorSubject::new(gpu, scene, options, &file, || ()).unwrap()
+    let drawn = options.drawn(&file).unwrap();
+    ErrorSubject::new(gpu, scene, (options, &drawn), &file, || ()).unwrap()
 }
 
 /// SplitMix64: numbers in [0, 1) that are the same everywhere.

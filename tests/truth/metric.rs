@@ -23,7 +23,10 @@ fn error_figures_are_those_of_the_definition() {
     let figures = compare(&estimate, &[0.0; 20], &[true; 20]).unwrap().facing;
     assert_eq!((figures.percentile_95, figures.maximum), (0.25, 0.5));
     let nothing = compare(&[], &[], &[]).unwrap();
-    assert_eq!(nothing.facing.mean_absolute, 0.0);
+    assert!(nothing.facing.mean_absolute.is_nan());
+    assert!(nothing.to_string().contains("no pixel"), "{nothing}");
+    let json = serde_json::to_value(nothing.facing).unwrap();
+    assert_eq!(json["maximum"], serde_json::Value::Null);
     let error = compare(&[0.0], &[0.0, 1.0], &[true]).unwrap_err();
     assert!(
         error.to_string().contains("the estimate has 1 entries"),

@@ -122,8 +122,14 @@ impl TechniqueChoice {
     /// The candidate in a storage; in its best one if none is given. Techniques that read depth have no storage.
     pub fn in_storage(&self, storage: Option<Storage>) -> Result<Candidate, ValueError> {
         let best = &self.candidates[0];
-        let (Some(storage), Candidate::Filterable(encoding)) = (storage, best) else {
+        let Some(storage) = storage else {
             return Ok(best.clone());
+        };
+        let Candidate::Filterable(encoding) = best else {
+            let message = format!(
+                "the technique reads the plain depth map, which is not stored as {storage}; leave that out"
+            );
+            return Err(ValueError::new("storage", message));
         };
         let found = self
             .candidates
@@ -225,7 +231,10 @@ pub fn candidates(
     let mut chosen = Vec::new();
     for choice in choices {
         match storage {
-            Some(_) => chosen.push(choice.in_storage(storage)?),
+            Some(_) if !choice.candidates[0].reads_depth() => {
+                chosen.push(choice.in_storage(storage)?);
+            }
+            Some(_) => chosen.extend_from_slice(choice.candidates()),
             None => chosen.extend_from_slice(choice.candidates()),
         }
     }

@@ -54,7 +54,7 @@ impl Contacts {
     pub fn new(gpu: &Gpu, options: &RenderOptions, file: &GraphFile) -> Result<Self, LabError> {
         let scene = scene::load(CHAIRS)?;
         let margin = file.radius()?;
-        let frame = options.frame(gpu, &scene, margin)?;
+        let frame = options.frame(gpu, &scene, &options.drawn(file)?, margin)?;
         let unfiltered = Unfiltered::of(gpu, &frame, file)?;
         let light = &frame.desc.light;
         let receivers = ground_around_legs(&scene);

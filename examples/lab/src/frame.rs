@@ -2,7 +2,7 @@
 
 use crate::error::LabError;
 use crate::gpu::Gpu;
-use crate::host::{LightMap, LightMapDesc, Lighting, Model, Renderer, Surface};
+use crate::host::{DepthMap, DepthMapDesc, Lighting, Model, Renderer, Surface};
 use crate::light::{LightShape, LightView};
 use crate::scene::Scene;
 use crate::view::Camera;
@@ -16,8 +16,10 @@ pub struct FrameDesc {
     pub map: [u32; 2],
     /// Samples per texel of the light's depth map.
     pub samples: u32,
-    /// Depth32Float or Depth16Unorm.
+    /// The format of the light's depth map.
     pub format: wgpu::TextureFormat,
+    /// Format and samples per pixel of the camera's depth. Truths are of pixels' middles.
+    pub camera_depth: (wgpu::TextureFormat, u32),
     /// The light.
     pub light: LightView,
     /// How large the light is, for techniques that make soft shadows.
@@ -31,9 +33,11 @@ pub struct Frame {
     /// What it was drawn from.
     pub desc: FrameDesc,
     /// The light's depth.
-    pub light_map: LightMap,
+    pub light_map: DepthMap,
     /// The camera's G-buffer.
     pub surface: Surface,
+    /// The camera's depth, where it is another than the surface's.
+    camera_map: Option<DepthMap>,
     renderer: Renderer,
     model: Model,
     lighting: Lighting,
@@ -44,9 +48,9 @@ impl Frame {
     pub fn draw(gpu: &Gpu, scene: &Scene, desc: FrameDesc) -> Result<Self, LabError> {
         let renderer = Renderer::new(gpu)?;
         let model = renderer.upload(gpu, scene)?;
-        let light_map = renderer.light_map(
+        let light_map = renderer.depth_map(
             gpu,
-            &LightMapDesc {
+            &DepthMapDesc {
                 size: desc.map,
                 samples: desc.samples,
                 format: desc.format,
@@ -54,11 +58,23 @@ impl Frame {
             },
         )?;
         let surface = renderer.surface(gpu, desc.picture)?;
+        let (format, samples) = desc.camera_depth;
+        let other = (format, samples) != (surface.depth.format(), 1);
+        let camera_map = DepthMapDesc {
+            size: desc.picture,
+            samples,
+            format,
+            reversed: true,
+        };
+        let camera_map = other
+            .then(|| renderer.depth_map(gpu, &camera_map))
+            .transpose()?;
         let mut frame = Self {
             lighting: Lighting::new(scene, &desc.camera, &desc.light)?,
             desc,
             light_map,
             surface,
+            camera_map,
             renderer,
             model,
         };
@@ -75,6 +91,13 @@ impl Frame {
         ])
     }
 
+    /// The camera's depth.
+    #[must_use]
+    pub fn camera_depth(&self) -> &wgpu::Texture {
+        let map = self.camera_map.as_ref();
+        map.map_or(&self.surface.depth, |map| &map.texture)
+    }
+
     /// Draws it again with another light and camera, all of the same sizes.
     pub fn redraw(&mut self, gpu: &Gpu, scene: &Scene, desc: FrameDesc) -> Result<(), LabError> {
         let mut encoder = gpu
@@ -83,7 +106,12 @@ impl Frame {
                 label: Some("lab/frame"),
             });
         let (renderer, model) = (&self.renderer, &self.model);
-        renderer.draw_light_depth(gpu, &mut encoder, model, &self.light_map, &desc.light);
+        let light = desc.light.clip_from_world();
+        renderer.draw_depth(gpu, &mut encoder, model, &self.light_map, light);
+        if let Some(map) = &self.camera_map {
+            let camera = desc.camera.clip_from_world()?;
+            renderer.draw_depth(gpu, &mut encoder, model, map, camera);
+        }
         renderer.draw_surface(gpu, &mut encoder, model, &self.surface, &desc.camera)?;
         gpu.queue.submit([encoder.finish()]);
         gpu.check()?;

@@ -6,7 +6,7 @@ use std::path::Path;
 
 use moment_shadows::{Kernel, Storage};
 use moment_shadows_graph::nodes::Blur;
-use moment_shadows_graph::{Graph, GraphError, GraphErrorKind, NodeRegistry};
+use moment_shadows_graph::{Graph, GraphError, GraphErrorKind, NodeRegistry, TextureDesc};
 use serde_json::Value;
 
 use crate::error::LabError;
@@ -78,6 +78,14 @@ impl GraphFile {
                 set_property(file, node_type, "format", "r32float".into());
             }
         })
+    }
+
+    /// What the file says of an import that is a texture.
+    #[must_use]
+    pub fn import(&self, name: &str) -> Option<&TextureDesc> {
+        let mut imports = self.graph.imports.iter();
+        let import = imports.find(|import| import.name == name)?;
+        import.value.as_ref()?.texture()
     }
 
     /// Whether a node of this type is in the graph.

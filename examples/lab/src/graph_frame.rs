@@ -84,7 +84,7 @@ impl GraphFrame {
                     "light_depth",
                     ImportedResource::from(&frame.light_map.texture),
                 ),
-                ("camera_depth", ImportedResource::from(&frame.surface.depth)),
+                ("camera_depth", ImportedResource::from(frame.camera_depth())),
             ],
             Some(&parameters),
         ))?;
@@ -159,30 +159,25 @@ pub fn read_intensity(gpu: &Gpu, texture: &wgpu::Texture) -> Result<Vec<f32>, La
     })
 }
 
-/// The format of the light's depth map.
-fn stored_format(desc: &FrameDesc) -> TextureFormat {
-    match desc.format {
-        wgpu::TextureFormat::Depth16Unorm => TextureFormat::Depth16Unorm,
-        _ => TextureFormat::Depth32Float,
-    }
+/// A format of depth in the library's terms.
+fn stored_format(format: wgpu::TextureFormat) -> TextureFormat {
+    let mut all = TextureFormat::ALL.into_iter();
+    let found = all.find(|&it| TextureDesc::new(it, [1, 1]).wgpu_format() == format);
+    found.unwrap_or(TextureFormat::Depth32Float)
 }
 
 /// What the host gives, described for the compiler.
 pub fn imports(desc: &FrameDesc) -> [(&'static str, ResourceDesc); 2] {
-    let light_format = stored_format(desc);
-    let texture = |texture| ResourceDesc::Texture(texture);
+    let texture = |format, samples, size| {
+        ResourceDesc::Texture(TextureDesc {
+            samples,
+            ..TextureDesc::new(stored_format(format), size)
+        })
+    };
+    let (format, samples) = desc.camera_depth;
     [
-        (
-            "light_depth",
-            texture(TextureDesc {
-                samples: desc.samples,
-                ..TextureDesc::new(light_format, desc.map)
-            }),
-        ),
-        (
-            "camera_depth",
-            texture(TextureDesc::new(TextureFormat::Depth32Float, desc.picture)),
-        ),
+        ("light_depth", texture(desc.format, desc.samples, desc.map)),
+        ("camera_depth", texture(format, samples, desc.picture)),
     ]
 }
 
@@ -268,7 +263,10 @@ pub fn receiver_bias(desc: &FrameDesc, file: &GraphFile) -> Result<ReceiverBias,
         .map_or(0.0, |kernel| kernel.standard_deviation());
     let depth_per_texel = light_view(desc).depth_per_texel(desc.map);
     let bias = ReceiverBias::for_kernel(deviation, depth_per_texel as f32);
-    Ok(bias.for_stored_depth(stored_format(desc), &light_view(desc).depth.conversion()?))
+    Ok(bias.for_stored_depth(
+        stored_format(desc.format),
+        &light_view(desc).depth.conversion()?,
+    ))
 }
 
 /// The light in the library's terms.

@@ -3,7 +3,7 @@
 use std::fmt::Display;
 use std::process::ExitCode;
 
-use clap::{Parser, Subcommand};
+use clap::{CommandFactory, FromArgMatches, Parser, Subcommand};
 use moment_shadows_lab::command::cost::CostOptions;
 use moment_shadows_lab::command::{
     CommandResult, adapter, bias, error, error_table, graph, isa, measure, render,
@@ -11,6 +11,7 @@ use moment_shadows_lab::command::{
     validate, vectors,
 };
 use moment_shadows_lab::isa::child;
+use moment_shadows_lab::picture;
 
 /// Filterable shadows: validate shaders, check graphs, render, and measure.
 #[derive(Parser)]
@@ -67,9 +68,19 @@ enum Command {
     IsaChip(isa::ChildOptions),
 }
 
+/// The exit code after Ctrl-C, as shells have it.
+const INTERRUPTED: i32 = 130;
+
 fn main() -> ExitCode {
     moment_shadows_lab::runtime_dir::ensure();
-    match run(Cli::parse().command) {
+    // A process that something else started may ignore the signal until it is told.
+    let _ = ctrlc::set_handler(|| {
+        picture::remove_part();
+        std::process::exit(INTERRUPTED);
+    });
+    let command = Cli::command().mut_subcommands(|it| it.allow_negative_numbers(true));
+    let cli = Cli::from_arg_matches(&command.get_matches());
+    match run(cli.unwrap_or_else(|error| error.exit()).command) {
         Ok(code) => code,
         Err(error) => {
             eprintln!("error: {error}");

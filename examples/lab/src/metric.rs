@@ -11,9 +11,9 @@ use crate::truth::check_length;
 /// the umbra around it is seen in the figures over all facing pixels.
 pub const PENUMBRA: [f32; 2] = [0.01, 0.99];
 
-/// Figures of the absolute error over a set of samples: pixels, or surfaces that a light's rays meet. All are 0 for an
-/// empty set.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize)]
+/// Figures of the absolute error over a set of samples: pixels, or surfaces that a light's rays meet. An empty set has none: they
+/// are NaN, `null` in JSON.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub struct ErrorFigures {
     /// How many samples the set has.
     pub samples: usize,
@@ -30,7 +30,7 @@ pub struct ErrorFigures {
 }
 
 /// An estimate of shadow intensities against the truth.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub struct Comparison {
     /// Errors over the pixels whose surface faces the light.
     pub facing: ErrorFigures,
@@ -100,7 +100,14 @@ pub(crate) fn signed_error(estimate: f32, truth: f32) -> f64 {
 /// Figures of signed errors, estimate less truth. Sums run over them in order.
 pub(crate) fn figures(mut errors: Vec<f64>) -> ErrorFigures {
     if errors.is_empty() {
-        return ErrorFigures::default();
+        return ErrorFigures {
+            samples: 0,
+            mean_absolute: f64::NAN,
+            leaking: f64::NAN,
+            overdarkening: f64::NAN,
+            percentile_95: f64::NAN,
+            maximum: f64::NAN,
+        };
     }
     let samples = errors.len();
     let count = samples as f64;
@@ -122,6 +129,35 @@ pub(crate) fn figures(mut errors: Vec<f64>) -> ErrorFigures {
     }
 }
 
+/// What stands for a figure over an empty set of pixels.
+pub const NO_PIXEL: &str = "no pixel";
+
+/// A figure as text; `none` where it is NaN, over an empty set.
+#[must_use]
+pub fn figure(figure: f64, decimals: usize, none: &str) -> String {
+    match figure.is_nan() {
+        true => none.to_owned(),
+        false => format!("{figure:.decimals$}"),
+    }
+}
+
+impl ErrorFigures {
+    /// The number of samples and all figures in columns of this width, each after a space; `none` for those over an empty set.
+    #[must_use]
+    pub fn columns(&self, width: usize, decimals: usize, none: &str) -> String {
+        let figures = [
+            self.mean_absolute,
+            self.leaking,
+            self.overdarkening,
+            self.percentile_95,
+            self.maximum,
+        ];
+        let figures = figures.map(|value| figure(value, decimals, none));
+        let cells = core::iter::once(self.samples.to_string()).chain(figures);
+        cells.map(|cell| format!(" {cell:>width$}")).collect()
+    }
+}
+
 impl fmt::Display for Comparison {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         writeln!(
@@ -130,16 +166,7 @@ impl fmt::Display for Comparison {
             "pixels", "count", "mean abs", "leaking", "too dark", "95 %", "maximum"
         )?;
         for (name, row) in [("facing", &self.facing), ("penumbra", &self.penumbra)] {
-            writeln!(
-                f,
-                "{name:<9} {:>9} {:>9.6} {:>9.6} {:>9.6} {:>9.6} {:>9.6}",
-                row.samples,
-                row.mean_absolute,
-                row.leaking,
-                row.overdarkening,
-                row.percentile_95,
-                row.maximum
-            )?;
+            writeln!(f, "{name:<9}{}", row.columns(9, 6, NO_PIXEL))?;
         }
         write!(
             f,

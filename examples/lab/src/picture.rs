@@ -1,8 +1,11 @@
 //! Pictures: saving without half-replaced files, grey values and differences in colour.
 
 use std::fmt::Display;
-use std::io::Write;
-use std::path::Path;
+use std::io::{Cursor, Write};
+use std::path::{Path, PathBuf};
+use std::sync::Mutex;
+
+use image::{ExtendedColorType, ImageFormat};
 
 use crate::error::LabError;
 
@@ -25,23 +28,74 @@ fn check_size(
     Err(unwritable(path, reason))
 }
 
-/// Makes a folder with all that it lies in, unless it is there.
+/// Makes a folder with all that it lies in, unless it is there, and makes sure that files can be written into it.
 pub fn create_folder(folder: &Path) -> Result<(), LabError> {
-    std::fs::create_dir_all(folder).map_err(|error| unwritable(folder, error))
+    std::fs::create_dir_all(folder).map_err(|error| unwritable(folder, error))?;
+    check_file(&folder.join("any"))
 }
 
-/// Writes a file beside `path` by `write` and renames it, so that `path` is either what it was or complete.
-pub fn save_atomically(
-    path: &Path,
-    write: impl FnOnce(&mut dyn Write) -> std::io::Result<()>,
-) -> Result<(), LabError> {
+/// Refuses a picture that could not be written when it is made: its ending is that of a format, and its folder takes files.
+pub fn check_picture(path: &Path) -> Result<(), LabError> {
+    format_of(path)?;
+    check_file(path)
+}
+
+/// Refuses a file that could not be written when it is made.
+pub fn check_file(path: &Path) -> Result<(), LabError> {
+    if path.is_dir() {
+        return Err(unwritable(path, "it is a folder; name a file in it"));
+    }
+    part(path).map(drop)
+}
+
+/// The format that a picture's ending stands for.
+fn format_of(path: &Path) -> Result<ImageFormat, LabError> {
+    match ImageFormat::from_path(path) {
+        Ok(format @ (ImageFormat::Png | ImageFormat::Jpeg)) => Ok(format),
+        _ => Err(unwritable(
+            path,
+            "its ending is none of a picture's that can be written: .png, .jpg or .jpeg",
+        )),
+    }
+}
+
+/// The file that is being written, for [`remove_part`].
+static PART: Mutex<Option<PathBuf>> = Mutex::new(None);
+
+/// Removes the file that is being written, when the process is about to end.
+pub fn remove_part() {
+    if let Ok(mut part) = PART.lock()
+        && let Some(path) = part.take()
+    {
+        // What is not there any more is complete.
+        let _ = std::fs::remove_file(path);
+    }
+}
+
+/// A file beside `path`, which goes unless it is kept.
+fn part(path: &Path) -> Result<tempfile::NamedTempFile, LabError> {
     let folder = match path.parent() {
         Some(parent) if parent != Path::new("") => parent,
         _ => Path::new("."),
     };
-    let failed = |error: std::io::Error| match error.kind() {
+    let mut builder = tempfile::Builder::new();
+    builder.prefix(".moment-shadows-").suffix(".part");
+    // A temporary file is private by default; a result is as readable as any other file.
+    #[cfg(unix)]
+    builder.permissions(std::os::unix::fs::PermissionsExt::from_mode(0o666));
+    let part = builder.tempfile_in(folder);
+    let part = part.map_err(|error| failed(path, &error))?;
+    if let Ok(mut known) = PART.lock() {
+        *known = Some(part.path().to_owned());
+    }
+    Ok(part)
+}
+
+/// Why a file could not be written.
+fn failed(path: &Path, error: &std::io::Error) -> LabError {
+    match error.kind() {
         std::io::ErrorKind::NotFound => {
-            let folder = folder.display();
+            let folder = path.parent().unwrap_or(path).display();
             unwritable(
                 path,
                 format!("the folder '{folder}' does not exist; create it first"),
@@ -51,13 +105,16 @@ pub fn save_atomically(
             unwritable(path, "the disk is full; what was there is unchanged")
         }
         _ => unwritable(path, format!("{error}; what was there is unchanged")),
-    };
-    let mut builder = tempfile::Builder::new();
-    builder.prefix(".moment-shadows-").suffix(".part");
-    // A temporary file is private by default; a result is as readable as any other file.
-    #[cfg(unix)]
-    builder.permissions(std::os::unix::fs::PermissionsExt::from_mode(0o666));
-    let mut part = builder.tempfile_in(folder).map_err(failed)?;
+    }
+}
+
+/// Writes a file beside `path` by `write` and renames it, so that `path` is either what it was or complete.
+pub fn save_atomically(
+    path: &Path,
+    write: impl FnOnce(&mut dyn Write) -> std::io::Result<()>,
+) -> Result<(), LabError> {
+    let failed = |error: std::io::Error| failed(path, &error);
+    let mut part = part(path)?;
     write(part.as_file_mut()).map_err(failed)?;
     // Some file systems find only now that they are full.
     part.as_file().sync_all().map_err(failed)?;
@@ -65,21 +122,35 @@ pub fn save_atomically(
     Ok(())
 }
 
-/// Saves red, green, blue and alpha (sRGB, a byte each, top row first) as PNG.
+/// Saves red, green, blue and alpha (sRGB, a byte each, top row first) in the format that the path ends with. JPEG has no alpha.
 pub fn save_rgba(path: &Path, width: u32, height: u32, rgba: &[u8]) -> Result<(), LabError> {
-    encode(
-        path,
-        width,
-        height,
-        rgba,
-        4,
-        image::ExtendedColorType::Rgba8,
-    )
+    check_size(path, [width, height], 4, rgba.len())?;
+    let format = format_of(path)?;
+    if format == ImageFormat::Png {
+        return encode(
+            path,
+            format,
+            rgba,
+            [width, height],
+            ExtendedColorType::Rgba8,
+        );
+    }
+    let rgb: Vec<u8> = (rgba.chunks_exact(4))
+        .flat_map(|pixel| [pixel[0], pixel[1], pixel[2]])
+        .collect();
+    encode(path, format, &rgb, [width, height], ExtendedColorType::Rgb8)
 }
 
-/// Saves one grey byte per pixel as PNG, top row first.
+/// Saves one grey byte per pixel, top row first, in the format that the path ends with.
 pub fn save_grey(path: &Path, width: u32, height: u32, grey: &[u8]) -> Result<(), LabError> {
-    encode(path, width, height, grey, 1, image::ExtendedColorType::L8)
+    check_size(path, [width, height], 1, grey.len())?;
+    encode(
+        path,
+        format_of(path)?,
+        grey,
+        [width, height],
+        ExtendedColorType::L8,
+    )
 }
 
 /// Pixels between panels.
@@ -116,7 +187,7 @@ pub fn save_panels(
         image::codecs::png::CompressionType::Best,
         image::codecs::png::FilterType::Adaptive,
     );
-    let colour = image::ExtendedColorType::Rgb8;
+    let colour = ExtendedColorType::Rgb8;
     image::ImageEncoder::write_image(encoder, &rgb, full_width, full_height, colour)
         .map_err(|error| unwritable(path, error))?;
     save_atomically(path, |file| file.write_all(&png))
@@ -124,18 +195,15 @@ pub fn save_panels(
 
 fn encode(
     path: &Path,
-    width: u32,
-    height: u32,
+    format: ImageFormat,
     bytes: &[u8],
-    channels: u64,
-    colour: image::ExtendedColorType,
+    [width, height]: [u32; 2],
+    colour: ExtendedColorType,
 ) -> Result<(), LabError> {
-    check_size(path, [width, height], channels, bytes.len())?;
-    let mut png = Vec::new();
-    let encoder = image::codecs::png::PngEncoder::new(&mut png);
-    image::ImageEncoder::write_image(encoder, bytes, width, height, colour)
+    let mut encoded = Cursor::new(Vec::new());
+    image::write_buffer_with_format(&mut encoded, bytes, width, height, colour, format)
         .map_err(|error| unwritable(path, error))?;
-    save_atomically(path, |file| file.write_all(&png))
+    save_atomically(path, |file| file.write_all(encoded.get_ref()))
 }
 
 /// Grey bytes of values in `[0, 1]`, linear (0.5 becomes 128); NaN becomes 0.

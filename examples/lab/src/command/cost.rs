@@ -3,6 +3,7 @@
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 
+use super::drawn::Drawn;
 use super::render::RenderOptions;
 use super::{CommandResult, print};
 use crate::cost::SubjectList;
@@ -32,9 +33,10 @@ pub struct CostOptions {
     /// given; by default three cards.
     #[arg(long, value_name = "GB/S[:NAME]", conflicts_with_all = ["blur", "summed_area_table", "scattering"])]
     pub bandwidth: Vec<Memory>,
-    /// Texels per side of the light's map.
-    #[arg(long, default_value_t = 1024, value_parser = clap::value_parser!(u32).range(256..=8192))]
-    pub size: u32,
+    /// Texels per side of the light's map, and the largest of lists. Where it is left out, the size that a graph's import
+    /// 'light_depth' has, or 1024.
+    #[arg(long, value_parser = clap::value_parser!(u32).range(256..=8192))]
+    pub size: Option<u32>,
     /// Rounds, at least 9.
     #[arg(long, default_value_t = 15, value_parser = clap::value_parser!(u32).range(9..=1000))]
     pub rounds: u32,
@@ -69,7 +71,9 @@ impl CostOptions {
             let cost = graph(path, self.size, self.rounds, self.bandwidth)?;
             return print(&cost, self.json);
         }
-        let cost = table(&self.subject.list(), self.size, self.rounds)?;
+        let [usual, _] = Drawn::default().map;
+        let largest = self.size.unwrap_or(usual);
+        let cost = table(&self.subject.list(), largest, self.rounds)?;
         print(&cost, self.json)?;
         Ok(match cost.passed() {
             true => ExitCode::SUCCESS,
@@ -90,11 +94,11 @@ impl CostSubject {
     }
 }
 
-/// Times every pass of a graph on its own, on a scene with a light's map of `size` texels squared, and says how long its
+/// Times every pass of a graph on its own, on a scene with a light's map of `size` texels squared or as the file says, and says how long its
 /// bytes take with each of the memories at least: by default three cards.
 pub fn graph(
     path: &Path,
-    size: u32,
+    size: Option<u32>,
     rounds: u32,
     memories: Vec<Memory>,
 ) -> Result<GraphCost, LabError> {
@@ -106,7 +110,9 @@ pub fn graph(
     };
     let scene = scene::load(&options.scene)?;
     let margin = file.radius()?;
-    let frame = options.frame(&gpu, &scene, margin)?;
+    let drawn = options.drawn(&file)?;
+    eprintln!("{drawn}");
+    let frame = options.frame(&gpu, &scene, &drawn, margin)?;
     let (cases, bytes) = cases(&gpu, &frame, &file)?;
     let clock = Clock::new(&gpu, ClockKind::for_device(&gpu));
     let bar = progress::bar(u64::from(rounds), "timing");

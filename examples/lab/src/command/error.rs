@@ -7,6 +7,7 @@ use std::sync::Arc;
 use moment_shadows::{FourMomentsBias, Storage, Technique};
 use serde::Serialize;
 
+use super::drawn::Drawn;
 use super::render::{LightChoice, RenderOptions, profile_for};
 use super::{CommandResult, print};
 use crate::candidate::TechniqueChoice;
@@ -15,7 +16,7 @@ use crate::frame::Frame;
 use crate::gpu::Gpu;
 use crate::graph_file::GraphFile;
 use crate::judgement::{PictureTruth, Unfiltered};
-use crate::metric::{Comparison, ErrorFigures, compare};
+use crate::metric::{Comparison, ErrorFigures, NO_PIXEL, compare};
 use crate::progress;
 use crate::scene::Scene;
 use crate::surface_error::{MapRun, SurfaceErrors, SurfaceTruth};
@@ -101,12 +102,9 @@ pub struct Setting {
     pub camera: Option<[[f64; 3]; 2]>,
     /// Whether the scene was given a ground plane.
     pub ground: bool,
-    /// Texels per side of the light's map.
-    pub map: u32,
-    /// Samples per texel of the light's depth.
-    pub samples: u32,
-    /// Width and height of the picture.
-    pub picture: [u32; 2],
+    /// What is drawn.
+    #[serde(flatten)]
+    pub drawn: Drawn,
 }
 
 /// The kernel of a graph.
@@ -136,12 +134,12 @@ impl ErrorSubject {
     pub fn new(
         gpu: &Gpu,
         scene: &Scene,
-        options: &RenderOptions,
+        (options, drawn): (&RenderOptions, &Drawn),
         file: &GraphFile,
         step: impl Fn(),
     ) -> Result<Self, LabError> {
         let files = core::slice::from_ref(file);
-        let mut subjects = Self::of_kernels(gpu, scene, options, files, 1, step)?;
+        let mut subjects = Self::of_kernels(gpu, scene, (options, drawn), files, 1, step)?;
         subjects
             .pop()
             .ok_or_else(|| LabError::unsuitable(&file.name, "there is nothing to measure"))
@@ -152,7 +150,7 @@ impl ErrorSubject {
     pub fn of_kernels(
         gpu: &Gpu,
         scene: &Scene,
-        options: &RenderOptions,
+        (options, drawn): (&RenderOptions, &Drawn),
         files: &[GraphFile],
         stride: u32,
         step: impl Fn(),
@@ -161,7 +159,7 @@ impl ErrorSubject {
         for file in files {
             margin = margin.max(file.radius()?);
         }
-        let frames = Arc::new(options.frames(gpu, scene, margin)?);
+        let frames = Arc::new(options.frames(gpu, scene, drawn, margin)?);
         let frame = &frames[0];
         let Some(first) = files.first() else {
             return Ok(Vec::new());
@@ -196,8 +194,8 @@ impl ErrorSubject {
     }
 
     /// How many steps [`new`](Self::new) and [`of_kernels`](Self::of_kernels) take.
-    pub fn steps(options: &RenderOptions) -> u64 {
-        1 + SurfaceTruth::steps([options.map; 2])
+    pub fn steps(drawn: &Drawn) -> u64 {
+        1 + SurfaceTruth::steps(drawn.map)
     }
 
     /// Runs a graph with the subject's kernel and judges what it gives. Four moments are evaluated with `moment_bias`, or
@@ -223,8 +221,8 @@ impl ErrorSubject {
 }
 
 impl Setting {
-    /// The setting of a run with these options.
-    pub fn of(gpu: &Gpu, graph: &Path, options: &RenderOptions) -> Self {
+    /// The setting of a run with these options, for what is drawn.
+    pub fn of(gpu: &Gpu, graph: &Path, options: &RenderOptions, drawn: &Drawn) -> Self {
         Self {
             adapter: gpu.adapter.get_info().name,
             graph: graph.display().to_string(),
@@ -238,9 +236,7 @@ impl Setting {
                 .camera
                 .map(|camera| camera.map(|point| point.to_array())),
             ground: !options.no_ground,
-            map: options.map,
-            samples: options.samples,
-            picture: options.size,
+            drawn: *drawn,
         }
     }
 }
@@ -260,20 +256,21 @@ pub fn measure(
     if let Some(radius) = radius {
         file = file.with_radius(radius)?;
     }
-    let mut profile = profile_for(storage, options.samples);
+    let drawn = options.drawn(&file)?;
+    let mut profile = profile_for(storage, drawn.samples);
     if let Some(candidate) = &candidate {
         file = candidate.graph(&file)?;
         profile = candidate.profile_with(profile);
     }
     let scene = options.load(&options.scene)?;
     let gpu = Gpu::open(profile)?;
-    let bar = progress::bar(ErrorSubject::steps(options) + 1, "measuring surfaces");
-    let subject = ErrorSubject::new(&gpu, &scene, options, &file, || bar.inc(1))?;
+    let bar = progress::bar(ErrorSubject::steps(&drawn) + 1, "measuring surfaces");
+    let subject = ErrorSubject::new(&gpu, &scene, (options, &drawn), &file, || bar.inc(1))?;
     let errors = subject.judge(&gpu, &file, None)?;
     bar.finish_and_clear();
     Ok(ErrorReport {
         scene: scene.name,
-        setting: Setting::of(&gpu, graph, options),
+        setting: Setting::of(&gpu, graph, options, &drawn),
         kernel: file.kernel()?.map(|kernel| KernelFigures {
             radius: kernel.radius(),
             standard_deviation: kernel.standard_deviation(),
@@ -289,11 +286,10 @@ pub(crate) fn storage_name(storage: Option<Storage>) -> &'static str {
 
 impl fmt::Display for Setting {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let [width, height] = self.picture;
         write!(
             f,
-            "{} on {}; {} of view {}, map {}x{} with {} samples per texel, picture {width}x{height}",
-            self.graph, self.adapter, self.light, self.view, self.map, self.map, self.samples
+            "{} on {}; {} of view {}, {}",
+            self.graph, self.adapter, self.light, self.view, self.drawn
         )?;
         if let Some(along) = self.light_direction {
             write!(f, ", light along {along:?}")?;
@@ -348,17 +344,9 @@ impl fmt::Display for ErrorReport {
             ("picture, facing the light", &picture.facing),
             ("  in the penumbra", &picture.penumbra),
         ];
-        for (name, figures) in rows {
-            writeln!(
-                f,
-                "{name:<26} {:>10} {:>10.7} {:>10.7} {:>10.7} {:>10.7} {:>10.7}",
-                figures.samples,
-                figures.mean_absolute,
-                figures.leaking,
-                figures.overdarkening,
-                figures.percentile_95,
-                figures.maximum
-            )?;
+        for (index, (name, figures)) in rows.into_iter().enumerate() {
+            let none = if index < 4 { "no surface" } else { NO_PIXEL };
+            writeln!(f, "{name:<26}{}", figures.columns(10, 7, none))?;
         }
         Ok(())
     }

@@ -18,6 +18,8 @@ use crate::cost::table::columns;
 use crate::error::LabError;
 use crate::gpu::Gpu;
 use crate::graph_file::GraphFile;
+use crate::metric::{NO_PIXEL, figure};
+use crate::picture::create_folder;
 use crate::progress;
 use crate::techniques::described;
 
@@ -82,6 +84,10 @@ pub struct ErrorTable {
 impl Options {
     /// Prints the table, and plots it where a folder is given.
     pub fn run(self) -> CommandResult {
+        if let Some(out) = &self.out {
+            // Before the work, which takes minutes.
+            create_folder(out)?;
+        }
         let mut table = self.measure(&self.candidates()?)?;
         if let Some(out) = &self.out {
             table.plot(out)?;
@@ -102,25 +108,29 @@ impl Options {
     /// Measures every scene with every radius and every candidate. A scene is peeled once, with room for the widest kernel.
     pub fn measure(&self, candidates: &[Candidate]) -> Result<ErrorTable, LabError> {
         let render = &self.frame;
-        let profile = profile_for(None, render.samples);
+        let file = GraphFile::read(&self.graph, None)?;
+        let drawn = render.drawn(&file)?;
+        let profile = profile_for(None, drawn.samples);
         let profile = candidates.iter().fold(profile, |profile, candidate| {
             candidate.profile_with(profile)
         });
         let gpu = Gpu::open(profile)?;
-        let file = GraphFile::read(&self.graph, None)?;
         let files: Vec<GraphFile> = self
             .radius
             .iter()
             .map(|&radius| file.with_radius(radius))
             .collect::<Result<_, _>>()?;
         let rows_of_scene = (files.len() * candidates.len()) as u64;
-        let steps = ErrorSubject::steps(render) + rows_of_scene;
+        let steps = ErrorSubject::steps(&drawn) + rows_of_scene;
         let bar = progress::bar(self.scene.len() as u64 * steps, "measuring surfaces");
         let mut rows = Vec::new();
         for name in &self.scene {
             let scene = render.load(name)?;
+            let options = (render, &drawn);
             let subjects =
-                ErrorSubject::of_kernels(&gpu, &scene, render, &files, self.stride, || bar.inc(1))?;
+                ErrorSubject::of_kernels(&gpu, &scene, options, &files, self.stride, || {
+                    bar.inc(1)
+                })?;
             for ((subject, file), &radius) in subjects.iter().zip(&files).zip(&self.radius) {
                 for candidate in candidates {
                     let errors = subject.judge(&gpu, &candidate.graph(file)?, None)?;
@@ -135,7 +145,7 @@ impl Options {
         }
         bar.finish_and_clear();
         Ok(ErrorTable {
-            setting: Setting::of(&gpu, &self.graph, render),
+            setting: Setting::of(&gpu, &self.graph, render, &drawn),
             stride: self.stride,
             rows,
             plots: Vec::new(),
@@ -170,7 +180,7 @@ impl fmt::Display for ErrorTable {
         let cells = |row: &ErrorRow| {
             let errors = &row.errors;
             let shading = &errors.surfaces.shading;
-            let percent = |error: f64| format!("{:.3}", 100.0 * error);
+            let percent = |error: f64| figure(100.0 * error, 3, "no surface");
             let facing = errors.surfaces.shading_facing.mean_absolute;
             vec![
                 ("scene", row.scene.clone()),
@@ -190,7 +200,10 @@ impl fmt::Display for ErrorTable {
                     "distribution",
                     percent(errors.surfaces.distribution.mean_absolute),
                 ),
-                ("picture", percent(errors.picture.facing.mean_absolute)),
+                (
+                    "picture",
+                    figure(100.0 * errors.picture.facing.mean_absolute, 3, NO_PIXEL),
+                ),
             ]
         };
         columns(f, &self.rows.iter().map(cells).collect::<Vec<_>>())?;

@@ -14,6 +14,7 @@ use crate::error::LabError;
 use crate::gpu::Gpu;
 use crate::graph_frame::GraphFrame;
 use crate::judgement::{Judgement, Truth};
+use crate::metric::{NO_PIXEL, figure};
 use crate::progress;
 
 /// What `measure` takes.
@@ -50,9 +51,10 @@ fn rows(
     graph: &Path,
     options: &RenderOptions,
 ) -> Result<Vec<Vec<Cell<'static>>>, LabError> {
-    let storages = match &options.technique {
-        None => Storage::OF_FOUR_MOMENTS.map(Some).to_vec(),
-        Some(technique) => technique
+    let storages = match (&options.technique, options.storage) {
+        (_, Some(storage)) => vec![Some(storage)],
+        (None, None) => Storage::OF_FOUR_MOMENTS.map(Some).to_vec(),
+        (Some(technique), None) => technique
             .candidates()
             .iter()
             .map(Candidate::storage)
@@ -65,9 +67,12 @@ fn rows(
         let mut truth = None;
         for &storage in &storages {
             let file = options.graph(graph, storage)?.in_single_precision()?;
-            let options = options.for_graph(&file);
-            let gpu = Gpu::open(file.profile(options.samples))?;
-            let frame = options.frame(&gpu, &scene, file.radius()?)?;
+            let drawn = options.drawn(&file)?;
+            if rows.is_empty() {
+                eprintln!("{drawn}");
+            }
+            let gpu = Gpu::open(file.profile(drawn.samples.max(drawn.camera_samples)))?;
+            let frame = options.frame(&gpu, &scene, &drawn, file.radius()?)?;
             let graph_frame = GraphFrame::new(&gpu, &frame, &file)?;
             graph_frame.run(&gpu)?;
             let shadow = graph_frame.read_shadow(&gpu, &file)?;
@@ -76,7 +81,7 @@ fn rows(
                 None => &*truth.insert(Truth::of(&gpu, &frame, &file)?),
             };
             let Judgement { error, excess, .. } = truth.judge(&shadow)?;
-            let figure = |figure: f64| format!("{figure:.5}");
+            let figure = |value: f64| figure(value, 5, NO_PIXEL);
             let percent = |ratio: Option<f64>| {
                 ratio.map_or("-".to_owned(), |ratio| format!("{:+.1} %", 100.0 * ratio))
             };

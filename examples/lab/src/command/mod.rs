@@ -4,6 +4,7 @@ pub mod adapter;
 pub(crate) mod argument;
 pub mod bias;
 pub mod cost;
+pub mod drawn;
 pub mod error;
 pub mod error_table;
 pub mod graph;

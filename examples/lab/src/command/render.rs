@@ -6,7 +6,9 @@ use std::process::ExitCode;
 use clap::builder::TypedValueParser;
 use glam::DVec3;
 use moment_shadows::{Profile, Storage};
+use moment_shadows_graph::TextureDesc;
 
+use super::drawn::Drawn;
 use super::{CommandResult, argument};
 use crate::candidate::TechniqueChoice;
 use crate::error::LabError;
@@ -16,7 +18,8 @@ use crate::graph_file::GraphFile;
 use crate::graph_frame::GraphFrame;
 use crate::judgement::{Judgement, Truth};
 use crate::light::LightShape;
-use crate::picture::{grey, save_grey, save_rgba, signed_difference};
+use crate::metric::{NO_PIXEL, figure};
+use crate::picture::{check_picture, grey, save_grey, save_rgba, signed_difference};
 use crate::progress;
 use crate::scene::{self, Scene};
 use crate::view::View;
@@ -41,7 +44,7 @@ pub struct Options {
     /// The graph file.
     #[arg(long)]
     graph: PathBuf,
-    /// The picture to write.
+    /// The picture to write, as PNG or JPEG by its ending.
     #[arg(long)]
     out: PathBuf,
     /// A technique in place of the graph's own: a name, or settings as in a graph file. Tests on the plain depth map
@@ -78,15 +81,17 @@ pub struct RenderOptions {
     /// Stores the light's depth reversed.
     #[arg(long)]
     pub reversed: bool,
-    /// Width of the picture; the height follows at 16 to 9.
-    #[arg(long = "width", value_name = "WIDTH", default_value = "1280", value_parser = clap::value_parser!(u32).range(16..=8192).map(|width| [width, width * 9 / 16]))]
-    pub size: [u32; 2],
-    /// Texels per side of the light's map.
-    #[arg(long, default_value_t = 1024, value_parser = clap::value_parser!(u32).range(16..=8192))]
-    pub map: u32,
-    /// Samples per texel of the light's map: 1 and 4 everywhere, 2 and 8 where the device can.
-    #[arg(long, default_value_t = 4)]
-    pub samples: u32,
+    /// Width of the picture; the height follows at 16 to 9. Where it is left out, the size of the graph's import
+    /// 'camera_depth', or 1280.
+    #[arg(long = "width", value_name = "WIDTH", value_parser = clap::value_parser!(u32).range(16..=8192).map(|width| [width, width * 9 / 16]))]
+    pub size: Option<[u32; 2]>,
+    /// Texels per side of the light's map. Where it is left out, the size of the graph's import 'light_depth', or 1024.
+    #[arg(long, value_parser = clap::value_parser!(u32).range(16..=8192))]
+    pub map: Option<u32>,
+    /// Samples per texel of the light's map: 1 and 4 everywhere, 2 and 8 where the device can. Where it is left out, as many
+    /// as the graph's import 'light_depth' has, or 4.
+    #[arg(long)]
+    pub samples: Option<u32>,
     /// A storage in place of the graph's own.
     #[arg(long, value_parser = argument::storage())]
     pub storage: Option<Storage>,
@@ -114,15 +119,6 @@ impl RenderOptions {
         }
     }
 
-    /// These options for a graph: with as many samples per texel as it can read.
-    #[must_use]
-    pub fn for_graph(&self, file: &GraphFile) -> Self {
-        Self {
-            samples: file.samples(self.samples),
-            ..self.clone()
-        }
-    }
-
     /// Loads a scene, and says which ground it is given.
     pub fn load(&self, name: &str) -> Result<Scene, LabError> {
         let scene = scene::load(name)?;
@@ -137,40 +133,54 @@ impl RenderOptions {
     }
 
     /// Draws the scene as [`frame`](Self::frame) does, and with one sample per texel.
-    pub fn frames(&self, gpu: &Gpu, scene: &Scene, margin: u32) -> Result<[Frame; 2], LabError> {
-        let plain = Self {
+    pub fn frames(
+        &self,
+        gpu: &Gpu,
+        scene: &Scene,
+        drawn: &Drawn,
+        margin: u32,
+    ) -> Result<[Frame; 2], LabError> {
+        let plain = Drawn {
             samples: 1,
-            ..self.clone()
+            ..*drawn
         };
         Ok([
-            self.frame(gpu, scene, margin)?,
-            plain.frame(gpu, scene, margin)?,
+            self.frame(gpu, scene, drawn, margin)?,
+            self.frame(gpu, scene, &plain, margin)?,
         ])
     }
 
     /// Draws the scene as the options say, for a graph whose kernel has a radius of `margin` texels.
-    pub fn frame(&self, gpu: &Gpu, scene: &Scene, margin: u32) -> Result<Frame, LabError> {
+    pub fn frame(
+        &self,
+        gpu: &Gpu,
+        scene: &Scene,
+        drawn: &Drawn,
+        margin: u32,
+    ) -> Result<Frame, LabError> {
         let mut view = View::numbered(scene, self.view);
         view.light_direction = self.light_direction.unwrap_or(view.light_direction);
         if let Some(camera) = self.camera {
             view = view.seen_from(scene, camera)?;
         }
-        let map = [self.map; 2];
+        let (map, [width, height]) = (drawn.map, drawn.picture);
         // The kernel and the bilinear lookup find the far end beyond the outermost caster.
         let light = match self.light {
             LightChoice::Sun => view.sun(scene, map, f64::from(margin) + 2.0, self.reversed)?,
             LightChoice::Spot => view.spot(scene, SPOT_NEAR, None, self.reversed)?,
         };
         let mut camera = view.camera;
-        camera.aspect = f64::from(self.size[0]) / f64::from(self.size[1].max(1));
+        camera.aspect = f64::from(width) / f64::from(height.max(1));
+        let wgpu_format = |format| TextureDesc::new(format, map).wgpu_format();
         Frame::draw(
             gpu,
             scene,
             FrameDesc {
-                picture: self.size,
+                picture: drawn.picture,
                 map,
-                samples: self.samples,
-                format: wgpu::TextureFormat::Depth32Float,
+                samples: drawn.samples,
+                format: wgpu_format(drawn.format),
+                camera_depth: (wgpu_format(drawn.camera_format), drawn.camera_samples),
                 shape: LightShape::usual(&light),
                 light,
                 camera,
@@ -200,10 +210,8 @@ impl Options {
             println!("{}", judgement.error);
             println!("exact bound on the same depths\n{}", truth.bound_error);
             println!("{}", judgement.excess);
-            println!(
-                "mean absolute error {:.6}",
-                judgement.error.facing.mean_absolute
-            );
+            let error = judgement.error.facing.mean_absolute;
+            println!("mean absolute error {}", figure(error, 6, NO_PIXEL));
         }
         Ok(ExitCode::SUCCESS)
     }
@@ -217,21 +225,23 @@ fn render(
     out: &Path,
     truth: bool,
 ) -> Result<Option<(Judgement, Truth)>, LabError> {
+    check_picture(out)?;
     let file = options.graph(graph, None)?;
-    let options = &options.for_graph(&file);
+    let drawn = options.drawn(&file)?;
+    eprintln!("{drawn}");
     let bar = progress::bar(if truth { 5 } else { 4 }, "loading");
     let scene = options.load(&options.scene)?;
     bar.inc(1);
     bar.set_message("drawing");
-    let gpu = Gpu::open(file.profile(options.samples))?;
-    let frame = options.frame(&gpu, &scene, file.radius()?)?;
+    let gpu = Gpu::open(file.profile(drawn.samples.max(drawn.camera_samples)))?;
+    let frame = options.frame(&gpu, &scene, &drawn, file.radius()?)?;
     bar.inc(1);
     bar.set_message("shadows");
     let graph_frame = GraphFrame::new(&gpu, &frame, &file)?;
     graph_frame.run(&gpu)?;
     let picture = frame.picture(&gpu, graph_frame.shadow(&file)?)?;
     bar.inc(1);
-    let [width, height] = options.size;
+    let [width, height] = drawn.picture;
     let judged = if truth {
         bar.set_message("brute force");
         let shadow = graph_frame.read_shadow(&gpu, &file)?;
@@ -258,10 +268,12 @@ fn render(
     Ok(judged)
 }
 
-/// `picture.png` becomes `picture-truth.png`.
+/// `picture.png` becomes `picture-truth.png`; the ending stays.
 pub fn beside(out: &Path, what: &str) -> PathBuf {
     let stem = out
         .file_stem()
         .map_or_else(String::new, |stem| stem.to_string_lossy().into_owned());
-    out.with_file_name(format!("{stem}-{what}.png"))
+    let ending = out.extension().unwrap_or_default();
+    out.with_file_name(format!("{stem}-{what}"))
+        .with_added_extension(ending)
 }

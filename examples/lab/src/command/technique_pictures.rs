@@ -6,6 +6,7 @@ use std::process::ExitCode;
 use moment_shadows::{MapEncoding, Profile, Storage, nearest};
 
 use super::CommandResult;
+use super::drawn::Drawn;
 use super::render::RenderOptions;
 use crate::candidate::TechniqueChoice;
 use crate::cost::table::{Cell, Columns};
@@ -167,12 +168,12 @@ struct Shaded {
 
 impl Stage {
     fn new(gpu: &Gpu, scene: Scene, map: u32, graph: &GraphFile) -> Result<Self, LabError> {
-        let options = RenderOptions {
-            size: PANEL,
-            map,
-            ..RenderOptions::default()
+        let drawn = Drawn {
+            picture: PANEL,
+            map: [map; 2],
+            ..Drawn::default()
         };
-        let frames = options.frames(gpu, &scene, graph.radius()?)?;
+        let frames = RenderOptions::default().frames(gpu, &scene, &drawn, graph.radius()?)?;
         let truth = Unfiltered::of(gpu, &frames[0], graph)?.picture(gpu, &frames[0])?;
         Ok(Self {
             scene,

@@ -16,7 +16,7 @@ use crate::cost::report::Conditions;
 use crate::error::LabError;
 use crate::frame::FrameDesc;
 use crate::gpu::Gpu;
-use crate::picture::{create_folder, save_atomically, save_panels, save_rgba};
+use crate::picture::{check_file, create_folder, save_atomically, save_panels, save_rgba};
 use crate::progress;
 use crate::scene::{self, Scene};
 
@@ -112,6 +112,9 @@ pub fn compare<S: Stage>(
         .retain(|it| options.only.is_empty() || options.only.iter().any(|o| o == S::name(it)));
     if let Some(out) = &options.out {
         create_folder(out)?;
+    }
+    if let Some(json) = &options.json {
+        check_file(json)?;
     }
     let mut reports = Vec::new();
     for name in &options.scene {

@@ -2,14 +2,14 @@
 //!
 //! It never sees moments: what lies between its light depth and a shadow intensity is the library's.
 
+mod depth_map;
 mod error;
-mod light_map;
 mod model;
 mod read;
 mod shade;
 mod surface;
 
-pub use light_map::{LightMap, LightMapDesc};
+pub use depth_map::{DepthMap, DepthMapDesc};
 pub use model::Model;
 pub use read::{DepthSamples, SurfacePixels, read_depth_samples, read_gbuffer};
 pub use shade::Lighting;

@@ -316,6 +316,7 @@ pub(super) fn sunlit(
         map,
         samples,
         format: wgpu::TextureFormat::Depth32Float,
+        camera_depth: (wgpu::TextureFormat::Depth32Float, 1),
         light: view.sun(scene, map, margin, false)?,
         shape: LightShape::Directional {
             angular_diameter: 0.0,

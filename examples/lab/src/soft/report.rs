@@ -3,7 +3,7 @@
 use serde::Serialize;
 
 use crate::compare::{Errors, Row, Table};
-use crate::metric::{Comparison, ErrorFigures};
+use crate::metric::{Comparison, ErrorFigures, NO_PIXEL, figure};
 
 /// How far a picture is off.
 #[derive(Clone, Debug, Serialize)]
@@ -21,7 +21,7 @@ impl Errors for SoftErrors {
         ];
         let errors = sets.map(|(name, figures)| {
             let cells = |row: &Row<Self>| {
-                let (error, figure) = (&row.errors.error, |value: f64| format!("{value:.5}"));
+                let (error, figure) = (&row.errors.error, |value: f64| figure(value, 5, NO_PIXEL));
                 let of = figures(error);
                 vec![
                     (name, row.name.clone()),

@@ -104,6 +104,7 @@ impl SoftStage {
             map,
             samples: SAMPLES,
             format: wgpu::TextureFormat::Depth32Float,
+            camera_depth: (wgpu::TextureFormat::Depth32Float, 1),
             light,
             shape,
             camera,

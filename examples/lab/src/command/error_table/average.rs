@@ -23,13 +23,7 @@ pub fn error_chart(rows: &[ErrorRow], setting: &Setting) -> Chart {
     let panel = |radius: u32| panel(radius, rows.iter().filter(|row| row.radius == radius));
     Chart {
         title: "Error over all surfaces against bits per texel".to_owned(),
-        setting: format!(
-            "mean over {}; map {}x{}, {} samples per texel",
-            scenes.join(", "),
-            setting.map,
-            setting.map,
-            setting.samples
-        ),
+        setting: format!("mean over {}; {}", scenes.join(", "), setting.drawn),
         panels: radii.into_iter().map(panel).collect(),
         markers: storages().map(storage_name).collect(),
     }

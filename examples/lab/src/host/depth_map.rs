@@ -1,27 +1,28 @@
-//! The light's depth: what the library takes.
+//! Depth maps of lights and cameras: what the library takes.
+
+use glam::DMat4;
 
 use super::error::{check_size, created};
 use super::model::{self, ViewUniform};
 use super::{Model, Renderer, texture_2d};
 use crate::error::LabError;
 use crate::gpu::Gpu;
-use crate::light::LightView;
 
-/// What kind of depth map a light is rendered into.
+/// What kind of depth map is rendered into.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct LightMapDesc {
+pub struct DepthMapDesc {
     /// Width and height in texels.
     pub size: [u32; 2],
     /// Samples per texel: 1 and 4 everywhere, 2 and 8 where the device can.
     pub samples: u32,
     /// A depth format; of those with a stencil the depth is drawn.
     pub format: wgpu::TextureFormat,
-    /// Whether depth is stored reversed: 1 at the near plane. As in the light that is drawn into it.
+    /// Whether depth is stored reversed: 1 at the near plane. As by the matrix that draws into it.
     pub reversed: bool,
 }
 
-/// A depth map of a light, and what draws into it.
-pub struct LightMap {
+/// A depth map, and what draws into it.
+pub struct DepthMap {
     /// The depth texture: render attachment, texture binding, and copy source if it has one sample per texel and no stencil.
     pub texture: wgpu::Texture,
     /// A view of all of it.
@@ -50,14 +51,14 @@ fn supported_samples(gpu: &Gpu, format: wgpu::TextureFormat) -> Vec<u32> {
 
 impl Renderer {
     /// A depth map and its pipelines.
-    pub fn light_map(&self, gpu: &Gpu, desc: &LightMapDesc) -> Result<LightMap, LabError> {
+    pub fn depth_map(&self, gpu: &Gpu, desc: &DepthMapDesc) -> Result<DepthMap, LabError> {
         let format = desc.format;
         if !format.has_depth_aspect() {
             return Err(LabError::refused(format!(
-                "light depth cannot be rendered as {format:?}; use a depth format"
+                "depth cannot be rendered as {format:?}; use a depth format"
             )));
         }
-        check_size(gpu, "the light's depth map", desc.size)?;
+        check_size(gpu, "the depth map", desc.size)?;
         let supported = supported_samples(gpu, format);
         if !supported.contains(&desc.samples) {
             return Err(LabError::refused(format!(
@@ -70,11 +71,11 @@ impl Renderer {
         if desc.samples == 1 && !format.is_combined_depth_stencil_format() {
             usage |= wgpu::TextureUsages::COPY_SRC;
         }
-        created(gpu, "the light's depth map", || {
-            let label = "host/light depth";
+        created(gpu, "the depth map", || {
+            let label = "host/depth";
             let texture = texture_2d(&gpu.device, label, desc.size, desc.samples, format, usage);
             let (uniform, group) = model::view_group(gpu, &self.view_layout, label);
-            LightMap {
+            DepthMap {
                 view: texture.create_view(&wgpu::TextureViewDescriptor::default()),
                 texture,
                 reversed: desc.reversed,
@@ -86,7 +87,7 @@ impl Renderer {
         })
     }
 
-    fn depth_pipeline(&self, gpu: &Gpu, desc: &LightMapDesc, masked: bool) -> wgpu::RenderPipeline {
+    fn depth_pipeline(&self, gpu: &Gpu, desc: &DepthMapDesc, masked: bool) -> wgpu::RenderPipeline {
         let fragment = wgpu::FragmentState {
             module: &self.geometry,
             entry_point: Some("depth_masked"),
@@ -95,7 +96,7 @@ impl Renderer {
         };
         gpu.device
             .create_render_pipeline(&wgpu::RenderPipelineDescriptor {
-                label: Some("host/light depth"),
+                label: Some("host/depth"),
                 layout: Some(&self.geometry_layout),
                 vertex: wgpu::VertexState {
                     module: &self.geometry,
@@ -126,19 +127,19 @@ impl Renderer {
             })
     }
 
-    /// Records the light's depth of `model`; texels without a caster hold the far plane. `light` must store depth
-    /// the way round that the map was made for. One map takes one light per submission: its uniforms are written
-    /// through the queue.
-    pub fn draw_light_depth(
+    /// Records the depth of `model`; texels that nothing covers hold the far plane. The matrix must store depth the way
+    /// round that the map was made for. One map takes one matrix per submission: its uniforms are written through the
+    /// queue.
+    pub fn draw_depth(
         &self,
         gpu: &Gpu,
         encoder: &mut wgpu::CommandEncoder,
         model: &Model,
-        map: &LightMap,
-        light: &LightView,
+        map: &DepthMap,
+        clip_from_world: DMat4,
     ) {
         let uniform = ViewUniform {
-            clip_from_world: light.clip_from_world().as_mat4().to_cols_array_2d(),
+            clip_from_world: clip_from_world.as_mat4().to_cols_array_2d(),
             eye: [0.0; 3],
             _padding: 0.0,
         };
@@ -146,7 +147,7 @@ impl Renderer {
             .write_buffer(&map.uniform, 0, bytemuck::bytes_of(&uniform));
         let far = if map.reversed { 0.0 } else { 1.0 };
         let mut pass = encoder.begin_render_pass(&wgpu::RenderPassDescriptor {
-            label: Some("host/light depth"),
+            label: Some("host/depth"),
             depth_stencil_attachment: Some(wgpu::RenderPassDepthStencilAttachment {
                 view: &map.view,
                 depth_ops: Some(wgpu::Operations {
