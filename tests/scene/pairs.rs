@@ -1,0 +1,438 @@
+//! Files that say the same in two ways look the same.
+
+use crate::Files;
+use crate::build::{FLOAT, options, picture, same};
+use glam::DVec3;
+use serde_json::{Value, json};
+
+const CORNERS: [[f32; 2]; 4] = [[0.0, 1.0], [1.0, 1.0], [0.0, 0.0], [1.0, 0.0]];
+/// Samplers' names for the nearest texel, and for a blend.
+const FILTERS: [u32; 2] = [9728, 9729];
+
+/// An uneven shape without symmetry.
+fn is_opaque(x: u32, y: u32) -> bool {
+    x + 2 * y > 9 && (x < 5 || y > 4) && x * y < 50
+}
+
+/// The block with a panel of this texture.
+fn panelled(uvs: [[f32; 2]; 4], png: &[u8], sampler: Value) -> Files {
+    let mut files = Files::block();
+    let material = files.masked(png, sampler);
+    let panel = files.panel(uvs, material);
+    files.node(json!({ "mesh": panel }));
+    files
+}
+
+#[test]
+fn images_go_on_beyond_their_edges_as_samplers_say() {
+    const SIDE: u32 = 10;
+    let wide = CORNERS.map(|uv| uv.map(|at| 3.0 * at - 1.0));
+    let modes: [(u32, fn(u32) -> u32); 3] = [
+        (33071, |at| at.clamp(SIDE, 2 * SIDE - 1) - SIDE),
+        (33648, |at| {
+            if (SIDE..2 * SIDE).contains(&at) {
+                at - SIDE
+            } else {
+                SIDE - 1 - at % SIDE
+            }
+        }),
+        (10497, |at| at % SIDE),
+    ];
+    let narrow = picture(SIDE, is_opaque);
+    for [s, t] in [[0, 1], [1, 2], [2, 0]] {
+        for filter in FILTERS {
+            let sampler = |s: u32, t: u32| json!({ "magFilter": filter, "minFilter": filter, "wrapS": s, "wrapT": t });
+            let whole = picture(3 * SIDE, |x, y| is_opaque(modes[s].1(x), modes[t].1(y)));
+            let said = panelled(wide, &narrow, sampler(modes[s].0, modes[t].0));
+            // The whole one ends in the same texels as the narrow one only where it clamps; else it is repeated.
+            let ends = |mode: usize| if mode == 0 { 33071 } else { 10497 };
+            let reference = panelled(CORNERS, &whole, sampler(ends(s), ends(t)));
+            let unread = panelled(wide, &narrow, sampler(modes[t].0, modes[s].0));
+            same(
+                &format!("wrap {s} {t}, filter {filter}"),
+                &said,
+                &reference,
+                &unread,
+            );
+        }
+    }
+}
+
+#[test]
+fn the_nearest_texel_has_straight_edges() {
+    let png = picture(5, |x, y| is_opaque(2 * x, 2 * y));
+    let nearest = panelled(CORNERS, &png, json!({ "magFilter": 9728 }));
+    // Each texel as 8x8 of its kind.
+    let fine = picture(40, |x, y| is_opaque(x / 8 * 2, y / 8 * 2));
+    let reference = panelled(
+        CORNERS,
+        &fine,
+        json!({ "magFilter": 9728, "minFilter": 9729 }),
+    );
+    let opaque = picture(4, |_, _| true);
+    same(
+        "nearest",
+        &nearest,
+        &reference,
+        &panelled(CORNERS, &opaque, json!({})),
+    );
+    // What only one of the two filters says goes for both.
+    let small = panelled(CORNERS, &png, json!({ "minFilter": 9986 }));
+    same(
+        "small nearest",
+        &small,
+        &reference,
+        &panelled(CORNERS, &opaque, json!({})),
+    );
+    let blended = panelled(CORNERS, &png, json!({ "magFilter": 9729 }));
+    let apart = blended.seen(&options()).apart(&nearest.seen(&options()));
+    assert!(apart[0] > 100 && apart[1] > 100, "{apart:?}");
+}
+
+#[test]
+fn texture_transforms_turn_scale_and_move() {
+    let png = picture(12, is_opaque);
+    let [turn, scale, offset] = [[-0.7_f64, 0.0], [-1.6, 2.3], [0.4, -0.2]];
+    let moved = CORNERS.map(|[u, v]| {
+        let [u, v] = [f64::from(u) * scale[0], f64::from(v) * scale[1]];
+        let (sin, cos) = turn[0].sin_cos();
+        [
+            (cos * u + sin * v + offset[0]) as f32,
+            (cos * v - sin * u + offset[1]) as f32,
+        ]
+    });
+    let transform = json!({ "rotation": turn[0], "scale": scale, "offset": offset, "texCoord": 1 });
+    let with = |extensions: Value| {
+        let mut files = panelled(CORNERS, &png, json!({}));
+        let path = "/materials/0/pbrMetallicRoughness/baseColorTexture/extensions";
+        crate::set(&mut files.document, path, extensions);
+        // The coordinates that the texture itself names are others.
+        let set = &mut files.document["meshes"][1]["primitives"][0]["attributes"];
+        let right = set["TEXCOORD_0"].take();
+        let wrong = files.floats(&[[0.3_f32, 0.3]; 4]);
+        let set = &mut files.document["meshes"][1]["primitives"][0]["attributes"];
+        *set = json!({ "POSITION": set["POSITION"], "TEXCOORD_0": wrong, "TEXCOORD_1": right });
+        files
+    };
+    let said = with(json!({ "KHR_texture_transform": transform }));
+    let reference = panelled(moved, &png, json!({}));
+    same(
+        "transform",
+        &said,
+        &reference,
+        &with(json!({ "KHR_texture_transform": { "texCoord": 1 } })),
+    );
+}
+
+#[test]
+fn the_alpha_of_vertices_makes_holes() {
+    // Alpha falls from 1 on the left to 0 on the right; times 0.8 it is 0.5 at 3/8 of the way.
+    let panel = |colours: Value, factor: f64, mode: &str, right: f32| {
+        let mut files = Files::block();
+        let material = json!({ "alphaMode": mode, "pbrMetallicRoughness": { "baseColorFactor": [1, 1, 1, factor] } });
+        let material = files.push("materials", material);
+        let panel = files.panel(CORNERS, material);
+        let at = |left: [f32; 3], other: [f32; 3]| {
+            [0, 1, 2].map(|axis| left[axis] + right * (other[axis] - left[axis]))
+        };
+        let low = at([-1.3, 0.3, 0.5], [1.0, 0.35, -0.4]);
+        let high = at([-1.3, 1.9, 0.1], [1.0, 1.95, -0.8]);
+        let position = files.floats(&[[-1.3, 0.3, 0.5], low, [-1.3, 1.9, 0.1], high]);
+        files.document["meshes"][panel]["primitives"][0]["attributes"]["POSITION"] =
+            json!(position);
+        if !colours.is_null() {
+            let bytes = [[9, 9, 9, 255], [9, 9, 9, 0], [9, 9, 9, 255], [9, 9, 9, 0]];
+            let view = files.view(bytes.as_flattened(), Some(4));
+            let mut accessor =
+                json!({ "componentType": 5121, "normalized": true, "count": 4, "type": "VEC4" });
+            accessor["bufferView"] = json!(view);
+            let accessor = files.push("accessors", accessor);
+            files.document["meshes"][panel]["primitives"][0]["attributes"]["COLOR_0"] =
+                json!(accessor);
+        }
+        // The light is fitted to the same points in all.
+        let rest = files.floats(&[[1.0_f32, 0.35, -0.4], [1.0, 1.95, -0.8], [1.0, 1.95, -0.8]]);
+        let rest = files.push(
+            "meshes",
+            json!({ "primitives": [{ "attributes": { "POSITION": rest } }] }),
+        );
+        files.node(json!({ "mesh": panel }));
+        files.node(json!({ "mesh": rest }));
+        files
+    };
+    let said = panel(json!(true), 0.8, "MASK", 1.0);
+    let reference = panel(Value::Null, 1.0, "OPAQUE", 3.0 / 8.0);
+    same(
+        "vertex alpha",
+        &said,
+        &reference,
+        &panel(Value::Null, 0.8, "MASK", 1.0),
+    );
+    // Opaque materials have no alpha.
+    let opaque = panel(json!(true), 0.8, "OPAQUE", 1.0);
+    let solid = panel(Value::Null, 1.0, "OPAQUE", 1.0);
+    same("opaque", &opaque, &solid, &reference);
+}
+
+#[test]
+fn instances_are_nodes() {
+    let parent = json!({ "translation": [0.2, 0.4, -0.3], "rotation": [0.0, 0.2588190, 0.0, 0.9659258], "scale": [1, 1.3, 1] });
+    let translations = [[-0.9_f32, 0.1, 0.4], [0.3, 0.7, 0.2], [0.9, 0.2, -0.5]];
+    let scales = [[0.25_f32, 0.3, 0.2], [0.1, 0.4, 0.3], [-0.2, 0.15, 0.2]];
+    // Of unit quaternions in normalised 16-bit and 8-bit integers.
+    let rotations = [
+        [0.0_f64, 0.6, 0.0, 0.8],
+        [0.48, 0.0, 0.64, 0.6],
+        [0.0, 0.0, -1.0, 0.0],
+    ];
+    for (component, most) in [(5122, 32767.0), (5120, 127.0), (FLOAT, 0.0)] {
+        let stored = rotations.map(|rotation| rotation.map(|part| (part * most).round()));
+        let build = |extension: bool, nodes: bool| {
+            let mut files = Files::block();
+            let mesh = files.block_mesh();
+            let mut attributes = json!({ "TRANSLATION": files.floats(&translations), "SCALE": files.floats(&scales) });
+            let rotation = if component == FLOAT {
+                files.floats(&rotations.map(|rotation| rotation.map(|part| part as f32)))
+            } else {
+                let bytes = stored
+                    .as_flattened()
+                    .iter()
+                    .flat_map(|&part| match component {
+                        5122 => (part as i16).to_le_bytes().to_vec(),
+                        _ => (part as i8).to_le_bytes().to_vec(),
+                    });
+                let view = files.view(&bytes.collect::<Vec<u8>>(), None);
+                let mut accessor = json!({ "componentType": component, "normalized": true, "count": 3, "type": "VEC4" });
+                accessor["bufferView"] = json!(view);
+                files.push("accessors", accessor)
+            };
+            attributes["ROTATION"] = json!(rotation);
+            let child =
+                json!({ "mesh": mesh, "translation": [0.1, 1.2, 0.2], "scale": [0.1, 0.1, 0.1] });
+            let mut children = vec![files.push("nodes", child)];
+            let mut node = parent.clone();
+            if nodes {
+                for (at, translation) in translations.iter().enumerate() {
+                    let turn = if most == 0.0 {
+                        rotations[at]
+                    } else {
+                        stored[at]
+                    };
+                    let length = turn.iter().map(|part| part * part).sum::<f64>().sqrt();
+                    let turn = turn.map(|part| part / length);
+                    let own = json!({ "mesh": mesh, "translation": translation, "scale": scales[at], "rotation": turn });
+                    children.push(files.push("nodes", own));
+                }
+            } else {
+                node["mesh"] = json!(mesh);
+            }
+            if extension {
+                node["extensions"] =
+                    json!({ "EXT_mesh_gpu_instancing": { "attributes": attributes } });
+            }
+            node["children"] = json!(children);
+            files.node(node);
+            files.document["extensionsRequired"] = json!(["EXT_mesh_gpu_instancing"]);
+            files
+        };
+        let what = format!("instances of {component}");
+        same(
+            &what,
+            &build(true, false),
+            &build(false, true),
+            &build(false, false),
+        );
+    }
+}
+
+#[test]
+fn quantised_meshes_are_those_of_floats() {
+    let grid = [
+        [0_u16, 0, 0],
+        [65535, 0, 13107],
+        [0, 52428, 0],
+        [65535, 65535, 39321],
+    ];
+    let node = json!({ "translation": [-1.1, 0.25, 0.3], "scale": [2.2, 1.7, 1.3] });
+    let build = |quantised: bool, scaled: bool| {
+        let mut files = Files::block();
+        let position = if quantised {
+            let bytes: Vec<u8> = grid
+                .iter()
+                .flat_map(|&[x, y, z]| [x, y, z, 0].map(u16::to_le_bytes).concat())
+                .collect();
+            let view = files.view(&bytes, Some(8));
+            let mut accessor =
+                json!({ "componentType": 5123, "normalized": scaled, "count": 4, "type": "VEC3" });
+            accessor["bufferView"] = json!(view);
+            accessor["min"] = json!([0, 0, 0]);
+            accessor["max"] = json!([65535, 65535, 39321]);
+            files.push("accessors", accessor)
+        } else {
+            files.floats(&grid.map(|corner| corner.map(|at| f32::from(at) / 65535.0)))
+        };
+        let normal = files.view(&[[0, 0, 127, 0]; 4].concat(), Some(4));
+        let normal = json!({ "bufferView": normal, "componentType": 5120, "normalized": true, "count": 4, "type": "VEC3" });
+        let normal = files.push("accessors", normal);
+        let attributes = json!({ "POSITION": position, "NORMAL": normal });
+        let mesh = files.push(
+            "meshes",
+            json!({ "primitives": [{ "attributes": attributes, "mode": 5 }] }),
+        );
+        let mut node = node.clone();
+        if scaled {
+            node["mesh"] = json!(mesh);
+        }
+        files.node(node);
+        files.document["extensionsRequired"] = json!(["KHR_mesh_quantization"]);
+        files
+    };
+    same(
+        "quantised",
+        &build(true, true),
+        &build(false, true),
+        &build(false, false),
+    );
+}
+
+#[test]
+fn what_is_hidden_or_has_no_size_is_not_seen() {
+    let shown = |node: Value, with_child: bool| {
+        let mut files = Files::block();
+        let mesh = files.block_mesh();
+        let child = files.push(
+            "nodes",
+            json!({ "mesh": mesh, "scale": [0.5, 0.5, 0.5], "translation": [0, 1, 0] }),
+        );
+        let mut node = node;
+        if with_child {
+            node["mesh"] = json!(mesh);
+            node["children"] = json!([child]);
+        }
+        files.node(node);
+        files
+    };
+    let none = Files::block();
+    for node in [
+        json!({ "extensions": { "KHR_node_visibility": { "visible": false } } }),
+        json!({ "scale": [0, 0, 0], "translation": [0, 5, 0] }),
+        json!({ "matrix": [0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 3, 4, 5, 1] }),
+    ] {
+        same(
+            &node.to_string(),
+            &shown(node.clone(), true),
+            &none,
+            &shown(json!({}), true),
+        );
+    }
+    let seen = json!({ "extensions": { "KHR_node_visibility": { "visible": true } } });
+    same(
+        "visible",
+        &shown(seen, true),
+        &shown(json!({}), true),
+        &none,
+    );
+    // Along one axis alone, a mesh is flat.
+    let mut flat = Files::block();
+    let panel = flat.floats(&[
+        [-1.0_f32, 1.4, -1.0],
+        [1.0, 1.4, -1.0],
+        [-1.0, 1.4, 1.0],
+        [1.0, 1.4, 1.0],
+    ]);
+    let panel = flat.push(
+        "meshes",
+        json!({ "primitives": [{ "attributes": { "POSITION": panel }, "mode": 5 }] }),
+    );
+    flat.node(json!({ "mesh": panel }));
+    let mut said = Files::block();
+    let mesh = said.block_mesh();
+    said.node(json!({ "mesh": mesh, "scale": [1, 0, 1], "translation": [0, 1.4, 0] }));
+    same("flat", &said, &flat, &none);
+}
+
+#[test]
+fn textures_without_an_image_are_left_out() {
+    let png = picture(12, is_opaque);
+    let fallback = |texture: Value| {
+        let mut files = Files::block();
+        let view = files.view(&png, None);
+        files.push(
+            "images",
+            json!({ "bufferView": view, "mimeType": "image/png" }),
+        );
+        files.push(
+            "images",
+            json!({ "uri": "absent.webp", "mimeType": "image/webp" }),
+        );
+        files.push("textures", texture);
+        let material = files.material(json!({ "index": 0 }));
+        let panel = files.panel(CORNERS, material);
+        files.node(json!({ "mesh": panel }));
+        files.document["extensionsUsed"] = json!(["EXT_texture_webp"]);
+        files
+    };
+    let webp = json!({ "EXT_texture_webp": { "source": 1 } });
+    let masked = fallback(json!({ "source": 0 }));
+    let mut plain = fallback(json!({ "source": 0 }));
+    plain.document["materials"][0]["alphaMode"] = json!("OPAQUE");
+    same(
+        "fallback",
+        &fallback(json!({ "source": 0, "extensions": webp })),
+        &masked,
+        &plain,
+    );
+    same(
+        "no fallback",
+        &fallback(json!({ "extensions": webp })),
+        &plain,
+        &masked,
+    );
+    same("no source", &fallback(json!({})), &plain, &masked);
+    // Coordinates without data are zero, where the image has a hole.
+    let mut zero = fallback(json!({ "source": 0 }));
+    let accessor = json!({ "componentType": FLOAT, "count": 4, "type": "VEC2" });
+    let accessor = zero.push("accessors", accessor);
+    zero.document["meshes"][1]["primitives"][0]["attributes"]["TEXCOORD_0"] = json!(accessor);
+    let hole = panelled([[0.0; 2]; 4], &png, json!({}));
+    same("no data", &zero, &hole, &masked);
+}
+
+#[test]
+fn far_from_the_origin_all_looks_the_same() {
+    let at = |[x, z]: [f64; 2], nested: bool| {
+        let mut files = Files::block();
+        let material = files.masked(&picture(12, is_opaque), json!({}));
+        let panel = files.panel(CORNERS, material);
+        let mesh = files.block_mesh();
+        let turn = json!([0.0, 0.3826834, 0.0, 0.9238795]);
+        let own = json!({ "mesh": mesh, "translation": [0.7, 0.3, 0.6], "scale": [0.2, 0.9, 0.1], "rotation": turn });
+        let mut children = vec![
+            files.push("nodes", own),
+            files.push("nodes", json!({ "mesh": panel })),
+            0,
+        ];
+        if nested {
+            // Out and half the way back.
+            let inner = json!({ "translation": [-x, 0, -z], "children": children });
+            children = vec![files.push("nodes", inner)];
+        }
+        let scale = if nested { 2.0 } else { 1.0 };
+        let outer = json!({ "translation": [scale * x, 0, scale * z], "children": children });
+        let outer = files.push("nodes", outer);
+        files.document["scenes"][0]["nodes"] = json!([outer]);
+        files
+    };
+    let near = at([0.0; 2], false).seen(&options());
+    for nested in [false, true] {
+        for place in [[4e6, 0.0], [0.0, -4e6], [4e6, 4e6]] {
+            let mut options = options();
+            let offset = DVec3::new(place[0], 0.0, place[1]);
+            options.camera = options
+                .camera
+                .map(|camera| camera.map(|point| point + offset));
+            let far = at(place, nested).seen(&options);
+            assert_eq!(far.apart(&near), [0; 3], "{place:?}, nested {nested}");
+        }
+    }
+}
