@@ -27,27 +27,23 @@ fn panelled(uvs: [[f32; 2]; 4], png: &[u8], sampler: Value) -> Files {
 fn images_go_on_beyond_their_edges_as_samplers_say() {
     const SIDE: u32 = 10;
     let wide = CORNERS.map(|uv| uv.map(|at| 3.0 * at - 1.0));
-    let modes: [(u32, fn(u32) -> u32); 3] = [
-        (33071, |at| at.clamp(SIDE, 2 * SIDE - 1) - SIDE),
-        (33648, |at| {
-            if (SIDE..2 * SIDE).contains(&at) {
-                at - SIDE
-            } else {
-                SIDE - 1 - at % SIDE
-            }
-        }),
-        (10497, |at| at % SIDE),
-    ];
+    const MODES: [u32; 3] = [33071, 33648, 10497];
+    // The texel of an image in the middle of two others.
+    let texel = |mode: usize, at: u32| match mode {
+        0 => at.clamp(SIDE, 2 * SIDE - 1) - SIDE,
+        1 if at / SIDE != 1 => SIDE - 1 - at % SIDE,
+        _ => at % SIDE,
+    };
     let narrow = picture(SIDE, is_opaque);
     for [s, t] in [[0, 1], [1, 2], [2, 0]] {
         for filter in FILTERS {
             let sampler = |s: u32, t: u32| json!({ "magFilter": filter, "minFilter": filter, "wrapS": s, "wrapT": t });
-            let whole = picture(3 * SIDE, |x, y| is_opaque(modes[s].1(x), modes[t].1(y)));
-            let said = panelled(wide, &narrow, sampler(modes[s].0, modes[t].0));
+            let whole = picture(3 * SIDE, |x, y| is_opaque(texel(s, x), texel(t, y)));
+            let said = panelled(wide, &narrow, sampler(MODES[s], MODES[t]));
             // The whole one ends in the same texels as the narrow one only where it clamps; else it is repeated.
             let ends = |mode: usize| if mode == 0 { 33071 } else { 10497 };
             let reference = panelled(CORNERS, &whole, sampler(ends(s), ends(t)));
-            let unread = panelled(wide, &narrow, sampler(modes[t].0, modes[s].0));
+            let unread = panelled(wide, &narrow, sampler(MODES[t], MODES[s]));
             same(
                 &format!("wrap {s} {t}, filter {filter}"),
                 &said,
