@@ -10,6 +10,14 @@ use serde_json::{Value, json};
 
 pub(crate) const FLOAT: u32 = 5126;
 
+/// A panel's texture coordinates with the whole image on it.
+pub(crate) const CORNERS: [[f32; 2]; 4] = [[0.0, 1.0], [1.0, 1.0], [0.0, 0.0], [1.0, 0.0]];
+
+/// An uneven shape without symmetry.
+pub(crate) fn is_opaque(x: u32, y: u32) -> bool {
+    x + 2 * y > 9 && (x < 5 || y > 4) && x * y < 50
+}
+
 /// A texture that is there for its alpha: whether each texel of a square is opaque.
 pub(crate) fn picture(side: u32, is_opaque: impl Fn(u32, u32) -> bool) -> Vec<u8> {
     let texel = |x, y| image::Rgba([200, 150, 100, 255 * u8::from(is_opaque(x, y))]);

@@ -6,6 +6,7 @@ mod build;
 mod masks;
 mod options;
 mod pairs;
+mod placements;
 
 use glam::DVec3;
 use moment_shadows_lab::error::LabError;
