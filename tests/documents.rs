@@ -10,6 +10,7 @@ use std::collections::BTreeSet;
 use std::path::Path;
 
 use moment_shadows::modules;
+use moment_shadows_lab::scene::EXTENSIONS;
 use moment_shadows_lab::techniques::{filterable, reading_depth};
 
 fn read(file: &str) -> String {
@@ -120,4 +121,14 @@ fn the_table_of_techniques_says_what_rows_say() {
         let held: BTreeSet<&str> = row.storages.iter().map(|storage| storage.name()).collect();
         assert_eq!(said, held, "{}", row.name);
     }
+}
+
+#[test]
+fn the_table_of_extensions_is_that_of_the_code() {
+    let text = read("docs/instrument.md");
+    let mut table = "| extensions of glTF | what becomes of them |\n|---|---|\n".to_owned();
+    for row in &EXTENSIONS {
+        table += &format!("| `{}` | {} |\n", row.names.join("`, `"), row.what);
+    }
+    assert!(text.contains(&table), "docs/instrument.md lacks\n{table}");
 }

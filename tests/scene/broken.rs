@@ -1,7 +1,7 @@
 //! Files that are broken, and those that would take too much.
 
 use crate::{Files, check, load_bytes, set};
-use moment_shadows_lab::scene::load_gltf;
+use moment_shadows_lab::scene::{EXTENSIONS, load_gltf};
 use serde_json::json;
 use std::path::Path;
 
@@ -84,6 +84,129 @@ fn small_files_do_not_multiply_without_limit() {
     let warnings = files.load().unwrap().warnings;
     assert_eq!(warnings.len(), 101);
     assert_eq!(warnings[100], "further warnings are left out");
+}
+
+#[test]
+fn instances_are_checked_and_do_not_multiply_without_limit() {
+    let zeros =
+        |count: u64, kind: &str| json!({ "componentType": 5126, "count": count, "type": kind });
+    for (scale, rotation, attributes, culprit) in [
+        (
+            zeros(3, "VEC3"),
+            zeros(3, "VEC4"),
+            json!({ "SCALE": 2, "TRANSLATION": 0 }),
+            "",
+        ),
+        (
+            zeros(3, "VEC3"),
+            zeros(4, "VEC4"),
+            json!({ "SCALE": 2, "ROTATION": 3 }),
+            "node 0 'only': its instances have",
+        ),
+        (
+            zeros(3, "VEC3"),
+            zeros(3, "VEC4"),
+            json!({ "ROTATION": 2 }),
+            "ROTATION (accessor 2): it has 3 components",
+        ),
+        (
+            zeros(3, "VEC3"),
+            zeros(3, "VEC4"),
+            json!({ "SCALE": 9 }),
+            "SCALE: there is no accessor 9",
+        ),
+        (
+            zeros(3, "VEC3"),
+            zeros(3, "VEC4"),
+            json!({ "SCALE": "two" }),
+            "there is no accessor \"two\"",
+        ),
+        (
+            zeros(3, "VEC3"),
+            zeros(3, "VEC4"),
+            json!({ "SCALE": 1 }),
+            "it has 1 components",
+        ),
+        (
+            zeros(4_000_000_000, "VEC3"),
+            zeros(3, "VEC4"),
+            json!({ "TRANSLATION": 2 }),
+            "limit of 1073741824 bytes",
+        ),
+        (
+            zeros(6_000_000, "VEC3"),
+            zeros(3, "VEC4"),
+            json!({ "TRANSLATION": 2 }),
+            "limit of 1073741824 bytes",
+        ),
+        (
+            zeros(3, "VEC3"),
+            zeros(10_000_000, "VEC4"),
+            json!({ "ROTATION": 3 }),
+            "limit of 1073741824 bytes",
+        ),
+    ] {
+        let mut files = Files::triangle("");
+        set(&mut files.document, "/accessors/2", scale);
+        set(&mut files.document, "/accessors/3", rotation);
+        let extension = json!({ "EXT_mesh_gpu_instancing": { "attributes": attributes } });
+        set(&mut files.document, "/nodes/0/extensions", extension);
+        if culprit.is_empty() {
+            // Scaled to nothing, all of them.
+            files.is_refused("no triangles");
+        } else {
+            files.is_refused(culprit);
+        }
+    }
+    // Whatever the extension is, it does not break the reader.
+    for extension in [
+        json!(7),
+        json!({}),
+        json!({ "attributes": [] }),
+        json!({ "attributes": { "SCALE": null } }),
+    ] {
+        let mut files = Files::triangle("");
+        let extension = json!({ "EXT_mesh_gpu_instancing": extension });
+        set(&mut files.document, "/nodes/0/extensions", extension);
+        match files.load() {
+            Ok(scene) => assert_eq!(scene.meshes.len(), 1),
+            Err(error) => assert!(error.to_string().contains("no accessor null"), "{error}"),
+        }
+    }
+    let mut files = Files::triangle(
+        "/accessors/2 { \"bufferView\": 0, \"componentType\": 5126, \"count\": 1, \"type\": \"VEC3\" }",
+    );
+    files.bytes[..12].copy_from_slice(&[f32::MAX, 0.0, 0.0].map(f32::to_le_bytes).concat());
+    let extension = json!({ "EXT_mesh_gpu_instancing": { "attributes": { "TRANSLATION": 2 } } });
+    set(&mut files.document, "/nodes/0/extensions", extension);
+    files.is_refused("beyond 1e15");
+}
+
+#[test]
+fn what_a_file_requires_is_read_or_refused_by_name() {
+    for row in &EXTENSIONS {
+        for name in row.names {
+            let mut files = Files::triangle("");
+            files.document["extensionsUsed"] = json!([name]);
+            let warnings = files.load().unwrap().warnings.join("\n");
+            assert_eq!(
+                warnings.contains(name),
+                row.what.contains("warning"),
+                "{name}: {warnings}"
+            );
+            files.document["extensionsRequired"] = json!([name]);
+            if row.what.contains("refused") {
+                files.is_refused(&format!("requires the extension '{name}'"));
+            } else {
+                assert_eq!(files.load().unwrap().warnings.join("\n"), warnings);
+            }
+        }
+    }
+    let mut files = Files::triangle("");
+    files.document["extensionsUsed"] = json!(["ACME_matter"]);
+    assert!(files.load().unwrap().warnings[0].contains("ACME_matter"));
+    files.document["extensionsRequired"] = json!(["ACME_matter"]);
+    files.is_refused("ACME_matter");
 }
 
 #[test]

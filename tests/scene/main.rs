@@ -2,7 +2,13 @@
 #![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic)]
 
 mod broken;
+mod build;
+mod masks;
+mod options;
+mod pairs;
+mod placements;
 
+use glam::DVec3;
 use moment_shadows_lab::error::LabError;
 use moment_shadows_lab::scene::{self, Scene, load_gltf, place_on_ground};
 use serde_json::{Value, json};
@@ -119,8 +125,9 @@ fn a_triangle_is_flattened_with_its_own_normal() {
     );
     let scene = files.load().unwrap();
     let mesh = &scene.meshes[0];
-    // Scaled by 2, turned by 180 degrees about y, moved by 10 along x.
-    let expected = [[10.0, 0.0, 0.0], [8.0, 0.0, 0.0], [10.0, 2.0, 0.0]];
+    // Scaled by 2, turned by 180 degrees about y, moved by 10 along x; then its middle is moved to zero.
+    assert_eq!(scene.origin, DVec3::new(9.0, 0.0, 0.0));
+    let expected = [[1.0, 0.0, 0.0], [-1.0, 0.0, 0.0], [1.0, 2.0, 0.0]];
     assert_eq!(mesh.positions, expected);
     // The file has no normals, so the triangle gets its own: +z before the turn, -z after it.
     for normal in &mesh.normals {
@@ -157,6 +164,7 @@ fn strips_and_fans_become_lists_that_turn_one_way() {
 fn integers_become_coordinates() {
     // Normalised bytes from -128 to 127 stand for -1 to 1; others for themselves.
     for (normalized, expected) in [(true, [-1.0, 1.0, 0.0]), (false, [-128.0, 127.0, 0.0])] {
+        let expected = DVec3::from(expected);
         let mut files = Files::triangle(
             r#"/extensionsRequired ["KHR_mesh_quantization"]
             /bufferViews/0/byteStride 4
@@ -164,7 +172,9 @@ fn integers_become_coordinates() {
         );
         files.document["accessors"][0]["normalized"] = json!(normalized);
         files.bytes[4..7].copy_from_slice(&[128, 127, 0]);
-        assert_eq!(files.load().unwrap().meshes[0].positions[1], expected);
+        let scene = files.load().unwrap();
+        let position = scene.meshes[0].positions[1].map(f64::from);
+        assert_eq!(scene.origin + DVec3::from(position), expected);
     }
 }
 
@@ -187,7 +197,7 @@ fn a_placed_scene_stands_on_the_ground_in_the_middle() {
 #[test]
 fn what_is_left_out_is_said() {
     let files = Files::triangle(
-        r#"/extensionsUsed ["KHR_materials_ior", "EXT_mesh_gpu_instancing"]
+        r#"/extensionsUsed ["KHR_materials_ior", "MSFT_lod"]
         /images [{ "uri": "absent.png" }]
         /textures [{ "source": 0 }]
         /materials [{ "name": "glass", "alphaMode": "BLEND" }, { "alphaMode": "MASK" }]
@@ -197,7 +207,7 @@ fn what_is_left_out_is_said() {
         /meshes/0/primitives/1 { "attributes": { "POSITION": 0 }, "mode": 0 }"#,
     );
     let warnings = files.load().unwrap().warnings.join("\n");
-    let culprits = "EXT_mesh_gpu_instancing glass absent.png coordinates 1:";
+    let culprits = "MSFT_lod glass absent.png coordinates 1:";
     assert_eq!(warnings.lines().count(), 5, "{warnings}");
     for (warning, culprit) in warnings.lines().zip(culprits.split(' ')) {
         assert!(warning.contains(culprit), "{warnings}");
@@ -245,7 +255,8 @@ fn hidden_nodes_are_left_out_and_flat_ones_stay() {
     );
     let scene = files.load().unwrap();
     assert_eq!(scene.meshes.len(), 2);
-    assert_eq!(scene.meshes[1].positions[2], [0.0, 1.0, 7.0]);
+    assert_eq!(scene.origin, DVec3::new(0.5, 0.0, 3.5));
+    assert_eq!(scene.meshes[1].positions[2], [-0.5, 1.0, 3.5]);
     // Normals have no direction in a flat node; the triangle has.
     assert_eq!(scene.meshes[1].normals[2], [0.0, 0.0, 1.0]);
 }

@@ -60,3 +60,27 @@ fn named<T: Copy + Send + Sync + 'static, const COUNT: usize>(
         found.ok_or("there is no such name")
     })
 }
+
+#[cfg(test)]
+mod tests {
+    use super::{camera, direction};
+    use glam::DVec3;
+
+    #[test]
+    fn directions_have_a_length_and_cameras_look_somewhere() {
+        let is_right = |found: DVec3| (found - DVec3::new(0.6, 0.0, -0.8)).length() < 1e-15;
+        for text in ["3e-200,0,-4e-200", "+0.75, 0,-1", "6e14,0,-8e14"] {
+            assert!(direction(text).is_ok_and(is_right), "{text}");
+        }
+        for text in [
+            "0,-0,0", "1,2", "1,2,3,4", "nan,1,1", "1,inf,1", "1,,2", "", "1e16,0,0",
+        ] {
+            assert!(direction(text).is_err(), "{text}");
+        }
+        let [eye, target] = [DVec3::new(-1.0, 2.0, -3.0), DVec3::new(4.0, -5.0, 6.0)];
+        assert_eq!(camera("-1,2,-3,4,-5,6"), Ok([eye, target]));
+        for text in ["1,2,3,1,2,3", "1,2,3", "1,2,3,4,5,nan"] {
+            assert!(camera(text).is_err(), "{text}");
+        }
+    }
+}

@@ -8,6 +8,7 @@ mod failures;
 mod fence_and_foliage;
 mod gltf_file;
 mod gltf_instances;
+mod gltf_material;
 mod gltf_mesh;
 mod gltf_source;
 mod ground;
