@@ -2,6 +2,7 @@
 
 use crate::Files;
 use moment_shadows::Profile;
+use moment_shadows_lab::command::drawn::Drawn;
 use moment_shadows_lab::command::render::RenderOptions;
 use moment_shadows_lab::gpu::Gpu;
 use moment_shadows_lab::host::{DepthSamples, SurfacePixels, read_depth_samples, read_gbuffer};
@@ -157,7 +158,9 @@ impl Files {
         let path = self.folder.path().join("sail.gltf");
         let scene = options.load(path.to_str().unwrap()).unwrap();
         let gpu = Gpu::open(Profile::WebgpuCore).unwrap();
-        let frame = options.frame(&gpu, &scene, 4).unwrap();
+        let frame = options
+            .frame(&gpu, &scene, &options.sized(Drawn::default()), 4)
+            .unwrap();
         let map = frame.desc.map;
         let mut peeled = vec![0; (map[0] * map[1]) as usize];
         let peeler = Peeler::new(&scene, &frame.desc.light, map).unwrap();
@@ -204,8 +207,8 @@ impl Seen {
 pub(crate) fn options() -> RenderOptions {
     use glam::DVec3;
     RenderOptions {
-        size: [320, 180],
-        map: 128,
+        size: Some([320, 180]),
+        map: Some(128),
         camera: Some([DVec3::new(1.7, 1.9, 5.0), DVec3::new(0.1, 0.8, 0.0)]),
         light_direction: Some(DVec3::new(0.6, -1.0, -0.55)),
         ..RenderOptions::default()

@@ -71,7 +71,7 @@ fn a_fine_fence_keeps_its_coverage_from_afar() {
             let holed = fence(times, filter, &surface("MASK")).seen(&options);
             // The truth of the map: 64 rays through each of its texels.
             let fine = RenderOptions {
-                map: 8 * options.map,
+                map: options.map.map(|side| 8 * side),
                 ..options.clone()
             };
             let [.., rays] = covered(&fence(times, filter, &surface("MASK")).seen(&fine));
@@ -92,7 +92,7 @@ fn a_fine_fence_keeps_its_coverage_from_afar() {
                 assert!((share - truth).abs() < within, "{share} for {truth}");
             }
             // Nowhere is it solid or gone: sixteen by sixteen texels at a time.
-            let side = options.map as usize;
+            let side = options.map.unwrap() as usize;
             let samples = holed.depth.samples as usize;
             for at in 0..(side / 16).pow(2) {
                 let [x, y] = [at % (side / 16) * 16, at / (side / 16) * 16];

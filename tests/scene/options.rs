@@ -4,6 +4,7 @@ use crate::Files;
 use crate::build::options;
 use glam::DVec3;
 use moment_shadows::Profile;
+use moment_shadows_lab::command::drawn::Drawn;
 use moment_shadows_lab::command::render::RenderOptions;
 use moment_shadows_lab::gpu::Gpu;
 use moment_shadows_lab::scene;
@@ -37,14 +38,11 @@ fn cameras_and_lights_are_in_the_file_s_coordinates() {
             light_direction: Some(view.light_direction),
             ..options()
         };
-        let numbered = numbered
-            .frame(&Gpu::open(Profile::WebgpuCore).unwrap(), &scene, 4)
-            .unwrap()
-            .desc;
-        let named = named
-            .frame(&Gpu::open(Profile::WebgpuCore).unwrap(), &scene, 4)
-            .unwrap()
-            .desc;
+        let gpu = Gpu::open(Profile::WebgpuCore).unwrap();
+        let [numbered, named] = [numbered, named].map(|options| {
+            let drawn = options.sized(Drawn::default());
+            options.frame(&gpu, &scene, &drawn, 4).unwrap().desc
+        });
         assert_eq!(named.light, numbered.light);
         assert!((named.camera.eye - numbered.camera.eye).length() < 1e-9);
         assert!((named.camera.target - numbered.camera.target).length() < 1e-9);

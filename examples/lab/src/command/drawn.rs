@@ -52,15 +52,25 @@ impl RenderOptions {
             (drawn.picture, drawn.camera_samples) = (camera.size, camera.samples);
             drawn.camera_format = camera.format;
         }
-        drawn.map = self.map.map_or(drawn.map, |side| [side; 2]);
-        drawn.picture = self.size.unwrap_or(drawn.picture);
-        drawn.samples = file.samples(self.samples.unwrap_or(drawn.samples));
+        drawn = self.sized(drawn);
+        drawn.samples = file.samples(drawn.samples);
         if file.reads_depth() && self.samples.is_some_and(|samples| samples != drawn.samples) {
             return Err(file.unsuitable(
                 "its technique reads the plain depth map, which has one sample per texel; leave out --samples",
             ));
         }
         Ok(drawn)
+    }
+
+    /// What is drawn, where flags do not say otherwise.
+    #[must_use]
+    pub fn sized(&self, otherwise: Drawn) -> Drawn {
+        Drawn {
+            map: self.map.map_or(otherwise.map, |side| [side; 2]),
+            samples: self.samples.unwrap_or(otherwise.samples),
+            picture: self.size.unwrap_or(otherwise.picture),
+            ..otherwise
+        }
     }
 }
 
