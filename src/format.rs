@@ -8,6 +8,7 @@ use crate::Profile;
 
 /// A texture format that nodes and hosts exchange. Named as in WebGPU, and independent of graphics libraries.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[serde(rename_all = "lowercase")]
 pub enum TextureFormat {
     /// One channel of 8 bits in [0, 1].

@@ -29,6 +29,7 @@ use crate::{Profile, TextureFormat, ValueError};
 ///
 /// Light leaks behind an occluder over a distance that grows with the square root of the bias.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[serde(rename_all = "lowercase")]
 pub enum Storage {
     /// 16-bit normalised channels with the optimised basis.

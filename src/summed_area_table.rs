@@ -12,6 +12,7 @@ use crate::{FourMomentsBias, Storage, ValueError};
 /// A table holds channels in [0, 1] as the storage unorm16 has them, times a [`unit`](Self::unit), summed up modulo 2^32. The sum
 /// over a rectangle is right as long as it covers at most [`largest_area`](Self::largest_area) texels.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[serde(try_from = "Written")]
 pub struct SummedAreaTable {
     source: Storage,
@@ -20,6 +21,7 @@ pub struct SummedAreaTable {
 
 /// The table's form in files.
 #[derive(Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[serde(deny_unknown_fields)]
 struct Written {
     source: Storage,

@@ -68,6 +68,7 @@ impl<T> Named<T> {
 
 /// A connection.
 #[derive(Clone, Debug, PartialEq, Eq, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[serde(deny_unknown_fields)]
 pub struct Edge {
     /// An output of a node (`node.slot`) or an import (`name`).
@@ -85,6 +86,9 @@ struct File<'a> {
     /// Already looked at; named here because other keys are refused.
     #[serde(rename = "version")]
     _version: serde::de::IgnoredAny,
+    /// Where the schema is, for editors.
+    #[serde(rename = "$schema", default)]
+    _schema: Option<&'a str>,
     #[serde(borrow)]
     imports: Vec<&'a RawValue>,
     #[serde(borrow)]
@@ -101,12 +105,17 @@ struct FileVersion {
     version: u32,
 }
 
+/// What the host gives, and how the graph expects it.
 #[derive(Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[serde(deny_unknown_fields)]
-struct FileImport {
+pub(crate) struct FileImport {
+    /// The name, which nothing else has.
     name: String,
+    /// A texture as the graph expects it; what the host gives may differ.
     #[serde(default)]
     texture: Option<TextureDesc>,
+    /// The size of a storage buffer in bytes.
     #[serde(default)]
     buffer_size: Option<u64>,
 }
@@ -120,10 +129,14 @@ struct FileNode<'a> {
     properties: Option<&'a RawValue>,
 }
 
+/// What the host takes.
 #[derive(Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[serde(deny_unknown_fields)]
-struct FileOutput {
+pub(crate) struct FileOutput {
+    /// The name, which no other output has.
     name: String,
+    /// An output of a node (`node.slot`), or an import (`name`).
     from: String,
 }
 

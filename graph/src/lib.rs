@@ -23,6 +23,8 @@ mod plan;
 pub mod record;
 mod registry;
 mod resource;
+#[cfg(feature = "schema")]
+mod schema;
 #[cfg(feature = "wgpu")]
 mod session;
 mod version_1;
@@ -45,6 +47,8 @@ pub use plan::{
 };
 pub use registry::NodeRegistry;
 pub use resource::{Access, ResourceDesc, TextureDesc};
+#[cfg(feature = "schema")]
+pub use schema::graph_file_schema;
 #[cfg(feature = "wgpu")]
 pub use session::Session;
 

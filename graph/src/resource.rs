@@ -7,6 +7,7 @@ use serde::{Deserialize, Serialize};
 
 /// A texture.
 #[derive(Clone, Debug, PartialEq, Eq, Hash, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[serde(deny_unknown_fields)]
 pub struct TextureDesc {
     /// The format.

@@ -9,6 +9,7 @@ use crate::{Profile, Storage, SummedAreaTable, TextureFormat, ValueError};
 
 /// The encoding of a filterable map: a technique with a storage that it can use.
 #[derive(Clone, Debug, PartialEq, Eq, Hash, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[serde(try_from = "Pair")]
 pub struct MapEncoding {
     technique: Technique,
@@ -21,6 +22,7 @@ pub struct MapEncoding {
 
 /// The encoding's form in files.
 #[derive(Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[serde(deny_unknown_fields)]
 struct Pair {
     #[serde(default)]

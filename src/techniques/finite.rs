@@ -33,6 +33,21 @@ impl Finite {
     }
 }
 
+#[cfg(feature = "schema")]
+impl schemars::JsonSchema for Finite {
+    fn inline_schema() -> bool {
+        true
+    }
+
+    fn schema_name() -> std::borrow::Cow<'static, str> {
+        "Finite".into()
+    }
+
+    fn json_schema(generator: &mut schemars::SchemaGenerator) -> schemars::Schema {
+        f32::json_schema(generator)
+    }
+}
+
 impl Eq for Finite {}
 
 impl Hash for Finite {

@@ -32,7 +32,9 @@ use crate::{Profile, Storage, ValueError};
 ///
 /// In files a technique is a name alone, for usual settings, or a name with settings: `"evsm4"`, `{"evsm4": {"positive": 20}}`.
 #[derive(Clone, Debug, Default, PartialEq, Eq, Hash, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[serde(rename_all = "lowercase", deny_unknown_fields, remote = "Self")]
+#[cfg_attr(feature = "schema", schemars(transform = name::schema))]
 pub enum Technique {
     /// The comparison with the nearest texel (Williams, SIGGRAPH 1978).
     Binary,

@@ -51,3 +51,18 @@ impl<'de> Visitor<'de> for Written {
         Technique::deserialize(MapAccessDeserializer::new(settings))
     }
 }
+
+/// Adds names alone to the schema of names with settings.
+#[cfg(feature = "schema")]
+pub(super) fn schema(derived: &mut schemars::Schema) {
+    let mut names: Vec<_> = Technique::examples().iter().map(Technique::name).collect();
+    names.dedup();
+    let alone = schemars::json_schema!({
+        "description": "A technique with usual settings.",
+        "enum": names,
+    });
+    *derived = schemars::json_schema!({
+        "description": derived.remove("description"),
+        "anyOf": [alone, derived],
+    });
+}

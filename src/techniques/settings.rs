@@ -6,6 +6,7 @@ use super::Finite;
 
 /// What the filter of an exponential shadow map averages.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[serde(rename_all = "lowercase")]
 pub enum EsmFiltering {
     /// The map holds the mean of e^(c z), which any filter averages.
@@ -18,6 +19,7 @@ pub enum EsmFiltering {
 
 /// Where the layers of a layered variance shadow map lie.
 #[derive(Clone, Debug, Default, PartialEq, Eq, Hash, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[serde(rename_all = "lowercase")]
 pub enum LayerSplits {
     /// Layers of equal depth.
@@ -47,6 +49,7 @@ impl LayerSplits {
 
 /// The comparisons that percentage-closer filtering averages. Radii are in texels.
 #[derive(Clone, Debug, PartialEq, Eq, Hash, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[serde(rename_all = "snake_case", deny_unknown_fields)]
 pub enum PcfTaps {
     /// A square of 2 radius + 1 texels per side with equal weights, and bilinear in between.

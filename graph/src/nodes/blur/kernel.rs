@@ -29,3 +29,27 @@ pub(super) fn read<'de, D: Deserializer<'de>>(
         )),
     })
 }
+
+#[cfg(feature = "schema")]
+pub(super) fn schema(_: &mut schemars::SchemaGenerator) -> schemars::Schema {
+    let largest = Kernel::LARGEST_RADIUS;
+    schemars::json_schema!({
+        "type": "object",
+        "properties": {
+            "radius": {
+                "description": "Texels on either side of the centre.",
+                "type": "integer", "minimum": 1, "maximum": largest,
+            },
+            "sigma": {
+                "description": "The standard deviation of the Gaussian in texels; 0.6 of the radius where it is left out.",
+                "type": "number", "exclusiveMinimum": 0,
+            },
+            "weights": {
+                "description": "Weights of any symmetric or other kernel, from end to end, in place of a Gaussian.",
+                "type": "array", "items": { "type": "number" }, "minItems": 3, "maxItems": 2 * largest + 1,
+            },
+        },
+        "oneOf": [{ "required": ["radius"] }, { "required": ["weights"] }],
+        "additionalProperties": false,
+    })
+}

@@ -34,11 +34,13 @@ const WORKGROUP_UNROLLED_Y: [u32; 2] = [64, 1];
 /// y, for each plane; beyond the edge of a region its last texel repeats. Maps stored as `unorm10` are drawn, others are written by
 /// compute shaders.
 #[derive(Clone, Debug, PartialEq, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[serde(deny_unknown_fields)]
 pub struct Blur {
     /// The kernel, the same along both axes; the node refuses what is none. In a file a `radius` and a `sigma` in texels (0.6
     /// of the radius where it is left out), or `weights`.
     #[serde(deserialize_with = "kernel::read")]
+    #[cfg_attr(feature = "schema", schemars(schema_with = "kernel::schema"))]
     pub kernel: Result<Kernel, ValueError>,
     /// Whether the kernel can change per frame: its weights are then a node parameter ([`Blur::parameters`]), which begins
     /// as `kernel`. Kernels of a radius above 12 have the parameter in any case.
@@ -47,6 +49,7 @@ pub struct Blur {
     /// Room for mip levels, which [`super::Downsample`] fills: a number, the map itself included, or `None` (in a file `"all"`)
     /// for as many as the shorter side of the map allows.
     #[serde(default = "mip_levels::one", deserialize_with = "mip_levels::read")]
+    #[cfg_attr(feature = "schema", schemars(schema_with = "mip_levels::schema"))]
     pub mip_levels: Option<u32>,
 }
 

@@ -20,6 +20,7 @@ use crate::{
 /// One texel is looked up per pixel for four moments, two for six. A medium without density, or with parameters that would give
 /// a non-finite result, gives exactly (0, 0, 0, 1). Radiance is at most 65504.
 #[derive(Clone, Debug, PartialEq, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[serde(default, deny_unknown_fields)]
 pub struct CompositeScattering {
     /// The format of the radiance: rgba16float or rgba32float. Where it is left out, rgba16float.
@@ -32,6 +33,7 @@ pub struct CompositeScattering {
     /// to the cosine of the angle between view ray and light. The published form, all the way in both, has a larger error than
     /// the default.
     #[serde(deserialize_with = "overestimation")]
+    #[cfg_attr(feature = "schema", schemars(schema_with = "overestimation_schema"))]
     pub overestimation: [f32; 2],
 }
 
@@ -61,6 +63,17 @@ fn overestimation<'de, D: Deserializer<'de>>(file: D) -> Result<[f32; 2], D::Err
         written.towards.unwrap_or(towards),
         written.away.unwrap_or(away),
     ])
+}
+
+#[cfg(feature = "schema")]
+fn overestimation_schema(_: &mut schemars::SchemaGenerator) -> schemars::Schema {
+    let strength = |default: f32| schemars::json_schema!({ "type": "number", "minimum": 0, "maximum": 1, "default": default });
+    let [towards, away] = OVERESTIMATION.map(strength);
+    schemars::json_schema!({
+        "type": "object",
+        "properties": { "towards": towards, "away": away },
+        "additionalProperties": false,
+    })
 }
 
 impl Node for CompositeScattering {

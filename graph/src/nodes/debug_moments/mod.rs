@@ -8,6 +8,7 @@ use crate::{Connected, GraphError, Node, NodeDesc, Pass, Stage, TextureRule, bin
 
 /// What [`DebugMoments`] shows.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[serde(rename_all = "snake_case")]
 pub enum Show {
     /// The first three moments as red, green and blue; odd ones from -1 to 1, black to full.
@@ -25,6 +26,7 @@ pub enum Show {
 
 /// Node `debug_moments`: `map` to `picture`, rgba8unorm, of the map's size and layers.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[serde(default, deny_unknown_fields)]
 pub struct DebugMoments {
     /// What is shown.

@@ -9,6 +9,7 @@ use crate::{Connected, GraphError, Node, NodeDesc, Slot, Stage, bind};
 /// Node `downsample`: fills the mip levels of `map` in place, within each region. The map has room for them
 /// where the node that made it says so (`mip_levels`). One pass per level; each texel is the mean over what it covers.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[serde(deny_unknown_fields)]
 pub struct Downsample {}
 

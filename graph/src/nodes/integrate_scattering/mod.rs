@@ -16,6 +16,7 @@ use crate::{
 /// Sums are f32 and rounded once. On a GPU a workgroup sums up a row, on a software adapter an invocation does. Which
 /// transmittance serves all view rays of a row, and what that costs, is said in the WGSL module `scattering_weights`.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[serde(deny_unknown_fields)]
 pub struct IntegrateScattering {}
 

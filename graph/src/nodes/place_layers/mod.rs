@@ -20,6 +20,7 @@ const STATE: [u32; 2] = [5, 1];
 /// from where it was: `splits` and its state are persistent, and all zeros at first. Edges against the far end, where no caster
 /// is, do not count. Parameters: a [`moment_shadows::DepthConversion`] per layer and region, the same as those of `resolve`.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[serde(default, deny_unknown_fields)]
 pub struct PlaceLayers {
     /// Layers of the technique, 1 to 8: as many as the map has.

@@ -16,6 +16,7 @@ use crate::{
 ///
 /// Each texel is one light ray, looked up over the texel's own footprint where the map has mip levels; rays outside are lit.
 #[derive(Clone, Debug, PartialEq, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[serde(deny_unknown_fields)]
 pub struct RectifyMoments {
     /// `hamburger4` or `hamburger6`: how many moments the two depths of a texel are encoded as again.

@@ -15,6 +15,7 @@ use crate::{Connected, GraphError, Node, NodeDesc, Stage, TextureRule, bind};
 /// technique stores) of the samples are averaged, not their depths, so edges are antialiased. With splits placed by Lloyd
 /// relaxation there is a second input, `splits`. Parameters: a [`moment_shadows::DepthConversion`] per layer and region.
 #[derive(Clone, Debug, PartialEq, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[serde(deny_unknown_fields)]
 pub struct Resolve {
     /// What the map is made for; nodes that read it need not be told.
@@ -23,14 +24,25 @@ pub struct Resolve {
     /// How the moments are stored: the first of these that the device can write. Empty, or `"best"` in a file, where it is
     /// left to the library: that with the least error per bit.
     #[serde(default, deserialize_with = "storages")]
+    #[cfg_attr(feature = "schema", schemars(schema_with = "storages_schema"))]
     pub storage: Vec<Storage>,
     /// Room for mip levels, for a map that is not blurred, as that of [`super::Blur`].
     #[serde(default = "mip_levels::one", deserialize_with = "mip_levels::read")]
+    #[cfg_attr(feature = "schema", schemars(schema_with = "mip_levels::schema"))]
     pub mip_levels: Option<u32>,
 }
 
 fn storages<'de, D: Deserializer<'de>>(file: D) -> Result<Vec<Storage>, D::Error> {
     file.deserialize_any(Storages)
+}
+
+#[cfg(feature = "schema")]
+fn storages_schema(generator: &mut schemars::SchemaGenerator) -> schemars::Schema {
+    let storage = generator.subschema_for::<Storage>();
+    schemars::json_schema!({
+        "anyOf": [{ "const": "best" }, storage, { "type": "array", "items": storage }],
+        "default": "best",
+    })
 }
 
 /// A storage, several in the order of preference, or `"best"`.

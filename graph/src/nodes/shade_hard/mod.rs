@@ -22,6 +22,7 @@ mod own_shader;
 /// It shades up to four lights, one in each channel of its output (a single one is in all of them), through any number of
 /// views: cascades, faces and spots, each a region of a layer. Parameters: a [`moment_shadows::ViewParameters`] per view.
 #[derive(Clone, Debug, PartialEq, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[serde(default, deny_unknown_fields)]
 pub struct ShadeHard {
     /// How the map becomes shadow intensity. Where it is left out, that which the map was made for.

@@ -15,6 +15,7 @@ use crate::{Binding, Connected, GraphError, Node, NodeDesc, Slot, bind};
 /// receiver bias only the constant and the steepest slope count ([`moment_shadows::ReceiverBias::for_kernel`] with a deviation
 /// of 0); the rest follows from each pixel's own filter. No filter is larger than the table's largest kernel.
 #[derive(Clone, Debug, PartialEq, Eq, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[serde(default, deny_unknown_fields)]
 pub struct ShadeSoft {
     /// The format of the shadow intensity, as that of [`super::ShadeHard`].
@@ -28,6 +29,7 @@ pub struct ShadeSoft {
     /// `"filter"`, the default: the width of a penumbra changes in steps that its own slope hides; or `"neither"`: for filters
     /// of many texels.
     #[serde(deserialize_with = "interpolation")]
+    #[cfg_attr(feature = "schema", schemars(schema_with = "interpolation_schema"))]
     pub interpolation: [bool; 2],
 }
 
@@ -44,6 +46,11 @@ fn interpolation<'de, D: Deserializer<'de>>(file: D) -> Result<[bool; 2], D::Err
         Queries::Filter => [false, true],
         Queries::Neither => [false, false],
     })
+}
+
+#[cfg(feature = "schema")]
+fn interpolation_schema(_: &mut schemars::SchemaGenerator) -> schemars::Schema {
+    schemars::json_schema!({ "enum": ["both", "filter", "neither"], "default": "filter" })
 }
 
 impl Default for ShadeSoft {

@@ -25,6 +25,14 @@ pub(in crate::nodes) fn read<'de, D: Deserializer<'de>>(file: D) -> Result<Optio
     })
 }
 
+#[cfg(feature = "schema")]
+pub(in crate::nodes) fn schema(_: &mut schemars::SchemaGenerator) -> schemars::Schema {
+    schemars::json_schema!({
+        "anyOf": [{ "const": "all" }, { "type": "integer", "minimum": 1 }],
+        "default": 1,
+    })
+}
+
 /// The number for a map of a size. A region has texels on every level only if it is large enough for it, so more levels than
 /// the shorter side of the whole map allows are refused.
 pub(in crate::nodes) fn count(levels: Option<u32>, [x, y]: [u32; 2]) -> Result<u32, GraphError> {

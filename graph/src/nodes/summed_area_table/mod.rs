@@ -16,11 +16,13 @@ use crate::{Connected, GraphError, Node, NodeDesc, Pass, Rule, Slot, Stage, Text
 /// invocation and without any shared memory; then their prefix sums along rows and columns; then the table. On a software
 /// adapter tiles have 16x16 texels, elsewhere 8x16, so that a map of 1024x1024 texels keeps 8192 invocations busy.
 #[derive(Clone, Debug, PartialEq, Eq, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[serde(default, deny_unknown_fields)]
 pub struct SummedAreaTable {
     /// Width and height in texels of the largest rectangle whose mean will be asked for, in a file one number for a square. The
     /// smaller it is, the finer is the table of a float map and the less light leaks.
     #[serde(deserialize_with = "sides")]
+    #[cfg_attr(feature = "schema", schemars(schema_with = "sides_schema"))]
     pub largest_kernel: [u32; 2],
 }
 
@@ -44,6 +46,14 @@ fn sides<'de, D: Deserializer<'de>>(file: D) -> Result<[u32; 2], D::Error> {
         Written::Square(side) => [side; 2],
         Written::Sides(sides) => sides,
     })
+}
+
+#[cfg(feature = "schema")]
+fn sides_schema(_: &mut schemars::SchemaGenerator) -> schemars::Schema {
+    let side = schemars::json_schema!({ "type": "integer", "minimum": 1 });
+    let sides =
+        schemars::json_schema!({ "type": "array", "items": side, "minItems": 2, "maxItems": 2 });
+    schemars::json_schema!({ "anyOf": [side, sides], "default": 65 })
 }
 
 /// Lines per workgroup of the passes in between (`LINES` in WGSL).

@@ -6,6 +6,8 @@
     reason = "a test that fails says where"
 )]
 
+mod graph_file;
+
 use std::collections::BTreeSet;
 use std::path::Path;
 
@@ -16,6 +18,23 @@ use moment_shadows_lab::techniques::{filterable, reading_depth};
 fn read(file: &str) -> String {
     let path = Path::new(env!("CARGO_MANIFEST_DIR")).join(file);
     std::fs::read_to_string(&path).unwrap_or_else(|error| panic!("{file}: {error}"))
+}
+
+/// Compares a file that is generated with what it should be; with `UPDATE_DOCUMENTS` set it is written instead.
+pub(crate) fn kept(file: &str, expected: &str) {
+    if std::env::var_os("UPDATE_DOCUMENTS").is_some() {
+        let path = Path::new(env!("CARGO_MANIFEST_DIR")).join(file);
+        std::fs::write(path, expected).unwrap();
+        return;
+    }
+    let found = read(file).replace("\r\n", "\n");
+    let line = found.lines().zip(expected.lines()).position(|(a, b)| a != b);
+    assert!(
+        found == expected,
+        "{file} differs from what the code says from line {} on; run \
+         `UPDATE_DOCUMENTS=1 cargo test --release --test documents` and look at the difference",
+        line.unwrap_or_default() + 1
+    );
 }
 
 /// What stands between backticks.

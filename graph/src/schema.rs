@@ -1,0 +1,98 @@
+//! The JSON schema of graph files.
+
+use schemars::generate::SchemaSettings;
+use schemars::{JsonSchema, Schema, SchemaGenerator};
+use serde_json::{Value, json};
+
+use crate::graph::{Edge, FileImport, FileOutput, VERSION};
+use crate::nodes::{
+    Blur, CompositeScattering, DebugMoments, Downsample, IntegrateScattering, PlaceLayers,
+    RectifyMoments, Resolve, ShadeHard, ShadeSoft, SummedAreaTable,
+};
+
+/// The JSON schema of graph files of the current version with the library's own nodes (JSON Schema 2020-12). A host's own node
+/// types are not in it.
+#[must_use]
+pub fn graph_file_schema() -> Value {
+    let mut settings = SchemaSettings::draft2020_12();
+    settings.meta_schema = None;
+    let generator = &mut settings.into_generator();
+    let nodes = [
+        node::<Blur>(generator, "blur"),
+        node::<CompositeScattering>(generator, "composite_scattering"),
+        node::<DebugMoments>(generator, "debug_moments"),
+        node::<Downsample>(generator, "downsample"),
+        node::<IntegrateScattering>(generator, "integrate_scattering"),
+        node::<PlaceLayers>(generator, "place_layers"),
+        node::<RectifyMoments>(generator, "rectify_moments"),
+        node::<Resolve>(generator, "resolve"),
+        node::<ShadeHard>(generator, "shade_hard"),
+        node::<ShadeSoft>(generator, "shade_soft"),
+        node::<SummedAreaTable>(generator, "summed_area_table"),
+    ];
+    let [imports, edges, outputs] = [
+        generator.subschema_for::<FileImport>(),
+        generator.subschema_for::<Edge>(),
+        generator.subschema_for::<FileOutput>(),
+    ];
+    let list = |items: Value| json!({ "type": "array", "items": items });
+    let mut schema = json!({
+        "$schema": "https://json-schema.org/draft/2020-12/schema",
+        "title": "A graph of moment-shadows",
+        "type": "object",
+        "properties": {
+            "$schema": { "description": "Where this schema is, for editors.", "type": "string" },
+            "version": { "description": "The version of the format.", "const": VERSION },
+            "imports": list(imports.to_value()),
+            "nodes": list(json!({ "oneOf": nodes })),
+            "edges": list(edges.to_value()),
+            "outputs": list(outputs.to_value()),
+        },
+        "required": ["version", "imports", "nodes", "edges", "outputs"],
+        "additionalProperties": false,
+        "$defs": generator.take_definitions(true),
+    });
+    plain(&mut schema);
+    schema
+}
+
+/// A node of a type, with its properties, which have to be given where one of them has to be.
+fn node<N: JsonSchema>(generator: &mut SchemaGenerator, name: &str) -> Value {
+    let properties: Schema = N::json_schema(generator);
+    let mut required = vec!["name", "type"];
+    if properties.get("required").is_some() {
+        required.push("properties");
+    }
+    json!({
+        "type": "object",
+        "description": properties.get("description"),
+        "properties": {
+            "name": { "description": "The node's name, which nothing else has.", "type": "string" },
+            "type": { "const": name },
+            "properties": properties,
+        },
+        "required": required,
+        "additionalProperties": false,
+    })
+}
+
+/// Descriptions are for readers of files: without links to Rust, and without what Rust calls things.
+fn plain(schema: &mut Value) {
+    match schema {
+        Value::Object(entries) => {
+            for (key, value) in entries {
+                match value {
+                    Value::String(text) if key == "description" => {
+                        *text = text
+                            .replace("[`", "`")
+                            .replace("`]", "`")
+                            .replace('\n', " ");
+                    }
+                    _ => plain(value),
+                }
+            }
+        }
+        Value::Array(items) => items.iter_mut().for_each(plain),
+        Value::Null | Value::Bool(_) | Value::Number(_) | Value::String(_) => {}
+    }
+}
