@@ -49,8 +49,8 @@ pub(super) fn of_mesh(
     let counts = [
         translations.as_ref().map(Vec::len),
         rotations.as_ref().map(Vec::len),
+        scales.as_ref().map(Vec::len),
     ];
-    let counts = [counts[0], counts[1], scales.as_ref().map(Vec::len)];
     let mut given = counts.into_iter().flatten();
     let count = given.next().unwrap_or(1);
     if given.any(|other| other != count) {

@@ -130,32 +130,42 @@ impl<'a> Loader<'a> {
             return Ok(());
         }
         for world in worlds {
-            self.source.take(1, size_of::<Mesh>())?;
-            self.source.take(mesh.indices.len(), size_of::<u32>())?;
-            self.source.take(vertices, VERTEX_BYTES)?;
-            let place = |&local: &[f32; 3]| world.transform_point3(to_f64(local));
-            let placed: Vec<DVec3> = local.iter().map(place).collect();
-            let rounded: Vec<_> = placed.iter().map(|at| at.as_vec3().to_array()).collect();
-            check("placed POSITION", &rounded, LARGEST_COORDINATE)?;
-            // A node that is flat along an axis leaves normals without a direction.
-            let to_world = DMat3::from_mat4(*world).inverse().transpose();
-            let (mesh, placed) = match normals.as_ref().filter(|_| to_world.is_finite()) {
-                Some(normals) => {
-                    let turned = normals
-                        .iter()
-                        .map(|&normal| unit(to_world * to_f64(normal)));
-                    let normals = turned.collect();
-                    let mesh = mesh.clone();
-                    (Mesh { normals, ..mesh }, placed)
-                }
-                None => {
-                    self.source.take(mesh.indices.len(), VERTEX_BYTES)?;
-                    flat(&mesh, &placed)
-                }
-            };
-            self.scene.meshes.push(mesh);
-            self.placed.push(placed);
+            self.place(&mesh, &local, normals.as_deref(), world)?;
         }
+        Ok(())
+    }
+
+    /// Adds a mesh whose vertices and their normals, if there are any, are `world`'s images of those given.
+    fn place(
+        &mut self,
+        mesh: &Mesh,
+        local: &[[f32; 3]],
+        normals: Option<&[[f32; 3]]>,
+        world: &DMat4,
+    ) -> Result<(), String> {
+        self.source.take(1, size_of::<Mesh>())?;
+        self.source.take(mesh.indices.len(), size_of::<u32>())?;
+        self.source.take(local.len(), VERTEX_BYTES)?;
+        let place = |&local: &[f32; 3]| world.transform_point3(to_f64(local));
+        let placed: Vec<DVec3> = local.iter().map(place).collect();
+        let rounded: Vec<_> = placed.iter().map(|at| at.as_vec3().to_array()).collect();
+        check("placed POSITION", &rounded, LARGEST_COORDINATE)?;
+        // A node that is flat along an axis leaves normals without a direction.
+        let to_world = DMat3::from_mat4(*world).inverse().transpose();
+        let (mesh, placed) = match normals.filter(|_| to_world.is_finite()) {
+            Some(normals) => {
+                let turn = |&normal: &[f32; 3]| unit(to_world * to_f64(normal));
+                let normals = normals.iter().map(turn).collect();
+                let mesh = mesh.clone();
+                (Mesh { normals, ..mesh }, placed)
+            }
+            None => {
+                self.source.take(mesh.indices.len(), VERTEX_BYTES)?;
+                flat(mesh, &placed)
+            }
+        };
+        self.scene.meshes.push(mesh);
+        self.placed.push(placed);
         Ok(())
     }
 
