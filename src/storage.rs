@@ -41,7 +41,7 @@ pub enum Storage {
     /// 8-bit normalised channels: for bounded functions of depth, not for moments.
     Unorm8 = STORAGE_UNORM8 as isize,
     /// 10-bit normalised channels, three to a texel: for six moments alone. Devices need not be able to write the format from
-    /// compute shaders, so such maps are [drawn](Storage::is_drawn).
+    /// compute shaders, so such maps are drawn ([`Storage::is_drawn`]).
     Unorm10 = STORAGE_UNORM10 as isize,
     /// Sums of 32-bit integers: a summed-area table, see [`SummedAreaTable`](crate::SummedAreaTable).
     Fixed32 = STORAGE_FIXED32 as isize,

@@ -13,37 +13,12 @@ use std::collections::{BTreeMap, BTreeSet};
 use std::path::PathBuf;
 
 use moment_shadows::{Backend, Profile, Source, validate};
-use moment_shadows_graph::{Direction, NodeRegistry, Slot};
 use moment_shadows_lab::catalogue;
 use moment_shadows_lab::shaders::{self, Shader};
 
 fn variants() -> Vec<Shader> {
     let nodes = shaders::nodes().unwrap();
     nodes.into_iter().map(|node| node.shader).collect()
-}
-
-#[test]
-fn the_readme_lists_every_node_with_its_slots() {
-    let readme = include_str!("../graph/README.md");
-    for name in NodeRegistry::new().type_names() {
-        assert!(readme.contains(&format!("### `{name}`\n")), "{name}");
-    }
-    for variant in catalogue::variants().unwrap() {
-        let node = variant.describe().unwrap();
-        let heading = format!("### `{}`\n", node.name);
-        let (_, section) = readme
-            .split_once(&heading)
-            .unwrap_or_else(|| panic!("{heading}"));
-        let section = section.split("### ").next().unwrap();
-        let joined = |slot: &&Slot| slot.direction != Direction::Internal;
-        for Slot { name, .. } in node.slots.iter().filter(joined) {
-            assert!(
-                section.contains(&format!("| `{name}` |")),
-                "{}.{name}",
-                node.name
-            );
-        }
-    }
 }
 
 fn snapshot(name: &str) -> PathBuf {

@@ -76,23 +76,59 @@ fn node<N: JsonSchema>(generator: &mut SchemaGenerator, name: &str) -> Value {
     })
 }
 
-/// Descriptions are for readers of files: without links to Rust, and without what Rust calls things.
+/// Descriptions are for readers of files: without links to Rust, and without tables.
 fn plain(schema: &mut Value) {
     match schema {
         Value::Object(entries) => {
+            // An option that is left out.
+            if entries.get("default").is_some_and(Value::is_null) {
+                entries.remove("default");
+            }
             for (key, value) in entries {
-                match value {
-                    Value::String(text) if key == "description" => {
-                        *text = text
-                            .replace("[`", "`")
-                            .replace("`]", "`")
-                            .replace('\n', " ");
-                    }
-                    _ => plain(value),
+                if let (Value::String(text), "description") = (&mut *value, key.as_str()) {
+                    *text = prose(text);
                 }
+                plain(value);
             }
         }
         Value::Array(items) => items.iter_mut().for_each(plain),
         Value::Null | Value::Bool(_) | Value::Number(_) | Value::String(_) => {}
     }
+}
+
+/// The paragraphs of a comment that are no tables, with what links are called in place of them.
+fn prose(comment: &str) -> String {
+    let paragraphs = comment.split("\n\n");
+    let paragraphs = paragraphs.filter(|paragraph| !paragraph.contains("|---|"));
+    let text = paragraphs.collect::<Vec<_>>().join(" ").replace('\n', " ");
+    let mut parts = text.split("[`");
+    let mut prose = parts.next().unwrap_or_default().to_owned();
+    for part in parts {
+        let (name, rest) = part.split_once("`]").unwrap_or((part, ""));
+        // What a link leads to may follow.
+        let rest = match rest.strip_prefix('(').and_then(|rest| rest.split_once(')')) {
+            Some((_, rest)) => rest,
+            None => rest,
+        };
+        let last = name.rsplit("::").next().unwrap_or(name);
+        // Modules of nodes are siblings.
+        let last = match name.starts_with("super::") {
+            true => in_snake_case(last),
+            false => last.to_owned(),
+        };
+        prose += &format!("`{last}`{rest}");
+    }
+    prose
+}
+
+/// The name of a node's type in files.
+fn in_snake_case(name: &str) -> String {
+    let mut file_name = String::new();
+    for letter in name.chars() {
+        if letter.is_uppercase() && !file_name.is_empty() {
+            file_name.push('_');
+        }
+        file_name.extend(letter.to_lowercase());
+    }
+    file_name
 }

@@ -7,6 +7,8 @@
 )]
 
 mod graph_file;
+mod schema;
+mod wgsl;
 
 use std::collections::BTreeSet;
 use std::path::Path;
@@ -28,7 +30,10 @@ pub(crate) fn kept(file: &str, expected: &str) {
         return;
     }
     let found = read(file).replace("\r\n", "\n");
-    let line = found.lines().zip(expected.lines()).position(|(a, b)| a != b);
+    let line = found
+        .lines()
+        .zip(expected.lines())
+        .position(|(a, b)| a != b);
     assert!(
         found == expected,
         "{file} differs from what the code says from line {} on; run \

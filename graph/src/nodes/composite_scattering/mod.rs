@@ -33,7 +33,7 @@ pub struct CompositeScattering {
     /// to the cosine of the angle between view ray and light. The published form, all the way in both, has a larger error than
     /// the default.
     #[serde(deserialize_with = "overestimation")]
-    #[cfg_attr(feature = "schema", schemars(schema_with = "overestimation_schema"))]
+    #[cfg_attr(feature = "schema", schemars(schema_with = "overestimation_schema", extend("default" = serde_json::Value::Null)))]
     pub overestimation: [f32; 2],
 }
 
@@ -67,8 +67,9 @@ fn overestimation<'de, D: Deserializer<'de>>(file: D) -> Result<[f32; 2], D::Err
 
 #[cfg(feature = "schema")]
 fn overestimation_schema(_: &mut schemars::SchemaGenerator) -> schemars::Schema {
-    let strength = |default: f32| schemars::json_schema!({ "type": "number", "minimum": 0, "maximum": 1, "default": default });
-    let [towards, away] = OVERESTIMATION.map(strength);
+    let strength = |default: f64| schemars::json_schema!({ "type": "number", "minimum": 0, "maximum": 1, "default": default });
+    let [towards, away] =
+        OVERESTIMATION.map(|it| strength((f64::from(it) * 100.0).round() / 100.0));
     schemars::json_schema!({
         "type": "object",
         "properties": { "towards": towards, "away": away },

@@ -10,7 +10,7 @@ use super::shared::{depth_input, mip_levels, regions, wrong_property};
 use super::techniques;
 use crate::{Connected, GraphError, Node, NodeDesc, Stage, TextureRule, bind};
 
-/// Node `resolve`: `depth` (1, 2, 4 or 8 samples of depth32float or depth16unorm, any number of layers) to
+/// Node `resolve`: `depth` (of any number of layers and samples) to
 /// `map`, a filterable map of the same size, layers and regions, encoded for a technique. The *moments* (or what else the
 /// technique stores) of the samples are averaged, not their depths, so edges are antialiased. With splits placed by Lloyd
 /// relaxation there is a second input, `splits`. Parameters: a [`moment_shadows::DepthConversion`] per layer and region.
@@ -24,7 +24,7 @@ pub struct Resolve {
     /// How the moments are stored: the first of these that the device can write. Empty, or `"best"` in a file, where it is
     /// left to the library: that with the least error per bit.
     #[serde(default, deserialize_with = "storages")]
-    #[cfg_attr(feature = "schema", schemars(schema_with = "storages_schema"))]
+    #[cfg_attr(feature = "schema", schemars(schema_with = "storages_schema", extend("default" = "best")))]
     pub storage: Vec<Storage>,
     /// Room for mip levels, for a map that is not blurred, as that of [`super::Blur`].
     #[serde(default = "mip_levels::one", deserialize_with = "mip_levels::read")]
@@ -41,7 +41,6 @@ fn storages_schema(generator: &mut schemars::SchemaGenerator) -> schemars::Schem
     let storage = generator.subschema_for::<Storage>();
     schemars::json_schema!({
         "anyOf": [{ "const": "best" }, storage, { "type": "array", "items": storage }],
-        "default": "best",
     })
 }
 

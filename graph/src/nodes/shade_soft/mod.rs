@@ -29,7 +29,7 @@ pub struct ShadeSoft {
     /// `"filter"`, the default: the width of a penumbra changes in steps that its own slope hides; or `"neither"`: for filters
     /// of many texels.
     #[serde(deserialize_with = "interpolation")]
-    #[cfg_attr(feature = "schema", schemars(schema_with = "interpolation_schema"))]
+    #[cfg_attr(feature = "schema", schemars(schema_with = "interpolation_schema", extend("default" = "filter")))]
     pub interpolation: [bool; 2],
 }
 
@@ -50,7 +50,7 @@ fn interpolation<'de, D: Deserializer<'de>>(file: D) -> Result<[bool; 2], D::Err
 
 #[cfg(feature = "schema")]
 fn interpolation_schema(_: &mut schemars::SchemaGenerator) -> schemars::Schema {
-    schemars::json_schema!({ "enum": ["both", "filter", "neither"], "default": "filter" })
+    schemars::json_schema!({ "enum": ["both", "filter", "neither"] })
 }
 
 impl Default for ShadeSoft {

@@ -22,7 +22,7 @@ pub struct SummedAreaTable {
     /// Width and height in texels of the largest rectangle whose mean will be asked for, in a file one number for a square. The
     /// smaller it is, the finer is the table of a float map and the less light leaks.
     #[serde(deserialize_with = "sides")]
-    #[cfg_attr(feature = "schema", schemars(schema_with = "sides_schema"))]
+    #[cfg_attr(feature = "schema", schemars(schema_with = "sides_schema", extend("default" = 65)))]
     pub largest_kernel: [u32; 2],
 }
 
@@ -53,7 +53,7 @@ fn sides_schema(_: &mut schemars::SchemaGenerator) -> schemars::Schema {
     let side = schemars::json_schema!({ "type": "integer", "minimum": 1 });
     let sides =
         schemars::json_schema!({ "type": "array", "items": side, "minItems": 2, "maxItems": 2 });
-    schemars::json_schema!({ "anyOf": [side, sides], "default": 65 })
+    schemars::json_schema!({ "anyOf": [side, sides] })
 }
 
 /// Lines per workgroup of the passes in between (`LINES` in WGSL).
