@@ -13,7 +13,6 @@ use std::collections::{BTreeMap, BTreeSet};
 use std::path::PathBuf;
 
 use moment_shadows::{Backend, Profile, Source, validate};
-use moment_shadows_lab::catalogue;
 use moment_shadows_lab::shaders::{self, Shader};
 
 fn variants() -> Vec<Shader> {

@@ -35,7 +35,23 @@ fn definitions(source: &str) -> Vec<Definition> {
             .iter()
             .any(|kind| line.starts_with(kind))
         {
-            let head = line.trim_end_matches([' ', '{', ';']).to_owned();
+            let mut head = line.to_owned();
+            // Over several lines: all parameters of a function, and of a constant its type.
+            if line.ends_with('(') {
+                for next in lines.by_ref() {
+                    head = head.trim_end_matches(',').to_owned();
+                    if next.starts_with(')') {
+                        head += next;
+                        break;
+                    }
+                    let separator = if head.ends_with('(') { "" } else { ", " };
+                    head += &format!("{separator}{}", next.trim());
+                }
+                if let Some((named, _)) = line.split_once(" = ") {
+                    head = named.to_owned();
+                }
+            }
+            let head = head.trim_end_matches([' ', '{', ';']).to_owned();
             let comment = comment.join(" ");
             found.push(Definition { comment, head });
         } else if line.starts_with("struct ") {
