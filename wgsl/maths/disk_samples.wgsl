@@ -9,7 +9,7 @@ const DISK_SAMPLES_POISSON_COUNT: u32 = 16u;
 // A Poisson disk: no two samples are closer than 0.455. Sample i lies at radius sqrt((i + 0.5) / 16), in the middle of one of
 // 16 rings of equal area, so that the samples cover the disk evenly when they are turned by every angle. Their angles were
 // found by best candidates and random relaxation of the smallest distance.
-const DISK_SAMPLES_POISSON = array<vec2f, 16>(
+const DISK_SAMPLES_POISSON: array<vec2f, 16> = array<vec2f, 16>(
     vec2f(0.027483, -0.174627),
     vec2f(0.059710, 0.300308),
     vec2f(-0.383554, 0.095584),

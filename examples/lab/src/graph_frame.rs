@@ -107,8 +107,13 @@ impl GraphFrame {
         air: Option<&Air>,
     ) -> Result<(), LabError> {
         let bytes = parameter_bytes(&self.plan, desc, file, air)?;
-        gpu.queue.write_buffer(&self.parameters, 0, &bytes);
+        self.write(gpu, &bytes);
         Ok(())
+    }
+
+    /// Writes parameters that were filled in otherwise.
+    pub fn write(&self, gpu: &Gpu, bytes: &[u8]) {
+        gpu.queue.write_buffer(&self.parameters, 0, bytes);
     }
 
     /// Records all stages and submits them, until what is kept from frame to frame has settled.

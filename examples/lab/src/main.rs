@@ -8,7 +8,7 @@ use moment_shadows_lab::command::cost::CostOptions;
 use moment_shadows_lab::command::{
     CommandResult, adapter, bias, error, error_table, graph, isa, measure, render,
     scattering_error, scattering_flicker, shaders, soft_error, stability, technique_pictures,
-    validate, vectors,
+    troubleshooting_pictures, validate, vectors,
 };
 use moment_shadows_lab::isa::child;
 use moment_shadows_lab::picture;
@@ -38,6 +38,8 @@ enum Command {
     /// Writes a picture of every technique: a view and the technique's typical failure, each with its difference from the
     /// truth beside it.
     TechniquePictures(technique_pictures::Options),
+    /// Writes a picture of every symptom of `docs/troubleshooting.md`, with a mistake and without it.
+    TroubleshootingPictures(troubleshooting_pictures::Options),
     /// Writes every linked shader of the library, as WGSL and SPIR-V with an index, for other compilers.
     Shaders(shaders::Options),
     /// Prints the error of a graph over all surfaces that the light's rays meet, and over a picture.
@@ -98,6 +100,7 @@ fn run(command: Command) -> CommandResult {
         Command::Vectors(options) => options.run(),
         Command::Measure(options) => options.run(),
         Command::TechniquePictures(options) => options.run(),
+        Command::TroubleshootingPictures(options) => options.run(),
         Command::Shaders(options) => options.run(),
         Command::Error(options) => options.run(),
         Command::ErrorTable(options) => options.run(),

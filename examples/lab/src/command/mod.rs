@@ -17,6 +17,7 @@ pub mod shaders;
 pub mod soft_error;
 pub mod stability;
 pub mod technique_pictures;
+pub mod troubleshooting_pictures;
 pub mod validate;
 pub mod vectors;
 
