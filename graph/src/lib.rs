@@ -5,6 +5,12 @@
 //!   (a file)      (checks)   (data)   (once per shader)     (once per size)     (once per import)   (every frame)
 //! ```
 //!
+//! Begin with [`Session`], the short path: a graph file, a device and an engine's own depth textures in, shadow intensity out.
+//! [The examples](https://github.com/moment-shadows/moment-shadows/tree/main/examples) are short programs to copy from; what may stand in
+//! a graph file is on [one page](https://github.com/moment-shadows/moment-shadows/blob/main/docs/graph_file.md), what
+//! [the shadow pass](https://github.com/moment-shadows/moment-shadows/blob/main/docs/shadow_pass.md) has to do on another, and
+//! [what mistakes look like](https://github.com/moment-shadows/moment-shadows/blob/main/docs/troubleshooting.md) on a third.
+//!
 //! A node describes itself as plain data ([`NodeDesc`]); the compiler checks a graph of nodes against the host's imports
 //! and the device's [`Capabilities`] and gives a [`Plan`], which any engine can record. The `record` module (feature
 //! `wgpu`) records it with wgpu.

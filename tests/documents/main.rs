@@ -7,6 +7,7 @@
 )]
 
 mod graph_file;
+mod links;
 mod schema;
 mod wgsl;
 
@@ -17,7 +18,7 @@ use moment_shadows::modules;
 use moment_shadows_lab::scene::EXTENSIONS;
 use moment_shadows_lab::techniques::{filterable, reading_depth};
 
-fn read(file: &str) -> String {
+pub(crate) fn read(file: &str) -> String {
     let path = Path::new(env!("CARGO_MANIFEST_DIR")).join(file);
     std::fs::read_to_string(&path).unwrap_or_else(|error| panic!("{file}: {error}"))
 }

@@ -1,0 +1,122 @@
+//! The command line: every sub-command with what it takes.
+
+use std::fmt::Display;
+use std::process::ExitCode;
+
+use clap::{CommandFactory, FromArgMatches, Parser, Subcommand};
+
+use crate::command::cost::CostOptions;
+use crate::command::{
+    CommandResult, adapter, bias, error, error_table, graph, isa, measure, render,
+    scattering_error, scattering_flicker, shaders, soft_error, stability, technique_pictures,
+    troubleshooting_pictures, validate, vectors,
+};
+use crate::isa::child;
+
+/// Filterable shadows: validate shaders, check graphs, render, and measure.
+#[derive(Parser)]
+#[command(name = "moment-shadows", version, about)]
+pub struct Cli {
+    #[command(subcommand)]
+    command: Command,
+}
+
+#[derive(Subcommand)]
+enum Command {
+    /// Prints the graphics adapter that the other commands use; fails if there is none.
+    Adapter,
+    /// Renders a scene with the shadows of a graph.
+    Render(render::Options),
+    /// Validates shaders, linked with the modules they import, for every backend.
+    Validate(validate::Options),
+    /// Checks and prints a graph file.
+    Graph(graph::Options),
+    /// Runs the shader on vectors with known bounds.
+    Vectors(vectors::Options),
+    /// Prints the error of every storage on several scenes, beside that of the exact bound.
+    Measure(measure::Options),
+    /// Writes a picture of every technique: a view and the technique's typical failure, each with its difference from the
+    /// truth beside it.
+    TechniquePictures(technique_pictures::Options),
+    /// Writes a picture of every symptom of `docs/troubleshooting.md`, with a mistake and without it.
+    TroubleshootingPictures(troubleshooting_pictures::Options),
+    /// Writes every linked shader of the library, as WGSL and SPIR-V with an index, for other compilers.
+    Shaders(shaders::Options),
+    /// Prints the error of a graph over all surfaces that the light's rays meet, and over a picture.
+    Error(error::Options),
+    /// Prints the error over all surfaces of several scenes, for several radii, techniques and storages.
+    ErrorTable(error_table::Options),
+    /// Prints how far soft shadows are from those of an area light that is sampled at many places: hard moment shadows,
+    /// percentage closer soft shadows, and graphs of your own.
+    SoftError(soft_error::SoftErrorOptions),
+    /// Renders the light that a medium scatters by every technique beside marched rays, and prints errors and costs.
+    ScatteringError(scattering_error::ScatteringErrorOptions),
+    /// Walks a slow path of camera and light, and prints how much the air flickers with filtered resampling and without. Fails
+    /// where it is more than a third as much. Takes minutes.
+    ScatteringFlicker(scattering_flicker::Options),
+    /// Times the passes of a graph, blurs of several radii, summed-area tables or single scattering, as ratios to copies, and counts
+    /// their bytes.
+    Cost(CostOptions),
+    /// Finds the smallest safe moment bias of each storage by search over filtered patches of depth.
+    Bias(bias::Options),
+    /// Tries every technique with every storage on random, extreme and invalid inputs, and on hill-climbs towards the worst,
+    /// and prints how far results are above the truth. Takes about a quarter of an hour. Exits with 3 if a result is NaN,
+    /// infinite, outside of 0 to 1 or farther above the truth than is documented.
+    Stability(stability::Options),
+    /// Compiles every shader for chips that need not be there, and counts what the code does (Linux, Mesa's RADV).
+    Isa(isa::Options),
+    /// The process that compiles for one chip, which its environment names.
+    #[command(name = child::COMMAND, hide = true)]
+    IsaChip(isa::ChildOptions),
+}
+
+/// The command line's parser. Numbers may be negative.
+#[must_use]
+pub fn parser() -> clap::Command {
+    Cli::command().mut_subcommands(|command| command.allow_negative_numbers(true))
+}
+
+impl Cli {
+    /// What the process was called with; ends it with a message where that is wrong.
+    #[must_use]
+    pub fn of_process() -> Self {
+        let cli = Self::from_arg_matches(&parser().get_matches());
+        cli.unwrap_or_else(|error| error.exit())
+    }
+
+    /// Runs the sub-command.
+    pub fn run(self) -> CommandResult {
+        run(self.command)
+    }
+}
+
+fn run(command: Command) -> CommandResult {
+    match command {
+        Command::Adapter => adapter::run(),
+        Command::Render(options) => options.run(),
+        Command::Validate(options) => options.run(),
+        Command::Graph(options) => options.run(),
+        Command::Vectors(options) => options.run(),
+        Command::Measure(options) => options.run(),
+        Command::TechniquePictures(options) => options.run(),
+        Command::TroubleshootingPictures(options) => options.run(),
+        Command::Shaders(options) => options.run(),
+        Command::Error(options) => options.run(),
+        Command::ErrorTable(options) => options.run(),
+        Command::SoftError(options) => print_all(&soft_error::run(&options)?),
+        Command::ScatteringError(options) => print_all(&scattering_error::run(&options)?),
+        Command::ScatteringFlicker(options) => options.run(),
+        Command::Cost(options) => options.run(),
+        Command::Bias(options) => options.run(),
+        Command::Stability(options) => options.run(),
+        Command::Isa(options) => options.run(),
+        Command::IsaChip(options) => options.run(),
+    }
+}
+
+fn print_all(reports: &[impl Display]) -> CommandResult {
+    for report in reports {
+        println!("{report}");
+    }
+    Ok(ExitCode::SUCCESS)
+}
