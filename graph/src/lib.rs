@@ -53,8 +53,6 @@ pub use plan::{
 };
 pub use registry::NodeRegistry;
 pub use resource::{Access, ResourceDesc, TextureDesc};
-#[cfg(feature = "schema")]
-pub use schema::graph_file_schema;
 #[cfg(feature = "wgpu")]
 pub use session::Session;
 

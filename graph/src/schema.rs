@@ -4,56 +4,58 @@ use schemars::generate::SchemaSettings;
 use schemars::{JsonSchema, Schema, SchemaGenerator};
 use serde_json::{Value, json};
 
-use crate::graph::{Edge, FileImport, FileOutput, VERSION};
+use crate::graph::{Edge, FileImport, FileOutput, Graph, VERSION};
 use crate::nodes::{
     Blur, CompositeScattering, DebugMoments, Downsample, IntegrateScattering, PlaceLayers,
     RectifyMoments, Resolve, ShadeHard, ShadeSoft, SummedAreaTable,
 };
 
-/// The JSON schema of graph files of the current version with the library's own nodes (JSON Schema 2020-12). A host's own node
-/// types are not in it.
-#[must_use]
-pub fn graph_file_schema() -> Value {
-    let mut settings = SchemaSettings::draft2020_12();
-    settings.meta_schema = None;
-    let generator = &mut settings.into_generator();
-    let nodes = [
-        node::<Blur>(generator, "blur"),
-        node::<CompositeScattering>(generator, "composite_scattering"),
-        node::<DebugMoments>(generator, "debug_moments"),
-        node::<Downsample>(generator, "downsample"),
-        node::<IntegrateScattering>(generator, "integrate_scattering"),
-        node::<PlaceLayers>(generator, "place_layers"),
-        node::<RectifyMoments>(generator, "rectify_moments"),
-        node::<Resolve>(generator, "resolve"),
-        node::<ShadeHard>(generator, "shade_hard"),
-        node::<ShadeSoft>(generator, "shade_soft"),
-        node::<SummedAreaTable>(generator, "summed_area_table"),
-    ];
-    let [imports, edges, outputs] = [
-        generator.subschema_for::<FileImport>(),
-        generator.subschema_for::<Edge>(),
-        generator.subschema_for::<FileOutput>(),
-    ];
-    let list = |items: Value| json!({ "type": "array", "items": items });
-    let mut schema = json!({
-        "$schema": "https://json-schema.org/draft/2020-12/schema",
-        "title": "A graph of moment-shadows",
-        "type": "object",
-        "properties": {
-            "$schema": { "description": "Where this schema is, for editors.", "type": "string" },
-            "version": { "description": "The version of the format.", "const": VERSION },
-            "imports": list(imports.to_value()),
-            "nodes": list(json!({ "oneOf": nodes })),
-            "edges": list(edges.to_value()),
-            "outputs": list(outputs.to_value()),
-        },
-        "required": ["version", "imports", "nodes", "edges", "outputs"],
-        "additionalProperties": false,
-        "$defs": generator.take_definitions(true),
-    });
-    plain(&mut schema);
-    schema
+impl Graph {
+    /// The JSON schema of graph files of the current version with the library's own nodes (JSON Schema 2020-12). A host's own node
+    /// types are not in it.
+    #[must_use]
+    pub fn schema() -> Value {
+        let mut settings = SchemaSettings::draft2020_12();
+        settings.meta_schema = None;
+        let generator = &mut settings.into_generator();
+        let nodes = [
+            node::<Blur>(generator, "blur"),
+            node::<CompositeScattering>(generator, "composite_scattering"),
+            node::<DebugMoments>(generator, "debug_moments"),
+            node::<Downsample>(generator, "downsample"),
+            node::<IntegrateScattering>(generator, "integrate_scattering"),
+            node::<PlaceLayers>(generator, "place_layers"),
+            node::<RectifyMoments>(generator, "rectify_moments"),
+            node::<Resolve>(generator, "resolve"),
+            node::<ShadeHard>(generator, "shade_hard"),
+            node::<ShadeSoft>(generator, "shade_soft"),
+            node::<SummedAreaTable>(generator, "summed_area_table"),
+        ];
+        let [imports, edges, outputs] = [
+            generator.subschema_for::<FileImport>(),
+            generator.subschema_for::<Edge>(),
+            generator.subschema_for::<FileOutput>(),
+        ];
+        let list = |items: Value| json!({ "type": "array", "items": items });
+        let mut schema = json!({
+            "$schema": "https://json-schema.org/draft/2020-12/schema",
+            "title": "A graph of moment-shadows",
+            "type": "object",
+            "properties": {
+                "$schema": { "description": "Where this schema is, for editors.", "type": "string" },
+                "version": { "description": "The version of the format.", "const": VERSION },
+                "imports": list(imports.to_value()),
+                "nodes": list(json!({ "oneOf": nodes })),
+                "edges": list(edges.to_value()),
+                "outputs": list(outputs.to_value()),
+            },
+            "required": ["version", "imports", "nodes", "edges", "outputs"],
+            "additionalProperties": false,
+            "$defs": generator.take_definitions(true),
+        });
+        plain(&mut schema);
+        schema
+    }
 }
 
 /// A node of a type, with its properties, which have to be given where one of them has to be.

@@ -3,7 +3,7 @@
 use std::collections::BTreeMap;
 
 use moment_shadows_graph::{
-    Direction, NodeDesc, NodeRegistry, Rule, SlotResource, TextureRule, graph_file_schema,
+    Direction, Graph, NodeDesc, NodeRegistry, Rule, SlotResource, TextureRule,
 };
 use moment_shadows_lab::catalogue;
 use serde_json::{Map, Value};
@@ -259,7 +259,7 @@ fn parameters(desc: &NodeDesc, page: &mut String) {
 }
 
 fn page() -> String {
-    let schema = graph_file_schema();
+    let schema = Graph::schema();
     let mut described: BTreeMap<String, Vec<NodeDesc>> = BTreeMap::new();
     for variant in catalogue::variants().unwrap() {
         let desc = variant.describe().unwrap();
@@ -346,7 +346,7 @@ fn choice(schema: &Value, page: &mut String) {
 
 #[test]
 fn the_schema_is_what_the_code_says() {
-    let text = serde_json::to_string_pretty(&graph_file_schema()).unwrap();
+    let text = serde_json::to_string_pretty(&Graph::schema()).unwrap();
     kept("graph/graph_file.schema.json", &format!("{text}\n"));
 }
 
@@ -357,7 +357,7 @@ fn the_page_is_what_the_code_says() {
 
 #[test]
 fn every_node_type_is_in_the_schema() {
-    let schema = graph_file_schema();
+    let schema = Graph::schema();
     let nodes = schema["properties"]["nodes"]["items"]["oneOf"]
         .as_array()
         .unwrap();

@@ -2,12 +2,12 @@
 
 use std::path::Path;
 
-use moment_shadows_graph::{Graph, NodeRegistry, graph_file_schema};
+use moment_shadows_graph::{Graph, NodeRegistry};
 use serde_json::{Value, json};
 
 /// Whether the schema and the library take a file; both have to agree.
 fn taken(file: &Value) -> bool {
-    let schema = jsonschema::validator_for(&graph_file_schema()).unwrap();
+    let schema = jsonschema::validator_for(&Graph::schema()).unwrap();
     let by_schema = schema.validate(file).map_err(|error| error.to_string());
     let parsed = Graph::parse(&file.to_string(), &NodeRegistry::new());
     let by_library = parsed.map(drop).map_err(|error| error.to_string());
