@@ -7,7 +7,7 @@ use moment_shadows::Profile;
 use moment_shadows_lab::command::drawn::Drawn;
 use moment_shadows_lab::command::render::RenderOptions;
 use moment_shadows_lab::gpu::Gpu;
-use moment_shadows_lab::scene;
+use moment_shadows_lab::scene::{self, Mesh, Scene};
 use moment_shadows_lab::view::View;
 use serde_json::json;
 
@@ -102,4 +102,32 @@ fn without_a_ground_there_are_casters_alone() {
             "{light_direction}"
         );
     }
+}
+
+#[test]
+fn files_with_the_same_box_are_seen_and_lit_the_same() {
+    // A square panel, and two slivers in opposite corners of its box.
+    let scene = |positions: &[[f32; 3]], in_box: bool| Scene {
+        meshes: vec![Mesh {
+            positions: positions.to_vec(),
+            indices: (0..positions.len() as u32).collect(),
+            ..Mesh::default()
+        }],
+        in_box,
+        ..Scene::default()
+    };
+    let [a, b, c, d] = [
+        [-1.0, 0.0, -1.0],
+        [1.0, 0.0, -1.0],
+        [1.0, 0.5, 1.0],
+        [-1.0, 0.5, 1.0],
+    ];
+    let placed = |positions: &[[f32; 3]], in_box: bool| {
+        let scene = scene(positions, in_box);
+        let view = View::numbered(&scene, 0);
+        (view, view.sun(&scene, [256; 2], 4.0, false).unwrap())
+    };
+    let (panel, slivers) = ([a, b, c, a, c, d], [a, a, a, c, c, c]);
+    assert_eq!(placed(&panel, true), placed(&slivers, true));
+    assert_ne!(placed(&panel, false), placed(&slivers, false));
 }

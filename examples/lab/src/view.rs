@@ -96,7 +96,7 @@ impl View {
         let light_direction = -spherical(sun_azimuth, sun_elevation);
         // The picture holds the scene and most of its shadow; tall things have shadows too long to show whole.
         let slope = DVec3::new(light_direction.x, 0.0, light_direction.z) / -light_direction.y;
-        let points = scene.casters().flat_map(|at| {
+        let points = scene.extremes().into_iter().flat_map(|at| {
             let height = at.y - bounds.min.y;
             [at, at - height * DVec3::Y + 0.8 * height * slope]
         });
@@ -157,7 +157,7 @@ impl View {
         margin: f64,
         reversed: bool,
     ) -> Result<LightView, LabError> {
-        let casters: Vec<DVec3> = scene.casters().collect();
+        let casters = scene.extremes();
         LightView::directional_fitted(
             self.light_direction,
             &casters,
@@ -185,7 +185,8 @@ impl View {
         let position = bounds.centre() - distance * self.light_direction;
         let along = |caster: DVec3| (caster - position).dot(self.light_direction);
         let [first, last] = scene
-            .casters()
+            .extremes()
+            .into_iter()
             .map(along)
             .fold([f64::INFINITY, f64::NEG_INFINITY], |[first, last], at| {
                 [first.min(at), last.max(at)]

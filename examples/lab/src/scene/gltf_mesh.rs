@@ -40,6 +40,7 @@ impl<'a> Loader<'a> {
                 name: name.to_owned(),
                 // The file's in their order, then the default one.
                 materials: vec![default; count + 1],
+                in_box: true,
                 ..Scene::default()
             },
         }

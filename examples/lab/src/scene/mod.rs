@@ -66,6 +66,9 @@ pub struct Scene {
     pub origin: DVec3,
     /// Height of the ground plane, if the scene stands on one.
     pub ground: Option<f64>,
+    /// Whether views and lights are fitted to the box around the casters, which files have in common that say the same in other
+    /// triangles; otherwise to the casters themselves, which is tighter.
+    pub in_box: bool,
     /// Where to stand; `None` to look at the scene from outside.
     pub stand: Option<Stand>,
     /// What was left out on loading, a sentence each.
@@ -78,7 +81,27 @@ impl Scene {
         Bounds::of(self.casters())
     }
 
-    /// The corners of all triangles but the ground's: what a directional light is fitted to.
+    /// What views and lights are fitted to.
+    #[must_use]
+    pub fn extremes(&self) -> Vec<DVec3> {
+        if !self.in_box {
+            return self.casters().collect();
+        }
+        let Bounds { min, max } = self.bounds();
+        let corner = |index: usize| {
+            let of = |axis: usize| {
+                if index >> axis & 1 == 0 {
+                    min[axis]
+                } else {
+                    max[axis]
+                }
+            };
+            DVec3::new(of(0), of(1), of(2))
+        };
+        (0..8).map(corner).collect()
+    }
+
+    /// The corners of all triangles but the ground's.
     pub fn casters(&self) -> impl Iterator<Item = DVec3> + '_ {
         let casters = self.meshes.iter().filter(|mesh| !mesh.ground);
         casters.flat_map(|mesh| {
