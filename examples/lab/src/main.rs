@@ -7,6 +7,9 @@ use moment_shadows_lab::{cli::Cli, picture, runtime_dir};
 /// The exit code after Ctrl-C, as shells have it.
 const INTERRUPTED: i32 = 130;
 
+/// The exit code where nobody reads the output to its end, as shells have it.
+const NOT_READ: i32 = 141;
+
 fn main() -> ExitCode {
     runtime_dir::ensure();
     // A process that something else started may ignore the signal until it is told.
@@ -14,6 +17,15 @@ fn main() -> ExitCode {
         picture::remove_part();
         std::process::exit(INTERRUPTED);
     });
+    let usual = std::panic::take_hook();
+    std::panic::set_hook(Box::new(move |panic| {
+        let said = panic.payload_as_str().unwrap_or_default();
+        // Whoever read the output has had enough of it.
+        if said.contains("failed printing to stdout") {
+            std::process::exit(NOT_READ);
+        }
+        usual(panic);
+    }));
     match Cli::of_process().run() {
         Ok(code) => code,
         Err(error) => {

@@ -245,3 +245,16 @@ fn an_interrupt_ends_it_within_a_second() {
         assert_eq!(files(folder.path()), Vec::<String>::new());
     }
 }
+
+#[test]
+fn an_output_that_is_not_read_to_its_end_is_no_panic() {
+    let graph = concat!(env!("CARGO_MANIFEST_DIR"), "/../hard_shadows.json");
+    let mut command = Command::new(BINARY);
+    command.args(["graph", graph, "--plan", "--json"]);
+    let piped = std::process::Stdio::piped;
+    let mut child = command.stdout(piped()).stderr(piped()).spawn().unwrap();
+    drop(child.stdout.take());
+    let output = child.wait_with_output().unwrap();
+    let (_, said) = texts(&output);
+    assert_eq!((output.status.code(), said.as_str()), (Some(141), ""));
+}
