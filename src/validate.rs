@@ -3,6 +3,7 @@
 mod backend;
 mod diagnostic;
 mod exercise;
+mod limits;
 mod storage_format;
 
 use naga::front::wgsl::ParseError;
@@ -37,7 +38,8 @@ impl ValidationReport {
 /// each value and a bound resource for each texture and sampler. Overrides without a default get the value 1.
 ///
 /// The profile decides what the shader may contain: `webgpu-core` no optional feature of WebGPU, and only the storage
-/// texture formats and accesses that every device has; `native` the 16-bit normalised ones as well; `native-adapter` every
+/// texture formats and accesses that every device has, and no more of buffers, textures, varyings and workgroup memory than WebGPU's default
+/// limits allow an entry point; `native` the 16-bit normalised ones as well; `native-adapter` every
 /// format that naga knows.
 ///
 /// The WGSL compiler runs on a separate thread with a large stack, on texts of at most
@@ -94,6 +96,9 @@ fn compile(linked: &Linked, profile: Profile) -> Result<ValidationReport, Shader
     storage_format::check(&module, linked, profile)?;
     let info = check(&module, capabilities)
         .map_err(|error| diagnostic::of_validation_error(linked, &module, &error))?;
+    if profile == Profile::WebgpuCore {
+        limits::check(&module, &info, linked)?;
+    }
     let shader = if module.entry_points.is_empty() {
         exercise::exercise(linked.wgsl(), module, info, capabilities)
     } else {

@@ -83,7 +83,7 @@ fn headline<'a>(module: &naga::Module, error: &'a ValidationError) -> (String, O
 }
 
 /// The definition of `word`, or else its first use.
-fn find(linked: &Linked, word: &str) -> Option<Location> {
+pub(super) fn find(linked: &Linked, word: &str) -> Option<Location> {
     let tokens = tokens(linked.wgsl()).unwrap_or_default();
     let defined = definitions(&tokens);
     let named = |token: &&Token<'_>| token.is_word(word);

@@ -2,6 +2,7 @@
 #![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic)]
 
 mod command;
+mod limits;
 
 use moment_shadows::{
     Backend, Profile, ShaderError, Source, TextureFormat, ValidationReport, validate,
