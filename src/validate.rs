@@ -35,7 +35,8 @@ impl ValidationReport {
 /// Links `source` as [`link()`] does, validates it under `profile`, and writes it for every [`Backend`].
 ///
 /// A text without entry points is validated too: every function is called from an entry point made for it, with a zero for
-/// each value and a bound resource for each texture and sampler. Overrides without a default get the value 1.
+/// each value and a bound resource for each texture and sampler. Overrides without a default get one of a few values with which the
+/// shader is valid.
 ///
 /// The profile decides what the shader may contain: `webgpu-core` no optional feature of WebGPU, and only the storage
 /// texture formats and accesses that every device has, and no more of buffers, textures, varyings and workgroup memory than WebGPU's default

@@ -3,6 +3,7 @@
 use core::ops::Range;
 use std::collections::BTreeSet;
 
+use super::dialect;
 use super::import::{self, Form, Import};
 use super::prune::{Declaration, declarations};
 use super::tokens::{Kind, Token, tokens};
@@ -47,6 +48,7 @@ impl<'a> File<'a> {
         };
         let open = "this comment does not end; close it with `*/`";
         let tokens = tokens(text).map_err(|start| file.error(start..start + 2, open))?;
+        dialect::refuse(&file, &tokens)?;
         let mut code = tokens.as_slice();
         while code.first().is_some_and(|token| token.is_word("import")) {
             let (import, rest) = import::parse(&file, code)?;

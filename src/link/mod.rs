@@ -1,5 +1,6 @@
 //! The linker: a file and the modules that it needs become one WGSL text.
 
+mod dialect;
 mod error;
 pub(crate) mod file;
 mod import;

@@ -1,6 +1,7 @@
 //! The shading languages that wgpu feeds to drivers.
 
 use core::fmt;
+use std::borrow::Cow;
 
 use naga::Module;
 use naga::back::{PipelineConstants, glsl, hlsl, msl, pipeline_constants, spv};
@@ -65,10 +66,7 @@ pub(super) struct Shader {
 /// Writes `shader` for every backend. SPIR-V, HLSL and MSL can express whatever a profile allows, so there a failure is an error.
 pub(super) fn write_all(shader: &Shader) -> Result<ValidationReport, ShaderError> {
     // Backends want constants in place of overrides.
-    let constants = missing_overrides(&shader.module);
-    let (module, info) =
-        pipeline_constants::process_overrides(&shader.module, &shader.info, None, &constants)
-            .map_err(|error| ShaderError::new(format!("overrides: {error}")))?;
+    let (module, info) = with_overrides(shader)?;
     let outcome = |backend| {
         let written = match backend {
             Backend::SpirV => write_spirv(&module, &info),
@@ -90,15 +88,47 @@ pub(super) fn write_all(shader: &Shader) -> Result<ValidationReport, ShaderError
     })
 }
 
-/// The value 1 for each override without a default: it is a legal workgroup size, array length and factor.
-fn missing_overrides(module: &Module) -> PipelineConstants {
+/// Values for overrides without a default, one after the other: 1 is a legal workgroup size, array length and factor, and where it
+/// makes a divisor zero another does not.
+const OVERRIDES: [f64; 5] = [1.0, 2.0, 3.0, 16.0, 0.0];
+
+/// The module with values in place of overrides, by the first of [`OVERRIDES`] with which it is valid.
+fn with_overrides(shader: &Shader) -> Result<(Cow<'_, Module>, Cow<'_, ModuleInfo>), ShaderError> {
+    let mut refused = None;
+    for value in OVERRIDES {
+        let constants = missing_overrides(&shader.module, value);
+        let none = constants.is_empty();
+        match pipeline_constants::process_overrides(&shader.module, &shader.info, None, &constants)
+        {
+            Ok(processed) => return Ok(processed),
+            Err(error) => drop(refused.get_or_insert(error)),
+        }
+        if none {
+            break;
+        }
+    }
+    let mut names: Vec<String> = missing_overrides(&shader.module, 1.0).into_keys().collect();
+    names.sort();
+    let error = refused.map_or_else(String::new, |error| error.to_string());
+    let tried = match names.as_slice() {
+        [] => String::new(),
+        names => format!(
+            "; {} have no default, and {OVERRIDES:?} were tried for them",
+            names.join(", ")
+        ),
+    };
+    Err(ShaderError::new(format!("overrides: {error}{tried}")))
+}
+
+/// This value for each override without a default.
+fn missing_overrides(module: &Module, value: f64) -> PipelineConstants {
     let missing = module.overrides.iter().filter(|(_, of)| of.init.is_none());
     let key = |of: &naga::Override| match of.id {
         Some(id) => Some(id.to_string()),
         None => of.name.clone(),
     };
     missing
-        .filter_map(|(_, of)| Some((key(of)?, 1.0)))
+        .filter_map(|(_, of)| Some((key(of)?, value)))
         .collect()
 }
 

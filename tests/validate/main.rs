@@ -291,6 +291,48 @@ fn functions_without_entry_point_are_called_with_arguments_of_every_kind() {
 }
 
 #[test]
+fn overrides_are_tried_with_several_values() {
+    let dividing = |expression: &str| {
+        format!(
+            "override STEPS: i32;\noverride SCALE: i32 = {expression};\n\
+             @fragment fn main() -> @location(0) vec4f {{ return vec4f(f32(SCALE)); }}\n"
+        )
+    };
+    for expression in [
+        "8 / STEPS",
+        "8 / (STEPS - 1)",
+        "8 / ((STEPS - 1) * (STEPS - 2))",
+    ] {
+        core(&dividing(expression)).unwrap();
+    }
+    let error = refused(&dividing("8 / (STEPS - STEPS)"));
+    assert!(
+        error.message.contains("STEPS") && error.message.contains("no default"),
+        "{error}"
+    );
+}
+
+#[test]
+fn other_dialects_are_told_by_name() {
+    let fragment = "@fragment fn main() -> @location(0) vec4f { return vec4f(1.0); }\n";
+    for (line, expected, width) in [
+        ("#import bevy_pbr::forward_io::VertexOutput", "naga_oil", 7),
+        ("#define_import_path my::module", "naga_oil", 19),
+        ("#ifdef SHADOWS", "preprocessor", 6),
+        ("  #include \"common.wgsl\"", "includes no files", 8),
+        ("#pragma once", "another language", 7),
+    ] {
+        let error = refused(&format!(
+            "// a comment with #import in it\n{line}\n{fragment}"
+        ));
+        assert!(error.message.contains(expected), "{error}");
+        let (_, at, _, found) = place(&error);
+        assert_eq!((at, found), (2, width), "{error}");
+    }
+    core(&format!("/* #ifdef */ {fragment}")).unwrap();
+}
+
+#[test]
 fn overrides_without_default_have_a_value() {
     let report = core(
         "override group_size: u32;\n@id(7) override scaled: bool;\noverride scale = 2.0;\n\

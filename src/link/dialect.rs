@@ -1,0 +1,45 @@
+//! Dialects of WGSL, told by lines that begin with `#`: no WGSL has that symbol outside of comments.
+
+use super::file::File;
+use super::tokens::Token;
+use crate::ShaderError;
+
+/// Words after the `#`, whose dialect they are, and what makes WGSL of it.
+const DIALECTS: [(&[&str], &str, &str); 3] = [
+    (
+        &["import", "define_import_path"],
+        "naga_oil's, as Bevy's shaders are written in",
+        "validate what its Composer makes of it; imports of this library are `import moment_shadows::folder::file::{item};`",
+    ),
+    (
+        &[
+            "ifdef", "ifndef", "if", "else", "elif", "endif", "define", "undef",
+        ],
+        "a preprocessor's",
+        "WGSL has no conditional text: validate what the preprocessor makes of it, once for each set of definitions in use",
+    ),
+    (
+        &["include"],
+        "a preprocessor's",
+        "WGSL includes no files: validate what the preprocessor makes of it, or give the file as a module and import it",
+    ),
+];
+
+/// Refuses a file of another dialect, and says which it is.
+pub(super) fn refuse(file: &File<'_>, tokens: &[Token<'_>]) -> Result<(), ShaderError> {
+    let Some(place) = tokens.iter().position(|token| token.is_symbol("#")) else {
+        return Ok(());
+    };
+    let Some(word) = tokens.get(place + 1) else {
+        return Err(file.error(tokens[place].range(), "WGSL has no `#`"));
+    };
+    let range = tokens[place].start..word.range().end;
+    let dialect = DIALECTS
+        .iter()
+        .find(|(words, ..)| words.contains(&word.text));
+    let Some((_, whose, remedy)) = dialect else {
+        return Err(file.error(range, "WGSL has no `#`; this is another language's line"));
+    };
+    let message = format!("`#{}` is no WGSL but {whose}; {remedy}", word.text);
+    Err(file.error(range, message))
+}
