@@ -4,6 +4,7 @@ mod backend;
 mod diagnostic;
 mod exercise;
 mod limits;
+mod operators;
 mod storage_format;
 
 use naga::front::wgsl::ParseError;
@@ -98,6 +99,7 @@ fn compile(linked: &Linked, profile: Profile) -> Result<ValidationReport, Shader
     let info = check(&module, capabilities)
         .map_err(|error| diagnostic::of_validation_error(linked, &module, &error))?;
     if profile == Profile::WebgpuCore {
+        operators::check(linked)?;
         limits::check(&module, &info, linked)?;
     }
     let shader = if module.entry_points.is_empty() {

@@ -3,6 +3,7 @@
 
 mod command;
 mod limits;
+mod operators;
 
 use moment_shadows::{
     Backend, Profile, ShaderError, Source, TextureFormat, ValidationReport, validate,
