@@ -214,7 +214,7 @@ fn told_reversed(gpu: &Gpu, picture: [u32; 2]) -> Result<[Shown; 2], LabError> {
 
 /// A light's matrix of another origin than the camera's: what is seen lies beside its map.
 fn light_elsewhere(gpu: &Gpu, picture: [u32; 2]) -> Result<[Shown; 2], LabError> {
-    other_matrix(gpu, picture, |clip| clip[3][0] += 2.5)
+    other_matrix(gpu, picture, |clip| clip[3][0] += 40.0)
 }
 
 /// A light's matrix whose y points down, as OpenGL's textures do.
@@ -230,7 +230,12 @@ fn other_matrix(
     picture: [u32; 2],
     change: impl FnOnce(&mut [[f64; 4]; 4]),
 ) -> Result<[Shown; 2], LabError> {
-    let frame = drawn(gpu, &floor(), picture, 512)?;
+    // High above the floor: shadows are short, and seen whole wherever they are.
+    let high = RenderOptions {
+        light_direction: Some(DVec3::new(0.5, -1.0, 0.35)),
+        ..RenderOptions::default()
+    };
+    let frame = drawn_as(gpu, &floor(), picture, 512, &high)?;
     let (camera, light) = told(&frame)?;
     let mut changed = light;
     change(&mut changed.clip_from_world);

@@ -105,17 +105,21 @@ fn documents() -> Vec<PathBuf> {
     found
 }
 
-/// What a line says without its comment and the variables in front.
+/// What a line says without its comment and the variables in front; what stands in quotes is one word.
 fn words(line: &str) -> Vec<String> {
     let line = line.split(" #").next().unwrap_or_default();
-    let is_variable = |word: &&str| {
-        word.split_once('=')
-            .is_some_and(|(name, _)| name.chars().all(|it| it.is_uppercase() || it == '_'))
+    let mut words: Vec<String> = Vec::new();
+    for (number, part) in line.split('"').enumerate() {
+        match number % 2 {
+            0 => words.extend(part.split_whitespace().map(str::to_owned)),
+            _ => words.push(part.to_owned()),
+        }
+    }
+    let is_variable = |word: &String| {
+        let name = word.split_once('=').map(|(name, _)| name);
+        name.is_some_and(|name| name.chars().all(|it| it.is_uppercase() || it == '_'))
     };
-    line.split_whitespace()
-        .skip_while(is_variable)
-        .map(str::to_owned)
-        .collect()
+    words.into_iter().skip_while(is_variable).collect()
 }
 
 /// The commands of a document; whether each stands in a block to be pasted.
@@ -148,7 +152,10 @@ fn commands(text: &str) -> Vec<(Vec<String>, bool)> {
                     last.extend(words(line));
                 }
             }
-            Some(_) => {}
+            Some(kind) => assert!(
+                !is_command(&words(line)),
+                "'{line}' in a block of kind '{kind}'"
+            ),
             None => {
                 let spans = line.split('`').skip(1).step_by(2).map(words);
                 found.extend(
@@ -207,7 +214,7 @@ fn check_ours(arguments: &[String], pasted: bool) -> String {
 }
 
 /// Checks what cargo is told: packages, tests and folders that are there. Gives the sub-command of ours that it runs.
-fn check_cargo(words: &[String]) -> Option<String> {
+fn check_cargo(words: &[String], pasted: bool) -> Option<String> {
     let known = ["run", "test", "add", "install", "doc", "fmt", "clippy"];
     assert!(known.contains(&words[1].as_str()), "{words:?}");
     let after = |flag: &str| {
@@ -232,10 +239,7 @@ fn check_cargo(words: &[String]) -> Option<String> {
     let package = after("-p")?;
     assert_eq!(package, "moment-shadows-lab");
     let ours = words.iter().position(|word| word == "--")? + 1;
-    Some(check_ours(
-        &words[ours..],
-        words[1..].iter().any(|word| word == "--graph"),
-    ))
+    Some(check_ours(&words[ours..], pasted))
 }
 
 #[test]
@@ -253,7 +257,7 @@ fn every_command_of_the_documents_is_right() {
                     assert!(script.contains(&way), "./run has no '{}'", words[1]);
                     None
                 }
-                "cargo" => check_cargo(&words),
+                "cargo" => check_cargo(&words, pasted),
                 _ => Some(check_ours(&words[1..], pasted)),
             };
             let is_known = |name: &String| {
@@ -272,8 +276,8 @@ fn every_command_of_the_documents_is_right() {
 
 #[test]
 fn short_commands_run() {
-    let folder = tempfile::tempdir().unwrap();
     for (name, arguments) in RUN {
+        let folder = tempfile::tempdir().unwrap();
         let out = folder.path().display().to_string();
         let arguments = arguments
             .iter()
