@@ -8,7 +8,7 @@ use eframe::{egui, wgpu};
 use moment_shadows::{CameraView, Kernel, LeakReduction, LightView, ReceiverBias, ViewParameters};
 use moment_shadows_graph::Plan;
 use moment_shadows_graph::record::ImportedResource;
-use moment_shadows_lab::command::render::RenderOptions;
+use moment_shadows_lab::command::{drawn::Drawn, render::RenderOptions};
 use moment_shadows_lab::{frame::Frame, gpu::Gpu, scene};
 
 /// Why the example does not start.
@@ -23,12 +23,13 @@ impl StandIn {
     pub(crate) fn new(egui: &RenderState) -> Result<Self, Failure> {
         let (device, queue) = (egui.device.clone(), egui.queue.clone());
         let gpu = Gpu::of_host(egui.adapter.clone(), device, queue);
-        let options = RenderOptions {
-            size: [SIZE.x as u32, SIZE.y as u32],
-            ..Default::default()
+        let options = RenderOptions::default();
+        let drawn = Drawn {
+            picture: [SIZE.x as u32, SIZE.y as u32],
+            ..Drawn::default()
         };
         let scene = scene::load(&options.scene)?;
-        Ok(Self(options.frame(&gpu, &scene, 4)?))
+        Ok(Self(options.frame(&gpu, &scene, &drawn, 4)?))
     }
 
     /// What the graph takes from the host.

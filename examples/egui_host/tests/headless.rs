@@ -11,7 +11,7 @@ use egui_kittest::wgpu::{WgpuTestRenderer, create_render_state, default_wgpu_set
 use image::RgbaImage;
 use moment_shadows::Profile;
 use moment_shadows_egui_host::App;
-use moment_shadows_lab::command::render::RenderOptions;
+use moment_shadows_lab::command::{drawn::Drawn, render::RenderOptions};
 use moment_shadows_lab::graph_file::GraphFile;
 use moment_shadows_lab::graph_frame::GraphFrame;
 use moment_shadows_lab::{gpu::Gpu, picture, scene};
@@ -24,11 +24,13 @@ const PICTURE: [u32; 2] = [960, 540];
 fn shadow_intensity() -> Vec<f32> {
     let gpu = Gpu::open(Profile::WebgpuCore).unwrap();
     let options = RenderOptions {
-        size: PICTURE,
+        size: Some(PICTURE),
         ..Default::default()
     };
     let scene = scene::load(&options.scene).unwrap();
-    let frame = options.frame(&gpu, &scene, 4).unwrap();
+    let frame = options
+        .frame(&gpu, &scene, &options.sized(Drawn::default()), 4)
+        .unwrap();
     let path = concat!(env!("CARGO_MANIFEST_DIR"), "/shadows.json");
     let file = GraphFile::read(Path::new(path), None).unwrap();
     let graph_frame = GraphFrame::new(&gpu, &frame, &file).unwrap();
