@@ -24,7 +24,8 @@
 //!
 //! [Every module and function](https://github.com/moment-shadows/moment-shadows/blob/main/docs/wgsl.md) is on one page. Nodes that make
 //! and filter shadow maps, and the short path from an engine's own depth to a picture, `Session`, are in the crate
-//! `moment-shadows-graph`; its [README](https://github.com/moment-shadows/moment-shadows#start) begins there.
+//! `moment-shadows-graph`, where
+//! [the graph file](https://github.com/moment-shadows/moment-shadows/blob/main/docs/graph_file.md) connects them; its [README](https://github.com/moment-shadows/moment-shadows#start) begins there.
 //!
 //! The import lines are WESL, so the same text works in hosts that read WESL. `validate()` (feature `validate`, on by
 //! default) checks a shader under a [`Profile`] and writes it for every backend; its errors point at the lines before linking.

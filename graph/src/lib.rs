@@ -11,6 +11,8 @@
 //! [the shadow pass](https://github.com/moment-shadows/moment-shadows/blob/main/docs/shadow_pass.md) has to do on another, and
 //! [what mistakes look like](https://github.com/moment-shadows/moment-shadows/blob/main/docs/troubleshooting.md) on a third.
 //!
+//! Shaders of your own import [the same modules](https://github.com/moment-shadows/moment-shadows/blob/main/docs/wgsl.md).
+//!
 //! A node describes itself as plain data ([`NodeDesc`]); the compiler checks a graph of nodes against the host's imports
 //! and the device's [`Capabilities`] and gives a [`Plan`], which any engine can record. The `record` module (feature
 //! `wgpu`) records it with wgpu.

@@ -17,6 +17,7 @@ that are not listed here are errors, which name the node, the slot and the place
 
 The [schema](../graph/graph_file.schema.json) lets an editor complete and check a file that names it:
 `\"$schema\": \"graph_file.schema.json\"`. This page and the schema are generated from the code; a test holds both.
+The schema knows the current version and the library's own nodes; a host that registers nodes of its own extends it.
 
 ```json
 {
@@ -183,7 +184,7 @@ fn formats(rule: &TextureRule) -> Vec<String> {
     }
 }
 
-fn slots(descriptions: &[NodeDesc], page: &mut String) {
+fn slots(descriptions: &[NodeDesc], properties: &Value, page: &mut String) {
     let mut all: Vec<(String, SlotRow)> = Vec::new();
     for slot in descriptions.iter().flat_map(|desc| &desc.slots) {
         let direction = match slot.direction {
@@ -231,6 +232,10 @@ fn slots(descriptions: &[NodeDesc], page: &mut String) {
             "| `{name}` | {}{needed} | {}{samples} | {} |\n",
             row.direction,
             match row.formats.len() {
+                // A node with this property draws to whatever it says.
+                _ if row.direction == "out" && !properties["format"].is_null() => {
+                    "what `format` says".to_owned()
+                }
                 0..8 => row.formats.join(", "),
                 _ => "any filterable map".to_owned(),
             },
@@ -285,7 +290,11 @@ fn page() -> String {
         let (_, description) = description.split_once(": ").unwrap();
         page.push_str(&format!("\n### `{name}`\n\n{description}\n"));
         let descriptions = &described[name];
-        slots(descriptions, &mut page);
+        slots(
+            descriptions,
+            &node["properties"]["properties"]["properties"],
+            &mut page,
+        );
         properties(&node["properties"]["properties"], &mut page);
         parameters(&descriptions[0], &mut page);
     }

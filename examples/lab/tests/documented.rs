@@ -126,8 +126,10 @@ fn words(line: &str) -> Vec<String> {
 fn commands(text: &str) -> Vec<(Vec<String>, bool)> {
     let is_command = |words: &[String]| {
         let first = words.first().map(String::as_str);
-        first.is_some_and(|first| ["./run", "cargo", "moment-shadows"].contains(&first))
-            && words.len() > 1
+        first.is_some_and(|first| {
+            let ours = ["./run", "cargo", "moment-shadows"].contains(&first) && words.len() > 1;
+            ours || first.ends_with(".sh")
+        })
     };
     let mut fence: Option<String> = None;
     let mut found: Vec<(Vec<String>, bool)> = Vec::new();
@@ -255,6 +257,10 @@ fn every_command_of_the_documents_is_right() {
                 "./run" => {
                     let way = format!("  {})", words[1]);
                     assert!(script.contains(&way), "./run has no '{}'", words[1]);
+                    None
+                }
+                script if script.ends_with(".sh") => {
+                    assert!(root().join(script).exists(), "'{script}' does not exist");
                     None
                 }
                 "cargo" => check_cargo(&words, pasted),

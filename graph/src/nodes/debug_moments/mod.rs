@@ -1,13 +1,13 @@
 //! Shows a map of moments as a picture.
 
 use moment_shadows::{Storage, TextureFormat};
-use serde::Deserialize;
+use serde::{Deserialize, Serialize};
 
 use super::shared::{Specialization, map_input, wgsl, wrong_property};
 use crate::{Connected, GraphError, Node, NodeDesc, Pass, Stage, TextureRule, bind};
 
 /// What [`DebugMoments`] shows.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Deserialize)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[serde(rename_all = "snake_case")]
 pub enum Show {
