@@ -69,7 +69,7 @@ pub use depth::{DepthConversion, DepthRange};
 pub use format::{FormatSupport, TextureFormat};
 pub use kernel::Kernel;
 pub use leak_reduction::LeakReduction;
-pub use link::{Linked, Location, Module, ShaderError, Source, link, modules};
+pub use link::{Linked, Location, Module, Rule, ShaderError, Source, link, modules};
 pub use map_region::MapRegion;
 pub use moment_bias::{FourMomentsBias, SixMomentsBias};
 pub use nearest::nearest;
@@ -80,7 +80,10 @@ pub use storage::Storage;
 pub use summed_area_table::SummedAreaTable;
 pub use techniques::{EsmFiltering, Finite, LayerSplits, MapEncoding, PcfTaps, Row, Technique};
 #[cfg(feature = "validate")]
-pub use validate::{Backend, ValidationReport, validate};
+pub use validate::{
+    Backend, COMPILER_THREAD, Features, UnknownFeature, ValidationOptions, ValidationReport,
+    validate,
+};
 pub use value_error::ValueError;
 
 pub use view::{

@@ -1,71 +1,119 @@
 //! Validation: whether a shader that imports modules of the library can be used everywhere that a profile promises.
 
+mod alias;
+mod atomics;
+mod attributes;
 mod backend;
+mod bypass;
+mod compiler;
+mod constants;
 mod diagnostic;
 mod exercise;
+mod features;
+mod flow;
 mod limits;
+mod message;
+mod numbers;
 mod operators;
+mod overrides;
+mod pointer;
+mod repair;
+mod report;
+mod statements;
+mod stopped;
 mod storage_format;
-
-use naga::front::wgsl::ParseError;
-use naga::valid::{Capabilities, ModuleInfo, ValidationFlags, Validator};
+mod uniformity;
 
 pub use backend::Backend;
+pub use features::{Features, UnknownFeature};
+pub use report::ValidationReport;
 
-use crate::{Linked, Profile, ShaderError, Source, link};
+use crate::{Linked, Profile, Rule, ShaderError, Source, link};
 
-/// What each backend makes of a valid shader.
-#[derive(Clone, Debug, PartialEq, Eq)]
-pub struct ValidationReport {
-    /// Whether each of [`Backend::ALL`], in that order, can express the shader. What a language lacks is not an error, since no
-    /// profile includes the two GLSL versions; the reason names the entry point.
-    pub outcomes: Vec<(Backend, Result<(), String>)>,
+/// What a shader is validated against.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct ValidationOptions<'a> {
+    /// What the shader may rely on.
+    pub profile: Profile,
+    /// Optional features that it may use as well.
+    pub features: Features,
+    /// Modules that it may import beside those of the library, as [`link()`] takes them.
+    pub modules: &'a [Source<'a>],
 }
 
-impl ValidationReport {
-    /// The longest text that is validated, in bytes, before and after linking.
-    pub const LONGEST_SHADER: usize = 1 << 19;
-
-    /// The backends that the shader was written for.
-    pub fn written(&self) -> impl Iterator<Item = Backend> {
-        let written = self.outcomes.iter().filter(|(_, outcome)| outcome.is_ok());
-        written.map(|(backend, _)| *backend)
-    }
-}
-
-/// Links `source` as [`link()`] does, validates it under `profile`, and writes it for every [`Backend`].
+/// Links `source` as [`link()`] does, validates it, and writes it for every [`Backend`].
 ///
 /// A text without entry points is validated too: every function is called from an entry point made for it, with a zero for
 /// each value and a bound resource for each texture and sampler. Overrides without a default get one of a few values with which the
 /// shader is valid.
 ///
-/// The profile decides what the shader may contain: `webgpu-core` no optional feature of WebGPU, and only the storage
-/// texture formats and accesses that every device has, and no more of buffers, textures, varyings and workgroup memory than WebGPU's default
-/// limits allow an entry point; `native` the 16-bit normalised ones as well; `native-adapter` every
-/// format that naga knows.
+/// The profile decides what the shader may contain. What is valid under `webgpu-core`, browsers take: no optional feature of
+/// WebGPU but those that are allowed; only the storage texture formats and accesses that every device has; no more of
+/// buffers, textures, varyings and workgroup memory than WebGPU's default limits allow an entry point; uniform control flow where
+/// derivatives, barriers and the like need it; no two names of one memory of which one is written; operators only in an order that
+/// WGSL has; constant expressions only with values. `native` and `native-adapter` have what wgpu checks:
+/// `native` the 16-bit normalised formats as well, `native-adapter` every format that naga knows.
+///
+/// All faults are reported that can be found at once: a function in which the compiler finds one is taken out, and the rest is
+/// validated without it.
 ///
 /// The WGSL compiler runs on a separate thread with a large stack, on texts of at most
 /// [`LONGEST_SHADER`](ValidationReport::LONGEST_SHADER) bytes.
 ///
-/// # Errors
-/// [`ShaderError`], which points at the line of the file before linking.
-pub fn validate(
-    source: Source<'_>,
-    generated: &[Source<'_>],
-    profile: Profile,
-) -> Result<ValidationReport, ShaderError> {
-    for source in core::iter::once(&source).chain(generated) {
-        refuse_too_long(source.name, source.text)?;
+/// # A test for your shaders
+/// ```no_run
+/// use moment_shadows::{Source, ValidationOptions, validate};
+///
+/// // In a project's own tests/shaders.rs, as a #[test].
+/// fn shaders_are_valid() -> std::io::Result<()> {
+///     for entry in std::fs::read_dir("shaders")? {
+///         let path = entry?.path();
+///         let (name, text) = (path.display().to_string(), std::fs::read_to_string(&path)?);
+///         let source = Source { name: &name, text: &text };
+///         let report = validate(source, &ValidationOptions::default());
+///         assert!(report.is_valid(), "{report}");
+///     }
+///     Ok(())
+/// }
+/// ```
+#[must_use]
+pub fn validate(source: Source<'_>, options: &ValidationOptions<'_>) -> ValidationReport {
+    let refused = |error| ValidationReport {
+        errors: vec![error],
+        ..ValidationReport::default()
+    };
+    for source in core::iter::once(&source).chain(options.modules) {
+        if let Err(error) = refuse_too_long(source.name, source.text) {
+            return refused(error);
+        }
     }
-    let linked = link(source, generated)?;
-    refuse_too_long(source.name, linked.wgsl())?;
-    on_large_stack(|| compile(&linked, profile))
-        .unwrap_or_else(|| {
-            let message = "the WGSL compiler stopped without a result; cut the shader down to what makes it stop, and report it \
-                           to naga";
-            Err(ShaderError::new(message))
-        })
-        .map_err(|error| error.in_file(source.name))
+    let linked = link(source, options.modules)
+        .and_then(|linked| refuse_too_long(source.name, linked.wgsl()).map(|()| linked));
+    let linked = match linked {
+        Ok(linked) => linked,
+        Err(error) => return refused(error),
+    };
+    let mut report = on_large_stack(|| compile(linked.wgsl(), &linked, options))
+        .unwrap_or_else(|| refused(stopped(&linked, options)));
+    for error in report.errors.iter_mut().chain(&mut report.warnings) {
+        error.in_file(source.name);
+    }
+    report
+}
+
+/// What is said where the compiler stops without a result.
+fn stopped(linked: &Linked, options: &ValidationOptions<'_>) -> ShaderError {
+    let stops = |text: &str| on_large_stack(|| compile(text, linked, options)).is_none();
+    let place = stopped::find(linked.wgsl(), stops);
+    let message = "naga, the compiler of wgpu and Firefox, stops here without a result; write it in another way, and report it to \
+                   naga";
+    ShaderError {
+        places: place
+            .and_then(|place| linked.location(place))
+            .into_iter()
+            .collect(),
+        ..ShaderError::new(Rule::Unsupported, message)
+    }
 }
 
 fn refuse_too_long(file: &str, text: &str) -> Result<(), ShaderError> {
@@ -76,70 +124,95 @@ fn refuse_too_long(file: &str, text: &str) -> Result<(), ShaderError> {
     }
     let message =
         format!("the shader has {bytes} bytes, and at most {LONGEST} are validated; split it");
-    Err(ShaderError::new(message).in_file(file))
+    let mut error = ShaderError::new(Rule::Length, message);
+    error.in_file(file);
+    Err(error)
 }
 
 /// A byte of a text takes less than 1 KiB in an optimised build: the compiler recurses over long chains, the worst is one of `!`.
 /// What is not touched takes addresses and no memory.
 const STACK_BYTES: usize = ValidationReport::LONGEST_SHADER << 10;
 
+/// The name of the thread that the WGSL compiler runs on. Where naga panics the shader is refused all the same; a program that has a panic
+/// hook can leave out what is printed of it.
+pub const COMPILER_THREAD: &str = "WGSL compiler";
+
 /// Runs `work` on a thread with a large stack. `None` if the thread cannot be started, or `work` panics.
 fn on_large_stack<T: Send>(work: impl FnOnce() -> T + Send) -> Option<T> {
     std::thread::scope(|scope| {
-        let thread = std::thread::Builder::new().stack_size(STACK_BYTES);
+        let thread = std::thread::Builder::new()
+            .name(COMPILER_THREAD.to_owned())
+            .stack_size(STACK_BYTES);
         thread.spawn_scoped(scope, work).ok()?.join().ok()
     })
 }
 
-fn compile(linked: &Linked, profile: Profile) -> Result<ValidationReport, ShaderError> {
-    let capabilities = capabilities(profile);
-    let module = parse(linked.wgsl(), capabilities)
-        .map_err(|error| diagnostic::of_parse_error(linked, &error))?;
-    storage_format::check(&module, linked, profile)?;
-    let info = check(&module, capabilities)
-        .map_err(|error| diagnostic::of_validation_error(linked, &module, &error))?;
-    if profile == Profile::WebgpuCore {
-        operators::check(linked)?;
-        limits::check(&module, &info, linked)?;
+/// Validates `text`, whose lines come from where those of `linked` do.
+fn compile(text: &str, linked: &Linked, options: &ValidationOptions<'_>) -> ValidationReport {
+    let mut report = ValidationReport::default();
+    let is_core = options.profile == Profile::WebgpuCore;
+    if is_core {
+        report.errors.extend(operators::check(linked));
+        report.errors.extend(attributes::check(linked));
+        report.errors.extend(bypass::check(linked));
     }
-    let shader = if module.entry_points.is_empty() {
-        exercise::exercise(linked.wgsl(), module, info, capabilities)
-    } else {
-        backend::Shader {
-            module,
-            info,
-            no_entry_point: None,
+    let capabilities = options.features.capabilities(options.profile);
+    let mut text = text.to_owned();
+    let compiled = loop {
+        let compiler = compiler::Compiler {
+            text: &text,
+            linked,
+            capabilities,
+        };
+        match compiler.compile() {
+            Ok(compiled) => break compiled,
+            Err(fault) => {
+                report.errors.push(fault.error);
+                let repaired = fault
+                    .place
+                    .and_then(|place| repair::without_function(&text, &place));
+                match repaired {
+                    Some(repaired) if report.errors.len() < ValidationReport::MOST_ERRORS => {
+                        text = repaired
+                    }
+                    _ => {
+                        report.sort();
+                        return report;
+                    }
+                }
+            }
         }
     };
-    backend::write_all(&shader)
-}
-
-fn parse(text: &str, capabilities: Capabilities) -> Result<naga::Module, Box<ParseError>> {
-    let mut options = naga::front::wgsl::Options::new();
-    options.capabilities = capabilities;
-    let mut frontend = naga::front::wgsl::Frontend::new_with_options(options);
-    frontend.parse(text).map_err(Box::new)
-}
-
-fn check(
-    module: &naga::Module,
-    capabilities: Capabilities,
-) -> Result<ModuleInfo, Box<naga::WithSpan<naga::valid::ValidationError>>> {
-    Validator::new(ValidationFlags::all(), capabilities)
-        .validate(module)
-        .map_err(Box::new)
-}
-
-/// What naga may accept under `profile`. The three of the core are not optional features: sample shading, cube array
-/// textures, and packing of 16-bit floats.
-fn capabilities(profile: Profile) -> Capabilities {
-    let core = Capabilities::MULTISAMPLED_SHADING
-        | Capabilities::CUBE_ARRAY_TEXTURES
-        | Capabilities::SHADER_FLOAT16_IN_FLOAT32;
-    match profile {
-        Profile::WebgpuCore => core,
-        Profile::Native | Profile::NativeAdapter => {
-            core | Capabilities::STORAGE_TEXTURE_16BIT_NORM_FORMATS
+    let (module, info) = (&compiled.module, &compiled.info);
+    report
+        .errors
+        .extend(storage_format::check(module, linked, options.profile));
+    if is_core {
+        report.errors.extend(alias::check(module, linked));
+        report.errors.extend(atomics::check(module, info, linked));
+        report.errors.extend(constants::check(module, linked));
+        report.errors.extend(numbers::check(module, linked));
+        match overrides::given(&compiled, linked) {
+            Ok((module, info)) => report.errors.extend(limits::check(&module, &info, linked)),
+            Err(error) => report.errors.push(error),
+        }
+        report.errors.extend(flow::check(module, linked));
+        uniformity::check(module, linked, &mut report);
+    }
+    if report.is_valid() {
+        let shader = if module.entry_points.is_empty() {
+            exercise::exercise(&text, compiled, capabilities)
+        } else {
+            backend::Shader {
+                compiled,
+                no_entry_point: None,
+            }
+        };
+        match backend::write_all(&shader, linked) {
+            Ok(outcomes) => report.outcomes = outcomes,
+            Err(error) => report.errors.push(error),
         }
     }
+    report.sort();
+    report
 }

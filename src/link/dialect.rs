@@ -2,7 +2,7 @@
 
 use super::file::File;
 use super::tokens::Token;
-use crate::ShaderError;
+use crate::{Rule, ShaderError};
 
 /// Words after the `#`, whose dialect they are, and what makes WGSL of it.
 const DIALECTS: [(&[&str], &str, &str); 3] = [
@@ -31,15 +31,26 @@ pub(super) fn refuse(file: &File<'_>, tokens: &[Token<'_>]) -> Result<(), Shader
         return Ok(());
     };
     let Some(word) = tokens.get(place + 1) else {
-        return Err(file.error(tokens[place].range(), "WGSL has no `#`"));
+        return Err(refused(file, tokens[place].range(), "WGSL has no `#`"));
     };
     let range = tokens[place].start..word.range().end;
     let dialect = DIALECTS
         .iter()
         .find(|(words, ..)| words.contains(&word.text));
     let Some((_, whose, remedy)) = dialect else {
-        return Err(file.error(range, "WGSL has no `#`; this is another language's line"));
+        return Err(refused(
+            file,
+            range,
+            "WGSL has no `#`; this is another language's line",
+        ));
     };
     let message = format!("`#{}` is no WGSL but {whose}; {remedy}", word.text);
-    Err(file.error(range, message))
+    Err(refused(file, range, &message))
+}
+
+fn refused(file: &File<'_>, range: core::ops::Range<usize>, message: &str) -> ShaderError {
+    ShaderError {
+        rule: Rule::Dialect,
+        ..file.error(range, message)
+    }
 }

@@ -7,7 +7,7 @@ use super::dialect;
 use super::import::{self, Form, Import};
 use super::prune::{Declaration, declarations};
 use super::tokens::{Kind, Token, tokens};
-use crate::{Location, ShaderError};
+use crate::{Location, Rule, ShaderError};
 
 /// A file whose text follows the import rules.
 pub(crate) struct File<'a> {
@@ -47,7 +47,10 @@ impl<'a> File<'a> {
             left_out: Vec::new(),
         };
         let open = "this comment does not end; close it with `*/`";
-        let tokens = tokens(text).map_err(|start| file.error(start..start + 2, open))?;
+        let tokens = tokens(text).map_err(|start| ShaderError {
+            rule: Rule::Wgsl,
+            ..file.error(start..start + 2, open)
+        })?;
         dialect::refuse(&file, &tokens)?;
         let mut code = tokens.as_slice();
         while code.first().is_some_and(|token| token.is_word("import")) {
@@ -67,9 +70,9 @@ impl<'a> File<'a> {
         Location::in_text(&self.name, self.text, range)
     }
 
-    /// What is wrong with the bytes `range`.
+    /// What is wrong with an import at the bytes `range`.
     pub(crate) fn error(&self, range: Range<usize>, message: impl Into<String>) -> ShaderError {
-        ShaderError::at(self.at(range), message)
+        ShaderError::at(Rule::Import, self.at(range), message)
     }
 
     /// The names that it defines at top level.

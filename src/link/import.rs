@@ -1,18 +1,19 @@
 //! An import: the only forms are `import super::super::folder::file::{a, b};` within the library, and
-//! `import moment_shadows::folder::file::{a, b};` or `import node::name::{a, b};` outside it. All are WESL as it stands.
+//! `import moment_shadows::folder::file::{a, b};`, `import my_engine::file::{a, b};` or `import node::name::{a, b};` outside it. All are
+//! WESL as it stands.
 
 use core::ops::Range;
 
 use super::file::File;
 use super::tokens::{Kind, Token, tokens};
-use crate::ShaderError;
+use crate::{Rule, ShaderError};
 
 /// Which of the forms a file uses.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Form {
     /// `import super::super::folder::file::{a, b};`, in modules of the library.
     Inside,
-    /// `import moment_shadows::folder::file::{a, b};` and `import node::name::{a, b};`, everywhere else.
+    /// `import moment_shadows::folder::file::{a, b};` and the like with another root, everywhere else.
     Outside,
 }
 
@@ -37,12 +38,12 @@ impl Form {
         match self {
             Form::Inside => "within the library an import starts with `super::super::`",
             Form::Outside => {
-                "outside the library an import starts with `moment_shadows::` or `node::`"
+                "outside the library an import starts with `moment_shadows::`, `node::`, or the name of a project's own modules"
             }
         }
     }
 
-    /// How a file of this form writes the path `module`, which starts with `moment_shadows::` or `node::`.
+    /// How a file of this form writes the path `module`.
     pub(crate) fn written(self, module: &str) -> String {
         match (self, module.strip_prefix("moment_shadows::")) {
             (Form::Inside, Some(path)) => format!("super::super::{path}"),
@@ -51,9 +52,32 @@ impl Form {
     }
 }
 
+/// Roots that say where a module lies from the one that imports it.
+const RELATIVE: [&str; 3] = ["super", "package", "self"];
+
+/// The path that a further module of the name `name` is imported by.
+pub(super) fn path_of(name: &str) -> Result<String, ShaderError> {
+    if !name.contains("::") {
+        return Ok(format!("node::{name}"));
+    }
+    let is_word = |part: &str| {
+        matches!(tokens(part).as_deref(), Ok([token])
+            if token.kind == Kind::Word && token.text.len() == part.len())
+    };
+    let root = name.split("::").next().unwrap_or_default();
+    if !name.split("::").all(is_word) || RELATIVE.contains(&root) {
+        let message = format!(
+            "`{name}` is no module's path; write names with `::` between them, the first of which is not {}",
+            RELATIVE.join(", ")
+        );
+        return Err(ShaderError::new(Rule::Import, message));
+    }
+    Ok(name.to_owned())
+}
+
 /// The items that a file imports from one module.
 pub(crate) struct Import<'a> {
-    /// The module's path from its root: `moment_shadows::folder::file` or `node::name`, however it is written.
+    /// The module's path from its root (`moment_shadows::folder::file`), however it is written.
     pub(crate) module: String,
     /// The bytes where the path stands.
     pub(crate) path: Range<usize>,
@@ -127,7 +151,7 @@ impl<'a> Reader<'a, '_, '_> {
                 self.take(|token| token.is_word("super"), self.file.form.wrong_root())?;
                 "moment_shadows".to_owned()
             }
-            (Form::Outside, "moment_shadows" | "node") => root.text.to_owned(),
+            (Form::Outside, name) if !RELATIVE.contains(&name) => root.text.to_owned(),
             _ => return Err(self.wrong(self.file.form.wrong_root())),
         };
         self.take(|token| token.kind == Kind::Path, "`::` is missing")?;

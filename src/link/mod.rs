@@ -8,6 +8,7 @@ mod linked;
 mod location;
 mod module;
 mod prune;
+mod rule;
 pub(crate) mod tokens;
 
 use std::collections::{BTreeMap, BTreeSet};
@@ -19,12 +20,13 @@ pub use self::linked::Linked;
 pub use self::location::Location;
 pub(crate) use self::module::ITEMS;
 pub use self::module::{Module, modules};
+pub use self::rule::Rule;
 use crate::nearest::nearest;
 
 /// A WGSL text with the name that errors show for it.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Source<'a> {
-    /// The file's name; for a generated module, the name it is imported by.
+    /// The file's name; for a module, the path that it is imported by: `my_engine::lights`, or a name alone for `node::<name>`.
     pub name: &'a str,
     /// The text, imports included.
     pub text: &'a str,
@@ -32,14 +34,14 @@ pub struct Source<'a> {
 
 /// Links `source`, a shader outside the library, with the modules that it imports, directly or through other modules.
 ///
-/// `generated` are further modules: each can be imported as `node::<name>`, and may itself import modules of
-/// the library and other generated ones.
+/// `modules` are further modules, of an engine or generated: each is imported by the path that is its name, or as `node::<name>` if
+/// that is a name alone, and may itself import modules of the library and others of `modules`.
 ///
 /// The rules of imports:
 /// - They come first, before directives and declarations, with nothing else on their lines but a `//` comment.
 /// - The only forms are `import moment_shadows::maths::hankel::{hankel_factor};` for the file `wgsl/maths/hankel.wgsl`
-///   (`super::super` in place of `moment_shadows` within the library) and `import node::name::{item};` for generated modules,
-///   with any number of items over any number of lines. No `as`, no `public`, no path within code, no conditional attribute.
+///   (`super::super` in place of `moment_shadows` within the library), and for further modules `import my_engine::lights::{item};` and
+///   `import node::name::{item};`, with any number of items over any number of lines. No `as`, no `public`, no path within code, no conditional attribute.
 /// - Every item is defined at top level by its module, and imported once; a file imports every item that it uses.
 ///
 /// The result holds `source` whole, and of each module what `source` reaches: the declarations whose names stand in what is linked,
@@ -51,9 +53,9 @@ pub struct Source<'a> {
 /// A text whose first import starts with `super::` is a module of the library, and is linked as such.
 ///
 /// # Errors
-/// [`ShaderError`] where a rule is broken, in `source`, in a generated module, or between files.
-pub fn link(source: Source<'_>, generated: &[Source<'_>]) -> Result<Linked, ShaderError> {
-    let library = Library::new(generated)?;
+/// [`ShaderError`] where a rule is broken, in `source`, in one of `modules`, or between files.
+pub fn link(source: Source<'_>, modules: &[Source<'_>]) -> Result<Linked, ShaderError> {
+    let library = Library::new(modules)?;
     let form = Form::of(source.text);
     let root = File::parse(source.name.to_owned(), String::new(), source.text, form)?;
     let mut files = library.closure(root)?;
@@ -68,26 +70,25 @@ struct Library<'a> {
 }
 
 impl<'a> Library<'a> {
-    fn new(generated: &[Source<'a>]) -> Result<Self, ShaderError> {
+    fn new(further: &[Source<'a>]) -> Result<Self, ShaderError> {
         module::check_edited_folder()?;
         let library = modules().iter().map(|module| {
             let path = format!("moment_shadows::{}::{}", module.folder, module.name);
             (path, (Form::Inside, module.source))
         });
         let mut known: BTreeMap<_, _> = library.collect();
-        for source in generated {
-            let path = format!("node::{}", source.name);
+        for source in further {
+            let path = import::path_of(source.name)?;
             if known.insert(path, (Form::Outside, source.text)).is_some() {
                 let name = source.name;
-                let message =
-                    format!("two generated modules are named `{name}`; give one another name");
-                return Err(ShaderError::new(message));
+                let message = format!("two modules are named `{name}`; give one another name");
+                return Err(ShaderError::new(Rule::Import, message));
             }
         }
         Ok(Self { modules: known })
     }
 
-    /// `root` and the files it needs, each after those that it imports. Walks without recursion: generated modules may
+    /// `root` and the files it needs, each after those that it imports. Walks without recursion: modules may
     /// form a chain of any length.
     fn closure(&self, root: File<'a>) -> Result<Vec<File<'a>>, ShaderError> {
         let mut finished: Vec<File<'a>> = Vec::new();
@@ -112,7 +113,7 @@ impl<'a> Library<'a> {
                         "the imports form a cycle: {}; move what both need to a third module",
                         cycle.join(" -> ")
                     );
-                    return Err(ShaderError::at(at, message));
+                    return Err(ShaderError::at(Rule::Import, at, message));
                 }
                 path.push((self.open(module, form, at)?, 0));
             } else if let Some((file, _)) = path.pop() {
@@ -131,7 +132,7 @@ impl<'a> Library<'a> {
                 form.written(&module),
                 self.nearest(&module, form)
             );
-            return Err(ShaderError::at(at, message));
+            return Err(ShaderError::at(Rule::Import, at, message));
         };
         let name = match of {
             Form::Inside => format!("{}.wgsl", module.replace("::", "/")),

@@ -5,7 +5,7 @@ use std::fs;
 use std::path::PathBuf;
 use std::sync::LazyLock;
 
-use crate::ShaderError;
+use crate::{Rule, ShaderError};
 
 /// One importable WGSL module: `wgsl/<folder>/<name>.wgsl`.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -58,7 +58,7 @@ pub(super) fn check_edited_folder() -> Result<(), ShaderError> {
             let message = format!(
                 "the environment variable {EDITED} names {folder}, which is no folder; name one, or unset it"
             );
-            Err(ShaderError::new(message))
+            Err(ShaderError::new(Rule::Import, message))
         }
         _ => Ok(()),
     }

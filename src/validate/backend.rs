@@ -1,14 +1,15 @@
 //! The shading languages that wgpu feeds to drivers.
 
 use core::fmt;
-use std::borrow::Cow;
 
 use naga::Module;
-use naga::back::{PipelineConstants, glsl, hlsl, msl, pipeline_constants, spv};
+use naga::back::{glsl, hlsl, msl, spv};
 use naga::proc::BoundsCheckPolicies;
 use naga::valid::ModuleInfo;
 
-use super::{ShaderError, ValidationReport};
+use super::compiler::Compiled;
+use super::overrides;
+use crate::{Linked, Rule, ShaderError};
 
 /// A language that a shader is translated to.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
@@ -57,17 +58,25 @@ impl fmt::Display for Backend {
 
 /// A valid module, ready to be written.
 pub(super) struct Shader {
-    pub(super) module: Module,
-    pub(super) info: ModuleInfo,
+    pub(super) compiled: Compiled,
     /// Why no entry point could be made, for a module without any.
     pub(super) no_entry_point: Option<String>,
 }
 
-/// Writes `shader` for every backend. SPIR-V, HLSL and MSL can express whatever a profile allows, so there a failure is an error.
-pub(super) fn write_all(shader: &Shader) -> Result<ValidationReport, ShaderError> {
+/// What each of [`Backend::ALL`] makes of `shader`. SPIR-V, HLSL and MSL can express whatever a profile allows, so there a failure is an
+/// error; but for external textures, which browsers take without them.
+pub(super) fn write_all(
+    shader: &Shader,
+    linked: &Linked,
+) -> Result<Vec<(Backend, Result<(), String>)>, ShaderError> {
     // Backends want constants in place of overrides.
-    let (module, info) = with_overrides(shader)?;
+    let (module, info) = overrides::given(&shader.compiled, linked)?;
+    let is_external = has_external_textures(&module);
     let outcome = |backend| {
+        if is_external && !matches!(backend, Backend::Hlsl | Backend::Msl) {
+            let reason = "naga cannot write external textures for it yet".to_owned();
+            return Ok((backend, Err(reason)));
+        }
         let written = match backend {
             Backend::SpirV => write_spirv(&module, &info),
             Backend::Hlsl => write_hlsl(&module, &info),
@@ -78,58 +87,26 @@ pub(super) fn write_all(shader: &Shader) -> Result<ValidationReport, ShaderError
                 return Ok((backend, written));
             }
         };
-        written
-            .map(|()| (backend, Ok(())))
-            .map_err(|message| ShaderError::new(format!("{backend} cannot be written: {message}")))
+        match written {
+            Err(message) => {
+                let message = format!("{backend} cannot be written: {message}");
+                Err(ShaderError::new(Rule::Backend, message))
+            }
+            Ok(()) => Ok((backend, Ok(()))),
+        }
     };
-    let outcomes = Backend::ALL.into_iter().map(outcome);
-    Ok(ValidationReport {
-        outcomes: outcomes.collect::<Result<_, _>>()?,
-    })
+    Backend::ALL.into_iter().map(outcome).collect()
 }
 
-/// Values for overrides without a default, one after the other: 1 is a legal workgroup size, array length and factor, and where it
-/// makes a divisor zero another does not.
-const OVERRIDES: [f64; 5] = [1.0, 2.0, 3.0, 16.0, 0.0];
-
-/// The module with values in place of overrides, by the first of [`OVERRIDES`] with which it is valid.
-fn with_overrides(shader: &Shader) -> Result<(Cow<'_, Module>, Cow<'_, ModuleInfo>), ShaderError> {
-    let mut refused = None;
-    for value in OVERRIDES {
-        let constants = missing_overrides(&shader.module, value);
-        let none = constants.is_empty();
-        match pipeline_constants::process_overrides(&shader.module, &shader.info, None, &constants)
-        {
-            Ok(processed) => return Ok(processed),
-            Err(error) => drop(refused.get_or_insert(error)),
-        }
-        if none {
-            break;
-        }
-    }
-    let mut names: Vec<String> = missing_overrides(&shader.module, 1.0).into_keys().collect();
-    names.sort();
-    let error = refused.map_or_else(String::new, |error| error.to_string());
-    let tried = match names.as_slice() {
-        [] => String::new(),
-        names => format!(
-            "; {} have no default, and {OVERRIDES:?} were tried for them",
-            names.join(", ")
-        ),
+fn has_external_textures(module: &Module) -> bool {
+    let is_external = |ty: &naga::Type| {
+        let class = match &ty.inner {
+            naga::TypeInner::Image { class, .. } => class,
+            _ => return false,
+        };
+        matches!(class, naga::ImageClass::External)
     };
-    Err(ShaderError::new(format!("overrides: {error}{tried}")))
-}
-
-/// This value for each override without a default.
-fn missing_overrides(module: &Module, value: f64) -> PipelineConstants {
-    let missing = module.overrides.iter().filter(|(_, of)| of.init.is_none());
-    let key = |of: &naga::Override| match of.id {
-        Some(id) => Some(id.to_string()),
-        None => of.name.clone(),
-    };
-    missing
-        .filter_map(|(_, of)| Some((key(of)?, value)))
-        .collect()
+    module.types.iter().any(|(_, ty)| is_external(ty))
 }
 
 fn write_spirv(module: &Module, info: &ModuleInfo) -> Result<(), String> {

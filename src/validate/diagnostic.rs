@@ -1,85 +1,143 @@
 //! What the WGSL compiler says about a shader, at the places before linking.
 
 use core::ops::Range;
-use std::error::Error;
 
-use naga::common::wgsl::TryToWgsl;
+use naga::Span;
 use naga::front::wgsl::ParseError;
 use naga::valid::ValidationError;
 
+use super::compiler::{Compiler, Fault};
+use super::message::Words;
 use crate::link::file::definitions;
 use crate::link::tokens::{Token, tokens};
-use crate::{Linked, Location, ShaderError};
+use crate::{Linked, Location, Rule, ShaderError};
 
 /// The bytes `range` of the linked text. `None` for text that comes from no file.
 fn place(linked: &Linked, range: Option<Range<usize>>, label: &str) -> Option<Location> {
     Some(linked.location(range?)?.labelled(label))
 }
 
-pub(super) fn of_parse_error(linked: &Linked, error: &ParseError) -> ShaderError {
+pub(super) fn of_parse_error(compiler: &Compiler<'_>, error: &ParseError) -> Box<Fault> {
+    let linked = compiler.linked;
     let labels = error.labels();
-    ShaderError {
+    let place_in_text = error.labels().next().and_then(|(span, _)| span.to_range());
+    let mut error = ShaderError {
+        rule: rule_of(compiler.text, error.message(), place_in_text.clone()),
         message: error.message().to_owned(),
         places: labels
             .filter_map(|(span, text)| place(linked, span.to_range(), text))
             .collect(),
         notes: error.notes().map(str::to_owned).collect(),
+    };
+    if error.rule == Rule::Unsupported {
+        error.notes = vec![NOT_YET.to_owned()];
+    }
+    Box::new(Fault {
+        error,
+        place: place_in_text,
+    })
+}
+
+/// What is said of WGSL that naga does not support.
+const NOT_YET: &str = "this is no fault of the shader: browsers with Tint (Chromium) take it, and naga, the compiler of wgpu and Firefox, does not yet";
+
+/// Builtin inputs that naga does not know yet.
+const NEW_BUILTINS: [&str; 2] = ["global_invocation_index", "workgroup_index"];
+
+/// Whether naga says that the text is WGSL that it does not support, or needs a feature.
+fn rule_of(text: &str, message: &str, place: Option<Range<usize>>) -> Rule {
+    let before = place
+        .clone()
+        .and_then(|place| text.get(..place.start))
+        .unwrap_or_default();
+    let at = place.and_then(|place| text.get(place)).unwrap_or_default();
+    let is_new = NEW_BUILTINS.contains(&at)
+        || message.starts_with("expected `)`") && ["greater", "less", "any"].contains(&at)
+        || message == "invalid left-hand side of assignment" && is_swizzle(at)
+        || message.starts_with("expected `{`") && at == "@"
+        || message.starts_with("expected `;`") && is_asserted(before);
+    if message.ends_with("is not supported in the current environment") {
+        Rule::Feature
+    } else if is_new
+        || [
+            "not yet supported",
+            "not yet implemented",
+            "Not implemented",
+            "not supported",
+        ]
+        .iter()
+        .any(|words| message.contains(words))
+    {
+        Rule::Unsupported
+    } else {
+        Rule::Wgsl
     }
 }
 
+/// Whether a condition in brackets stands right after `const_assert`: naga takes the brackets for all of it.
+fn is_asserted(before: &str) -> bool {
+    let statement = before.rsplit([';', '{', '}']).next().unwrap_or_default();
+    let rest = statement.trim_start().strip_prefix("const_assert");
+    rest.is_some_and(|rest| rest.trim_start().starts_with('('))
+}
+
+/// Whether an expression is a vector's components, each once.
+fn is_swizzle(expression: &str) -> bool {
+    let Some((_, components)) = expression.rsplit_once('.') else {
+        return false;
+    };
+    let all = ["xyzw", "rgba"];
+    let of_one = |set: &&str| components.chars().all(|c| set.contains(c));
+    let once = |c: char| components.matches(c).count() == 1;
+    components.len() > 1 && all.iter().any(of_one) && components.chars().all(once)
+}
+
 pub(super) fn of_validation_error(
-    linked: &Linked,
+    compiler: &Compiler<'_>,
     module: &naga::Module,
     error: &naga::WithSpan<ValidationError>,
-) -> ShaderError {
-    let mut places: Vec<_> = error
-        .spans()
+) -> Box<Fault> {
+    let linked = compiler.linked;
+    let said = Words {
+        module,
+        text: compiler.text,
+    }
+    .of(error.as_inner());
+    let spans = error.spans().filter(|(span, _)| span.is_defined());
+    let mut spans: Vec<_> = spans.map(|(span, text)| (*span, text.as_str())).collect();
+    // naga goes from the outside in.
+    spans.reverse();
+    if let Some(span) = said.span.filter(Span::is_defined) {
+        spans.retain(|(other, _)| *other != span);
+        spans.insert(0, (span, ""));
+    }
+    let in_text = spans.first().and_then(|(span, _)| span.to_range());
+    let mut places: Vec<_> = spans
+        .iter()
         .filter_map(|(span, text)| {
             // Names of naga's types and handles say nothing to the author of a shader.
             let text = if text.starts_with("naga::") { "" } else { text };
             place(linked, span.to_range(), text)
         })
         .collect();
-    // naga goes from the outside in.
-    places.reverse();
-    let (message, culprit) = headline(module, error.as_inner());
     if places.is_empty() {
-        places.extend(culprit.and_then(|word| find(linked, word)));
+        places.extend(said.within.and_then(|word| find(linked, &word)));
     }
-    let first: Option<&dyn Error> = error.as_inner().source();
-    let causes = core::iter::successors(first, |&cause| cause.source());
-    ShaderError {
-        message,
-        places,
-        notes: causes.map(ToString::to_string).collect(),
+    // The place and, if it is another, the line around it.
+    places.truncate(2);
+    let mut notes = said.notes;
+    if said.rule == Rule::Unsupported {
+        notes.push(NOT_YET.to_owned());
     }
-}
-
-/// What is not valid, and the word by which it is found in the text where naga gives no place.
-fn headline<'a>(module: &naga::Module, error: &'a ValidationError) -> (String, Option<&'a str>) {
-    use ValidationError as E;
-    let of = |kind: &str, name: &'a str| (format!("{kind} `{name}` is not valid"), Some(name));
-    match error {
-        E::Function { name, .. } => of("function", name),
-        E::EntryPoint { name, .. } => of("entry point", name),
-        E::GlobalVariable { name, .. } => of("variable", name),
-        E::Constant { name, .. } => of("constant", name),
-        E::Override { name, .. } => of("override", name),
-        E::Type { name, .. } if !name.is_empty() => of("type", name),
-        E::Type { handle, .. } => {
-            let ty = module.types.get_handle(*handle).ok();
-            let scalar = ty.and_then(|ty| ty.inner.scalar());
-            match scalar.and_then(TryToWgsl::try_to_wgsl) {
-                Some(name) => of("type", name),
-                None => ("a type is not valid".to_owned(), None),
-            }
-        }
-        E::InvalidHandle(_)
-        | E::Layouter(_)
-        | E::ConstExpression { .. }
-        | E::ArraySizeError { .. }
-        | E::Corrupted => (error.to_string(), None),
-    }
+    Box::new(Fault {
+        error: ShaderError {
+            rule: said.rule,
+            message: said.message,
+            places,
+            notes,
+        },
+        place: in_text,
+    })
 }
 
 /// The definition of `word`, or else its first use.

@@ -3,25 +3,21 @@
 use core::fmt::Write;
 
 use naga::common::wgsl::TypeContext;
-use naga::valid::{Capabilities, ModuleInfo};
+use naga::valid::Capabilities;
 use naga::{AddressSpace, Module, TypeInner};
 
 use super::backend::Shader;
+use super::compiler::{self, Compiled};
 
-/// `text`, of which `module` was made, with an entry point per function that does nothing but call it: in a fragment shader, or
-/// in a compute shader where a function is only valid there. If that cannot be, `module` as it was, with the reason.
-pub(super) fn exercise(
-    text: &str,
-    module: Module,
-    info: ModuleInfo,
-    capabilities: Capabilities,
-) -> Shader {
-    let fragment = exercised(text, &module, "@fragment", capabilities);
+/// `text`, of which `compiled` was made, with an entry point per function that does nothing but call it: in a fragment shader, or
+/// in a compute shader where a function is only valid there. If that cannot be, `compiled` as it was, with the reason.
+pub(super) fn exercise(text: &str, compiled: Compiled, capabilities: Capabilities) -> Shader {
+    let module = &compiled.module;
+    let fragment = exercised(text, module, "@fragment", capabilities);
     fragment
-        .or_else(|_| exercised(text, &module, "@compute @workgroup_size(1)", capabilities))
+        .or_else(|_| exercised(text, module, "@compute @workgroup_size(1)", capabilities))
         .unwrap_or_else(|reason| Shader {
-            module,
-            info,
+            compiled,
             no_entry_point: Some(reason),
         })
 }
@@ -34,11 +30,12 @@ fn exercised(
 ) -> Result<Shader, String> {
     let text = text.to_owned() + &entry_points(module, stage)?;
     let refused = |error| format!("no entry point can call every function: {error}");
-    let module = super::parse(&text, capabilities).map_err(|error| refused(error.to_string()))?;
-    let info = super::check(&module, capabilities).map_err(|error| refused(error.to_string()))?;
+    let module =
+        compiler::parse(&text, capabilities).map_err(|error| refused(error.to_string()))?;
+    let info =
+        compiler::check(&module, capabilities).map_err(|error| refused(error.to_string()))?;
     Ok(Shader {
-        module,
-        info,
+        compiled: Compiled { module, info },
         no_entry_point: None,
     })
 }

@@ -5,14 +5,17 @@ use naga::valid::{FunctionInfo, ModuleInfo};
 use naga::{AddressSpace, Binding, BuiltIn, EntryPoint, Handle, ImageClass, Module, ShaderStage};
 use naga::{GlobalVariable, Span, StorageAccess, Type, TypeInner};
 
+use super::constants;
 use super::diagnostic::find;
-use crate::{Linked, ShaderError};
+use crate::{Linked, Rule, ShaderError};
 
 const BIND_GROUPS: u32 = 4;
 const BINDINGS_PER_GROUP: u32 = 1000;
 const WORKGROUP_BYTES: u32 = 16_384;
 const WORKGROUP_SIDES: [u32; 3] = [256, 256, 64];
 const WORKGROUP_INVOCATIONS: u32 = 256;
+/// Elements of an array that no buffer holds (WGSL specification, section 2.4, "Limits").
+const ARRAY_ELEMENTS: u32 = 65_535;
 const UNIFORM_BYTES: u32 = 65_536;
 const VERTEX_ATTRIBUTES: u32 = 16;
 const VARYINGS: u32 = 16;
@@ -27,23 +30,51 @@ const RESOURCES: [(&str, usize); 5] = [
     ("storage textures", 4),
 ];
 
-/// Refuses an entry point that uses more than every device has.
-pub(super) fn check(
-    module: &Module,
-    info: &ModuleInfo,
-    linked: &Linked,
-) -> Result<(), ShaderError> {
+/// Entry points that use more than every device has, or what their stage cannot.
+pub(super) fn check(module: &Module, info: &ModuleInfo, linked: &Linked) -> Vec<ShaderError> {
+    let mut found = large_arrays(module, linked);
     for (index, entry_point) in module.entry_points.iter().enumerate() {
         let checked = Checked {
             module,
             linked,
             entry_point,
         };
-        checked.resources(info.get_entry_point(index))?;
-        checked.workgroup()?;
-        checked.locations()?;
+        let resources = checked.resources(info.get_entry_point(index));
+        found.extend(resources.err());
+        found.extend(checked.workgroup().err());
+        found.extend(checked.locations().err());
     }
-    Ok(())
+    found
+}
+
+/// Variables outside of buffers whose arrays have too many elements.
+fn large_arrays(module: &Module, linked: &Linked) -> Vec<ShaderError> {
+    let globals = module
+        .global_variables
+        .iter()
+        .filter(|(_, it)| matches!(it.space, AddressSpace::Private | AddressSpace::WorkGroup));
+    let globals = globals.map(|(handle, it)| (it.ty, module.global_variables.get_span(handle)));
+    let functions = module.functions.iter().map(|(_, function)| function);
+    let entry_points = module.entry_points.iter().map(|it| &it.function);
+    let locals = functions.chain(entry_points).flat_map(|function| {
+        let locals = function.local_variables.iter();
+        locals.map(|(handle, it)| (it.ty, function.local_variables.get_span(handle)))
+    });
+    let large = globals.chain(locals).filter_map(|(ty, span)| {
+        let TypeInner::Array { size, .. } = module.types[ty].inner else {
+            return None;
+        };
+        let count = constants::array_length(size).filter(|count| *count > ARRAY_ELEMENTS)?;
+        Some(ShaderError {
+            rule: Rule::Limit,
+            message: format!(
+                "an array has {count} elements; outside of buffers every device has {ARRAY_ELEMENTS}"
+            ),
+            places: span.to_range().and_then(|range| linked.location(range)).into_iter().collect(),
+            notes: Vec::new(),
+        })
+    });
+    large.collect()
 }
 
 struct Checked<'a> {
@@ -55,6 +86,10 @@ struct Checked<'a> {
 impl Checked<'_> {
     /// Refuses something that is said of the entry point, and points at `spans`, or at the entry point itself.
     fn refused<T>(&self, what: &str, spans: &[Span]) -> Result<T, ShaderError> {
+        self.refused_by(Rule::Limit, what, spans)
+    }
+
+    fn refused_by<T>(&self, rule: Rule, what: &str, spans: &[Span]) -> Result<T, ShaderError> {
         let name = &self.entry_point.name;
         let places = spans.iter().filter_map(|span| span.to_range());
         let mut places: Vec<_> = places.filter_map(|it| self.linked.location(it)).collect();
@@ -62,6 +97,7 @@ impl Checked<'_> {
             places.extend(find(self.linked, name));
         }
         Err(ShaderError {
+            rule,
             message: format!("entry point `{name}` {what}"),
             places,
             notes: Vec::new(),
@@ -108,11 +144,17 @@ impl Checked<'_> {
                     return self.refused(&what, &[span]);
                 }
             }
+            if variable.space == AddressSpace::WorkGroup
+                && self.entry_point.stage != ShaderStage::Compute
+            {
+                let what = "uses workgroup memory, which compute shaders alone have";
+                return self.refused_by(Rule::Stage, what, &[span]);
+            }
             let (kind, written) = self.kind(variable);
             if written && self.entry_point.stage == ShaderStage::Vertex {
                 let what = "is a vertex shader and uses a storage buffer or texture that can be written; only fragment and compute \
                             shaders may: declare it `read`";
-                return self.refused(what, &[span]);
+                return self.refused_by(Rule::Stage, what, &[span]);
             }
             if let Some(kind) = kind {
                 spans[kind].push(span);

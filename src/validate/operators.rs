@@ -4,7 +4,7 @@
 use core::ops::Range;
 
 use crate::link::tokens::{Kind, Token, tokens};
-use crate::{Linked, ShaderError};
+use crate::{Linked, Rule, ShaderError};
 
 /// A binary operator.
 #[derive(Clone, Debug, PartialEq)]
@@ -13,8 +13,9 @@ struct Operator<'a> {
     range: Range<usize>,
 }
 
-/// Refuses the first two operators that are mixed without parentheses.
-pub(super) fn check(linked: &Linked) -> Result<(), ShaderError> {
+/// Operators that are mixed without parentheses, the first two of each expression.
+pub(super) fn check(linked: &Linked) -> Vec<ShaderError> {
+    let mut found = Vec::new();
     let text = linked.wgsl();
     let pieces = pieces(text);
     let is_template = templates(&pieces);
@@ -32,14 +33,14 @@ pub(super) fn check(linked: &Linked) -> Result<(), ShaderError> {
         match text {
             "(" | "[" => open.push(Vec::new()),
             ")" | "]" => {
-                mixed(linked, open.pop().unwrap_or_default())?;
+                found.extend(mixed(linked, open.pop().unwrap_or_default()).err());
                 if open.is_empty() {
                     open.push(Vec::new());
                 }
             }
             _ if ends_expression(text) => {
                 let ended = open.last_mut().map(core::mem::take);
-                mixed(linked, ended.unwrap_or_default())?;
+                found.extend(mixed(linked, ended.unwrap_or_default()).err());
             }
             _ if follows_value && is_operator(text) => {
                 let operator = Operator {
@@ -53,7 +54,7 @@ pub(super) fn check(linked: &Linked) -> Result<(), ShaderError> {
             _ => {}
         }
     }
-    Ok(())
+    found
 }
 
 const BITWISE: [&str; 3] = ["&", "|", "^"];
@@ -137,6 +138,7 @@ fn refused<T>(linked: &Linked, one: &Operator<'_>, other: &Operator<'_>) -> Resu
     both.sort_by_key(|it| it.range.start);
     let [first, second] = both;
     Err(ShaderError {
+        rule: Rule::Operator,
         message: format!(
             "`{}` and `{}` stand in one expression, which WGSL has no order for; put parentheses around what belongs together",
             first.text, second.text

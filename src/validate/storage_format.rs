@@ -4,14 +4,11 @@ use naga::common::wgsl::ToWgsl;
 use naga::{ImageClass, StorageAccess, StorageFormat, TypeInner};
 
 use crate::link::tokens::{Kind, Token, tokens};
-use crate::{Linked, Profile, ShaderError};
+use crate::{Linked, Profile, Rule, ShaderError};
 
-/// Refuses the first storage texture whose format or access `profile` does not have; points at every use of it.
-pub(super) fn check(
-    module: &naga::Module,
-    linked: &Linked,
-    profile: Profile,
-) -> Result<(), ShaderError> {
+/// Storage textures whose format or access `profile` does not have; each points at every use of it.
+pub(super) fn check(module: &naga::Module, linked: &Linked, profile: Profile) -> Vec<ShaderError> {
+    let mut found = Vec::new();
     for (_, ty) in module.types.iter() {
         let TypeInner::Image {
             class: ImageClass::Storage { format, access },
@@ -25,7 +22,8 @@ pub(super) fn check(
         };
         let (format, access) = (format.to_wgsl(), access_name(access));
         let uses = uses(linked.wgsl(), format, access);
-        return Err(ShaderError {
+        found.push(ShaderError {
+            rule: Rule::StorageFormat,
             message: format!(
                 "profile `{profile}` has no storage texture of format `{format}` with access `{access}`"
             ),
@@ -36,7 +34,7 @@ pub(super) fn check(
             notes: vec![note.to_owned()],
         });
     }
-    Ok(())
+    found
 }
 
 /// The objection to the format under the profile, with the next step.
@@ -48,6 +46,8 @@ fn objection(
     let reads_and_writes = access.contains(StorageAccess::LOAD | StorageAccess::STORE);
     if profile == Profile::NativeAdapter {
         None
+    } else if access.contains(StorageAccess::ATOMIC) {
+        Some("textures have no atomics in WebGPU; use a storage buffer")
     } else if is_norm16(format) && profile == Profile::WebgpuCore {
         Some(
             "16-bit normalised formats need profile `native`; `rgba16float` and `rgba32float` are stored everywhere",
@@ -104,7 +104,9 @@ fn is_norm16(format: StorageFormat) -> bool {
 }
 
 fn access_name(access: StorageAccess) -> &'static str {
-    if access.contains(StorageAccess::LOAD | StorageAccess::STORE) {
+    if access.contains(StorageAccess::ATOMIC) {
+        "atomic"
+    } else if access.contains(StorageAccess::LOAD | StorageAccess::STORE) {
         "read_write"
     } else if access.contains(StorageAccess::STORE) {
         "write"

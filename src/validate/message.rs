@@ -1,0 +1,460 @@
+//! What naga's validator says, in words: the fault first, expressions as they stand in the text, types by their names.
+
+use core::error::Error;
+use core::ops::Range;
+
+use naga::common::wgsl::TypeContext;
+use naga::valid::{
+    CallError, EntryPointError, ExpressionError, FunctionError, GlobalVariableError, TypeError,
+    ValidationError, VaryingError, WidthError,
+};
+use naga::{Expression, Function, Handle, Module, Span, Type, TypeInner};
+
+use super::features;
+use super::flow;
+use crate::Rule;
+
+/// A fault in words.
+pub(super) struct Said {
+    pub(super) rule: Rule,
+    pub(super) message: String,
+    /// The place of the fault, where naga's own is that of all around it.
+    pub(super) span: Option<Span>,
+    /// The name of the declaration that holds the fault.
+    pub(super) within: Option<String>,
+    pub(super) notes: Vec<String>,
+}
+
+impl Said {
+    fn new(rule: Rule, message: impl Into<String>) -> Self {
+        Self {
+            rule,
+            message: message.into(),
+            span: None,
+            within: None,
+            notes: Vec::new(),
+        }
+    }
+
+    fn wgsl(message: impl Into<String>) -> Self {
+        Self::new(Rule::Wgsl, message)
+    }
+
+    fn noted(mut self, note: impl Into<String>) -> Self {
+        self.notes.push(note.into());
+        self
+    }
+}
+
+/// A text and what naga made of it.
+pub(super) struct Words<'a> {
+    pub(super) module: &'a Module,
+    pub(super) text: &'a str,
+}
+
+impl Words<'_> {
+    /// The fault in words.
+    pub(super) fn of(&self, error: &ValidationError) -> Said {
+        use ValidationError as E;
+        let (mut said, within) = match error {
+            E::Function {
+                handle,
+                name,
+                source,
+            } => (self.function(&self.module.functions[*handle], source), name),
+            E::EntryPoint { name, source, .. } => (self.entry_point(name, source), name),
+            E::GlobalVariable { name, source, .. } => (self.variable(name, source), name),
+            E::Type {
+                handle,
+                name,
+                source,
+            } => (self.type_error(*handle, source), name),
+            E::Constant { name, source, .. } => (
+                Said::wgsl(format!("constant `{name}`: {}", innermost(source))),
+                name,
+            ),
+            E::Override { name, source, .. } => (
+                Said::wgsl(format!("override `{name}`: {}", innermost(source))),
+                name,
+            ),
+            E::ConstExpression { handle, source } => {
+                let span = self.module.global_expressions.get_span(*handle);
+                let mut said = Said::wgsl(format!(
+                    "{} has no value: {}",
+                    self.quoted(span),
+                    innermost(source)
+                ));
+                said.span = Some(span);
+                return said;
+            }
+            E::ArraySizeError { handle } => {
+                let span = self.module.global_expressions.get_span(*handle);
+                let mut said = Said::wgsl(format!(
+                    "{} is the size of an array, and not above 0",
+                    self.quoted(span)
+                ));
+                said.span = Some(span);
+                return said;
+            }
+            E::InvalidHandle(_) | E::Layouter(_) | E::Corrupted => {
+                return Said::wgsl(innermost(error));
+            }
+        };
+        said.within = Some(within.clone()).filter(|name| !name.is_empty());
+        said
+    }
+
+    fn entry_point(&self, name: &str, error: &EntryPointError) -> Said {
+        use EntryPointError as E;
+        let found = self.module.entry_points.iter().find(|it| it.name == name);
+        match (error, found) {
+            (E::Function(error), Some(found)) => self.function(&found.function, error),
+            (E::Argument(index, error), Some(found)) => {
+                let argument = found.function.arguments.get(*index as usize);
+                let argument = argument
+                    .and_then(|it| it.name.as_deref())
+                    .unwrap_or_default();
+                self.varying(
+                    &format!("parameter `{argument}` of entry point `{name}`"),
+                    error,
+                )
+            }
+            (E::Result(error), _) => {
+                self.varying(&format!("the result of entry point `{name}`"), error)
+            }
+            (E::BindingCollision(handle) | E::InvalidGlobalUsage(handle, _), _) => {
+                let variable = &self.module.global_variables[*handle];
+                let of = variable.name.as_deref().unwrap_or_default();
+                let mut said = match error {
+                    E::BindingCollision(_) => Said::wgsl(format!(
+                        "variable `{of}` has the group and binding of another variable that entry point `{name}` uses"
+                    )),
+                    _ => Said::wgsl(format!(
+                        "entry point `{name}` uses variable `{of}` in a way that its address space does not allow"
+                    )),
+                };
+                said.span = Some(self.module.global_variables.get_span(*handle));
+                said
+            }
+            (E::UnsupportedCapability(needed), _) => feature(*needed),
+            (E::ForbiddenStageOperations, _) => Said::new(
+                Rule::Stage,
+                format!("entry point `{name}` uses operations that its stage does not have"),
+            ),
+            _ => Said::wgsl(format!("entry point `{name}`: {}", self.plain(error, None))),
+        }
+    }
+
+    fn varying(&self, what: &str, error: &VaryingError) -> Said {
+        match error {
+            VaryingError::InvalidType(ty) | VaryingError::NotIOShareableType(ty) => {
+                Said::wgsl(format!(
+                    "{what} has type {}, which cannot go from stage to stage: numbers and vectors of them can",
+                    self.ty(*ty)
+                ))
+            }
+            VaryingError::UnsupportedCapability(needed) => feature(*needed),
+            VaryingError::InvalidBuiltInStage(_) => {
+                Said::new(Rule::Stage, format!("{what}: {error}"))
+            }
+            _ => Said::wgsl(format!("{what}: {}", self.plain(error, None))),
+        }
+    }
+
+    fn variable(&self, name: &str, error: &GlobalVariableError) -> Said {
+        use GlobalVariableError as E;
+        match error {
+            E::UnsupportedCapability(needed) => feature(*needed),
+            E::Alignment(_, ty, why) => Said::new(
+                Rule::Unsupported,
+                format!(
+                    "variable `{name}` is a uniform buffer, whose layout {} does not have: {why}",
+                    self.ty(*ty)
+                ),
+            )
+            .noted("arrays and structs in uniform buffers lie at multiples of 16 bytes; browsers with the language feature `uniform_buffer_standard_layout` do without"),
+            E::InvalidBinding => Said::wgsl(format!(
+                "variable `{name}` needs `@group` and `@binding`, or is of an address space that has none"
+            )),
+            _ => Said::wgsl(format!("variable `{name}`: {}", self.plain(error, None))),
+        }
+    }
+
+    fn type_error(&self, handle: Handle<Type>, error: &TypeError) -> Said {
+        match error {
+            TypeError::MissingCapability(needed) => feature(*needed),
+            TypeError::WidthError(WidthError::MissingCapability { name, flag }) => {
+                let allowed = naga::valid::Capabilities::from_name(flag);
+                let mut said = feature(allowed.unwrap_or(naga::valid::Capabilities::empty()));
+                said.message = format!("type `{name}` is optional; {}", said.message);
+                said
+            }
+            _ => Said::wgsl(format!(
+                "type {}: {}",
+                self.ty(handle),
+                self.plain(error, None)
+            )),
+        }
+    }
+
+    fn function(&self, function: &Function, error: &FunctionError) -> Said {
+        use FunctionError as E;
+        let quoted = |handle: Handle<Expression>| self.expression(function, handle);
+        match error {
+            E::Expression { handle, source } => {
+                let mut said = self.of_expression(function, *handle, source);
+                said.span = Some(function.expressions.get_span(*handle));
+                said
+            }
+            E::InvalidCall { function: callee, error } => {
+                let callee = &self.module.functions[*callee];
+                self.call(function, callee, error)
+            }
+            E::InvalidArgumentPointerSpace { name, space, .. } => Said::new(
+                Rule::Unsupported,
+                format!(
+                    "parameter `{name}` is a pointer to {} memory, which naga does not pass to functions yet",
+                    space_name(*space)
+                ),
+            )
+            .noted("use the variable itself in the function, or give it a value"),
+            E::InvalidReturnType { expression: None, expected_ty } => {
+                let ty = expected_ty.map_or(String::new(), |ty| format!(" of {}", self.ty(ty)));
+                if flow::ends(function) {
+                    Said::new(
+                        Rule::Unsupported,
+                        "naga wants a `return` at the end of a function, even after a loop that is never left for it",
+                    )
+                } else {
+                    Said::wgsl(format!(
+                        "the end of the function is reached without `return`{ty}"
+                    ))
+                }
+            }
+            E::InvalidReturnType { expression: Some(value), expected_ty } => {
+                let mut said = Said::wgsl(match expected_ty {
+                    Some(ty) => format!("{} is returned, and the function gives {}", quoted(*value), self.ty(*ty)),
+                    None => format!("{} is returned, and the function gives nothing", quoted(*value)),
+                });
+                said.span = Some(function.expressions.get_span(*value));
+                said
+            }
+            E::InvalidStoreTypes { pointer, value } => Said::wgsl(format!(
+                "{} is assigned to {}, which is of another type",
+                quoted(*value),
+                quoted(*pointer)
+            )),
+            E::InvalidStorePointer(pointer) => {
+                Said::wgsl(format!("{} cannot be assigned to", quoted(*pointer)))
+            }
+            E::InvalidIfType(condition) => {
+                Said::wgsl(format!("the condition {} is no bool", quoted(*condition)))
+            }
+            E::InvalidSwitchType(selector) => {
+                Said::wgsl(format!("the selector {} is no integer", quoted(*selector)))
+            }
+            E::InvalidStoreValue { actual, expected_ty, .. } => Said::wgsl(format!(
+                "{} is stored in a texture that takes {}",
+                quoted(*actual),
+                self.inner(expected_ty)
+            )),
+            E::MissingCapability(needed) => feature(*needed),
+            E::InvalidImageStore(error) | E::InvalidImageAtomic(error) => {
+                Said::wgsl(self.plain(error, Some(function)))
+            }
+            E::InvalidAtomic(error) => Said::wgsl(self.plain(error, Some(function))),
+            _ => Said::wgsl(self.plain(error, Some(function))),
+        }
+    }
+
+    fn of_expression(
+        &self,
+        function: &Function,
+        handle: Handle<Expression>,
+        error: &ExpressionError,
+    ) -> Said {
+        use ExpressionError as E;
+        let quoted = |handle: Handle<Expression>| self.expression(function, handle);
+        match error {
+            E::InvalidBinaryOperandTypes {
+                lhs_expr,
+                lhs_type,
+                rhs_expr,
+                rhs_type,
+                ..
+            } => Said::wgsl(format!(
+                "{} has no meaning for {} of type {} and {} of type {}",
+                quoted(handle),
+                quoted(*lhs_expr),
+                self.inner(lhs_type),
+                quoted(*rhs_expr),
+                self.inner(rhs_type)
+            )),
+            E::SelectValuesTypeMismatch { accept, reject } => Said::wgsl(format!(
+                "`select` has values of type {} and {}; both are of one type",
+                self.inner(reject),
+                self.inner(accept)
+            )),
+            E::SelectConditionNotABool { actual } => Said::wgsl(format!(
+                "the condition of `select` is of type {}, not bool",
+                self.inner(actual)
+            )),
+            E::ShiftAmountTooLarge { lhs_type, rhs_expr } => Said::wgsl(format!(
+                "{} is more than a value of type {} can be shifted by",
+                quoted(*rhs_expr),
+                self.inner(lhs_type)
+            )),
+            E::InvalidZeroValue(ty) => {
+                Said::wgsl(format!("type {} has no zero value", self.ty(*ty)))
+            }
+            E::MissingCapabilities(needed) => feature(*needed),
+            _ => Said::wgsl(format!(
+                "{}: {}",
+                quoted(handle),
+                self.plain(error, Some(function))
+            )),
+        }
+    }
+
+    fn call(&self, function: &Function, callee: &Function, error: &CallError) -> Said {
+        let name = callee.name.as_deref().unwrap_or_default();
+        match error {
+            CallError::ArgumentCount { required, seen } => Said::wgsl(format!(
+                "`{name}` takes {required} arguments, and {seen} are given"
+            )),
+            CallError::ArgumentType {
+                index,
+                required,
+                seen_expression,
+            } => {
+                let mut said = Said::wgsl(format!(
+                    "argument {} of `{name}` is {}, and has to be of type {}",
+                    index + 1,
+                    self.expression(function, *seen_expression),
+                    self.ty(*required)
+                ));
+                said.span = Some(function.expressions.get_span(*seen_expression));
+                said
+            }
+            CallError::Argument { index, source } => Said::wgsl(format!(
+                "argument {} of `{name}`: {}",
+                index + 1,
+                self.plain(source, Some(function))
+            )),
+            _ => Said::wgsl(format!(
+                "call of `{name}`: {}",
+                self.plain(error, Some(function))
+            )),
+        }
+    }
+
+    /// The innermost cause in naga's words, with expressions and types in place of their numbers.
+    fn plain(&self, error: &(dyn Error + 'static), function: Option<&Function>) -> String {
+        let said = innermost(error);
+        let mut plain = String::new();
+        let mut rest = said.as_str();
+        while let Some(open) = rest.find('[') {
+            let (before, from) = rest.split_at(open);
+            let close = from.find(']').unwrap_or(0);
+            let number = from
+                .get(1..close)
+                .and_then(|number| number.parse::<usize>().ok());
+            plain += before;
+            match (number, function) {
+                (Some(index), Some(function)) => {
+                    let mut expressions = function.expressions.iter();
+                    plain += &match expressions.nth(index) {
+                        Some((handle, _)) => self.expression(function, handle),
+                        None => "an expression".to_owned(),
+                    };
+                }
+                (Some(index), None) => {
+                    let mut types = self.module.types.iter();
+                    plain += &types
+                        .nth(index)
+                        .map_or("a type".to_owned(), |(ty, _)| self.ty(ty));
+                }
+                (None, _) => plain.push('['),
+            }
+            rest = match number {
+                Some(_) => from.get(close + 1..).unwrap_or_default(),
+                None => from.get(1..).unwrap_or_default(),
+            };
+        }
+        plain + rest.trim_end_matches('.')
+    }
+
+    /// An expression as it stands in the text.
+    fn expression(&self, function: &Function, handle: Handle<Expression>) -> String {
+        let variable = match function.expressions[handle] {
+            Expression::LocalVariable(handle) => function.local_variables[handle].name.clone(),
+            Expression::GlobalVariable(handle) => self.module.global_variables[handle].name.clone(),
+            Expression::FunctionArgument(index) => {
+                let argument = function.arguments.get(index as usize);
+                argument.and_then(|it| it.name.clone())
+            }
+            _ => None,
+        };
+        match variable {
+            Some(name) => format!("`{name}`"),
+            None => self.quoted(function.expressions.get_span(handle)),
+        }
+    }
+
+    fn quoted(&self, span: Span) -> String {
+        let range = span.to_range().unwrap_or(Range { start: 0, end: 0 });
+        let text = self.text.get(range).unwrap_or_default();
+        let words: Vec<&str> = text.split_whitespace().collect();
+        let text = words.join(" ");
+        const LONGEST: usize = 60;
+        match text.char_indices().nth(LONGEST) {
+            _ if text.is_empty() => "an expression".to_owned(),
+            Some((end, _)) => format!("`{}…`", text.get(..end).unwrap_or_default()),
+            None => format!("`{text}`"),
+        }
+    }
+
+    fn ty(&self, ty: Handle<Type>) -> String {
+        format!("`{}`", self.module.to_ctx().type_to_string(ty))
+    }
+
+    fn inner(&self, inner: &TypeInner) -> String {
+        let mut name = String::new();
+        // Writing to a string cannot fail.
+        let _ = self.module.to_ctx().write_type_inner(inner, &mut name);
+        format!("`{name}`")
+    }
+}
+
+/// A shader that needs features beyond the profile's.
+fn feature(needed: naga::valid::Capabilities) -> Said {
+    let names = features::names_of(needed);
+    Said::new(
+        Rule::Feature,
+        format!("this needs {names}, which the profile does not have"),
+    )
+    .noted("allow the feature (`--allow`) if all devices that the shader is for have it")
+}
+
+fn space_name(space: naga::AddressSpace) -> &'static str {
+    use naga::AddressSpace as S;
+    match space {
+        S::Function => "function",
+        S::Private => "private",
+        S::WorkGroup => "workgroup",
+        S::Uniform => "uniform",
+        S::Storage { .. } => "storage",
+        S::Handle => "texture or sampler",
+        S::Immediate => "immediate",
+        S::TaskPayload | S::RayPayload | S::IncomingRayPayload => "payload",
+    }
+}
+
+/// What the innermost cause says.
+fn innermost(error: &(dyn Error + 'static)) -> String {
+    let mut at = error;
+    while let Some(source) = at.source() {
+        at = source;
+    }
+    at.to_string()
+}

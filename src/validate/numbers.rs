@@ -1,0 +1,197 @@
+//! Numbers without a type (WGSL specification, section 6.2.1, "Abstract Numeric Types") that fit the type they get. naga wraps and rounds
+//! them.
+
+use naga::{Arena, Expression, Literal, Module};
+
+use crate::link::tokens::tokens;
+use crate::{Linked, Rule, ShaderError};
+
+/// Values that naga holds for others than those of the text.
+pub(super) fn check(module: &Module, linked: &Linked) -> Vec<ShaderError> {
+    let functions = module
+        .functions
+        .iter()
+        .map(|(_, function)| &function.expressions);
+    let entry_points = module
+        .entry_points
+        .iter()
+        .map(|it| &it.function.expressions);
+    let all = functions
+        .chain(entry_points)
+        .chain([&module.global_expressions]);
+    all.flat_map(|expressions| of(expressions, linked))
+        .collect()
+}
+
+fn of(expressions: &Arena<Expression>, linked: &Linked) -> Vec<ShaderError> {
+    let mut found = Vec::new();
+    for (handle, expression) in expressions.iter() {
+        let Some(range) = expressions.get_span(handle).to_range() else {
+            continue;
+        };
+        let Some(value) = linked.wgsl().get(range.clone()).and_then(value) else {
+            continue;
+        };
+        let (fits, ty) = match (expression, value) {
+            (Expression::Literal(Literal::I32(_)), Number::Int(value)) => {
+                (i32::try_from(value).is_ok(), "i32")
+            }
+            // naga makes a u32 of an integer that is no i32, or an f32.
+            (Expression::Literal(Literal::U32(_) | Literal::F32(_)), Number::Int(value))
+                if is_untyped(linked.wgsl().get(..range.start)) =>
+            {
+                (i32::try_from(value).is_ok(), "i32")
+            }
+            (Expression::Literal(Literal::U32(_)), Number::Int(value)) => {
+                (u32::try_from(value).is_ok(), "u32")
+            }
+            (Expression::Literal(Literal::F32(_)), value) => {
+                (value.float().abs() <= f32::MAX.into(), "f32")
+            }
+            _ => continue,
+        };
+        if !fits {
+            found.push(ShaderError {
+                rule: Rule::Constant,
+                message: format!("the value {value} is beyond those of `{ty}`"),
+                places: linked.location(range).into_iter().collect(),
+                notes: Vec::new(),
+            });
+        }
+    }
+    found
+}
+
+/// Whether what follows `before` gets its own type: the value of `let`, `var` and `_` without one.
+fn is_untyped(before: Option<&str>) -> bool {
+    let tokens = before.and_then(|before| {
+        let statement = before.rfind([';', '{', '}']).map_or(0, |end| end + 1);
+        tokens(before.get(statement..)?).ok()
+    });
+    match tokens.as_deref() {
+        Some([keyword, _, equals]) => {
+            matches!(keyword.text, "let" | "var") && equals.is_symbol("=")
+        }
+        Some([name, equals]) => name.text == "_" && equals.is_symbol("="),
+        _ => false,
+    }
+}
+
+/// A number without a type.
+#[derive(Clone, Copy, Debug, PartialEq)]
+enum Number {
+    Int(i64),
+    Float(f64),
+}
+
+impl Number {
+    fn float(self) -> f64 {
+        match self {
+            Number::Int(value) => value as f64,
+            Number::Float(value) => value,
+        }
+    }
+}
+
+impl core::fmt::Display for Number {
+    fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
+        match self {
+            Number::Int(value) => write!(f, "{value}"),
+            Number::Float(value) => write!(f, "{value:e}"),
+        }
+    }
+}
+
+/// The value of a text of numbers without a type, `+ - * / %`, and brackets. `None` for any other.
+fn value(text: &str) -> Option<Number> {
+    // Anything longer is no sum of numbers that somebody wrote.
+    const LONGEST: usize = 200;
+    if text.len() > LONGEST {
+        return None;
+    }
+    let mut reader = Reader { rest: text };
+    let value = reader.sum()?;
+    reader.rest.trim().is_empty().then_some(value)
+}
+
+struct Reader<'a> {
+    rest: &'a str,
+}
+
+impl Reader<'_> {
+    fn take(&mut self, symbols: &[char]) -> Option<char> {
+        self.rest = self.rest.trim_start();
+        let first = self.rest.chars().next().filter(|it| symbols.contains(it))?;
+        self.rest = self.rest.get(first.len_utf8()..)?;
+        Some(first)
+    }
+
+    fn sum(&mut self) -> Option<Number> {
+        let mut value = self.product()?;
+        while let Some(symbol) = self.take(&['+', '-']) {
+            let other = self.product()?;
+            value = match (symbol, value, other) {
+                ('+', Number::Int(a), Number::Int(b)) => Number::Int(a.checked_add(b)?),
+                (_, Number::Int(a), Number::Int(b)) => Number::Int(a.checked_sub(b)?),
+                ('+', a, b) => Number::Float(a.float() + b.float()),
+                (_, a, b) => Number::Float(a.float() - b.float()),
+            };
+        }
+        Some(value)
+    }
+
+    fn product(&mut self) -> Option<Number> {
+        let mut value = self.sign()?;
+        while let Some(symbol) = self.take(&['*', '/', '%']) {
+            let other = self.sign()?;
+            value = match (symbol, value, other) {
+                ('*', Number::Int(a), Number::Int(b)) => Number::Int(a.checked_mul(b)?),
+                ('/', Number::Int(a), Number::Int(b)) => Number::Int(a.checked_div(b)?),
+                (_, Number::Int(a), Number::Int(b)) => Number::Int(a.checked_rem(b)?),
+                ('*', a, b) => Number::Float(a.float() * b.float()),
+                ('/', a, b) => Number::Float(a.float() / b.float()),
+                (_, a, b) => Number::Float(a.float() % b.float()),
+            };
+        }
+        Some(value)
+    }
+
+    fn sign(&mut self) -> Option<Number> {
+        if self.take(&['-']).is_some() {
+            return match self.sign()? {
+                Number::Int(value) => Some(Number::Int(value.checked_neg()?)),
+                Number::Float(value) => Some(Number::Float(-value)),
+            };
+        }
+        if self.take(&['(']).is_some() {
+            let value = self.sum()?;
+            self.take(&[')'])?;
+            return Some(value);
+        }
+        self.number()
+    }
+
+    /// A decimal number. Any other form, and any suffix, is left to naga.
+    fn number(&mut self) -> Option<Number> {
+        self.rest = self.rest.trim_start();
+        let mut end = 0;
+        let mut before = ' ';
+        for c in self.rest.chars() {
+            let is_sign = matches!(c, '+' | '-') && matches!(before, 'e' | 'E');
+            if !(c.is_ascii_alphanumeric() || c == '.' || is_sign) {
+                break;
+            }
+            before = c;
+            end += 1;
+        }
+        let text = self.rest.get(..end)?;
+        self.rest = self.rest.get(end..)?;
+        if !text.starts_with(|c: char| c.is_ascii_digit() || c == '.') {
+            return None;
+        }
+        match text.parse::<i64>() {
+            Ok(value) => Some(Number::Int(value)),
+            Err(_) => text.parse::<f64>().ok().map(Number::Float),
+        }
+    }
+}

@@ -1,0 +1,35 @@
+//! Where the WGSL compiler stops without a result: it panics on a few texts, and says nothing of the place.
+
+use core::ops::Range;
+
+use super::repair;
+
+/// How often the compiler is tried on a part of the text.
+const MOST_TRIES: usize = 400;
+
+/// The statement at which `stops` is true, or else the function.
+pub(super) fn find(text: &str, stops: impl Fn(&str) -> bool) -> Option<Range<usize>> {
+    let mut tries = 0..MOST_TRIES;
+    // The last one: without the function that is called wrongly no call stops either.
+    let functions = repair::functions(text);
+    let function = functions.into_iter().rev().find(|function| {
+        let rest = repair::without_function(text, function);
+        tries.next().is_some() && rest.is_some_and(|rest| !stops(&rest))
+    })?;
+    let mut start = function.start;
+    for end in repair::statement_ends(text, &function) {
+        let head = text.get(..end)?;
+        let tail = text.get(function.end..)?;
+        // What is left of the function may lack a `return`, which is an error and no stop.
+        if tries.next().is_none() {
+            break;
+        }
+        if stops(&[head, tail].concat()) {
+            let statement = text.get(start..end)?;
+            let blank = statement.len() - statement.trim_start().len();
+            return Some(start + blank..end);
+        }
+        start = end;
+    }
+    Some(function)
+}
