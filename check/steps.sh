@@ -160,6 +160,11 @@ every_feature_combination() {
   done < <(feature_combinations)
 }
 
+# The library's command as `cargo install --no-default-features` makes it.
+command_without_wgpu() {
+  cargo test --release --locked -p moment-shadows-graph --no-default-features --features cli --test command
+}
+
 # The library crates for the web. Its standard library comes from rustup.
 check_wasm() {
   local target=wasm32-unknown-unknown arguments
@@ -177,6 +182,7 @@ check_wasm() {
 check() {
   step "A graphics adapter" need_adapter
   step "The library crates with every combination of features" every_feature_combination
+  step "The library's command without wgpu" command_without_wgpu
   step "The library crates for wasm32" check_wasm
   step "Every linked shader as WGSL and SPIR-V" write_shaders
   step "A second compiler: Tint" run_tint

@@ -1,7 +1,7 @@
 // Judges shaders by Tint, the WGSL compiler of Chromium, through Dawn's null backend, which needs no adapter.
 //
 // usage: node tint.mjs FOLDER
-// FOLDER is what `moment-shadows shaders --out FOLDER` wrote. Every shader is compiled on a device with the features of
+// FOLDER is what `moment-shadows-lab shaders --out FOLDER` wrote. Every shader is compiled on a device with the features of
 // its profile and no others, and every entry point becomes a pipeline. Errors that are planted on purpose come first: a
 // compiler that does not see them proves nothing.
 

@@ -12,7 +12,7 @@ use crate::{GraphError, GraphErrorKind, Node, NodeRegistry, Position, ResourceDe
 pub(crate) const VERSION: u32 = 2;
 
 /// A graph file of more bytes than this is refused: names are looked up one by one, so that time grows with the square.
-const LARGEST_FILE: usize = 1 << 20;
+pub(crate) const LARGEST_FILE: usize = 1 << 20;
 
 /// A graph: nodes, and what connects them to each other and to the host.
 #[derive(Debug, Default)]

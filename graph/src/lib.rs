@@ -21,6 +21,8 @@
 #![warn(clippy::wildcard_enum_match_arm)]
 
 mod capabilities;
+#[cfg(feature = "cli")]
+pub mod command;
 mod compile;
 mod error;
 mod graph;

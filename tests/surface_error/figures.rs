@@ -1,6 +1,7 @@
 //! The figures: on scenes whose error is known, against exact bounds, and repeated.
 
 use moment_shadows::{FourMomentsBias, Storage};
+use moment_shadows_graph::command::CommandError;
 use moment_shadows_lab::candidate::Candidate;
 use moment_shadows_lab::command::error;
 use moment_shadows_lab::command::error::ErrorReport;
@@ -209,7 +210,7 @@ fn what_cannot_be_measured_is_named() {
     assert!(refused.to_string().contains("no blur node"), "{refused}");
     assert!(matches!(
         parse(&text).with_radius(65).unwrap_err(),
-        LabError::Graph { .. }
+        LabError::Command(CommandError::Graph { .. })
     ));
     // A map that a graph gives out already keeps its name.
     let given = text.replace(

@@ -2,9 +2,10 @@
 
 use crate::storing;
 use moment_shadows::{Profile, ValidationReport, modules};
-use moment_shadows_lab::command::validate::{CheckError, check_file, run};
+use moment_shadows_graph::command::CommandError;
+use moment_shadows_graph::command::validate::{check_file, run};
 use std::fs;
-use std::path::Path;
+use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 
 #[test]
@@ -37,12 +38,13 @@ fn the_command_checks_files() {
     assert!(error.to_string().contains(&at), "{error}");
     for path in [&binary, &long, &missing, &folder.path().to_owned()] {
         match check_file(path, Profile::WebgpuCore).unwrap_err() {
-            CheckError::Read { path: named, .. } => assert_eq!(named, path.display().to_string()),
+            CommandError::Read { path: named, .. } => assert_eq!(named, path.display().to_string()),
             other => panic!("another error: {other}"),
         }
     }
 
     let code = |code: ExitCode| format!("{code:?}");
+    let run = |files: &[PathBuf], profile| run(files, profile).unwrap();
     let (success, failure) = (code(ExitCode::SUCCESS), code(ExitCode::FAILURE));
     assert_eq!(code(run(std::slice::from_ref(&good), None)), success);
     assert_eq!(code(run(&[bad, good.clone()], None)), failure);

@@ -19,7 +19,7 @@ import super::super::map::storage::{STORAGE_FLOAT16, STORAGE_FLOAT32, storage_fi
 // The target (0, second, 0, fourth) has to lie inside the moments of distributions on [-1, 1], unlike that of `four_moments`,
 // which lies on their boundary, where no bias repairs all vectors. The targets minimise the longest step that a rounding
 // error needs, which is 6.14 times the error of a channel in the optimised basis and 18.4 times that of raw moments, against
-// 4.88 and 9.9 for the real line. The steps alpha are those that `moment-shadows bias` finds by search: they cover 99.999 %
+// 4.88 and 9.9 for the real line. The steps alpha are those that `moment-shadows-lab bias` finds by search: they cover 99.999 %
 // of filter regions. The step for float32 is longer than the 2e-6 found, with which a factorisation in f32 loses its last
 // pivot in some regions.
 const HAUSDORFF4_BIAS_UNORM16: FourMomentsBias = FourMomentsBias(8e-5, 0.6036, 0.4875);

@@ -15,11 +15,11 @@ const SUMMED_AREA_ENCODING_LARGEST_AREA: u32 = 65537u;
 const SUMMED_AREA_ENCODING_UNIT_UNORM16: f32 = 65535.0;
 
 // The moment bias per error of a channel, for Hamburger's target and the optimised basis (found by maximisation over the
-// boundary of the moment space: `moment-shadows bias`).
+// boundary of the moment space: `moment-shadows-lab bias`).
 const SUMMED_AREA_ENCODING_BIAS_PER_ERROR: f32 = 4.88;
 
 // What f32 adds to that bias, in the query, the basis and its inverse; and the least bias, however small the error is (found
-// by search: `moment-shadows bias --tables`).
+// by search: `moment-shadows-lab bias --tables`).
 const SUMMED_AREA_ENCODING_BIAS_OF_F32: f32 = 4e-7;
 const SUMMED_AREA_ENCODING_SMALLEST_BIAS: f32 = 1e-6;
 

@@ -17,7 +17,7 @@ struct FourMomentsBias {
 }
 
 // The bias belongs to a storage's rounding error, not to a scene. Each value covers a resolve and a two-pass blur, every
-// stage rounded to the storage, for 99.999 % of filter regions (found by search: `moment-shadows bias`). Sums of many texels
+// stage rounded to the storage, for 99.999 % of filter regions (found by search: `moment-shadows-lab bias`). Sums of many texels
 // in f32 are off by more than the bias of float32 covers, unless they are made as in `split_sum`. The target is optimal for
 // the basis and for distributions on the real line (JCGT 6(1) 2017, section 3).
 const FOUR_MOMENTS_BIAS_UNORM16: FourMomentsBias = FourMomentsBias(6e-5, 0.628, 0.628);

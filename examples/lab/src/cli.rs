@@ -7,15 +7,16 @@ use clap::{CommandFactory, FromArgMatches, Parser, Subcommand};
 
 use crate::command::cost::CostOptions;
 use crate::command::{
-    CommandResult, adapter, bias, error, error_table, graph, isa, measure, render,
-    scattering_error, scattering_flicker, shaders, soft_error, stability, technique_pictures,
-    troubleshooting_pictures, validate, vectors,
+    CommandResult, bias, error, error_table, isa, measure, render, scattering_error,
+    scattering_flicker, shaders, soft_error, stability, technique_pictures,
+    troubleshooting_pictures, vectors,
 };
 use crate::isa::child;
 
-/// Filterable shadows: validate shaders, check graphs, render, and measure.
+/// The instrument of moment-shadows: renders scenes with the library's nodes, and measures errors, costs and stability. It has the
+/// sub-commands of the library's own command, too.
 #[derive(Parser)]
-#[command(name = "moment-shadows", version, about)]
+#[command(name = "moment-shadows-lab", version, about, long_about = None)]
 pub struct Cli {
     #[command(subcommand)]
     command: Command,
@@ -23,14 +24,10 @@ pub struct Cli {
 
 #[derive(Subcommand)]
 enum Command {
-    /// Prints the graphics adapter that the other commands use; fails if there is none.
-    Adapter,
+    #[command(flatten)]
+    Library(moment_shadows_graph::command::Command),
     /// Renders a scene with the shadows of a graph.
     Render(render::Options),
-    /// Validates shaders, linked with the modules they import, for every backend.
-    Validate(validate::Options),
-    /// Checks and prints a graph file.
-    Graph(graph::Options),
     /// Runs the shader on vectors with known bounds.
     Vectors(vectors::Options),
     /// Prints the error of every storage on several scenes, beside that of the exact bound.
@@ -92,10 +89,8 @@ impl Cli {
 
 fn run(command: Command) -> CommandResult {
     match command {
-        Command::Adapter => adapter::run(),
+        Command::Library(command) => Ok(command.run()),
         Command::Render(options) => options.run(),
-        Command::Validate(options) => options.run(),
-        Command::Graph(options) => options.run(),
         Command::Vectors(options) => options.run(),
         Command::Measure(options) => options.run(),
         Command::TechniquePictures(options) => options.run(),

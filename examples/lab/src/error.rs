@@ -1,6 +1,7 @@
 //! Everything that a command can fail with.
 
 use moment_shadows_graph::GraphError;
+use moment_shadows_graph::command::CommandError;
 
 /// Why the lab could not do what it was asked for. Each names its culprit.
 #[derive(Debug, thiserror::Error)]
@@ -9,14 +10,9 @@ pub enum LabError {
     /// What the lab itself refuses, or what a device or a file refuses it: what, why, and what to do.
     #[error("{0}")]
     Refused(String),
-    /// A graph file.
-    #[error("{file}:{error}")]
-    Graph {
-        /// The file.
-        file: String,
-        /// What is wrong with it.
-        error: GraphError,
-    },
+    /// What the library's own command fails with, too: a graph file, or an adapter.
+    #[error(transparent)]
+    Command(#[from] CommandError),
     /// Something that the lab cannot use: a graph that it cannot judge, a table of other figures, a driver that lacks something.
     #[error("{file}: {reason}")]
     Unsuitable {
@@ -59,8 +55,8 @@ impl LabError {
 
     /// What is wrong with the graph of a file.
     pub fn graph(file: &str) -> impl FnOnce(GraphError) -> Self {
-        let file = file.to_owned();
-        move |error| Self::Graph { file, error }
+        let of_file = CommandError::graph(file);
+        move |error| of_file(error).into()
     }
 
     /// What cannot be used, and why.

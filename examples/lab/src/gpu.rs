@@ -4,6 +4,7 @@ use std::fmt::Display;
 use std::sync::{Arc, Mutex};
 
 use moment_shadows::Profile;
+use moment_shadows_graph::command::adapter;
 use wgpu::util::{DeviceExt, DownloadBuffer};
 
 use crate::error::LabError;
@@ -27,12 +28,7 @@ impl Gpu {
 
     /// Opens the best adapter with the features of `profile` and those of `optional` that it has.
     pub fn open_with(profile: Profile, optional: wgpu::Features) -> Result<Self, LabError> {
-        let adapter = best_adapter().ok_or_else(|| {
-            LabError::refused(
-                "no graphics adapter was found for Vulkan, Metal or Direct3D 12; on Debian install a software driver with \
-                 `apt-get install mesa-vulkan-drivers`, elsewhere install a Vulkan, Metal or Direct3D 12 driver",
-            )
-        })?;
+        let adapter = adapter::best()?;
         let name = adapter.get_info().name;
         let required = required_features(profile);
         let missing = required - adapter.features();
@@ -282,24 +278,4 @@ fn required_features(profile: Profile) -> wgpu::Features {
                 | wgpu::Features::TEXTURE_ADAPTER_SPECIFIC_FORMAT_FEATURES
         }
     }
-}
-
-/// Hardware before software. OpenGL does not count: wgpu cannot load depth textures through it, so no graph runs there,
-/// and a machine with a driver for nothing else has no adapter.
-fn best_adapter() -> Option<wgpu::Adapter> {
-    let backends = wgpu::Backends::VULKAN | wgpu::Backends::METAL | wgpu::Backends::DX12;
-    let instance = wgpu::Instance::new(wgpu::InstanceDescriptor {
-        backends,
-        ..wgpu::InstanceDescriptor::new_without_display_handle()
-    });
-    let adapters = pollster::block_on(instance.enumerate_adapters(backends));
-    adapters
-        .into_iter()
-        .min_by_key(|adapter| match adapter.get_info().device_type {
-            wgpu::DeviceType::DiscreteGpu => 0,
-            wgpu::DeviceType::IntegratedGpu => 1,
-            wgpu::DeviceType::VirtualGpu => 2,
-            wgpu::DeviceType::Other => 3,
-            wgpu::DeviceType::Cpu => 4,
-        })
 }

@@ -6,7 +6,7 @@ use std::path::Path;
 
 use moment_shadows::{Kernel, Storage};
 use moment_shadows_graph::nodes::Blur;
-use moment_shadows_graph::{Graph, GraphError, GraphErrorKind, NodeRegistry, TextureDesc};
+use moment_shadows_graph::{Graph, GraphError, GraphErrorKind, TextureDesc, command};
 use serde_json::Value;
 
 use crate::error::LabError;
@@ -25,43 +25,36 @@ pub struct GraphFile {
 impl GraphFile {
     /// Reads a file. With a storage, every `resolve` node uses that instead of its own.
     pub fn read(path: &Path, storage: Option<Storage>) -> Result<Self, LabError> {
-        let name = path.display().to_string();
-        let text = std::fs::read_to_string(path)
-            .map_err(|error| LabError::refused(format!("{name} cannot be read: {error}")))?;
-        let file = Self::parse(&name, text, storage)?;
-        for note in &file.graph.notes {
-            eprintln!("note: {name} is of version 1: {note} now");
-        }
-        Ok(file)
+        Self::with_storage(command::GraphFile::read(path)?, storage)
     }
 
     /// The graph of a text that errors name by `name`.
     pub fn parse(name: &str, text: String, storage: Option<Storage>) -> Result<Self, LabError> {
-        let parsed = |text: &str| {
-            Graph::parse(text, &NodeRegistry::new()).map_err(|error| LabError::Graph {
-                file: name.to_owned(),
-                error,
-            })
-        };
-        // The text as given is parsed first, so that errors have its positions.
-        let mut graph = parsed(&text)?;
-        let mut text = text;
-        if !graph.notes.is_empty() {
-            let mut file: Value = serde_json::from_str(&text).unwrap_or_default();
-            Graph::upgrade(&mut file);
-            text = file.to_string();
+        Self::with_storage(command::GraphFile::parse(name, text)?, storage)
+    }
+
+    fn with_storage(file: command::GraphFile, storage: Option<Storage>) -> Result<Self, LabError> {
+        let command::GraphFile { name, text, graph } = file;
+        let file = Self { name, text, graph };
+        match storage {
+            None => Ok(file),
+            Some(storage) => {
+                let Self { text, graph, .. } = file.edited(|file| {
+                    set_property(file, "resolve", "storage", storage.name().into());
+                })?;
+                // Edges and outputs keep their places in the file.
+                let nodes = graph.nodes;
+                let graph = Graph {
+                    nodes,
+                    ..file.graph
+                };
+                Ok(Self {
+                    text,
+                    graph,
+                    ..file
+                })
+            }
         }
-        if let Some(storage) = storage {
-            let mut file: Value = serde_json::from_str(&text).unwrap_or_default();
-            set_property(&mut file, "resolve", "storage", storage.name().into());
-            text = file.to_string();
-            graph.nodes = parsed(&text)?.nodes;
-        }
-        Ok(Self {
-            name: name.to_owned(),
-            text,
-            graph,
-        })
     }
 
     /// This graph with something in its file changed.
@@ -185,10 +178,8 @@ impl GraphFile {
                 .kernel
                 .clone()
                 .map(Some)
-                .map_err(|error| LabError::Graph {
-                    file: self.name.clone(),
-                    error: GraphError::new(GraphErrorKind::Property, error.to_string()),
-                }),
+                .map_err(|error| GraphError::new(GraphErrorKind::Property, error.to_string()))
+                .map_err(LabError::graph(&self.name)),
             _ => Err(self.unsuitable(format!(
                 "it has {} blur nodes; the receiver bias and the truth are derived from one kernel",
                 blurs.len()

@@ -58,10 +58,7 @@ impl GraphFrame {
         let plan = file
             .graph
             .compile(&capabilities, &imports(desc))
-            .map_err(|error| LabError::Graph {
-                file: file.name.clone(),
-                error,
-            })?;
+            .map_err(LabError::graph(&file.name))?;
         let pipelines = block_on(Pipelines::create(
             &gpu.device,
             &plan,

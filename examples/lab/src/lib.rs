@@ -30,7 +30,6 @@ pub mod penumbra;
 pub mod picture;
 pub mod plot;
 pub mod progress;
-pub mod runtime_dir;
 pub mod scattering;
 pub mod scene;
 pub mod shaders;

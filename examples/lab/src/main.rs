@@ -1,14 +1,12 @@
-//! The `moment-shadows` command.
+//! The command `moment-shadows-lab`.
 
 use std::process::ExitCode;
 
-use moment_shadows_lab::{cli::Cli, picture, runtime_dir};
+use moment_shadows_graph::command::{NOT_READ, runtime_dir};
+use moment_shadows_lab::{cli::Cli, picture};
 
 /// The exit code after Ctrl-C, as shells have it.
 const INTERRUPTED: i32 = 130;
-
-/// The exit code where nobody reads the output to its end, as shells have it.
-const NOT_READ: i32 = 141;
 
 fn main() -> ExitCode {
     runtime_dir::ensure();
@@ -22,7 +20,7 @@ fn main() -> ExitCode {
         let said = panic.payload_as_str().unwrap_or_default();
         // Whoever read the output has had enough of it.
         if said.contains("failed printing to stdout") {
-            std::process::exit(NOT_READ);
+            std::process::exit(NOT_READ.into());
         }
         usual(panic);
     }));

@@ -6,6 +6,7 @@ use std::path::{Path, PathBuf};
 use std::sync::Mutex;
 
 use image::{ExtendedColorType, ImageFormat};
+use moment_shadows_graph::command::Part;
 
 use crate::error::LabError;
 
@@ -42,9 +43,6 @@ pub fn check_picture(path: &Path) -> Result<(), LabError> {
 
 /// Refuses a file that could not be written when it is made.
 pub fn check_file(path: &Path) -> Result<(), LabError> {
-    if path.is_dir() {
-        return Err(unwritable(path, "it is a folder; name a file in it"));
-    }
     part(path).map(drop)
 }
 
@@ -73,39 +71,12 @@ pub fn remove_part() {
 }
 
 /// A file beside `path`, which goes unless it is kept.
-fn part(path: &Path) -> Result<tempfile::NamedTempFile, LabError> {
-    let folder = match path.parent() {
-        Some(parent) if parent != Path::new("") => parent,
-        _ => Path::new("."),
-    };
-    let mut builder = tempfile::Builder::new();
-    builder.prefix(".moment-shadows-").suffix(".part");
-    // A temporary file is private by default; a result is as readable as any other file.
-    #[cfg(unix)]
-    builder.permissions(std::os::unix::fs::PermissionsExt::from_mode(0o666));
-    let part = builder.tempfile_in(folder);
-    let part = part.map_err(|error| failed(path, &error))?;
+fn part(path: &Path) -> Result<Part, LabError> {
+    let part = Part::beside(path)?;
     if let Ok(mut known) = PART.lock() {
         *known = Some(part.path().to_owned());
     }
     Ok(part)
-}
-
-/// Why a file could not be written.
-fn failed(path: &Path, error: &std::io::Error) -> LabError {
-    match error.kind() {
-        std::io::ErrorKind::NotFound => {
-            let folder = path.parent().unwrap_or(path).display();
-            unwritable(
-                path,
-                format!("the folder '{folder}' does not exist; create it first"),
-            )
-        }
-        std::io::ErrorKind::StorageFull => {
-            unwritable(path, "the disk is full; what was there is unchanged")
-        }
-        _ => unwritable(path, format!("{error}; what was there is unchanged")),
-    }
 }
 
 /// Writes a file beside `path` by `write` and renames it, so that `path` is either what it was or complete.
@@ -113,13 +84,7 @@ pub fn save_atomically(
     path: &Path,
     write: impl FnOnce(&mut dyn Write) -> std::io::Result<()>,
 ) -> Result<(), LabError> {
-    let failed = |error: std::io::Error| failed(path, &error);
-    let mut part = part(path)?;
-    write(part.as_file_mut()).map_err(failed)?;
-    // Some file systems find only now that they are full.
-    part.as_file().sync_all().map_err(failed)?;
-    part.persist(path).map_err(|error| failed(error.error))?;
-    Ok(())
+    Ok(part(path)?.write(write)?.keep()?)
 }
 
 /// Saves red, green, blue and alpha (sRGB, a byte each, top row first) in the format that the path ends with. JPEG has no alpha.

@@ -11,7 +11,7 @@ use std::path::{Path, PathBuf};
 use std::process::{Command, Output};
 use std::time::{Duration, Instant};
 
-const BINARY: &str = env!("CARGO_BIN_EXE_moment-shadows");
+const BINARY: &str = env!("CARGO_BIN_EXE_moment-shadows-lab");
 
 /// The graph of hard shadows with other imports.
 fn graph(folder: &Path, light: &str, camera: &str) -> PathBuf {

@@ -10,12 +10,14 @@
 use std::path::{Path, PathBuf};
 use std::process::Command;
 
+use moment_shadows_graph::command::Cli;
 use moment_shadows_lab::cli::parser;
 
 /// Sub-commands that are run here, with arguments that make them short; `OUT` is a folder or a file in it.
-const RUN: [(&str, &[&str]); 9] = [
+const RUN: [(&str, &[&str]); 10] = [
     ("adapter", &[]),
     ("graph", &["examples/hard_shadows.json", "--plan"]),
+    ("export-plan", &["examples/hard_shadows.json"]),
     ("validate", &["examples/forward_shading.wgsl"]),
     (
         "render",
@@ -127,8 +129,8 @@ fn commands(text: &str) -> Vec<(Vec<String>, bool)> {
     let is_command = |words: &[String]| {
         let first = words.first().map(String::as_str);
         first.is_some_and(|first| {
-            let ours = ["./run", "cargo", "moment-shadows"].contains(&first) && words.len() > 1;
-            ours || first.ends_with(".sh")
+            let ours = ["./run", "cargo", "moment-shadows", "moment-shadows-lab"].contains(&first);
+            ours && words.len() > 1 || first.ends_with(".sh")
         })
     };
     let mut fence: Option<String> = None;
@@ -171,10 +173,10 @@ fn commands(text: &str) -> Vec<(Vec<String>, bool)> {
     found
 }
 
-/// Checks a sub-command of ours: fully where it is to be pasted, else that it and its flags are there. Gives its name.
-fn check_ours(arguments: &[String], pasted: bool) -> String {
+/// Checks a sub-command of a command of ours: fully where it is to be pasted, else that it and its flags are there. Gives its
+/// name.
+fn check_ours(parser: clap::Command, arguments: &[String], pasted: bool) -> String {
     let name = arguments[0].clone();
-    let parser = parser();
     if name.starts_with("--") {
         assert_eq!(name, "--help");
         return name;
@@ -199,7 +201,7 @@ fn check_ours(arguments: &[String], pasted: bool) -> String {
         );
     }
     if pasted {
-        let whole = ["moment-shadows".to_owned()]
+        let whole = [parser.get_name().to_owned()]
             .into_iter()
             .chain(arguments.iter().cloned());
         parser
@@ -238,10 +240,15 @@ fn check_cargo(words: &[String], pasted: bool) -> Option<String> {
             "'{path}' is no package"
         );
     }
+    if let Some(feature) = after("--features") {
+        let graph = std::fs::read_to_string(root().join("graph/Cargo.toml")).unwrap();
+        let declared = graph.contains(&format!("\n{feature} = ["));
+        assert!(declared, "there is no feature '{feature}'");
+    }
     let package = after("-p")?;
     assert_eq!(package, "moment-shadows-lab");
     let ours = words.iter().position(|word| word == "--")? + 1;
-    Some(check_ours(&words[ours..], pasted))
+    Some(check_ours(parser(), &words[ours..], pasted))
 }
 
 #[test]
@@ -264,7 +271,8 @@ fn every_command_of_the_documents_is_right() {
                     None
                 }
                 "cargo" => check_cargo(&words, pasted),
-                _ => Some(check_ours(&words[1..], pasted)),
+                "moment-shadows" => Some(check_ours(Cli::parser(), &words[1..], pasted)),
+                _ => Some(check_ours(parser(), &words[1..], pasted)),
             };
             let is_known = |name: &String| {
                 name == "--help"
@@ -288,7 +296,7 @@ fn short_commands_run() {
         let arguments = arguments
             .iter()
             .map(|argument| argument.replace("OUT", &out));
-        let mut command = Command::new(env!("CARGO_BIN_EXE_moment-shadows"));
+        let mut command = Command::new(env!("CARGO_BIN_EXE_moment-shadows-lab"));
         let output = command
             .arg(name)
             .args(arguments)
@@ -303,7 +311,7 @@ fn short_commands_run() {
     }
     // The long ones are there, and say what they take.
     for (name, _) in LONG {
-        let mut command = Command::new(env!("CARGO_BIN_EXE_moment-shadows"));
+        let mut command = Command::new(env!("CARGO_BIN_EXE_moment-shadows-lab"));
         assert!(
             command
                 .args([name, "--help"])

@@ -1,6 +1,6 @@
 //! The one list of the library's nodes, with every setting that changes the text or the cost of their shaders.
 //!
-//! `moment-shadows shaders`, `moment-shadows isa` and the tests go through it. A new node adds its variants to the file of
+//! `moment-shadows-lab shaders`, `moment-shadows-lab isa` and the tests go through it. A new node adds its variants to the file of
 //! its stage: each variant may be a file of shaders, of whose passes some are kept as snapshots, and a row of the ISA table.
 
 mod air;

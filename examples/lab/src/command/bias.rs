@@ -1,4 +1,4 @@
-//! `moment-shadows bias`: the smallest safe moment bias of a storage, by search.
+//! `moment-shadows-lab bias`: the smallest safe moment bias of a storage, by search.
 
 use moment_shadows::Storage;
 

@@ -1,4 +1,4 @@
-//! `moment-shadows cost`: what passes cost, as ratios to copies, and in bytes.
+//! `moment-shadows-lab cost`: what passes cost, as ratios to copies, and in bytes.
 
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;

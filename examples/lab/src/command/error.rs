@@ -1,4 +1,4 @@
-//! `moment-shadows error`: the error of a graph over all surfaces that the light's rays meet.
+//! `moment-shadows-lab error`: the error of a graph over all surfaces that the light's rays meet.
 
 use core::fmt;
 use std::path::{Path, PathBuf};
@@ -116,7 +116,7 @@ pub struct KernelFigures {
     pub standard_deviation: f32,
 }
 
-/// What `moment-shadows error` prints.
+/// What `moment-shadows-lab error` prints.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct ErrorReport {
     /// The scene's name.

@@ -1,4 +1,4 @@
-//! `moment-shadows error-table`: the error over all surfaces of scenes, for techniques, storages and radii.
+//! `moment-shadows-lab error-table`: the error over all surfaces of scenes, for techniques, storages and radii.
 
 mod average;
 

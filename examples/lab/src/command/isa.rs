@@ -1,4 +1,4 @@
-//! `moment-shadows isa`: what a real shader compiler makes of every shader, and the gate on it.
+//! `moment-shadows-lab isa`: what a real shader compiler makes of every shader, and the gate on it.
 
 use std::path::PathBuf;
 use std::process::ExitCode;

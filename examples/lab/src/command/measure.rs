@@ -1,4 +1,4 @@
-//! `moment-shadows measure`: errors of a technique with every storage on several scenes, beside the exact bound.
+//! `moment-shadows-lab measure`: errors of a technique with every storage on several scenes, beside the exact bound.
 
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;

@@ -1,13 +1,11 @@
-//! The subcommands of `moment-shadows`: a file has the options of each, and runs it.
+//! The sub-commands of `moment-shadows-lab` that are not the library's: a file has the options of each, and runs it.
 
-pub mod adapter;
 pub(crate) mod argument;
 pub mod bias;
 pub mod cost;
 pub mod drawn;
 pub mod error;
 pub mod error_table;
-pub mod graph;
 pub mod isa;
 pub mod measure;
 pub mod render;
@@ -18,7 +16,6 @@ pub mod soft_error;
 pub mod stability;
 pub mod technique_pictures;
 pub mod troubleshooting_pictures;
-pub mod validate;
 pub mod vectors;
 
 use core::fmt::Display;

@@ -1,4 +1,4 @@
-//! `moment-shadows render`: a scene with the shadows of a graph, as a picture.
+//! `moment-shadows-lab render`: a scene with the shadows of a graph, as a picture.
 
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;

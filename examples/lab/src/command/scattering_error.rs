@@ -1,4 +1,4 @@
-//! `moment-shadows scattering-error`: light in the air against marched rays, with pictures and costs.
+//! `moment-shadows-lab scattering-error`: light in the air against marched rays, with pictures and costs.
 
 use crate::compare::{self, Report, compare};
 use crate::cost::clock::FEATURES;

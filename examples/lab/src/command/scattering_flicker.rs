@@ -1,4 +1,4 @@
-//! `moment-shadows scattering-flicker`: what flickers in the air while camera and light move.
+//! `moment-shadows-lab scattering-flicker`: what flickers in the air while camera and light move.
 
 use std::process::ExitCode;
 

@@ -1,4 +1,4 @@
-//! `moment-shadows shaders`: every linked shader as a file, for other compilers to judge.
+//! `moment-shadows-lab shaders`: every linked shader as a file, for other compilers to judge.
 
 use std::path::PathBuf;
 use std::process::ExitCode;

@@ -1,4 +1,4 @@
-//! `moment-shadows soft-error`: soft shadows against a sampled area light, with pictures and costs.
+//! `moment-shadows-lab soft-error`: soft shadows against a sampled area light, with pictures and costs.
 
 use crate::compare::{self, Report, compare};
 use crate::cost::blur::PROFILE;

@@ -1,4 +1,4 @@
-//! `moment-shadows stability`: every technique with every storage on inputs of all kinds.
+//! `moment-shadows-lab stability`: every technique with every storage on inputs of all kinds.
 
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;

@@ -1,4 +1,4 @@
-//! `moment-shadows technique-pictures`: every technique on one view, and where it fails.
+//! `moment-shadows-lab technique-pictures`: every technique on one view, and where it fails.
 
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;

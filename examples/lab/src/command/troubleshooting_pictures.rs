@@ -1,4 +1,4 @@
-//! `moment-shadows troubleshooting-pictures`: what mistakes look like, beside the same picture without them.
+//! `moment-shadows-lab troubleshooting-pictures`: what mistakes look like, beside the same picture without them.
 
 use std::path::PathBuf;
 use std::process::ExitCode;

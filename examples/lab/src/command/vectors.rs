@@ -1,4 +1,4 @@
-//! `moment-shadows vectors`: the shader on vectors with known bounds.
+//! `moment-shadows-lab vectors`: the shader on vectors with known bounds.
 
 use std::path::PathBuf;
 use std::process::ExitCode;

@@ -28,7 +28,7 @@ pub struct TimeBound {
 
 impl Memory {
     /// Cards by their makers' figures: that of the lecture on moment shadow maps (Peters, GDC 2016), and those with the
-    /// two chips that `moment-shadows isa` compiles for, Vega 10 and Navi 21.
+    /// two chips that `moment-shadows-lab isa` compiles for, Vega 10 and Navi 21.
     #[must_use]
     pub fn known() -> Vec<Memory> {
         let cards = [

@@ -81,10 +81,7 @@ impl<'a> MapEvaluator<'a> {
                 SHADER,
                 &[("point_intensity", intensity)],
             )
-            .map_err(|error| LabError::Graph {
-                file: map.name.clone(),
-                error,
-            })?;
+            .map_err(LabError::graph(&map.name))?;
         let pipeline = gpu.compute(LABEL, &wgsl, "evaluate");
         let map = map_bindings(device, &bindings, &pipeline, map.texture);
         gpu.check()?;

@@ -1,18 +1,16 @@
 //! `moment-shadows graph`: checks and prints a graph file and its plan.
 
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 use std::process::ExitCode;
 
 use moment_shadows::Profile;
-use moment_shadows_graph::{Capabilities, Direction, NodeDesc, Plan};
 use serde_json::Value;
 
-use super::{CommandResult, argument};
-use crate::error::LabError;
-use crate::graph_file::GraphFile;
+use super::{CommandError, GraphFile, argument, output};
+use crate::{Capabilities, Direction, NodeDesc};
 
 /// What `graph` takes.
-#[derive(clap::Args)]
+#[derive(Debug, clap::Args)]
 pub struct Options {
     /// The graph file.
     file: PathBuf,
@@ -29,46 +27,40 @@ pub struct Options {
 
 impl Options {
     /// Checks the file and prints it, or its plan as JSON.
-    pub fn run(self) -> CommandResult {
-        let (summary, plan) = check(&self.file, self.profile)?;
+    ///
+    /// # Errors
+    /// [`CommandError`] if the graph is not valid, or nothing can be printed.
+    pub fn run(self) -> Result<ExitCode, CommandError> {
+        let file = GraphFile::read(&self.file)?;
+        let capabilities = Capabilities::of_profile(self.profile);
+        let plan = file.compile(&capabilities)?;
         if self.json {
-            println!("{}", serde_json::to_string_pretty(&plan)?);
+            output::print(serde_json::to_string_pretty(&plan)?)?;
             return Ok(ExitCode::SUCCESS);
         }
-        println!("{summary}");
+        let described = file.graph.describe(&capabilities, &[]);
+        let described = described.map_err(CommandError::graph(&file.name))?;
+        output::print(summary(&file, &described)?)?;
         if self.plan {
-            println!("\n{plan}");
+            output::print(format_args!("\n{plan}"))?;
         }
         Ok(ExitCode::SUCCESS)
     }
 }
 
-/// Compiles a graph file for a profile, with its imports as the file expects them, without a device. Gives its plan, and
-/// the graph as text.
-fn check(path: &Path, profile: Profile) -> Result<(String, Plan), LabError> {
-    let file = GraphFile::read(path, None)?;
-    let capabilities = Capabilities::of_profile(profile);
-    let failed = LabError::graph(&file.name);
-    let plan = file.graph.compile(&capabilities, &[]).map_err(failed)?;
-    let failed = LabError::graph(&file.name);
-    let nodes = file.graph.describe(&capabilities, &[]).map_err(failed)?;
-    Ok((summary(&file, &nodes), plan))
-}
-
 /// The graph as text: imports, nodes with their properties and slots, edges and outputs.
-fn summary(file: &GraphFile, described: &[NodeDesc]) -> String {
+fn summary(file: &GraphFile, described: &[NodeDesc]) -> Result<String, CommandError> {
     let graph = &file.graph;
+    let given: Value = serde_json::from_str(&file.text)?;
     let mut lines = Vec::new();
     for import in &graph.imports {
         let expected = import.value.as_ref();
         let expected = expected.map_or("anything".to_owned(), ToString::to_string);
         lines.push(format!("import  {:<24} {expected}", import.name));
     }
-    for (node, desc) in graph.nodes.iter().zip(described) {
-        let properties = match file.node_entry(&node.name, "properties") {
-            Value::Null => String::new(),
-            given => format!(" {given}"),
-        };
+    for (index, (node, desc)) in graph.nodes.iter().zip(described).enumerate() {
+        let properties = given["nodes"][index].get("properties");
+        let properties = properties.map_or(String::new(), |given| format!(" {given}"));
         lines.push(format!(
             "node    {:<24} {}{properties}",
             node.name, desc.name
@@ -93,5 +85,5 @@ fn summary(file: &GraphFile, described: &[NodeDesc]) -> String {
     for output in &graph.outputs {
         lines.push(format!("output  {:<24} <- {}", output.name, output.value));
     }
-    lines.join("\n")
+    Ok(lines.join("\n"))
 }
