@@ -5,7 +5,9 @@ use std::collections::{BTreeMap, BTreeSet};
 use std::fs;
 use std::path::Path;
 
-use moment_shadows::{Backend, Module, Profile, Source, link, modules, validate};
+use moment_shadows::{
+    Backend, Module, Profile, Source, ValidationOptions, link, modules, validate,
+};
 
 /// What may be called in non-uniform control flow.
 const TEXTURE_FUNCTIONS: [&str; 9] = [
@@ -314,21 +316,26 @@ fn every_module_validates_alone_on_every_backend() {
     for module in modules() {
         let (file, text) = source(module);
         for profile in Profile::ALL {
-            match validate(Source { name: &file, text }, &[], profile) {
-                Ok(report) => {
-                    assert_eq!(report.outcomes.len(), Backend::ALL.len());
-                    for (backend, outcome) in report.outcomes {
-                        let glsl = matches!(backend, Backend::Glsl450 | Backend::GlslEs300);
-                        let expected = !(glsl && LOADS_DEPTH.contains(&module.name));
-                        match outcome {
-                            Ok(()) if expected => {}
-                            Err(reason) if !expected && reason.contains("textureLoad") => {}
-                            other => failures
-                                .push(format!("{}: {profile}: {backend}: {other:?}", module.name)),
-                        }
+            let options = ValidationOptions {
+                profile,
+                ..ValidationOptions::default()
+            };
+            let report = validate(Source { name: &file, text }, &options);
+            if !report.is_valid() {
+                failures.push(format!("{}: {profile}: {report}", module.name));
+                continue;
+            }
+            assert_eq!(report.outcomes.len(), Backend::ALL.len());
+            for (backend, outcome) in report.outcomes {
+                let glsl = matches!(backend, Backend::Glsl450 | Backend::GlslEs300);
+                let expected = !(glsl && LOADS_DEPTH.contains(&module.name));
+                match outcome {
+                    Ok(()) if expected => {}
+                    Err(reason) if !expected && reason.contains("textureLoad") => {}
+                    other => {
+                        failures.push(format!("{}: {profile}: {backend}: {other:?}", module.name));
                     }
                 }
-                Err(error) => failures.push(format!("{}: {profile}: {error}", module.name)),
             }
         }
     }

@@ -12,7 +12,7 @@
 use std::collections::{BTreeMap, BTreeSet};
 use std::path::PathBuf;
 
-use moment_shadows::{Backend, Profile, Source, validate};
+use moment_shadows::{Backend, Profile, Source, ValidationOptions, validate};
 use moment_shadows_lab::shaders::{self, Shader};
 
 fn variants() -> Vec<Shader> {
@@ -134,8 +134,8 @@ fn every_linked_shader_is_valid_on_every_backend_that_can_express_it() {
             name: &variant.name,
             text: &variant.wgsl,
         };
-        let report = validate(source, &[], variant.profile)
-            .unwrap_or_else(|error| panic!("{}: {error}", variant.name));
+        let report = validate(source, &under(variant.profile));
+        assert!(report.is_valid(), "{}: {report}", variant.name);
         let written: Vec<Backend> = report.written().collect();
         for backend in [Backend::SpirV, Backend::Hlsl, Backend::Msl] {
             assert!(
@@ -148,6 +148,13 @@ fn every_linked_shader_is_valid_on_every_backend_that_can_express_it() {
     }
 }
 
+fn under(profile: Profile) -> ValidationOptions<'static> {
+    ValidationOptions {
+        profile,
+        ..ValidationOptions::default()
+    }
+}
+
 #[test]
 fn a_storage_beyond_the_core_is_refused_there() {
     for variant in variants() {
@@ -155,7 +162,7 @@ fn a_storage_beyond_the_core_is_refused_there() {
             name: &variant.name,
             text: &variant.wgsl,
         };
-        let refused = validate(source, &[], Profile::WebgpuCore).is_err();
+        let refused = !validate(source, &under(Profile::WebgpuCore)).is_valid();
         // Shading and showing read the map: an rgba16unorm texture that is sampled has no format in its type.
         let reads = ["shade", "debug"]
             .iter()

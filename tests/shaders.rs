@@ -9,7 +9,7 @@
 use std::collections::{BTreeMap, BTreeSet};
 use std::path::Path;
 
-use moment_shadows::{Profile, Source, modules, validate};
+use moment_shadows::{Profile, Source, ValidationOptions, modules, validate};
 use moment_shadows_lab::error::LabError;
 use moment_shadows_lab::shaders::{self, Kind, Shader};
 use serde_json::Value;
@@ -100,7 +100,8 @@ fn several(
         name: "calls.wgsl",
         text: &text,
     };
-    validate(source, &[], Profile::WebgpuCore).unwrap();
+    let report = validate(source, &ValidationOptions::default());
+    assert!(report.is_valid(), "{report}");
     assert!(text.contains("        plain();\n"), "{text}");
     let call = "_ = several(called_resource_0, called_resource_0, called_resource_1, argument_3, &argument_4);";
     assert!(text.contains(call), "{text}");

@@ -6,6 +6,8 @@ use core::fmt;
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 #[non_exhaustive]
 pub enum Rule {
+    /// The file cannot be read.
+    File,
     /// The text is too long to be validated.
     Length,
     /// The text is of another dialect, or of another language.
@@ -40,7 +42,8 @@ pub enum Rule {
 
 impl Rule {
     /// Every rule.
-    pub const ALL: [Rule; 15] = [
+    pub const ALL: [Rule; 16] = [
+        Rule::File,
         Rule::Length,
         Rule::Dialect,
         Rule::Import,
@@ -62,6 +65,7 @@ impl Rule {
     #[must_use]
     pub fn name(self) -> &'static str {
         match self {
+            Rule::File => "file",
             Rule::Length => "length",
             Rule::Dialect => "dialect",
             Rule::Import => "import",
@@ -84,6 +88,7 @@ impl Rule {
     #[must_use]
     pub fn description(self) -> &'static str {
         match self {
+            Rule::File => "The file cannot be read.",
             Rule::Length => "The text is longer than what is validated.",
             Rule::Dialect => "The text is of a dialect of WGSL, or of another language.",
             Rule::Import => "An import names what does not exist, or is not written as one.",

@@ -83,7 +83,7 @@ fn follow(
             uses.add(root(function, *pointer), Access::READS);
         }
     }
-    statements::each(&function.body, &mut |statement, _| match statement {
+    statements::each(&function.body, &mut |statement, span| match statement {
         Statement::Store { pointer, .. } => uses.add(root(function, *pointer), Access::WRITES),
         Statement::Atomic { pointer, .. } => {
             uses.add(root(function, *pointer), Access::READS);
@@ -112,7 +112,8 @@ fn follow(
                 .as_deref()
                 .unwrap_or_default();
             found.extend(meeting(module, of, &given).map(|(at, why)| {
-                let range = function.expressions.get_span(at).to_range();
+                let own = function.expressions.get_span(at).to_range();
+                let range = own.or(span.to_range());
                 ShaderError {
                     rule: Rule::Alias,
                     message: format!(

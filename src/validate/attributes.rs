@@ -2,7 +2,7 @@
 
 use core::ops::Range;
 
-use crate::link::tokens::{Token, tokens};
+use crate::link::tokens::{Kind, Token, tokens};
 use crate::{Linked, Rule, ShaderError};
 
 /// What may stand before each kind of declaration. What naga refuses itself is left to it.
@@ -45,6 +45,10 @@ pub(super) fn check(linked: &Linked) -> Vec<ShaderError> {
                 refused(linked, it.range(), message)
             }));
         }
+        if token.is_word("workgroup_size") && has_both_integers(&tokens, token) {
+            let message = "the sizes of a workgroup are all of one type, `i32` or `u32`";
+            found.push(refused(linked, token.range(), message.to_owned()));
+        }
         if token.is_word("fn") {
             let has = |name: &str| attributes.iter().find(|it| it.text == name);
             if let Some(size) = has("workgroup_size")
@@ -63,6 +67,17 @@ pub(super) fn check(linked: &Linked) -> Vec<ShaderError> {
         }
     }
     found
+}
+
+/// Whether the numbers in the brackets after `attribute` are of both integer types.
+fn has_both_integers(tokens: &[Token<'_>], attribute: &Token<'_>) -> bool {
+    let after = tokens
+        .iter()
+        .skip_while(|token| token.start <= attribute.start);
+    let inside = after.take_while(|token| !token.is_symbol(")"));
+    let numbers = inside.filter(|token| token.kind == Kind::Number);
+    let ends = |end: char| numbers.clone().any(|number| number.text.ends_with(end));
+    ends('i') && ends('u')
 }
 
 fn refused(linked: &Linked, range: Range<usize>, message: String) -> ShaderError {

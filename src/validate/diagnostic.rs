@@ -7,6 +7,7 @@ use naga::front::wgsl::ParseError;
 use naga::valid::ValidationError;
 
 use super::compiler::{Compiler, Fault};
+use super::features::Features;
 use super::message::Words;
 use crate::link::file::definitions;
 use crate::link::tokens::{Token, tokens};
@@ -22,7 +23,7 @@ pub(super) fn of_parse_error(compiler: &Compiler<'_>, error: &ParseError) -> Box
     let labels = error.labels();
     let place_in_text = error.labels().next().and_then(|(span, _)| span.to_range());
     let mut error = ShaderError {
-        rule: rule_of(compiler.text, error.message(), place_in_text.clone()),
+        rule: rule_of(compiler, error.message(), place_in_text.clone()),
         message: error.message().to_owned(),
         places: labels
             .filter_map(|(span, text)| place(linked, span.to_range(), text))
@@ -45,7 +46,8 @@ const NOT_YET: &str = "this is no fault of the shader: browsers with Tint (Chrom
 const NEW_BUILTINS: [&str; 2] = ["global_invocation_index", "workgroup_index"];
 
 /// Whether naga says that the text is WGSL that it does not support, or needs a feature.
-fn rule_of(text: &str, message: &str, place: Option<Range<usize>>) -> Rule {
+fn rule_of(compiler: &Compiler<'_>, message: &str, place: Option<Range<usize>>) -> Rule {
+    let (text, capabilities) = (compiler.text, compiler.capabilities);
     let before = place
         .clone()
         .and_then(|place| text.get(..place.start))
@@ -56,14 +58,16 @@ fn rule_of(text: &str, message: &str, place: Option<Range<usize>>) -> Rule {
         || message == "invalid left-hand side of assignment" && is_swizzle(at)
         || message.starts_with("expected `{`") && at == "@"
         || message.starts_with("expected `;`") && is_asserted(before);
-    if message.ends_with("is not supported in the current environment") {
+    let is_optional = at
+        .parse::<Features>()
+        .is_ok_and(|feature| !capabilities.contains(feature.needs()));
+    if message.ends_with("is not supported in the current environment") || is_optional {
         Rule::Feature
     } else if is_new
         || [
             "not yet supported",
             "not yet implemented",
-            "Not implemented",
-            "not supported",
+            "Not implemented as constant",
         ]
         .iter()
         .any(|words| message.contains(words))

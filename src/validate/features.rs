@@ -27,9 +27,7 @@ impl Features {
     /// These features and those of `other`.
     #[must_use]
     pub fn and(self, other: Features) -> Self {
-        let all =
-            self.0.unwrap_or(Capabilities::empty()) | other.0.unwrap_or(Capabilities::empty());
-        Self(Some(all))
+        Self(Some(self.needs() | other.needs()))
     }
 
     /// The names that features are read from: those of WebGPU as shaders `enable` them, then naga's own in lower case.
@@ -46,6 +44,11 @@ impl Features {
         webgpu.chain(native)
     }
 
+    /// What naga wants for them.
+    pub(super) fn needs(self) -> Capabilities {
+        self.0.unwrap_or(Capabilities::empty())
+    }
+
     /// What naga may accept under `profile` with these features.
     pub(super) fn capabilities(self, profile: Profile) -> Capabilities {
         let of_profile = match profile {
@@ -54,7 +57,7 @@ impl Features {
                 Capabilities::STORAGE_TEXTURE_16BIT_NORM_FORMATS
             }
         };
-        always() | of_profile | self.0.unwrap_or(Capabilities::empty())
+        always() | of_profile | self.needs()
     }
 }
 

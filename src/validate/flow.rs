@@ -44,15 +44,13 @@ pub(super) fn check(module: &Module, linked: &Linked) -> Vec<ShaderError> {
         let span = module.functions.get_span(handle);
         (function, span)
     });
-    let entry_points = module
-        .entry_points
-        .iter()
-        .map(|it| (&it.function, Span::UNDEFINED));
+    let entry_points = module.entry_points.iter();
+    let entry_points = entry_points.map(|it| (&it.function, Span::UNDEFINED));
     for (function, span) in functions.chain(entry_points) {
-        let mut endless = Vec::new();
-        let behaviour = block(&function.body, &mut endless);
+        let mut walk = Walk::of(function);
+        let behaviour = walk.block(&function.body);
         let at = |span: Span| span.to_range().and_then(|range| linked.location(range));
-        for span in endless {
+        for span in walk.endless {
             found.push(ShaderError {
                 rule: Rule::Wgsl,
                 message: "this loop is never left; give it a `break`, or a `return`".to_owned(),
@@ -63,96 +61,97 @@ pub(super) fn check(module: &Module, linked: &Linked) -> Vec<ShaderError> {
         if function.result.is_some() && behaviour.next {
             let name = function.name.as_deref().unwrap_or_default();
             let place = at(span).or_else(|| super::diagnostic::find(linked, name));
+            let why = "control goes on after `discard`, and after a `switch` with a `break`";
             found.push(ShaderError {
                 rule: Rule::Wgsl,
                 message: format!("the end of function `{name}` can be reached without `return`"),
                 places: place.into_iter().collect(),
-                notes: vec![
-                    "control goes on after `discard`, and after a `switch` with a `break`"
-                        .to_owned(),
-                ],
+                notes: vec![why.to_owned()],
             });
         }
     }
     found
 }
 
-/// Whether the end of a function is never reached, without the `return` that naga puts there.
-pub(super) fn ends(function: &Function) -> bool {
-    let mut ignored = Vec::new();
-    let written = function.body.iter().rev();
-    let added = written
-        .take_while(|it| matches!(it, Statement::Return { value: None }))
-        .count();
-    let count = function.body.len().saturating_sub(added);
-    let statements = function.body.span_iter().take(count);
-    !sequence(statements, &mut ignored).next
+/// Whether the end of a function that gives a value is never reached.
+pub(super) fn never_ends(function: &Function) -> bool {
+    !Walk::of(function).block(&function.body).next
 }
 
-fn block(block: &Block, endless: &mut Vec<Span>) -> Behaviour {
-    sequence(block.span_iter(), endless)
+/// A function that is followed.
+struct Walk {
+    /// Whether it gives a value: a `return` without one is then naga's own, at the end.
+    gives: bool,
+    /// Loops that are never left.
+    endless: Vec<Span>,
 }
 
-fn sequence<'a>(
-    statements: impl Iterator<Item = (&'a Statement, &'a Span)>,
-    endless: &mut Vec<Span>,
-) -> Behaviour {
-    let mut behaviour = Behaviour::NEXT;
-    for (statement, span) in statements {
-        if !behaviour.next {
-            break;
+impl Walk {
+    fn of(function: &Function) -> Self {
+        Self {
+            gives: function.result.is_some(),
+            endless: Vec::new(),
         }
-        behaviour.next = false;
-        behaviour = behaviour.or(of(statement, *span, endless));
     }
-    behaviour
-}
 
-fn of(statement: &Statement, span: Span, endless: &mut Vec<Span>) -> Behaviour {
-    let none = Behaviour::default();
-    match statement {
-        Statement::Block(inner) => block(inner, endless),
-        Statement::If { accept, reject, .. } => block(accept, endless).or(block(reject, endless)),
-        Statement::Switch { cases, .. } => {
-            // Of the selectors of one case naga makes cases that fall through to the last.
-            let cases = cases.iter().filter(|case| !case.fall_through);
-            let cases = cases.map(|case| block(&case.body, endless));
-            let all = cases.fold(none, Behaviour::or);
-            Behaviour {
-                next: all.next || all.breaks,
-                breaks: false,
-                ..all
+    fn block(&mut self, block: &Block) -> Behaviour {
+        let mut behaviour = Behaviour::NEXT;
+        for (statement, span) in block.span_iter() {
+            if !behaviour.next {
+                break;
             }
+            behaviour.next = false;
+            behaviour = behaviour.or(self.statement(statement, *span));
         }
-        Statement::Loop {
-            body,
-            continuing,
-            break_if,
-        } => {
-            let body = block(body, endless);
-            block(continuing, endless);
-            let behaviour = Behaviour {
-                next: body.breaks || break_if.is_some(),
-                returns: body.returns,
+        behaviour
+    }
+
+    fn statement(&mut self, statement: &Statement, span: Span) -> Behaviour {
+        let none = Behaviour::default();
+        match statement {
+            Statement::Block(inner) => self.block(inner),
+            Statement::If { accept, reject, .. } => self.block(accept).or(self.block(reject)),
+            Statement::Switch { cases, .. } => {
+                // Of the selectors of one case naga makes cases that fall through to the last.
+                let cases = cases.iter().filter(|case| !case.fall_through);
+                let all = cases.fold(none, |all, case| all.or(self.block(&case.body)));
+                Behaviour {
+                    next: all.next || all.breaks,
+                    breaks: false,
+                    ..all
+                }
+            }
+            Statement::Loop {
+                body,
+                continuing,
+                break_if,
+            } => {
+                let body = self.block(body);
+                self.block(continuing);
+                let behaviour = Behaviour {
+                    next: body.breaks || break_if.is_some(),
+                    returns: body.returns,
+                    ..none
+                };
+                if !behaviour.next && !behaviour.returns {
+                    self.endless.push(span);
+                }
+                behaviour
+            }
+            Statement::Break => Behaviour {
+                breaks: true,
                 ..none
-            };
-            if !behaviour.next && !behaviour.returns {
-                endless.push(span);
-            }
-            behaviour
+            },
+            Statement::Continue => Behaviour {
+                continues: true,
+                ..none
+            },
+            Statement::Return { value: None } if self.gives => Behaviour::NEXT,
+            Statement::Return { .. } => Behaviour {
+                returns: true,
+                ..none
+            },
+            _ => Behaviour::NEXT,
         }
-        Statement::Break => Behaviour {
-            breaks: true,
-            ..none
-        },
-        Statement::Continue => Behaviour {
-            continues: true,
-            ..none
-        },
-        Statement::Return { .. } => Behaviour {
-            returns: true,
-            ..none
-        },
-        _ => Behaviour::NEXT,
     }
 }

@@ -7,6 +7,7 @@ use naga::{GlobalVariable, Span, StorageAccess, Type, TypeInner};
 
 use super::constants;
 use super::diagnostic::find;
+use crate::link::tokens::tokens;
 use crate::{Linked, Rule, ShaderError};
 
 const BIND_GROUPS: u32 = 4;
@@ -216,9 +217,25 @@ impl Checked<'_> {
                 "has a workgroup of {x} x {y} x {z}; every device has {most_x} x {most_y} x {most_z} at most, and \
                  {WORKGROUP_INVOCATIONS} invocations together"
             );
-            return self.refused(&what, &[]);
+            return self.refused(&what, &self.attribute("workgroup_size"));
         }
         Ok(())
+    }
+
+    /// Where the entry point's attribute of that name stands.
+    fn attribute(&self, name: &str) -> Vec<Span> {
+        let tokens = tokens(self.linked.wgsl()).unwrap_or_default();
+        let function = tokens.windows(2).position(|pair| {
+            matches!(pair, [word, of] if word.is_word("fn") && of.is_word(&self.entry_point.name))
+        });
+        let before = tokens.iter().take(function.unwrap_or_default());
+        let attribute = before.rev().find(|token| token.is_word(name));
+        let span = attribute.and_then(|token| {
+            let range = token.range();
+            let start = u32::try_from(range.start).ok()?;
+            Some(Span::new(start, u32::try_from(range.end).ok()?))
+        });
+        span.into_iter().collect()
     }
 
     /// Vertex attributes, what goes from one stage to the next, and colour targets.

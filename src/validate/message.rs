@@ -5,8 +5,8 @@ use core::ops::Range;
 
 use naga::common::wgsl::TypeContext;
 use naga::valid::{
-    CallError, EntryPointError, ExpressionError, FunctionError, GlobalVariableError, TypeError,
-    ValidationError, VaryingError, WidthError,
+    CallError, Disalignment, EntryPointError, ExpressionError, FunctionError, GlobalVariableError,
+    TypeError, ValidationError, VaryingError, WidthError,
 };
 use naga::{Expression, Function, Handle, Module, Span, Type, TypeInner};
 
@@ -165,6 +165,10 @@ impl Words<'_> {
         use GlobalVariableError as E;
         match error {
             E::UnsupportedCapability(needed) => feature(*needed),
+            E::Alignment(_, ty, Disalignment::NonHostShareable) => Said::wgsl(format!(
+                "variable `{name}` is a buffer, and {} holds what buffers cannot, such as `bool`",
+                self.ty(*ty)
+            )),
             E::Alignment(_, ty, why) => Said::new(
                 Rule::Unsupported,
                 format!(
@@ -220,7 +224,7 @@ impl Words<'_> {
             .noted("use the variable itself in the function, or give it a value"),
             E::InvalidReturnType { expression: None, expected_ty } => {
                 let ty = expected_ty.map_or(String::new(), |ty| format!(" of {}", self.ty(ty)));
-                if flow::ends(function) {
+                if flow::never_ends(function) {
                     Said::new(
                         Rule::Unsupported,
                         "naga wants a `return` at the end of a function, even after a loop that is never left for it",

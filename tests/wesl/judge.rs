@@ -1,6 +1,6 @@
 //! What another linker made of the shaders, against what ours makes of them.
 
-use moment_shadows::{Profile, Source, link, validate};
+use moment_shadows::{Source, ValidationOptions, link, validate};
 
 use crate::adapter::Adapter;
 use crate::roots::{Place, Root, roots};
@@ -17,7 +17,10 @@ pub(crate) fn judge(link_root: impl Fn(&Root, Place) -> Result<String, String>) 
         for place in Place::ALL {
             let fault = link_root(&root, place).and_then(|text| {
                 let source = Source { name, text: &text };
-                validate(source, &[], Profile::WebgpuCore).map_err(|error| error.to_string())?;
+                let report = validate(source, &ValidationOptions::default());
+                if !report.is_valid() {
+                    return Err(report.to_string());
+                }
                 difference(root.words, &ours, &adapter.run(&text, root.words)).map_or(Ok(()), Err)
             });
             if let Err(fault) = fault {

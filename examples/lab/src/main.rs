@@ -2,7 +2,7 @@
 
 use std::process::ExitCode;
 
-use moment_shadows_graph::command::{NOT_READ, runtime_dir};
+use moment_shadows_graph::command::{NOT_READ, leave_out_compiler, runtime_dir};
 use moment_shadows_lab::{cli::Cli, picture};
 
 /// The exit code after Ctrl-C, as shells have it.
@@ -15,6 +15,7 @@ fn main() -> ExitCode {
         picture::remove_part();
         std::process::exit(INTERRUPTED);
     });
+    leave_out_compiler();
     let usual = std::panic::take_hook();
     std::panic::set_hook(Box::new(move |panic| {
         let said = panic.payload_as_str().unwrap_or_default();

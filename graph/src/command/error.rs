@@ -2,8 +2,6 @@
 
 use std::io;
 
-use moment_shadows::ShaderError;
-
 use crate::GraphError;
 
 /// Why a sub-command could not do what it was asked for. Each names its culprit.
@@ -29,9 +27,14 @@ pub enum CommandError {
     /// The output cannot be written.
     #[error("the output cannot be written: {0}")]
     Output(#[source] io::Error),
-    /// A shader that is not valid.
-    #[error(transparent)]
-    Shader(#[from] ShaderError),
+    /// A module of a project's own that has no name of its own.
+    #[error("'{path}' cannot be a module: {reason}")]
+    Module {
+        /// The file or folder.
+        path: String,
+        /// Why, and what to do.
+        reason: String,
+    },
     /// A graph file.
     #[error("{file}:{error}")]
     Graph {

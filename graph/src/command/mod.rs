@@ -12,6 +12,7 @@ pub mod validate;
 mod error;
 mod graph_file;
 mod output;
+mod panic;
 mod part;
 mod read;
 
@@ -21,6 +22,7 @@ use clap::{CommandFactory, Parser, Subcommand};
 
 pub use error::CommandError;
 pub use graph_file::GraphFile;
+pub use panic::leave_out_compiler;
 pub use part::Part;
 
 /// The exit code where nobody reads the output to its end, as shells have it.
