@@ -4,6 +4,7 @@
 mod command;
 mod limits;
 mod operators;
+mod pairs;
 
 use moment_shadows::{
     Backend, Profile, ShaderError, Source, TextureFormat, ValidationReport, validate,
