@@ -36,13 +36,15 @@ export function writePairs(source, folder) {
   for (const file of readdirSync(source).filter((name) => name.endsWith('.pairs')).sort()) {
     readPairs(join(source, file)).forEach(({ kind, name, ...sides }, index) => {
       mkdirSync(join(folder, kind), { recursive: true });
+      const codes = [];
       for (const side of ['good', 'bad']) {
         const path = join(folder, kind, `${String(index + 1).padStart(3, '0')}.${side}.wgsl`);
         const code = `${sides[side].join('\n').trimEnd()}\n`;
         writeFileSync(path, code);
         texts.push({ id: `${kind}/${name}/${side}`, group: kind, path, code, wanted: side === 'good' });
+        codes.push(code.replace(/\s+/g, ' '));
       }
-      const key = `${sides.good.join('\n')}\0${sides.bad.join('\n')}`.replace(/[ \n]+/g, ' ');
+      const key = codes.join('|');
       if (known.has(key)) throw new Error(`the pairs ${known.get(key)} and ${kind}/${name} are the same`);
       known.set(key, `${kind}/${name}`);
     });

@@ -1,7 +1,7 @@
 //! Pairs of shaders one line apart, of which Tint takes the good one and refuses the bad one: so do we, but for the known
 //! disagreements. `check/agreement/README.md` tells more.
 
-use moment_shadows::{Source, ValidationOptions, ValidationReport, validate};
+use moment_shadows::{Rule, ShaderError, Source, ValidationOptions, ValidationReport, validate};
 use std::collections::{BTreeMap, BTreeSet};
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -110,6 +110,21 @@ fn good_ones_are_valid_and_bad_ones_are_not() {
             .iter()
             .map(|id| format!("{id}: in reasons.json, and no pair")),
     );
+    assert!(wrong.is_empty(), "\n{}", wrong.join("\n"));
+}
+
+/// `unsupported` says that browsers with Tint take the shader. Here they take the good one, and we do; so it is the fault that
+/// has to be named.
+#[test]
+fn faults_are_not_said_to_be_unsupported() {
+    let mut wrong = Vec::new();
+    for pair in pairs() {
+        let bad = report(&pair.bad);
+        let unsupported = |error: &ShaderError| error.rule == Rule::Unsupported;
+        if !bad.is_valid() && bad.errors.iter().all(unsupported) && report(&pair.good).is_valid() {
+            wrong.push(format!("{}: {bad}", pair.id("bad")));
+        }
+    }
     assert!(wrong.is_empty(), "\n{}", wrong.join("\n"));
 }
 
