@@ -48,6 +48,13 @@ run_tint() {
   node check/tint.mjs "$work/shaders"
 }
 
+# Our verdicts beside Tint's, on pairs of shaders and on shaders of published packages. Downloads are kept.
+run_agreement() {
+  need_npm_packages
+  node check/agreement/agreement.mjs "$work/agreement" \
+    cargo run --release --locked --quiet -p moment-shadows-graph --features cli --
+}
+
 # Another linker: npm's package for WESL, the language of our imports.
 run_wesl() {
   need_npm_packages
@@ -186,6 +193,7 @@ check() {
   step "The library crates for wasm32" check_wasm
   step "Every linked shader as WGSL and SPIR-V" write_shaders
   step "A second compiler: Tint" run_tint
+  step "What is ok here is ok in browsers: agreement with Tint" run_agreement
   step "A second linker: npm's wesl" run_wesl
   step "The SPIR-V: spirv-val" run_spirv_val
   step "What the code costs: instructions for two AMD chips" run_isa

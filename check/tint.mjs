@@ -8,9 +8,7 @@
 import { readFileSync } from 'node:fs';
 import { dirname, join } from 'node:path';
 import { fileURLToPath } from 'node:url';
-import { create, globals } from 'webgpu';
-
-Object.assign(globalThis, globals);
+import { judge, openDevice } from './dawn.mjs';
 
 // What a profile may rely on, as WebGPU names it.
 const FEATURES = {
@@ -26,84 +24,10 @@ const PLANTED = [
   ['profile.wgsl', 'RGBA16Unorm', { name: 'clear', stage: 'compute', targets: [] }],
 ];
 
-// A fragment shader that has no vertex shader beside it and takes nothing but its position.
-const FULLSCREEN = `
-@vertex
-fn fullscreen(@builtin(vertex_index) index: u32) -> @builtin(position) vec4f {
-    return vec4f(4.0 * vec2f(f32(index & 1u), f32(index >> 1u)) - 1.0, 0.0, 1.0);
-}`;
-
-const gpu = create(['backend=null']);
-
 async function openDevices() {
   const devices = {};
-  for (const [profile, requiredFeatures] of Object.entries(FEATURES)) {
-    // An adapter gives one device only.
-    const adapter = await gpu.requestAdapter();
-    devices[profile] = await adapter.requestDevice({ requiredFeatures });
-  }
+  for (const [profile, features] of Object.entries(FEATURES)) devices[profile] = await openDevice(features);
   return devices;
-}
-
-// Runs `work` and gives its result with whatever the device objects to.
-async function scoped(device, work) {
-  device.pushErrorScope('validation');
-  let result;
-  const objections = [];
-  try {
-    result = await work();
-  } catch (error) {
-    objections.push(error.message);
-  }
-  const error = await device.popErrorScope();
-  if (error) objections.push(error.message);
-  return [result, objections];
-}
-
-// Attributes 0 to 7 of any vertex shader: it takes of each as many components as it declares.
-const BUFFERS = [
-  {
-    arrayStride: 128,
-    attributes: Array.from({ length: 8 }, (_, index) => ({ shaderLocation: index, offset: 16 * index, format: 'float32x4' })),
-  },
-];
-
-// The ways to make a pipeline of an entry point, one of which has to do: a fragment stage fits one of the vertex stages.
-function pipelines(device, module, { name: entryPoint, stage, targets }, entryPoints, constants) {
-  const stageOf = ({ name }) => ({ module, entryPoint: name, constants, buffers: BUFFERS });
-  const layout = 'auto';
-  if (stage === 'compute') {
-    return [() => device.createComputePipelineAsync({ layout, compute: { module, entryPoint, constants } })];
-  }
-  if (stage === 'vertex') {
-    const depthStencil = { format: 'depth32float', depthWriteEnabled: true, depthCompare: 'less' };
-    return [() => device.createRenderPipelineAsync({ layout, vertex: { module, entryPoint, constants, buffers: BUFFERS }, depthStencil })];
-  }
-  const fragment = { module, entryPoint, constants, targets: targets.map((format) => format && { format }) };
-  const vertices = entryPoints.filter(({ stage }) => stage === 'vertex').map(stageOf);
-  if (vertices.length === 0) vertices.push({ module: device.createShaderModule({ code: FULLSCREEN }) });
-  return vertices.map((vertex) => () => device.createRenderPipelineAsync({ layout, vertex, fragment }));
-}
-
-// Compiles a text and makes a pipeline of each of `entryPoints`. Gives every objection; a warning is one.
-async function judge(device, code, entryPoints, constants = {}) {
-  const [module, objections] = await scoped(device, () => device.createShaderModule({ code }));
-  const { messages } = await module.getCompilationInfo();
-  const spoken = messages
-    .filter(({ type }) => type !== 'info')
-    .map(({ type, lineNum, linePos, message }) => `${lineNum}:${linePos}: ${type}: ${message}`);
-  if (spoken.length > 0) return spoken;
-  if (objections.length > 0) return objections;
-
-  for (const entryPoint of entryPoints) {
-    let refused = [];
-    for (const make of pipelines(device, module, entryPoint, entryPoints, constants)) {
-      [, refused] = await scoped(device, make);
-      if (refused.length === 0) break;
-    }
-    objections.push(...refused.map((reason) => `entry point ${entryPoint.name}: ${reason}`));
-  }
-  return objections;
 }
 
 async function main(folder) {

@@ -3,6 +3,7 @@
 
 mod limits;
 mod operators;
+mod pairs;
 
 use moment_shadows::{
     Backend, Profile, ShaderError, Source, TextureFormat, ValidationOptions, ValidationReport,
