@@ -156,7 +156,7 @@ fn compile(text: &str, linked: &Linked, options: &ValidationOptions<'_>) -> Vali
         report.errors.extend(attributes::check(linked));
         report.errors.extend(bypass::check(linked));
     }
-    let capabilities = options.features.capabilities(options.profile);
+    let capabilities = options.features.capabilities();
     let mut text = text.to_owned();
     let compiled = loop {
         let compiler = compiler::Compiler {

@@ -102,9 +102,13 @@ pub(super) fn of_validation_error(
     error: &naga::WithSpan<ValidationError>,
 ) -> Box<Fault> {
     let linked = compiler.linked;
+    let innermost = error.spans().last().and_then(|(span, _)| span.to_range());
     let said = Words {
         module,
         text: compiler.text,
+        at: innermost
+            .and_then(|range| compiler.text.get(range))
+            .unwrap_or_default(),
     }
     .of(error.as_inner());
     let spans = error.spans().filter(|(span, _)| span.is_defined());

@@ -5,7 +5,7 @@ use core::str::FromStr;
 
 use naga::valid::Capabilities;
 
-use crate::{Profile, nearest};
+use crate::nearest;
 
 /// Features by which shaders of WebGPU are allowed more, as `enable` names them, and what they are to naga.
 const WEBGPU: [(&str, Capabilities); 5] = [
@@ -49,15 +49,9 @@ impl Features {
         self.0.unwrap_or(Capabilities::empty())
     }
 
-    /// What naga may accept under `profile` with these features.
-    pub(super) fn capabilities(self, profile: Profile) -> Capabilities {
-        let of_profile = match profile {
-            Profile::WebgpuCore => Capabilities::empty(),
-            Profile::Native | Profile::NativeAdapter => {
-                Capabilities::STORAGE_TEXTURE_16BIT_NORM_FORMATS
-            }
-        };
-        always() | of_profile | self.needs()
+    /// What naga may accept with these features.
+    pub(super) fn capabilities(self) -> Capabilities {
+        always() | self.needs()
     }
 }
 
@@ -75,12 +69,13 @@ pub(super) fn names_of(needed: Capabilities) -> String {
 }
 
 /// What naga takes for optional and every WebGPU device has: sample shading, cube array textures, packing of 16-bit floats, and external
-/// textures.
+/// textures; and what the profile decides elsewhere: formats of storage textures.
 fn always() -> Capabilities {
     Capabilities::MULTISAMPLED_SHADING
         | Capabilities::CUBE_ARRAY_TEXTURES
         | Capabilities::SHADER_FLOAT16_IN_FLOAT32
         | Capabilities::TEXTURE_EXTERNAL
+        | Capabilities::STORAGE_TEXTURE_16BIT_NORM_FORMATS
 }
 
 /// A name that is no feature's.

@@ -3,7 +3,7 @@
 use core::error::Error;
 use core::ops::Range;
 
-use naga::common::wgsl::TypeContext;
+use naga::common::wgsl::{TryToWgsl, TypeContext};
 use naga::valid::{
     CallError, Disalignment, EntryPointError, ExpressionError, FunctionError, GlobalVariableError,
     TypeError, ValidationError, VaryingError, WidthError,
@@ -50,6 +50,8 @@ impl Said {
 pub(super) struct Words<'a> {
     pub(super) module: &'a Module,
     pub(super) text: &'a str,
+    /// What stands at naga's innermost place.
+    pub(super) at: &'a str,
 }
 
 impl Words<'_> {
@@ -101,6 +103,12 @@ impl Words<'_> {
             }
         };
         said.within = Some(within.clone()).filter(|name| !name.is_empty());
+        if let E::Type { handle, .. } = error
+            && said.within.is_none()
+        {
+            let scalar = self.module.types[*handle].inner.scalar();
+            said.within = scalar.and_then(TryToWgsl::try_to_wgsl).map(str::to_owned);
+        }
         said
     }
 
@@ -224,7 +232,9 @@ impl Words<'_> {
             .noted("use the variable itself in the function, or give it a value"),
             E::InvalidReturnType { expression: None, expected_ty } => {
                 let ty = expected_ty.map_or(String::new(), |ty| format!(" of {}", self.ty(ty)));
-                if flow::never_ends(function) {
+                if self.at.starts_with("return") {
+                    Said::wgsl(format!("this `return` has no value, and the function gives one{ty}"))
+                } else if flow::never_ends(function) {
                     Said::new(
                         Rule::Unsupported,
                         "naga wants a `return` at the end of a function, even after a loop that is never left for it",

@@ -70,7 +70,7 @@ fn a_module_of_the_library_imports_its_siblings() {
 
 #[test]
 fn refuses_other_forms_of_import() {
-    let outside = "outside the library an import starts with `moment_shadows::` or `node::`";
+    let outside = "outside the library an import starts with `moment_shadows::`, `node::`, or the name of a project's own modules";
     let braces = "items are imported in braces";
     let plain = "items are plain names with commas between them (no `as`, no path)";
     let after = "something stands after the import";

@@ -177,9 +177,7 @@ fn refuses_names_that_are_used_without_being_imported() {
 fn refuses_generated_modules_with_a_name_in_use() {
     let error = link_with("", &[("one", ""), ("one", "")]).unwrap_err();
     assert!(
-        error
-            .message
-            .contains("two generated modules are named `one`"),
+        error.message.contains("two modules are named `one`"),
         "{error}"
     );
     // A file of the library has another root.

@@ -93,8 +93,17 @@ fn workgroups_are_so_large() {
     for size in ["257", "16, 17", "1, 1, 65", "1024"] {
         assert!(refused(&of(size)).message.contains("workgroup"), "{size}");
     }
-    // Overrides are the host's to choose.
-    core("override side: u32 = 512u;\n@compute @workgroup_size(side) fn main() {}\n").unwrap();
+    // An override is the host's to choose; its default is what a pipeline has that does not.
+    let of_override = |of: &str| {
+        format!("override side: u32{of};\n@compute @workgroup_size(side) fn main() {{}}\n")
+    };
+    core(&of_override("")).unwrap();
+    core(&of_override(" = 256u")).unwrap();
+    assert!(
+        refused(&of_override(" = 512u"))
+            .message
+            .contains("512 x 1 x 1")
+    );
     let memory = |length: u32| {
         format!(
             "var<workgroup> a: array<vec4f, {length}>;\n@group(0) @binding(0) var<storage, read_write> b: vec4f;\n\

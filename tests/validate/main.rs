@@ -1,6 +1,7 @@
 //! Validation: each kind of error with its place before linking, the profiles, and what each backend makes of a shader.
 #![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic)]
 
+mod findings;
 mod limits;
 mod operators;
 mod pairs;
@@ -332,7 +333,7 @@ fn overrides_are_tried_with_several_values() {
     }
     let error = refused(&dividing("8 / (STEPS - STEPS)"));
     assert!(
-        error.message.contains("STEPS") && error.message.contains("no default"),
+        error.message.contains("`STEPS`") && error.message.contains("without a default"),
         "{error}"
     );
 }
