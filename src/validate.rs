@@ -4,6 +4,7 @@ mod alias;
 mod atomics;
 mod attributes;
 mod backend;
+mod bitcast;
 mod bypass;
 mod compiler;
 mod constants;
@@ -11,14 +12,18 @@ mod diagnostic;
 mod exercise;
 mod features;
 mod flow;
+mod lets;
 mod limits;
 mod message;
 mod numbers;
 mod operators;
 mod overrides;
+mod part;
 mod pointer;
 mod repair;
 mod report;
+mod selectors;
+mod stage;
 mod statements;
 mod stopped;
 mod storage_format;
@@ -93,7 +98,7 @@ pub fn validate(source: Source<'_>, options: &ValidationOptions<'_>) -> Validati
         Ok(linked) => linked,
         Err(error) => return refused(error),
     };
-    let mut report = on_large_stack(|| compile(linked.wgsl(), &linked, options))
+    let mut report = on_large_stack(|| compile(linked.clone(), options))
         .unwrap_or_else(|| refused(stopped(&linked, options)));
     for error in report.errors.iter_mut().chain(&mut report.warnings) {
         error.in_file(source.name);
@@ -101,9 +106,29 @@ pub fn validate(source: Source<'_>, options: &ValidationOptions<'_>) -> Validati
     report
 }
 
+/// Where an error lies that the compiler gives no place for: in the statement without which it is another one, or none.
+fn place_of(
+    compiler: &compiler::Compiler<'_>,
+    error: &ShaderError,
+) -> Option<core::ops::Range<usize>> {
+    let same = |text: &str| {
+        let linked = &compiler.linked.with_text(text.to_owned());
+        let compiled = compiler::Compiler {
+            linked,
+            ..*compiler
+        }
+        .compile();
+        compiled.is_err_and(|fault| fault.error.message == error.message)
+    };
+    stopped::find(compiler.linked.wgsl(), same)
+}
+
 /// What is said where the compiler stops without a result.
 fn stopped(linked: &Linked, options: &ValidationOptions<'_>) -> ShaderError {
-    let stops = |text: &str| on_large_stack(|| compile(text, linked, options)).is_none();
+    let stops = |text: &str| {
+        let linked = linked.with_text(text.to_owned());
+        on_large_stack(|| compile(linked, options)).is_none()
+    };
     let place = stopped::find(linked.wgsl(), stops);
     let message = "naga, the compiler of wgpu and Firefox, stops here without a result; write it in another way, and report it to \
                    naga";
@@ -147,33 +172,37 @@ fn on_large_stack<T: Send>(work: impl FnOnce() -> T + Send) -> Option<T> {
     })
 }
 
-/// Validates `text`, whose lines come from where those of `linked` do.
-fn compile(text: &str, linked: &Linked, options: &ValidationOptions<'_>) -> ValidationReport {
+fn compile(mut linked: Linked, options: &ValidationOptions<'_>) -> ValidationReport {
     let mut report = ValidationReport::default();
     let is_core = options.profile == Profile::WebgpuCore;
     if is_core {
-        report.errors.extend(operators::check(linked));
-        report.errors.extend(attributes::check(linked));
-        report.errors.extend(bypass::check(linked));
+        report.errors.extend(operators::check(&linked));
+        report.errors.extend(attributes::check(&linked));
+        report.errors.extend(bypass::check(&linked));
+        report.errors.extend(selectors::check(&linked));
     }
     let capabilities = options.features.capabilities();
-    let mut text = text.to_owned();
     let compiled = loop {
         let compiler = compiler::Compiler {
-            text: &text,
-            linked,
+            linked: &linked,
             capabilities,
         };
         match compiler.compile() {
             Ok(compiled) => break compiled,
-            Err(fault) => {
+            Err(mut fault) => {
+                if fault.place.is_none() && fault.error.places.is_empty() {
+                    fault.place = place_of(&compiler, &fault.error);
+                    let place = fault.place.clone();
+                    let place = place.and_then(|place| linked.location(place));
+                    fault.error.places.extend(place);
+                }
                 report.errors.push(fault.error);
-                let repaired = fault
+                let rest = fault
                     .place
-                    .and_then(|place| repair::without_function(&text, &place));
-                match repaired {
-                    Some(repaired) if report.errors.len() < ValidationReport::MOST_ERRORS => {
-                        text = repaired
+                    .and_then(|place| repair::without_function(linked.wgsl(), &place));
+                match rest {
+                    Some(rest) if report.errors.len() < ValidationReport::MOST_ERRORS => {
+                        linked = linked.with_text(rest);
                     }
                     _ => {
                         report.sort();
@@ -183,14 +212,16 @@ fn compile(text: &str, linked: &Linked, options: &ValidationOptions<'_>) -> Vali
             }
         }
     };
+    let linked = &linked;
     let (module, info) = (&compiled.module, &compiled.info);
     report
         .errors
         .extend(storage_format::check(module, linked, options.profile));
+    report.errors.extend(part::check(module, linked));
     if is_core {
         report.errors.extend(alias::check(module, linked));
         report.errors.extend(atomics::check(module, info, linked));
-        report.errors.extend(constants::check(module, linked));
+        report.errors.extend(constants::check(module, info, linked));
         report.errors.extend(numbers::check(module, linked));
         match overrides::given(&compiled, linked) {
             Ok((module, info)) => report.errors.extend(limits::check(&module, &info, linked)),
@@ -201,7 +232,7 @@ fn compile(text: &str, linked: &Linked, options: &ValidationOptions<'_>) -> Vali
     }
     if report.is_valid() {
         let shader = if module.entry_points.is_empty() {
-            exercise::exercise(&text, compiled, capabilities)
+            exercise::exercise(linked.wgsl(), compiled, capabilities)
         } else {
             backend::Shader {
                 compiled,

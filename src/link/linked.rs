@@ -46,10 +46,21 @@ impl Linked {
     #[must_use]
     pub fn location(&self, range: Range<usize>) -> Option<Location> {
         let mut location = Location::in_text("", &self.wgsl, range);
-        let (file, line) = self.origin(location.line)?;
+        // The end of the text is the end of its last line.
+        let last = self.origin(location.line).is_none() && location.text.is_empty();
+        let (file, line) = self.origin(location.line - u32::from(last))?;
         location.file = file.to_owned();
         location.line = line;
         Some(location)
+    }
+
+    /// Another text with the same lines, but for what stands in some.
+    #[cfg(feature = "validate")]
+    pub(crate) fn with_text(&self, wgsl: String) -> Self {
+        Self {
+            wgsl,
+            ..self.clone()
+        }
     }
 
     /// Joins `files`, the last of which is the one that was given to the linker.

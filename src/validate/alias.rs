@@ -136,7 +136,11 @@ fn follow(
 }
 
 /// The memory that a pointer points into, if `argument` is one.
-fn memory(module: &Module, function: &Function, argument: Handle<Expression>) -> Option<Root> {
+pub(super) fn memory(
+    module: &Module,
+    function: &Function,
+    argument: Handle<Expression>,
+) -> Option<Root> {
     let root = root(function, argument)?;
     let is_pointer = match root {
         Root::Local(_) => true,

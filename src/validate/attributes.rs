@@ -5,12 +5,36 @@ use core::ops::Range;
 use crate::link::tokens::{Kind, Token, tokens};
 use crate::{Linked, Rule, ShaderError};
 
-/// What may stand before each kind of declaration. What naga refuses itself is left to it.
-const ALLOWED: [(&str, &[&str]); 4] = [
+/// What may stand before each kind of declaration.
+const ALLOWED: [(&str, &[&str]); 8] = [
     ("const", &[]),
     ("alias", &[]),
     ("struct", &[]),
+    ("const_assert", &[]),
+    (";", &[]),
     ("override", &["id"]),
+    ("var", &["group", "binding", "coherent", "volatile"]),
+    (
+        "fn",
+        &[
+            "vertex",
+            "fragment",
+            "compute",
+            "workgroup_size",
+            "must_use",
+            "diagnostic",
+            // naga's own, which need a feature.
+            "early_depth_test",
+            "task",
+            "mesh",
+            "payload",
+            "ray_generation",
+            "miss",
+            "any_hit",
+            "closest_hit",
+            "incoming_payload",
+        ],
+    ),
 ];
 
 /// Attributes of declarations that cannot have them.
@@ -19,13 +43,13 @@ pub(super) fn check(linked: &Linked) -> Vec<ShaderError> {
     let mut found = Vec::new();
     let mut depth = 0_usize;
     let mut attributes: Vec<&Token<'_>> = Vec::new();
-    for pair in tokens.windows(2) {
-        let [token, next] = pair else { continue };
+    for (index, token) in tokens.iter().enumerate() {
         match token.text {
             "(" | "[" | "{" => depth += 1,
             ")" | "]" | "}" => depth = depth.saturating_sub(1),
             _ => {}
         }
+        // Those of a function's result stand before its body.
         if matches!(token.text, "{" | "}") {
             attributes.clear();
         }
@@ -33,39 +57,38 @@ pub(super) fn check(linked: &Linked) -> Vec<ShaderError> {
             continue;
         }
         if token.is_symbol("@") {
-            attributes.push(next);
-        }
-        if let Some((kind, allowed)) = ALLOWED.iter().find(|(kind, _)| token.is_word(kind)) {
-            let wrong = attributes.iter().filter(|it| !allowed.contains(&it.text));
-            found.extend(wrong.map(|it| {
-                let message = format!(
-                    "`{kind}` does not take the attribute `@{}`; remove it",
-                    it.text
-                );
-                refused(linked, it.range(), message)
-            }));
+            attributes.extend(tokens.get(index + 1));
         }
         if token.is_word("workgroup_size") && has_both_integers(&tokens, token) {
             let message = "the sizes of a workgroup are all of one type, `i32` or `u32`";
             found.push(refused(linked, token.range(), message.to_owned()));
         }
-        if token.is_word("fn") {
-            let has = |name: &str| attributes.iter().find(|it| it.text == name);
-            if let Some(size) = has("workgroup_size")
-                && has("compute").is_none()
-            {
-                let message =
-                    "`@workgroup_size` is of compute shaders only; add `@compute`, or remove it";
-                found.push(refused(linked, size.range(), message.to_owned()));
-            }
+        let Some((kind, allowed)) = ALLOWED.iter().find(|(kind, _)| token.text == *kind) else {
+            continue;
+        };
+        let wrong = attributes.iter().filter(|it| !allowed.contains(&it.text));
+        found.extend(wrong.map(|it| {
+            let message = format!(
+                "`{kind}` does not take the attribute `@{}`; remove it",
+                it.text
+            );
+            refused(linked, it.range(), message)
+        }));
+        let has = |name: &str| attributes.iter().find(|it| it.text == name);
+        if let Some(size) = has("workgroup_size")
+            && token.is_word("fn")
+            && has("compute").or(has("task")).or(has("mesh")).is_none()
+        {
+            let message =
+                "`@workgroup_size` is of compute shaders only; add `@compute`, or remove it";
+            found.push(refused(linked, size.range(), message.to_owned()));
         }
-        if matches!(
-            token.text,
-            "fn" | "const" | "alias" | "struct" | "override" | "var" | ";"
-        ) {
-            attributes.clear();
-        }
+        attributes.clear();
     }
+    found.extend(attributes.first().map(|attribute| {
+        let message = format!("no declaration follows the attribute `@{}`", attribute.text);
+        refused(linked, attribute.range(), message)
+    }));
     found
 }
 

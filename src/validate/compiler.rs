@@ -23,15 +23,13 @@ pub(super) struct Fault {
 
 /// A text and what it may use.
 pub(super) struct Compiler<'a> {
-    pub(super) text: &'a str,
-    /// Where its lines come from.
     pub(super) linked: &'a Linked,
     pub(super) capabilities: Capabilities,
 }
 
 impl Compiler<'_> {
     pub(super) fn compile(&self) -> Result<Compiled, Box<Fault>> {
-        let module = parse(self.text, self.capabilities)
+        let module = parse(self.linked.wgsl(), self.capabilities)
             .map_err(|error| diagnostic::of_parse_error(self, &error))?;
         let info = check(&module, self.capabilities)
             .map_err(|error| diagnostic::of_validation_error(self, &module, &error))?;

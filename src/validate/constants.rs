@@ -3,24 +3,33 @@
 
 use naga::{
     ArraySize, Expression, Function, Handle, ImageClass, ImageDimension, Literal, MathFunction,
-    Module, ScalarKind, TypeInner,
+    Module, SampleLevel, ScalarKind, TypeInner,
 };
 
+use naga::valid::{FunctionInfo, ModuleInfo};
+
+use super::{bitcast, lets};
 use crate::{Linked, Rule, ShaderError};
 
 /// Calls with constants for which there is no result.
-pub(super) fn check(module: &Module, linked: &Linked) -> Vec<ShaderError> {
-    let functions = module.functions.iter().map(|(_, function)| function);
-    let entry_points = module.entry_points.iter().map(|it| &it.function);
+pub(super) fn check(module: &Module, info: &ModuleInfo, linked: &Linked) -> Vec<ShaderError> {
+    let functions = module.functions.iter();
+    let functions = functions.map(|(handle, function)| (function, &info[handle]));
+    let entry_points = module.entry_points.iter().enumerate();
+    let entry_points = entry_points.map(|(index, it)| (&it.function, info.get_entry_point(index)));
     let mut found = Vec::new();
-    for function in functions.chain(entry_points) {
+    for (function, info) in functions.chain(entry_points) {
         let call = Call {
             module,
             function,
+            info,
             linked,
         };
         for (handle, expression) in function.expressions.iter() {
-            if let Some(message) = call.objection(handle, expression) {
+            let objection = call.objection(handle, expression);
+            let objection =
+                objection.or_else(|| bitcast::objection(module, function, info, linked, handle));
+            if let Some(message) = objection {
                 let range = function.expressions.get_span(handle).to_range();
                 found.push(ShaderError {
                     rule: Rule::Constant,
@@ -37,9 +46,13 @@ pub(super) fn check(module: &Module, linked: &Linked) -> Vec<ShaderError> {
     found
 }
 
+/// The largest 16-bit float.
+const HALF_MAX: f64 = 65_504.0;
+
 struct Call<'a> {
     module: &'a Module,
     function: &'a Function,
+    info: &'a FunctionInfo,
     linked: &'a Linked,
 }
 
@@ -57,13 +70,22 @@ impl Call<'_> {
                 image,
                 offset,
                 gather,
+                level,
                 ..
-            } => self.of_sample(handle, *image, *offset, gather.is_some()),
+            } => {
+                let by_gradient = matches!(level, SampleLevel::Gradient { .. });
+                self.of_sample(handle, *image, *offset, gather.is_some(), by_gradient)
+            }
             Expression::As {
                 expr,
                 kind: ScalarKind::Float,
                 convert: None,
             } => {
+                let from = self.info[*expr].ty.inner_with(&self.module.types);
+                let kind = from.scalar_kind()?;
+                if !matches!(kind, ScalarKind::Uint | ScalarKind::Sint) {
+                    return None;
+                }
                 let bits = self.constant(*expr)?;
                 let is_finite = |bits: &f64| f32::from_bits(*bits as i64 as u32).is_finite();
                 let message =
@@ -102,6 +124,19 @@ impl Call<'_> {
                 let equal = low.iter().zip(&high).find(|(low, high)| low == high);
                 equal.map(|(edge, _)| format!("both edges of `smoothstep` are {edge}"))
             }
+            MathFunction::QuantizeToF16 | MathFunction::Pack2x16float => {
+                let values = self.constant(first)?;
+                let large = values.iter().find(|value| value.abs() > HALF_MAX)?;
+                Some(format!(
+                    "{large} is no 16-bit float, of which {HALF_MAX} is the largest"
+                ))
+            }
+            MathFunction::Unpack2x16float => {
+                let bits = *self.constant(first)?.first()? as u32;
+                let is_finite = |half: u32| half & 0x7c00 != 0x7c00;
+                let message = "the bits hold a 16-bit float that is no finite number";
+                (!is_finite(bits) || !is_finite(bits >> 16)).then(|| message.to_owned())
+            }
             MathFunction::Ldexp => {
                 let exponents = second?;
                 let large = exponents.iter().find(|exponent| **exponent > 128.0);
@@ -119,6 +154,7 @@ impl Call<'_> {
         image: Handle<Expression>,
         offset: Option<Handle<Expression>>,
         gathers: bool,
+        by_gradient: bool,
     ) -> Option<String> {
         let (name, ty) = match self.function.expressions[image] {
             Expression::GlobalVariable(variable) => {
@@ -136,6 +172,14 @@ impl Call<'_> {
         };
         if dim == ImageDimension::Cube && offset.is_some() {
             return Some("samples of cube textures have no offset".to_owned());
+        }
+        if dim == ImageDimension::D1 && (offset.is_some() || by_gradient) {
+            return Some(
+                "samples of textures of one dimension have neither offset nor gradients".to_owned(),
+            );
+        }
+        if by_gradient && matches!(class, ImageClass::Depth { .. }) {
+            return Some("`textureSampleGrad` does not take depth textures".to_owned());
         }
         if gathers
             && matches!(class, ImageClass::Depth { .. })
@@ -157,8 +201,16 @@ impl Call<'_> {
         Some(arguments.split(',').next()?.trim())
     }
 
-    /// The components of an expression whose value is known. 32 bits of any kind are exact.
+    /// The components of an expression that is a constant. 32 bits of any kind are exact. A `let` is none, whatever its value is, and naga
+    /// makes no difference.
     fn constant(&self, handle: Handle<Expression>) -> Option<Vec<f64>> {
+        let span = self.function.expressions.get_span(handle);
+        let text = span
+            .to_range()
+            .and_then(|range| self.linked.wgsl().get(range));
+        if lets::named(self.function, handle, text.unwrap_or_default()).is_some() {
+            return None;
+        }
         self.value(&self.function.expressions, handle)
     }
 

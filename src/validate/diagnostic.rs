@@ -22,9 +22,14 @@ pub(super) fn of_parse_error(compiler: &Compiler<'_>, error: &ParseError) -> Box
     let linked = compiler.linked;
     let labels = error.labels();
     let place_in_text = error.labels().next().and_then(|(span, _)| span.to_range());
+    let not_computed = |note: &str| note.ends_with("Subexpression(s) are not constant");
     let mut error = ShaderError {
-        rule: rule_of(compiler, error.message(), place_in_text.clone()),
-        message: error.message().to_owned(),
+        rule: if error.notes().any(not_computed) {
+            Rule::Unsupported
+        } else {
+            rule_of(compiler, error.message(), place_in_text.clone())
+        },
+        message: plain(error.message()),
         places: labels
             .filter_map(|(span, text)| place(linked, span.to_range(), text))
             .collect(),
@@ -39,15 +44,26 @@ pub(super) fn of_parse_error(compiler: &Compiler<'_>, error: &ParseError) -> Box
     })
 }
 
+/// A message without numbers of expressions and types of naga.
+fn plain(message: &str) -> String {
+    if message.starts_with("Incompatible operands") {
+        return "the operands of an operator do not fit each other".to_owned();
+    }
+    if message.starts_with("Invalid access into expression") {
+        return "an expression is indexed that has no parts, or none of that number".to_owned();
+    }
+    message.replace("found \"\"", "found the end of the file")
+}
+
 /// What is said of WGSL that naga does not support.
-const NOT_YET: &str = "this is no fault of the shader: browsers with Tint (Chromium) take it, and naga, the compiler of wgpu and Firefox, does not yet";
+pub(super) const NOT_YET: &str = "this is no fault of the shader: browsers with Tint (Chromium) take it, and naga, the compiler of wgpu and Firefox, does not yet";
 
 /// Builtin inputs that naga does not know yet.
 const NEW_BUILTINS: [&str; 2] = ["global_invocation_index", "workgroup_index"];
 
 /// Whether naga says that the text is WGSL that it does not support, or needs a feature.
 fn rule_of(compiler: &Compiler<'_>, message: &str, place: Option<Range<usize>>) -> Rule {
-    let (text, capabilities) = (compiler.text, compiler.capabilities);
+    let (text, capabilities) = (compiler.linked.wgsl(), compiler.capabilities);
     let before = place
         .clone()
         .and_then(|place| text.get(..place.start))
@@ -57,7 +73,8 @@ fn rule_of(compiler: &Compiler<'_>, message: &str, place: Option<Range<usize>>) 
         || message.starts_with("expected `)`") && ["greater", "less", "any"].contains(&at)
         || message == "invalid left-hand side of assignment" && is_swizzle(at)
         || message.starts_with("expected `{`") && at == "@"
-        || message.starts_with("expected `;`") && is_asserted(before);
+        || message.starts_with("expected `;`") && is_asserted(before)
+        || is_never_evaluated(before, message);
     let is_optional = at
         .parse::<Features>()
         .is_ok_and(|feature| !capabilities.contains(feature.needs()));
@@ -76,6 +93,13 @@ fn rule_of(compiler: &Compiler<'_>, message: &str, place: Option<Range<usize>>) 
     } else {
         Rule::Wgsl
     }
+}
+
+/// Whether a constant without a value stands behind `&&` or `||`, which may leave it out: naga does not.
+fn is_never_evaluated(before: &str, message: &str) -> bool {
+    let statement = before.rsplit([';', '{', '}']).next().unwrap_or_default();
+    let lacks_value = message == "Division by zero" || message.starts_with("RHS of shift");
+    lacks_value && (statement.contains("&&") || statement.contains("||"))
 }
 
 /// Whether a condition in brackets stands right after `const_assert`: naga takes the brackets for all of it.
@@ -105,9 +129,9 @@ pub(super) fn of_validation_error(
     let innermost = error.spans().last().and_then(|(span, _)| span.to_range());
     let said = Words {
         module,
-        text: compiler.text,
+        text: compiler.linked.wgsl(),
         at: innermost
-            .and_then(|range| compiler.text.get(range))
+            .and_then(|range| compiler.linked.wgsl().get(range))
             .unwrap_or_default(),
     }
     .of(error.as_inner());

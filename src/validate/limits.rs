@@ -78,6 +78,20 @@ fn large_arrays(module: &Module, linked: &Linked) -> Vec<ShaderError> {
     large.collect()
 }
 
+/// What an external texture takes beside its place among sampled textures (WebGPU specification, "Binding slots"): three more of
+/// those, a sampler, and a uniform buffer.
+const EXTERNAL: [usize; 5] = [2, 2, 2, 3, 0];
+
+fn is_external(inner: &TypeInner) -> bool {
+    matches!(
+        inner,
+        TypeInner::Image {
+            class: ImageClass::External,
+            ..
+        }
+    )
+}
+
 struct Checked<'a> {
     module: &'a Module,
     linked: &'a Linked,
@@ -159,6 +173,9 @@ impl Checked<'_> {
             }
             if let Some(kind) = kind {
                 spans[kind].push(span);
+            }
+            if is_external(&self.module.types[variable.ty].inner) {
+                EXTERNAL.iter().for_each(|kind| spans[*kind].push(span));
             }
         }
         for ((what, most), spans) in RESOURCES.into_iter().zip(&spans) {

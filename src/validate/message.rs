@@ -6,12 +6,14 @@ use core::ops::Range;
 use naga::common::wgsl::{TryToWgsl, TypeContext};
 use naga::valid::{
     CallError, Disalignment, EntryPointError, ExpressionError, FunctionError, GlobalVariableError,
-    TypeError, ValidationError, VaryingError, WidthError,
+    LiteralError, TypeError, ValidationError, VaryingError, WidthError,
 };
-use naga::{Expression, Function, Handle, Module, Span, Type, TypeInner};
+use naga::{
+    ArraySize, Expression, Function, GlobalVariable, Handle, ImageClass, Module, Span, Statement,
+    Type, TypeInner,
+};
 
-use super::features;
-use super::flow;
+use super::{features, flow, lets, stage, statements};
 use crate::Rule;
 
 /// A fault in words.
@@ -130,6 +132,11 @@ impl Words<'_> {
             (E::Result(error), _) => {
                 self.varying(&format!("the result of entry point `{name}`"), error)
             }
+            (E::InvalidGlobalUsage(handle, _), _) if self.is_storage_texture(*handle) => {
+                let mut said = Said::new(Rule::Unsupported, PARAMETER);
+                said.span = Some(self.module.global_variables.get_span(*handle));
+                said
+            }
             (E::BindingCollision(handle) | E::InvalidGlobalUsage(handle, _), _) => {
                 let variable = &self.module.global_variables[*handle];
                 let of = variable.name.as_deref().unwrap_or_default();
@@ -145,10 +152,16 @@ impl Words<'_> {
                 said
             }
             (E::UnsupportedCapability(needed), _) => feature(*needed),
-            (E::ForbiddenStageOperations, _) => Said::new(
-                Rule::Stage,
-                format!("entry point `{name}` uses operations that its stage does not have"),
-            ),
+            (E::ForbiddenStageOperations, found) => {
+                let forbidden = found.and_then(|it| stage::forbidden(self.module, it));
+                let what = forbidden.map_or("operations", |(what, _)| what);
+                let mut said = Said::new(
+                    Rule::Stage,
+                    format!("entry point `{name}` uses {what}, which its stage does not have"),
+                );
+                said.span = forbidden.map(|(_, span)| span);
+                said
+            }
             _ => Said::wgsl(format!("entry point `{name}`: {}", self.plain(error, None))),
         }
     }
@@ -177,6 +190,10 @@ impl Words<'_> {
                 "variable `{name}` is a buffer, and {} holds what buffers cannot, such as `bool`",
                 self.ty(*ty)
             )),
+            E::Alignment(_, ty, _) if self.is_unsized(*ty) => Said::wgsl(format!(
+                "variable `{name}` is of type {}, which has no fixed size: only storage buffers hold it",
+                self.ty(*ty)
+            )),
             E::Alignment(_, ty, why) => Said::new(
                 Rule::Unsupported,
                 format!(
@@ -195,6 +212,10 @@ impl Words<'_> {
     fn type_error(&self, handle: Handle<Type>, error: &TypeError) -> Said {
         match error {
             TypeError::MissingCapability(needed) => feature(*needed),
+            TypeError::WidthError(WidthError::Abstract) => Said::new(
+                Rule::Unsupported,
+                "naga cannot give a type to a vector or matrix of numbers without one; give them a suffix (`1.0f`)",
+            ),
             TypeError::WidthError(WidthError::MissingCapability { name, flag }) => {
                 let allowed = naga::valid::Capabilities::from_name(flag);
                 let mut said = feature(allowed.unwrap_or(naga::valid::Capabilities::empty()));
@@ -273,6 +294,9 @@ impl Words<'_> {
                 self.inner(expected_ty)
             )),
             E::MissingCapability(needed) => feature(*needed),
+            E::InvalidImageStore(ExpressionError::ExpectedGlobalVariable) => {
+                Said::new(Rule::Unsupported, PARAMETER)
+            }
             E::InvalidImageStore(error) | E::InvalidImageAtomic(error) => {
                 Said::wgsl(self.plain(error, Some(function)))
             }
@@ -313,15 +337,49 @@ impl Words<'_> {
                 "the condition of `select` is of type {}, not bool",
                 self.inner(actual)
             )),
+            E::InvalidZeroValue(ty) => {
+                Said::wgsl(format!("type {} has no zero value", self.ty(*ty)))
+            }
+            E::MissingCapabilities(needed) => feature(*needed),
+            E::Literal(LiteralError::Width(WidthError::Abstract))
+                if is_returned(function, handle) =>
+            {
+                Said::wgsl(format!(
+                    "{} is returned, and the function gives nothing",
+                    quoted(handle)
+                ))
+            }
+            E::ExpectedGlobalVariable => Said::new(Rule::Unsupported, PARAMETER),
+            E::DivideByZero
+            | E::ShiftAmountTooLarge { .. }
+            | E::IndexOutOfBounds(..)
+            | E::NegativeIndex(_)
+                if self.let_in(function, handle).is_some() =>
+            {
+                let name = self.let_in(function, handle).unwrap_or_default();
+                Said::new(
+                    Rule::Unsupported,
+                    format!("naga takes `{name}` for a constant, with which {} has no value; WGSL has none in a `let`", quoted(handle)),
+                )
+                .noted("declare it as `var`")
+            }
+            E::Literal(LiteralError::Width(WidthError::Abstract))
+                if is_argument(function, handle) =>
+            {
+                Said::new(
+                    Rule::Unsupported,
+                    format!(
+                        "{} is an argument of a builtin function that naga cannot give a type to",
+                        quoted(handle)
+                    ),
+                )
+                .noted("give one of the arguments a suffix (`1.0f`)")
+            }
             E::ShiftAmountTooLarge { lhs_type, rhs_expr } => Said::wgsl(format!(
                 "{} is more than a value of type {} can be shifted by",
                 quoted(*rhs_expr),
                 self.inner(lhs_type)
             )),
-            E::InvalidZeroValue(ty) => {
-                Said::wgsl(format!("type {} has no zero value", self.ty(*ty)))
-            }
-            E::MissingCapabilities(needed) => feature(*needed),
             _ => Said::wgsl(format!(
                 "{}: {}",
                 quoted(handle),
@@ -398,6 +456,35 @@ impl Words<'_> {
         plain + rest.trim_end_matches('.')
     }
 
+    /// The name of a `let` in an expression.
+    fn let_in<'b>(&self, function: &'b Function, handle: Handle<Expression>) -> Option<&'b str> {
+        let range = function.expressions.get_span(handle).to_range();
+        let text = range.and_then(|range| self.text.get(range));
+        lets::named(function, handle, text.unwrap_or_default())
+    }
+
+    fn is_storage_texture(&self, variable: Handle<GlobalVariable>) -> bool {
+        let ty = self.module.global_variables[variable].ty;
+        let inner = &self.module.types[ty].inner;
+        matches!(
+            inner,
+            TypeInner::Image {
+                class: ImageClass::Storage { .. },
+                ..
+            }
+        )
+    }
+
+    fn is_unsized(&self, ty: Handle<Type>) -> bool {
+        matches!(
+            self.module.types[ty].inner,
+            TypeInner::Array {
+                size: ArraySize::Dynamic,
+                ..
+            }
+        )
+    }
+
     /// An expression as it stands in the text.
     fn expression(&self, function: &Function, handle: Handle<Expression>) -> String {
         let variable = match function.expressions[handle] {
@@ -438,6 +525,34 @@ impl Words<'_> {
         let _ = self.module.to_ctx().write_type_inner(inner, &mut name);
         format!("`{name}`")
     }
+}
+
+/// Whether a `return` gives the expression.
+fn is_returned(function: &Function, handle: Handle<Expression>) -> bool {
+    let mut found = false;
+    statements::each(&function.body, &mut |statement, _| {
+        found |= matches!(statement, Statement::Return { value: Some(value) } if *value == handle);
+    });
+    found && function.result.is_none()
+}
+
+/// What naga does not do with storage textures.
+const PARAMETER: &str =
+    "naga uses storage textures by their variables only, not by the parameter of a function";
+
+/// Whether a builtin function is called with the expression.
+fn is_argument(function: &Function, handle: Handle<Expression>) -> bool {
+    let mut expressions = function.expressions.iter();
+    expressions.any(|(_, expression)| match expression {
+        Expression::Math {
+            arg,
+            arg1,
+            arg2,
+            arg3,
+            ..
+        } => *arg == handle || [arg1, arg2, arg3].contains(&&Some(handle)),
+        _ => false,
+    })
 }
 
 /// A shader that needs features beyond the profile's.

@@ -69,8 +69,8 @@ fn is_untyped(before: Option<&str>) -> bool {
         tokens(before.get(statement..)?).ok()
     });
     match tokens.as_deref() {
-        Some([keyword, _, equals]) => {
-            matches!(keyword.text, "let" | "var") && equals.is_symbol("=")
+        Some([.., keyword, _, equals]) if equals.is_symbol("=") => {
+            matches!(keyword.text, "let" | "var" | "override")
         }
         Some([name, equals]) => name.text == "_" && equals.is_symbol("="),
         _ => false,
@@ -102,7 +102,7 @@ impl core::fmt::Display for Number {
     }
 }
 
-/// The value of a text of numbers without a type, `+ - * / %`, and brackets. `None` for any other.
+/// The value of a text of numbers without a type, operators, and brackets. `None` for any other.
 fn value(text: &str) -> Option<Number> {
     // Anything longer is no sum of numbers that somebody wrote.
     const LONGEST: usize = 200;
@@ -110,7 +110,7 @@ fn value(text: &str) -> Option<Number> {
         return None;
     }
     let mut reader = Reader { rest: text };
-    let value = reader.sum()?;
+    let value = reader.bits()?;
     reader.rest.trim().is_empty().then_some(value)
 }
 
@@ -124,6 +124,31 @@ impl Reader<'_> {
         let first = self.rest.chars().next().filter(|it| symbols.contains(it))?;
         self.rest = self.rest.get(first.len_utf8()..)?;
         Some(first)
+    }
+
+    /// Shifts and bitwise operators, which stand beside no others without brackets.
+    fn bits(&mut self) -> Option<Number> {
+        let mut value = self.sum()?;
+        while let Some(symbol) = self.take(&['<', '>', '&', '|', '^']) {
+            if matches!(symbol, '<' | '>') && self.take(&[symbol]).is_none() {
+                return None;
+            }
+            let (Number::Int(a), Number::Int(b)) = (value, self.sum()?) else {
+                return None;
+            };
+            value = Number::Int(match symbol {
+                '<' => {
+                    let by = u32::try_from(b).ok().filter(|by| *by < 64)?;
+                    // Bits that are lost are an error of naga's.
+                    i64::try_from(i128::from(a) << by).ok()?
+                }
+                '>' => a.checked_shr(u32::try_from(b).ok()?)?,
+                '&' => a & b,
+                '|' => a | b,
+                _ => a ^ b,
+            });
+        }
+        Some(value)
     }
 
     fn sum(&mut self) -> Option<Number> {
@@ -164,14 +189,14 @@ impl Reader<'_> {
             };
         }
         if self.take(&['(']).is_some() {
-            let value = self.sum()?;
+            let value = self.bits()?;
             self.take(&[')'])?;
             return Some(value);
         }
         self.number()
     }
 
-    /// A decimal number. Any other form, and any suffix, is left to naga.
+    /// A decimal number, or a hexadecimal integer. Any other form, and any suffix, is left to naga.
     fn number(&mut self) -> Option<Number> {
         self.rest = self.rest.trim_start();
         let mut end = 0;
@@ -188,6 +213,9 @@ impl Reader<'_> {
         self.rest = self.rest.get(end..)?;
         if !text.starts_with(|c: char| c.is_ascii_digit() || c == '.') {
             return None;
+        }
+        if let Some(digits) = text.strip_prefix("0x").or(text.strip_prefix("0X")) {
+            return i64::from_str_radix(digits, 16).ok().map(Number::Int);
         }
         match text.parse::<i64>() {
             Ok(value) => Some(Number::Int(value)),

@@ -80,8 +80,13 @@ fn refused(
         .collect();
     if names.is_empty() {
         let all = module.overrides.iter();
+        let not_yet = error.to_string().starts_with("Not implemented");
         return ShaderError {
-            rule: Rule::Override,
+            rule: if not_yet {
+                Rule::Unsupported
+            } else {
+                Rule::Override
+            },
             message: format!("an override's default leaves the shader without a value: {error}"),
             places: all.filter_map(|(handle, _)| place(handle)).collect(),
             notes: Vec::new(),

@@ -1,4 +1,4 @@
-//! Where the WGSL compiler stops without a result: it panics on a few texts, and says nothing of the place.
+//! Where a fault lies that the WGSL compiler says nothing of: it gives no place for some errors, and panics on a few texts.
 
 use core::ops::Range;
 
@@ -7,14 +7,14 @@ use super::repair;
 /// How often the compiler is tried on a part of the text.
 const MOST_TRIES: usize = 400;
 
-/// The statement at which `stops` is true, or else the function.
-pub(super) fn find(text: &str, stops: impl Fn(&str) -> bool) -> Option<Range<usize>> {
+/// The statement at which `is_wrong` becomes true, or else the function.
+pub(super) fn find(text: &str, is_wrong: impl Fn(&str) -> bool) -> Option<Range<usize>> {
     let mut tries = 0..MOST_TRIES;
     // The last one: without the function that is called wrongly no call stops either.
     let functions = repair::functions(text);
     let function = functions.into_iter().rev().find(|function| {
         let rest = repair::without_function(text, function);
-        tries.next().is_some() && rest.is_some_and(|rest| !stops(&rest))
+        tries.next().is_some() && rest.is_some_and(|rest| !is_wrong(&rest))
     })?;
     let mut start = function.start;
     for end in repair::statement_ends(text, &function) {
@@ -24,7 +24,7 @@ pub(super) fn find(text: &str, stops: impl Fn(&str) -> bool) -> Option<Range<usi
         if tries.next().is_none() {
             break;
         }
-        if stops(&[head, tail].concat()) {
+        if is_wrong(&[head, tail].concat()) {
             let statement = text.get(start..end)?;
             let blank = statement.len() - statement.trim_start().len();
             return Some(start + blank..end);

@@ -684,9 +684,11 @@ impl<'a> Walk<'a> {
         }
         for (argument, outcome) in arguments.iter().zip(&callee.contents) {
             if let Some(outcome) = outcome {
-                let mut depends: Vec<Node> = outcome.sources.iter().map(|it| given(*it)).collect();
+                // Whether the function stores anything there or not.
+                let mut depends = depends(outcome);
                 if outcome.never_uniform {
-                    depends.push(self.graph.labelled(&[self.differs], Label::Result(span)));
+                    let label = Label::Result(span);
+                    depends.push(self.graph.labelled(&[self.differs], label));
                 }
                 self.store(*argument, &depends, control);
             }

@@ -1,0 +1,45 @@
+//! Pointers to parts of variables as arguments (WGSL language feature `unrestricted_pointer_parameters`): naga's validator takes them, and
+//! its backends do not.
+
+use naga::{Expression, Function, Module, Statement};
+
+use super::alias::memory;
+use super::statements;
+use crate::{Linked, Rule, ShaderError};
+
+/// Calls that are given a pointer to an element or a member.
+pub(super) fn check(module: &Module, linked: &Linked) -> Vec<ShaderError> {
+    let functions = module.functions.iter().map(|(_, function)| function);
+    let entry_points = module.entry_points.iter().map(|it| &it.function);
+    let mut found = Vec::new();
+    for function in functions.chain(entry_points) {
+        of(module, function, linked, &mut found);
+    }
+    found
+}
+
+fn of(module: &Module, function: &Function, linked: &Linked, found: &mut Vec<ShaderError>) {
+    statements::each(&function.body, &mut |statement, span| {
+        let Statement::Call { arguments, .. } = statement else {
+            return;
+        };
+        let is_part = arguments.iter().any(|argument| {
+            let expression = &function.expressions[*argument];
+            matches!(
+                expression,
+                Expression::Access { .. } | Expression::AccessIndex { .. }
+            ) && memory(module, function, *argument).is_some()
+        });
+        let place = span.to_range().and_then(|range| linked.location(range));
+        if is_part {
+            let message = "this call is given a pointer to a part of a variable, which naga cannot write yet; give it a variable of \
+                           its own, and copy";
+            found.push(ShaderError {
+                rule: Rule::Unsupported,
+                message: message.to_owned(),
+                places: place.into_iter().collect(),
+                notes: vec![super::diagnostic::NOT_YET.to_owned()],
+            });
+        }
+    });
+}
