@@ -25,7 +25,7 @@ update_packages() {
   packages_updated=1
 }
 
-# Every shader as WGSL and SPIR-V, in $work/shaders.
+# Every shader as WGSL, SPIR-V and GLSL, in $work/shaders.
 write_shaders() {
   mkdir -p "$work"
   rm -rf "$work/shaders"
@@ -77,6 +77,29 @@ run_spirv_val() {
     done
   done
   echo "spirv-val: $count files, $refused refused"
+  [ "$refused" = 0 ]
+}
+
+# The GLSL that validation calls good.
+run_glslang() {
+  need_packages glslangValidator glslang-tools
+  if glslangValidator check/planted/mix.frag >/dev/null; then
+    echo "glslangValidator does not see the error planted in mix.frag" >&2
+    return 1
+  fi
+  echo "planted mix.frag: refused, as it should be"
+  local target file count refused=0
+  for target in 450 300es; do
+    count=0
+    for file in "$work"/shaders/*."$target".{vert,frag,comp}; do
+      if [ ! -e "$file" ]; then continue; fi
+      count=$((count + 1))
+      glslangValidator "$file" || { echo "$file" >&2 && refused=$((refused + 1)); }
+    done
+    echo "glslangValidator: $count files for $target"
+    if [ "$count" = 0 ]; then return 1; fi
+  done
+  echo "glslangValidator: $refused refused"
   [ "$refused" = 0 ]
 }
 
@@ -191,11 +214,12 @@ check() {
   step "The library crates with every combination of features" every_feature_combination
   step "The library's command without wgpu" command_without_wgpu
   step "The library crates for wasm32" check_wasm
-  step "Every linked shader as WGSL and SPIR-V" write_shaders
+  step "Every linked shader as WGSL, SPIR-V and GLSL" write_shaders
   step "A second compiler: Tint" run_tint
   step "What is ok here is ok in browsers: agreement with Tint" run_agreement
   step "A second linker: npm's wesl" run_wesl
   step "The SPIR-V: spirv-val" run_spirv_val
+  step "The GLSL: glslang" run_glslang
   step "What the code costs: instructions for two AMD chips" run_isa
   step "A second rasteriser: the tests of numerics on SwiftShader" numerics_on_swiftshader
   step "Fuzzing" run_fuzzing

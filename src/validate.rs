@@ -12,6 +12,7 @@ mod diagnostic;
 mod exercise;
 mod features;
 mod flow;
+mod glsl;
 mod lets;
 mod limits;
 mod message;

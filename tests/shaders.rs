@@ -145,6 +145,13 @@ fn the_folder_holds_what_its_index_names() {
                 assert_eq!(bytes[..8], [3, 2, 0x23, 7, 0, version, 1, 0], "{file}");
                 named.insert(file.to_owned());
             }
+            for glsl in entry_point["glsl"].as_array().unwrap() {
+                let (file, target) = (glsl["file"].as_str().unwrap(), &glsl["target"]);
+                let text = std::fs::read_to_string(folder.join(file)).unwrap();
+                let version = if target == "300es" { "300 es" } else { "450" };
+                assert!(text.starts_with(&format!("#version {version}")), "{file}");
+                named.insert(file.to_owned());
+            }
         }
     }
     assert_eq!(files(&folder), named);

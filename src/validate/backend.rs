@@ -3,7 +3,8 @@
 use core::fmt;
 
 use naga::Module;
-use naga::back::{glsl, hlsl, msl, spv};
+use naga::back::pipeline_constants::process_overrides;
+use naga::back::{PipelineConstants, glsl, hlsl, msl, spv};
 use naga::proc::BoundsCheckPolicies;
 use naga::valid::ModuleInfo;
 
@@ -147,23 +148,36 @@ fn write_msl(module: &Module, info: &ModuleInfo) -> Result<(), String> {
 fn write_glsl(backend: Backend, module: &Module, info: &ModuleInfo) -> Result<(), String> {
     let options = glsl::Options {
         version: if backend == Backend::GlslEs300 {
-            glsl::Version::new_gles(300)
+            // As WebGL has it.
+            glsl::Version::Embedded {
+                version: 300,
+                is_webgl: true,
+            }
         } else {
             glsl::Version::Desktop(450)
         },
         ..Default::default()
     };
     for entry_point in &module.entry_points {
+        let name = &entry_point.name;
+        let failed = |error: &dyn fmt::Display| format!("entry point `{name}`: {error}");
+        // wgpu writes a module of one entry point, without what that does not use.
+        let chosen = Some((entry_point.stage, name.as_str()));
+        let (module, info) = process_overrides(module, info, chosen, &PipelineConstants::default())
+            .map_err(|error| failed(&error))?;
         let pipeline = glsl::PipelineOptions {
             shader_stage: entry_point.stage,
-            entry_point: entry_point.name.clone(),
+            entry_point: name.clone(),
             multiview: None,
         };
         let mut text = String::new();
         let policies = BoundsCheckPolicies::default();
-        glsl::Writer::new(&mut text, module, info, &options, &pipeline, policies)
+        glsl::Writer::new(&mut text, &module, &info, &options, &pipeline, policies)
             .and_then(|mut writer| writer.write())
-            .map_err(|error| format!("entry point `{}`: {error}", entry_point.name))?;
+            .map_err(|error| failed(&error))?;
+        if let Some(objection) = super::glsl::objection(&module, entry_point, &info, backend) {
+            return Err(failed(&objection));
+        }
     }
     Ok(())
 }

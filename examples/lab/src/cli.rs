@@ -37,7 +37,7 @@ enum Command {
     TechniquePictures(technique_pictures::Options),
     /// Writes a picture of every symptom of `docs/troubleshooting.md`, with a mistake and without it.
     TroubleshootingPictures(troubleshooting_pictures::Options),
-    /// Writes every linked shader of the library, as WGSL and SPIR-V with an index, for other compilers.
+    /// Writes every linked shader of the library, as WGSL, SPIR-V and GLSL with an index, for other compilers.
     Shaders(shaders::Options),
     /// Prints the error of a graph over all surfaces that the light's rays meet, and over a picture.
     Error(error::Options),

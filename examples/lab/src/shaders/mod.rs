@@ -1,6 +1,7 @@
 //! The one list of everything that the library hands to a shader compiler, for the tests and tools that judge it.
 
 mod calls;
+mod glsl;
 mod spirv;
 mod write;
 

@@ -1,11 +1,12 @@
 //! SPIR-V as wgpu hands it to a Vulkan driver.
 
+use std::borrow::Cow;
 use std::collections::BTreeMap;
 
-use naga::back::pipeline_constants::process_overrides;
+use naga::back::pipeline_constants::{PipelineConstantError, process_overrides};
 use naga::back::spv;
 use naga::proc::{BoundsCheckPolicies, BoundsCheckPolicy};
-use naga::valid::{Capabilities, ValidationFlags, Validator};
+use naga::valid::{Capabilities, ModuleInfo, ValidationFlags, Validator};
 
 use crate::error::LabError;
 
@@ -93,21 +94,30 @@ impl<'a> Compiled<'a> {
         entry_point: &naga::EntryPoint,
         options: &spv::Options<'_>,
     ) -> Result<Vec<u32>, LabError> {
-        let failed = |reason: String| {
-            LabError::unsuitable(
-                format!("{}, entry point {}", self.name, entry_point.name),
-                reason,
-            )
-        };
+        let failed = |reason: String| self.failed(entry_point, reason);
         let pipeline = spv::PipelineOptions {
             shader_stage: entry_point.stage,
             entry_point: entry_point.name.clone(),
         };
-        let constants = self.constants.clone().into_iter().collect();
-        let stage = Some((entry_point.stage, entry_point.name.as_str()));
-        let (module, info) = process_overrides(&self.module, &self.info, stage, &constants)
+        let (module, info) = self
+            .of_entry_point(entry_point)
             .map_err(|error| failed(error.to_string()))?;
         spv::write_vec(&module, &info, options, Some(&pipeline))
             .map_err(|error| failed(error.to_string()))
+    }
+
+    /// The module without overrides and without what `entry_point` does not use.
+    pub(super) fn of_entry_point(
+        &self,
+        entry_point: &naga::EntryPoint,
+    ) -> Result<(Cow<'_, naga::Module>, Cow<'_, ModuleInfo>), PipelineConstantError> {
+        let constants = self.constants.clone().into_iter().collect();
+        let stage = Some((entry_point.stage, entry_point.name.as_str()));
+        process_overrides(&self.module, &self.info, stage, &constants)
+    }
+
+    pub(super) fn failed(&self, entry_point: &naga::EntryPoint, reason: String) -> LabError {
+        let what = format!("{}, entry point {}", self.name, entry_point.name);
+        LabError::unsuitable(what, reason)
     }
 }

@@ -1,4 +1,4 @@
-//! The shaders as files: WGSL, the SPIR-V of each entry point beside it, and an index.
+//! The shaders as files: WGSL, the SPIR-V and the GLSL of each entry point beside it, and an index.
 
 use std::fs;
 use std::io;
@@ -8,11 +8,12 @@ use naga::{Binding, ScalarKind, ShaderStage, TypeInner};
 use serde_json::json;
 
 use super::Shader;
+use super::glsl::{extension, versions};
 use super::spirv::{Compiled, TARGETS, options};
 use crate::error::LabError;
 
 /// Writes all of `shaders` into the new folder `folder`, with `index.json`: for each shader its name, kind, profile, constants
-/// and entry points, and the files of its WGSL and SPIR-V. The folder is written beside and renamed: it is there complete or
+/// and entry points, and the files of its WGSL, SPIR-V and GLSL: of those versions of GLSL that validation calls good. The folder is written beside and renamed: it is there complete or
 /// not at all.
 pub fn write(shaders: &[Shader], folder: &Path) -> Result<(), LabError> {
     let failed = |error: io::Error| {
@@ -38,6 +39,7 @@ pub fn write(shaders: &[Shader], folder: &Path) -> Result<(), LabError> {
         let wgsl = format!("{}.wgsl", shader.name);
         fs::write(part.path().join(&wgsl), &shader.wgsl).map_err(failed)?;
         let compiled = Compiled::new(&shader.name, &shader.wgsl, &shader.constants)?;
+        let versions = versions(shader);
         let mut entry_points = Vec::new();
         for entry_point in compiled.entry_points() {
             let mut spirv = Vec::new();
@@ -47,12 +49,21 @@ pub fn write(shaders: &[Shader], folder: &Path) -> Result<(), LabError> {
                 fs::write(part.path().join(&file), bytemuck::cast_slice(&words)).map_err(failed)?;
                 spirv.push(json!({ "target": target, "file": file }));
             }
+            let mut glsl = Vec::new();
+            for (target, version) in &versions {
+                let extension = extension(entry_point.stage);
+                let file = format!("{}.{}.{target}.{extension}", shader.name, entry_point.name);
+                let text = compiled.glsl(entry_point, *version)?;
+                fs::write(part.path().join(&file), text).map_err(failed)?;
+                glsl.push(json!({ "target": target, "file": file }));
+            }
             entry_points.push(json!({
                 "name": entry_point.name,
                 "stage": stage(entry_point.stage),
                 // For a fragment stage, a format that each output can be drawn to, by location.
                 "targets": targets(compiled.module(), entry_point),
                 "spirv": spirv,
+                "glsl": glsl,
             }));
         }
         entries.push(json!({
