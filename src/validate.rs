@@ -19,7 +19,7 @@ mod message;
 mod numbers;
 mod operators;
 mod overrides;
-mod part;
+mod parameters;
 mod pointer;
 mod repair;
 mod report;
@@ -218,7 +218,7 @@ fn compile(mut linked: Linked, options: &ValidationOptions<'_>) -> ValidationRep
     report
         .errors
         .extend(storage_format::check(module, linked, options.profile));
-    report.errors.extend(part::check(module, linked));
+    report.errors.extend(parameters::check(module, linked));
     if is_core {
         report.errors.extend(alias::check(module, linked));
         report.errors.extend(atomics::check(module, info, linked));

@@ -208,7 +208,7 @@ impl Call<'_> {
         let text = span
             .to_range()
             .and_then(|range| self.linked.wgsl().get(range));
-        if lets::named(self.function, handle, text.unwrap_or_default()).is_some() {
+        if lets::decide(self.function, handle, text.unwrap_or_default()) {
             return None;
         }
         self.value(&self.function.expressions, handle)

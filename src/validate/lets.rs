@@ -4,15 +4,13 @@ use naga::{Expression, Function, Handle};
 
 use crate::link::tokens::{Kind, tokens};
 
-/// The name of a `let` of `function` that an expression is, or that stands in its text.
-pub(super) fn named<'a>(
-    function: &'a Function,
-    handle: Handle<Expression>,
-    text: &str,
-) -> Option<&'a str> {
-    if let Some(name) = function.named_expressions.get(&handle) {
-        return Some(name);
-    }
+/// Whether an expression is a `let` of `function`, or one stands in its text.
+pub(super) fn decide(function: &Function, handle: Handle<Expression>, text: &str) -> bool {
+    function.named_expressions.contains_key(&handle) || within(function, text).is_some()
+}
+
+/// The name of a `let` of `function` that stands in the text of an expression.
+pub(super) fn within<'a>(function: &'a Function, text: &str) -> Option<&'a str> {
     let tokens = tokens(text).unwrap_or_default();
     let mut names = function.named_expressions.values();
     let name = names.find(|name| {

@@ -460,7 +460,7 @@ impl Words<'_> {
     fn let_in<'b>(&self, function: &'b Function, handle: Handle<Expression>) -> Option<&'b str> {
         let range = function.expressions.get_span(handle).to_range();
         let text = range.and_then(|range| self.text.get(range));
-        lets::named(function, handle, text.unwrap_or_default())
+        lets::within(function, text.unwrap_or_default())
     }
 
     fn is_storage_texture(&self, variable: Handle<GlobalVariable>) -> bool {
@@ -537,7 +537,7 @@ fn is_returned(function: &Function, handle: Handle<Expression>) -> bool {
 }
 
 /// What naga does not do with storage textures.
-const PARAMETER: &str =
+pub(super) const PARAMETER: &str =
     "naga uses storage textures by their variables only, not by the parameter of a function";
 
 /// Whether a builtin function is called with the expression.
