@@ -60,6 +60,10 @@ mod storage;
 mod summed_area_table;
 mod techniques;
 #[cfg(feature = "validate")]
+#[allow(
+    clippy::wildcard_enum_match_arm,
+    reason = "of the compiler's many expressions and statements a check is about a few"
+)]
 mod validate;
 mod value_error;
 mod view;

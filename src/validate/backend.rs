@@ -64,12 +64,12 @@ pub(super) struct Shader {
     pub(super) no_entry_point: Option<String>,
 }
 
+/// Whether each backend can express a shader, or why not.
+pub(super) type Outcomes = Vec<(Backend, Result<(), String>)>;
+
 /// What each of [`Backend::ALL`] makes of `shader`. SPIR-V, HLSL and MSL can express whatever a profile allows, so there a failure is an
 /// error; but for external textures, which browsers take without them.
-pub(super) fn write_all(
-    shader: &Shader,
-    linked: &Linked,
-) -> Result<Vec<(Backend, Result<(), String>)>, ShaderError> {
+pub(super) fn write_all(shader: &Shader, linked: &Linked) -> Result<Outcomes, ShaderError> {
     // Backends want constants in place of overrides.
     let (module, info) = overrides::given(&shader.compiled, linked)?;
     let is_external = has_external_textures(&module);

@@ -204,11 +204,13 @@ impl Call<'_> {
     /// The components of an expression that is a constant. 32 bits of any kind are exact. A `let` is none, whatever its value is, and naga
     /// makes no difference.
     fn constant(&self, handle: Handle<Expression>) -> Option<Vec<f64>> {
-        let span = self.function.expressions.get_span(handle);
-        let text = span
-            .to_range()
-            .and_then(|range| self.linked.wgsl().get(range));
-        if lets::decide(self.function, handle, text.unwrap_or_default()) {
+        let text = self.linked.wgsl();
+        let range = self.function.expressions.get_span(handle).to_range();
+        let named = lets::named(self.function, handle, text);
+        if named
+            .or_else(|| lets::within(self.function, range, text))
+            .is_some()
+        {
             return None;
         }
         self.value(&self.function.expressions, handle)

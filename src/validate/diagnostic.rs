@@ -73,8 +73,7 @@ fn rule_of(compiler: &Compiler<'_>, message: &str, place: Option<Range<usize>>) 
         || message.starts_with("expected `)`") && ["greater", "less", "any"].contains(&at)
         || message == "invalid left-hand side of assignment" && is_swizzle(at)
         || message.starts_with("expected `{`") && at == "@"
-        || message.starts_with("expected `;`") && is_asserted(before)
-        || is_never_evaluated(before, message);
+        || message.starts_with("expected `;`") && is_asserted(before);
     let is_optional = at
         .parse::<Features>()
         .is_ok_and(|feature| !capabilities.contains(feature.needs()));
@@ -93,13 +92,6 @@ fn rule_of(compiler: &Compiler<'_>, message: &str, place: Option<Range<usize>>) 
     } else {
         Rule::Wgsl
     }
-}
-
-/// Whether a constant without a value stands behind `&&` or `||`, which may leave it out: naga does not.
-fn is_never_evaluated(before: &str, message: &str) -> bool {
-    let statement = before.rsplit([';', '{', '}']).next().unwrap_or_default();
-    let lacks_value = message == "Division by zero" || message.starts_with("RHS of shift");
-    lacks_value && (statement.contains("&&") || statement.contains("||"))
 }
 
 /// Whether a condition in brackets stands right after `const_assert`: naga takes the brackets for all of it.

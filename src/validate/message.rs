@@ -9,8 +9,7 @@ use naga::valid::{
     LiteralError, TypeError, ValidationError, VaryingError, WidthError,
 };
 use naga::{
-    ArraySize, Expression, Function, GlobalVariable, Handle, ImageClass, Module, Span, Statement,
-    Type, TypeInner,
+    ArraySize, Expression, Function, Handle, ImageClass, Module, Span, Statement, Type, TypeInner,
 };
 
 use super::{features, flow, lets, stage, statements};
@@ -132,7 +131,10 @@ impl Words<'_> {
             (E::Result(error), _) => {
                 self.varying(&format!("the result of entry point `{name}`"), error)
             }
-            (E::InvalidGlobalUsage(handle, _), _) if self.is_storage_texture(*handle) => {
+            (E::InvalidGlobalUsage(handle, _), _)
+                if self.is_storage_texture(self.module.global_variables[*handle].ty)
+                    && self.takes_storage_texture() =>
+            {
                 let mut said = Said::new(Rule::Unsupported, PARAMETER);
                 said.span = Some(self.module.global_variables.get_span(*handle));
                 said
@@ -236,7 +238,7 @@ impl Words<'_> {
         match error {
             E::Expression { handle, source } => {
                 let mut said = self.of_expression(function, *handle, source);
-                said.span = Some(function.expressions.get_span(*handle));
+                said.span = self.span(function, *handle);
                 said
             }
             E::InvalidCall { function: callee, error } => {
@@ -271,7 +273,7 @@ impl Words<'_> {
                     Some(ty) => format!("{} is returned, and the function gives {}", quoted(*value), self.ty(*ty)),
                     None => format!("{} is returned, and the function gives nothing", quoted(*value)),
                 });
-                said.span = Some(function.expressions.get_span(*value));
+                said.span = self.span(function, *value);
                 said
             }
             E::InvalidStoreTypes { pointer, value } => Said::wgsl(format!(
@@ -405,7 +407,7 @@ impl Words<'_> {
                     self.expression(function, *seen_expression),
                     self.ty(*required)
                 ));
-                said.span = Some(function.expressions.get_span(*seen_expression));
+                said.span = self.span(function, *seen_expression);
                 said
             }
             CallError::Argument { index, source } => Said::wgsl(format!(
@@ -456,15 +458,24 @@ impl Words<'_> {
         plain + rest.trim_end_matches('.')
     }
 
+    /// Where an expression stands; `None` for variables and parameters, of which naga knows their declarations only.
+    fn span(&self, function: &Function, handle: Handle<Expression>) -> Option<Span> {
+        let is_declared = matches!(
+            function.expressions[handle],
+            Expression::FunctionArgument(_)
+                | Expression::LocalVariable(_)
+                | Expression::GlobalVariable(_)
+        );
+        (!is_declared).then(|| function.expressions.get_span(handle))
+    }
+
     /// The name of a `let` in an expression.
     fn let_in<'b>(&self, function: &'b Function, handle: Handle<Expression>) -> Option<&'b str> {
         let range = function.expressions.get_span(handle).to_range();
-        let text = range.and_then(|range| self.text.get(range));
-        lets::within(function, text.unwrap_or_default())
+        lets::within(function, range, self.text)
     }
 
-    fn is_storage_texture(&self, variable: Handle<GlobalVariable>) -> bool {
-        let ty = self.module.global_variables[variable].ty;
+    fn is_storage_texture(&self, ty: Handle<Type>) -> bool {
         let inner = &self.module.types[ty].inner;
         matches!(
             inner,
@@ -473,6 +484,13 @@ impl Words<'_> {
                 ..
             }
         )
+    }
+
+    /// Whether a function has a storage texture among its parameters.
+    fn takes_storage_texture(&self) -> bool {
+        let functions = self.module.functions.iter();
+        let mut parameters = functions.flat_map(|(_, function)| &function.arguments);
+        parameters.any(|parameter| self.is_storage_texture(parameter.ty))
     }
 
     fn is_unsized(&self, ty: Handle<Type>) -> bool {

@@ -36,7 +36,7 @@ pub(super) fn given<'a>(
         let constants: PipelineConstants = constants
             .filter_map(|(index, (_, of))| Some((key(of)?, value(index))))
             .collect();
-        process_overrides(module, &compiled.info, None, &constants)
+        process_overrides(module, &compiled.info, None, &constants).map_err(Box::new)
     };
     let first = match process(&|_| ALIKE[0]) {
         Ok(processed) => return Ok(processed),

@@ -87,7 +87,7 @@ fn refuses_other_forms_of_import() {
             outside,
         ),
         (
-            "\nimport bevy::hankel::{hankel_factor};",
+            "\nimport self::hankel::{hankel_factor};",
             (2, 8, 4),
             outside,
         ),

@@ -158,12 +158,11 @@ fn invalid_shaders_point_at_the_innermost_place() {
         "`1u` is returned, and the function gives `f32`"
     );
 
-    // Where naga gives no place, the definition is it.
     let diagnostic = refused("\n@fragment fn shade() { workgroupBarrier(); }\n");
-    assert_eq!(place(&diagnostic), ("user.wgsl", 2, 14, 5));
+    assert_eq!(place(&diagnostic), ("user.wgsl", 2, 24, 16));
     assert_eq!(
         diagnostic.message,
-        "entry point `shade` uses operations that its stage does not have"
+        "entry point `shade` uses a barrier, which its stage does not have"
     );
 }
 

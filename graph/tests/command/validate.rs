@@ -262,3 +262,37 @@ fn sarif_has_a_result_for_each_finding() {
     let uri = &results[3]["locations"][0]["physicalLocation"]["artifactLocation"]["uri"];
     assert!(uri.as_str().unwrap().ends_with("/a%20b.wgsl"), "{uri}");
 }
+
+/// `./run check` fetches the schema.
+#[test]
+#[ignore = "the schema of SARIF is fetched by ./run check"]
+fn sarif_by_its_schema() {
+    let path = std::env::var("SARIF_SCHEMA").expect("the path of the schema");
+    let schema: Value = serde_json::from_str(&fs::read_to_string(path).unwrap()).unwrap();
+    let schema = jsonschema::validator_for(&schema).unwrap();
+    let (_folder, [good, two, warned, odd]) = files([
+        ("good.wgsl", GOOD),
+        ("two.wgsl", TWO),
+        ("warned.wgsl", WARNED),
+        ("a b.wgsl", BAD),
+    ]);
+    let (_, printed, _) = run(&[
+        "validate",
+        "--format",
+        "sarif",
+        &good,
+        &two,
+        &warned,
+        &odd,
+        "missing.wgsl",
+    ]);
+    let mut sarif: Value = serde_json::from_str(&printed).unwrap();
+    let errors: Vec<String> = schema
+        .iter_errors(&sarif)
+        .map(|it| it.to_string())
+        .collect();
+    assert!(errors.is_empty(), "{errors:#?}");
+    // The schema sees what is wrong.
+    sarif["runs"][0]["results"][0]["level"] = "fatal".into();
+    assert!(schema.iter_errors(&sarif).next().is_some());
+}

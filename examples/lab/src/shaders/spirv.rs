@@ -110,10 +110,10 @@ impl<'a> Compiled<'a> {
     pub(super) fn of_entry_point(
         &self,
         entry_point: &naga::EntryPoint,
-    ) -> Result<(Cow<'_, naga::Module>, Cow<'_, ModuleInfo>), PipelineConstantError> {
+    ) -> Result<(Cow<'_, naga::Module>, Cow<'_, ModuleInfo>), Box<PipelineConstantError>> {
         let constants = self.constants.clone().into_iter().collect();
         let stage = Some((entry_point.stage, entry_point.name.as_str()));
-        process_overrides(&self.module, &self.info, stage, &constants)
+        process_overrides(&self.module, &self.info, stage, &constants).map_err(Box::new)
     }
 
     pub(super) fn failed(&self, entry_point: &naga::EntryPoint, reason: String) -> LabError {
