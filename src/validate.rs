@@ -225,7 +225,15 @@ fn compile(mut linked: Linked, options: &ValidationOptions<'_>) -> ValidationRep
         report.errors.extend(constants::check(module, info, linked));
         report.errors.extend(numbers::check(module, linked));
         match overrides::given(&compiled, linked) {
-            Ok((module, info)) => report.errors.extend(limits::check(&module, &info, linked)),
+            Ok((given, info)) => {
+                report.errors.extend(limits::check(&given, &info, linked));
+                // With defaults alone, what is constant now is so for a host that gives no values.
+                if module.overrides.iter().all(|(_, of)| of.init.is_some()) {
+                    report
+                        .errors
+                        .extend(constants::check(&given, &info, linked));
+                }
+            }
             Err(error) => report.errors.push(error),
         }
         report.errors.extend(flow::check(module, linked));

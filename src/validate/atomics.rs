@@ -28,6 +28,16 @@ pub(super) fn check(module: &Module, info: &ModuleInfo, linked: &Linked) -> Vec<
             found.push(refused(linked, span, message));
         }
     }
+    for (handle, ty) in module.types.iter() {
+        let is_own = matches!(ty.inner, TypeInner::Pointer { base, space: AddressSpace::Function | AddressSpace::Private }
+            if holds_atomic(module, base));
+        if is_own && is_parameter(module, handle) {
+            let span = module.types.get_span(handle);
+            let message =
+                "there are no atomics in function and private memory for a parameter to point at";
+            found.push(refused(linked, span, message));
+        }
+    }
     for (handle, function) in module.functions.iter() {
         uses(module, function, &info[handle], linked, &mut found);
     }
@@ -77,6 +87,11 @@ fn uses(
             found.push(refused(linked, span, message));
         }
     });
+}
+
+fn is_parameter(module: &Module, ty: Handle<Type>) -> bool {
+    let mut functions = module.functions.iter();
+    functions.any(|(_, function)| function.arguments.iter().any(|it| it.ty == ty))
 }
 
 fn holds_atomic(module: &Module, ty: Handle<Type>) -> bool {

@@ -92,15 +92,41 @@ pub(super) fn check(linked: &Linked) -> Vec<ShaderError> {
     found
 }
 
-/// Whether the numbers in the brackets after `attribute` are of both integer types.
+/// Whether the numbers and constants in the brackets after `attribute` are of both integer types.
 fn has_both_integers(tokens: &[Token<'_>], attribute: &Token<'_>) -> bool {
     let after = tokens
         .iter()
         .skip_while(|token| token.start <= attribute.start);
     let inside = after.take_while(|token| !token.is_symbol(")"));
-    let numbers = inside.filter(|token| token.kind == Kind::Number);
-    let ends = |end: char| numbers.clone().any(|number| number.text.ends_with(end));
-    ends('i') && ends('u')
+    let types: Vec<char> = inside
+        .filter_map(|token| integer_type(tokens, token))
+        .collect();
+    types.contains(&'i') && types.contains(&'u')
+}
+
+/// `i` or `u` for a number with that suffix, and for a constant or override that is declared of that type.
+fn integer_type(tokens: &[Token<'_>], of: &Token<'_>) -> Option<char> {
+    let suffix = |token: &Token<'_>| token.text.chars().last().filter(|end| "iu".contains(*end));
+    if of.kind == Kind::Number {
+        return suffix(of);
+    }
+    let declared = tokens.windows(4).find_map(|window| match window {
+        [keyword, name, next, value]
+            if matches!(keyword.text, "const" | "override") && name.text == of.text =>
+        {
+            Some((next, value))
+        }
+        _ => None,
+    });
+    match declared? {
+        (colon, ty) if colon.is_symbol(":") => match ty.text {
+            "i32" => Some('i'),
+            "u32" => Some('u'),
+            _ => None,
+        },
+        (_, value) if value.kind == Kind::Number => suffix(value),
+        _ => None,
+    }
 }
 
 fn refused(linked: &Linked, range: Range<usize>, message: String) -> ShaderError {

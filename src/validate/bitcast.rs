@@ -33,6 +33,9 @@ pub(super) fn objection(
     let given = match info[expr].ty.inner_with(&module.types) {
         TypeInner::Scalar(scalar) => scalar.width.into(),
         TypeInner::Vector { size, scalar } => *size as u32 * u32::from(scalar.width),
+        TypeInner::Matrix { .. } => {
+            return Some("`bitcast` takes numbers and vectors, and this is a matrix".to_owned());
+        }
         _ => return None,
     };
     (wanted != given).then(|| {

@@ -269,6 +269,7 @@ impl Checked<'_> {
             .map(|it| (it.ty, it.binding.as_ref()));
         let outputs: Vec<_> = outputs.collect();
         if self.entry_point.stage == ShaderStage::Vertex {
+            self.integers(&inputs)?;
             self.below(&inputs, VERTEX_ATTRIBUTES, 0, "vertex attributes")?;
             self.below(&outputs, VARYINGS, 0, "outputs to the next stage")?;
         }
@@ -281,7 +282,37 @@ impl Checked<'_> {
                 builtins as u32,
                 "inputs from the stage before",
             )?;
+            self.integers(&outputs)?;
             self.below(&outputs, COLOUR_TARGETS, 0, "colour targets")?;
+        }
+        Ok(())
+    }
+
+    /// Refuses integers that are said to be interpolated, where no rasteriser stands between and naga does not look.
+    fn integers(&self, values: &[(Handle<Type>, Option<&Binding>)]) -> Result<(), ShaderError> {
+        let members = values
+            .iter()
+            .flat_map(|(ty, binding)| match &self.module.types[*ty].inner {
+                TypeInner::Struct { members, .. } => members
+                    .iter()
+                    .map(|it| (it.ty, it.binding.as_ref()))
+                    .collect(),
+                _ => vec![(*ty, *binding)],
+            });
+        for (ty, binding) in members {
+            let scalar = self.module.types[ty].inner.scalar();
+            let is_integer = scalar.is_some_and(|it| it.kind != naga::ScalarKind::Float);
+            if let Some(Binding::Location {
+                interpolation: Some(how),
+                ..
+            }) = binding
+                && is_integer
+                && *how != naga::Interpolation::Flat
+            {
+                let what =
+                    "has an integer that is to be interpolated; integers are `@interpolate(flat)`";
+                return self.refused_by(Rule::Stage, what, &[]);
+            }
         }
         Ok(())
     }

@@ -3,7 +3,7 @@
 
 use naga::{Arena, Expression, Literal, Module};
 
-use crate::link::tokens::tokens;
+use crate::link::tokens::{Kind, tokens};
 use crate::{Linked, Rule, ShaderError};
 
 /// Values that naga holds for others than those of the text.
@@ -36,6 +36,17 @@ fn of(expressions: &Arena<Expression>, linked: &Linked) -> Vec<ShaderError> {
             (Expression::Literal(Literal::I32(_)), Number::Int(value)) => {
                 (i32::try_from(value).is_ok(), "i32")
             }
+            (Expression::Literal(_), Number::Int(value))
+                if bitcast_to(linked.wgsl().get(..range.start)).is_some() =>
+            {
+                match bitcast_to(linked.wgsl().get(..range.start)) {
+                    Some("i32") => (i32::try_from(value).is_ok(), "i32"),
+                    _ => (
+                        u32::try_from(value).is_ok() || i32::try_from(value).is_ok(),
+                        "u32",
+                    ),
+                }
+            }
             // naga makes a u32 of an integer that is no i32, or an f32.
             (Expression::Literal(Literal::U32(_) | Literal::F32(_)), Number::Int(value))
                 if is_untyped(linked.wgsl().get(..range.start)) =>
@@ -62,19 +73,42 @@ fn of(expressions: &Arena<Expression>, linked: &Linked) -> Vec<ShaderError> {
     found
 }
 
-/// Whether what follows `before` gets its own type: the value of `let`, `var` and `_` without one.
+/// Whether a number after `before` gets the type that it has by itself: it is the value of `let`, `var`, `override` or `_` without a type,
+/// or stands among such numbers in the constructor of a vector or array that is.
 fn is_untyped(before: Option<&str>) -> bool {
     let tokens = before.and_then(|before| {
         let statement = before.rfind([';', '{', '}']).map_or(0, |end| end + 1);
         tokens(before.get(statement..)?).ok()
     });
-    match tokens.as_deref() {
-        Some([.., keyword, _, equals]) if equals.is_symbol("=") => {
+    let mut rest = tokens.as_deref().unwrap_or_default();
+    // The numbers before it, up to the constructor's bracket.
+    let mut constructor = rest;
+    while let [head @ .., last] = constructor
+        && (last.kind == Kind::Number && value(last.text).is_some() || last.is_symbol(","))
+    {
+        constructor = head;
+    }
+    if let [head @ .., name, open] = constructor
+        && open.is_symbol("(")
+        && matches!(name.text, "vec2" | "vec3" | "vec4" | "array")
+    {
+        rest = head;
+    }
+    match rest {
+        [.., keyword, _, equals] if equals.is_symbol("=") => {
             matches!(keyword.text, "let" | "var" | "override")
         }
-        Some([name, equals]) => name.text == "_" && equals.is_symbol("="),
+        [name, equals] => name.text == "_" && equals.is_symbol("="),
         _ => false,
     }
+}
+
+/// The type that `bitcast<T>(` gives a number after `before`.
+fn bitcast_to(before: Option<&str>) -> Option<&'static str> {
+    let before = before?.trim_end().strip_suffix('(')?.trim_end();
+    ["i32", "u32"]
+        .into_iter()
+        .find(|ty| before.ends_with(&format!("bitcast<{ty}>")))
 }
 
 /// A number without a type.

@@ -22,13 +22,21 @@ pub(super) fn check(linked: &Linked) -> Vec<ShaderError> {
     // Operators of the expression that is being read, and of those around it.
     let mut open: Vec<Vec<Operator<'_>>> = vec![Vec::new()];
     let mut before: Option<&str> = None;
-    for (piece, is_template) in pieces.iter().zip(is_template) {
+    for (index, (piece, is_template)) in pieces.iter().zip(is_template).enumerate() {
         let text = piece.text;
         let follows_value = before.is_some_and(|before| is_value(before) || before == ">>>");
         // What closes a template list is followed as a value is.
         before = Some(if is_template { ">>>" } else { text });
         if is_template {
             continue;
+        }
+        if text == "-" && !follows_value && is_matrix(pieces.get(index + 1)) {
+            found.push(ShaderError {
+                rule: Rule::Operator,
+                message: "WGSL has no `-` before a matrix; multiply by -1.0".to_owned(),
+                places: linked.location(piece.range.clone()).into_iter().collect(),
+                notes: Vec::new(),
+            });
         }
         match text {
             "(" | "[" => open.push(Vec::new()),
@@ -66,6 +74,12 @@ const ARITHMETIC: [&str; 5] = ["+", "-", "*", "/", "%"];
 fn is_operator(text: &str) -> bool {
     let all: [&[&str]; 5] = [&BITWISE, &SHIFTS, &RELATIONAL, &SHORT_CIRCUIT, &ARITHMETIC];
     all.iter().any(|some| some.contains(&text))
+}
+
+/// Whether this begins the constructor of a matrix. naga refuses others with a `-`.
+fn is_matrix(piece: Option<&Piece<'_>>) -> bool {
+    let name = piece.and_then(|piece| piece.text.strip_prefix("mat"));
+    name.is_some_and(|size| size.as_bytes().get(1) == Some(&b'x'))
 }
 
 /// Words after which an expression begins.

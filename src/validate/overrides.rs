@@ -80,7 +80,16 @@ fn refused(
         .collect();
     if names.is_empty() {
         let all = module.overrides.iter();
-        let not_yet = error.to_string().starts_with("Not implemented");
+        // naga evaluates a side of `&&` and `||` that is left out.
+        let is_left_out = |handle: Handle<Override>| {
+            let range = module.overrides.get_span(handle).to_range();
+            let text = range.and_then(|range| linked.wgsl().get(range.start..));
+            let declaration = text.and_then(|text| text.split(';').next());
+            declaration.is_some_and(|it| it.contains("&&") || it.contains("||"))
+        };
+        let mut declared = module.overrides.iter();
+        let not_yet = error.to_string().starts_with("Not implemented")
+            || declared.any(|(handle, _)| is_left_out(handle));
         return ShaderError {
             rule: if not_yet {
                 Rule::Unsupported
