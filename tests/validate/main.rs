@@ -2,6 +2,7 @@
 #![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic)]
 
 mod findings;
+mod glsl;
 mod limits;
 mod operators;
 mod pairs;

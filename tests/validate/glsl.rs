@@ -1,0 +1,93 @@
+//! What naga writes and compilers of GLSL refuse: `./run check` gives the texts that are called good to glslang.
+
+use moment_shadows::Backend;
+
+use crate::{core, reason};
+
+fn fragment(declarations: &str, inputs: &str, value: &str) -> String {
+    format!(
+        "{declarations}@fragment fn main({inputs}) -> @location(0) vec4f {{ return {value}; }}\n"
+    )
+}
+
+#[test]
+fn what_es_300_lacks_is_named() {
+    let texture =
+        "@group(0) @binding(0) var t: texture_2d<f32>;\n@group(0) @binding(1) var s: sampler;\n";
+    let uv = "@location(0) uv: vec2f";
+    for (text, word) in [
+        (
+            fragment(
+                "",
+                "@location(0) @interpolate(flat) i: vec2i",
+                "vec4f(vec2f(select(i, -i, i < vec2i(0))), 0.0, 0.0)",
+            ),
+            "`select`",
+        ),
+        (
+            fragment(texture, uv, "textureGather(0, t, s, uv)"),
+            "textureGather",
+        ),
+        (
+            fragment("", "@builtin(sample_index) i: u32", "vec4f(f32(i))"),
+            "sample_index",
+        ),
+        (
+            fragment(
+                "",
+                "@location(0) @interpolate(flat) i: u32",
+                "vec4f(f32(countOneBits(i)))",
+            ),
+            "countOneBits",
+        ),
+    ] {
+        let report = core(&text).unwrap();
+        assert_eq!(reason(&report, Backend::Glsl450), None, "{word}");
+        let why = reason(&report, Backend::GlslEs300).expect(word);
+        assert!(why.contains(word) && why.contains("`main`"), "{why}");
+    }
+    // What it has stays good.
+    for (declarations, value) in [
+        ("", "select(vec4f(0.0), vec4f(1.0), uv.xyxy < vec4f(0.5))"),
+        ("", "vec4f(f32(select(1, 2, uv.x < 0.5)))"),
+        (texture, "textureSampleLevel(t, s, uv, 0.0)"),
+    ] {
+        let report = core(&fragment(declarations, uv, value)).unwrap();
+        assert_eq!(reason(&report, Backend::GlslEs300), None, "{value}");
+    }
+}
+
+#[test]
+fn what_naga_writes_wrongly_is_named() {
+    let depth =
+        "@group(0) @binding(0) var t: texture_depth_2d;\n@group(0) @binding(1) var s: sampler;\n";
+    let uv = "@location(0) uv: vec2f";
+    for (text, word) in [
+        (
+            fragment(depth, uv, "vec4f(textureSample(t, s, uv))"),
+            "depth",
+        ),
+        (fragment(depth, uv, "textureGather(t, s, uv)"), "depth"),
+        (
+            fragment("", "@builtin(sample_mask) m: u32", "vec4f(f32(m))"),
+            "sample_mask",
+        ),
+    ] {
+        let report = core(&text).unwrap();
+        for backend in [Backend::SpirV, Backend::Hlsl, Backend::Msl] {
+            assert_eq!(reason(&report, backend), None, "{word}");
+        }
+        let why = reason(&report, Backend::Glsl450).expect(word);
+        assert!(why.contains(word), "{why}");
+    }
+}
+
+#[test]
+fn each_entry_point_is_written_without_what_others_need() {
+    let report = core(
+        "fn signs(i: vec2i) -> vec2i { return select(i, -i, i < vec2i(0)); }\n\
+         @fragment fn main() -> @location(0) vec4f { return vec4f(1.0); }\n",
+    )
+    .unwrap();
+    assert_eq!(reason(&report, Backend::GlslEs300), None);
+}
