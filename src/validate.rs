@@ -29,6 +29,7 @@ mod statements;
 mod stopped;
 mod storage_format;
 mod uniformity;
+mod words;
 
 pub use backend::Backend;
 pub use features::{Features, UnknownFeature};

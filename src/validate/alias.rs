@@ -2,11 +2,9 @@
 
 use std::collections::BTreeMap;
 
-use naga::{
-    AddressSpace, Expression, Function, GlobalVariable, Handle, Module, Statement, TypeInner,
-};
+use naga::{Expression, Function, GlobalVariable, Handle, Module, Statement};
 
-use super::pointer::{Root, root};
+use super::pointer::{Root, memory, root};
 use super::statements;
 use crate::{Linked, Rule, ShaderError};
 
@@ -133,27 +131,6 @@ fn follow(
         _ => {}
     });
     uses
-}
-
-/// The memory that a pointer points into, if `argument` is one.
-pub(super) fn memory(
-    module: &Module,
-    function: &Function,
-    argument: Handle<Expression>,
-) -> Option<Root> {
-    let root = root(function, argument)?;
-    let is_pointer = match root {
-        Root::Local(_) => true,
-        Root::Global(variable) => module.global_variables[variable].space != AddressSpace::Handle,
-        Root::Parameter(index) => {
-            let parameter = function.arguments.get(index as usize)?;
-            matches!(
-                module.types[parameter.ty].inner,
-                TypeInner::Pointer { .. } | TypeInner::ValuePointer { .. }
-            )
-        }
-    };
-    is_pointer.then_some(root)
 }
 
 /// The first argument that meets another, or a variable that the function uses by its name.

@@ -8,7 +8,7 @@ use naga::valid::ValidationError;
 
 use super::compiler::{Compiler, Fault};
 use super::features::Features;
-use super::message::Words;
+use super::words::Words;
 use crate::link::file::definitions;
 use crate::link::tokens::{Token, tokens};
 use crate::{Linked, Location, Rule, ShaderError};

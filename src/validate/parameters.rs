@@ -3,9 +3,9 @@
 
 use naga::{Expression, Function, ImageClass, Module, Statement, TypeInner};
 
-use super::alias::memory;
 use super::diagnostic::NOT_YET;
 use super::message::PARAMETER;
+use super::pointer::memory;
 use super::statements;
 use crate::{Linked, Rule, ShaderError};
 

@@ -1,6 +1,8 @@
-//! What a pointer starts from.
+//! What a pointer starts from, and whether an expression is one.
 
-use naga::{Expression, Function, GlobalVariable, Handle, LocalVariable};
+use naga::{
+    AddressSpace, Expression, Function, GlobalVariable, Handle, LocalVariable, Module, TypeInner,
+};
 
 /// A variable, or a parameter that is a pointer.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -22,4 +24,25 @@ pub(super) fn root(function: &Function, pointer: Handle<Expression>) -> Option<R
             _ => return None,
         };
     }
+}
+
+/// The memory that a pointer points into, if `argument` is one.
+pub(super) fn memory(
+    module: &Module,
+    function: &Function,
+    argument: Handle<Expression>,
+) -> Option<Root> {
+    let root = root(function, argument)?;
+    let is_pointer = match root {
+        Root::Local(_) => true,
+        Root::Global(variable) => module.global_variables[variable].space != AddressSpace::Handle,
+        Root::Parameter(index) => {
+            let parameter = function.arguments.get(index as usize)?;
+            matches!(
+                module.types[parameter.ty].inner,
+                TypeInner::Pointer { .. } | TypeInner::ValuePointer { .. }
+            )
+        }
+    };
+    is_pointer.then_some(root)
 }

@@ -2,12 +2,13 @@
 
 use naga::diagnostic_filter::Severity;
 use naga::{
-    AddressSpace, Barrier, Binding, Block, BuiltIn, EntryPoint, Expression, Function, GatherMode,
-    Handle, Module, SampleLevel, Span, Statement, StorageAccess, Type, TypeInner,
+    AddressSpace, Binding, Block, BuiltIn, EntryPoint, Expression, Function, Handle, Module, Span,
+    Statement, Type, TypeInner,
 };
 
 use super::super::flow::Behaviour;
 use super::graph::{Graph, Label, Node};
+use super::names::{barrier_name, gather_name};
 use super::severity::{Rule, severity};
 use super::summary::{Outcome, Requirement, Source, Summary};
 
@@ -19,7 +20,7 @@ struct Flow {
 
 /// A statement that can be left from within: nodes for what variables hold where it is left, and, for a loop, where its next round
 /// begins.
-struct Enclosing {
+pub(super) struct Enclosing {
     after: Vec<Node>,
     continuing: Option<Vec<Node>>,
 }
@@ -114,36 +115,24 @@ impl Walked {
     }
 }
 
-struct Walk<'a> {
-    module: &'a Module,
-    function: &'a Function,
-    callees: &'a [Summary],
-    graph: Graph,
-    differs: Node,
-    arguments: Vec<Node>,
+pub(super) struct Walk<'a> {
+    pub(super) module: &'a Module,
+    pub(super) function: &'a Function,
+    pub(super) callees: &'a [Summary],
+    pub(super) graph: Graph,
+    pub(super) differs: Node,
+    pub(super) arguments: Vec<Node>,
     /// For each expression that was evaluated, its value.
-    values: Vec<Option<Node>>,
+    pub(super) values: Vec<Option<Node>>,
     /// What local variables hold at this place, and after them what pointers among the arguments point at.
-    variables: Vec<Node>,
+    pub(super) variables: Vec<Node>,
     /// For each argument that points into a function's memory, its place in `variables`.
-    pointed: Vec<Option<usize>>,
-    enclosing: Vec<Enclosing>,
-    required: Vec<(Node, Requirement)>,
-    returned: Option<Node>,
+    pub(super) pointed: Vec<Option<usize>>,
+    pub(super) enclosing: Vec<Enclosing>,
+    pub(super) required: Vec<(Node, Requirement)>,
+    pub(super) returned: Option<Node>,
     /// For each argument that points into a function's memory, what is there when the function is left.
-    contents: Vec<Option<Node>>,
-}
-
-/// Where a pointer points.
-struct Place {
-    /// The place in `variables`; none for memory that is not the function's.
-    variable: Option<usize>,
-    /// Whether it points at a part.
-    is_part: bool,
-    /// What the indices on the way depend on.
-    indices: Vec<Node>,
-    /// Whether other memory is read as the same value by every invocation.
-    is_constant: bool,
+    pub(super) contents: Vec<Option<Node>>,
 }
 
 impl<'a> Walk<'a> {
@@ -476,7 +465,7 @@ impl<'a> Walk<'a> {
         }
     }
 
-    fn set(&mut self, handle: Handle<Expression>, value: Node) {
+    pub(super) fn set(&mut self, handle: Handle<Expression>, value: Node) {
         if let Some(place) = self.values.get_mut(handle.index()) {
             *place = Some(value);
         }
@@ -489,257 +478,17 @@ impl<'a> Walk<'a> {
         self.graph.labelled(&[value], Label::Condition(span))
     }
 
-    /// The value of an expression where it is used.
-    fn value(&mut self, handle: Handle<Expression>, control: Node) -> Node {
-        let known = self.values.get(handle.index()).copied().flatten();
-        match (known, &self.function.expressions[handle]) {
-            (Some(value), _) => self.graph.node(&[control, value]),
-            (None, Expression::FunctionArgument(index)) => {
-                match self.arguments.get(*index as usize) {
-                    Some(argument) => self.graph.node(&[control, *argument]),
-                    None => control,
-                }
-            }
-            // Literals, constants, and the names of variables.
-            (None, _) => control,
-        }
-    }
-
-    /// An expression where it is evaluated.
-    fn evaluate(&mut self, handle: Handle<Expression>, control: Node) -> Node {
-        let function: &'a Function = self.function;
-        let expression = &function.expressions[handle];
-        let span = self.function.expressions.get_span(handle);
-        let mut depends = vec![control];
-        match expression {
-            Expression::Load { pointer } => {
-                let place = self.place(*pointer, control);
-                depends.extend(&place.indices);
-                if let Some(variable) = place.variable {
-                    depends.push(self.variables[variable]);
-                } else if !place.is_constant {
-                    depends.push(self.memory(handle));
-                }
-            }
-            Expression::ImageSample { level, .. } => {
-                if matches!(level, SampleLevel::Auto | SampleLevel::Bias(_)) {
-                    let by = sample_name(expression);
-                    self.require_uniform(control, by, Rule::Derivatives, span);
-                    depends.push(self.graph.labelled(&[self.differs], Label::Result(span)));
-                }
-                self.operands(expression, control, &mut depends);
-            }
-            Expression::Derivative { axis, ctrl, .. } => {
-                let by = derivative_name(*axis, *ctrl);
-                self.require_uniform(control, by, Rule::Derivatives, span);
-                depends.push(self.graph.labelled(&[self.differs], Label::Result(span)));
-                self.operands(expression, control, &mut depends);
-            }
-            Expression::ImageLoad { image, .. } => {
-                if self.is_written(*image) {
-                    depends.push(self.memory(handle));
-                }
-                self.operands(expression, control, &mut depends);
-            }
-            _ => self.operands(expression, control, &mut depends),
-        }
-        self.graph.node(&depends)
-    }
-
-    fn operands(&mut self, expression: &Expression, control: Node, depends: &mut Vec<Node>) {
-        for operand in super::operands::of(expression) {
-            depends.push(self.value(operand, control));
-        }
-    }
-
-    /// Memory that is not the same for all invocations, read by `reader`.
-    fn memory(&mut self, reader: Handle<Expression>) -> Node {
-        self.graph.labelled(&[self.differs], Label::Memory(reader))
-    }
-
-    /// Whether an image can be written while it is read.
-    fn is_written(&self, image: Handle<Expression>) -> bool {
-        let ty = match &self.function.expressions[image] {
-            Expression::GlobalVariable(variable) => self.module.global_variables[*variable].ty,
-            Expression::FunctionArgument(index) => {
-                match self.function.arguments.get(*index as usize) {
-                    Some(argument) => argument.ty,
-                    None => return false,
-                }
-            }
-            _ => return false,
-        };
-        matches!(self.module.types[ty].inner,
-            TypeInner::Image { class: naga::ImageClass::Storage { access, .. }, .. }
-                if access.contains(StorageAccess::STORE))
-    }
-
-    /// Where a pointer points.
-    fn place(&mut self, pointer: Handle<Expression>, control: Node) -> Place {
-        let mut place = Place {
-            variable: None,
-            is_part: false,
-            indices: Vec::new(),
-            is_constant: false,
-        };
-        let mut at = pointer;
-        loop {
-            match self.function.expressions[at] {
-                Expression::Access { base, index } => {
-                    let index = self.value(index, control);
-                    place.indices.push(index);
-                    place.is_part = true;
-                    at = base;
-                }
-                Expression::AccessIndex { base, .. } => {
-                    place.is_part = true;
-                    at = base;
-                }
-                Expression::LocalVariable(variable) => {
-                    place.variable = Some(variable.index());
-                    return place;
-                }
-                Expression::FunctionArgument(index) => {
-                    place.variable = self.pointed.get(index as usize).copied().flatten();
-                    return place;
-                }
-                Expression::GlobalVariable(variable) => {
-                    place.is_constant = match self.module.global_variables[variable].space {
-                        AddressSpace::Uniform | AddressSpace::Handle | AddressSpace::Immediate => {
-                            true
-                        }
-                        AddressSpace::Storage { access } => !access.contains(StorageAccess::STORE),
-                        _ => false,
-                    };
-                    return place;
-                }
-                _ => return place,
-            }
-        }
-    }
-
-    /// Something is stored that depends on `values`.
-    fn store(&mut self, pointer: Handle<Expression>, values: &[Node], control: Node) {
-        let place = self.place(pointer, control);
-        let Some(variable) = place.variable else {
-            return;
-        };
-        let mut depends = values.to_vec();
-        depends.extend(&place.indices);
-        if place.is_part {
-            depends.push(self.variables[variable]);
-        }
-        self.variables[variable] = self.graph.node(&depends);
-    }
-
-    fn call(
+    pub(super) fn require_uniform(
         &mut self,
-        callee: &Summary,
-        arguments: &[Handle<Expression>],
-        result: Option<Handle<Expression>>,
         control: Node,
-        span: Span,
-    ) {
-        let mut values = Vec::new();
-        let mut held = Vec::new();
-        for argument in arguments {
-            let place = self
-                .is_pointer(*argument)
-                .then(|| self.place(*argument, control));
-            values.push(match &place {
-                Some(place) => {
-                    let mut depends = place.indices.clone();
-                    depends.push(control);
-                    self.graph.node(&depends)
-                }
-                None => self.value(*argument, control),
-            });
-            held.push(match place.and_then(|place| place.variable) {
-                Some(variable) => self.variables[variable],
-                None => self.differs,
-            });
-        }
-        let given = |source: Source| match source {
-            Source::Call => control,
-            Source::Argument(index) => values.get(index).copied().unwrap_or(control),
-            Source::Contents(index) => held.get(index).copied().unwrap_or(control),
-        };
-        for (source, requirement) in &callee.required {
-            let mut requirement = requirement.clone();
-            requirement.calls.push(span);
-            self.required.push((given(*source), requirement));
-        }
-        let depends = |outcome: &Outcome| {
-            let mut depends: Vec<Node> = outcome.sources.iter().map(|it| given(*it)).collect();
-            depends.push(control);
-            depends
-        };
-        if let Some(result) = result {
-            let mut depends = depends(&callee.returned);
-            if callee.returned.never_uniform {
-                depends.push(self.graph.labelled(&[self.differs], Label::Result(span)));
-            }
-            let value = self.graph.node(&depends);
-            self.set(result, value);
-        }
-        for (argument, outcome) in arguments.iter().zip(&callee.contents) {
-            if let Some(outcome) = outcome {
-                // Whether the function stores anything there or not.
-                let mut depends = depends(outcome);
-                if outcome.never_uniform {
-                    let label = Label::Result(span);
-                    depends.push(self.graph.labelled(&[self.differs], label));
-                }
-                self.store(*argument, &depends, control);
-            }
-        }
-    }
-
-    fn is_pointer(&self, handle: Handle<Expression>) -> bool {
-        match &self.function.expressions[handle] {
-            Expression::LocalVariable(_) => true,
-            Expression::GlobalVariable(variable) => {
-                self.module.global_variables[*variable].space != AddressSpace::Handle
-            }
-            Expression::FunctionArgument(index) => {
-                let argument = self.function.arguments.get(*index as usize);
-                argument.is_some_and(|argument| {
-                    let inner = &self.module.types[argument.ty].inner;
-                    matches!(
-                        inner,
-                        TypeInner::Pointer { .. } | TypeInner::ValuePointer { .. }
-                    )
-                })
-            }
-            Expression::Access { base, .. } | Expression::AccessIndex { base, .. } => {
-                self.is_pointer(*base)
-            }
-            _ => false,
-        }
-    }
-
-    fn subgroup(
-        &mut self,
-        result: Handle<Expression>,
-        index: Option<Handle<Expression>>,
         by: &'static str,
-        control: Node,
+        rule: Rule,
         span: Span,
     ) {
-        self.require_uniform(control, by, Rule::Subgroups, span);
-        if let Some(index) = index {
-            let index = self.value(index, control);
-            self.require(index, false, by, Rule::Subgroups, span);
-        }
-        let value = self.graph.labelled(&[self.differs], Label::Result(span));
-        self.set(result, value);
-    }
-
-    fn require_uniform(&mut self, control: Node, by: &'static str, rule: Rule, span: Span) {
         self.require(control, true, by, rule, span);
     }
 
-    fn require(
+    pub(super) fn require(
         &mut self,
         node: Node,
         control_flow: bool,
@@ -769,59 +518,4 @@ fn is_uniform(binding: &Binding) -> bool {
         binding,
         Binding::BuiltIn(WorkGroupId | NumWorkGroups | WorkGroupSize | NumSubgroups)
     )
-}
-
-fn barrier_name(barrier: Barrier) -> &'static str {
-    if barrier.contains(Barrier::STORAGE) {
-        "storageBarrier"
-    } else if barrier.contains(Barrier::TEXTURE) {
-        "textureBarrier"
-    } else if barrier.contains(Barrier::SUB_GROUP) {
-        "subgroupBarrier"
-    } else {
-        "workgroupBarrier"
-    }
-}
-
-fn sample_name(sample: &Expression) -> &'static str {
-    match sample {
-        Expression::ImageSample {
-            depth_ref: Some(_), ..
-        } => "textureSampleCompare",
-        Expression::ImageSample {
-            level: SampleLevel::Bias(_),
-            ..
-        } => "textureSampleBias",
-        _ => "textureSample",
-    }
-}
-
-fn derivative_name(axis: naga::DerivativeAxis, control: naga::DerivativeControl) -> &'static str {
-    use naga::DerivativeAxis::{Width, X, Y};
-    use naga::DerivativeControl::{Coarse, Fine, None};
-    match (axis, control) {
-        (X, None) => "dpdx",
-        (X, Fine) => "dpdxFine",
-        (X, Coarse) => "dpdxCoarse",
-        (Y, None) => "dpdy",
-        (Y, Fine) => "dpdyFine",
-        (Y, Coarse) => "dpdyCoarse",
-        (Width, None) => "fwidth",
-        (Width, Fine) => "fwidthFine",
-        (Width, Coarse) => "fwidthCoarse",
-    }
-}
-
-/// The function of a mode, and the argument that has to be uniform.
-fn gather_name(mode: GatherMode) -> (&'static str, Option<Handle<Expression>>) {
-    match mode {
-        GatherMode::BroadcastFirst => ("subgroupBroadcastFirst", None),
-        GatherMode::Broadcast(_) => ("subgroupBroadcast", None),
-        GatherMode::Shuffle(_) => ("subgroupShuffle", None),
-        GatherMode::ShuffleDown(by) => ("subgroupShuffleDown", Some(by)),
-        GatherMode::ShuffleUp(by) => ("subgroupShuffleUp", Some(by)),
-        GatherMode::ShuffleXor(by) => ("subgroupShuffleXor", Some(by)),
-        GatherMode::QuadBroadcast(_) => ("quadBroadcast", None),
-        GatherMode::QuadSwap(_) => ("quadSwap", None),
-    }
 }

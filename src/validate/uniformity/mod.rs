@@ -1,8 +1,11 @@
 //! Uniformity: what has to be called by all invocations of a group together (WGSL specification, section 15). naga follows neither
 //! variables nor calls, so browsers refuse what it accepts; this is the specification's own analysis, on naga's module.
 
+mod call;
+mod expression;
 mod function;
 mod graph;
+mod names;
 mod operands;
 mod severity;
 mod summary;
