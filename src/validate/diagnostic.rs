@@ -131,6 +131,15 @@ pub(super) fn of_validation_error(
     let mut spans: Vec<_> = spans.map(|(span, text)| (*span, text.as_str())).collect();
     // naga goes from the outside in.
     spans.reverse();
+    // Of a variable that is used naga knows where it is declared; the use around it says more.
+    let declares = |span: &Span| {
+        let end = span.to_range().map(|range| range.end);
+        let after = end.and_then(|end| compiler.linked.wgsl().get(end..));
+        after.is_some_and(|after| after.trim_start().starts_with(':'))
+    };
+    if spans.len() > 1 && spans.first().is_some_and(|(span, _)| declares(span)) {
+        spans.rotate_left(1);
+    }
     if let Some(span) = said.span.filter(Span::is_defined) {
         spans.retain(|(other, _)| *other != span);
         spans.insert(0, (span, ""));

@@ -261,14 +261,20 @@ impl Words<'_> {
                     Some(ty) => format!("{} is returned, and the function gives {}", quoted(*value), self.ty(*ty)),
                     None => format!("{} is returned, and the function gives nothing", quoted(*value)),
                 });
-                said.span = self.span(function, *value);
+                let span = self.span(function, *value);
+                said.span = span.or_else(|| Some(statement_with(function, *value)));
                 said
             }
-            E::InvalidStoreTypes { pointer, value } => Said::wgsl(format!(
+            E::InvalidStoreTypes { pointer, value } => {
+                let mut said = Said::wgsl(format!(
                 "{} is assigned to {}, which is of another type",
                 quoted(*value),
                 quoted(*pointer)
-            )),
+            ));
+                let span = self.span(function, *value);
+                said.span = span.or_else(|| Some(statement_with(function, *value)));
+                said
+            }
             E::InvalidStorePointer(pointer) => {
                 Said::wgsl(format!("{} cannot be assigned to", quoted(*pointer)))
             }
@@ -332,7 +338,7 @@ impl Words<'_> {
             }
             E::MissingCapabilities(needed) => feature(*needed),
             E::Literal(LiteralError::Width(WidthError::Abstract))
-                if is_returned(function, handle) =>
+                if function.result.is_none() && statement_with(function, handle).is_defined() =>
             {
                 Said::wgsl(format!(
                     "{} is returned, and the function gives nothing",
@@ -411,13 +417,20 @@ impl Words<'_> {
     }
 }
 
-/// Whether a `return` gives the expression.
-fn is_returned(function: &Function, handle: Handle<Expression>) -> bool {
-    let mut found = false;
-    statements::each(&function.body, &mut |statement, _| {
-        found |= matches!(statement, Statement::Return { value: Some(value) } if *value == handle);
+/// Where the expression is returned or assigned.
+fn statement_with(function: &Function, handle: Handle<Expression>) -> Span {
+    let mut found = Span::UNDEFINED;
+    statements::each(&function.body, &mut |statement, span| {
+        let value = match statement {
+            Statement::Return { value } => *value,
+            Statement::Store { value, .. } => Some(*value),
+            _ => None,
+        };
+        if value == Some(handle) {
+            found = span;
+        }
     });
-    found && function.result.is_none()
+    found
 }
 
 /// What naga does not do with storage textures.

@@ -74,8 +74,12 @@ impl Words<'_> {
         function: &'b Function,
         handle: Handle<Expression>,
     ) -> Option<&'b str> {
-        let range = function.expressions.get_span(handle).to_range();
-        lets::within(function, range, self.text)
+        let range = function.expressions.get_span(handle).to_range()?;
+        let text = self.text.get(range.clone())?;
+        // Of an access only its index has to be a constant in its range.
+        let index = text.ends_with(']').then(|| text.rfind('[')).flatten();
+        let range = range.start + index.unwrap_or_default()..range.end;
+        lets::within(function, Some(range), self.text)
     }
 
     pub(super) fn is_storage_texture(&self, ty: Handle<Type>) -> bool {

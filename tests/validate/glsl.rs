@@ -26,7 +26,7 @@ fn what_es_300_lacks_is_named() {
         ),
         (
             fragment(texture, uv, "textureGather(0, t, s, uv)"),
-            "textureGather",
+            "gathers",
         ),
         (
             fragment("", "@builtin(sample_index) i: u32", "vec4f(f32(i))"),
@@ -83,9 +83,10 @@ fn what_naga_writes_wrongly_is_named() {
 }
 
 #[test]
-fn each_entry_point_is_written_without_what_others_need() {
+fn each_entry_point_is_written_without_what_none_needs() {
     let report = core(
         "fn signs(i: vec2i) -> vec2i { return select(i, -i, i < vec2i(0)); }\n\
+         @vertex fn place() -> @builtin(position) vec4f { return vec4f(1.0); }\n\
          @fragment fn main() -> @location(0) vec4f { return vec4f(1.0); }\n",
     )
     .unwrap();
