@@ -148,7 +148,7 @@ fn the_hook_looks_at_what_is_committed() {
     let run = |line: &str| sh(folder.path(), line);
     let identity = "-c user.name=nobody -c user.email=nobody@example.org";
     assert!(run("git init -q .").status.success());
-    executable(&folder.path().join(".git/hooks/pre-commit"), block("sh"));
+    executable(&folder.path().join(".git/hooks/pre-commit"), block("bash"));
     // Nothing to look at, a valid shader, and one that is not.
     let none = run(&format!("git {identity} commit -q --allow-empty -m none"));
     assert!(none.status.success(), "{none:?}");
