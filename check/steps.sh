@@ -226,7 +226,6 @@ check() {
   step "Every linked shader as WGSL, SPIR-V and GLSL" write_shaders
   step "A second compiler: Tint" run_tint
   step "What is ok here is ok in browsers: agreement with Tint" run_agreement
-  step "SARIF by its schema" run_sarif
   step "A second linker: npm's wesl" run_wesl
   step "The SPIR-V: spirv-val" run_spirv_val
   step "The GLSL: glslang" run_glslang
