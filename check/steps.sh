@@ -66,8 +66,7 @@ run_sarif() {
   cargo info --quiet serde-sarif@0.8.0 >/dev/null
   local schema
   schema=$(find "${CARGO_HOME:-$HOME/.cargo}/registry/src" -path '*/serde-sarif-0.8.0/src/schema.json' | head -n 1)
-  SARIF_SCHEMA=$schema cargo test --release --locked -p moment-shadows-graph --features cli --test command \
-    sarif_by_its_schema -- --ignored
+  SARIF_SCHEMA=$schema cargo test --release --locked --workspace --test command sarif_by_its_schema -- --ignored
 }
 
 run_spirv_val() {
@@ -226,6 +225,7 @@ check() {
   step "Every linked shader as WGSL, SPIR-V and GLSL" write_shaders
   step "A second compiler: Tint" run_tint
   step "What is ok here is ok in browsers: agreement with Tint" run_agreement
+  step "SARIF by its schema" run_sarif
   step "A second linker: npm's wesl" run_wesl
   step "The SPIR-V: spirv-val" run_spirv_val
   step "The GLSL: glslang" run_glslang

@@ -268,10 +268,10 @@ fn sarif_has_a_result_for_each_finding() {
 #[ignore = "the schema of SARIF is fetched by ./run check"]
 fn sarif_by_its_schema() {
     let path = std::env::var("SARIF_SCHEMA").expect("the path of the schema");
-    let mut schema: Value = serde_json::from_str(&fs::read_to_string(path).unwrap()).unwrap();
-    // This pattern of the schema is no regular expression.
-    let language = &mut schema["definitions"]["run"]["properties"]["language"];
-    language.as_object_mut().unwrap().remove("pattern");
+    // A pattern of the schema has a bracket too many.
+    let text = fs::read_to_string(path).unwrap();
+    let text = text.replace("[a-zA-Z]{2}]?$", "[a-zA-Z]{2}$");
+    let schema: Value = serde_json::from_str(&text).unwrap();
     let schema = jsonschema::validator_for(&schema).unwrap();
     let (_folder, [good, two, warned, odd]) = files([
         ("good.wgsl", GOOD),
