@@ -38,7 +38,10 @@ impl ValidationReport {
 
     pub(super) fn sort(&mut self) {
         for errors in [&mut self.errors, &mut self.warnings] {
-            let place = |error: &ShaderError| error.places.first().map(|at| (at.line, at.column));
+            let place = |error: &ShaderError| {
+                let first = error.places.first();
+                first.map(|at| (at.file.clone(), at.line, at.column))
+            };
             errors.sort_by_key(place);
             // Two checks may see one fault.
             errors.dedup_by(|one, other| place(one).is_some() && place(one) == place(other));

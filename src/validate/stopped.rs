@@ -4,12 +4,13 @@ use core::ops::Range;
 
 use super::repair;
 
-/// How often the compiler is tried on a part of the text.
+/// How often the compiler is tried on a part of the text at most, and how many bytes it reads for that: long texts get fewer tries.
 const MOST_TRIES: usize = 400;
+const MOST_BYTES: usize = 1 << 22;
 
 /// The statement at which `is_wrong` becomes true, or else the function.
 pub(super) fn find(text: &str, is_wrong: impl Fn(&str) -> bool) -> Option<Range<usize>> {
-    let mut tries = 0..MOST_TRIES;
+    let mut tries = 0..MOST_TRIES.min(MOST_BYTES / text.len().max(1));
     // The last one: without the function that is called wrongly no call stops either.
     let functions = repair::functions(text);
     let function = functions.into_iter().rev().find(|function| {
