@@ -8,8 +8,8 @@ use crate::{Rule, ShaderError};
 const DIALECTS: [(&[&str], &str, &str); 3] = [
     (
         &["import", "define_import_path"],
-        "naga_oil's, as Bevy's shaders are written in",
-        "validate what its Composer makes of it; imports of this library are `import moment_shadows::folder::file::{item};`",
+        "a preprocessor's: that of naga_oil, Vello or another",
+        "validate what it makes of the file; imports of this library are `import moment_shadows::folder::file::{item};`",
     ),
     (
         &[

@@ -103,7 +103,7 @@ impl<'a> File<'a> {
                     .to_owned()
             } else if is_attribute && matches!(token.text, "if" | "elif" | "else") {
                 format!(
-                    "conditional translation (`@{}`) is not supported; use a constant, or another file",
+                    "conditional translation (`@{}`) is not supported; use a constant or another file, or validate what the WESL linker makes of it",
                     token.text
                 )
             } else {

@@ -1,6 +1,6 @@
-//! An import: the only forms are `import super::super::folder::file::{a, b};` within the library, and
-//! `import moment_shadows::folder::file::{a, b};`, `import my_engine::file::{a, b};` or `import node::name::{a, b};` outside it. All are
-//! WESL as it stands.
+//! An import: the only form is `import super::super::folder::file::{a, b};` within the library. Outside it the path's root is
+//! `moment_shadows`, `node` or the name of a project's own modules; its own modules may say `package` and `super`, and one item
+//! needs no braces. All are WESL as it stands.
 
 use core::ops::Range;
 
@@ -13,7 +13,7 @@ use crate::{Rule, ShaderError};
 pub(crate) enum Form {
     /// `import super::super::folder::file::{a, b};`, in modules of the library.
     Inside,
-    /// `import moment_shadows::folder::file::{a, b};` and the like with another root, everywhere else.
+    /// `import moment_shadows::folder::file::{a, b};` and the like, everywhere else.
     Outside,
 }
 
@@ -52,8 +52,8 @@ impl Form {
     }
 }
 
-/// Roots that say where a module lies from the one that imports it.
-const RELATIVE: [&str; 3] = ["super", "package", "self"];
+/// Roots that say where a module lies from the one that imports it, and so name none.
+const RELATIVE: [&str; 2] = ["super", "self"];
 
 /// The path that a further module of the name `name` is imported by.
 pub(super) fn path_of(name: &str) -> Result<String, ShaderError> {
@@ -100,6 +100,14 @@ pub(crate) fn parse<'a, 'b>(
     Ok((import, reader.rest))
 }
 
+/// Adds `names` to a path.
+fn push(path: &mut String, names: &[Token<'_>]) {
+    for name in names {
+        path.push_str("::");
+        path.push_str(name.text);
+    }
+}
+
 /// Takes the tokens of one import, and says what is wrong at the first that does not fit.
 struct Reader<'a, 'b, 'c> {
     file: &'c File<'a>,
@@ -116,8 +124,7 @@ impl<'a> Reader<'a, '_, '_> {
             return Err(self.wrong("something stands before the import"));
         }
         self.take(|token| token.is_word("import"), "an import is expected")?;
-        let (module, path) = self.module()?;
-        let items = self.items()?;
+        let (module, path, items) = self.path()?;
         let brace = self.last;
         let Ok(semicolon) = self.take(|token| token.is_symbol(";"), "") else {
             self.last = brace;
@@ -139,36 +146,78 @@ impl<'a> Reader<'a, '_, '_> {
         })
     }
 
-    /// The module's path, up to the brace: its root, then one name or more.
-    fn module(&mut self) -> Result<(String, Range<usize>), ShaderError> {
+    /// The module's path and the items that are imported from it: its root, one name or more, and the items in braces or one
+    /// without.
+    fn path(&mut self) -> Result<(String, Range<usize>, Vec<Token<'a>>), ShaderError> {
         let root = self.take(
             |token| token.kind == Kind::Word,
             self.file.form.wrong_root(),
         )?;
-        let mut module = match (self.file.form, root.text) {
+        let mut module = self.root(root)?;
+        self.take(|token| token.kind == Kind::Path, "`::` is missing")?;
+        let mut names: Vec<Token<'a>> = Vec::new();
+        loop {
+            let braces = self.rest.first().is_some_and(|next| next.is_symbol("{"));
+            if braces && let Some(last) = names.last() {
+                let path = root.start..last.range().end;
+                push(&mut module, &names);
+                return Ok((module, path, self.items()?));
+            }
+            let missing = match names.as_slice() {
+                [] => "the module's name is missing",
+                _ => "items are imported in braces, or one by its name",
+            };
+            let name = self.take(|token| token.kind == Kind::Word, missing)?;
+            names.push(name);
+            if self.take(|token| token.kind == Kind::Path, "").is_ok() {
+                continue;
+            }
+            self.last = Some(name);
+            let Some((item, of @ [.., last])) = names.split_last() else {
+                return Err(self.wrong("the item's name is missing"));
+            };
+            if self.file.form == Form::Inside {
+                return Err(self.wrong("items are imported in braces"));
+            }
+            push(&mut module, of);
+            return Ok((module, root.start..last.range().end, vec![*item]));
+        }
+    }
+
+    /// The path that `root`, the first name of an import, stands for.
+    fn root(&mut self, root: Token<'a>) -> Result<String, ShaderError> {
+        let own = self.file.module.as_str();
+        match (self.file.form, root.text) {
             (Form::Inside, "super") => {
                 self.take(|token| token.kind == Kind::Path, "`::` is missing")?;
                 self.take(|token| token.is_word("super"), self.file.form.wrong_root())?;
-                "moment_shadows".to_owned()
+                Ok("moment_shadows".to_owned())
             }
-            (Form::Outside, name) if !RELATIVE.contains(&name) => root.text.to_owned(),
-            _ => return Err(self.wrong(self.file.form.wrong_root())),
-        };
-        self.take(|token| token.kind == Kind::Path, "`::` is missing")?;
-        let braces = "items are imported in braces";
-        let mut missing = "the module's name is missing";
+            (Form::Outside, "package") if !own.is_empty() => {
+                Ok(own.split("::").next().unwrap_or_default().to_owned())
+            }
+            (Form::Outside, "super") if !own.is_empty() => self.above(own),
+            (Form::Outside, name) if !RELATIVE.contains(&name) => Ok(name.to_owned()),
+            _ => Err(self.wrong(self.file.form.wrong_root())),
+        }
+    }
+
+    /// The path above `own`, by one part for each `super`; the first of them is taken already.
+    fn above(&mut self, own: &str) -> Result<String, ShaderError> {
+        let mut above = own;
         loop {
-            let name = self.take(|token| token.kind == Kind::Word, missing)?;
-            module.push_str("::");
-            module.push_str(name.text);
-            if self.take(|token| token.kind == Kind::Path, "").is_err() {
-                self.last = Some(name);
-                return Err(self.wrong(braces));
+            let Some((shorter, _)) = above.rsplit_once("::") else {
+                return Err(self.wrong("there is nothing above the root of the modules"));
+            };
+            above = shorter;
+            let [path, next, ..] = self.rest else {
+                return Ok(above.to_owned());
+            };
+            if path.kind != Kind::Path || !next.is_word("super") {
+                return Ok(above.to_owned());
             }
-            if self.rest.first().is_some_and(|next| next.is_symbol("{")) {
-                return Ok((module, root.start..name.range().end));
-            }
-            missing = braces;
+            self.rest = self.rest.get(2..).unwrap_or_default();
+            self.last = Some(*next);
         }
     }
 

@@ -39,9 +39,11 @@ pub struct Source<'a> {
 ///
 /// The rules of imports:
 /// - They come first, before directives and declarations, with nothing else on their lines but a `//` comment.
-/// - The only forms are `import moment_shadows::maths::hankel::{hankel_factor};` for the file `wgsl/maths/hankel.wgsl`
+/// - The forms are `import moment_shadows::maths::hankel::{hankel_factor};` for the file `wgsl/maths/hankel.wgsl`
 ///   (`super::super` in place of `moment_shadows` within the library), and for further modules `import my_engine::lights::{item};` and
-///   `import node::name::{item};`, with any number of items over any number of lines. No `as`, no `public`, no path within code, no conditional attribute.
+///   `import node::name::{item};`, with any number of items over any number of lines; one item needs no braces. Further modules may
+///   write `package` for the first name of their own path, and `super` for their path without its last. In `source` `package` is a
+///   name as any other: that of modules named `package::lights`. No `as`, no `public`, no path within code, no conditional attribute.
 /// - Every item is defined at top level by its module, and imported once; a file imports every item that it uses.
 ///
 /// The result holds `source` whole, and of each module what `source` reaches: the declarations whose names stand in what is linked,
@@ -102,6 +104,18 @@ impl<'a> Library<'a> {
                     continue;
                 }
                 let (module, at) = (import.module.clone(), file.at(import.path.clone()));
+                if let [item] = import.items.as_slice()
+                    && !self.modules.contains_key(&module)
+                    && self
+                        .modules
+                        .contains_key(&format!("{module}::{}", item.text))
+                {
+                    let written = file.form.written(&format!("{module}::{}", item.text));
+                    let message = format!(
+                        "`{written}` is a module, of which items are imported; write `import {written}::{{item, item}};`"
+                    );
+                    return Err(file.error(item.range(), message));
+                }
                 let form = file.form;
                 if let Some(first) = path.iter().position(|(above, _)| above.module == module) {
                     let cycle = path

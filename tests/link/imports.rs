@@ -71,16 +71,10 @@ fn a_module_of_the_library_imports_its_siblings() {
 #[test]
 fn refuses_other_forms_of_import() {
     let outside = "outside the library an import starts with `moment_shadows::`, `node::`, or the name of a project's own modules";
-    let braces = "items are imported in braces";
+    let braces = "items are imported in braces, or one by its name";
     let plain = "items are plain names with commas between them (no `as`, no path)";
     let after = "something stands after the import";
     let cases = [
-        // In a copy of the library this would be a path from the root of the user's tree.
-        (
-            "import package::maths::hankel::{hankel_factor};",
-            (1, 8, 7),
-            outside,
-        ),
         (
             "import moment_shadows::maths::hankel::{a};\nimport super::super::maths::hankel::{b};",
             (2, 8, 5),
@@ -91,11 +85,15 @@ fn refuses_other_forms_of_import() {
             (2, 8, 4),
             outside,
         ),
-        ("import moment_shadows::maths::hankel;", (1, 31, 6), braces),
         (
-            "import moment_shadows::maths::hankel::hankel_factor;",
-            (1, 39, 13),
-            braces,
+            "import moment_shadows::hankel;",
+            (1, 24, 6),
+            "the item's name is missing",
+        ),
+        (
+            "import moment_shadows::maths::hankel as h;",
+            (1, 31, 6),
+            "`;` is missing",
         ),
         (
             "import moment_shadows::maths::hankel::*;",
@@ -173,6 +171,73 @@ fn refuses_other_forms_of_import() {
     for (text, at, reason) in cases {
         assert_eq!(wrong_form(text), (at, reason.to_owned()), "{text}");
     }
+}
+
+#[test]
+fn one_item_needs_no_braces() {
+    let text =
+        "import moment_shadows::maths::hankel::hankel_factor;\nfn f() { _ = hankel_factor; }\n";
+    let braces = text.replace("hankel_factor;\nfn", "{hankel_factor};\nfn");
+    assert_eq!(link_user(text), link_user(&braces));
+
+    let (message, at) = refused(link_user("import moment_shadows::maths::hankel;"));
+    assert_eq!(
+        message,
+        "`moment_shadows::maths::hankel` is a module, of which items are imported; \
+         write `import moment_shadows::maths::hankel::{item, item};`"
+    );
+    assert_eq!(place(&at), (1, 31, 6));
+
+    let inside = "import super::super::maths::hankel::hankel_factor;\n";
+    let (message, _) = refused(link_user(inside));
+    assert!(
+        message.starts_with("items are imported in braces;"),
+        "{message}"
+    );
+}
+
+#[test]
+fn own_modules_import_each_other_from_where_they_lie() {
+    let modules = [
+        (
+            "my_engine::sky::sun",
+            "import package::light::SUN;\nimport super::moon::{MOON};\nconst BOTH = SUN + MOON;\n",
+        ),
+        (
+            "my_engine::sky::moon",
+            "import super::super::light::{DIM};\nconst MOON = DIM;\n",
+        ),
+        ("my_engine::light", "const SUN = 1;\nconst DIM = 2;\n"),
+    ];
+    let text = "import my_engine::sky::sun::BOTH;\nconst c = BOTH;\n";
+    let linked = link_with(text, &modules).unwrap();
+    let files: Vec<_> = linked.files().collect();
+    let expected = [
+        "my_engine::light",
+        "my_engine::sky::moon",
+        "my_engine::sky::sun",
+        "user.wgsl",
+    ];
+    assert_eq!(files, expected);
+
+    // In a shader that is no module `package` is a name as any other.
+    let text = "import package::light::SUN;\nconst c = SUN;\n";
+    let (message, at) = refused(link_with(text, &modules));
+    assert!(
+        message
+            .starts_with("there is no module `package::light`; the nearest are `my_engine::light`"),
+        "{message}"
+    );
+    assert_eq!(place(&at), (1, 8, 14));
+    link_with(text, &[("package::light", "const SUN = 1;\n")]).unwrap();
+
+    let above = [("my_engine::light", "import super::super::x::{a};\n")];
+    let (message, at) = refused(link_with("import my_engine::light::{b};\n", &above));
+    assert!(
+        message.starts_with("there is nothing above the root of the modules"),
+        "{message}"
+    );
+    assert_eq!(place(&at), (1, 15, 5));
 }
 
 #[test]

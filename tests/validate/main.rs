@@ -342,8 +342,16 @@ fn overrides_are_tried_with_several_values() {
 fn other_dialects_are_told_by_name() {
     let fragment = "@fragment fn main() -> @location(0) vec4f { return vec4f(1.0); }\n";
     for (line, expected, width) in [
-        ("#import bevy_pbr::forward_io::VertexOutput", "naga_oil", 7),
-        ("#define_import_path my::module", "naga_oil", 19),
+        (
+            "#import bevy_pbr::forward_io::VertexOutput",
+            "a preprocessor's: that of naga_oil",
+            7,
+        ),
+        (
+            "#define_import_path my::module",
+            "a preprocessor's: that of naga_oil",
+            19,
+        ),
         ("#ifdef SHADOWS", "preprocessor", 6),
         ("  #include \"common.wgsl\"", "includes no files", 8),
         ("#pragma once", "another language", 7),

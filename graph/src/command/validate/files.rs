@@ -6,7 +6,7 @@ use std::path::{Path, PathBuf};
 
 use crate::command::CommandError;
 
-/// Each file of `paths`, and of each folder every WGSL file below it, by name.
+/// Each file of `paths`, and of each folder every WGSL and WESL file below it, by name.
 pub(super) fn all(paths: &[PathBuf]) -> Result<Vec<PathBuf>, CommandError> {
     let mut found = Vec::new();
     for path in paths {
@@ -19,7 +19,7 @@ pub(super) fn all(paths: &[PathBuf]) -> Result<Vec<PathBuf>, CommandError> {
     Ok(found)
 }
 
-/// Every WGSL file below a folder, by name.
+/// Every WGSL and WESL file below a folder, by name.
 pub(super) fn below(folder: &Path) -> Result<Vec<PathBuf>, CommandError> {
     let failed = |source| CommandError::Read {
         path: folder.display().to_string(),
@@ -34,7 +34,10 @@ pub(super) fn below(folder: &Path) -> Result<Vec<PathBuf>, CommandError> {
             // A link to a folder may lead back to where it lies.
             if entry.file_type().map_err(failed)?.is_dir() {
                 waiting.push(path);
-            } else if path.extension().is_some_and(|end| end == "wgsl") {
+            } else if path
+                .extension()
+                .is_some_and(|end| end == "wgsl" || end == "wesl")
+            {
                 found.push(path);
             }
         }
@@ -42,7 +45,7 @@ pub(super) fn below(folder: &Path) -> Result<Vec<PathBuf>, CommandError> {
     if found.is_empty() {
         let none = io::Error::new(
             io::ErrorKind::NotFound,
-            "the folder has no file that ends in .wgsl",
+            "the folder has no file that ends in .wgsl or .wesl",
         );
         return Err(failed(none));
     }
