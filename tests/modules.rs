@@ -3,11 +3,16 @@
 
 use std::collections::{BTreeMap, BTreeSet};
 use std::fs;
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
 use moment_shadows::{
     Backend, Module, Profile, Source, ValidationOptions, link, modules, validate,
 };
+
+#[path = "support/identifiers.rs"]
+mod identifiers;
+
+use identifiers::taken_identifiers;
 
 /// What may be called in non-uniform control flow.
 const TEXTURE_FUNCTIONS: [&str; 9] = [
@@ -222,6 +227,44 @@ fn numbers_mean_the_same_to_every_linker() {
     for module in modules() {
         for number in hexadecimal_floats(&code(module.source)) {
             failures.push(format!("{}: hexadecimal float `{number}`", module.name));
+        }
+    }
+    assert_none(&failures);
+}
+
+/// The files below a folder that are written by hand and end in `.wgsl`.
+fn wgsl_files(folder: &Path) -> Vec<PathBuf> {
+    let mut files = Vec::new();
+    for entry in fs::read_dir(folder).unwrap() {
+        let path = entry.unwrap().path();
+        if path.is_dir() {
+            if !["snapshots", "target"].iter().any(|it| path.ends_with(it)) {
+                files.extend(wgsl_files(&path));
+            }
+        } else if path.extension().is_some_and(|it| it == "wgsl") {
+            files.push(path);
+        }
+    }
+    files
+}
+
+#[test]
+fn no_name_is_a_keyword_to_libraries_that_reflect_shaders() {
+    // `tests/shaders.rs` looks at what is generated.
+    let root = Path::new(env!("CARGO_MANIFEST_DIR"));
+    let mut failures = Vec::new();
+    for folder in ["wgsl", "graph/src", "examples", "tests"] {
+        let files = wgsl_files(&root.join(folder));
+        assert!(!files.is_empty(), "{folder}");
+        for file in files {
+            let text = fs::read_to_string(&file).unwrap();
+            for line in taken_identifiers(&text) {
+                let file = file.strip_prefix(root).unwrap().display();
+                failures.push(format!(
+                    "{file}: another name is needed in `{}`",
+                    line.trim()
+                ));
+            }
         }
     }
     assert_none(&failures);

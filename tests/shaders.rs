@@ -6,6 +6,9 @@
     reason = "a test that fails says where"
 )]
 
+#[path = "support/identifiers.rs"]
+mod identifiers;
+
 use std::collections::{BTreeMap, BTreeSet};
 use std::path::Path;
 
@@ -13,6 +16,8 @@ use moment_shadows::{Profile, Source, ValidationOptions, modules, validate};
 use moment_shadows_lab::error::LabError;
 use moment_shadows_lab::shaders::{self, Kind, Shader};
 use serde_json::Value;
+
+use identifiers::taken_identifiers;
 
 fn shader(name: &str, wgsl: &str) -> Shader {
     Shader {
@@ -77,6 +82,21 @@ fn every_function_of_a_module_is_called_where_control_flow_is_not_uniform() {
             assert!(calls.contains(&format!("{function}(")), "{function}");
         }
     }
+}
+
+#[test]
+fn no_name_in_a_linked_shader_is_a_keyword_to_libraries_that_reflect_shaders() {
+    let mut failures = Vec::new();
+    for shader in shaders::all().unwrap() {
+        for line in taken_identifiers(&shader.wgsl) {
+            failures.push(format!(
+                "{}: another name is needed in `{}`",
+                shader.name,
+                line.trim()
+            ));
+        }
+    }
+    assert!(failures.is_empty(), "\n{}", failures.join("\n"));
 }
 
 #[test]

@@ -8,7 +8,7 @@ struct BatchInput {
     far: f32,
     far_weight: f32,
     fragment_depth: f32,
-    storage: u32,
+    stored_as: u32,
     padding: u32,
 }
 
@@ -21,11 +21,11 @@ struct BatchOutput {
     padding: f32,
 }
 
-fn stored(texel: vec4f, storage: u32) -> vec4f {
-    if storage == STORAGE_UNORM16 {
+fn stored(texel: vec4f, stored_as: u32) -> vec4f {
+    if stored_as == STORAGE_UNORM16 {
         return vec4f(unpack2x16unorm(pack2x16unorm(texel.xy)), unpack2x16unorm(pack2x16unorm(texel.zw)));
     }
-    if storage == STORAGE_FLOAT16 {
+    if stored_as == STORAGE_FLOAT16 {
         return vec4f(unpack2x16float(pack2x16float(texel.xy)), unpack2x16float(pack2x16float(texel.zw)));
     }
     return texel;
@@ -33,9 +33,9 @@ fn stored(texel: vec4f, storage: u32) -> vec4f {
 
 fn batch(input: BatchInput) -> BatchOutput {
     let moments = mix(four_moments_from_depth(input.near), four_moments_from_depth(input.far), input.far_weight);
-    let texel = stored(four_moments_to_texel(moments, input.storage), input.storage);
-    let decoded = four_moments_from_texel(texel, input.storage);
-    let bias = four_moments_bias_of(input.storage);
+    let texel = stored(four_moments_to_texel(moments, input.stored_as), input.stored_as);
+    let decoded = four_moments_from_texel(texel, input.stored_as);
+    let bias = four_moments_bias_of(input.stored_as);
     let biased = four_moments_apply_bias(four_moments_clamp(decoded), bias);
     let bounds = hamburger4_bounds(biased, input.fragment_depth, bias.alpha);
     let intensity = hamburger4_shadow_intensity(decoded, input.fragment_depth, bias);

@@ -2,7 +2,7 @@ import moment_shadows::moments::four_moments::{four_moments_apply_bias, four_mom
 
 struct BatchInput {
     moments: vec4f,
-    storage: u32,
+    stored_as: u32,
     padding: vec3u,
 }
 
@@ -18,17 +18,17 @@ struct BatchOutput {
 }
 
 fn batch(input: BatchInput) -> BatchOutput {
-    let bias = four_moments_bias_of(input.storage);
+    let bias = four_moments_bias_of(input.stored_as);
     // Two surfaces: moments in their ranges but for the rounding of the texel.
     let valid = mix(four_moments_from_depth(input.moments.x), four_moments_from_depth(input.moments.z), input.moments.y);
-    let texel = four_moments_to_texel(valid, input.storage);
+    let texel = four_moments_to_texel(valid, input.stored_as);
     return BatchOutput(
         four_moments_apply_bias(input.moments, bias),
         bias.alpha,
         bias.second,
         bias.fourth,
         0.0,
-        four_moments_biased_from_texel(texel, input.storage, bias),
-        four_moments_apply_bias(four_moments_from_texel(texel, input.storage), bias),
+        four_moments_biased_from_texel(texel, input.stored_as, bias),
+        four_moments_apply_bias(four_moments_from_texel(texel, input.stored_as), bias),
     );
 }

@@ -3,7 +3,7 @@ import moment_shadows::moments::six_moments::{SixMoments, SIX_MOMENTS_EVEN_BASIS
 // Moments, and the channels of two texels.
 struct BatchInput {
     odd: vec3f,
-    storage: u32,
+    stored_as: u32,
     even: vec3f,
     padding: u32,
     odd_texel: vec3f,
@@ -37,13 +37,13 @@ struct BatchOutput {
 
 fn batch(input: BatchInput) -> BatchOutput {
     let moments = SixMoments(input.odd, input.even);
-    let bias = six_moments_bias_of(input.storage);
-    let odd = six_moments_to_odd_texel(input.odd, input.storage);
-    let encoded = array<vec4f, 2>(odd, six_moments_to_even_texel(input.even, input.storage));
-    let decoded = six_moments_from_texels(encoded, input.storage);
+    let bias = six_moments_bias_of(input.stored_as);
+    let odd = six_moments_to_odd_texel(input.odd, input.stored_as);
+    let encoded = array<vec4f, 2>(odd, six_moments_to_even_texel(input.even, input.stored_as));
+    let decoded = six_moments_from_texels(encoded, input.stored_as);
     let biased = six_moments_apply_bias(moments, bias);
     let texels = array<vec4f, 2>(vec4f(input.odd_texel, 1.0), vec4f(input.even_texel, 1.0));
-    let of_texels = six_moments_apply_bias(six_moments_from_texels(texels, input.storage), bias);
+    let of_texels = six_moments_apply_bias(six_moments_from_texels(texels, input.stored_as), bias);
     return BatchOutput(
         six_moments_affine(SIX_MOMENTS_ODD_BASIS, input.odd, SIX_MOMENTS_ODD_OFFSET),
         bias.alpha,

@@ -10,7 +10,7 @@ struct BatchInput {
     depths: array<f32, 6>,
     weights: array<f32, 6>,
     depth: f32,
-    storage: u32,
+    stored_as: u32,
     texels: array<vec4f, 2>,
 }
 
@@ -26,8 +26,8 @@ struct BatchOutput {
 }
 
 // What a texture of the storage keeps; the modules round float16 themselves.
-fn kept(texel: vec4f, storage: u32) -> vec4f {
-    return select(texel, round(saturate(texel) * 65535.0) / 65535.0, storage == STORAGE_UNORM16);
+fn kept(texel: vec4f, stored_as: u32) -> vec4f {
+    return select(texel, round(saturate(texel) * 65535.0) / 65535.0, stored_as == STORAGE_UNORM16);
 }
 
 fn batch(input: BatchInput) -> BatchOutput {
@@ -41,17 +41,17 @@ fn batch(input: BatchInput) -> BatchOutput {
         whole.odd = fma(vec3f(weights[index]), powers.odd, whole.odd);
         whole.even = fma(vec3f(weights[index]), powers.even, whole.even);
     }
-    let odd = kept(enclosed_moments_to_odd_texel(sums, input.storage), input.storage);
-    let even = kept(enclosed_moments_to_even_texel(sums, input.storage), input.storage);
-    let whole_odd = six_moments_to_odd_texel(whole.odd, input.storage);
-    let whole_even = six_moments_to_even_texel(whole.even, input.storage);
-    let kept_whole = array<vec4f, 2>(kept(whole_odd, input.storage), kept(whole_even, input.storage));
-    let bias = six_moments_bias_of(input.storage);
-    let biased = six_moments_apply_bias(six_moments_from_texels(kept_whole, input.storage), bias);
+    let odd = kept(enclosed_moments_to_odd_texel(sums, input.stored_as), input.stored_as);
+    let even = kept(enclosed_moments_to_even_texel(sums, input.stored_as), input.stored_as);
+    let whole_odd = six_moments_to_odd_texel(whole.odd, input.stored_as);
+    let whole_even = six_moments_to_even_texel(whole.even, input.stored_as);
+    let kept_whole = array<vec4f, 2>(kept(whole_odd, input.stored_as), kept(whole_even, input.stored_as));
+    let bias = six_moments_bias_of(input.stored_as);
+    let biased = six_moments_apply_bias(six_moments_from_texels(kept_whole, input.stored_as), bias);
     return BatchOutput(
-        enclosed_moments_bounds(array<vec4f, 2>(odd, even), input.depth, input.storage),
+        enclosed_moments_bounds(array<vec4f, 2>(odd, even), input.depth, input.stored_as),
         hamburger6_bounds(biased, input.depth, bias.alpha),
-        enclosed_moments_bounds(input.texels, input.depth, input.storage),
+        enclosed_moments_bounds(input.texels, input.depth, input.stored_as),
         vec2f(0.0),
         odd,
         even,

@@ -14,5 +14,6 @@ alias SumsStorage = texture_storage_2d<rgba32uint, write>;
 const CHANNELS = 4u;
 const REGIONS = 1u;
 const TILE = vec2u(8u, 16u);
-const WORKGROUP = vec2u(8u, 8u);
+const WORKGROUP_X = 8u;
+const WORKGROUP_Y = 8u;
 

@@ -20,7 +20,8 @@ const UNIT = 1016560u;
 const CHANNELS = 2u;
 const REGIONS = 1u;
 const TILE = vec2u(8u, 16u);
-const WORKGROUP = vec2u(8u, 8u);
+const WORKGROUP_X = 8u;
+const WORKGROUP_Y = 8u;
 
 // map_encoding
 // The texel for the mean.

@@ -143,15 +143,15 @@ fn batch(input: BatchInput) -> BatchOutput {
         let texel = random_moments(kind);
         let depth = random_depth(texel);
         var results: array<f32, 15>;
-        for (var storage = 0u; storage < 3u; storage++) {
-            let bias = four_moments_bias_of(storage);
+        for (var stored_as = 0u; stored_as < 3u; stored_as++) {
+            let bias = four_moments_bias_of(stored_as);
             // Moments as the solver may get them: out of any storage, or given by a host.
-            let decoded = four_moments_from_texel(texel, storage);
-            results[storage] = hamburger4_shadow_intensity(decoded, depth, bias);
+            let decoded = four_moments_from_texel(texel, stored_as);
+            results[stored_as] = hamburger4_shadow_intensity(decoded, depth, bias);
             let biased = four_moments_apply_bias(four_moments_clamp(texel), bias);
             let bounds = hamburger4_bounds(biased, depth, bias.alpha);
-            results[3u + 2u * storage] = bounds.x;
-            results[4u + 2u * storage] = bounds.y;
+            results[3u + 2u * stored_as] = bounds.x;
+            results[4u + 2u * stored_as] = bounds.y;
         }
         // Texels as textures can hold them: unorm channels are in [0, 1].
         results[12] = hamburger4_shadow_intensity_of_texel(saturate(texel), depth, STORAGE_UNORM16);

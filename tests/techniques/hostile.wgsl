@@ -13,7 +13,7 @@ struct BatchInput {
     splits: vec4f,
     exponents: vec2f,
     depth: u32,
-    storage: u32,
+    stored_as: u32,
     terms: u32,
     layers: u32,
     overlap: f32,
@@ -25,10 +25,10 @@ struct BatchOutput {
 }
 
 fn batch(input: BatchInput) -> BatchOutput {
-    let storage = input.storage;
+    let stored_as = input.stored_as;
     let depth = bitcast<f32>(input.depth);
     var texel = bitcast<vec4f>(input.texel);
-    if !storage_is_float(storage) {
+    if !storage_is_float(stored_as) {
         // All that a unorm texture can hold.
         texel = vec4f(input.texel >> vec4u(16u)) / 65535.0;
     }
@@ -40,29 +40,29 @@ fn batch(input: BatchInput) -> BatchOutput {
         let lower = convolution_receiver(depth, input.terms, true);
         let series = convolution_receiver(depth, input.terms, false);
         sums += vec2f(
-            convolution_plane(texel, storage, plane, input.terms, lower, input.damping),
-            convolution_plane(texel, storage, plane, input.terms, series, input.damping),
+            convolution_plane(texel, stored_as, plane, input.terms, lower, input.damping),
+            convolution_plane(texel, stored_as, plane, input.terms, series, input.damping),
         );
     }
-    let moments = two_moments_from_texel(texel, storage).xy;
+    let moments = two_moments_from_texel(texel, stored_as).xy;
     return BatchOutput(array<vec4f, 3>(
         vec4f(
-            chebyshev_shadow_intensity_of_texel(texel, depth, storage),
-            chebyshev_upper_bound(moments, clamp(depth, -1.0, 1.0), two_moments_smallest_variance_of(storage)),
-            layered_variance_shadow_intensity_of_texel(texel, depth, storage, layers, choice.layer),
-            layered_variance_shadow_intensity_of_texel(texel, depth, storage, layers, choice.neighbor),
+            chebyshev_shadow_intensity_of_texel(texel, depth, stored_as),
+            chebyshev_upper_bound(moments, clamp(depth, -1.0, 1.0), two_moments_smallest_variance_of(stored_as)),
+            layered_variance_shadow_intensity_of_texel(texel, depth, stored_as, layers, choice.layer),
+            layered_variance_shadow_intensity_of_texel(texel, depth, stored_as, layers, choice.neighbor),
         ),
         vec4f(
             choice.neighbor_share,
-            exponential_shadow_intensity_of_texel(texel, depth, storage, exponents.x, false),
-            exponential_shadow_intensity_of_texel(texel, depth, storage, exponents.x, true),
-            exponential_variance_shadow_intensity_of_texel(texel, depth, storage, exponents, false),
+            exponential_shadow_intensity_of_texel(texel, depth, stored_as, exponents.x, false),
+            exponential_shadow_intensity_of_texel(texel, depth, stored_as, exponents.x, true),
+            exponential_variance_shadow_intensity_of_texel(texel, depth, stored_as, exponents, false),
         ),
         vec4f(
-            exponential_variance_shadow_intensity_of_texel(texel, depth, storage, exponents, true),
+            exponential_variance_shadow_intensity_of_texel(texel, depth, stored_as, exponents, true),
             convolution_shadow_intensity(sums.x, input.terms, true),
             convolution_shadow_intensity(sums.y, input.terms, false),
-            hausdorff4_shadow_intensity_of_texel(texel, depth, storage),
+            hausdorff4_shadow_intensity_of_texel(texel, depth, stored_as),
         ),
     ));
 }

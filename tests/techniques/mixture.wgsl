@@ -19,7 +19,7 @@ struct BatchInput {
     // Exponents of the exponential technique (plain, logarithmic) and of the exponential variance technique.
     exponents: vec4f,
     fragment_depth: f32,
-    storage: u32,
+    stored_as: u32,
     terms: u32,
     padding: u32,
 }
@@ -40,8 +40,8 @@ struct BatchOutput {
     hausdorff: f32,
 }
 
-fn stored(texel: vec4f, storage: u32) -> vec4f {
-    switch storage {
+fn stored(texel: vec4f, stored_as: u32) -> vec4f {
+    switch stored_as {
         case STORAGE_UNORM16: {
             return vec4f(unpack2x16unorm(pack2x16unorm(texel.xy)), unpack2x16unorm(pack2x16unorm(texel.zw)));
         }
@@ -66,14 +66,14 @@ fn layer_intensity(input: BatchInput, layer: u32) -> f32 {
         let weight = weights[index / 4u][index % 4u];
         channels += weight * layered_variance_channels(depths[index / 4u][index % 4u], input.layers, plane);
     }
-    let texel = stored(two_moments_to_texel(channels, input.storage), input.storage);
-    return layered_variance_shadow_intensity_of_texel(texel, input.fragment_depth, input.storage, input.layers, layer);
+    let texel = stored(two_moments_to_texel(channels, input.stored_as), input.stored_as);
+    return layered_variance_shadow_intensity_of_texel(texel, input.fragment_depth, input.stored_as, input.layers, layer);
 }
 
 fn batch(input: BatchInput) -> BatchOutput {
     var depths = input.depths;
     var weights = input.weights;
-    let storage = input.storage;
+    let stored_as = input.stored_as;
     let depth = input.fragment_depth;
     var variance = vec4f(0.0);
     var plain = vec4f(0.0);
@@ -88,16 +88,16 @@ fn batch(input: BatchInput) -> BatchOutput {
         plain += weight * exponential_channels(z, input.exponents.x);
         let channels = exponential_channels(z, input.exponents.y);
         logarithmic += weight * channels;
-        let tap = stored(exponential_to_texel(channels, storage, input.exponents.y, true), storage);
-        filtered.x += weight * exponential_mean_of_texel(tap, storage, input.exponents.y, true);
+        let tap = stored(exponential_to_texel(channels, stored_as, input.exponents.y, true), stored_as);
+        filtered.x += weight * exponential_mean_of_texel(tap, stored_as, input.exponents.y, true);
         exponential_variance += weight * exponential_variance_channels(z, input.exponents.zw);
         moments += weight * four_moments_from_depth(z);
     }
     var output = BatchOutput();
-    let variance_texel = stored(two_moments_to_texel(variance, storage), storage);
-    output.variance = chebyshev_shadow_intensity_of_texel(variance_texel, depth, storage);
-    let decoded = two_moments_from_texel(variance_texel, storage).xy;
-    output.variance_upper = chebyshev_upper_bound(decoded, depth, two_moments_smallest_variance_of(storage));
+    let variance_texel = stored(two_moments_to_texel(variance, stored_as), stored_as);
+    output.variance = chebyshev_shadow_intensity_of_texel(variance_texel, depth, stored_as);
+    let decoded = two_moments_from_texel(variance_texel, stored_as).xy;
+    output.variance_upper = chebyshev_upper_bound(decoded, depth, two_moments_smallest_variance_of(stored_as));
 
     let choice = layered_variance_choice(input.layers, depth);
     output.layered = layer_intensity(input, choice.layer);
@@ -105,19 +105,19 @@ fn batch(input: BatchInput) -> BatchOutput {
         output.layered = mix(output.layered, layer_intensity(input, choice.neighbor), choice.neighbor_share);
     }
 
-    let plain_texel = stored(exponential_to_texel(plain, storage, input.exponents.x, false), storage);
-    output.exponential = exponential_shadow_intensity_of_texel(plain_texel, depth, storage, input.exponents.x, false);
+    let plain_texel = stored(exponential_to_texel(plain, stored_as, input.exponents.x, false), stored_as);
+    output.exponential = exponential_shadow_intensity_of_texel(plain_texel, depth, stored_as, input.exponents.x, false);
     let c = input.exponents.y;
-    let logarithmic_texel = stored(exponential_to_texel(logarithmic, storage, c, true), storage);
-    output.exponential_logarithmic = exponential_shadow_intensity_of_texel(logarithmic_texel, depth, storage, c, true);
-    let filtered_texel = stored(exponential_to_texel(filtered, storage, c, true), storage);
-    output.exponential_filtered = exponential_shadow_intensity_of_texel(filtered_texel, depth, storage, c, true);
+    let logarithmic_texel = stored(exponential_to_texel(logarithmic, stored_as, c, true), stored_as);
+    output.exponential_logarithmic = exponential_shadow_intensity_of_texel(logarithmic_texel, depth, stored_as, c, true);
+    let filtered_texel = stored(exponential_to_texel(filtered, stored_as, c, true), stored_as);
+    output.exponential_filtered = exponential_shadow_intensity_of_texel(filtered_texel, depth, stored_as, c, true);
 
-    let warped = stored(exponential_variance_to_texel(exponential_variance, storage), storage);
+    let warped = stored(exponential_variance_to_texel(exponential_variance, stored_as), stored_as);
     output.exponential_variance_2 =
-        exponential_variance_shadow_intensity_of_texel(warped, depth, storage, input.exponents.zw, false);
+        exponential_variance_shadow_intensity_of_texel(warped, depth, stored_as, input.exponents.zw, false);
     output.exponential_variance_4 =
-        exponential_variance_shadow_intensity_of_texel(warped, depth, storage, input.exponents.zw, true);
+        exponential_variance_shadow_intensity_of_texel(warped, depth, stored_as, input.exponents.zw, true);
 
     var lower = 0.0;
     var series = 0.0;
@@ -127,17 +127,17 @@ fn batch(input: BatchInput) -> BatchOutput {
             let weight = weights[index / 4u][index % 4u];
             waves += weight * convolution_channels(depths[index / 4u][index % 4u], plane, input.terms);
         }
-        let texel = stored(convolution_to_texel(waves, storage), storage);
+        let texel = stored(convolution_to_texel(waves, stored_as), stored_as);
         let shifted = convolution_receiver(depth, input.terms, true);
         let receiver = convolution_receiver(depth, input.terms, false);
-        lower += convolution_plane(texel, storage, plane, input.terms, shifted, CONVOLUTION_DAMPING);
-        series += convolution_plane(texel, storage, plane, input.terms, receiver, CONVOLUTION_DAMPING);
+        lower += convolution_plane(texel, stored_as, plane, input.terms, shifted, CONVOLUTION_DAMPING);
+        series += convolution_plane(texel, stored_as, plane, input.terms, receiver, CONVOLUTION_DAMPING);
     }
     output.convolution = convolution_shadow_intensity(lower, input.terms, true);
     output.convolution_series = convolution_shadow_intensity(series, input.terms, false);
 
-    let moments_texel = stored(four_moments_to_texel(moments, storage), storage);
-    output.hamburger = hamburger4_shadow_intensity_of_texel(moments_texel, depth, storage);
-    output.hausdorff = hausdorff4_shadow_intensity_of_texel(moments_texel, depth, storage);
+    let moments_texel = stored(four_moments_to_texel(moments, stored_as), stored_as);
+    output.hamburger = hamburger4_shadow_intensity_of_texel(moments_texel, depth, stored_as);
+    output.hausdorff = hausdorff4_shadow_intensity_of_texel(moments_texel, depth, stored_as);
     return output;
 }

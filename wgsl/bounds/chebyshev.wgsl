@@ -25,7 +25,7 @@ fn chebyshev_upper_bound(moments: vec2f, fragment_depth: f32, smallest_variance:
 }
 
 // Shadow intensity in [0, 1] (1 = shadowed) of a fragment at `fragment_depth` under a filtered texel: a lower bound.
-fn chebyshev_shadow_intensity_of_texel(texel: vec4f, fragment_depth: f32, storage: u32) -> f32 {
-    let moments = two_moments_from_texel(texel, storage).xy;
-    return chebyshev_lower_bound(moments, depth_of_fragment(fragment_depth), two_moments_smallest_variance_of(storage));
+fn chebyshev_shadow_intensity_of_texel(texel: vec4f, fragment_depth: f32, stored_as: u32) -> f32 {
+    let moments = two_moments_from_texel(texel, stored_as).xy;
+    return chebyshev_lower_bound(moments, depth_of_fragment(fragment_depth), two_moments_smallest_variance_of(stored_as));
 }

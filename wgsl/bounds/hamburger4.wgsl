@@ -97,7 +97,7 @@ fn hamburger4_shadow_intensity(moments: vec4f, fragment_depth: f32, bias: FourMo
 // Shadow intensity in [0, 1] (1 = shadowed) of a fragment under a filtered texel of a storage, with the bias of the storage.
 // Cheaper than `hamburger4_shadow_intensity`, since decoding and bias are one step and a texel of unorm storage needs no
 // clamping.
-fn hamburger4_shadow_intensity_of_texel(texel: vec4f, fragment_depth: f32, storage: u32) -> f32 {
-    let bias = four_moments_bias_of(storage);
-    return hamburger4_lower_bound(four_moments_biased_from_texel(texel, storage, bias), fragment_depth, bias.alpha);
+fn hamburger4_shadow_intensity_of_texel(texel: vec4f, fragment_depth: f32, stored_as: u32) -> f32 {
+    let bias = four_moments_bias_of(stored_as);
+    return hamburger4_lower_bound(four_moments_biased_from_texel(texel, stored_as, bias), fragment_depth, bias.alpha);
 }

@@ -152,6 +152,6 @@ fn hamburger6_shadow_intensity(moments: SixMoments, fragment_depth: f32, bias: S
 
 // Shadow intensity in [0, 1] (1 = shadowed) of a fragment under the two filtered texels of a storage, with the bias of the
 // storage.
-fn hamburger6_shadow_intensity_of_texels(texels: array<vec4f, 2>, fragment_depth: f32, storage: u32) -> f32 {
-    return hamburger6_shadow_intensity(six_moments_from_texels(texels, storage), fragment_depth, six_moments_bias_of(storage));
+fn hamburger6_shadow_intensity_of_texels(texels: array<vec4f, 2>, fragment_depth: f32, stored_as: u32) -> f32 {
+    return hamburger6_shadow_intensity(six_moments_from_texels(texels, stored_as), fragment_depth, six_moments_bias_of(stored_as));
 }

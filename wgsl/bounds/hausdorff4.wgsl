@@ -32,11 +32,11 @@ const HAUSDORFF4_SMALLEST_MASS: f32 = 0.03;
 const HAUSDORFF4_SMALLEST_RESIDUE: f32 = 0.01;
 
 // The moment bias of a storage.
-fn hausdorff4_bias_of(storage: u32) -> FourMomentsBias {
-    if storage == STORAGE_FLOAT32 {
+fn hausdorff4_bias_of(stored_as: u32) -> FourMomentsBias {
+    if stored_as == STORAGE_FLOAT32 {
         return HAUSDORFF4_BIAS_FLOAT32;
     }
-    if storage == STORAGE_FLOAT16 {
+    if stored_as == STORAGE_FLOAT16 {
         return HAUSDORFF4_BIAS_FLOAT16;
     }
     return HAUSDORFF4_BIAS_UNORM16;
@@ -109,8 +109,8 @@ fn hausdorff4_lower_bound(biased: vec4f, fragment_depth: f32, alpha: f32) -> f32
 
 // Shadow intensity in [0, 1] (1 = shadowed) of a fragment under a filtered texel of a storage, as `four_moments_to_texel`
 // writes it, with the bias of the storage.
-fn hausdorff4_shadow_intensity_of_texel(texel: vec4f, fragment_depth: f32, storage: u32) -> f32 {
-    let bias = hausdorff4_bias_of(storage);
-    let biased = four_moments_biased_from_texel(storage_finite_texel(texel, storage), storage, bias);
+fn hausdorff4_shadow_intensity_of_texel(texel: vec4f, fragment_depth: f32, stored_as: u32) -> f32 {
+    let bias = hausdorff4_bias_of(stored_as);
+    let biased = four_moments_biased_from_texel(storage_finite_texel(texel, stored_as), stored_as, bias);
     return hausdorff4_lower_bound(biased, fragment_depth, bias.alpha);
 }

@@ -18,8 +18,8 @@ const STORAGE_UNORM10: u32 = 5u;
 const STORAGE_LARGEST_FLOAT16: f32 = 65504.0;
 
 // Whether the channels of the storage are floats, which can be anything, rather than numbers in [0, 1].
-fn storage_is_float(storage: u32) -> bool {
-    return storage == STORAGE_FLOAT16 || storage == STORAGE_FLOAT32;
+fn storage_is_float(stored_as: u32) -> bool {
+    return stored_as == STORAGE_FLOAT16 || stored_as == STORAGE_FLOAT32;
 }
 
 // The nearest float16 of each component, ties to even, for |value| <= 65504. A driver may truncate when it stores to a
@@ -41,11 +41,11 @@ fn storage_round_to_unorm10(value: vec4f) -> vec4f {
 }
 
 // A filtered combination of texels, rounded for writing back to the same storage.
-fn storage_round_texel(texel: vec4f, storage: u32) -> vec4f {
-    if storage == STORAGE_FLOAT16 {
+fn storage_round_texel(texel: vec4f, stored_as: u32) -> vec4f {
+    if stored_as == STORAGE_FLOAT16 {
         return storage_round_to_float16(texel);
     }
-    if storage == STORAGE_UNORM10 {
+    if stored_as == STORAGE_UNORM10 {
         return storage_round_to_unorm10(texel);
     }
     return texel;
@@ -53,8 +53,8 @@ fn storage_round_texel(texel: vec4f, storage: u32) -> vec4f {
 
 // A texel whose NaN or infinite channels count as 0. They are found by their bits, since a compiler may assume that neither
 // occurs. Unorm texels pass unchanged.
-fn storage_finite_texel(texel: vec4f, storage: u32) -> vec4f {
-    if !storage_is_float(storage) {
+fn storage_finite_texel(texel: vec4f, stored_as: u32) -> vec4f {
+    if !storage_is_float(stored_as) {
         return texel;
     }
     let exponent = bitcast<vec4u>(texel) & vec4u(0x7f800000u);

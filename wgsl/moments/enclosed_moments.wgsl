@@ -44,11 +44,11 @@ fn enclosed_moments_sum(a: EnclosedMoments, b: EnclosedMoments) -> EnclosedMomen
 }
 
 // A texel of three channels of the optimised basis times the weight, and one more channel.
-fn enclosed_moments_texel(channels: vec3f, last: f32, weight: f32, storage: u32) -> vec4f {
-    let middle = six_moments_middle(storage);
+fn enclosed_moments_texel(channels: vec3f, last: f32, weight: f32, stored_as: u32) -> vec4f {
+    let middle = six_moments_middle(stored_as);
     let inside = saturate(weight);
     let texel = vec4f(clamp(channels, vec3f(-middle * inside), vec3f((1.0 - middle) * inside)), saturate(last));
-    if storage == STORAGE_FLOAT16 {
+    if stored_as == STORAGE_FLOAT16 {
         return storage_round_to_float16(texel);
     }
     return texel;
@@ -56,23 +56,23 @@ fn enclosed_moments_texel(channels: vec3f, last: f32, weight: f32, storage: u32)
 
 // The first texel to write in the storage: the odd moments, and the weight of what does not lie in front of the range.
 // Moments of whole distributions, as `six_moments_to_odd_texel` writes them, have the same form.
-fn enclosed_moments_to_odd_texel(sums: EnclosedMoments, storage: u32) -> vec4f {
-    let offset = sums.weight * (SIX_MOMENTS_ODD_OFFSET - six_moments_middle(storage));
+fn enclosed_moments_to_odd_texel(sums: EnclosedMoments, stored_as: u32) -> vec4f {
+    let offset = sums.weight * (SIX_MOMENTS_ODD_OFFSET - six_moments_middle(stored_as));
     let channels = six_moments_affine(SIX_MOMENTS_ODD_BASIS, sums.moments.odd, offset);
-    return enclosed_moments_texel(channels, 1.0 - sums.front, sums.weight, storage);
+    return enclosed_moments_texel(channels, 1.0 - sums.front, sums.weight, stored_as);
 }
 
 // The second texel to write in the storage: the even moments, and the weight between the ends.
-fn enclosed_moments_to_even_texel(sums: EnclosedMoments, storage: u32) -> vec4f {
-    let offset = sums.weight * (SIX_MOMENTS_EVEN_OFFSET - six_moments_middle(storage));
+fn enclosed_moments_to_even_texel(sums: EnclosedMoments, stored_as: u32) -> vec4f {
+    let offset = sums.weight * (SIX_MOMENTS_EVEN_OFFSET - six_moments_middle(stored_as));
     let channels = six_moments_affine(SIX_MOMENTS_EVEN_BASIS, sums.moments.even, offset);
-    return enclosed_moments_texel(channels, sums.weight, sums.weight, storage);
+    return enclosed_moments_texel(channels, sums.weight, sums.weight, stored_as);
 }
 
 // The moments of a filtered texel's occluders between the ends, as means over them alone. Weights below
 // `ENCLOSED_MOMENTS_SMALLEST_WEIGHT` count as that.
-fn enclosed_moments_means(texels: array<vec4f, 2>, weight: f32, storage: u32) -> SixMoments {
-    let middle = six_moments_middle(storage);
+fn enclosed_moments_means(texels: array<vec4f, 2>, weight: f32, stored_as: u32) -> SixMoments {
+    let middle = six_moments_middle(stored_as);
     let scale = 1.0 / max(weight, ENCLOSED_MOMENTS_SMALLEST_WEIGHT);
     let odd = clamp(scale * texels[0].xyz, vec3f(-middle), vec3f(1.0 - middle));
     let even = clamp(scale * texels[1].xyz, vec3f(-middle), vec3f(1.0 - middle));
@@ -84,20 +84,20 @@ fn enclosed_moments_means(texels: array<vec4f, 2>, weight: f32, storage: u32) ->
 
 // The moment bias of means. Floats keep that of the storage whatever the weight is, as they are finest around zero; the step
 // of other storages does not shrink for small weights.
-fn enclosed_moments_bias(weight: f32, storage: u32) -> SixMomentsBias {
-    let bias = six_moments_bias_of(storage);
-    let scale = select(1.0 / max(weight, ENCLOSED_MOMENTS_SMALLEST_WEIGHT), 1.0, storage_is_float(storage));
+fn enclosed_moments_bias(weight: f32, stored_as: u32) -> SixMomentsBias {
+    let bias = six_moments_bias_of(stored_as);
+    let scale = select(1.0 / max(weight, ENCLOSED_MOMENTS_SMALLEST_WEIGHT), 1.0, storage_is_float(stored_as));
     return SixMomentsBias(bias.even, min(bias.alpha * scale, ENCLOSED_MOMENTS_LARGEST_ALPHA));
 }
 
 // Bounds of the shadow at a depth: x = how much of the weight is certainly before it, y = how much may be. Both in [0, 1] for all
 // texels, filtered or broken; depths in [-1, 1].
-fn enclosed_moments_bounds(filtered: array<vec4f, 2>, depth: f32, storage: u32) -> vec2f {
-    let texels = array<vec4f, 2>(storage_finite_texel(filtered[0], storage), storage_finite_texel(filtered[1], storage));
+fn enclosed_moments_bounds(filtered: array<vec4f, 2>, depth: f32, stored_as: u32) -> vec2f {
+    let texels = array<vec4f, 2>(storage_finite_texel(filtered[0], stored_as), storage_finite_texel(filtered[1], stored_as));
     let weight = saturate(texels[1].w);
     let front = clamp(1.0 - texels[0].w, 0.0, 1.0 - weight);
-    let bias = enclosed_moments_bias(weight, storage);
-    let means = enclosed_moments_means(texels, weight, storage);
+    let bias = enclosed_moments_bias(weight, stored_as);
+    let means = enclosed_moments_means(texels, weight, stored_as);
     let bounds = hamburger6_bounds(six_moments_apply_bias(means, bias), depth, bias.alpha);
     let known = weight >= ENCLOSED_MOMENTS_SMALLEST_WEIGHT;
     return fma(select(vec2f(0.0, 1.0), bounds, known), vec2f(weight), vec2f(front));

@@ -61,12 +61,12 @@ fn four_moments_clamp(b: vec4f) -> vec4f {
 }
 
 // The texel to write in the storage.
-fn four_moments_to_texel(b: vec4f, storage: u32) -> vec4f {
-    if storage == STORAGE_FLOAT32 {
+fn four_moments_to_texel(b: vec4f, stored_as: u32) -> vec4f {
+    if stored_as == STORAGE_FLOAT32 {
         return b;
     }
     let channels = saturate(four_moments_quantize(b));
-    if storage == STORAGE_FLOAT16 {
+    if stored_as == STORAGE_FLOAT16 {
         // Half precision is finest around zero, so the channels are centred there.
         return storage_round_to_float16(channels - 0.5);
     }
@@ -75,22 +75,22 @@ fn four_moments_to_texel(b: vec4f, storage: u32) -> vec4f {
 
 // The moments in a (filtered) texel of the storage. Float storage can hold anything; `four_moments_clamp` comes before any
 // arithmetic that relies on ranges.
-fn four_moments_from_texel(texel: vec4f, storage: u32) -> vec4f {
-    if storage == STORAGE_FLOAT32 {
+fn four_moments_from_texel(texel: vec4f, stored_as: u32) -> vec4f {
+    if stored_as == STORAGE_FLOAT32 {
         return texel;
     }
-    if storage == STORAGE_FLOAT16 {
+    if stored_as == STORAGE_FLOAT16 {
         return four_moments_dequantize(texel + 0.5);
     }
     return four_moments_dequantize(texel);
 }
 
 // The moment bias of a storage.
-fn four_moments_bias_of(storage: u32) -> FourMomentsBias {
-    if storage == STORAGE_FLOAT32 {
+fn four_moments_bias_of(stored_as: u32) -> FourMomentsBias {
+    if stored_as == STORAGE_FLOAT32 {
         return FOUR_MOMENTS_BIAS_FLOAT32;
     }
-    if storage == STORAGE_FLOAT16 {
+    if stored_as == STORAGE_FLOAT16 {
         return FOUR_MOMENTS_BIAS_FLOAT16;
     }
     return FOUR_MOMENTS_BIAS_UNORM16;
@@ -104,8 +104,8 @@ fn four_moments_apply_bias(b: vec4f, bias: FourMomentsBias) -> vec4f {
 
 // The biased moments in a (filtered) texel of the storage, within [-2.1, 2.1]: for unorm storage if the channels are in [0,
 // 1], as those of every texture are, and for float storage whatever finite numbers it holds.
-fn four_moments_biased_from_texel(texel: vec4f, storage: u32, bias: FourMomentsBias) -> vec4f {
-    if storage == STORAGE_FLOAT32 {
+fn four_moments_biased_from_texel(texel: vec4f, stored_as: u32, bias: FourMomentsBias) -> vec4f {
+    if stored_as == STORAGE_FLOAT32 {
         return four_moments_apply_bias(four_moments_clamp(texel), bias);
     }
     // The inverse of the basis and the bias are both affine, and so one step. These biases are large enough for 1 - alpha.
@@ -113,10 +113,10 @@ fn four_moments_biased_from_texel(texel: vec4f, storage: u32, bias: FourMomentsB
     let of_xy = keep * vec4f(-1.0 / 3.0, 0.125, -0.75, -0.125);
     let of_zw = keep * vec4f(FOUR_MOMENTS_SQRT_3, 1.0, 0.75 * FOUR_MOMENTS_SQRT_3, 1.0);
     // Odd moments are 0 for channels of one half, and float16 storage holds one half less.
-    let middle = select(vec4f(-0.5, 0.0, -0.5, 0.0), vec4f(0.0, 0.5, 0.0, 0.5), storage == STORAGE_FLOAT16);
+    let middle = select(vec4f(-0.5, 0.0, -0.5, 0.0), vec4f(0.0, 0.5, 0.0, 0.5), stored_as == STORAGE_FLOAT16);
     let shift = fma(middle, of_xy + of_zw, bias.alpha * vec4f(0.0, bias.second, 0.0, bias.fourth));
     let biased = fma(of_xy, texel.xyxy, fma(of_zw, texel.zwzw, shift));
-    if storage == STORAGE_FLOAT16 {
+    if stored_as == STORAGE_FLOAT16 {
         return four_moments_clamp(biased);
     }
     return biased;

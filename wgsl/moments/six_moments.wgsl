@@ -74,23 +74,23 @@ fn six_moments_from_depth(z: f32) -> SixMoments {
 }
 
 // The value that is subtracted from channels before they are stored: floats are finest around zero.
-fn six_moments_middle(storage: u32) -> f32 {
-    return select(0.0, 0.5, storage_is_float(storage));
+fn six_moments_middle(stored_as: u32) -> f32 {
+    return select(0.0, 0.5, storage_is_float(stored_as));
 }
 
 // A texel of three channels, with 1 in the fourth.
-fn six_moments_texel(channels: vec3f, storage: u32) -> vec4f {
-    return storage_round_texel(vec4f(saturate(channels) - six_moments_middle(storage), 1.0), storage);
+fn six_moments_texel(channels: vec3f, stored_as: u32) -> vec4f {
+    return storage_round_texel(vec4f(saturate(channels) - six_moments_middle(stored_as), 1.0), stored_as);
 }
 
 // The first texel to write in the storage: the odd moments.
-fn six_moments_to_odd_texel(odd: vec3f, storage: u32) -> vec4f {
-    return six_moments_texel(six_moments_affine(SIX_MOMENTS_ODD_BASIS, odd, SIX_MOMENTS_ODD_OFFSET), storage);
+fn six_moments_to_odd_texel(odd: vec3f, stored_as: u32) -> vec4f {
+    return six_moments_texel(six_moments_affine(SIX_MOMENTS_ODD_BASIS, odd, SIX_MOMENTS_ODD_OFFSET), stored_as);
 }
 
 // The second texel to write in the storage: the even moments.
-fn six_moments_to_even_texel(even: vec3f, storage: u32) -> vec4f {
-    return six_moments_texel(six_moments_affine(SIX_MOMENTS_EVEN_BASIS, even, SIX_MOMENTS_EVEN_OFFSET), storage);
+fn six_moments_to_even_texel(even: vec3f, stored_as: u32) -> vec4f {
+    return six_moments_texel(six_moments_affine(SIX_MOMENTS_EVEN_BASIS, even, SIX_MOMENTS_EVEN_OFFSET), stored_as);
 }
 
 // The channels to average for a moment depth z in [-1, 1], in one of the two texels: three odd moments for plane 0, three
@@ -101,22 +101,22 @@ fn six_moments_channels(z: f32, plane: u32) -> vec4f {
 }
 
 // The texel to write in the storage for averaged channels of a plane.
-fn six_moments_to_texel(mean: vec4f, plane: u32, storage: u32) -> vec4f {
+fn six_moments_to_texel(mean: vec4f, plane: u32, stored_as: u32) -> vec4f {
     if plane == 0u {
-        return six_moments_to_odd_texel(mean.xyz, storage);
+        return six_moments_to_odd_texel(mean.xyz, stored_as);
     }
-    return six_moments_to_even_texel(mean.xyz, storage);
+    return six_moments_to_even_texel(mean.xyz, stored_as);
 }
 
 // The moments in the two (filtered) texels of the storage, |b| < 1.05. Float storage can hold anything: channels beyond their
 // range count as its ends. Channels are clamped rather than moments, since the bias covers errors of channels; moments at the
 // ends of their ranges, one of which rounding has moved inwards, would need a bias ten times as large if the others were
 // clamped.
-fn six_moments_from_texels(texels: array<vec4f, 2>, storage: u32) -> SixMoments {
-    let middle = six_moments_middle(storage);
+fn six_moments_from_texels(texels: array<vec4f, 2>, stored_as: u32) -> SixMoments {
+    let middle = six_moments_middle(stored_as);
     var odd = texels[0].xyz;
     var even = texels[1].xyz;
-    if storage_is_float(storage) {
+    if storage_is_float(stored_as) {
         odd = clamp(odd, vec3f(-0.5), vec3f(0.5));
         even = clamp(even, vec3f(-0.5), vec3f(0.5));
     }
@@ -127,14 +127,14 @@ fn six_moments_from_texels(texels: array<vec4f, 2>, storage: u32) -> SixMoments 
 }
 
 // The moment bias of a storage.
-fn six_moments_bias_of(storage: u32) -> SixMomentsBias {
-    if storage == STORAGE_FLOAT32 {
+fn six_moments_bias_of(stored_as: u32) -> SixMomentsBias {
+    if stored_as == STORAGE_FLOAT32 {
         return SIX_MOMENTS_BIAS_FLOAT32;
     }
-    if storage == STORAGE_FLOAT16 {
+    if stored_as == STORAGE_FLOAT16 {
         return SIX_MOMENTS_BIAS_FLOAT16;
     }
-    if storage == STORAGE_UNORM10 {
+    if stored_as == STORAGE_UNORM10 {
         return SIX_MOMENTS_BIAS_UNORM10;
     }
     return SIX_MOMENTS_BIAS_UNORM16;

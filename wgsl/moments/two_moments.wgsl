@@ -25,34 +25,34 @@ fn two_moments_from_depth(z: f32) -> vec4f {
 // The texel to write for averaged channels. unorm16 has the optimised basis of two moments (r, g) = (u1, 4 u1 - 4 u2), with u
 // the moments of (z + 1) / 2 (i3D 2015, section 3.2), which fills the unit square and in terms of z is simply ((b1 + 1) / 2,
 // 1 - b2). float16 has these less one half, since half precision is finest around zero. float32 has b itself.
-fn two_moments_to_texel(channels: vec4f, storage: u32) -> vec4f {
-    if storage == STORAGE_FLOAT32 {
+fn two_moments_to_texel(channels: vec4f, stored_as: u32) -> vec4f {
+    if stored_as == STORAGE_FLOAT32 {
         return channels;
     }
     let optimised = saturate(fma(vec4f(0.5, -1.0, 0.5, -1.0), channels, vec4f(0.5, 1.0, 0.5, 1.0)));
-    if storage == STORAGE_FLOAT16 {
+    if stored_as == STORAGE_FLOAT16 {
         return storage_round_to_float16(optimised - 0.5);
     }
     return optimised;
 }
 
 // The moments in a (filtered) texel, both pairs, in their ranges whatever the texel holds.
-fn two_moments_from_texel(texel: vec4f, storage: u32) -> vec4f {
-    let finite = storage_finite_texel(texel, storage);
+fn two_moments_from_texel(texel: vec4f, stored_as: u32) -> vec4f {
+    let finite = storage_finite_texel(texel, stored_as);
     var channels = finite;
-    if storage != STORAGE_FLOAT32 {
-        let offset = select(vec4f(-1.0, 1.0, -1.0, 1.0), vec4f(0.0, 0.5, 0.0, 0.5), storage == STORAGE_FLOAT16);
+    if stored_as != STORAGE_FLOAT32 {
+        let offset = select(vec4f(-1.0, 1.0, -1.0, 1.0), vec4f(0.0, 0.5, 0.0, 0.5), stored_as == STORAGE_FLOAT16);
         channels = fma(vec4f(2.0, -1.0, 2.0, -1.0), finite, offset);
     }
     return clamp(channels, vec4f(-1.0, 0.0, -1.0, 0.0), vec4f(1.0));
 }
 
 // The smallest variance of a storage.
-fn two_moments_smallest_variance_of(storage: u32) -> f32 {
-    if storage == STORAGE_FLOAT32 {
+fn two_moments_smallest_variance_of(stored_as: u32) -> f32 {
+    if stored_as == STORAGE_FLOAT32 {
         return TWO_MOMENTS_SMALLEST_VARIANCE_FLOAT32;
     }
-    if storage == STORAGE_FLOAT16 {
+    if stored_as == STORAGE_FLOAT16 {
         return TWO_MOMENTS_SMALLEST_VARIANCE_FLOAT16;
     }
     return TWO_MOMENTS_SMALLEST_VARIANCE_UNORM16;

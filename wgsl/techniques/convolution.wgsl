@@ -71,11 +71,11 @@ fn convolution_channels(z: f32, plane: u32, terms: u32) -> vec4f {
 }
 
 // The texel to write for averaged channels.
-fn convolution_to_texel(channels: vec4f, storage: u32) -> vec4f {
-    if !storage_is_float(storage) {
+fn convolution_to_texel(channels: vec4f, stored_as: u32) -> vec4f {
+    if !storage_is_float(stored_as) {
         return saturate(fma(vec4f(0.5), channels, vec4f(0.5)));
     }
-    if storage == STORAGE_FLOAT16 {
+    if stored_as == STORAGE_FLOAT16 {
         return storage_round_to_float16(channels);
     }
     return channels;
@@ -88,9 +88,9 @@ fn convolution_receiver(fragment_depth: f32, terms: u32, lower_bound: bool) -> f
 }
 
 // What the (filtered) texel of a plane adds to the series. Lower bounds need the damping `CONVOLUTION_DAMPING`.
-fn convolution_plane(texel: vec4f, storage: u32, plane: u32, terms: u32, receiver: f32, damping: f32) -> f32 {
-    let finite = storage_finite_texel(texel, storage);
-    let decoded = select(fma(vec4f(2.0), finite, vec4f(-1.0)), finite, storage_is_float(storage));
+fn convolution_plane(texel: vec4f, stored_as: u32, plane: u32, terms: u32, receiver: f32, damping: f32) -> f32 {
+    let finite = storage_finite_texel(texel, stored_as);
+    let decoded = select(fma(vec4f(2.0), finite, vec4f(-1.0)), finite, storage_is_float(stored_as));
     let waves = clamp(decoded, vec4f(-1.0), vec4f(1.0));
     let at_receiver = convolution_waves(receiver, plane);
     // sin(c_k (d - z)) for both terms.

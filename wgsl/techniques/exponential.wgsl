@@ -42,36 +42,36 @@ fn exponential_channels(z: f32, exponent: f32) -> vec4f {
 }
 
 // The texel to write for averaged channels, in x. Unorm storage holds e^(c (z - 1)), or (v + 1) / 2.
-fn exponential_to_texel(channels: vec4f, storage: u32, exponent: f32, logarithmic: bool) -> vec4f {
+fn exponential_to_texel(channels: vec4f, stored_as: u32, exponent: f32, logarithmic: bool) -> vec4f {
     let c = exponential_exponent(exponent);
     let mean = max(channels.x, EXPONENTIAL_SMALLEST_MEAN);
     var value = mean;
     if logarithmic {
         value = clamp(log(mean) / c, -1.0, 1.0);
-        value = select(fma(0.5, value, 0.5), value, storage_is_float(storage));
-    } else if !storage_is_float(storage) {
+        value = select(fma(0.5, value, 0.5), value, storage_is_float(stored_as));
+    } else if !storage_is_float(stored_as) {
         value = saturate(mean * exp(-c));
     }
-    if storage == STORAGE_FLOAT16 {
+    if stored_as == STORAGE_FLOAT16 {
         value = storage_round_to_float16(vec4f(min(value, STORAGE_LARGEST_FLOAT16))).x;
     }
     return vec4f(value, 0.0, 0.0, 0.0);
 }
 
 // v in [-1, 1] of a logarithmic texel.
-fn exponential_logarithm_of_texel(texel: vec4f, storage: u32) -> f32 {
-    let value = storage_finite_texel(texel, storage).x;
-    return clamp(select(fma(2.0, value, -1.0), value, storage_is_float(storage)), -1.0, 1.0);
+fn exponential_logarithm_of_texel(texel: vec4f, stored_as: u32) -> f32 {
+    let value = storage_finite_texel(texel, stored_as).x;
+    return clamp(select(fma(2.0, value, -1.0), value, storage_is_float(stored_as)), -1.0, 1.0);
 }
 
 // E[e^(c z)] of a texel, in [0, 3e38] whatever it holds.
-fn exponential_mean_of_texel(texel: vec4f, storage: u32, exponent: f32, logarithmic: bool) -> f32 {
+fn exponential_mean_of_texel(texel: vec4f, stored_as: u32, exponent: f32, logarithmic: bool) -> f32 {
     let c = exponential_exponent(exponent);
     if logarithmic {
-        return exp(c * exponential_logarithm_of_texel(texel, storage));
+        return exp(c * exponential_logarithm_of_texel(texel, stored_as));
     }
-    let value = clamp(storage_finite_texel(texel, storage).x, 0.0, 3e38);
-    return select(value * exp(c), value, storage_is_float(storage));
+    let value = clamp(storage_finite_texel(texel, stored_as).x, 0.0, 3e38);
+    return select(value * exp(c), value, storage_is_float(stored_as));
 }
 
 // Shadow intensity in [0, 1] of a fragment for the mean E[e^(c (z - shift))], which may be any finite number.
@@ -86,14 +86,14 @@ fn exponential_shadow_intensity(mean: f32, fragment_depth: f32, exponent: f32, s
 fn exponential_shadow_intensity_of_texel(
     texel: vec4f,
     fragment_depth: f32,
-    storage: u32,
+    stored_as: u32,
     exponent: f32,
     logarithmic: bool,
 ) -> f32 {
     if logarithmic {
-        let distance = exponential_logarithm_of_texel(texel, storage) - depth_of_fragment(fragment_depth);
+        let distance = exponential_logarithm_of_texel(texel, stored_as) - depth_of_fragment(fragment_depth);
         return saturate(1.0 - exp(exponential_exponent(exponent) * min(distance, 0.0)));
     }
-    let shift = select(1.0, 0.0, storage_is_float(storage));
-    return exponential_shadow_intensity(storage_finite_texel(texel, storage).x, fragment_depth, exponent, shift);
+    let shift = select(1.0, 0.0, storage_is_float(stored_as));
+    return exponential_shadow_intensity(storage_finite_texel(texel, stored_as).x, fragment_depth, exponent, shift);
 }

@@ -43,8 +43,8 @@ fn exponential_variance_channels(z: f32, exponents: vec2f) -> vec4f {
 }
 
 // The texel to write for averaged channels.
-fn exponential_variance_to_texel(channels: vec4f, storage: u32) -> vec4f {
-    if storage == STORAGE_FLOAT16 {
+fn exponential_variance_to_texel(channels: vec4f, stored_as: u32) -> vec4f {
+    if stored_as == STORAGE_FLOAT16 {
         let largest = vec4f(STORAGE_LARGEST_FLOAT16);
         return storage_round_to_float16(clamp(channels, -largest, largest));
     }
@@ -53,10 +53,10 @@ fn exponential_variance_to_texel(channels: vec4f, storage: u32) -> vec4f {
 
 // The lower bound for a warped fragment and the first two moments of the same warp, which may be any finite numbers. The
 // fragment's warp is within 2^63.
-fn exponential_variance_lower_bound(moments: vec2f, warped: f32, storage: u32) -> f32 {
+fn exponential_variance_lower_bound(moments: vec2f, warped: f32, stored_as: u32) -> f32 {
     let largest = EXPONENTIAL_VARIANCE_LARGEST_WARP;
     let clamped = clamp(moments, vec2f(-largest, 0.0), vec2f(largest, largest * largest));
-    let is_half = storage == STORAGE_FLOAT16;
+    let is_half = stored_as == STORAGE_FLOAT16;
     let smallest = select(EXPONENTIAL_VARIANCE_SMALLEST_FLOAT32, EXPONENTIAL_VARIANCE_SMALLEST_FLOAT16, is_half);
     return chebyshev_lower_bound(clamped, warped, fma(smallest.x, clamped.y, smallest.y));
 }
@@ -66,16 +66,16 @@ fn exponential_variance_lower_bound(moments: vec2f, warped: f32, storage: u32) -
 fn exponential_variance_shadow_intensity_of_texel(
     texel: vec4f,
     fragment_depth: f32,
-    storage: u32,
+    stored_as: u32,
     exponents: vec2f,
     both: bool,
 ) -> f32 {
     let warped = exponential_variance_warp(depth_of_fragment(fragment_depth), exponents);
-    let moments = storage_finite_texel(texel, storage);
-    let positive = exponential_variance_lower_bound(moments.xy, warped.x, storage);
+    let moments = storage_finite_texel(texel, stored_as);
+    let positive = exponential_variance_lower_bound(moments.xy, warped.x, stored_as);
     if !both {
         return positive;
     }
     // A mean of w- is negative; positive garbage would put the mean behind every fragment, which does no harm.
-    return max(positive, exponential_variance_lower_bound(moments.zw, warped.y, storage));
+    return max(positive, exponential_variance_lower_bound(moments.zw, warped.y, stored_as));
 }

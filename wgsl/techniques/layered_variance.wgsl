@@ -106,12 +106,12 @@ fn layered_variance_choice(layers: LayeredVarianceLayers, fragment_depth: f32) -
 fn layered_variance_shadow_intensity_of_texel(
     texel: vec4f,
     fragment_depth: f32,
-    storage: u32,
+    stored_as: u32,
     layers: LayeredVarianceLayers,
     layer: u32,
 ) -> f32 {
-    let pairs = two_moments_from_texel(texel, storage);
+    let pairs = two_moments_from_texel(texel, stored_as);
     let moments = select(pairs.xy, pairs.zw, layer % 2u == 1u);
     let warped = layered_variance_warp(depth_of_fragment(fragment_depth), layered_variance_interval(layers, layer));
-    return chebyshev_lower_bound(moments, warped, two_moments_smallest_variance_of(storage));
+    return chebyshev_lower_bound(moments, warped, two_moments_smallest_variance_of(stored_as));
 }

@@ -52,7 +52,7 @@ pub fn read_depth_samples(gpu: &Gpu, depth: &wgpu::Texture) -> Result<DepthSampl
     };
     let label = "host/depth samples";
     let pipeline = created(gpu, "the depth reader", || {
-        gpu.compute(label, &text, "read")
+        gpu.compute(label, &text, "copy_band")
     })?;
     let view = depth.create_view(&wgpu::TextureViewDescriptor {
         aspect: wgpu::TextureAspect::DepthOnly,

@@ -11,7 +11,7 @@ struct Band {
 @group(0) @binding(2) var<uniform> band: Band;
 
 @compute @workgroup_size(64)
-fn read(@builtin(global_invocation_id) id: vec3u) {
+fn copy_band(@builtin(global_invocation_id) id: vec3u) {
     let size = textureDimensions(depth);
     let row = band.first_row + id.y;
     if id.x < size.x && row < size.y {

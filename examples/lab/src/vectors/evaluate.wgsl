@@ -23,7 +23,7 @@ struct BatchInput {
     // 1 for bounds over distributions on [-1, 1].
     is_hausdorff: u32,
     // The storage whose smallest variance counts, where two moments are not biased.
-    storage: u32,
+    stored_as: u32,
     padding: u32,
 }
 
@@ -45,7 +45,7 @@ fn batch(input: BatchInput) -> BatchOutput {
     var bounds: vec2f;
     if input.count == 2u {
         if input.is_biased == 0u {
-            smallest_variance = two_moments_smallest_variance_of(input.storage);
+            smallest_variance = two_moments_smallest_variance_of(input.stored_as);
         }
         let b = vec2f(input.odd.x, input.even.x);
         bounds = vec2f(chebyshev_lower_bound(b, input.depth, smallest_variance), chebyshev_upper_bound(b, input.depth, smallest_variance));

@@ -27,12 +27,12 @@ fn blur_outputs(first: vec2i, low: vec2i, last: vec2i) {
     var w3 = parameters.weights[3];
     // 40 vectors of weights hold 9 blocks.
     let blocks = min(parameters.blocks, 9u);
-    for (var block = 0u; block < blocks; block++) {
-        let w4 = parameters.weights[4u * block + 4u];
-        let w5 = parameters.weights[4u * block + 5u];
-        let w6 = parameters.weights[4u * block + 6u];
-        let w7 = parameters.weights[4u * block + 7u];
-        let texel = first + (i32(16u * block) - i32(parameters.radius)) * AXIS;
+    for (var block_index = 0u; block_index < blocks; block_index++) {
+        let w4 = parameters.weights[4u * block_index + 4u];
+        let w5 = parameters.weights[4u * block_index + 5u];
+        let w6 = parameters.weights[4u * block_index + 6u];
+        let w7 = parameters.weights[4u * block_index + 7u];
+        let texel = first + (i32(16u * block_index) - i32(parameters.radius)) * AXIS;
         sums = blur_four(sums, texel, low, last, w0, w1, w2, w3, w4);
         sums = blur_four(sums, texel + 4 * AXIS, low, last, w1, w2, w3, w4, w5);
         sums = blur_four(sums, texel + 8 * AXIS, low, last, w2, w3, w4, w5, w6);

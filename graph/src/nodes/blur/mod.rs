@@ -137,7 +137,8 @@ fn pass(
     };
     let wgsl = techniques::of_map(upstream.capabilities(), encoding)
         .unsigned("REGIONS", map.regions)
-        .pair("WORKGROUP", workgroup)
+        .unsigned("WORKGROUP_X", workgroup[0])
+        .unsigned("WORKGROUP_Y", workgroup[1])
         .constant("AXIS", step)
         .constant("OUTPUTS", outputs)
         .constant("SPLIT_SUMS", encoding.has_split_sums())

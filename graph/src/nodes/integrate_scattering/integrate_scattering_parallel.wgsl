@@ -12,9 +12,9 @@ var<workgroup> sums: array<vec4f, THREADS>;
 var<workgroup> weights: array<f32, THREADS>;
 
 @compute @workgroup_size(THREADS)
-fn integrate(@builtin(local_invocation_id) local: vec3u, @builtin(workgroup_id) workgroup: vec3u) {
+fn integrate(@builtin(local_invocation_id) local: vec3u, @builtin(workgroup_id) workgroup_id: vec3u) {
     let columns = textureDimensions(rectified_map).x;
-    let row = workgroup.y;
+    let row = workgroup_id.y;
     let thickness = row_thickness(row);
     let thread = local.x;
     var before = vec4f(0.0);

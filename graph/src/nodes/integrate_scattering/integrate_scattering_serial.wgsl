@@ -24,9 +24,9 @@ fn integrate_column(before: IntegrateSum, column: u32, row: u32, thickness: f32)
 }
 
 @compute @workgroup_size(LINES)
-fn integrate(@builtin(local_invocation_id) local: vec3u, @builtin(workgroup_id) workgroup: vec3u) {
+fn integrate(@builtin(local_invocation_id) local: vec3u, @builtin(workgroup_id) workgroup_id: vec3u) {
     let size = textureDimensions(rectified_map);
-    let row = workgroup.y * LINES + local.x;
+    let row = workgroup_id.y * LINES + local.x;
     if row >= size.y {
         return;
     }

@@ -96,17 +96,17 @@ fn footprint_sums(texel: vec2u, size: vec2u, placed: PlacedState) -> vec4f {
 
 // The sums of a tile, to the texel of its workgroup.
 @compute @workgroup_size(16, 16)
-fn sum_tiles(@builtin(local_invocation_id) local: vec3u, @builtin(local_invocation_index) index: u32, @builtin(workgroup_id) workgroup: vec3u) {
+fn sum_tiles(@builtin(local_invocation_id) local: vec3u, @builtin(local_invocation_index) index: u32, @builtin(workgroup_id) workgroup_id: vec3u) {
     let size = textureDimensions(depth_map);
     let placed = state_before();
-    let place = workgroup.xy * TILE + local.xy;
+    let place = workgroup_id.xy * TILE + local.xy;
     var sums = vec4f(0.0);
     for (var part = 0u; part < 4u; part++) {
         sums += footprint_sums(place + SIDE * vec2u(part % 2u, part / 2u), size, placed);
     }
     let total = sum_of_workgroup(index, sums);
     if index == 0u {
-        textureStore(target_map, workgroup.xy, total);
+        textureStore(target_map, workgroup_id.xy, total);
     }
 }
 

@@ -22,12 +22,12 @@ struct RegionTile {
 
 // The tile of a workgroup that covers `texels` of mip level `level`, in a layer of `size` texels on mip level 0. The number
 // of workgroups does not change, and suffices for all regions.
-fn region_tile(workgroup: vec3u, workgroups: vec3u, size: vec2u, level: u32, texels: vec2u) -> RegionTile {
+fn region_tile(workgroup_id: vec3u, workgroups: vec3u, size: vec2u, level: u32, texels: vec2u) -> RegionTile {
     if REGIONS == 1u {
-        return RegionTile(0u, region_at(0u, size, level), workgroup.xy * texels);
+        return RegionTile(0u, region_at(0u, size, level), workgroup_id.xy * texels);
     }
     // Workgroups are numbered through the regions.
-    var index = workgroup.y * workgroups.x + workgroup.x;
+    var index = workgroup_id.y * workgroups.x + workgroup_id.x;
     for (var number = 0u; number < REGIONS; number++) {
         let region = region_at(number, size, level);
         let tiles = (region.extent + texels - 1u) / texels;

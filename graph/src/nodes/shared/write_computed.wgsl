@@ -7,8 +7,8 @@ import node::written_texel::{LEVEL, written_size, written_texel};
 @group(GROUP) @binding(3) var written_map: MomentsStorage;
 
 @compute @workgroup_size(8, 8)
-fn write_map(@builtin(local_invocation_id) local: vec3u, @builtin(workgroup_id) workgroup: vec3u, @builtin(num_workgroups) workgroups: vec3u) {
-    let tile = region_tile(workgroup, workgroups, written_size(), LEVEL, vec2u(8u));
+fn write_map(@builtin(local_invocation_id) local: vec3u, @builtin(workgroup_id) workgroup_id: vec3u, @builtin(num_workgroups) workgroups: vec3u) {
+    let tile = region_tile(workgroup_id, workgroups, written_size(), LEVEL, vec2u(8u));
     let place = tile.first + local.xy;
     if any(place >= tile.region.extent) {
         return;

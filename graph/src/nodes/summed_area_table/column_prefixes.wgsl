@@ -17,10 +17,10 @@ fn tile_row_sum(x: u32, slot: u32, left: u32, last_row: u32, is_first: bool) -> 
 }
 
 @compute @workgroup_size(LINES)
-fn sum_columns(@builtin(local_invocation_id) local: vec3u, @builtin(workgroup_id) workgroup: vec3u, @builtin(num_workgroups) workgroups: vec3u) {
+fn sum_columns(@builtin(local_invocation_id) local: vec3u, @builtin(workgroup_id) workgroup_id: vec3u, @builtin(num_workgroups) workgroups: vec3u) {
     // As far as tiles reach, which may be beyond the map.
     let size = textureDimensions(column_sums) * vec2u(1u, TILE.y);
-    let lines = region_tile(workgroup, workgroups, size, 0u, vec2u(LINES, 65536u));
+    let lines = region_tile(workgroup_id, workgroups, size, 0u, vec2u(LINES, 65536u));
     let line = lines.first.x + local.x;
     if line >= lines.region.extent.x || lines.region.extent.y == 0u {
         return;

@@ -11,10 +11,10 @@ import node::sums::{sums_load_four, sums_store_four};
 const LINES = 64u;
 
 @compute @workgroup_size(LINES)
-fn sum_rows(@builtin(local_invocation_id) local: vec3u, @builtin(workgroup_id) workgroup: vec3u, @builtin(num_workgroups) workgroups: vec3u) {
+fn sum_rows(@builtin(local_invocation_id) local: vec3u, @builtin(workgroup_id) workgroup_id: vec3u, @builtin(num_workgroups) workgroups: vec3u) {
     // As far as tiles reach, which may be beyond the map.
     let size = textureDimensions(row_sums) * vec2u(TILE.x, 1u);
-    let lines = region_tile(workgroup, workgroups, size, 0u, vec2u(65536u, LINES));
+    let lines = region_tile(workgroup_id, workgroups, size, 0u, vec2u(65536u, LINES));
     let line = lines.first.y + local.x;
     if line >= lines.region.extent.y || lines.region.extent.x == 0u {
         return;

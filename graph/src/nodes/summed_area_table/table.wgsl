@@ -1,5 +1,5 @@
 import node::regions::{region_tile};
-import node::specialization::{GROUP, TILE, WORKGROUP};
+import node::specialization::{GROUP, TILE, WORKGROUP_X, WORKGROUP_Y};
 import node::sums::{target_map};
 import node::tile_columns::{TileColumns, add_row, load_columns, store_columns};
 
@@ -9,9 +9,9 @@ import node::tile_columns::{TileColumns, add_row, load_columns, store_columns};
 @group(GROUP) @binding(2) var row_prefixes: texture_2d<u32>;
 @group(GROUP) @binding(3) var column_prefixes: texture_2d<u32>;
 
-@compute @workgroup_size(WORKGROUP.x, WORKGROUP.y)
-fn make_table(@builtin(local_invocation_id) local: vec3u, @builtin(workgroup_id) workgroup: vec3u, @builtin(num_workgroups) workgroups: vec3u) {
-    let tile = region_tile(workgroup, workgroups, textureDimensions(target_map), 0u, WORKGROUP * TILE);
+@compute @workgroup_size(WORKGROUP_X, WORKGROUP_Y)
+fn make_table(@builtin(local_invocation_id) local: vec3u, @builtin(workgroup_id) workgroup_id: vec3u, @builtin(num_workgroups) workgroups: vec3u) {
+    let tile = region_tile(workgroup_id, workgroups, textureDimensions(target_map), 0u, vec2u(WORKGROUP_X, WORKGROUP_Y) * TILE);
     let place = tile.first + local.xy * TILE;
     if any(place >= tile.region.extent) {
         return;

@@ -1,5 +1,5 @@
 import node::regions::{region_tile};
-import node::specialization::{GROUP, SumsStorage, TILE, WORKGROUP};
+import node::specialization::{GROUP, SumsStorage, TILE, WORKGROUP_X, WORKGROUP_Y};
 import node::sums::{sums_texel};
 import node::tile_columns::{TileColumns, last_column, add_row, moments_map, store_columns};
 
@@ -12,9 +12,9 @@ import node::tile_columns::{TileColumns, last_column, add_row, moments_map, stor
 
 @group(GROUP) @binding(2) var row_sums: SumsStorage;
 
-@compute @workgroup_size(WORKGROUP.x, WORKGROUP.y)
-fn sum_tiles(@builtin(local_invocation_id) local: vec3u, @builtin(workgroup_id) workgroup: vec3u, @builtin(num_workgroups) workgroups: vec3u) {
-    let tile = region_tile(workgroup, workgroups, textureDimensions(moments_map), 0u, WORKGROUP * TILE);
+@compute @workgroup_size(WORKGROUP_X, WORKGROUP_Y)
+fn sum_tiles(@builtin(local_invocation_id) local: vec3u, @builtin(workgroup_id) workgroup_id: vec3u, @builtin(num_workgroups) workgroups: vec3u) {
+    let tile = region_tile(workgroup_id, workgroups, textureDimensions(moments_map), 0u, vec2u(WORKGROUP_X, WORKGROUP_Y) * TILE);
     let place = tile.first + local.xy * TILE;
     let is_last = place + TILE >= tile.region.extent;
     if any(place >= tile.region.extent) || all(is_last) {
