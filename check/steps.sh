@@ -55,10 +55,30 @@ run_agreement() {
     cargo run --release --locked --quiet -p moment-shadows-graph --features cli --
 }
 
-# Another linker: npm's package for WESL, the language of our imports.
-run_wesl() {
+# The library's npm package, in $work/npm and among the packages of the checks, and what npm's linker of WESL makes of every module
+# with it. The example of its README is run too.
+run_wesl_npm() {
   need_npm_packages
-  cargo test --release --locked --test wesl npm -- --ignored --nocapture
+  node packages/npm/build.mjs "$work/npm"
+  (cd "$work/npm" && npm pack --silent >/dev/null)
+  local package
+  package=$(realpath "$work"/npm/moment-shadows-*.tgz)
+  rm -rf check/node_modules/moment-shadows
+  (cd check && npm install --no-save --ignore-scripts --no-audit --no-fund --loglevel=error "$package")
+  awk '/^```/ { inside = /js$/; next } inside' packages/npm/README.md |
+    (cd check && node --input-type=module) >"$work/npm_readme.wgsl"
+  grep -q 'fn hamburger4_shadow_intensity_of_texel' "$work/npm_readme.wgsl"
+  cargo test --release --locked --test wesl the_npm_package -- --ignored --nocapture
+}
+
+# The library's package for the crate `wesl`, and what the crate makes of every module with it. The crate asks for a newer Rust than
+# it needs.
+run_wesl_rs() {
+  local cargo=(--release --locked --ignore-rust-version --manifest-path packages/wesl_rs/Cargo.toml
+    --target-dir "${CARGO_TARGET_DIR:-target}/tmp/wesl_rs")
+  cargo clippy "${cargo[@]}" --all-targets -- -D warnings
+  cargo test "${cargo[@]}"
+  cargo test --release --locked --test wesl the_rust_package -- --ignored --nocapture
 }
 
 # The findings of `validate` as SARIF, by the schema that a package carries.
@@ -226,7 +246,8 @@ check() {
   step "A second compiler: Tint" run_tint
   step "What is ok here is ok in browsers: agreement with Tint" run_agreement
   step "SARIF by its schema" run_sarif
-  step "A second linker: npm's wesl" run_wesl
+  step "WESL: the npm package, linked by npm's wesl" run_wesl_npm
+  step "WESL: the Rust package, linked by the crate wesl" run_wesl_rs
   step "The SPIR-V: spirv-val" run_spirv_val
   step "The GLSL: glslang" run_glslang
   step "What the code costs: instructions for two AMD chips" run_isa

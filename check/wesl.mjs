@@ -1,44 +1,33 @@
-// Links shaders by wesl-js, npm's linker of WESL.
+// Links shaders by wesl-js, npm's linker of WESL, with the library's own npm package installed.
 //
 // usage: node wesl.mjs FOLDER
 // FOLDER/package holds shaders NAME.wgsl that import from the package `moment_shadows`, FOLDER/copied the same for a user
-// who has copied the modules into a folder `shadows` of their own, with imports spread over several lines. What is linked is
-// written beside, as NAME.linked.
+// who has the modules as files in a folder of their own, which lies there too. What is linked is written beside each shader,
+// as NAME.linked.
 
 import { readdirSync, readFileSync, writeFileSync } from 'node:fs';
-import { dirname, join } from 'node:path';
-import { fileURLToPath } from 'node:url';
+import { basename, join } from 'node:path';
+import { weslBundle } from 'moment-shadows';
 import { link } from 'wesl/core';
 
-const library = join(dirname(fileURLToPath(import.meta.url)), '../wgsl');
-
-// The library's modules: texts by path.
-const modules = {};
-for (const path of readdirSync(library, { recursive: true })) {
-  if (path.endsWith('.wgsl')) modules[path.replaceAll('\\', '/')] = readFileSync(join(library, path), 'utf8');
+// The files of a folder and of those in it: texts by path.
+function texts(folder) {
+  const found = {};
+  for (const path of readdirSync(folder, { recursive: true })) {
+    if (path.endsWith('.wgsl')) found[path.replaceAll('\\', '/')] = readFileSync(join(folder, path), 'utf8');
+  }
+  return found;
 }
-const spread = (line) => line.replace('{', '{\n    ').replaceAll(', ', ',\n    ').replace('}', ',\n}');
-const copied = {};
-for (const [path, text] of Object.entries(modules)) {
-  copied[`shadows/${path}`] = text.replace(/^import .*$/gm, spread);
-}
-
-// What the linker takes besides the shader, by the place where the modules are.
-const PLACES = {
-  package: { libs: [{ name: 'moment_shadows', edition: '2026_pre', modules }], weslSrc: {} },
-  copied: { libs: [], weslSrc: copied },
-};
 
 async function main(folder) {
   let failed = 0;
   let count = 0;
-  for (const [place, { libs, weslSrc }] of Object.entries(PLACES)) {
-    const shaders = readdirSync(join(folder, place)).filter((file) => file.endsWith('.wgsl'));
-    for (const file of shaders) {
+  for (const [place, libs] of [['package', [weslBundle]], ['copied', []]]) {
+    const weslSrc = texts(join(folder, place));
+    for (const file of Object.keys(weslSrc).filter((path) => !path.includes('/'))) {
       const path = join(folder, place, file);
       try {
-        const main = readFileSync(path, 'utf8');
-        const linked = await link({ rootModuleName: 'main', libs, weslSrc: { ...weslSrc, 'main.wgsl': main } });
+        const linked = await link({ rootModuleName: basename(file, '.wgsl'), libs, weslSrc });
         writeFileSync(path.replace(/wgsl$/, 'linked'), linked.dest);
         count += 1;
       } catch (error) {

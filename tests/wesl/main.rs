@@ -1,6 +1,6 @@
 //! The modules through linkers of WESL, the language of our imports: what they make of each module and of the example of forward
-//! shading is valid, and all constants and functions have the same bits on the adapter as through our linker. The Rust crate runs
-//! with all tests, npm's package in `./run check`.
+//! shading is valid, and all constants and functions have the same bits on the adapter as through our linker. The crate `wesl` of
+//! our lock file runs with all tests; the newest one and npm's `wesl`, with the packages that are made for them, in `./run check`.
 #![allow(
     clippy::unwrap_used,
     clippy::expect_used,
@@ -9,8 +9,8 @@
 )]
 
 mod adapter;
+mod commands;
 mod judge;
-mod npm;
 mod package;
 mod roots;
 mod rust;

@@ -1,4 +1,4 @@
-//! The crate `wesl`.
+//! The crate `wesl`, the version of our lock file.
 
 use moment_shadows::{Source, link, modules};
 use wesl::{ModulePath, VirtualResolver, Wesl};
