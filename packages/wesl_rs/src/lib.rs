@@ -32,4 +32,4 @@ wesl_core::wesl_pkg!(
     moment_shadows
 );
 
-pub use moment_shadows::PACKAGE;
+pub use self::moment_shadows::PACKAGE;
