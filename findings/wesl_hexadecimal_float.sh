@@ -1,12 +1,12 @@
 #!/usr/bin/env bash
 # wesl 0.6.0 (Rust crate; 0.4.0 too): the exponent of a hexadecimal float counts as a power of 16.
 #
-# Behaviour seen: `const a: f32 = 0x1p-24;` is written out as 1.2621775e-29, which is 16^-24. By WGSL ("Floating Point Literals") the
+# Behaviour seen: `const a: f32 = 0x1p-24;` is written out as 1.262177448353619e-29, which is 16^-24. By WGSL ("Floating Point Literals") the
 # exponent after `p` is one of 2: 5.9604645e-8. `0x1.8p1` becomes 24, not 3. No error, no warning: the shader compiles with other numbers.
 # A good guess: the exponent is parsed with base 2, as in C.
 # Who meets it: authors of shaders that write exact floats (masks of the mantissa, units in the last place), Bevy's included, which links by
 # this crate.
-# Output seen (2026-11-29): 0x1p-24 -> 1.2621775e-29, 0x1.8p1 -> 24.
+# Output seen (2026-11-29): 0x1p-24 -> 1.262177448353619e-29, 0x1.8p1 -> 24.0.
 #
 # Run by hand: findings/wesl_hexadecimal_float.sh. Needs cargo. Exits with 0 as long as this is so, with 1 if it has changed.
 set -euo pipefail
