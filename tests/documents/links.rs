@@ -1,5 +1,6 @@
 //! Every link of the documents goes to a file that is there, and to a heading of it.
 
+use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 
 use crate::read;
@@ -55,20 +56,35 @@ fn targets(file: &str) -> Vec<String> {
     found
 }
 
-/// The anchors of a page's headings, as GitHub makes them.
+/// The anchors of a page's headings, as GitHub makes them: what is between fences is no heading, and those of equal headings are
+/// numbered from the second on.
 fn anchors(text: &str) -> Vec<String> {
-    let headings = text.lines().filter(|line| line.starts_with('#'));
-    let kept = |letter: char| letter.is_alphanumeric() || "-_ ".contains(letter);
-    headings
-        .map(|line| line.trim_start_matches('#').trim().to_lowercase())
-        .map(|title| {
-            title
-                .chars()
-                .filter(|&letter| kept(letter))
-                .collect::<String>()
-        })
-        .map(|title| title.replace(' ', "-"))
-        .collect()
+    let kept = |letter: &char| letter.is_alphanumeric() || "-_ ".contains(*letter);
+    let (mut fenced, mut found) = (false, Vec::new());
+    let mut counts: BTreeMap<String, usize> = BTreeMap::new();
+    for line in text.lines() {
+        if line.trim_start().starts_with("```") {
+            fenced = !fenced;
+        } else if line.starts_with('#') && !fenced {
+            let title = line.trim_start_matches('#').trim().to_lowercase();
+            let anchor: String = title.chars().filter(kept).collect();
+            let anchor = anchor.replace(' ', "-");
+            let count = counts.entry(anchor.clone()).or_default();
+            found.push(match *count {
+                0 => anchor,
+                again => format!("{anchor}-{again}"),
+            });
+            *count += 1;
+        }
+    }
+    found
+}
+
+#[test]
+fn anchors_are_numbered_and_not_taken_from_code() {
+    let text = "# A title\n```sh\n# no heading\n```\n## It's `so`\n## A title\n## A title\n";
+    let expected = ["a-title", "its-so", "a-title-1", "a-title-2"];
+    assert_eq!(anchors(text), expected);
 }
 
 /// What is wrong with a link of a file, if something is.
