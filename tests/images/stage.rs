@@ -120,7 +120,10 @@ impl Stage {
         // The parameters of a light are not an import.
         let (light, camera) = (any_light(desc.reversed), any_camera());
         let frame = frame_desc(&desc, light, camera);
-        let plan = file.graph.compile(&capabilities, &imports(&frame)).unwrap();
+        let plan = file
+            .graph
+            .compile(&capabilities, &imports(&frame).unwrap())
+            .unwrap();
         let pipelines = block_on(Pipelines::create(
             &gpu.device,
             &plan,

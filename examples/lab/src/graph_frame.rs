@@ -57,7 +57,7 @@ impl GraphFrame {
         let capabilities = Capabilities::of_device(&gpu.adapter, &gpu.device);
         let plan = file
             .graph
-            .compile(&capabilities, &imports(desc))
+            .compile(&capabilities, &imports(desc)?)
             .map_err(LabError::graph(&file.name))?;
         let pipelines = block_on(Pipelines::create(
             &gpu.device,
@@ -151,36 +151,42 @@ impl GraphFrame {
 /// What a texture with one channel of shadow intensity holds, the top row first.
 pub fn read_intensity(gpu: &Gpu, texture: &wgpu::Texture) -> Result<Vec<f32>, LabError> {
     let bytes = gpu.read_texture(texture, 0, SHADOW_INTENSITY)?;
-    Ok(match texture.format() {
-        wgpu::TextureFormat::R8Unorm => bytes.iter().map(|&byte| f32::from(byte) / 255.0).collect(),
-        wgpu::TextureFormat::R16Float => bytes
+    match texture.format() {
+        wgpu::TextureFormat::R8Unorm => {
+            Ok(bytes.iter().map(|&byte| f32::from(byte) / 255.0).collect())
+        }
+        wgpu::TextureFormat::R16Float => Ok(bytes
             .chunks_exact(2)
             .map(|pair| half::f16::from_le_bytes([pair[0], pair[1]]).to_f32())
-            .collect(),
-        _ => bytemuck::pod_collect_to_vec(&bytes),
-    })
+            .collect()),
+        wgpu::TextureFormat::R32Float => Ok(bytemuck::pod_collect_to_vec(&bytes)),
+        other => Err(LabError::unsuitable(
+            SHADOW_INTENSITY,
+            format!("its format is {other:?}; the lab reads r8unorm, r16float and r32float"),
+        )),
+    }
 }
 
 /// A format of depth in the library's terms.
-fn stored_format(format: wgpu::TextureFormat) -> TextureFormat {
+fn stored_format(format: wgpu::TextureFormat) -> Result<TextureFormat, LabError> {
     let mut all = TextureFormat::ALL.into_iter();
     let found = all.find(|&it| TextureDesc::new(it, [1, 1]).wgpu_format() == format);
-    found.unwrap_or(TextureFormat::Depth32Float)
+    found.ok_or_else(|| LabError::unsuitable("a depth map", format!("no node reads {format:?}")))
 }
 
 /// What the host gives, described for the compiler.
-pub fn imports(desc: &FrameDesc) -> [(&'static str, ResourceDesc); 2] {
+pub fn imports(desc: &FrameDesc) -> Result<[(&'static str, ResourceDesc); 2], LabError> {
     let texture = |format, samples, size| {
-        ResourceDesc::Texture(TextureDesc {
+        Ok::<_, LabError>(ResourceDesc::Texture(TextureDesc {
             samples,
-            ..TextureDesc::new(stored_format(format), size)
-        })
+            ..TextureDesc::new(stored_format(format)?, size)
+        }))
     };
     let (format, samples) = desc.camera_depth;
-    [
-        ("light_depth", texture(desc.format, desc.samples, desc.map)),
-        ("camera_depth", texture(format, samples, desc.picture)),
-    ]
+    Ok([
+        ("light_depth", texture(desc.format, desc.samples, desc.map)?),
+        ("camera_depth", texture(format, samples, desc.picture)?),
+    ])
 }
 
 /// The parameters of the library's nodes for a frame, with something in the air or nothing, as the plan lays them out.
@@ -209,7 +215,18 @@ pub fn parameter_bytes(
             ("CompositeScatteringParameters", Some(air)) => {
                 blocks.write(into, node, 0, &air.composite)?;
             }
-            _ => {}
+            // They begin as the graph says: with its kernel, or with nothing in the air.
+            (
+                "BlurParameters"
+                | "RectifyMomentsParameters"
+                | "IntegrateScatteringParameters"
+                | "CompositeScatteringParameters",
+                _,
+            ) => {}
+            (other, _) => {
+                let reason = format!("the lab knows no parameters '{other}' of node '{node}'");
+                return Err(LabError::unsuitable(&file.name, reason));
+            }
         }
     }
     Ok(bytes)
@@ -266,7 +283,7 @@ pub fn receiver_bias(desc: &FrameDesc, file: &GraphFile) -> Result<ReceiverBias,
     let depth_per_texel = light_view(desc).depth_per_texel(desc.map);
     let bias = ReceiverBias::for_kernel(deviation, depth_per_texel as f32);
     Ok(bias.for_stored_depth(
-        stored_format(desc.format),
+        stored_format(desc.format)?,
         &light_view(desc).depth.conversion()?,
     ))
 }

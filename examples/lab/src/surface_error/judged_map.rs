@@ -63,7 +63,7 @@ impl MapRun {
         let found = match &self.output {
             Some(output) => self.filtered(output),
             None => {
-                let [(_, light_depth), _] = imports(&frame.desc);
+                let [(_, light_depth), _] = imports(&frame.desc)?;
                 let desc = light_depth.texture().cloned();
                 desc.map(|desc| (&frame.light_map.texture, desc))
             }
