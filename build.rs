@@ -26,7 +26,8 @@ fn constants(text: &str) -> String {
         if is_number(&value) {
             return Some(format!("pub(crate) const {name}: {of} = {value};\n"));
         }
-        let parts = value.split_once('(')?.1.strip_suffix(')')?.split(',');
+        let parts = value.split_once('(')?.1.strip_suffix(')')?;
+        let parts = parts.split(['(', ')', ',']);
         let numbers: Vec<_> = parts.map(str::trim).filter(is_number).collect();
         let (count, numbers) = (numbers.len(), numbers.join(", "));
         Some(format!(

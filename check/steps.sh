@@ -4,8 +4,6 @@
 # What the steps fetch and write.
 work=${CARGO_TARGET_DIR:-target}/check
 
-lab() { cargo run --release --locked --quiet -p moment-shadows-lab -- "$@"; }
-
 # need_packages COMMAND PACKAGE...: installs Debian packages unless there is the command.
 need_packages() {
   local command=$1
@@ -51,8 +49,28 @@ run_tint() {
 # Our verdicts beside Tint's, on pairs of shaders and on shaders of published packages. Downloads are kept.
 run_agreement() {
   need_npm_packages
-  node check/agreement/agreement.mjs "$work/agreement" \
-    cargo run --release --locked --quiet -p moment-shadows-graph --features cli --
+  node check/agreement/agreement.mjs "$work/agreement" "$(built --bin moment-shadows)"
+}
+
+# A second recorder of plans, in JavaScript: its parameters beside those of the library, byte by byte, its recordings on Dawn, a picture
+# beside arithmetic, and its size. The picture is SwiftShader's: this Dawn refuses older versions of Mesa's driver.
+run_javascript() {
+  need_npm_packages
+  rm -rf "$work/plans"
+  mkdir -p "$work"
+  "$(built --example write_parameters)" "$work/parameters.json"
+  "$(built --example write_plans)" "$work/plans"
+  node check/parameters.mjs "$work/parameters.json"
+  node check/plans.mjs "$work/plans"
+  on_swiftshader node check/run_plan.mjs "$work/plans/webgpu-core/example hard_shadows.json"
+  node check/package_size.mjs graph/js
+}
+
+# The page of examples/hosts/web: its plans, and what it draws with them.
+run_page() {
+  need_npm_packages
+  examples/hosts/web/plans.sh "$(realpath "$(built --bin moment-shadows)")"
+  on_swiftshader node --import ./check/import_map.mjs check/page.mjs
 }
 
 # The library's npm package, in $work/npm and among the packages of the checks, and what npm's linker of WESL makes of every module
@@ -68,17 +86,18 @@ run_wesl_npm() {
   awk '/^```/ { inside = /js$/; next } inside' packages/npm/README.md |
     (cd check && node --input-type=module) >"$work/npm_readme.wgsl"
   grep -q 'fn hamburger4_shadow_intensity_of_texel' "$work/npm_readme.wgsl"
-  cargo test --release --locked --test wesl the_npm_package -- --ignored --nocapture
+  cargo test --release --locked --workspace --test wesl the_npm_package -- --ignored --nocapture
 }
 
 # The library's package for the crate `wesl`, and what the crate makes of every module with it. The crate asks for a newer Rust than
 # it needs.
 run_wesl_rs() {
-  local cargo=(--release --locked --ignore-rust-version --manifest-path packages/wesl_rs/Cargo.toml
+  # Nothing here needs speed; compiling does.
+  local cargo=(--locked --ignore-rust-version --manifest-path packages/wesl_rs/Cargo.toml
     --target-dir "${CARGO_TARGET_DIR:-target}/tmp/wesl_rs")
   cargo clippy "${cargo[@]}" --all-targets -- -D warnings
   cargo test "${cargo[@]}"
-  cargo test --release --locked --test wesl the_rust_package -- --ignored --nocapture
+  cargo test --release --locked --workspace --test wesl the_rust_package -- --ignored --nocapture
 }
 
 # The findings of `validate` as SARIF, by the schema that a package carries.
@@ -165,6 +184,15 @@ need_swiftshader() {
   rm -r "$package"
 }
 
+# Runs a command whose Vulkan driver is SwiftShader.
+on_swiftshader() {
+  need_swiftshader
+  # Two names: the second one serves loaders of Vulkan before 1.3.207.
+  local driver
+  driver=$(realpath "$swiftshader")
+  VK_DRIVER_FILES=$driver VK_ICD_FILENAMES=$driver "$@"
+}
+
 # Tests that depend on the arithmetic of shaders, and on the recorder. Tests of pictures are left out: SwiftShader places
 # vertices on a grid of 1/16 of a pixel (others: 1/256), which moves a slope's depth by more than these tests allow.
 numerics_on_swiftshader() {
@@ -189,7 +217,7 @@ numerics_on_swiftshader() {
 run_fuzzing() {
   local bounds
   for bounds in graph_file:12000 wgsl:800; do
-    cargo run --release --locked --quiet -p moment-shadows-fuzz --bin moment-shadows-fuzz -- \
+    run_built --bin moment-shadows-fuzz \
       --target "${bounds%:*}" --iterations "${bounds#*:}" --seconds 120 --seed 1
   done
 }
@@ -218,9 +246,9 @@ every_feature_combination() {
   done < <(feature_combinations)
 }
 
-# The library's command as `cargo install --no-default-features` makes it.
+# The library's command as `cargo install --no-default-features` makes it, but for its speed.
 command_without_wgpu() {
-  cargo test --release --locked -p moment-shadows-graph --no-default-features --features cli --test command
+  cargo test --locked -p moment-shadows-graph --no-default-features --features cli --test command
 }
 
 # The library crates for the web. Its standard library comes from rustup.
@@ -245,6 +273,8 @@ check() {
   step "Every linked shader as WGSL, SPIR-V and GLSL" write_shaders
   step "A second compiler: Tint" run_tint
   step "What is ok here is ok in browsers: agreement with Tint" run_agreement
+  step "A second recorder: plans and parameters in JavaScript" run_javascript
+  step "A page in JavaScript" run_page
   step "SARIF by its schema" run_sarif
   step "WESL: the npm package, linked by npm's wesl" run_wesl_npm
   step "WESL: the Rust package, linked by the crate wesl" run_wesl_rs

@@ -171,6 +171,23 @@ impl TextureFormat {
         matches!(self, TextureFormat::Rg32Uint | TextureFormat::Rgba32Uint)
     }
 
+    /// The feature of WebGPU that the format exists by, in browsers; `None` where every device has it.
+    #[must_use]
+    pub fn webgpu_feature(self) -> Option<&'static str> {
+        use TextureFormat as F;
+        match self {
+            F::R16Unorm | F::Rg16Unorm | F::Rgba16Unorm => Some(Self::TIER1),
+            F::Depth32FloatStencil8 => Some("depth32float-stencil8"),
+            F::R8Unorm | F::Rgba8Unorm | F::Rgb10a2Unorm => None,
+            F::R16Float | F::Rg16Float | F::Rgba16Float => None,
+            F::R32Float | F::Rg32Float | F::Rgba32Float | F::Rg32Uint | F::Rgba32Uint => None,
+            F::Depth16Unorm | F::Depth32Float | F::Depth24Plus | F::Depth24PlusStencil8 => None,
+        }
+    }
+
+    /// The feature of WebGPU by which browsers store more formats.
+    pub const TIER1: &'static str = "texture-formats-tier1";
+
     /// The wgpu feature to request of a device so that shaders can write a format that not every device lets them.
     #[must_use]
     pub fn feature_to_write(self) -> &'static str {
@@ -182,23 +199,35 @@ impl TextureFormat {
         }
     }
 
+    /// The features to request of a device so that shaders can write the format, in wgpu's words and WebGPU's.
+    #[must_use]
+    pub fn features_to_write(self) -> String {
+        let (wgpu, webgpu) = (self.feature_to_write(), Self::TIER1);
+        format!("the feature {wgpu} of wgpu ('{webgpu}' in browsers)")
+    }
+
     /// What every device of the profile can do with the format, without optional features beyond the profile's own.
     #[must_use]
     pub fn support(self, profile: Profile) -> FormatSupport {
         use TextureFormat as F;
         let (filterable, storage_write, renderable, blendable) = match self {
-            F::R8Unorm | F::Rgb10a2Unorm => (true, false, true, true),
+            F::R8Unorm | F::Rgb10a2Unorm => (true, profile == Profile::WebgpuTier1, true, true),
             // Only features that an adapter adds let them be written as storage.
-            F::R16Float | F::Rg16Float => (true, profile == Profile::NativeAdapter, true, true),
+            F::R16Float | F::Rg16Float => {
+                let stored = matches!(profile, Profile::NativeAdapter | Profile::WebgpuTier1);
+                (true, stored, true, true)
+            }
             F::Rgba8Unorm | F::Rgba16Float => (true, true, true, true),
             // Filtering and blending of single precision are optional features everywhere.
             F::R32Float | F::Rg32Float | F::Rgba32Float | F::Rg32Uint | F::Rgba32Uint => {
                 (false, true, true, false)
             }
-            F::R16Unorm | F::Rg16Unorm | F::Rgba16Unorm => {
-                let native = profile != Profile::WebgpuCore;
-                (native, native, false, false)
-            }
+            F::R16Unorm | F::Rg16Unorm | F::Rgba16Unorm => match profile {
+                Profile::WebgpuCore => (false, false, false, false),
+                Profile::Native | Profile::NativeAdapter => (true, true, false, false),
+                // WebGPU counts them among the formats that are not filtered.
+                Profile::WebgpuTier1 => (false, true, true, true),
+            },
             F::Depth16Unorm | F::Depth32Float | F::Depth24Plus | F::Depth24PlusStencil8 => {
                 (false, false, true, false)
             }

@@ -73,7 +73,7 @@ pub use depth::{DepthConversion, DepthRange};
 pub use format::{FormatSupport, TextureFormat};
 pub use kernel::Kernel;
 pub use leak_reduction::LeakReduction;
-pub use link::{Linked, Location, Module, Rule, ShaderError, Source, link, modules};
+pub use link::{Linked, Location, Module, Rule, ShaderError, Source, compact, link, modules};
 pub use map_region::MapRegion;
 pub use moment_bias::{FourMomentsBias, SixMomentsBias};
 pub use nearest::nearest;

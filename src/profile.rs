@@ -18,11 +18,19 @@ pub enum Profile {
     /// [`Profile::Native`] with the texture usages and sample counts that the adapter at hand reports
     /// (`TEXTURE_ADAPTER_SPECIFIC_FORMAT_FEATURES` in wgpu).
     NativeAdapter,
+    /// WebGPU with its optional feature `texture-formats-tier1`: 16-bit normalised formats and half precision of one or two channels
+    /// can be stored, and the former not filtered.
+    WebgpuTier1,
 }
 
 impl Profile {
-    /// Every profile, least demanding first.
-    pub const ALL: [Profile; 3] = [Profile::WebgpuCore, Profile::Native, Profile::NativeAdapter];
+    /// Every profile: those of wgpu's devices, least demanding first, then the further one of browsers.
+    pub const ALL: [Profile; 4] = [
+        Profile::WebgpuCore,
+        Profile::Native,
+        Profile::NativeAdapter,
+        Profile::WebgpuTier1,
+    ];
 
     /// The name used on command lines and in files.
     #[must_use]
@@ -31,6 +39,16 @@ impl Profile {
             Profile::WebgpuCore => "webgpu-core",
             Profile::Native => "native",
             Profile::NativeAdapter => "native-adapter",
+            Profile::WebgpuTier1 => "webgpu-tier1",
+        }
+    }
+
+    /// Whether it is WebGPU's own, so that browsers have to take what is checked against it.
+    #[must_use]
+    pub fn is_of_browsers(self) -> bool {
+        match self {
+            Profile::WebgpuCore | Profile::WebgpuTier1 => true,
+            Profile::Native | Profile::NativeAdapter => false,
         }
     }
 }

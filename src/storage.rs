@@ -141,7 +141,7 @@ impl Storage {
     pub fn best_for(profile: Profile) -> Storage {
         match profile {
             Profile::WebgpuCore => Storage::Float16,
-            Profile::Native | Profile::NativeAdapter => Storage::Unorm16,
+            Profile::Native | Profile::NativeAdapter | Profile::WebgpuTier1 => Storage::Unorm16,
         }
     }
 
@@ -160,10 +160,10 @@ impl Storage {
         if self.can_write(format, profile) {
             return Ok(());
         }
-        let feature = format.feature_to_write();
+        let feature = format.features_to_write();
         let message = format!(
             "storage '{self}' needs {format} as a storage texture, which the profile {profile} does not offer; request the \
-             device with the feature {feature}, or use storage '{alternative}' instead"
+             device with {feature}, or use storage '{alternative}' instead"
         );
         Err(ValueError::new("storage", message))
     }

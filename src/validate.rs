@@ -176,7 +176,7 @@ fn on_large_stack<T: Send>(work: impl FnOnce() -> T + Send) -> Option<T> {
 
 fn compile(mut linked: Linked, options: &ValidationOptions<'_>) -> ValidationReport {
     let mut report = ValidationReport::default();
-    let is_core = options.profile == Profile::WebgpuCore;
+    let is_core = options.profile.is_of_browsers();
     if is_core {
         report.errors.extend(operators::check(&linked));
         report.errors.extend(attributes::check(&linked));

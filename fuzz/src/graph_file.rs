@@ -159,7 +159,7 @@ fn check(plan: &Plan) {
 
 /// Mostly what real devices offer.
 fn capabilities(random: &mut Random) -> Capabilities {
-    let profile = Profile::ALL[random.below(3)];
+    let profile = Profile::ALL[random.below(Profile::ALL.len())];
     let mut capabilities = Capabilities::of_profile(profile);
     capabilities.float32_filterable = random.once_in(2);
     capabilities.anisotropic_sampling = random.once_in(2);

@@ -31,6 +31,7 @@ pub struct Graph {
 
 /// A part of a graph or of a plan, by name.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[serde(deny_unknown_fields)]
 pub struct Named<T> {
     /// The name, which nothing else of its kind has.

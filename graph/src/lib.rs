@@ -48,12 +48,15 @@ pub use capabilities::Capabilities;
 pub use error::{GraphError, GraphErrorKind, Position};
 pub use graph::{Edge, Graph, Named};
 pub use node::{
-    Binding, BindingResource, Connected, Direction, Node, NodeDesc, ParameterBlock, Pass, Rule,
-    Slot, SlotResource, Stage, TextureRule, Work, bind,
+    Binding, BindingResource, Connected, Direction, Node, NodeDesc, Off, ParameterBlock, Pass,
+    Rule, Slot, SlotResource, Stage, TextureRule, Work, bind,
 };
 pub use plan::{
-    Home, ParameterLayout, Plan, PlannedBindingResource, PlannedMemory, PlannedParameters,
-    PlannedPass, PlannedRegions, PlannedResource, PlannedWork, SampleType,
+    AddressMode, BindingLayout, BufferKind, CompareFunction, FilterMode, Home, Instead, Lives,
+    ParameterLayout, Plan, PlannedBinding, PlannedBindingResource, PlannedDevice, PlannedExtent,
+    PlannedField, PlannedMemory, PlannedOff, PlannedOffset, PlannedParameters, PlannedPart,
+    PlannedPass, PlannedRegions, PlannedResource, PlannedSampler, PlannedUse, PlannedWork,
+    SampleType, SamplerKind, StorageAccess, Usage, ViewDimension, Visibility,
 };
 pub use registry::NodeRegistry;
 pub use resource::{Access, ResourceDesc, TextureDesc};

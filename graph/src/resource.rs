@@ -124,6 +124,7 @@ impl fmt::Display for TextureDesc {
 
 /// A texture or a buffer.
 #[derive(Clone, Debug, PartialEq, Eq, Hash, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[serde(rename_all = "snake_case")]
 pub enum ResourceDesc {
     /// A texture.

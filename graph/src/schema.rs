@@ -1,9 +1,10 @@
-//! The JSON schema of graph files.
+//! The JSON schemas of graph files and of plans.
 
 use schemars::generate::SchemaSettings;
 use schemars::{JsonSchema, Schema, SchemaGenerator};
 use serde_json::{Value, json};
 
+use crate::Plan;
 use crate::graph::{Edge, FileImport, FileOutput, Graph, VERSION};
 use crate::nodes::{
     Blur, CompositeScattering, DebugMoments, Downsample, IntegrateScattering, PlaceLayers,
@@ -53,6 +54,20 @@ impl Graph {
             "additionalProperties": false,
             "$defs": generator.take_definitions(true),
         });
+        plain(&mut schema);
+        schema
+    }
+}
+
+impl Plan {
+    /// The JSON schema of plans of this version (JSON Schema 2020-12).
+    #[must_use]
+    pub fn schema() -> Value {
+        let generator = SchemaSettings::draft2020_12().into_generator();
+        let mut schema = generator.into_root_schema_for::<Plan>().to_value();
+        schema["title"] = "A plan of moment-shadows".into();
+        schema["properties"]["version"] =
+            json!({ "description": "The version of the format.", "const": Plan::VERSION });
         plain(&mut schema);
         schema
     }

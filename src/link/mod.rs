@@ -1,5 +1,6 @@
 //! The linker: a file and the modules that it needs become one WGSL text.
 
+mod compact;
 mod dialect;
 mod error;
 pub(crate) mod file;
@@ -13,6 +14,7 @@ pub(crate) mod tokens;
 
 use std::collections::{BTreeMap, BTreeSet};
 
+pub use self::compact::compact;
 pub use self::error::ShaderError;
 use self::file::File;
 use self::import::Form;

@@ -1,11 +1,12 @@
 //! Exponential shadow maps (Annen et al., GI 2008; Salvi 2008).
 
 use super::row::{Constant, Encoding, LINEAR, Row, float};
-use super::{EsmFiltering, Finite};
+use super::{EsmFiltering, Finite, far};
 use crate::Storage::{Float16, Float32, Unorm16};
 use crate::constants::{
     EXPONENTIAL_LARGEST_EXPONENT as LARGEST, EXPONENTIAL_LARGEST_EXPONENT_FLOAT16,
     EXPONENTIAL_LARGEST_EXPONENT_FLOAT16_LOGARITHMIC, EXPONENTIAL_LARGEST_EXPONENT_UNORM16,
+    STORAGE_LARGEST_FLOAT16,
 };
 
 const NAME: &str = "esm";
@@ -49,7 +50,19 @@ pub(super) fn row(exponent: Option<Finite>, filtering: EsmFiltering) -> Row {
             )
         },
     };
+    let largest = f64::from(exponent.unwrap_or_default().get()).exp();
+    let far = far::of_each(row.storages, |storage| {
+        let value = match filtering {
+            EsmFiltering::Linear if storage == Float32 => largest,
+            EsmFiltering::Linear if storage == Float16 => {
+                largest.min(f64::from(STORAGE_LARGEST_FLOAT16))
+            }
+            EsmFiltering::Linear | EsmFiltering::Logarithmic => 1.0,
+        };
+        vec![[value, 0.0, 0.0, 0.0]]
+    });
     Row {
+        far,
         exponents: Vec::from_iter(exponent),
         constants: vec![
             Constant::of_map("EXPONENT", float(exponent.unwrap_or_default().get())),

@@ -1,7 +1,7 @@
 //! Exponential variance shadow maps (Lauritzen & McCool, GI 2008), with one warp or both.
 
-use super::Finite;
 use super::row::{Constant, Encoding, LINEAR, Row};
+use super::{Finite, far};
 use crate::Storage::{Float16, Float32};
 use crate::constants::{
     EXPONENTIAL_VARIANCE_LARGEST_EXPONENT_FLOAT16, EXPONENTIAL_VARIANCE_LARGEST_EXPONENT_FLOAT32,
@@ -26,8 +26,14 @@ pub(super) fn evsm4(positive: Option<Finite>, negative: Option<Finite>) -> Row {
 }
 
 fn row(name: &'static str, channels: u32, exponents: [Option<Finite>; 2], both: bool) -> Row {
+    let storages = &[Float32, Float16];
     let [x, y] = exponents.map(|exponent| exponent.unwrap_or_default().get());
+    let [positive, negative] = [x, -y].map(|exponent| f64::from(exponent).exp());
+    let [positive, negative] = [positive, -negative].map(|warp| [warp, warp * warp]);
+    let second = if both { negative } else { [0.0; 2] };
+    let far = [positive[0], positive[1], second[0], second[1]];
     Row {
+        far: far::of_each(storages, |_| vec![far]),
         constants: vec![
             Constant::of_map("EXPONENTS", format!("vec2f({x:?}, {y:?})")),
             Constant::of_evaluation("BOTH_WARPS", both),
@@ -37,6 +43,6 @@ fn row(name: &'static str, channels: u32, exponents: [Option<Finite>; 2], both: 
             EXPONENTIAL_VARIANCE_LARGEST_EXPONENT_FLOAT32,
             EXPONENTIAL_VARIANCE_LARGEST_EXPONENT_FLOAT16,
         ],
-        ..Row::of_map(name, &[Float32, Float16], channels, ENCODING, EVALUATION)
+        ..Row::of_map(name, storages, channels, ENCODING, EVALUATION)
     }
 }

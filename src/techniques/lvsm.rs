@@ -1,7 +1,8 @@
 //! Layered variance shadow maps (Lauritzen & McCool, GI 2008).
 
 use super::row::{Constant, Encoding, LINEAR, Row, float, vec4};
-use super::{Finite, LayerSplits, count, setting};
+use super::vsm::far_of_pairs;
+use super::{Finite, LayerSplits, count, far, setting};
 use crate::Storage::{Float16, Float32, Unorm16};
 use crate::ValueError;
 use crate::constants::LAYERED_VARIANCE_LARGEST_COUNT;
@@ -26,6 +27,7 @@ const EVALUATION: &str = "let layers = technique_layers(receiver.layer);
     return mix(intensity, other, choice.neighbor_share);";
 
 pub(super) fn row(layers: u32, overlap: Finite, splits: &LayerSplits) -> Row {
+    let storages = &[Unorm16, Float32, Float16];
     let known = splits.known(layers);
     let mut constants = vec![
         Constant::of_map("LAYERS", format!("{layers}u")),
@@ -38,7 +40,11 @@ pub(super) fn row(layers: u32, overlap: Finite, splits: &LayerSplits) -> Row {
         constants,
         places_layers: known.is_none(),
         bounded_channels: true,
-        ..Row::of_map(NAME, &[Unorm16, Float32, Float16], 4, ENCODING, EVALUATION)
+        // Every layer ends before the far end, or there.
+        far: far::of_each(storages, |storage| {
+            far_of_pairs(storage, layers.next_multiple_of(2))
+        }),
+        ..Row::of_map(NAME, storages, 4, ENCODING, EVALUATION)
     }
 }
 

@@ -6,6 +6,7 @@ mod encoding;
 mod esm;
 mod evsm;
 mod exponents;
+mod far;
 mod finite;
 mod lvsm;
 mod modules;

@@ -1,7 +1,9 @@
 //! Moment shadow mapping: `hamburger4`, `hausdorff4`, `hamburger6`.
 
+use super::far;
 use super::row::{Encoding, LINEAR, Row};
 use crate::Storage::{self, Float16, Float32, Unorm10, Unorm16};
+use crate::constants::{SIX_MOMENTS_EVEN_BASIS, SIX_MOMENTS_EVEN_OFFSET};
 
 const FOUR: Encoding = Encoding {
     channels: "four_moments_from_depth(z)",
@@ -25,6 +27,7 @@ fn of_four(name: &'static str, evaluation: &'static str) -> Row {
     Row {
         bounded_channels: true,
         has_table: true,
+        far: far::of_each(&Storage::OF_FOUR_MOMENTS, far_of_four),
         ..Row::of_map(name, &Storage::OF_FOUR_MOMENTS, 4, FOUR, evaluation)
     }
 }
@@ -52,6 +55,26 @@ pub(super) fn hamburger6() -> Row {
         planes: 2,
         bounded_channels: true,
         both_bounds: true,
+        far: far::of_each(storages, far_of_six),
         ..Row::of_map("hamburger6", storages, 4, SIX, evaluation)
     }
+}
+
+/// All moments are 1: the ends of the ranges of five channels, and the sum of the sixth's row. The fourth channel is 1.
+fn far_of_six(storage: Storage) -> Vec<[f64; 4]> {
+    let row = SIX_MOMENTS_EVEN_BASIS.iter().skip(2).step_by(3);
+    let last = SIX_MOMENTS_EVEN_OFFSET.last().into_iter().chain(row);
+    let last = last.map(|&value| f64::from(value)).sum();
+    let mut planes = far::centred(&[[1.0; 4], [0.0, 1.0, last, 1.0]], storage);
+    planes.iter_mut().for_each(|plane| plane[3] = 1.0);
+    planes
+}
+
+/// All moments are 1: 1/2 + sqrt(3) (1/2 - 2/9) in the third channel of the optimised basis.
+fn far_of_four(storage: Storage) -> Vec<[f64; 4]> {
+    if storage == Float32 {
+        return vec![[1.0; 4]];
+    }
+    let third = 0.5 + 3_f64.sqrt() * (0.5 - 2.0 / 9.0);
+    far::centred(&[[0.0, 0.0, third, 1.0]], storage)
 }

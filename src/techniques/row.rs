@@ -70,6 +70,8 @@ pub struct Row {
     pub(super) exponents: Vec<Finite>,
     /// The largest exponents that range and precision of each of `storages` allow; empty without exponents.
     pub(super) largest_exponents: &'static [f32],
+    /// The texels, plane by plane, of a map in which everything is at the far end, for each of `storages`.
+    pub(super) far: Vec<Vec<[f64; 4]>>,
     /// Constants of the pieces below.
     pub(super) constants: Vec<Constant>,
     /// How the map is made and filtered; `None` where the plain depth map is read.
@@ -110,6 +112,7 @@ impl Row {
             settings: Ok(()),
             exponents: Vec::new(),
             largest_exponents: &[],
+            far: Vec::new(),
             constants: Vec::new(),
             encoding: Some(encoding),
             bounded_channels: false,
@@ -143,6 +146,14 @@ impl Row {
     pub fn largest_exponent(&self, storage: Storage) -> Option<f32> {
         let index = self.storages.iter().position(|&of| of == storage)?;
         self.largest_exponents.get(index).copied()
+    }
+
+    /// The texel of each plane of a map that casts no shadow, since everything in it is at the far end; zeros where there are fewer
+    /// channels. `None` for other storages than the technique's.
+    #[must_use]
+    pub fn far_texels(&self, storage: Storage) -> Option<&[[f64; 4]]> {
+        let index = self.storages.iter().position(|&of| of == storage)?;
+        self.far.get(index).map(Vec::as_slice)
     }
 
     /// Whether both techniques read the same map.

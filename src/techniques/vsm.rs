@@ -1,7 +1,8 @@
 //! Variance shadow maps (Donnelly & Lauritzen, i3D 2006).
 
+use super::far;
 use super::row::{Encoding, LINEAR, Row};
-use crate::Storage::{Float16, Float32, Unorm16};
+use crate::Storage::{self, Fixed32, Float16, Float32, Unorm8, Unorm10, Unorm16};
 
 const ENCODING: Encoding = Encoding {
     channels: "two_moments_from_depth(z)",
@@ -20,6 +21,19 @@ pub(super) fn row() -> Row {
         bounded_channels: true,
         has_table: true,
         soft: Some(SOFT),
+        far: far::of_each(storages, |storage| far_of_pairs(storage, 1)),
         ..Row::of_map("vsm", storages, 2, ENCODING, EVALUATION)
     }
+}
+
+/// Pairs of moments that are 1, two to a texel; of a single one the others are zeros.
+pub(super) fn far_of_pairs(storage: Storage, pairs: u32) -> Vec<[f64; 4]> {
+    let pair = match storage {
+        Float32 => [1.0, 1.0],
+        Float16 => [0.5, -0.5],
+        Unorm8 | Unorm10 | Unorm16 | Fixed32 => [1.0, 0.0],
+    };
+    let second = if pairs > 1 { pair } else { [0.0; 2] };
+    let texel = [pair[0], pair[1], second[0], second[1]];
+    vec![texel; pairs.div_ceil(2) as usize]
 }

@@ -50,11 +50,11 @@ fn objection(
         Some("textures have no atomics in WebGPU; use a storage buffer")
     } else if is_norm16(format) && profile == Profile::WebgpuCore {
         Some(
-            "16-bit normalised formats need profile `native`; `rgba16float` and `rgba32float` are stored everywhere",
+            "16-bit normalised formats need profile `native` or `webgpu-tier1`; `rgba16float` and `rgba32float` are stored everywhere",
         )
-    } else if !is_norm16(format) && !is_core(format) {
+    } else if !is_norm16(format) && !is_core(format) && !is_stored_by(format, profile) {
         Some(
-            "only some adapters can store this format (profile `native-adapter`); write it in a render pass instead",
+            "only some adapters can store this format (profiles `native-adapter` and `webgpu-tier1`); write it in a render pass instead",
         )
     } else if reads_and_writes && !is_core_read_write(format) {
         Some(
@@ -87,6 +87,17 @@ fn is_core(format: StorageFormat) -> bool {
             | F::Rgba32Sint
             | F::Rgba32Float
     )
+}
+
+/// Whether a profile beyond core WebGPU stores a format that has no 16-bit normalised channels.
+fn is_stored_by(format: StorageFormat, profile: Profile) -> bool {
+    use StorageFormat as F;
+    match profile {
+        // `texture-formats-tier1` leaves out one of WebGPU's formats, which has a feature of its own.
+        Profile::WebgpuTier1 => !matches!(format, F::Bgra8Unorm | F::R64Uint),
+        Profile::NativeAdapter => true,
+        Profile::WebgpuCore | Profile::Native => false,
+    }
 }
 
 fn is_core_read_write(format: StorageFormat) -> bool {

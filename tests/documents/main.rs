@@ -8,6 +8,7 @@
 
 mod graph_file;
 mod links;
+mod plan;
 mod schema;
 mod wgsl;
 

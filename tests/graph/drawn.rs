@@ -5,8 +5,8 @@ use moment_shadows_graph::nodes::{
     CompositeScattering, DebugMoments, IntegrateScattering, RectifyMoments, SummedAreaTable,
 };
 use moment_shadows_graph::{
-    Access, Capabilities, Connected, GraphError, GraphErrorKind, Node, NodeDesc, Plan,
-    PlannedBindingResource, PlannedWork, ResourceDesc, TextureDesc,
+    Capabilities, Connected, GraphError, GraphErrorKind, Node, NodeDesc, Plan,
+    PlannedBindingResource, PlannedWork, ResourceDesc, TextureDesc, Usage,
 };
 
 use crate::example::{compiled, edited};
@@ -40,14 +40,13 @@ fn ten_bits_are_drawn_plane_by_plane_and_level_by_level() {
         .map(|pass| match pass.work {
             PlannedWork::Fullscreen {
                 target,
-                level,
-                plane,
+                part,
                 keeps,
             } => (
                 pass.label.as_str(),
                 plan.resources[target].name.clone(),
-                level,
-                plane,
+                part.level,
+                part.plane,
                 keeps,
             ),
             _ => panic!("'{}' is no draw", pass.label),
@@ -59,10 +58,10 @@ fn ten_bits_are_drawn_plane_by_plane_and_level_by_level() {
         [
             of("plane 0: resolve", "resolve.map", 0, 0),
             of("plane 1: resolve", "resolve.map", 0, 1),
-            // The planes take turns with one intermediate map of one plane.
-            of("plane 0: blur along x", "blur.half_blurred", 0, 0),
+            // Each plane has an intermediate map of its own, of one plane.
+            of("plane 0: blur along x", "blur.half_blurred_0", 0, 0),
             of("plane 0: blur along y", "blur.blurred", 0, 0),
-            of("plane 1: blur along x", "blur.half_blurred", 0, 0),
+            of("plane 1: blur along x", "blur.half_blurred_1", 0, 0),
             of("plane 1: blur along y", "blur.blurred", 0, 1),
             of("plane 0: mip level 1", "blur.blurred", 1, 0),
             of("plane 1: mip level 1", "blur.blurred", 1, 1),
@@ -71,14 +70,15 @@ fn ten_bits_are_drawn_plane_by_plane_and_level_by_level() {
     // The picture is drawn whole.
     assert!(!drawn[8].4 && drawn.len() == 9);
     for resource in &plan.resources {
-        assert!(!resource.access.storage_write, "{}", resource.name);
+        let stored = resource.usage.contains(&Usage::StorageBinding);
+        assert!(!stored, "{}", resource.name);
     }
     let map = plan
         .resources
         .iter()
         .find(|resource| resource.name == "blur.blurred")
         .unwrap();
-    assert_eq!(map.access, Access::READ.union(Access::RENDER_TARGET));
+    assert_eq!(map.usage, [Usage::TextureBinding, Usage::RenderAttachment]);
     let map = map.desc.texture().unwrap();
     assert_eq!((map.format, map.planes), (TextureFormat::Rgb10a2Unorm, 2));
     // Every layer that is dirty, in its own region.
@@ -115,8 +115,8 @@ fn a_plan_from_elsewhere_draws_to_planes_and_levels_that_are_there() {
     ] {
         let mut plan = plan("unorm10");
         plan.check().unwrap();
-        if let PlannedWork::Fullscreen { level, plane, .. } = &mut plan.passes[3].work {
-            (*level, *plane) = wrong;
+        if let PlannedWork::Fullscreen { part, .. } = &mut plan.passes[3].work {
+            (part.level, part.plane) = wrong;
         }
         let error = plan.check().unwrap_err();
         assert_eq!(error.kind, GraphErrorKind::Plan);

@@ -11,6 +11,7 @@ mod declarations;
 mod drawn;
 mod example;
 mod file;
+mod hazards;
 #[allow(dead_code, reason = "shared with the tests of the recorder")]
 #[path = "../support/host_node.rs"]
 mod host_node;
@@ -22,6 +23,7 @@ mod plan;
 mod plan_file;
 mod properties;
 mod regions;
+mod resized;
 mod resources;
 mod settings;
 mod shaders;

@@ -1,6 +1,8 @@
 //! Which resources share memory, and which never do.
 
-use moment_shadows_graph::{Access, Direction, Home, NodeDesc, Plan, Slot, Stage, bind};
+use moment_shadows_graph::{
+    Access, Direction, Home, NodeDesc, Plan, PlannedMemory, Slot, Stage, Usage, bind,
+};
 
 use crate::example::{TEXT, compiled, native};
 use crate::host_node::{
@@ -71,8 +73,8 @@ fn the_examples_moments_give_their_memory_to_the_blurred_ones() {
     assert_eq!(home("blur.blurred"), Home::Memory(0));
     // What a texture has to allow is what any of its residents needs.
     assert_eq!(
-        plan.memory[0].access,
-        Access::READ.union(Access::STORAGE_WRITE)
+        plan.memory[0].usage,
+        [Usage::TextureBinding, Usage::StorageBinding]
     );
 }
 
@@ -117,7 +119,8 @@ fn outputs_never_share() {
         &["b.to", "d.to"],
     );
     assert_eq!(homes(&plan), ["a.to | c.to", "b.to", "d.to"]);
-    let exported: Vec<bool> = plan.memory.iter().map(|memory| memory.exported).collect();
+    let exported = |memory: &PlannedMemory| memory.usage.contains(&Usage::CopySrc);
+    let exported: Vec<bool> = plan.memory.iter().map(exported).collect();
     assert_eq!(exported, [false, true, true]);
 }
 

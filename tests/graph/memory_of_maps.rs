@@ -1,6 +1,6 @@
 //! Memory that is shared in a plan of two maps: their layers are made anew independently of each other.
 
-use moment_shadows_graph::{NodeDesc, Plan, Stage};
+use moment_shadows_graph::{NodeDesc, Plan, PlannedMemory, Stage, Usage};
 
 use crate::example::native;
 use crate::host_node::{copy, copy_every_time, graph, rgba32};
@@ -30,7 +30,8 @@ fn pairs(pairs: Vec<(&str, NodeDesc, NodeDesc)>) -> Plan {
 
 /// The labels of the memory that is not an output: who lives together.
 fn homes(plan: &Plan) -> Vec<&str> {
-    let memory = plan.memory.iter().filter(|memory| !memory.exported);
+    let exported = |memory: &PlannedMemory| memory.usage.contains(&Usage::CopySrc);
+    let memory = plan.memory.iter().filter(|memory| !exported(memory));
     memory.map(|memory| memory.label.as_str()).collect()
 }
 

@@ -4,8 +4,8 @@ use moment_shadows::{Profile, TextureFormat};
 use moment_shadows_graph::GraphErrorKind::{Plan as Broken, Version};
 use moment_shadows_graph::nodes::{Blur, Resolve, ShadeHard};
 use moment_shadows_graph::{
-    Capabilities, Connected, GraphError, GraphErrorKind, Node, Plan, PlannedBindingResource,
-    ResourceDesc, TextureDesc,
+    BindingLayout, Capabilities, Connected, GraphError, GraphErrorKind, Node, Plan,
+    PlannedBindingResource, PlannedExtent, ResourceDesc, SamplerKind, TextureDesc,
 };
 
 use crate::example::{TEXT, compiled, edited, native, parse};
@@ -187,8 +187,47 @@ fn a_plan_that_does_not_hold_together_is_told() {
         plan.check().unwrap_err()
     };
     type Change = fn(&mut Plan);
-    let cases: [(Change, GraphErrorKind, &str); 9] = [
-        (|plan| plan.version = 3, Version, "the plan has version 3"),
+    let cases: [(Change, GraphErrorKind, &str); 15] = [
+        (|plan| plan.version = 2, Version, "the plan has version 2"),
+        (
+            |plan| plan.shaders.clear(),
+            Broken,
+            "pass 'resolve/resolve' refers to shader 0, but there are 0",
+        ),
+        (
+            |plan| {
+                plan.passes[0].bindings[1].layout = BindingLayout::Sampler {
+                    ty: SamplerKind::Filtering,
+                };
+            },
+            Broken,
+            "pass 'resolve/resolve' binds 'depth_map' as something else than what it holds",
+        ),
+        (
+            |plan| plan.passes[1].after.clear(),
+            Broken,
+            "pass 'blur/blur along x' says something else of its bindings than they do",
+        ),
+        (
+            |plan| plan.passes[2].reads.clear(),
+            Broken,
+            "pass 'blur/blur along y' says something else of its bindings than they do",
+        ),
+        (
+            |plan| plan.passes[0].dynamic_offsets.reverse(),
+            Broken,
+            "pass 'resolve/resolve' says something else of its bindings than they do",
+        ),
+        (
+            |plan| {
+                plan.resources[0].extent = Some(PlannedExtent {
+                    import: 2,
+                    per: [1; 2],
+                })
+            },
+            Broken,
+            "resource 'light_depth' refers to import 2, but there are 2",
+        ),
         (
             |plan| plan.outputs[0].value = 99,
             Broken,
@@ -251,8 +290,9 @@ fn the_bind_group_is_the_hosts_choice() {
     let plan = compiled(TEXT, &device).unwrap();
     assert_eq!(plan.bind_group, 2);
     for pass in &plan.passes {
-        assert!(pass.wgsl.contains("const GROUP = 2;"), "{}", pass.label);
-        assert!(pass.wgsl.contains("@group(GROUP)") && !pass.wgsl.contains("@group(0)"));
+        let wgsl = plan.wgsl(pass);
+        assert!(wgsl.contains("const GROUP = 2;"), "{}", pass.label);
+        assert!(wgsl.contains("@group(GROUP)") && !wgsl.contains("@group(0)"));
     }
 }
 

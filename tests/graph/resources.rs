@@ -177,7 +177,7 @@ fn a_storage_that_the_profile_lacks_names_one_that_works() {
         "map",
         "8:5",
         "rgba16unorm cannot be written as a storage texture under the profile webgpu-core; request the device with the \
-         feature TEXTURE_FORMAT_16BIT_NORM, or use storage 'float16'",
+         feature TEXTURE_FORMAT_16BIT_NORM of wgpu ('texture-formats-tier1' in browsers), or use storage 'float16'",
     );
     let works = edited(
         "\"unorm16\"",

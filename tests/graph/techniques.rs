@@ -6,7 +6,7 @@ use moment_shadows_lab::techniques;
 
 use crate::example::{TEXT, compiled, edited, native};
 
-const STORAGES: [Storage; 5] = [
+pub(crate) const STORAGES: [Storage; 5] = [
     Storage::Unorm8,
     Storage::Unorm10,
     Storage::Unorm16,
@@ -45,7 +45,7 @@ fn expected(name: &str, storage: Storage) -> Option<Profile> {
 }
 
 /// Settings that suit every storage.
-const TECHNIQUES: [(&str, &str); 10] = [
+pub(crate) const TECHNIQUES: [(&str, &str); 10] = [
     ("hamburger4", "\"hamburger4\""),
     ("hausdorff4", "\"hausdorff4\""),
     ("hamburger6", "\"hamburger6\""),
@@ -71,6 +71,7 @@ fn the_whole_matrix_is_accepted_or_refused_as_the_table_says() {
                 let result = compiled(&example(json, storage.name()), &capabilities);
                 let least = expected(name, storage);
                 let case = format!("{name}, {storage}, {profile}");
+                // The last profile stores whatever the others do.
                 let reached = |least| {
                     let place = |wanted| Profile::ALL.iter().position(|p| *p == wanted);
                     place(profile) >= place(least)
@@ -107,7 +108,8 @@ fn the_whole_matrix_is_accepted_or_refused_as_the_table_says() {
             }
         }
     }
-    assert_eq!(legal, 71);
+    // 71 under the profiles of wgpu, and the 29 of the most demanding one again in browsers.
+    assert_eq!(legal, 71 + 29);
 }
 
 #[test]
@@ -223,12 +225,11 @@ fn planes_are_texture_layers() {
     let map = map.desc.texture().unwrap();
     assert_eq!((map.planes, map.layers, map.array_layers()), (4, 1, 4));
     assert_eq!(map.bytes(), 4 * 8 * 1024 * 1024);
-    // The blur's planes take turns with one intermediate map.
-    let half = plan
-        .resources
-        .iter()
-        .find(|resource| resource.name == "blur.half_blurred")
-        .unwrap();
+    // The blur's planes have intermediate maps of their own, which take turns in one texture.
+    let mut memory = plan.memory.iter();
+    let half = memory.find(|memory| memory.label.starts_with("blur.half_blurred_0"));
+    let half = half.unwrap();
+    assert_eq!(half.label.matches(" | blur.half_blurred_").count(), 3);
     assert_eq!(half.desc.texture().unwrap().array_layers(), 1);
     let labels: Vec<&str> = plan.passes.iter().map(|pass| pass.label.as_str()).collect();
     assert_eq!(labels[..2], ["plane 0: resolve", "plane 1: resolve"]);

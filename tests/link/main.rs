@@ -1,6 +1,7 @@
 //! The linker: what it joins, in which order, where lines come from, and what it refuses.
 #![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic)]
 
+mod compact;
 mod edited;
 mod imports;
 mod joined;

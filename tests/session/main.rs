@@ -11,6 +11,8 @@ mod far;
 mod formats;
 mod frames;
 mod normals;
+mod off;
+mod orders;
 mod refused;
 mod same;
 mod stored;

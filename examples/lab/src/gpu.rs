@@ -273,7 +273,8 @@ fn required_features(profile: Profile) -> wgpu::Features {
     match profile {
         Profile::WebgpuCore => wgpu::Features::empty(),
         Profile::Native => wgpu::Features::TEXTURE_FORMAT_16BIT_NORM,
-        Profile::NativeAdapter => {
+        // wgpu has no name for the feature of browsers; these devices do what that allows, and more.
+        Profile::NativeAdapter | Profile::WebgpuTier1 => {
             wgpu::Features::TEXTURE_FORMAT_16BIT_NORM
                 | wgpu::Features::TEXTURE_ADAPTER_SPECIFIC_FORMAT_FEATURES
         }

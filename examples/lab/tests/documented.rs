@@ -124,13 +124,17 @@ fn words(line: &str) -> Vec<String> {
     words.into_iter().skip_while(is_variable).collect()
 }
 
+/// Programs of others that documents run.
+const OTHERS: [&str; 3] = ["npm", "node", "python3"];
+
 /// The commands of a document; whether each stands in a block to be pasted.
 fn commands(text: &str) -> Vec<(Vec<String>, bool)> {
     let is_command = |words: &[String]| {
         let first = words.first().map(String::as_str);
         first.is_some_and(|first| {
             let ours = ["./run", "cargo", "moment-shadows", "moment-shadows-lab"].contains(&first);
-            ours && words.len() > 1 || first.ends_with(".sh")
+            let of_others = OTHERS.contains(&first);
+            (ours || of_others) && words.len() > 1 || first.ends_with(".sh")
         })
     };
     let mut fence: Option<String> = None;
@@ -141,6 +145,7 @@ fn commands(text: &str) -> Vec<(Vec<String>, bool)> {
             continue;
         }
         match fence.as_deref() {
+            Some("sh") if line.starts_with('#') => {}
             Some("sh") => {
                 let words = words(line);
                 assert!(
@@ -219,7 +224,9 @@ fn check_ours(parser: clap::Command, arguments: &[String], pasted: bool) -> Stri
 
 /// Checks what cargo is told: packages, tests and folders that are there. Gives the sub-command of ours that it runs.
 fn check_cargo(words: &[String], pasted: bool) -> Option<String> {
-    let known = ["run", "test", "add", "install", "doc", "fmt", "clippy"];
+    let known = [
+        "build", "run", "test", "add", "install", "doc", "fmt", "clippy",
+    ];
     assert!(known.contains(&words[1].as_str()), "{words:?}");
     let after = |flag: &str| {
         let place = words.iter().position(|word| word == flag)?;
@@ -271,6 +278,12 @@ fn every_command_of_the_documents_is_right() {
                     None
                 }
                 "cargo" => check_cargo(&words, pasted),
+                "node" => {
+                    let path = words[1].trim_start_matches("../moment-shadows/");
+                    assert!(root().join(path).exists(), "'{path}' does not exist");
+                    None
+                }
+                "npm" | "python3" => None,
                 "moment-shadows" => Some(check_ours(Cli::parser(), &words[1..], pasted)),
                 _ => Some(check_ours(parser(), &words[1..], pasted)),
             };

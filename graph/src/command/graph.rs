@@ -33,7 +33,7 @@ impl Options {
     pub fn run(self) -> Result<ExitCode, CommandError> {
         let file = GraphFile::read(&self.file)?;
         let capabilities = Capabilities::of_profile(self.profile);
-        let plan = file.compile(&capabilities)?;
+        let plan = file.compile(&capabilities, &[])?;
         if self.json {
             output::print(serde_json::to_string_pretty(&plan)?)?;
             return Ok(ExitCode::SUCCESS);

@@ -6,7 +6,7 @@ use serde_json::Value;
 
 use super::{CommandError, output, read};
 use crate::graph::LARGEST_FILE;
-use crate::{Capabilities, Graph, Plan};
+use crate::{Capabilities, Graph, Plan, ResourceDesc};
 
 /// A graph file of the library's own nodes.
 #[derive(Debug)]
@@ -51,12 +51,16 @@ impl GraphFile {
         Ok(Self { name, text, graph })
     }
 
-    /// Compiles it with its imports as the file expects them, without a device.
+    /// Compiles it without a device, with imports as the file expects them but for those that are given.
     ///
     /// # Errors
     /// [`CommandError::Graph`].
-    pub fn compile(&self, capabilities: &Capabilities) -> Result<Plan, CommandError> {
-        let plan = self.graph.compile(capabilities, &[]);
+    pub fn compile(
+        &self,
+        capabilities: &Capabilities,
+        imports: &[(&str, ResourceDesc)],
+    ) -> Result<Plan, CommandError> {
+        let plan = self.graph.compile(capabilities, imports);
         plan.map_err(CommandError::graph(&self.name))
     }
 }

@@ -11,7 +11,7 @@ pub(super) fn count(pass: &mut PlannedPass, resources: &[PlannedResource]) {
         texture.map_or(0, |texture| texture.bytes_per_level(level) * layers)
     };
     let uniforms = pass.bindings.iter();
-    let uniforms = uniforms.filter_map(|binding| binding.resource.uniform_size());
+    let uniforms = uniforms.filter_map(|binding| binding.uniform_size());
     let mut read: u64 = uniforms.map(|size| u64::from(size) * layers).sum();
     let mut written = 0;
     for touch in pass.touches() {

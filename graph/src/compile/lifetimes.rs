@@ -6,7 +6,7 @@ use moment_shadows::Finite;
 
 use super::Known;
 use crate::plan::Part;
-use crate::{Home, Plan, PlannedMemory, ResourceDesc, Stage};
+use crate::{Home, Lives, Plan, PlannedMemory, ResourceDesc, Stage, Usage};
 
 /// When a resource that the plan creates is used, and how.
 struct Life {
@@ -85,6 +85,13 @@ pub(super) fn share_memory(plan: &mut Plan, known: &[&Known]) {
         let exported = plan.outputs.iter().any(|out| out.value == life.resource);
         life.alone = exported || persistent;
         let resource = &mut plan.resources[life.resource];
+        resource.lives = if persistent {
+            Lives::Always
+        } else if life.keeps_layers() || exported && life.written_when_dirty {
+            Lives::LayersLeftOut
+        } else {
+            Lives::Frame
+        };
         let free_after = (!life.keeps_memory()).then_some(life.last);
         let written_when_dirty = !life.written_every_time;
         let mut desc = resource.desc.clone();
@@ -97,19 +104,27 @@ pub(super) fn share_memory(plan: &mut Plan, known: &[&Known]) {
             Some(home) => {
                 let block = &mut blocks[home];
                 block.memory.label += &format!(" | {}", resource.name);
-                block.memory.access = block.memory.access.union(resource.access);
+                Usage::union(&mut block.memory.usage, &resource.usage);
                 block.free_after = free_after;
                 block.written_when_dirty &= written_when_dirty;
                 block.root = block.root.filter(|&other| other == root);
                 home
             }
             None => {
+                let mut usage = resource.usage.clone();
+                if exported {
+                    // A host reads or copies what it takes.
+                    let taken = match desc {
+                        ResourceDesc::Texture(_) => &[Usage::CopySrc, Usage::TextureBinding][..],
+                        ResourceDesc::Buffer { .. } => &[Usage::CopySrc],
+                    };
+                    Usage::union(&mut usage, taken);
+                }
                 blocks.push(Block {
                     memory: PlannedMemory {
                         label: resource.name.clone(),
                         desc,
-                        access: resource.access,
-                        exported,
+                        usage,
                     },
                     stage: life.stage,
                     free_after,

@@ -56,6 +56,7 @@ pub(super) fn limits(texture: &TextureDesc, capabilities: &Capabilities) -> Resu
         let counts = counts.join(" or ");
         let more = match capabilities.profile {
             Profile::NativeAdapter => "",
+            Profile::WebgpuTier1 => "",
             Profile::WebgpuCore | Profile::Native => {
                 "; adapters that have more allow them with the feature TEXTURE_ADAPTER_SPECIFIC_FORMAT_FEATURES"
             }
@@ -85,8 +86,8 @@ pub(super) fn usable(
     };
     let stored = !access.storage_write || support.storage_write;
     ensure(stored, Capability, || {
-        let feature = format.feature_to_write();
-        let or = format!("; request the device with the feature {feature}, or use ");
+        let feature = format.features_to_write();
+        let or = format!("; request the device with {feature}, or use ");
         fails("written as a storage texture").replacen("; use ", &or, 1)
     })?;
     let drawn = !access.render_target || support.renderable;

@@ -6,11 +6,15 @@
 //! 4. `parameters` lays out uniform data;
 //! 5. `passes` replaces slots by resources, `workgroups` and `bytes` count, `usage` checks what a pass does at once;
 //! 6. `reflect` compares passes with their shaders;
-//! 7. `lifetimes` lets resources share memory.
+//! 7. `lifetimes` lets resources share memory, and passes are told which they follow;
+//! 8. `needs` says what a device has to have.
 
 mod bytes;
+mod fields;
 mod lifetimes;
 mod limits;
+mod needs;
+mod off;
 mod order;
 mod parameters;
 mod passes;
@@ -23,10 +27,9 @@ mod workgroups;
 use std::collections::{BTreeMap, BTreeSet};
 
 use crate::error::unknown;
-use crate::graph::VERSION;
 use crate::{
-    Access, Capabilities, Connected, Direction, Graph, GraphError, GraphErrorKind, Home, Named,
-    NodeDesc, Plan, PlannedResource, ResourceDesc, Slot,
+    Access, Capabilities, Connected, Direction, Graph, GraphError, GraphErrorKind, Home, Lives,
+    Named, NodeDesc, Plan, PlannedDevice, PlannedExtent, PlannedResource, ResourceDesc, Slot,
 };
 pub(crate) use reflect::numbers as binding_numbers;
 use wiring::Wiring;
@@ -39,6 +42,8 @@ struct Known {
     persistent: bool,
     /// The one whose layers and regions it follows: itself, or that of the slot whose extent it takes.
     root: usize,
+    /// Texels of the root for each texel.
+    per: [u32; 2],
 }
 
 /// A node's description.
@@ -85,8 +90,10 @@ impl Graph {
         let indices: BTreeMap<usize, usize> =
             (0..).zip(&used).map(|(new, &old)| (old, new)).collect();
         let mut plan = Plan {
-            version: VERSION,
+            version: Plan::VERSION,
+            device: PlannedDevice::default(),
             bind_group: capabilities.bind_group,
+            shaders: Vec::new(),
             passes: Vec::new(),
             resources: Vec::new(),
             memory: Vec::new(),
@@ -96,6 +103,7 @@ impl Graph {
                 .map(|output| Named::new(output.name, indices[&output.value]))
                 .collect(),
             parameters: layout,
+            off: Vec::new(),
         };
         for &index in &used {
             let known = &known[index];
@@ -108,10 +116,19 @@ impl Graph {
             plan.resources.push(PlannedResource {
                 name: known.name.clone(),
                 desc: known.desc.clone(),
-                access: Access::default(),
+                usage: Vec::new(),
+                extent: None,
+                lives: Lives::Frame,
                 home,
             });
         }
+        for (resource, &index) in plan.resources.iter_mut().zip(&used) {
+            let Known { root, per, .. } = known[index];
+            let mut imports = plan.imports.iter();
+            let import = imports.position(|import| import.name == known[root].name);
+            resource.extent = import.map(|import| PlannedExtent { import, per });
+        }
+        imports_of_one_size(&mut plan, &kept, &indices);
         let mut shaders = reflect::Shaders::default();
         for described in &kept {
             let node = &self.nodes[described.node];
@@ -132,12 +149,19 @@ impl Graph {
                 shaders
                     .bind(pass, &mut planned, resources, capabilities)
                     .map_err(placed)?;
+                planned.dynamic_offsets = plan.parameters.offsets(&planned.bindings);
                 plan.passes.push(planned);
             }
             usage::check_outputs(described).map_err(placed)?;
+            let stand_ins = off::of(&node.name, described, &known, &indices);
+            plan.off.extend(stand_ins.map_err(placed)?);
         }
         let used: Vec<&Known> = used.iter().map(|&index| &known[index]).collect();
         lifetimes::share_memory(&mut plan, &used);
+        plan.update_hazards();
+        shaders.add_fields(&mut plan.parameters);
+        plan.device = needs::of(&plan, capabilities);
+        plan.shaders = shaders.into_texts();
         Ok(plan)
     }
 
@@ -177,6 +201,26 @@ fn used(kept: &[Described], outputs: &[Named<usize>]) -> Vec<usize> {
     used
 }
 
+/// Lets the extent of an import be that of another one, where a slot says so. The sizes are equal already.
+fn imports_of_one_size(plan: &mut Plan, kept: &[Described], indices: &BTreeMap<usize, usize>) {
+    for described in kept {
+        for slot in described
+            .desc
+            .slots
+            .iter()
+            .filter(|it| it.direction.takes())
+        {
+            let find = |slot: &str| indices.get(described.slots.get(slot)?).copied();
+            let from = slots::extent_from(slot).and_then(|(from, per)| Some((find(from)?, per)));
+            if let (Some(to), Some((from, [1, 1]))) = (find(&slot.name), from)
+                && matches!(plan.resources[to].home, Home::Import(_))
+            {
+                plan.resources[to].extent = plan.resources[from].extent;
+            }
+        }
+    }
+}
+
 /// The imports, in the order of the graph.
 fn import_resources(
     graph: &Graph,
@@ -208,6 +252,7 @@ fn import_resources(
             desc: desc.clone(),
             persistent: false,
             root,
+            per: [1; 2],
         })
     });
     resources.collect()
@@ -256,12 +301,18 @@ fn describe_all(
                 continue;
             };
             let index = known.len();
-            let from = slots::extent_from(slot).and_then(|from| slots.get(from));
+            let from = slots::extent_from(slot)
+                .and_then(|(from, per)| Some((&known[*slots.get(from)?], per)));
+            let (root, per) = from.map_or((index, [1; 2]), |(from, per)| {
+                let per = [0, 1].map(|axis| from.per[axis].saturating_mul(per[axis]));
+                (from.root, per)
+            });
             known.push(Known {
                 name: format!("{}.{}", graph_node.name, slot.name),
                 desc: made.clone(),
                 persistent: false,
-                root: from.map_or(index, |&from| known[from].root),
+                root,
+                per,
             });
             slots.insert(slot.name.clone(), index);
         }

@@ -84,6 +84,7 @@ impl ParameterLayout {
             stride,
             count,
             initial: block.initial.clone(),
+            fields: Vec::new(),
         });
         Ok(())
     }
@@ -129,6 +130,7 @@ impl ParameterLayout {
                 capacity: map.regions,
                 extent: map.size,
                 smallest: (*smallest).max(1),
+                initial: bytemuck::bytes_of(&MapRegion::WHOLE).to_vec(),
             });
         }
         Ok(())

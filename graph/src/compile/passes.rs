@@ -5,10 +5,19 @@ use std::collections::BTreeMap;
 use super::{Described, Known, bytes, declaration, workgroups};
 use crate::plan::Part;
 use crate::{
-    Binding, BindingResource, Capabilities, GraphError, GraphErrorKind, ParameterLayout, Pass,
-    PlannedBindingResource, PlannedPass, PlannedResource, PlannedWork, SampleType, TextureDesc,
-    Work,
+    Binding, BindingLayout, BindingResource, BufferKind, Capabilities, GraphError, GraphErrorKind,
+    ParameterLayout, Pass, PlannedBinding, PlannedBindingResource, PlannedPart, PlannedPass,
+    PlannedResource, PlannedSampler, PlannedWork, SampleType, StorageAccess, TextureDesc, Usage,
+    ViewDimension, Visibility, Work,
 };
+
+/// The vertex entry point of every fullscreen pass.
+pub(super) const VERTEX_ENTRY_POINT: &str = "fullscreen";
+
+fn sampled(sampler: PlannedSampler) -> (BindingLayout, PlannedBindingResource) {
+    let layout = BindingLayout::Sampler { ty: sampler.kind() };
+    (layout, PlannedBindingResource::Sampler(sampler))
+}
 
 /// What a node's pass is resolved with.
 pub(super) struct Planner<'a> {
@@ -29,10 +38,13 @@ impl Planner<'_> {
         resources: &mut [PlannedResource],
     ) -> Result<PlannedPass, GraphError> {
         let bindings = self.pass.bindings.iter().map(|binding| {
-            Ok(Binding {
+            let (layout, resource) = self.binding(&binding.resource)?;
+            Ok(PlannedBinding {
                 // The shader's declaration has it.
-                variable: 0,
-                resource: self.binding(&binding.resource)?,
+                binding: 0,
+                name: binding.variable.clone(),
+                layout,
+                resource,
             })
         });
         let bindings = bindings.collect::<Result<_, GraphError>>()?;
@@ -46,10 +58,25 @@ impl Planner<'_> {
             node: self.node.to_owned(),
             label: pass.label.clone(),
             stage: self.described.desc.stage,
-            wgsl: pass.wgsl.clone(),
+            // The shaders of the whole plan are collected once all bindings are known.
+            shader: None,
             entry_point: pass.entry_point.clone(),
+            vertex_entry_point: match work {
+                PlannedWork::Fullscreen { .. } => Some(VERTEX_ENTRY_POINT.to_owned()),
+                PlannedWork::Compute { .. } | PlannedWork::Host { .. } => None,
+            },
             constants: pass.constants.clone(),
+            visibility: match work {
+                PlannedWork::Fullscreen { .. } => Some(Visibility::Fragment),
+                PlannedWork::Compute { .. } => Some(Visibility::Compute),
+                PlannedWork::Host { .. } => None,
+            },
             bindings,
+            dynamic_offsets: Vec::new(),
+            reads: Vec::new(),
+            writes: Vec::new(),
+            after: Vec::new(),
+            after_in_memory: Vec::new(),
             work,
             layers,
             each_layer,
@@ -68,8 +95,8 @@ impl Planner<'_> {
                 let fault = self.fault("does more with this slot than its declared access allows");
                 return Err(fault.at_slot(slot));
             }
-            let access = &mut resources[touch.resource].access;
-            *access = access.union(touch.access);
+            let resource = &mut resources[touch.resource];
+            Usage::add(&mut resource.usage, &resource.desc, touch.access);
         }
         Ok(planned)
     }
@@ -93,18 +120,33 @@ impl Planner<'_> {
         Err(self.fault(what).at_slot(slot))
     }
 
-    fn binding(&self, resource: &BindingResource) -> Result<PlannedBindingResource, GraphError> {
+    fn binding(
+        &self,
+        resource: &BindingResource,
+    ) -> Result<(BindingLayout, PlannedBindingResource), GraphError> {
         let loaded = |slot: &str, one_layer: bool, level: u32| {
             let (known, texture) = self.texture(slot, level)?;
             let plane = one_layer.then(|| self.plane(slot, texture)).transpose()?;
-            Ok(PlannedBindingResource::Texture {
-                resource: self.indices[&known],
-                one_layer,
-                level,
-                plane: plane.unwrap_or(0),
-                sample: self.sample(texture),
+            let layout = BindingLayout::Texture {
+                sample_type: self.sample(texture),
+                view_dimension: if one_layer {
+                    ViewDimension::D2
+                } else {
+                    ViewDimension::D2Array
+                },
                 multisampled: texture.samples > 1,
-            })
+            };
+            let resource = PlannedBindingResource::Texture {
+                resource: self.indices[&known],
+                part: plane.map(|plane| PlannedPart { level, plane }),
+            };
+            Ok((layout, resource))
+        };
+        // Within the limit of a uniform binding.
+        let uniform = |size: u64| BindingLayout::Buffer {
+            ty: BufferKind::Uniform,
+            has_dynamic_offset: true,
+            min_binding_size: size as u32,
         };
         match resource {
             BindingResource::Parameters => {
@@ -112,9 +154,8 @@ impl Planner<'_> {
                 let block = blocks.position(|block| block.node == self.node);
                 let block =
                     block.ok_or_else(|| self.fault("uses parameters, but the node has none"))?;
-                // Within the limit of a uniform binding.
-                let size = self.layout.blocks[block].array_size() as u32;
-                Ok(PlannedBindingResource::Parameters { block, size })
+                let layout = uniform(self.layout.blocks[block].array_size());
+                Ok((layout, PlannedBindingResource::Parameters { block }))
             }
             BindingResource::Regions { slot, .. } => {
                 let (known, _) = self.texture(slot, 0)?;
@@ -124,23 +165,39 @@ impl Planner<'_> {
                 let table = table.ok_or_else(|| {
                     self.fault(format!("uses the regions of '{slot}', which has none"))
                 })?;
-                let size = self.layout.regions[table].size() as u32;
-                Ok(PlannedBindingResource::Regions { table, size })
+                let layout = uniform(self.layout.regions[table].size());
+                Ok((layout, PlannedBindingResource::Regions { table }))
             }
             BindingResource::Level { slot, level } => loaded(slot, true, *level),
             BindingResource::Layers(slot) => loaded(slot, false, 0),
             BindingResource::StorageLevel { slot, level } => {
                 let (known, texture) = self.texture(slot, *level)?;
-                Ok(PlannedBindingResource::StorageTexture {
-                    resource: self.indices[&known],
+                let layout = BindingLayout::StorageTexture {
+                    access: StorageAccess::WriteOnly,
+                    format: texture.format,
+                    view_dimension: ViewDimension::D2,
+                };
+                let part = PlannedPart {
                     level: *level,
                     plane: self.plane(slot, texture)?,
-                })
+                };
+                let resource = self.indices[&known];
+                let resource = PlannedBindingResource::StorageTexture { resource, part };
+                Ok((layout, resource))
             }
-            BindingResource::Buffer(slot) => Ok(PlannedBindingResource::Buffer {
-                resource: self.indices[&self.slot(slot)?],
-                writable: self.described.access(slot).storage_write,
-            }),
+            BindingResource::Buffer(slot) => {
+                let layout = BindingLayout::Buffer {
+                    ty: if self.described.access(slot).storage_write {
+                        BufferKind::Storage
+                    } else {
+                        BufferKind::ReadOnlyStorage
+                    },
+                    has_dynamic_offset: false,
+                    min_binding_size: 0,
+                };
+                let resource = self.indices[&self.slot(slot)?];
+                Ok((layout, PlannedBindingResource::Buffer { resource }))
+            }
             &BindingResource::Sampler {
                 filtering,
                 anisotropy,
@@ -151,13 +208,10 @@ impl Planner<'_> {
                     );
                     return Err(self.fault(what));
                 }
-                Ok(PlannedBindingResource::Sampler {
-                    filtering,
-                    anisotropy,
-                })
+                Ok(sampled(PlannedSampler::of_texels(filtering, anisotropy)))
             }
             &BindingResource::ComparisonSampler { reversed } => {
-                Ok(PlannedBindingResource::ComparisonSampler { reversed })
+                Ok(sampled(PlannedSampler::of_comparisons(reversed)))
             }
         }
     }
@@ -176,14 +230,14 @@ impl Planner<'_> {
         if texture.format.is_depth() {
             SampleType::Depth
         } else if texture.format.is_integer() {
-            SampleType::Integer
+            SampleType::Uint
         } else if self.capabilities.support(texture.format).filterable
             && texture.samples <= 1
             && self.pass.bindings.iter().any(filters)
         {
-            SampleType::Filterable
+            SampleType::Float
         } else {
-            SampleType::Unfilterable
+            SampleType::UnfilterableFloat
         }
     }
 
@@ -204,7 +258,14 @@ impl Planner<'_> {
                     self.capabilities,
                 )
                 .map_err(|error| error.at_slot(covers))?;
-                Ok((PlannedWork::Compute { workgroups }, known))
+                let work = PlannedWork::Compute {
+                    workgroups,
+                    covers: self.indices[&known],
+                    level: *level,
+                    texels_per_workgroup: *texels_per_workgroup,
+                    regions: (*regions && covered.regions > 1).then_some(covered.regions),
+                };
+                Ok((work, known))
             }
             Work::Fullscreen {
                 target,
@@ -214,8 +275,10 @@ impl Planner<'_> {
                 let (known, texture) = self.texture(target, *level)?;
                 let work = PlannedWork::Fullscreen {
                     target: self.indices[&known],
-                    level: *level,
-                    plane: self.plane(target, texture)?,
+                    part: PlannedPart {
+                        level: *level,
+                        plane: self.plane(target, texture)?,
+                    },
                     keeps: *regions,
                 };
                 Ok((work, known))
@@ -256,7 +319,7 @@ impl Planner<'_> {
         });
         let bindings = pass.bindings.iter();
         let tables = bindings.filter_map(|binding| {
-            let PlannedBindingResource::Regions { table, .. } = binding.resource else {
+            let PlannedBindingResource::Regions { table } = binding.resource else {
                 return None;
             };
             let table = &self.layout.regions[table];

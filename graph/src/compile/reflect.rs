@@ -8,18 +8,19 @@ use naga::valid::{
 };
 use naga::{AddressSpace, ImageClass, ImageDimension, ScalarKind, ShaderStage, TypeInner};
 
+use super::fields;
+use super::passes::VERTEX_ENTRY_POINT;
 use crate::{
-    Binding, Capabilities, GraphError, GraphErrorKind, Pass, PlannedBindingResource, PlannedPass,
-    PlannedResource, PlannedWork, SampleType,
+    BindingLayout, BufferKind, Capabilities, GraphError, GraphErrorKind, ParameterLayout, Pass,
+    PlannedBinding, PlannedBindingResource, PlannedPass, PlannedResource, PlannedWork, SampleType,
+    SamplerKind, ViewDimension,
 };
 
-/// A binding of a plan.
-type Planned = Binding<u32, PlannedBindingResource>;
-
-/// Parsed shaders by their text, so that passes that share one parse it once.
+/// The shaders of a plan, each once.
 #[derive(Default)]
 pub(super) struct Shaders {
-    parsed: BTreeMap<String, (naga::Module, ModuleInfo)>,
+    texts: Vec<String>,
+    parsed: Vec<(naga::Module, ModuleInfo)>,
 }
 
 impl Shaders {
@@ -34,19 +35,26 @@ impl Shaders {
         let bind_group = capabilities.bind_group;
         if matches!(pass.work, PlannedWork::Host { .. }) {
             for (number, binding) in (0..).zip(&mut pass.bindings) {
-                binding.variable = number;
+                binding.binding = number;
             }
             return Ok(());
         }
-        if !self.parsed.contains_key(&pass.wgsl) {
-            let parsed = parse(&pass.wgsl, capabilities.profile)?;
-            self.parsed.insert(pass.wgsl.clone(), parsed);
-        }
-        let (module, info) = &self.parsed[&pass.wgsl];
+        let known = self.texts.iter().position(|text| *text == described.wgsl);
+        let shader = match known {
+            Some(known) => known,
+            None => {
+                self.parsed
+                    .push(parse(&described.wgsl, capabilities.profile)?);
+                self.texts.push(described.wgsl.clone());
+                self.texts.len() - 1
+            }
+        };
+        pass.shader = Some(shader);
+        let (module, info) = &self.parsed[shader];
         let mut stage = ShaderStage::Compute;
         if matches!(pass.work, PlannedWork::Fullscreen { .. }) {
             stage = ShaderStage::Fragment;
-            let vertex = entry_point(module, "fullscreen", ShaderStage::Vertex)?;
+            let vertex = entry_point(module, VERTEX_ENTRY_POINT, ShaderStage::Vertex)?;
             if let Some((name, ..)) = variables(module, info.get_entry_point(vertex)).next() {
                 return Err(mismatch(format!(
                     "the vertex entry point 'fullscreen' uses '{name}'; bindings are the fragment entry point's"
@@ -55,7 +63,7 @@ impl Shaders {
         }
         check_constants(module, pass)?;
         let uses = info.get_entry_point(entry_point(module, &pass.entry_point, stage)?);
-        let mut open: BTreeMap<&str, &mut Planned> = BTreeMap::new();
+        let mut open: BTreeMap<&str, &mut PlannedBinding> = BTreeMap::new();
         for (binding, planned) in described.bindings.iter().zip(&mut pass.bindings) {
             if open.insert(&binding.variable, planned).is_some() {
                 return Err(mismatch(format!(
@@ -78,7 +86,7 @@ impl Shaders {
                     among(name, open.keys().copied())
                 )));
             };
-            planned.variable = number.binding;
+            planned.binding = number.binding;
             let actual = &module.types[variable.ty].inner;
             if let Some(expected) = difference(module, variable.space, actual, planned, resources) {
                 return Err(mismatch(format!(
@@ -94,8 +102,22 @@ impl Shaders {
                 among(name, used)
             )));
         }
-        pass.bindings.sort_by_key(|planned| planned.variable);
+        pass.bindings.sort_by_key(|planned| planned.binding);
         check_filtering(module, uses, pass, resources)
+    }
+
+    /// The members of every uniform struct, by its name in the shaders that use it.
+    pub(super) fn add_fields(&self, layout: &mut ParameterLayout) {
+        for block in &mut layout.blocks {
+            let mut modules = self.parsed.iter().map(|(module, _)| module);
+            let fields = modules.find_map(|module| fields::of(module, &block.name, block.size));
+            block.fields = fields.unwrap_or_default();
+        }
+    }
+
+    /// The texts, by the numbers that passes have them by.
+    pub(super) fn into_texts(self) -> Vec<String> {
+        self.texts
     }
 }
 
@@ -150,7 +172,7 @@ fn parse(wgsl: &str, profile: Profile) -> Result<(naga::Module, ModuleInfo), Gra
         | NagaCapabilities::SHADER_FLOAT16_IN_FLOAT32;
     let capabilities = match profile {
         Profile::WebgpuCore => core,
-        Profile::Native | Profile::NativeAdapter => {
+        Profile::Native | Profile::NativeAdapter | Profile::WebgpuTier1 => {
             core | NagaCapabilities::STORAGE_TEXTURE_16BIT_NORM_FORMATS
         }
     };
@@ -183,18 +205,18 @@ fn check_filtering(
     let planned = |variable: naga::Handle<naga::GlobalVariable>| {
         let index = module.global_variables[variable].binding?.binding;
         let mut bindings = pass.bindings.iter();
-        let found = bindings.find(|planned| planned.variable == index)?;
-        Some(&found.resource)
+        bindings.find(|planned| planned.binding == index)
     };
     for key in &uses.sampling_set {
-        if let Some(&PlannedBindingResource::Texture {
-            resource,
-            sample: SampleType::Unfilterable,
-            ..
-        }) = planned(key.image)
-            && let Some(PlannedBindingResource::Sampler {
-                filtering: true, ..
-            }) = planned(key.sampler)
+        if let (Some(image), Some(sampler)) = (planned(key.image), planned(key.sampler))
+            && let BindingLayout::Texture {
+                sample_type: SampleType::UnfilterableFloat,
+                ..
+            } = image.layout
+            && let BindingLayout::Sampler {
+                ty: SamplerKind::Filtering,
+            } = sampler.layout
+            && let PlannedBindingResource::Texture { resource, .. } = image.resource
         {
             let name = module.global_variables[key.image].name.as_deref();
             let PlannedResource { name: of, desc, .. } = &resources[resource];
@@ -238,7 +260,7 @@ fn difference(
     module: &naga::Module,
     space: AddressSpace,
     actual: &TypeInner,
-    planned: &Planned,
+    planned: &PlannedBinding,
     resources: &[PlannedResource],
 ) -> Option<String> {
     let size = || actual.size(module.to_ctx());
@@ -247,17 +269,29 @@ fn difference(
         arrayed,
         class,
     };
-    let (matches, expected) = match planned.resource {
-        PlannedBindingResource::Parameters { size: bytes, .. } => (
-            space == AddressSpace::Uniform && size() == bytes,
-            format!("a uniform struct of {bytes} bytes"),
-        ),
-        PlannedBindingResource::Regions { size: bytes, .. } => (
-            space == AddressSpace::Uniform && size() == bytes,
-            format!("a uniform array of regions of {bytes} bytes"),
-        ),
-        PlannedBindingResource::Buffer { writable, resource } => {
-            let bytes = resources[resource].desc.bytes();
+    let (matches, expected) = match planned.layout {
+        BindingLayout::Buffer {
+            ty: BufferKind::Uniform,
+            min_binding_size: bytes,
+            ..
+        } => {
+            let what = match planned.resource {
+                PlannedBindingResource::Regions { .. } => "array of regions",
+                PlannedBindingResource::Parameters { .. }
+                | PlannedBindingResource::Texture { .. }
+                | PlannedBindingResource::StorageTexture { .. }
+                | PlannedBindingResource::Buffer { .. }
+                | PlannedBindingResource::Sampler(_) => "struct",
+            };
+            (
+                space == AddressSpace::Uniform && size() == bytes,
+                format!("a uniform {what} of {bytes} bytes"),
+            )
+        }
+        BindingLayout::Buffer { ty, .. } => {
+            let writable = ty == BufferKind::Storage;
+            let touched = planned.touch();
+            let bytes = touched.map_or(0, |it| resources[it.resource].desc.bytes());
             let stores = matches!(space, AddressSpace::Storage { access }
                 if access.contains(naga::StorageAccess::STORE) == writable);
             let access = if writable { "writable" } else { "read-only" };
@@ -266,17 +300,20 @@ fn difference(
                 format!("a {access} storage buffer of at most {bytes} bytes"),
             )
         }
-        PlannedBindingResource::Sampler { .. } => (
-            *actual == TypeInner::Sampler { comparison: false },
-            "a sampler".to_owned(),
-        ),
-        PlannedBindingResource::ComparisonSampler { .. } => (
-            *actual == TypeInner::Sampler { comparison: true },
-            "a comparison sampler".to_owned(),
-        ),
-        PlannedBindingResource::StorageTexture { resource, .. } => {
-            let texture = resources[resource].desc.texture();
-            let name = texture.map_or("", |texture| texture.format.name());
+        BindingLayout::Sampler { ty } => {
+            let comparison = ty == SamplerKind::Comparison;
+            let what = if comparison {
+                "a comparison sampler"
+            } else {
+                "a sampler"
+            };
+            (
+                *actual == TypeInner::Sampler { comparison },
+                what.to_owned(),
+            )
+        }
+        BindingLayout::StorageTexture { format, .. } => {
+            let name = format.name();
             let stored = if let TypeInner::Image {
                 class: ImageClass::Storage { format, .. },
                 ..
@@ -293,27 +330,27 @@ fn difference(
                 format!("a two-dimensional storage texture of format {name}, written only"),
             )
         }
-        PlannedBindingResource::Texture {
-            one_layer,
-            sample,
+        BindingLayout::Texture {
+            sample_type,
+            view_dimension,
             multisampled: multi,
-            ..
         } => {
             let sampled = |kind| ImageClass::Sampled { kind, multi };
-            let (class, kind) = match sample {
+            let (class, kind) = match sample_type {
                 SampleType::Depth => (ImageClass::Depth { multi }, "depth"),
-                SampleType::Integer => (sampled(ScalarKind::Uint), "u32"),
-                SampleType::Filterable | SampleType::Unfilterable => {
+                SampleType::Uint => (sampled(ScalarKind::Uint), "u32"),
+                SampleType::Float | SampleType::UnfilterableFloat => {
                     (sampled(ScalarKind::Float), "float")
                 }
             };
-            let shape = match (one_layer, multi) {
+            let arrayed = view_dimension == ViewDimension::D2Array;
+            let shape = match (arrayed, multi) {
                 (_, true) => "multisampled two-dimensional",
-                (true, false) => "two-dimensional",
-                (false, false) => "two-dimensional array",
+                (false, false) => "two-dimensional",
+                (true, false) => "two-dimensional array",
             };
             (
-                *actual == image(!one_layer, class),
+                *actual == image(arrayed, class),
                 format!("a {shape} {kind} texture"),
             )
         }

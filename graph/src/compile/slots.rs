@@ -85,7 +85,9 @@ fn make(
     };
     let count = |rule, what, of| exact(resolved, rule, what, of);
     let format = exact(resolved, &rule.format, "format", |other| other.format)?;
-    let size = exact(resolved, &rule.extent, "extent", |other| other.size)?;
+    let size = exact(resolved, &extent(rule, resolved)?, "extent", |other| {
+        other.size
+    })?;
     let mut texture = TextureDesc {
         layers: count(&rule.layers, "number of layers", |other| other.layers)?,
         mips: count(&rule.mips, "number of mip levels", |other| other.mips)?,
@@ -103,10 +105,21 @@ fn make(
         texture.encoding = other.encoding.clone();
         texture.deviation = added(other.deviation, rule.deviation);
     }
-    if let Rule::SameAs(other) = &rule.extent {
+    if let (Rule::SameAs(other), [1, 1]) = (&rule.extent, rule.per) {
         texture.regions = texture_of(other, resolved)?.regions;
     }
     Ok(ResourceDesc::Texture(texture))
+}
+
+/// The rule of a texture's width and height, with those of another slot divided.
+fn extent(
+    rule: &TextureRule,
+    resolved: &BTreeMap<String, ResourceDesc>,
+) -> Result<Rule<[u32; 2]>, GraphError> {
+    Ok(match &rule.extent {
+        Rule::SameAs(other) => Rule::Exact(rule.extent_of(texture_of(other, resolved)?.size)),
+        Rule::Exact(_) | Rule::OneOf(_) | Rule::Any => rule.extent.clone(),
+    })
 }
 
 /// The standard deviation of two filters one after the other: variances add up.
@@ -115,13 +128,14 @@ fn added(first: Finite, second: Finite) -> Finite {
     Finite::new(sum).unwrap_or(second)
 }
 
-/// The slot whose width, height and regions a slot takes.
-pub(super) fn extent_from(slot: &Slot) -> Option<&str> {
+/// The slot whose width and height a slot's follow from, and the texels of that for each texel.
+pub(super) fn extent_from(slot: &Slot) -> Option<(&str, [u32; 2])> {
     match &slot.resource {
         SlotResource::Texture(TextureRule {
             extent: Rule::SameAs(other),
+            per,
             ..
-        }) => Some(other),
+        }) => Some((other, *per)),
         SlotResource::Texture(_) | SlotResource::Buffer { .. } => None,
     }
 }
@@ -182,7 +196,8 @@ fn check_texture(
     let format = |format: &TextureFormat| format.name().to_owned();
     let size = |size: &[u32; 2]| format!("{}x{}", size[0], size[1]);
     let format = allowed(&rule.format, format, |it| it.format, texture, resolved)?;
-    let extent = allowed(&rule.extent, size, |it| it.size, texture, resolved)?;
+    let extent = extent(rule, resolved)?;
+    let extent = allowed(&extent, size, |it| it.size, texture, resolved)?;
     let layers = count(&rule.layers, |it| it.layers)?;
     let mips = count(&rule.mips, |it| it.mips)?;
     let samples = count(&rule.samples, |it| it.samples)?;

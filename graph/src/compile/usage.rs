@@ -3,8 +3,8 @@
 use super::{Described, declaration};
 use crate::error::ensure;
 use crate::{
-    Capabilities, Direction, GraphError, GraphErrorKind, PlannedPass, PlannedResource, PlannedWork,
-    SlotResource, TextureDesc,
+    Capabilities, Direction, GraphError, GraphErrorKind, PlannedPass, PlannedResource, PlannedUse,
+    PlannedWork, SlotResource, TextureDesc,
 };
 
 /// Checks the uses of a pass against each other and its targets against the device.
@@ -18,7 +18,7 @@ pub(super) fn check_pass(
     for (index, touch) in touches.iter().enumerate() {
         let mut again = touches[..index]
             .iter()
-            .filter(|earlier| earlier.meets(touch));
+            .filter(|earlier| PlannedUse::of(earlier).meets(&PlannedUse::of(touch)));
         if again.any(|earlier| earlier.access.writes() || touch.access.writes()) {
             return Err(declaration(format!(
                 "pass '{label}' writes '{}' while it uses it in another way; a device allows one use at a time, so go \

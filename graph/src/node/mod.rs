@@ -14,6 +14,7 @@ use crate::{Capabilities, GraphError, GraphErrorKind, ResourceDesc, TextureDesc}
 
 /// When a pass is recorded. A host interleaves its own work with the stages.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[serde(rename_all = "snake_case")]
 pub enum Stage {
     /// After the host has drawn its shadow maps.
@@ -41,6 +42,19 @@ pub struct NodeDesc {
     pub passes: Vec<Pass>,
     /// The uniform data it is given, if any.
     pub parameters: Option<ParameterBlock>,
+    /// What stands in for outputs, by their names, where a host leaves the node out.
+    #[serde(default)]
+    pub off: BTreeMap<String, Off>,
+}
+
+/// What stands in for an output of a node that is left out.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Off {
+    /// This input: readers of the output take that. Both are the same kind of texture.
+    Bypass(String),
+    /// A texture that holds this texel everywhere, one for each plane.
+    Fill(Vec<[f64; 4]>),
 }
 
 /// A description, piece by piece. How passes touch slots is added to the slots' access, in whatever order both come.
@@ -53,6 +67,7 @@ impl NodeDesc {
             slots: Vec::new(),
             passes: Vec::new(),
             parameters: None,
+            off: BTreeMap::new(),
         }
     }
 
@@ -96,6 +111,12 @@ impl NodeDesc {
     /// Gives the node uniform data.
     pub fn parameters(mut self, block: ParameterBlock) -> Self {
         self.parameters = Some(block);
+        self
+    }
+
+    /// What stands in for an output where the node is left out.
+    pub fn off(mut self, output: &str, off: Off) -> Self {
+        self.off.insert(output.to_owned(), off);
         self
     }
 

@@ -247,6 +247,32 @@ impl Pass {
         Self { plane, ..self }
     }
 
+    /// The same with another slot in place of one.
+    pub(crate) fn with_slot(mut self, old: &str, new: &str) -> Self {
+        let held = self
+            .bindings
+            .iter_mut()
+            .filter_map(|binding| match &mut binding.resource {
+                BindingResource::Regions { slot, .. }
+                | BindingResource::Level { slot, .. }
+                | BindingResource::Layers(slot)
+                | BindingResource::StorageLevel { slot, .. }
+                | BindingResource::Buffer(slot) => Some(slot),
+                BindingResource::Parameters
+                | BindingResource::Sampler { .. }
+                | BindingResource::ComparisonSampler { .. } => None,
+            });
+        let drawn: Vec<&mut String> = match &mut self.work {
+            Work::Compute { covers, .. } => vec![covers],
+            Work::Fullscreen { target, .. } => vec![target],
+            Work::Host { targets, depth, .. } => targets.iter_mut().chain(depth).collect(),
+        };
+        for slot in held.chain(drawn).filter(|slot| *slot == old) {
+            new.clone_into(slot);
+        }
+        self
+    }
+
     /// The slots that the pass touches, and how. Whether a buffer is written is its slot's to say.
     pub(crate) fn touched(&self) -> Vec<(&str, Access)> {
         let mut touched: Vec<(&str, Access)> = Vec::new();

@@ -72,6 +72,9 @@ pub struct TextureRule {
     pub encoding: Option<Box<MapEncoding>>,
     /// Width and height. Those of another slot come with its regions.
     pub extent: Rule<[u32; 2]>,
+    /// Texels of that other slot for each texel, rounded up; the regions come along only where these are one.
+    #[serde(default = "one_each")]
+    pub per: [u32; 2],
     /// Number of layers.
     pub layers: Rule<u32>,
     /// Number of mip levels.
@@ -82,6 +85,10 @@ pub struct TextureRule {
     /// the texture takes; 0 where the node does not filter.
     #[serde(default)]
     pub deviation: Finite,
+}
+
+fn one_each() -> [u32; 2] {
+    [1; 2]
 }
 
 /// What a property of a texture may be, or what it becomes.
@@ -193,6 +200,7 @@ impl TextureRule {
             format: format.into(),
             encoding: None,
             extent: Rule::Any,
+            per: one_each(),
             layers: Rule::Exact(1),
             mips: Rule::Exact(1),
             samples: Rule::Exact(1),
@@ -221,6 +229,14 @@ impl TextureRule {
         self
     }
 
+    /// One texel for so many of another slot, rounded up, in as many layers.
+    pub fn tiles_of(self, slot: &str, per: [u32; 2]) -> Self {
+        Self {
+            per,
+            ..self.like(slot)
+        }
+    }
+
     /// The size, regions and layers of another slot.
     pub fn like(self, slot: &str) -> Self {
         self.extent(Rule::same_as(slot)).layers(Rule::same_as(slot))
@@ -242,6 +258,11 @@ impl TextureRule {
     pub fn filtered(mut self, deviation: Finite) -> Self {
         self.deviation = deviation;
         self
+    }
+
+    /// Width and height that follow from those of another slot.
+    pub(crate) fn extent_of(&self, size: [u32; 2]) -> [u32; 2] {
+        [0, 1].map(|axis| size[axis].div_ceil(self.per[axis].max(1)))
     }
 
     /// How many samples per texel.

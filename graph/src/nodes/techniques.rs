@@ -5,13 +5,20 @@
 use moment_shadows::{MapEncoding, Technique, TextureFormat};
 
 use super::shared::{Specialization, regions, wrong_format};
-use crate::{Binding, Capabilities, GraphError, Pass, Rule, Slot, TextureRule, bind};
+use crate::{Binding, Capabilities, GraphError, Off, Pass, Rule, Slot, TextureRule, bind};
 
 /// What single scattering takes for maps of a technique that it has both bounds of, which are of four moments or of six.
 pub(super) fn of_both_bounds<T>(technique: &Technique, four: T, six: T) -> Option<T> {
     let row = technique.row();
     let moments = if row.planes == 1 { four } else { six };
     row.both_bounds.then_some(moments)
+}
+
+/// A map that casts no shadow, in place of one that a node makes.
+pub(super) fn no_shadow(encoding: &MapEncoding) -> Off {
+    let row = encoding.technique().row();
+    let texels = row.far_texels(encoding.storage()).unwrap_or_default();
+    Off::Fill(texels.to_vec())
 }
 
 /// The constants of a technique.

@@ -1,6 +1,9 @@
 //! What a pass touches.
 
-use super::{PlannedBindingResource, PlannedPass, PlannedWork};
+use super::{
+    BindingLayout, BufferKind, PlannedBinding, PlannedBindingResource, PlannedPart, PlannedPass,
+    PlannedWork, ViewDimension,
+};
 use crate::Access;
 
 /// A resource that a pass touches.
@@ -24,22 +27,11 @@ pub(crate) enum Part {
     },
 }
 
-impl Touch {
-    /// Whether both touch the same texels, of some layer.
-    pub(crate) fn meets(&self, other: &Touch) -> bool {
-        let apart = match (self.part, other.part) {
-            (Part::Level { level, .. }, Part::Level { level: other, .. }) => level != other,
-            (Part::Buffer | Part::Layers, _) | (_, Part::Buffer | Part::Layers) => false,
-        };
-        self.resource == other.resource && !apart
-    }
-}
-
 impl PlannedPass {
     /// Everything that the pass touches, and how: what its bindings hold, then its targets.
     pub(crate) fn touches(&self) -> Vec<Touch> {
         let bindings = self.bindings.iter();
-        let mut touches: Vec<Touch> = bindings.filter_map(|it| it.resource.touch()).collect();
+        let mut touches: Vec<Touch> = bindings.filter_map(PlannedBinding::touch).collect();
         let mut draw = |resource: usize, level: u32, plane: u32| {
             touches.push(Touch {
                 resource,
@@ -49,12 +41,7 @@ impl PlannedPass {
         };
         match &self.work {
             PlannedWork::Compute { .. } => {}
-            &PlannedWork::Fullscreen {
-                target,
-                level,
-                plane,
-                ..
-            } => draw(target, level, plane),
+            &PlannedWork::Fullscreen { target, part, .. } => draw(target, part.level, part.plane),
             PlannedWork::Host { targets, depth, .. } => {
                 let drawn = targets.iter().chain(depth);
                 drawn.for_each(|&target| draw(target, 0, 0));
@@ -64,38 +51,81 @@ impl PlannedPass {
     }
 }
 
-impl PlannedBindingResource {
+impl PlannedPass {
+    /// Whether a target keeps some of its contents while it is drawn to.
+    pub(crate) fn keeps(&self, touch: &Touch) -> bool {
+        let kept = match &self.work {
+            PlannedWork::Fullscreen { keeps, .. } => *keeps,
+            PlannedWork::Host { blend, .. } => *blend,
+            PlannedWork::Compute { .. } => false,
+        };
+        kept && touch.access.render_target
+    }
+}
+
+impl From<PlannedPart> for Part {
+    fn from(PlannedPart { level, plane }: PlannedPart) -> Self {
+        Part::Level { level, plane }
+    }
+}
+
+impl PlannedBinding {
+    /// Whether its kind is that of what it holds.
+    pub(crate) fn fits(&self) -> bool {
+        let uniform = self.uniform_size().is_some();
+        match (&self.resource, self.layout) {
+            (PlannedBindingResource::Parameters { .. }, _)
+            | (PlannedBindingResource::Regions { .. }, _) => uniform,
+            (PlannedBindingResource::Buffer { .. }, BindingLayout::Buffer { .. }) => !uniform,
+            (
+                PlannedBindingResource::Texture { part, .. },
+                BindingLayout::Texture { view_dimension, .. },
+            ) => part.is_some() == (view_dimension == ViewDimension::D2),
+            (
+                PlannedBindingResource::StorageTexture { .. },
+                BindingLayout::StorageTexture { view_dimension, .. },
+            ) => view_dimension == ViewDimension::D2,
+            (PlannedBindingResource::Sampler(sampler), BindingLayout::Sampler { ty }) => {
+                sampler.kind() == ty
+            }
+            (
+                PlannedBindingResource::Texture { .. }
+                | PlannedBindingResource::StorageTexture { .. }
+                | PlannedBindingResource::Buffer { .. }
+                | PlannedBindingResource::Sampler(_),
+                BindingLayout::Buffer { .. }
+                | BindingLayout::Sampler { .. }
+                | BindingLayout::Texture { .. }
+                | BindingLayout::StorageTexture { .. },
+            ) => false,
+        }
+    }
+
     /// The resource that it touches, if any.
     pub(crate) fn touch(&self) -> Option<Touch> {
-        let (resource, access, part) = match *self {
-            PlannedBindingResource::Texture {
+        let (resource, access, part) = match self.resource {
+            PlannedBindingResource::Texture { resource, part } => (
                 resource,
-                one_layer: false,
-                ..
-            } => (resource, Access::READ, Part::Layers),
-            PlannedBindingResource::Texture {
-                resource,
-                level,
-                plane,
-                ..
-            } => (resource, Access::READ, Part::Level { level, plane }),
-            PlannedBindingResource::StorageTexture {
-                resource,
-                level,
-                plane,
-            } => {
-                let part = Part::Level { level, plane };
-                (resource, Access::STORAGE_WRITE, part)
+                Access::READ,
+                part.map_or(Part::Layers, Part::from),
+            ),
+            PlannedBindingResource::StorageTexture { resource, part } => {
+                (resource, Access::STORAGE_WRITE, part.into())
             }
-            PlannedBindingResource::Buffer { resource, writable } => {
+            PlannedBindingResource::Buffer { resource } => {
                 let mut access = Access::READ;
-                access.storage_write = writable;
+                access.storage_write = matches!(
+                    self.layout,
+                    BindingLayout::Buffer {
+                        ty: BufferKind::Storage,
+                        ..
+                    }
+                );
                 (resource, access, Part::Buffer)
             }
             PlannedBindingResource::Parameters { .. }
             | PlannedBindingResource::Regions { .. }
-            | PlannedBindingResource::Sampler { .. }
-            | PlannedBindingResource::ComparisonSampler { .. } => return None,
+            | PlannedBindingResource::Sampler(_) => return None,
         };
         Some(Touch {
             resource,
@@ -106,12 +136,16 @@ impl PlannedBindingResource {
 
     /// Bytes of uniform data of one layer; `None` for anything else.
     pub(crate) fn uniform_size(&self) -> Option<u32> {
-        if let PlannedBindingResource::Parameters { size, .. }
-        | PlannedBindingResource::Regions { size, .. } = self
-        {
-            Some(*size)
-        } else {
-            None
+        match self.layout {
+            BindingLayout::Buffer {
+                ty: BufferKind::Uniform,
+                min_binding_size,
+                ..
+            } => Some(min_binding_size),
+            BindingLayout::Buffer { .. }
+            | BindingLayout::Sampler { .. }
+            | BindingLayout::Texture { .. }
+            | BindingLayout::StorageTexture { .. } => None,
         }
     }
 }

@@ -1,19 +1,18 @@
 //! Whether a plan that was read from elsewhere holds together.
 
 use super::access::Part;
-use super::{Plan, PlannedBindingResource};
+use super::{Plan, PlannedBindingResource, PlannedWork};
 use crate::error::ensure;
-use crate::graph::VERSION;
-use crate::{GraphError, GraphErrorKind, Home};
+use crate::{GraphError, GraphErrorKind, Home, Instead};
 
 impl Plan {
     /// Whether everything that the plan refers to is there. The recorder asks this before it uses a plan. A plan that
     /// [`Graph::compile`](crate::Graph::compile) gave is never refused; one that was read from a file may be.
     pub fn check(&self) -> Result<(), GraphError> {
-        ensure(self.version == VERSION, GraphErrorKind::Version, || {
+        let (version, read) = (self.version, Self::VERSION);
+        ensure(version == read, GraphErrorKind::Version, || {
             format!(
-                "the plan has version {}, this library reads version {VERSION}; compile the graph with this library",
-                self.version
+                "the plan has version {version}, this library reads version {read}; compile the graph with this library"
             )
         })?;
         for resource in &self.resources {
@@ -22,6 +21,9 @@ impl Plan {
                 Home::Import(index) => within(&what, "import", index, self.imports.len())?,
                 Home::Memory(index) => within(&what, "memory", index, self.memory.len())?,
             }
+            if let Some(extent) = &resource.extent {
+                within(&what, "import", extent.import, self.imports.len())?;
+            }
         }
         let named = self.imports.iter().map(|import| ("import", import));
         let named = named.chain(self.outputs.iter().map(|output| ("output", output)));
@@ -29,15 +31,35 @@ impl Plan {
             let what = format!("{kind} '{}'", named.name);
             within(&what, "resource", named.value, self.resources.len())?;
         }
+        for off in &self.off {
+            let what = format!("what stands in for node '{}'", off.node);
+            within(&what, "resource", off.output, self.resources.len())?;
+            if let Instead::Bypass(input) = off.instead {
+                within(&what, "resource", input, self.resources.len())?;
+            }
+        }
         self.check_parameters()?;
-        for pass in &self.passes {
+        for (index, pass) in self.passes.iter().enumerate() {
             let what = format!("pass '{}'", pass.name());
+            if let Some(shader) = pass.shader {
+                within(&what, "shader", shader, self.shaders.len())?;
+            }
+            if let PlannedWork::Compute { covers, .. } = pass.work {
+                within(&what, "resource", covers, self.resources.len())?;
+            }
             for binding in &pass.bindings {
-                if let PlannedBindingResource::Parameters { block, .. } = binding.resource {
+                let fits = binding.fits();
+                ensure(fits, GraphErrorKind::Plan, || {
+                    format!(
+                        "{what} binds '{}' as something else than what it holds; compile the graph again",
+                        binding.name
+                    )
+                })?;
+                if let PlannedBindingResource::Parameters { block } = binding.resource {
                     let blocks = self.parameters.blocks.len();
                     within(&what, "parameter block", block, blocks)?;
                 }
-                if let PlannedBindingResource::Regions { table, .. } = binding.resource {
+                if let PlannedBindingResource::Regions { table } = binding.resource {
                     let tables = self.parameters.regions.len();
                     within(&what, "region table", table, tables)?;
                 }
@@ -60,6 +82,19 @@ impl Plan {
                     within(&what, "plane", plane as usize, texture.planes as usize)?;
                 }
             }
+            let of_bindings = (pass.reading(), pass.writing());
+            let in_order = pass.bindings.is_sorted_by_key(|binding| binding.binding);
+            let offsets = self.parameters.offsets(&pass.bindings);
+            let agrees = in_order
+                && (&pass.reads, &pass.writes) == (&of_bindings.0, &of_bindings.1)
+                && pass.dynamic_offsets == offsets
+                && pass.after == self.followed(index, false)
+                && pass.after_in_memory == self.followed(index, true);
+            ensure(agrees, GraphErrorKind::Plan, || {
+                format!(
+                    "{what} says something else of its bindings than they do; compile the graph again"
+                )
+            })?;
         }
         Ok(())
     }

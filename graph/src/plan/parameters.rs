@@ -3,12 +3,13 @@
 use moment_shadows::MapRegion;
 use serde::{Deserialize, Serialize};
 
-use super::PlannedRegions;
+use super::{PlannedBinding, PlannedBindingResource, PlannedOffset, PlannedRegions};
 use crate::error::{ensure, unknown};
 use crate::{GraphError, GraphErrorKind};
 
 /// Where uniform data lies in the block of one view. A host keeps one block per view in a buffer of its own.
 #[derive(Clone, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[serde(deny_unknown_fields)]
 pub struct ParameterLayout {
     /// Bytes of one view's block; blocks of several views follow each other at multiples of this.
@@ -21,6 +22,7 @@ pub struct ParameterLayout {
 
 /// Where a node's uniform data lies.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[serde(deny_unknown_fields)]
 pub struct PlannedParameters {
     /// The node's name in the graph.
@@ -39,6 +41,26 @@ pub struct PlannedParameters {
     pub count: u32,
     /// What each struct holds until the host writes something else; zeros where empty.
     pub initial: Vec<u8>,
+    /// The struct's members, in their order.
+    pub fields: Vec<PlannedField>,
+}
+
+/// A member of a uniform struct.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+#[serde(deny_unknown_fields)]
+pub struct PlannedField {
+    /// The name; that of a member of a member is joined by a point.
+    pub name: String,
+    /// The WGSL type: `f32`, `vec3f`, `mat4x4f`, `u32` or the like.
+    #[serde(rename = "type")]
+    pub ty: String,
+    /// Bytes from the start of the struct.
+    pub offset: u32,
+    /// How many of them follow each other, in an array.
+    pub count: u32,
+    /// Bytes from one to the next; 0 where there is one.
+    pub stride: u32,
 }
 
 impl PlannedParameters {
@@ -69,6 +91,29 @@ impl PlannedParameters {
 }
 
 impl ParameterLayout {
+    /// The dynamic offsets of a pass, whose bindings are in the order of their numbers.
+    pub(crate) fn offsets(&self, bindings: &[PlannedBinding]) -> Vec<PlannedOffset> {
+        let offsets = bindings.iter().filter_map(|binding| {
+            let (offset, stride, count) = match binding.resource {
+                PlannedBindingResource::Parameters { block } => {
+                    let block = self.blocks.get(block)?;
+                    (block.offset, block.stride, block.count)
+                }
+                PlannedBindingResource::Regions { table } => {
+                    let table = self.regions.get(table)?;
+                    (table.offset, table.stride, table.layers)
+                }
+                PlannedBindingResource::Texture { .. }
+                | PlannedBindingResource::StorageTexture { .. }
+                | PlannedBindingResource::Buffer { .. }
+                | PlannedBindingResource::Sampler(_) => return None,
+            };
+            let stride = if count > 1 { stride } else { 0 };
+            Some(PlannedOffset { offset, stride })
+        });
+        offsets.collect()
+    }
+
     /// A view's block with every node's initial values.
     #[must_use]
     pub fn initial(&self) -> Vec<u8> {

@@ -10,6 +10,7 @@ use crate::error::unknown;
 
 /// Where the regions of a map lie in a view's block. All nodes that work on a map read the same table.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[serde(deny_unknown_fields)]
 pub struct PlannedRegions {
     /// The import or resource whose regions they are.
@@ -26,6 +27,9 @@ pub struct PlannedRegions {
     pub extent: [u32; 2],
     /// The fewest texels that a region has along each side: a filter's kernel has to fit.
     pub smallest: u32,
+    /// What each layer's regions hold until the host writes others: the one that is the whole layer, then zeros, which are no
+    /// regions. A region is its origin and its extent, four `u32`.
+    pub initial: Vec<u8>,
 }
 
 impl PlannedRegions {

@@ -22,7 +22,9 @@ impl fmt::Display for Plan {
             let passes = self.passes.iter().filter(|pass| pass.stage == stage);
             let passes = passes.map(|pass| {
                 let work = match &pass.work {
-                    PlannedWork::Compute { workgroups: [x, y] } => {
+                    PlannedWork::Compute {
+                        workgroups: [x, y], ..
+                    } => {
                         format!("compute {x}x{y} workgroups")
                     }
                     PlannedWork::Fullscreen { target, .. } => {

@@ -9,7 +9,8 @@ use super::{Pipelines, Resources};
 use crate::error::ensure;
 use crate::plan::Part;
 use crate::{
-    GraphError, GraphErrorKind, Plan, PlannedBindingResource, PlannedPass, PlannedWork, Stage,
+    GraphError, GraphErrorKind, Plan, PlannedBinding, PlannedBindingResource, PlannedOffset,
+    PlannedPart, PlannedPass, PlannedWork, Stage,
 };
 
 /// Everything that recording needs, made beforehand.
@@ -36,18 +37,10 @@ pub(super) struct Step {
     /// The import or resource whose layers it follows.
     pub(super) map: String,
     /// Where its uniform data lies, in the order of the bindings.
-    pub(super) uniforms: Vec<Uniform>,
+    pub(super) uniforms: Vec<PlannedOffset>,
     /// One per layer.
     pub(super) bind_groups: Vec<wgpu::BindGroup>,
     pub(super) action: Action,
-}
-
-/// Uniform data of a pass within a view's block.
-#[derive(Clone, Copy, Debug)]
-pub(super) struct Uniform {
-    pub(super) offset: u32,
-    /// From layer to layer; 0 where there is one for all.
-    pub(super) stride: u32,
 }
 
 /// A pass has its node's parameters and the regions of its map.
@@ -163,17 +156,15 @@ impl Objects<'_> {
                 bind_groups.push(self.bind_group(pass, made.layout, layer, &label)?);
             }
         }
-        let uniforms = self.uniforms(pass);
+        let uniforms = pass.dynamic_offsets.clone();
         let count = uniforms.len();
         ensure(count <= MOST_UNIFORMS, GraphErrorKind::Plan, || {
             format!("{label} has {count} uniform bindings, more than {MOST_UNIFORMS}")
         })?;
-        let view = |target: usize, level, plane, layer| {
-            let part = Part::Level { level, plane };
-            self.view(target, part, layer)
-        };
+        let whole = PlannedPart { level: 0, plane: 0 };
+        let view = |target: usize, part: PlannedPart, layer| self.view(target, part.into(), layer);
         let action = match (&pass.work, made.map(|made| [made.pipeline, made.drawn])) {
-            (PlannedWork::Compute { workgroups }, Some([Pipeline::Compute(pipeline), _])) => {
+            (PlannedWork::Compute { workgroups, .. }, Some([Pipeline::Compute(pipeline), _])) => {
                 Action::Dispatch {
                     pipeline: pipeline.clone(),
                     workgroups: *workgroups,
@@ -182,8 +173,7 @@ impl Objects<'_> {
             (
                 &PlannedWork::Fullscreen {
                     target,
-                    level,
-                    plane,
+                    part,
                     keeps,
                 },
                 Some([Pipeline::Render(pipeline), Pipeline::Render(drawn)]),
@@ -196,7 +186,7 @@ impl Objects<'_> {
                     wgpu::LoadOp::Clear(wgpu::Color::TRANSPARENT)
                 },
                 targets: (0..pass.layers)
-                    .map(|layer| view(target, level, plane, layer))
+                    .map(|layer| view(target, part, layer))
                     .collect::<Result<_, _>>()?,
             },
             (
@@ -209,9 +199,9 @@ impl Objects<'_> {
             ) => Action::Host {
                 targets: colours
                     .iter()
-                    .map(|&target| view(target, 0, 0, 0))
+                    .map(|&target| view(target, whole, 0))
                     .collect::<Result<_, _>>()?,
-                depth: depth.map(|target| view(target, 0, 0, 0)).transpose()?,
+                depth: depth.map(|target| view(target, whole, 0)).transpose()?,
                 blend: *blend,
             },
             _ => return Err(missing(pass)),
@@ -229,29 +219,6 @@ impl Objects<'_> {
         })
     }
 
-    /// Uniform data in the order of the bindings, which is that of dynamic offsets.
-    fn uniforms(&self, pass: &PlannedPass) -> Vec<Uniform> {
-        let layout = &self.plan.parameters;
-        // The compiler sorts bindings; a plan from elsewhere may not.
-        let mut bindings: Vec<_> = pass.bindings.iter().collect();
-        bindings.sort_by_key(|binding| binding.variable);
-        let uniforms = bindings.into_iter().filter_map(|binding| {
-            let (offset, stride, count) =
-                if let PlannedBindingResource::Parameters { block, .. } = binding.resource {
-                    let block = &layout.blocks[block];
-                    (block.offset, block.stride, block.count)
-                } else if let PlannedBindingResource::Regions { table, .. } = binding.resource {
-                    let table = &layout.regions[table];
-                    (table.offset, table.stride, table.layers)
-                } else {
-                    return None;
-                };
-            let stride = if count > 1 { stride } else { 0 };
-            Some(Uniform { offset, stride })
-        });
-        uniforms.collect()
-    }
-
     fn bind_group(
         &self,
         pass: &PlannedPass,
@@ -260,9 +227,9 @@ impl Objects<'_> {
         label: &str,
     ) -> Result<wgpu::BindGroup, GraphError> {
         let bindings = pass.bindings.iter();
-        let bound = bindings.map(|binding| self.bound(&binding.resource, layer, label));
+        let bound = bindings.map(|binding| self.bound(binding, layer, label));
         let bound = bound.collect::<Result<Vec<_>, GraphError>>()?;
-        let numbers = pass.bindings.iter().map(|binding| binding.variable);
+        let numbers = pass.bindings.iter().map(|binding| binding.binding);
         let entries = numbers.zip(&bound).map(|(binding, bound)| {
             let resource = match bound {
                 Bound::View(view) => wgpu::BindingResource::TextureView(view),
@@ -289,11 +256,11 @@ impl Objects<'_> {
 
     fn bound(
         &self,
-        resource: &PlannedBindingResource,
+        binding: &PlannedBinding,
         layer: u32,
         label: &str,
     ) -> Result<Bound, GraphError> {
-        if let Some(size) = resource.uniform_size() {
+        if let Some(size) = binding.uniform_size() {
             let buffer = self.parameters.ok_or_else(|| {
                 let message =
                     format!("the parameter buffer is missing; {label} needs {size} bytes of it");
@@ -302,12 +269,18 @@ impl Objects<'_> {
             let size = wgpu::BufferSize::new(u64::from(size));
             return Ok(Bound::Buffer(buffer.clone(), size));
         }
-        Ok(match resource.touch() {
-            None => Bound::Sampler(sampler(self.device, resource, label)),
-            Some(touch) if touch.part == Part::Buffer => {
+        if let PlannedBindingResource::Sampler(state) = &binding.resource {
+            return Ok(Bound::Sampler(sampler(self.device, state, label)));
+        }
+        let touch = binding.touch().ok_or_else(|| {
+            let message = format!("'{}' of {label} holds nothing", binding.name);
+            GraphError::new(GraphErrorKind::Plan, message)
+        })?;
+        Ok(match touch {
+            touch if touch.part == Part::Buffer => {
                 Bound::Buffer(self.buffer(touch.resource)?, None)
             }
-            Some(touch) => Bound::View(self.view(touch.resource, touch.part, layer)?),
+            touch => Bound::View(self.view(touch.resource, touch.part, layer)?),
         })
     }
 }

@@ -69,14 +69,14 @@ pub(super) fn find_import<'a>(
     };
     let difference = match (given, &planned.desc) {
         (ImportedResource::Texture(texture), ResourceDesc::Texture(desc)) => {
-            texture_difference(texture, desc, desc.array_layers(), planned.access)
+            texture_difference(texture, desc, desc.array_layers(), &planned.usage)
         }
         (ImportedResource::Layers(textures), ResourceDesc::Texture(desc)) => {
             let listed = textures.len();
             let mut all = textures.iter();
             (listed != desc.array_layers() as usize)
                 .then(|| format!("a list of {listed} textures"))
-                .or_else(|| all.find_map(|it| texture_difference(it, desc, 1, planned.access)))
+                .or_else(|| all.find_map(|it| texture_difference(it, desc, 1, &planned.usage)))
         }
         (ImportedResource::Buffer(buffer), ResourceDesc::Buffer { size }) => {
             let (given, usage) = (buffer.size(), buffer.usage());

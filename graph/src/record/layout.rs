@@ -1,78 +1,78 @@
-//! Explicit bind group layouts, from a pass's planned bindings.
+//! Explicit bind group layouts, in wgpu's terms.
 
-use crate::{Plan, PlannedBindingResource, PlannedPass, PlannedWork, SampleType};
+use crate::{
+    BindingLayout, BufferKind, PlannedPass, SampleType, SamplerKind, StorageAccess, ViewDimension,
+    Visibility,
+};
 
 /// The entries of a pass's layout.
-pub(super) fn entries(plan: &Plan, pass: &PlannedPass) -> Vec<wgpu::BindGroupLayoutEntry> {
-    let visibility = match pass.work {
-        PlannedWork::Fullscreen { .. } => wgpu::ShaderStages::FRAGMENT,
-        PlannedWork::Compute { .. } | PlannedWork::Host { .. } => wgpu::ShaderStages::COMPUTE,
+pub(super) fn entries(pass: &PlannedPass) -> Vec<wgpu::BindGroupLayoutEntry> {
+    let visibility = match pass.visibility {
+        Some(Visibility::Fragment) => wgpu::ShaderStages::FRAGMENT,
+        Some(Visibility::Compute) => wgpu::ShaderStages::COMPUTE,
+        None => wgpu::ShaderStages::NONE,
     };
-    pass.bindings
-        .iter()
-        .map(|binding| wgpu::BindGroupLayoutEntry {
-            binding: binding.variable,
-            visibility,
-            ty: binding_type(plan, &binding.resource),
-            count: None,
-        })
-        .collect()
+    let entries = pass.bindings.iter();
+    let entries = entries.map(|binding| wgpu::BindGroupLayoutEntry {
+        binding: binding.binding,
+        visibility,
+        ty: binding_type(binding.layout),
+        count: None,
+    });
+    entries.collect()
 }
 
-fn binding_type(plan: &Plan, resource: &PlannedBindingResource) -> wgpu::BindingType {
-    match *resource {
-        PlannedBindingResource::Parameters { size, .. }
-        | PlannedBindingResource::Regions { size, .. } => wgpu::BindingType::Buffer {
-            ty: wgpu::BufferBindingType::Uniform,
-            has_dynamic_offset: true,
-            min_binding_size: wgpu::BufferSize::new(u64::from(size)),
+fn binding_type(layout: BindingLayout) -> wgpu::BindingType {
+    match layout {
+        BindingLayout::Buffer {
+            ty,
+            has_dynamic_offset,
+            min_binding_size,
+        } => wgpu::BindingType::Buffer {
+            ty: match ty {
+                BufferKind::Uniform => wgpu::BufferBindingType::Uniform,
+                BufferKind::Storage => wgpu::BufferBindingType::Storage { read_only: false },
+                BufferKind::ReadOnlyStorage => wgpu::BufferBindingType::Storage { read_only: true },
+            },
+            has_dynamic_offset,
+            min_binding_size: wgpu::BufferSize::new(u64::from(min_binding_size)),
         },
-        PlannedBindingResource::Texture {
-            one_layer,
-            sample,
+        BindingLayout::Sampler { ty } => wgpu::BindingType::Sampler(match ty {
+            SamplerKind::Filtering => wgpu::SamplerBindingType::Filtering,
+            SamplerKind::NonFiltering => wgpu::SamplerBindingType::NonFiltering,
+            SamplerKind::Comparison => wgpu::SamplerBindingType::Comparison,
+        }),
+        BindingLayout::Texture {
+            sample_type,
+            view_dimension,
             multisampled,
-            ..
         } => wgpu::BindingType::Texture {
-            sample_type: match sample {
+            sample_type: match sample_type {
                 SampleType::Depth => wgpu::TextureSampleType::Depth,
-                SampleType::Filterable => wgpu::TextureSampleType::Float { filterable: true },
-                SampleType::Unfilterable => wgpu::TextureSampleType::Float { filterable: false },
-                SampleType::Integer => wgpu::TextureSampleType::Uint,
+                SampleType::Float => wgpu::TextureSampleType::Float { filterable: true },
+                SampleType::UnfilterableFloat => {
+                    wgpu::TextureSampleType::Float { filterable: false }
+                }
+                SampleType::Uint => wgpu::TextureSampleType::Uint,
             },
-            view_dimension: if one_layer {
-                wgpu::TextureViewDimension::D2
-            } else {
-                wgpu::TextureViewDimension::D2Array
-            },
+            view_dimension: dimension(view_dimension),
             multisampled,
         },
-        PlannedBindingResource::StorageTexture { resource, .. } => {
-            let texture = plan.resources[resource].desc.texture();
-            wgpu::BindingType::StorageTexture {
-                access: wgpu::StorageTextureAccess::WriteOnly,
-                // `Plan::check` has refused a buffer.
-                format: texture.map_or(wgpu::TextureFormat::Rgba32Float, |texture| {
-                    texture.wgpu_format()
-                }),
-                view_dimension: wgpu::TextureViewDimension::D2,
-            }
-        }
-        PlannedBindingResource::Buffer { writable, .. } => wgpu::BindingType::Buffer {
-            ty: wgpu::BufferBindingType::Storage {
-                read_only: !writable,
-            },
-            has_dynamic_offset: false,
-            min_binding_size: None,
+        BindingLayout::StorageTexture {
+            access: StorageAccess::WriteOnly,
+            format,
+            view_dimension,
+        } => wgpu::BindingType::StorageTexture {
+            access: wgpu::StorageTextureAccess::WriteOnly,
+            format: super::format::wgpu_format(format),
+            view_dimension: dimension(view_dimension),
         },
-        PlannedBindingResource::Sampler { filtering, .. } => {
-            wgpu::BindingType::Sampler(if filtering {
-                wgpu::SamplerBindingType::Filtering
-            } else {
-                wgpu::SamplerBindingType::NonFiltering
-            })
-        }
-        PlannedBindingResource::ComparisonSampler { .. } => {
-            wgpu::BindingType::Sampler(wgpu::SamplerBindingType::Comparison)
-        }
+    }
+}
+
+fn dimension(dimension: ViewDimension) -> wgpu::TextureViewDimension {
+    match dimension {
+        ViewDimension::D2 => wgpu::TextureViewDimension::D2,
+        ViewDimension::D2Array => wgpu::TextureViewDimension::D2Array,
     }
 }

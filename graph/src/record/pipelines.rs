@@ -89,6 +89,7 @@ pub struct Pipelines {
 struct PipelineKey {
     wgsl: String,
     entry_point: String,
+    vertex_entry_point: Option<String>,
     /// Bit patterns, so that the key can be compared and hashed.
     constants: Vec<(String, u64)>,
     layout: Vec<wgpu::BindGroupLayoutEntry>,
@@ -234,12 +235,13 @@ impl PipelineKey {
         };
         let constants = pass.constants.iter();
         Self {
-            wgsl: pass.wgsl.clone(),
+            wgsl: plan.wgsl(pass).to_owned(),
             entry_point: pass.entry_point.clone(),
+            vertex_entry_point: pass.vertex_entry_point.clone(),
             constants: constants
                 .map(|(name, value)| (name.clone(), value.to_bits()))
                 .collect(),
-            layout: layout::entries(plan, pass),
+            layout: layout::entries(pass),
             target: target.map(|texture| HostTarget::new(texture.wgpu_format())),
             bind_group: plan.bind_group,
         }
@@ -292,7 +294,7 @@ impl PipelineKey {
                     layout: Some(&layout),
                     vertex: wgpu::VertexState {
                         module: &shader,
-                        entry_point: Some("fullscreen"),
+                        entry_point: self.vertex_entry_point.as_deref(),
                         compilation_options: wgpu::PipelineCompilationOptions::default(),
                         buffers: &[],
                     },

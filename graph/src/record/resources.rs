@@ -3,7 +3,7 @@
 use super::ImportedResource;
 use super::format::texture_usages;
 use super::scope::{check_alive, scoped};
-use crate::{GraphError, Home, Plan, PlannedMemory, PlannedResource, ResourceDesc};
+use crate::{GraphError, Home, Plan, PlannedMemory, PlannedResource, ResourceDesc, Usage};
 
 /// Everything that a plan creates for one set of sizes. A resize makes new resources and no pipeline.
 #[derive(Debug)]
@@ -31,13 +31,14 @@ impl Resources {
                         sample_count: texture.samples,
                         dimension: wgpu::TextureDimension::D2,
                         format: texture.wgpu_format(),
-                        usage: texture_usages(planned.access, planned.exported),
+                        usage: texture_usages(&planned.usage),
                         view_formats: &[],
                     }))
                 }
                 ResourceDesc::Buffer { size } => {
                     let mut usage = wgpu::BufferUsages::STORAGE;
-                    usage.set(wgpu::BufferUsages::COPY_SRC, planned.exported);
+                    let copied = planned.usage.contains(&Usage::CopySrc);
+                    usage.set(wgpu::BufferUsages::COPY_SRC, copied);
                     ImportedResource::Buffer(device.create_buffer(&wgpu::BufferDescriptor {
                         label: Some(&label),
                         size: *size,

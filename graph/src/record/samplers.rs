@@ -1,38 +1,31 @@
-//! The samplers of a plan's passes. They clamp to the edge, which is wgpu's default.
+//! The samplers of a plan's passes, in wgpu's terms.
 
-use crate::PlannedBindingResource;
+use crate::{AddressMode, CompareFunction, FilterMode, PlannedSampler};
 
-/// The sampler that a binding holds.
-pub(super) fn sampler(
-    device: &wgpu::Device,
-    resource: &PlannedBindingResource,
-    label: &str,
-) -> wgpu::Sampler {
-    let mut descriptor = wgpu::SamplerDescriptor {
-        label: Some(label),
-        mag_filter: wgpu::FilterMode::Linear,
-        min_filter: wgpu::FilterMode::Linear,
-        ..Default::default()
+/// The sampler of a state.
+pub(super) fn sampler(device: &wgpu::Device, state: &PlannedSampler, label: &str) -> wgpu::Sampler {
+    let address = |mode: AddressMode| match mode {
+        AddressMode::ClampToEdge => wgpu::AddressMode::ClampToEdge,
     };
-    if let PlannedBindingResource::ComparisonSampler { reversed } = *resource {
-        descriptor.compare = Some(if reversed {
-            wgpu::CompareFunction::Less
-        } else {
-            wgpu::CompareFunction::Greater
-        });
-    }
-    if let PlannedBindingResource::Sampler {
-        filtering,
-        anisotropy,
-    } = *resource
-    {
-        descriptor.anisotropy_clamp = anisotropy;
-        if filtering {
-            descriptor.mipmap_filter = wgpu::MipmapFilterMode::Linear;
-        } else {
-            descriptor.mag_filter = wgpu::FilterMode::Nearest;
-            descriptor.min_filter = wgpu::FilterMode::Nearest;
-        }
-    }
-    device.create_sampler(&descriptor)
+    let filter = |mode: FilterMode| match mode {
+        FilterMode::Nearest => wgpu::FilterMode::Nearest,
+        FilterMode::Linear => wgpu::FilterMode::Linear,
+    };
+    device.create_sampler(&wgpu::SamplerDescriptor {
+        label: Some(label),
+        address_mode_u: address(state.address_mode_u),
+        address_mode_v: address(state.address_mode_v),
+        mag_filter: filter(state.mag_filter),
+        min_filter: filter(state.min_filter),
+        mipmap_filter: match state.mipmap_filter {
+            FilterMode::Nearest => wgpu::MipmapFilterMode::Nearest,
+            FilterMode::Linear => wgpu::MipmapFilterMode::Linear,
+        },
+        anisotropy_clamp: state.max_anisotropy,
+        compare: state.compare.map(|compare| match compare {
+            CompareFunction::Less => wgpu::CompareFunction::Less,
+            CompareFunction::Greater => wgpu::CompareFunction::Greater,
+        }),
+        ..Default::default()
+    })
 }

@@ -172,6 +172,77 @@ fn plans_are_exported_whole_or_not_at_all() {
     assert_eq!(names(folder.path()), expected);
 }
 
+#[test]
+fn plans_are_exported_for_sizes_groups_and_features() {
+    // The description of the first import.
+    let start = GRAPH.find(", \"texture\"").unwrap();
+    let described = start..start + GRAPH[start..].find("} }").unwrap() + 1;
+    let (_folder, [graph, open]) = files([
+        ("graph.json", GRAPH),
+        ("open.json", &GRAPH.replacen(&GRAPH[described], "", 1)),
+    ]);
+    let export = |options: &[&str]| {
+        let (code, printed, said) = run(&[&["export-plan", &graph], options].concat());
+        assert_eq!((code, said.as_str()), (Some(0), ""));
+        serde_json::from_str::<Plan>(&printed).unwrap()
+    };
+    let plain = export(&[]);
+    let name = plain.imports[0].name.clone();
+    let sized = export(&["--size", &format!("{name}=640x352"), "--bind-group", "3"]);
+    let size = |plan: &Plan| {
+        plan.resources[plan.imports[0].value]
+            .desc
+            .texture()
+            .unwrap()
+            .size
+    };
+    assert_eq!((size(&sized), sized.bind_group), ([640, 352], 3));
+    assert_ne!((size(&plain), plain.bind_group), ([640, 352], 3));
+    assert!(
+        sized
+            .shaders
+            .iter()
+            .all(|text| text.contains("const GROUP = 3;"))
+    );
+
+    let compact = export(&["--compact"]);
+    let bytes = |plan: &Plan| plan.shaders.iter().map(String::len).sum::<usize>();
+    assert!(
+        3 * bytes(&compact) < 2 * bytes(&plain),
+        "{} of {}",
+        bytes(&compact),
+        bytes(&plain)
+    );
+    assert!(compact.shaders.iter().all(|text| !text.contains("//")));
+    assert_eq!(
+        Plan {
+            shaders: plain.shaders.clone(),
+            ..compact
+        },
+        plain
+    );
+
+    for (options, code, expected) in [
+        (["--size", "light"], 2, "it is written NAME=WxH"),
+        (["--size", "light=4x"], 2, "it is written NAME=WxH"),
+        (["--size", "nothing=4x4"], 1, "there is no import 'nothing'"),
+        (["--allow", "float32-filter"], 2, "'float32-filterable'"),
+        (["--bind-group", "one"], 2, "--bind-group"),
+    ] {
+        let (found, printed, said) = run(&[&["export-plan", &graph][..], &options].concat());
+        assert_eq!(
+            (found, printed.as_str()),
+            (Some(code), ""),
+            "{options:?} {said}"
+        );
+        assert!(said.contains(expected), "{said}");
+    }
+    let size = format!("{name}=64x64");
+    let (code, _, said) = run(&["export-plan", &open, "--size", &size]);
+    assert_eq!(code, Some(1));
+    assert!(said.contains("has no texture in the graph file"), "{said}");
+}
+
 #[cfg(feature = "wgpu")]
 #[test]
 fn the_adapter_is_printed_or_missed() {

@@ -100,15 +100,15 @@ fn written(plan: &Plan, number: usize) -> Option<Written> {
                 .bindings
                 .iter()
                 .filter_map(|binding| match binding.resource {
-                    PlannedBindingResource::StorageTexture {
-                        resource, level, ..
-                    } => Some((resource, level)),
+                    PlannedBindingResource::StorageTexture { resource, part } => {
+                        Some((resource, part.level))
+                    }
                     _ => None,
                 });
             let (resource, level) = stored.next()?;
             (resource, level, CopyWork::Compute)
         }
-        PlannedWork::Fullscreen { target, level, .. } => (*target, *level, CopyWork::Fullscreen),
+        PlannedWork::Fullscreen { target, part, .. } => (*target, part.level, CopyWork::Fullscreen),
         PlannedWork::Host { .. } => return None,
     };
     let texture = plan.resources.get(resource)?.desc.texture()?;

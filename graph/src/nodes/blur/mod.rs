@@ -9,8 +9,8 @@ use serde::Deserialize;
 use super::shared::{map_input, mip_levels, regions, wgsl, wrong_property, wrong_size};
 use super::techniques;
 use crate::{
-    Connected, GraphError, Node, NodeDesc, ParameterBlock, Pass, Rule, Stage, TextureDesc,
-    TextureRule, bind,
+    Connected, GraphError, Node, NodeDesc, Off, ParameterBlock, Pass, Rule, Slot, Stage,
+    TextureDesc, TextureRule, bind,
 };
 
 /// Outputs per invocation where weights are literals.
@@ -83,9 +83,18 @@ impl Node for Blur {
         let mips = mip_levels::count(self.mip_levels, map.size)?;
         let is_literal = !self.per_frame && kernel.radius() <= LARGEST_UNROLLED_RADIUS;
         let along = |axis| pass(axis, upstream, (map, &encoding), kernel, is_literal);
-        // The planes take turns with one intermediate map.
+        // Each plane has an intermediate map of its own, so that no pass overwrites what another still has to read, whatever
+        // the order. In the plan's order all of them share memory.
+        let names = (0..map.planes).map(|plane| half_blurred(plane, map.planes));
+        let halves = names.map(|name| {
+            let half = TextureRule::new(encoding.format()).like("map");
+            Slot::internal(&name, "A plane, filtered along x.", half)
+        });
         let passes = regions::of_each_plane(map.planes, vec![along(0)?, along(1)?]);
-        let half = TextureRule::new(encoding.format()).like("map");
+        let passes = passes.map(|pass| {
+            let name = half_blurred(pass.plane, map.planes);
+            pass.with_slot(HALF_BLURRED, &name)
+        });
         let blurred = TextureRule::new(Rule::same_as("map"))
             .like("map")
             .mips(mips)
@@ -93,14 +102,31 @@ impl Node for Blur {
         let rule = map_input::rule(map_input::formats());
         let desc = NodeDesc::new("blur", Stage::AfterShadowMaps)
             .input("map", "The map to filter.", rule)
-            .internal("half_blurred", "A plane, filtered along x.", half)
+            .slots(halves)
             .output("blurred", "The map, filtered along x and y.", blurred)
             .passes(passes);
+        // A map without the mip levels that this one has room for is no stand-in.
+        let desc = if mips == map.mips {
+            desc.off("blurred", Off::Bypass("map".to_owned()))
+        } else {
+            desc
+        };
         if is_literal {
             return Ok(desc);
         }
         let block = ParameterBlock::of::<[u32; PARAMETER_WORDS]>("BlurParameters");
         Ok(desc.parameters(block.initial(&Self::parameters(kernel))))
+    }
+}
+
+/// The slot between the passes of a plane, in a map of one plane.
+const HALF_BLURRED: &str = "half_blurred";
+
+/// The slot between the passes of a plane.
+fn half_blurred(plane: u32, planes: u32) -> String {
+    match planes {
+        1 => HALF_BLURRED.to_owned(),
+        _ => format!("{HALF_BLURRED}_{plane}"),
     }
 }
 
@@ -113,8 +139,8 @@ fn pass(
     is_literal: bool,
 ) -> Result<Pass, GraphError> {
     let (label, step, from, to) = [
-        ("blur along x", "vec2i(1, 0)", "map", "half_blurred"),
-        ("blur along y", "vec2i(0, 1)", "half_blurred", "blurred"),
+        ("blur along x", "vec2i(1, 0)", "map", HALF_BLURRED),
+        ("blur along y", "vec2i(0, 1)", HALF_BLURRED, "blurred"),
     ][axis];
     let workgroup = if is_literal && axis == 1 {
         WORKGROUP_UNROLLED_Y

@@ -8,7 +8,8 @@ use super::shared::lookup::moments_lookup;
 use super::shared::{depth_input, map_input, regions, wgsl, wrong_format, wrong_property};
 use super::techniques;
 use crate::{
-    Connected, GraphError, Node, NodeDesc, ParameterBlock, Pass, Rule, Stage, TextureRule, bind,
+    Connected, GraphError, Node, NodeDesc, Off, ParameterBlock, Pass, Rule, Stage, TextureRule,
+    bind,
 };
 
 /// Node `composite_scattering`: `integrated` (from [`super::IntegrateScattering`]) and `camera_depth` to `scattering`, of the
@@ -138,6 +139,8 @@ impl Node for CompositeScattering {
             .pass(pass)
             .parameters(ParameterBlock::of::<CompositeScatteringParameters>(
                 "CompositeScatteringParameters",
-            )))
+            ))
+            // Nothing in the air: no light is added, and all of it comes through.
+            .off("scattering", Off::Fill(vec![[0.0, 0.0, 0.0, 1.0]])))
     }
 }

@@ -4,7 +4,7 @@ use moment_shadows::{Storage, TextureFormat};
 use serde::{Deserialize, Serialize};
 
 use super::shared::{Specialization, map_input, wgsl, wrong_property};
-use crate::{Connected, GraphError, Node, NodeDesc, Pass, Stage, TextureRule, bind};
+use crate::{Connected, GraphError, Node, NodeDesc, Off, Pass, Stage, TextureRule, bind};
 
 /// What [`DebugMoments`] shows.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
@@ -57,6 +57,7 @@ impl Node for DebugMoments {
         Ok(NodeDesc::new("debug_moments", Stage::AfterShadowMaps)
             .input("map", "The map to show.", rule)
             .output("picture", "A colour per texel of the map.", picture)
-            .pass(pass))
+            .pass(pass)
+            .off("picture", Off::Fill(vec![[0.0; 4]])))
     }
 }

@@ -3,8 +3,11 @@
 use moment_shadows::{LayerSplits, Technique, TextureFormat};
 use serde::Deserialize;
 
+use super::shared::regions::ENDLESS;
 use super::shared::{Specialization, depth_input, wgsl, wrong_property};
-use crate::{Connected, GraphError, Node, NodeDesc, Pass, Rule, Slot, Stage, TextureRule, bind};
+use crate::{
+    Connected, GraphError, Node, NodeDesc, Off, Pass, Rule, Slot, Stage, TextureRule, bind,
+};
 
 /// Footprints that a workgroup sums up, along each side (`TILE` in the shader).
 const TILE: u32 = 32;
@@ -58,7 +61,7 @@ impl Node for PlaceLayers {
                 .extent(size)
                 .layers(Rule::same_as("depth"))
         };
-        let tiles = depth.size.map(|side| side.div_ceil(TILE));
+        let tiles = TextureRule::new(TextureFormat::Rgba32Float).tiles_of("depth", [TILE; 2]);
         let state = "Where the relaxation is, layer by layer.";
         Ok(NodeDesc::new("place_layers", Stage::AfterShadowMaps)
             .input("depth", "The light's depth map.", depth_input::light())
@@ -66,7 +69,7 @@ impl Node for PlaceLayers {
                 Slot::output("splits", "Where the layers lie.", made([2, 1])).persistent(),
                 Slot::internal("state", state, made(STATE)).persistent(),
                 Slot::internal("next", "Where it is after this step.", made(STATE)),
-                Slot::internal("sums", "What each tile says about the splits.", made(tiles)),
+                Slot::internal("sums", "What each tile says about the splits.", tiles),
             ])
             .pass(
                 pass("sum tiles", "sum_tiles", [TILE; 2])
@@ -77,17 +80,19 @@ impl Node for PlaceLayers {
                     .bind("regions", bind::regions("depth", 1)),
             )
             .pass(
-                pass("step splits", "step_splits", depth.size)
+                pass("step splits", "step_splits", [ENDLESS; 2])
                     .bind("state_map", bind::layer("state"))
                     .bind("target_map", bind::store("next"))
                     .bind("sums_map", bind::layer("sums")),
             )
             .pass(
-                pass("keep splits", "keep_splits", depth.size)
+                pass("keep splits", "keep_splits", [ENDLESS; 2])
                     .bind("state_map", bind::layer("next"))
                     .bind("target_map", bind::store("state"))
                     .bind("splits_map", bind::store("splits")),
             )
-            .parameters(depth_input::conversions(depth)))
+            .parameters(depth_input::conversions(depth))
+            // Layers of equal depth.
+            .off("splits", Off::Fill(vec![[0.0; 4]])))
     }
 }

@@ -80,6 +80,7 @@ impl Node for RectifyMoments {
             .input("map", "The light's filtered map of four moments.", rule)
             .output("rectified", description, rectified)
             .passes(techniques::of_each_plane(&encoding, pass))
-            .parameters(block))
+            .parameters(block)
+            .off("rectified", techniques::no_shadow(&encoding)))
     }
 }

@@ -117,6 +117,7 @@ impl Node for Resolve {
             .output("map", description, map)
             .slots(splits)
             .passes(techniques::of_each_plane(&encoding, pass))
-            .parameters(depth_input::conversions(depth)))
+            .parameters(depth_input::conversions(depth))
+            .off("map", techniques::no_shadow(&encoding)))
     }
 }

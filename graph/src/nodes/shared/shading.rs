@@ -10,7 +10,7 @@ use moment_shadows::{
 
 use super::{Specialization, depth_input, wgsl, wrong_property};
 use crate::{
-    Binding, Connected, GraphError, NodeDesc, ParameterBlock, Pass, ResourceDesc, Rule, Slot,
+    Binding, Connected, GraphError, NodeDesc, Off, ParameterBlock, Pass, ResourceDesc, Rule, Slot,
     Stage, TextureRule, bind,
 };
 
@@ -69,7 +69,9 @@ pub(in crate::nodes) fn describe(
         .slots([normals_slot()])
         .output("shadow_intensity", intensity, target)
         .pass(pass)
-        .parameters(block))
+        .parameters(block)
+        // Lit.
+        .off("shadow_intensity", Off::Fill(vec![[0.0; 4]])))
 }
 
 /// Formats of normals: those of two channels hold an octahedron, those without a sign hold [-1, 1] in [0, 1].

@@ -5,7 +5,7 @@ use serde::{Deserialize, Deserializer};
 
 use super::shared::regions::ENDLESS;
 use super::shared::{Specialization, map_input, wgsl, wrong_property};
-use crate::{Connected, GraphError, Node, NodeDesc, Pass, Rule, Slot, Stage, TextureRule, bind};
+use crate::{Connected, GraphError, Node, NodeDesc, Pass, Slot, Stage, TextureRule, bind};
 
 /// Node `summed_area_table`: `map` (four moments or two, of any storage, straight from a resolve) to `table`, of the same
 /// size, layers and regions: in each texel of a region the sum of all its texels that lie neither below nor to the right,
@@ -102,14 +102,12 @@ impl Node for SummedAreaTable {
             let wgsl = specialization.link(shader)?;
             Ok::<_, GraphError>(pass.shader(wgsl, &label.replace(' ', "_")))
         };
-        let between = |name: &str, description: &str, size: [u32; 2]| {
-            let rule = TextureRule::new(encoding.format()).extent(size);
-            Slot::internal(name, description, rule.layers(Rule::same_as("map")))
+        let between = |name: &str, description: &str, per: [u32; 2]| {
+            let rule = TextureRule::new(encoding.format());
+            Slot::internal(name, description, rule.tiles_of("map", per))
         };
         // One row or column per tile.
-        let [width, height] = map.size;
-        let rows = [width.div_ceil(tile[0]), height];
-        let columns = [width, height.div_ceil(tile[1])];
+        let (rows, columns) = ([tile[0], 1], [1, tile[1]]);
         // Only the first mip level of a map is summed up.
         let rule = map_input::rule(map_input::formats());
         let whole = TextureRule::of_map(encoding.clone())

@@ -1,0 +1,156 @@
+import type { Plan, PlannedField } from './plan.js';
+
+/** By columns: four arrays of four numbers, or 16 numbers. */
+export type Matrix = ArrayLike<number> | ArrayLike<ArrayLike<number>>;
+export type Pair = [number, number];
+export type Triple = [number, number, number];
+
+/** Distances along the light's axis that map to the moment depths -1 and 1. */
+export interface DepthRange {
+  near: number;
+  far: number;
+}
+
+export interface MapRegion {
+  origin: Pair;
+  extent: Pair;
+}
+
+/** How a light's map stores depth. */
+export type LightDepth =
+  | { orthographic: { reversed?: boolean } }
+  | { perspective: { near: number; far: number; reversed?: boolean; range: DepthRange } }
+  | { linear: { range: DepthRange } };
+
+/** How large a light is; left out, a point. */
+export type LightSize = { angularDiameter: number } | { disk: number } | { rectangle: Pair };
+
+export interface CameraView {
+  clipFromWorld: Matrix;
+  /** The stored depth of pixels that show no surface: 0 for reversed depth, 1 otherwise. */
+  farDepth: number;
+}
+
+/** What one region of a light's map was drawn with. Without more than a matrix it is that of a sun without size. */
+export interface LightView {
+  clipFromWorld: Matrix;
+  depth?: LightDepth;
+  layer?: number;
+  region?: MapRegion;
+  channel?: number;
+  size?: LightSize;
+}
+
+export interface DepthConversion {
+  numerator: Pair;
+  denominator: Pair;
+  scale: number;
+  offset: number;
+}
+
+export interface ReceiverBias {
+  constant: number;
+  slope_scale: number;
+  maximum: number;
+  step: number;
+}
+
+export interface LeakReduction {
+  full_shadow: number;
+  bleed_reduction: number;
+  visibility_exponent: number;
+}
+
+export interface AreaLight {
+  size: Pair;
+  near: number;
+  far: number;
+  perspective: number;
+  smallest_radius: number;
+  largest_radius: number;
+  rectangular: number;
+}
+
+export interface SingleScattering {
+  extinction: Triple;
+  anisotropy: number;
+  scattering: Triple;
+  mean_extinction: number;
+  irradiance: Triple;
+}
+
+/** A uniform struct: a value for each of its members, by the names that the plan lists. */
+export interface Struct {
+  [member: string]: number | ArrayLike<number> | ArrayLike<ArrayLike<number>> | Struct | object;
+}
+
+/** A value that is refused: `subject` is what the value is. */
+export class ValueError extends Error {
+  constructor(subject: string, message: string);
+  subject: string;
+}
+
+export const WHOLE: MapRegion;
+export const NONE: MapRegion;
+export const NO_BIAS: ReceiverBias;
+export const NO_AREA: AreaLight;
+
+/** The struct of node `resolve`, per layer. */
+export function depthConversion(depth: LightDepth): DepthConversion;
+
+/** The struct of nodes `shade_hard` and `shade_soft`, per view of a light. */
+export function viewParameters(
+  camera: CameraView,
+  light: LightView,
+  receiverBias: ReceiverBias,
+  leakReduction?: LeakReduction,
+  areaLight?: AreaLight,
+): Struct;
+
+export function receiverBias(standardDeviation: number, depthPerTexel: number): ReceiverBias;
+export function biasForStoredDepth(bias: ReceiverBias, format: GPUTextureFormat, conversion: DepthConversion): ReceiverBias;
+export function leakReduction(settings?: { fullShadow?: number; bleedReduction?: number; visibilityExponent?: number }): LeakReduction;
+
+/** Width and height of a texel in scene units. `extent` are the texels of the light's region, here and below. */
+export function texelSize(light: LightView, extent: Pair): Pair;
+export function depthRange(light: LightView): DepthRange;
+export function depthPerTexel(light: LightView, extent: Pair): number;
+
+/** The light with its size; search and filter keep to `radii`, the smallest and the largest half width in texels. */
+export function areaLight(light: LightView, extent: Pair, radii: Pair): AreaLight;
+export function areaLightOf(size: LightSize | undefined, texel: Pair, range: DepthRange, radii: Pair): AreaLight;
+
+export function medium(settings: { extinction: Triple; scattering: Triple; anisotropy?: number; irradiance: Triple }): SingleScattering;
+
+/** The structs of nodes `rectify_moments`, `integrate_scattering` and `composite_scattering`. */
+export function scatteringParameters(
+  camera: CameraView,
+  far: number,
+  light: LightView,
+  medium: SingleScattering,
+): { rectify: Struct; integrate: Struct; composite: Struct };
+
+export function rectifiedView(
+  clipFromWorld: Matrix,
+  far: number,
+  lightDirection: Triple,
+): { camera: Triple; axes: [Triple, Triple, Triple]; frame: Struct };
+
+/** Weights of a kernel. */
+export function gaussianKernel(radius: number, sigma: number): number[];
+export function kernelFromWeights(weights: ArrayLike<number>): number[];
+export function standardDeviation(weights: number[]): number;
+/** The struct of a node `blur` whose kernel can change per frame, or has a radius above 12. */
+export function blurParameters(weights: number[]): Struct;
+
+/** A view's block with every node's initial values. */
+export function initialBlock(plan: Plan): Uint8Array<ArrayBuffer>;
+
+/** Writes a node's struct, its bytes, or several where the node has an array of them, into a view's block. */
+export function write(plan: Plan, block: Uint8Array, node: string, layer: number, values: object | ArrayBufferView | object[]): void;
+
+/** Writes the regions of a map's layer into a view's block. */
+export function writeRegions(plan: Plan, block: Uint8Array, map: string, layer: number, regions: MapRegion[]): void;
+
+/** Bytes of a struct. */
+export function structBytes(size: number, fields: PlannedField[], value: object): Uint8Array<ArrayBuffer>;

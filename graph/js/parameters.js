@@ -1,0 +1,15 @@
+// Everything that passes are told per view: makers of the structs of the library's nodes, and where they go in a view's block.
+
+export { areaLight, depthPerTexel, depthRange, texelSize } from './parameters/light_view.js';
+export { NO_AREA, areaLightOf } from './parameters/area_light.js';
+export { initialBlock, write, writeRegions } from './parameters/block.js';
+export { depthConversion } from './parameters/depth_conversion.js';
+export { blurParameters, gaussianKernel, kernelFromWeights, standardDeviation } from './parameters/kernel.js';
+export { leakReduction } from './parameters/leak_reduction.js';
+export { NONE, WHOLE } from './parameters/map_region.js';
+export { NO_BIAS, biasForStoredDepth, receiverBias } from './parameters/receiver_bias.js';
+export { rectifiedView } from './parameters/rectified_view.js';
+export { medium, scatteringParameters } from './parameters/scattering.js';
+export { structBytes } from './parameters/struct.js';
+export { ValueError } from './parameters/value_error.js';
+export { viewParameters } from './parameters/view_parameters.js';

@@ -1,0 +1,44 @@
+// What nodes that shade a picture need to know of a view of a light: the struct `ViewParameters` of `shade_hard` and `shade_soft`.
+
+import { NO_AREA } from './area_light.js';
+import { depthConversion } from './depth_conversion.js';
+import { leakReduction } from './leak_reduction.js';
+import { checkMatrix, completed, momentDepthRow } from './light_view.js';
+import { columns, inverse, product, row, transposed } from './matrix.js';
+import { single } from './rounding.js';
+import { number } from './value_error.js';
+import { difference, scaled, sum } from './vector.js';
+
+/**
+ * The parameters of a camera that looks at receivers of a light's shadow.
+ *
+ * The camera has `clipFromWorld`, as WebGPU's clip space has it, and `farDepth`, the stored depth of pixels that show no surface: 0 for
+ * reversed depth, 1 otherwise. `areaLight` is for soft shadows.
+ */
+export function viewParameters(camera, light, receiverBias, reduction = leakReduction(), areaLight = NO_AREA) {
+  const worldFromClip = inverse(columns(camera.clipFromWorld, 'camera'), 'camera');
+  const { clip, depth, region, layer, channel } = completed(light);
+  inverse(clip, 'light');
+  const conversion = depthConversion(depth);
+  checkMatrix(depth, clip);
+  const [x, y, w] = [0, 1, 3].map((index) => row(clip, index));
+  // From clip space to the map: u = (x + w) / 2, v = (w - y) / 2, both still times w.
+  const rows = [scaled(sum(w, x), 0.5), scaled(difference(w, y), 0.5), w, momentDepthRow(depth, clip)];
+  const sceneW = row(worldFromClip, 3);
+  // Rays of a perspective camera meet in what depth alone leads to, those of another begin at its near plane.
+  const eye = worldFromClip[2][3] !== 0 ? worldFromClip[2] : worldFromClip[3];
+  const position = [0, 1, 2].map((axis) => difference(row(worldFromClip, axis), scaled(sceneW, eye[axis] / eye[3])));
+  return {
+    light_from_camera: product(transposed(rows), worldFromClip).map((column) => column.map(single)),
+    scene_w_from_camera: sceneW.map(single),
+    position_from_camera: position.map((components) => components.map(single)),
+    receiver_bias: receiverBias,
+    leak_reduction: reduction,
+    region,
+    far_depth: single(number("the camera's farDepth", camera.farDepth)),
+    layer,
+    channel,
+    conversion,
+    light: areaLight,
+  };
+}
