@@ -40,11 +40,14 @@ fn graphs(folder: &str) -> Vec<(String, Value)> {
 
 #[test]
 fn every_graph_of_the_repository_is_taken() {
-    let all: Vec<_> = ["examples", "tests/support", "examples/egui_host"]
-        .into_iter()
-        .flat_map(graphs)
-        .collect();
-    assert!(all.len() >= 6, "{}", all.len());
+    let folders = [
+        "examples",
+        "tests/support",
+        "examples/egui_host",
+        "examples/hosts/frame_graph/graphs",
+    ];
+    let all: Vec<_> = folders.into_iter().flat_map(graphs).collect();
+    assert!(all.len() >= 9, "{}", all.len());
     for (name, file) in all {
         assert!(taken(&file), "{name}");
     }
