@@ -95,7 +95,6 @@ run_wesl_rs() {
   # Nothing here needs speed; compiling does.
   local cargo=(--locked --ignore-rust-version --manifest-path packages/wesl_rs/Cargo.toml
     --target-dir "${CARGO_TARGET_DIR:-target}/tmp/wesl_rs")
-  cargo clippy "${cargo[@]}" --all-targets -- -D warnings
   cargo test "${cargo[@]}"
   cargo test --release --locked --workspace --test wesl the_rust_package -- --ignored --nocapture
 }
@@ -246,11 +245,6 @@ every_feature_combination() {
   done < <(feature_combinations)
 }
 
-# The library's command as `cargo install --no-default-features` makes it, but for its speed.
-command_without_wgpu() {
-  cargo test --locked -p moment-shadows-graph --no-default-features --features cli --test command
-}
-
 # The library crates for the web. Its standard library comes from rustup.
 check_wasm() {
   local target=wasm32-unknown-unknown arguments
@@ -268,7 +262,6 @@ check_wasm() {
 check() {
   step "A graphics adapter" need_adapter
   step "The library crates with every combination of features" every_feature_combination
-  step "The library's command without wgpu" command_without_wgpu
   step "The library crates for wasm32" check_wasm
   step "Every linked shader as WGSL, SPIR-V and GLSL" write_shaders
   step "A second compiler: Tint" run_tint
