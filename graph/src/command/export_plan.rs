@@ -62,7 +62,13 @@ impl Options {
         };
         let file = GraphFile::read(&self.file)?;
         let mut imports = Vec::new();
-        for (name, size) in &self.size {
+        for (number, (name, size)) in self.size.iter().enumerate() {
+            let mut earlier = self.size.iter().take(number);
+            if earlier.any(|(other, _)| other == name) {
+                let message = format!("--size gives import '{name}' two sizes; leave one out");
+                let error = GraphError::new(GraphErrorKind::Size, message);
+                return Err(CommandError::graph(&file.name)(error));
+            }
             let known = file.graph.imports.iter().map(|import| import.name.as_str());
             let import = file.graph.imports.iter().find(|it| it.name == *name);
             let import = import.ok_or_else(|| unknown("import", name, known, "in --size"));

@@ -238,6 +238,9 @@ fn plans_are_exported_for_sizes_groups_and_features() {
         assert!(said.contains(expected), "{said}");
     }
     let size = format!("{name}=64x64");
+    let (code, _, said) = run(&["export-plan", &graph, "--size", &size, "--size", &size]);
+    assert_eq!(code, Some(1));
+    assert!(said.contains("two sizes; leave one out"), "{said}");
     let (code, _, said) = run(&["export-plan", &open, "--size", &size]);
     assert_eq!(code, Some(1));
     assert!(said.contains("has no texture in the graph file"), "{said}");
