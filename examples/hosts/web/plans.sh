@@ -28,44 +28,36 @@ compile() {
   listed+=("{ \"file\": \"$1\", \"technique\": \"$2\", \"storage\": \"$3\", \"map\": \"$4\" }")
 }
 
-# hard TECHNIQUE STORAGE
-hard() {
+# shaded FILE TECHNIQUE STORAGE MAP FILTER SHADE SLOT: the technique's map through the filter node, whose output MAP goes to the slot of
+# the shading node.
+shaded() {
+  local technique=$2 storage=$3 map=$4 filter=$5 shade=$6 slot=$7
   cat > "$graph" <<JSON
 { "version": 2, $(imports 4),
   "nodes": [
-    { "name": "resolve", "type": "resolve", "properties": { "technique": "$1", "storage": "$2" } },
-    { "name": "blur", "type": "blur", "properties": { "kernel": { "radius": 3 } } },
-    { "name": "shade", "type": "shade_hard" }
+    { "name": "resolve", "type": "resolve", "properties": { "technique": "${technique#soft }", "storage": "$storage" } },
+    { "name": "${map%.*}", $filter },
+    { "name": "shade", "type": "$shade" }
   ],
   "edges": [
     { "from": "light_depth", "to": "resolve.depth" },
-    { "from": "resolve.map", "to": "blur.map" },
-    { "from": "blur.blurred", "to": "shade.map" },
+    { "from": "resolve.map", "to": "${map%.*}.map" },
+    { "from": "$map", "to": "shade.$slot" },
     { "from": "camera_depth", "to": "shade.camera_depth" }
   ],
   "outputs": [{ "name": "shadow_intensity", "from": "shade.shadow_intensity" }] }
 JSON
-  compile "$1_$2.json" "$1" "$2" blur.blurred
+  compile "$1" "$technique" "$storage" "$map"
+}
+
+# hard TECHNIQUE STORAGE
+hard() {
+  shaded "$1_$2.json" "$1" "$2" blur.blurred '"type": "blur", "properties": { "kernel": { "radius": 3 } }' shade_hard map
 }
 
 # soft TECHNIQUE STORAGE
 soft() {
-  cat > "$graph" <<JSON
-{ "version": 2, $(imports 4),
-  "nodes": [
-    { "name": "resolve", "type": "resolve", "properties": { "technique": "$1", "storage": "$2" } },
-    { "name": "sum", "type": "summed_area_table", "properties": { "largest_kernel": 65 } },
-    { "name": "shade", "type": "shade_soft" }
-  ],
-  "edges": [
-    { "from": "light_depth", "to": "resolve.depth" },
-    { "from": "resolve.map", "to": "sum.map" },
-    { "from": "sum.table", "to": "shade.table" },
-    { "from": "camera_depth", "to": "shade.camera_depth" }
-  ],
-  "outputs": [{ "name": "shadow_intensity", "from": "shade.shadow_intensity" }] }
-JSON
-  compile "soft_$1_$2.json" "soft $1" "$2" sum.table
+  shaded "soft_$1_$2.json" "soft $1" "$2" sum.table '"type": "summed_area_table", "properties": { "largest_kernel": 65 }' shade_soft table
 }
 
 for storage in float16 float32; do
