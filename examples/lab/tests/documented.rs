@@ -232,8 +232,18 @@ fn check_cargo(words: &[String], pasted: bool) -> Option<String> {
         let place = words.iter().position(|word| word == flag)?;
         words.get(place + 1)
     };
+    let package = after("-p").map(String::as_str);
+    let folder = match package {
+        None | Some("moment-shadows") => ".",
+        Some("moment-shadows-graph") => "graph",
+        Some("moment-shadows-lab") => "examples/lab",
+        Some(other) => panic!("'{other}' is no package"),
+    };
     if let Some(test) = after("--test") {
-        let files = [format!("tests/{test}.rs"), format!("tests/{test}/main.rs")];
+        let files = [
+            format!("{folder}/tests/{test}.rs"),
+            format!("{folder}/tests/{test}/main.rs"),
+        ];
         assert!(
             files.iter().any(|file| root().join(file).exists()),
             "there is no test '{test}'"
@@ -252,10 +262,12 @@ fn check_cargo(words: &[String], pasted: bool) -> Option<String> {
         let declared = graph.contains(&format!("\n{feature} = ["));
         assert!(declared, "there is no feature '{feature}'");
     }
-    let package = after("-p")?;
-    assert_eq!(package, "moment-shadows-lab");
     let ours = words.iter().position(|word| word == "--")? + 1;
-    Some(check_ours(parser(), &words[ours..], pasted))
+    match package {
+        Some("moment-shadows-lab") => Some(check_ours(parser(), &words[ours..], pasted)),
+        // Arguments of the tests' own program.
+        _ => None,
+    }
 }
 
 #[test]
