@@ -43,3 +43,4 @@ pub mod troubleshooting;
 pub mod truth;
 pub mod vectors;
 pub mod view;
+mod wgsl_number;
