@@ -39,6 +39,7 @@ pub mod summed_area;
 pub mod surface_error;
 pub mod techniques;
 mod texture;
+pub mod trade;
 pub mod troubleshooting;
 pub mod truth;
 pub mod vectors;
