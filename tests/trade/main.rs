@@ -7,6 +7,7 @@
 )]
 
 mod choose;
+mod inspect;
 mod truth;
 mod whole;
 

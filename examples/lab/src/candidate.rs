@@ -249,12 +249,11 @@ pub fn candidates(
     }
     let mut chosen = Vec::new();
     for choice in choices {
-        match storage {
-            Some(_) if !choice.candidates[0].reads_depth() => {
-                chosen.push(choice.in_storage(storage)?);
-            }
-            Some(_) => chosen.extend_from_slice(choice.candidates()),
-            None => chosen.extend_from_slice(choice.candidates()),
+        // Techniques that read depth have no storage that could be another.
+        if storage.is_some() && !choice.candidates[0].reads_depth() {
+            chosen.push(choice.in_storage(storage)?);
+        } else {
+            chosen.extend_from_slice(choice.candidates());
         }
     }
     Ok(chosen)

@@ -7,9 +7,9 @@ use clap::{CommandFactory, FromArgMatches, Parser, Subcommand};
 
 use crate::command::cost::CostOptions;
 use crate::command::{
-    CommandResult, bias, choose, error, error_table, isa, measure, probe, render, scattering_error,
-    scattering_flicker, shaders, soft_error, stability, technique_pictures, trade,
-    troubleshooting_pictures, vectors,
+    CommandResult, bias, choose, error, error_table, inspect, isa, measure, probe, render,
+    scattering_error, scattering_flicker, shaders, soft_error, stability, technique_pictures,
+    trade, troubleshooting_pictures, vectors,
 };
 use crate::isa::child;
 
@@ -51,6 +51,8 @@ enum Command {
     Choose(choose::Options),
     /// Prints what a scene asks of its shadows: surfaces under the filter, the part of the light's range that is used, texels per pixel.
     Probe(probe::Options),
+    /// Looks at one pixel: the depths under its filter, and what each technique makes of them, step by step from the truth to what is shown.
+    Inspect(inspect::Options),
     /// Prints how far soft shadows are from those of an area light that is sampled at many places: hard moment shadows,
     /// percentage closer soft shadows, and graphs of your own.
     SoftError(soft_error::SoftErrorOptions),
@@ -109,6 +111,7 @@ fn run(command: Command) -> CommandResult {
         Command::Trade(options) => options.run(),
         Command::Choose(options) => options.run(),
         Command::Probe(options) => options.run(),
+        Command::Inspect(options) => options.run(),
         Command::SoftError(options) => print_all(&soft_error::run(&options)?),
         Command::ScatteringError(options) => print_all(&scattering_error::run(&options)?),
         Command::ScatteringFlicker(options) => options.run(),

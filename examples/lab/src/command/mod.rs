@@ -7,6 +7,7 @@ pub mod cost;
 pub mod drawn;
 pub mod error;
 pub mod error_table;
+pub mod inspect;
 pub mod isa;
 pub mod measure;
 pub mod probe;

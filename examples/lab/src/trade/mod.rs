@@ -9,6 +9,7 @@ pub mod chart;
 pub mod choose;
 mod crop;
 pub mod front;
+pub mod inspect;
 pub mod interval;
 mod isa;
 mod jobs;

@@ -33,6 +33,14 @@ pub fn at_each(
         .collect()
 }
 
+/// The samples that the filtered map combines at `uv`, and their weights, which sum to 1.
+#[must_use]
+pub fn under(depths: &MomentDepths, taps: &TapPattern, uv: [f64; 2]) -> [Vec<f64>; 2] {
+    let mut scratch = Scratch::default();
+    scratch.gather(depths, taps, uv);
+    [scratch.samples, scratch.weights]
+}
+
 /// Lists that are reused from pixel to pixel.
 #[derive(Default)]
 struct Scratch {
