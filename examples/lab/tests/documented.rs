@@ -14,7 +14,7 @@ use moment_shadows_graph::command::Cli;
 use moment_shadows_lab::cli::parser;
 
 /// Sub-commands that are run here, with arguments that make them short; `OUT` is a folder or a file in it.
-const RUN: [(&str, &[&str]); 10] = [
+const RUN: [(&str, &[&str]); 12] = [
     ("adapter", &[]),
     ("graph", &["examples/hard_shadows.json", "--plan"]),
     ("export-plan", &["examples/hard_shadows.json"]),
@@ -61,13 +61,30 @@ const RUN: [(&str, &[&str]); 10] = [
             "64",
         ],
     ),
+    ("probe", &["hall", "--quick", "--map", "128", "--views", "1"]),
+    (
+        "inspect",
+        &[
+            "hall",
+            "--pixel",
+            "20,25",
+            "--width",
+            "64",
+            "--map",
+            "64",
+            "--technique",
+            "vsm",
+            "--out",
+            "OUT/pixel.svg",
+        ],
+    ),
     ("vectors", &["tests/vectors/moment_problem.json"]),
     ("shaders", &["--out", "OUT/shaders"]),
     ("troubleshooting-pictures", &["--out", "OUT/pictures"]),
 ];
 
 /// Sub-commands that are not run here, and why.
-const LONG: [(&str, &str); 9] = [
+const LONG: [(&str, &str); 11] = [
     ("error-table", "peels whole scenes, for a minute each"),
     ("soft-error", "traces 256 rays per pixel"),
     ("scattering-error", "marches 1,024 steps per pixel"),
@@ -77,6 +94,8 @@ const LONG: [(&str, &str); 9] = [
         "draws every technique in single precision with its truth",
     ),
     ("cost", "times work that should have the machine for itself"),
+    ("trade", "judges and times hundreds of combinations"),
+    ("choose", "trades first"),
     ("bias", "searches a million patches of depth"),
     ("stability", "tries random inputs for a quarter of an hour"),
     (
