@@ -1,5 +1,6 @@
 //! Techniques: what can be asked of a map, and how it has to be encoded for that.
 
+mod best;
 mod convolution;
 mod depth_tests;
 mod encoding;

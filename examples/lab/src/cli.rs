@@ -7,7 +7,7 @@ use clap::{CommandFactory, FromArgMatches, Parser, Subcommand};
 
 use crate::command::cost::CostOptions;
 use crate::command::{
-    CommandResult, bias, choose, error, error_table, inspect, isa, measure, probe, render,
+    CommandResult, best, bias, choose, error, error_table, inspect, isa, measure, probe, render,
     scattering_error, scattering_flicker, shaders, soft_error, stability, technique_pictures,
     trade, troubleshooting_pictures, vectors,
 };
@@ -49,6 +49,8 @@ enum Command {
     /// Chooses technique, storage, map and samples for a scene within bounds, and writes the graph. Exits with 3 if nothing keeps to the
     /// bounds; the nearest is printed then.
     Choose(choose::Options),
+    /// Prints which technique and storage errs least for its bits in a finished trade.
+    Best(best::Options),
     /// Prints what a scene asks of its shadows: surfaces under the filter, the part of the light's range that is used, texels per pixel.
     Probe(probe::Options),
     /// Looks at one pixel: the depths under its filter, and what each technique makes of them, step by step from the truth to what is shown.
@@ -110,6 +112,7 @@ fn run(command: Command) -> CommandResult {
         Command::ErrorTable(options) => options.run(),
         Command::Trade(options) => options.run(),
         Command::Choose(options) => options.run(),
+        Command::Best(options) => options.run(),
         Command::Probe(options) => options.run(),
         Command::Inspect(options) => options.run(),
         Command::SoftError(options) => print_all(&soft_error::run(&options)?),

@@ -61,7 +61,10 @@ const RUN: [(&str, &[&str]); 12] = [
             "64",
         ],
     ),
-    ("probe", &["hall", "--quick", "--map", "128", "--views", "1"]),
+    (
+        "probe",
+        &["hall", "--quick", "--map", "128", "--views", "1"],
+    ),
     (
         "inspect",
         &[

@@ -1,6 +1,7 @@
 //! The sub-commands of `moment-shadows-lab` that are not the library's: a file has the options of each, and runs it.
 
 pub(crate) mod argument;
+pub mod best;
 pub mod bias;
 pub mod choose;
 pub mod cost;

@@ -183,6 +183,7 @@ impl<'a> Choice<'a> {
         let comment = self.reasons(results).join(" ");
         let mut graph: Value = serde_json::from_str(&file.text)?;
         graph["comment"] = json!(comment);
+        retain_read(&mut graph);
         for import in graph["imports"].as_array_mut().into_iter().flatten() {
             if import["name"] == "light_depth" {
                 import["texture"]["size"] = json!([cell.map, cell.map]);
@@ -190,6 +191,44 @@ impl<'a> Choice<'a> {
             }
         }
         written(&graph)
+    }
+}
+
+/// Leaves out nodes that no output is made of, with their edges.
+fn retain_read(graph: &mut Value) {
+    let list = |graph: &Value, key: &str, end: &str| -> Vec<String> {
+        let items = graph[key].as_array().into_iter().flatten();
+        items
+            .filter_map(|item| Some(item[end].as_str()?.to_owned()))
+            .collect()
+    };
+    let node = |end: &str| end.split('.').next().unwrap_or_default().to_owned();
+    let edges = list(graph, "edges", "from")
+        .into_iter()
+        .zip(list(graph, "edges", "to"));
+    let edges: Vec<(String, String)> = edges.collect();
+    let mut read: Vec<String> = list(graph, "outputs", "from")
+        .iter()
+        .map(|end| node(end))
+        .collect();
+    let mut next = 0;
+    while let Some(reader) = read.get(next).cloned() {
+        next += 1;
+        for (from, _) in edges.iter().filter(|(_, to)| node(to) == reader) {
+            if !read.contains(&node(from)) {
+                read.push(node(from));
+            }
+        }
+    }
+    let is_read = |item: &Value, key: &str| {
+        item[key]
+            .as_str()
+            .is_some_and(|end| read.contains(&node(end)))
+    };
+    for (list, key) in [("nodes", "name"), ("edges", "to")] {
+        if let Some(items) = graph[list].as_array_mut() {
+            items.retain(|item| is_read(item, key));
+        }
     }
 }
 

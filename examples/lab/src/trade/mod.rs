@@ -5,6 +5,7 @@
 //! error. An error is the mean absolute difference of shadow intensity, in tables in percent of full shadow.
 
 pub mod axes;
+pub mod best;
 pub mod chart;
 pub mod choose;
 mod crop;

@@ -1,0 +1,26 @@
+//! Which techniques and storages have the least error in pictures, as measured.
+
+use super::{MapEncoding, Technique};
+use crate::Profile;
+use crate::Storage::{self, Float16, Float32, Unorm8, Unorm10, Unorm16};
+
+/// Techniques with usual settings and their storages, the least error first. Recorded in `examples/lab/best.json`; a test holds both.
+const RECORDED: [(&str, Storage); 0] = [];
+
+impl Technique {
+    /// The encoding with the least error in pictures among those whose map has at most `bits` bits per texel, all planes, and that every
+    /// device of the profile can write.
+    ///
+    /// The order is that of `moment-shadows-lab best`: the mean over procedural scenes, views and filters, on a software adapter. It is
+    /// of scenes of many fine casters and contacts; `moment-shadows-lab choose` measures yours. `None` for fewer than 16 bits.
+    #[must_use]
+    pub fn best(profile: Profile, bits: u32) -> Option<MapEncoding> {
+        let all = Self::examples();
+        RECORDED.into_iter().find_map(|(name, storage)| {
+            let technique = all.iter().find(|technique| technique.name() == name)?;
+            let encoding = MapEncoding::new(technique.clone(), storage).ok()?;
+            let is_offered = encoding.bits_per_texel() <= bits && encoding.check(profile).is_ok();
+            is_offered.then_some(encoding)
+        })
+    }
+}
