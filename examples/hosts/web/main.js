@@ -1,29 +1,16 @@
-// The page: controls, frames, and what went wrong, in words.
+// The page of techniques: what its controls do to the picture.
 
 import { openDevice } from './device.js';
 import { Orbit } from './orbit.js';
+import { Page, element } from './page.js';
 import { fetchPlan } from './plans.js';
 import { Renderer } from './renderer.js';
 
-const element = (id) => document.getElementById(id);
-const [canvas, trouble, times] = ['picture', 'trouble', 'times'].map(element);
-const [technique, storage, sun, split] = ['technique', 'storage', 'sun', 'split'].map(element);
+const page = new Page();
+const [technique, storage, radius, size] = ['technique', 'storage', 'radius', 'size'].map(element);
+const [angle, split, fog, density, anisotropy] = ['angle', 'split', 'fog', 'density', 'anisotropy'].map(element);
 
-let stopped = false;
-
-// Says what is wrong, or that nothing is.
-function say(message) {
-  // What has stopped the page stays.
-  if (stopped) return;
-  trouble.textContent = message;
-  trouble.hidden = !message;
-}
-
-// Says what went wrong, and draws no further frame.
-function stop(message) {
-  say(message);
-  stopped = true;
-}
+const radians = (degrees) => (degrees * Math.PI) / 180;
 
 function fill(select, names) {
   const before = select.value;
@@ -31,84 +18,78 @@ function fill(select, names) {
   if (names.includes(before)) select.value = before;
 }
 
-// Width and height of the canvas in pixels of the screen, within what the device has.
-function pixels(device) {
-  const scale = Math.min(devicePixelRatio, 2);
-  const side = (length) => Math.min(Math.max(Math.round(length * scale), 1), device.limits.maxTextureDimension2D);
-  return [side(canvas.clientWidth), side(canvas.clientHeight)];
-}
-
 async function main() {
-  const device = await openDevice(stop);
-  device.addEventListener('uncapturederror', ({ error }) => stop(`The graphics device objects: ${error.message}`));
-  const context = canvas.getContext('webgpu');
+  const device = await openDevice((message) => page.stop(message));
+  const context = page.picture.getContext('webgpu');
   const format = navigator.gpu.getPreferredCanvasFormat();
   context.configure({ device, format });
   const renderer = new Renderer(device, format);
-  const orbit = new Orbit(canvas);
+  const orbit = new Orbit(page.picture);
+  const { plans, references } = await fetchPlan('index.json');
+  await page.fit(device, (width, height) => {
+    Object.assign(page.picture, { width, height });
+    return renderer.resize(width, height);
+  });
 
-  const { plans, reference } = await fetchPlan('index.json');
-  const fit = async () => {
-    const [width, height] = pixels(device);
-    if (String([width, height]) === String(renderer.size)) return;
-    [canvas.width, canvas.height] = [width, height];
-    await renderer.resize(width, height);
+  // What was there before stays where a plan cannot be had, if anything was.
+  const take = (which, file, map) => {
+    const fetched = fetchPlan(file);
+    // Whoever takes it hears of what went wrong.
+    fetched.catch(() => {});
+    const failed = (error) => (renderer[which] ? page.say(error.message) : page.stop(error.message));
+    return page.change(async () => renderer.take(which, await fetched, map), failed);
   };
-  await fit();
-  await renderer.take('reference', await fetchPlan(reference.file), reference.map);
-
-  const storages = () => plans.filter((plan) => plan.technique === technique.value).map((plan) => plan.storage);
-  fill(technique, [...new Set(plans.map((plan) => plan.technique))]);
-  fill(storage, storages());
-
-  // One change after the other: a plan, or a size.
-  let changes = Promise.resolve();
-  let waiting = 0;
-  const change = (work, onError) => {
-    waiting += 1;
-    changes = changes.then(work).then(() => say(''), onError).finally(() => (waiting -= 1));
-    return changes;
-  };
+  const compare = () => take('reference', references[radius.value], 'light_depth');
   const choose = () => {
     const chosen = plans.find((plan) => plan.technique === technique.value && plan.storage === storage.value);
-    const take = async () => renderer.take('chosen', await fetchPlan(chosen.file), chosen.map);
-    // The plan before stays.
-    return change(take, (error) => (renderer.chosen ? say : stop)(error.message));
+    // The sun's size makes soft shadows, the width of the blur all others.
+    const isSoft = chosen.map.endsWith('.table');
+    element('blurred').hidden = isSoft;
+    element('sized').hidden = !isSoft;
+    return take('chosen', chosen.file, chosen.map);
   };
+  const storages = () => plans.filter((plan) => plan.technique === technique.value).map((plan) => plan.storage);
+  const breathe = async () => {
+    element('air').disabled = !fog.checked;
+    if (!fog.checked || renderer.air) return;
+    await take('air', 'air.json');
+    fog.checked = Boolean(renderer.air);
+    element('air').disabled = !fog.checked;
+  };
+
+  fill(technique, [...new Set(plans.map((plan) => plan.technique))]);
+  fill(storage, storages());
   technique.addEventListener('change', () => {
     fill(storage, storages());
     choose();
   });
   storage.addEventListener('change', choose);
-  await choose();
-  new ResizeObserver(() => change(fit, (error) => stop(error.message))).observe(canvas);
+  radius.addEventListener('change', compare);
+  fog.addEventListener('change', breathe);
+  await Promise.all([choose(), compare(), breathe()]);
 
   const line = element('line');
   const [left, right] = line.children;
-  let [measured, since] = [[], 0];
-  const frame = async () => {
-    if (stopped) return;
-    if (waiting === 0) {
-      const share = split.value / 100;
-      line.hidden = share === 0 || share === 1;
-      line.style.left = `${100 * share}%`;
-      left.textContent = `${technique.value}, ${storage.value}`;
-      right.textContent = reference.technique;
-      const start = performance.now();
-      const angle = (sun.value * Math.PI) / 180;
-      renderer.draw(context.getCurrentTexture().createView(), { eye: orbit.eye, angle, split: share });
-      // The next frame waits for this one, so that times are not those of a queue.
-      await device.queue.onSubmittedWorkDone();
-      measured.push(performance.now() - start);
-      if (start - since > 1000) {
-        const median = measured.sort((a, b) => a - b)[measured.length >> 1];
-        times.textContent = `${median.toFixed(1)} ms a frame, both techniques`;
-        [measured, since] = [[], start];
-      }
-    }
-    requestAnimationFrame(() => frame().catch((error) => stop(error.message)));
+  const draw = () => {
+    const share = split.value / 100;
+    line.hidden = share === 0 || share === 1;
+    line.style.left = `${100 * share}%`;
+    left.textContent = `${technique.value}, ${storage.value}`;
+    right.textContent = 'percentage closer';
+    renderer.draw(context.getCurrentTexture().createView(), {
+      eye: orbit.eye,
+      angle: radians(angle.value),
+      split: share,
+      radius: Number(radius.value),
+      size: radians(size.value),
+      air: fog.checked && renderer.air ? { density: Number(density.value), anisotropy: Number(anisotropy.value) } : undefined,
+    });
   };
-  await frame();
+  const note = () => {
+    if (split.value === '0') return 'percentage closer alone';
+    return split.value === '100' ? `${technique.value} alone` : 'both techniques';
+  };
+  await page.run(device, draw, note);
 }
 
-main().catch((error) => stop(error.message));
+main().catch((error) => page.stop(error.message));

@@ -41,7 +41,7 @@ export function vertices() {
   return new Float32Array(floats);
 }
 
-/** Draws depth with `depth`, and what is seen with `place` and `light`. */
+/** Draws depth with `depth`, what is seen with `place` and `light`, and behind it the sky with `cover` and `sky`. */
 export const SHADER = `
 struct Drawn {
     clip_from_world: mat4x4f,
@@ -51,6 +51,8 @@ struct Drawn {
 @group(0) @binding(0) var<uniform> drawn: Drawn;
 @group(0) @binding(1) var chosen: texture_2d<f32>;
 @group(0) @binding(2) var reference: texture_2d<f32>;
+// Radiance, and in alpha how much of what is behind is left. Without air it is one texel.
+@group(0) @binding(3) var air: texture_2d<f32>;
 
 struct Corner {
     @builtin(position) @invariant position: vec4f,
@@ -66,6 +68,17 @@ struct Corner {
     return Corner(drawn.clip_from_world * vec4f(position, 1.0), normal, colour);
 }
 
+@vertex fn cover(@builtin(vertex_index) index: u32) -> @builtin(position) vec4f {
+    return vec4f(select(-1.0, 3.0, index == 1u), select(-1.0, 3.0, index == 2u), 0.0, 1.0);
+}
+
+// As a screen wants it.
+fn shown(colour: vec3f, pixel: vec2u) -> vec4f {
+    let seen = textureLoad(air, min(pixel, textureDimensions(air) - 1u), 0);
+    let linear = clamp(colour * seen.w + seen.xyz, vec3f(0.0), vec3f(1.0));
+    return vec4f(select(1.055 * pow(linear, vec3f(1.0 / 2.4)) - 0.055, 12.92 * linear, linear <= vec3f(0.0031308)), 1.0);
+}
+
 @fragment fn light(corner: Corner) -> @location(0) vec4f {
     let pixel = vec2u(corner.position.xy);
     var shadow = textureLoad(chosen, pixel, 0).x;
@@ -75,6 +88,9 @@ struct Corner {
     let normal = normalize(corner.normal);
     let sun = max(dot(normal, drawn.towards_sun.xyz), 0.0) * (1.0 - shadow);
     let sky = 0.25 + 0.15 * normal.y;
-    let colour = corner.colour * (1.1 * sun * vec3f(1.0, 0.95, 0.85) + sky * vec3f(0.75, 0.85, 1.0));
-    return vec4f(pow(colour, vec3f(1.0 / 2.2)), 1.0);
+    return shown(corner.colour * (1.1 * sun * vec3f(1.0, 0.95, 0.85) + sky * vec3f(0.75, 0.85, 1.0)), pixel);
+}
+
+@fragment fn sky(@builtin(position) position: vec4f) -> @location(0) vec4f {
+    return shown(vec3f(0.26, 0.38, 0.6), vec2u(position.xy));
 }`;

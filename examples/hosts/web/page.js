@@ -1,0 +1,101 @@
+// What both pages have around their picture: controls with their values in words, what is wrong, and frames with their times.
+
+export const element = (id) => document.getElementById(id);
+
+// How the value of a slider reads, by the unit that it names.
+const READINGS = {
+  texels: (value) => `${value} ${value === 1 ? 'texel' : 'texels'}`,
+  degrees: (value) => `${value}°`,
+  percent: (value) => `${value} %`,
+  number: (value) => value.toFixed(2),
+};
+
+export class Page {
+  stopped = false;
+  waiting = 0;
+  changes = Promise.resolve();
+
+  constructor() {
+    this.picture = element('picture');
+    this.sliders = [...document.querySelectorAll('input[type=range]')];
+    for (const slider of this.sliders) slider.addEventListener('input', () => this.read());
+    this.read();
+  }
+
+  /** Writes beside each slider what it is at. */
+  read() {
+    for (const slider of this.sliders) {
+      const words = READINGS[slider.dataset.unit](Number(slider.value));
+      document.querySelector(`output[for=${slider.id}]`).textContent = words;
+      slider.setAttribute('aria-valuetext', words);
+    }
+  }
+
+  /** Says what is wrong, or that nothing is. */
+  say(message) {
+    // What has stopped the page stays.
+    if (this.stopped) return;
+    const trouble = element('trouble');
+    trouble.textContent = message;
+    trouble.hidden = !message;
+  }
+
+  /** Says what went wrong, and draws no further frame. */
+  stop(message) {
+    this.say(message);
+    this.stopped = true;
+    this.picture.removeAttribute('aria-busy');
+    element('controls').disabled = true;
+  }
+
+  /** Does one thing after the other, such as to fetch a plan or to take a size; no frame is drawn in between. */
+  change(work, onError = (error) => this.stop(error.message)) {
+    this.waiting += 1;
+    this.picture.setAttribute('aria-busy', 'true');
+    const done = () => this.say('');
+    this.changes = this.changes.then(work).then(done, onError).finally(() => (this.waiting -= 1));
+    return this.changes;
+  }
+
+  /** Keeps the canvas as many pixels as the screen shows of it, within what the device has. `take` is told of each size. */
+  async fit(device, take) {
+    const fit = async () => {
+      const scale = Math.min(devicePixelRatio, 2);
+      const side = (length) => Math.min(Math.max(Math.round(length * scale), 1), device.limits.maxTextureDimension2D);
+      const size = [side(this.picture.clientWidth), side(this.picture.clientHeight)];
+      if (String(size) === String(this.size)) return;
+      this.size = size;
+      await take(...size);
+    };
+    await fit();
+    new ResizeObserver(() => this.change(fit)).observe(this.picture);
+  }
+
+  /** Draws frames by `draw`, which submits them, and says what they take with `note` behind. */
+  async run(device, draw, note) {
+    element('controls').disabled = false;
+    const said = element('times');
+    let [measured, since] = [[], 0];
+    const frame = async () => {
+      if (this.stopped) return;
+      if (this.waiting === 0) {
+        const start = performance.now();
+        draw();
+        // The next frame waits for this one, so that times are not those of a queue.
+        await device.queue.onSubmittedWorkDone();
+        measured.push(performance.now() - start);
+        if (start - since > 1000) {
+          const median = measured.sort((a, b) => a - b)[measured.length >> 1];
+          said.textContent = `${median.toFixed(1)} ms a frame, ${note()}`;
+          [measured, since] = [[], start];
+        }
+        if (this.waiting === 0 && this.picture.hasAttribute('aria-busy')) {
+          this.picture.removeAttribute('aria-busy');
+          performance.mark('drawn');
+        }
+      }
+      requestAnimationFrame(() => frame().catch((error) => this.stop(error.message)));
+    };
+    await frame();
+  }
+}
