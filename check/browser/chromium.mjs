@@ -13,10 +13,13 @@ const FLAGS = [
   '--use-angle=swiftshader',
 ];
 
+// Wide enough for controls beside the picture, and small: SwiftShader is slow.
+const SIZE = [760, 360];
+
 export const launch = () => chromium.launch({ executablePath: '/usr/bin/chromium', args: FLAGS });
 
 /** Opens an address. `page.complaints` are the console's errors and warnings and what no script has caught. */
-export async function open(browser, address, { size = [720, 450], prepare, isExpected = () => false } = {}) {
+export async function open(browser, address, { size = SIZE, prepare, isExpected = () => false } = {}) {
   const context = await browser.newContext({ viewport: { width: size[0], height: size[1] } });
   const page = await context.newPage();
   page.complaints = [];

@@ -4,13 +4,13 @@ import { depthConversion, medium, scatteringParameters, write } from 'moment-sha
 import { Recorded } from './recorded.js';
 
 // Up to here the air is lit, in scene units along the camera's axis.
-const FAR = 60;
+export const FAR = 60;
 
 /** Air that takes `density` of the light per scene unit, a little more of blue, and scatters most of it, forwards by `anisotropy`. */
 export function air({ density, anisotropy }) {
   const extinction = [0.92, 1, 1.08].map((factor) => factor * density);
   const scattering = extinction.map((value) => 0.95 * value);
-  return { extinction, scattering, anisotropy, irradiance: [3.5, 3.3, 2.9] };
+  return { extinction, scattering, anisotropy, irradiance: [4.7, 4.5, 4] };
 }
 
 export class Air extends Recorded {

@@ -19,41 +19,40 @@ function fill(select, names) {
 }
 
 async function main() {
+  // Fetched meanwhile; whoever waits for it hears of what went wrong.
+  const listed = fetchPlan('index.json');
+  listed.catch(() => {});
   const device = await openDevice((message) => page.stop(message));
   const context = page.picture.getContext('webgpu');
   const format = navigator.gpu.getPreferredCanvasFormat();
   context.configure({ device, format });
   const renderer = new Renderer(device, format);
-  const orbit = new Orbit(page.picture);
-  const { plans, references } = await fetchPlan('index.json');
+  const orbit = new Orbit(page.picture, () => page.ask());
+  const { plans, references } = await listed;
   await page.fit(device, (width, height) => {
     Object.assign(page.picture, { width, height });
     return renderer.resize(width, height);
   });
 
-  // What was there before stays where a plan cannot be had, if anything was.
-  const take = (which, file, map) => {
-    const fetched = fetchPlan(file);
-    // Whoever takes it hears of what went wrong.
-    fetched.catch(() => {});
-    const failed = (error) => (renderer[which] ? page.say(error.message) : page.stop(error.message));
-    return page.change(async () => renderer.take(which, await fetched, map), failed);
+  const take = async (which, { file, map, name }) => renderer.take(which, await fetchPlan(file), { map, name });
+  const chosen = () => {
+    const found = plans.find((plan) => plan.technique === technique.value && plan.storage === storage.value);
+    return { ...found, name: `${found.technique}, ${found.storage}` };
   };
-  const compare = () => take('reference', references[radius.value], 'light_depth');
+  const compared = () => take('reference', { file: references[radius.value], map: 'light_depth', name: 'percentage closer' });
+  // What was there before stays where a plan cannot be had.
+  const change = (work) => page.change(work, (error) => page.say(error.message));
   const choose = () => {
-    const chosen = plans.find((plan) => plan.technique === technique.value && plan.storage === storage.value);
+    const isSoft = chosen().map.endsWith('.table');
     // The sun's size makes soft shadows, the width of the blur all others.
-    const isSoft = chosen.map.endsWith('.table');
     element('blurred').hidden = isSoft;
     element('sized').hidden = !isSoft;
-    return take('chosen', chosen.file, chosen.map);
+    return change(() => take('chosen', chosen()));
   };
   const storages = () => plans.filter((plan) => plan.technique === technique.value).map((plan) => plan.storage);
   const breathe = async () => {
-    element('air').disabled = !fog.checked;
-    if (!fog.checked || renderer.air) return;
-    await take('air', 'air.json');
-    fog.checked = Boolean(renderer.air);
+    if (fog.checked && !renderer.air) await change(() => take('air', { file: 'air.json' }));
+    fog.checked &&= Boolean(renderer.air);
     element('air').disabled = !fog.checked;
   };
 
@@ -64,9 +63,10 @@ async function main() {
     choose();
   });
   storage.addEventListener('change', choose);
-  radius.addEventListener('change', compare);
+  radius.addEventListener('change', () => change(compared));
   fog.addEventListener('change', breathe);
-  await Promise.all([choose(), compare(), breathe()]);
+  await page.change(() => Promise.all([take('chosen', chosen()), compared()]));
+  if (page.stopped) return;
 
   const line = element('line');
   const [left, right] = line.children;
@@ -74,8 +74,7 @@ async function main() {
     const share = split.value / 100;
     line.hidden = share === 0 || share === 1;
     line.style.left = `${100 * share}%`;
-    left.textContent = `${technique.value}, ${storage.value}`;
-    right.textContent = 'percentage closer';
+    [left.textContent, right.textContent] = [renderer.chosen.name, renderer.reference.name];
     renderer.draw(context.getCurrentTexture().createView(), {
       eye: orbit.eye,
       angle: radians(angle.value),
@@ -86,8 +85,8 @@ async function main() {
     });
   };
   const note = () => {
-    if (split.value === '0') return 'percentage closer alone';
-    return split.value === '100' ? `${technique.value} alone` : 'both techniques';
+    if (split.value === '0') return `${renderer.reference.name} alone`;
+    return split.value === '100' ? `${renderer.chosen.name} alone` : 'both techniques';
   };
   await page.run(device, draw, note);
 }

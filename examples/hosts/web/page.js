@@ -10,8 +10,13 @@ const READINGS = {
   number: (value) => value.toFixed(2),
 };
 
+// Frames whose times a median is taken of.
+const MEASURED = 9;
+
 export class Page {
   stopped = false;
+  // Whether a frame is asked for, and how many changes it waits for.
+  asked = true;
   waiting = 0;
   changes = Promise.resolve();
 
@@ -51,7 +56,7 @@ export class Page {
   /** Does one thing after the other, such as to fetch a plan or to take a size; no frame is drawn in between. */
   change(work, onError = (error) => this.stop(error.message)) {
     this.waiting += 1;
-    this.picture.setAttribute('aria-busy', 'true');
+    this.ask();
     const done = () => this.say('');
     this.changes = this.changes.then(work).then(done, onError).finally(() => (this.waiting -= 1));
     return this.changes;
@@ -71,25 +76,31 @@ export class Page {
     new ResizeObserver(() => this.change(fit)).observe(this.picture);
   }
 
-  /** Draws frames by `draw`, which submits them, and says what they take with `note` behind. */
+  /** Wants another frame: something that it shows has changed. */
+  ask() {
+    this.asked = true;
+    if (!this.stopped) this.picture.setAttribute('aria-busy', 'true');
+  }
+
+  /** Draws a frame by `draw`, which submits it, whenever one is asked for, and says what frames take with `note` behind. */
   async run(device, draw, note) {
-    element('controls').disabled = false;
-    const said = element('times');
-    let [measured, since] = [[], 0];
+    const controls = element('controls');
+    controls.disabled = false;
+    for (const event of ['input', 'change']) controls.addEventListener(event, () => this.ask());
+    const measured = [];
     const frame = async () => {
       if (this.stopped) return;
-      if (this.waiting === 0) {
+      if (this.asked && this.waiting === 0) {
+        this.asked = false;
         const start = performance.now();
         draw();
         // The next frame waits for this one, so that times are not those of a queue.
         await device.queue.onSubmittedWorkDone();
-        measured.push(performance.now() - start);
-        if (start - since > 1000) {
-          const median = measured.sort((a, b) => a - b)[measured.length >> 1];
-          said.textContent = `${median.toFixed(1)} ms a frame, ${note()}`;
-          [measured, since] = [[], start];
-        }
-        if (this.waiting === 0 && this.picture.hasAttribute('aria-busy')) {
+        measured.unshift(performance.now() - start);
+        measured.splice(MEASURED);
+        const median = [...measured].sort((a, b) => a - b)[measured.length >> 1];
+        element('times').textContent = `${median.toFixed(1)} ms a frame, ${note()}`;
+        if (!this.asked) {
           this.picture.removeAttribute('aria-busy');
           performance.mark('drawn');
         }

@@ -72,11 +72,11 @@ export class Renderer {
     return { light_depth: this.maps[samples], camera_depth: this.cameraDepth };
   }
 
-  /** Takes a plan as the `chosen` one, the `reference` or the `air`. Of shadows `map` is what is looked up. */
-  async take(which, plan, map) {
+  /** Takes a plan as the `chosen` one, the `reference` or the `air`. Of shadows `map` is the resource that is looked up. */
+  async take(which, plan, more) {
     const { samples } = plan.resources.find(({ name }) => name === 'light_depth').desc.texture;
     const kind = which === 'air' ? Air : Shadows;
-    const taken = await kind.create(this.device, plan, this.imports({ samples }), { samples, map });
+    const taken = await kind.create(this.device, plan, this.imports({ samples }), { samples, ...more });
     this[which]?.destroy();
     this[which] = taken;
   }

@@ -4,6 +4,7 @@ import {
   BufferGeometry,
   Color,
   DirectionalLight,
+  FrontSide,
   HemisphereLight,
   InterleavedBuffer,
   InterleavedBufferAttribute,
@@ -30,22 +31,24 @@ const SHARES = { plan: 1, both: 0.5, three: 0 };
 // The scene and the light of the other page.
 function makeScene() {
   const scene = new Scene();
-  scene.background = new Color().setRGB(0.26, 0.38, 0.6);
+  scene.background = new Color().setRGB(0.3, 0.45, 0.68);
   const corners = new InterleavedBuffer(vertices(), STRIDE / 4);
   const geometry = new BufferGeometry();
   for (const [index, name] of ['position', 'normal', 'color'].entries()) {
     geometry.setAttribute(name, new InterleavedBufferAttribute(corners, 3, 3 * index));
   }
-  const mesh = new Mesh(geometry, new MeshLambertNodeMaterial({ vertexColors: true }));
+  // The sun sees what faces it. (By default three.js draws backs, and the bottom of a box lies in the ground that it stands on.)
+  const mesh = new Mesh(geometry, new MeshLambertNodeMaterial({ vertexColors: true, shadowSide: FrontSide }));
   mesh.castShadow = mesh.receiveShadow = true;
   // A material reflects a share of 1 / pi.
-  const sky = new HemisphereLight(new Color().setRGB(0.3, 0.34, 0.4), new Color().setRGB(0.075, 0.085, 0.1), Math.PI);
-  const sun = new DirectionalLight(new Color().setRGB(1, 0.95, 0.85), 1.1 * Math.PI);
+  const sky = new HemisphereLight(new Color().setRGB(0.255, 0.289, 0.34), new Color().setRGB(0.075, 0.085, 0.1), Math.PI);
+  const sun = new DirectionalLight(new Color().setRGB(1, 0.95, 0.85), 1.5 * Math.PI);
   sun.castShadow = true;
   sun.shadow.mapSize.set(1024, 1024);
   Object.assign(sun.shadow.camera, { left: -REACH, right: REACH, top: REACH, bottom: -REACH, near: 0, far: 2 * REACH });
   // What its own filter needs; ours derives its bias.
-  sun.shadow.normalBias = 0.03;
+  sun.shadow.normalBias = 0.05;
+  sun.shadow.bias = -0.002;
   scene.add(mesh, sky, sun);
   return { scene, sun };
 }
@@ -62,7 +65,7 @@ async function main() {
 
   const camera = new PerspectiveCamera();
   camera.near = 0.1;
-  const orbit = new Orbit(page.picture);
+  const orbit = new Orbit(page.picture, () => page.ask());
   await page.fit(device, (width, height) => {
     renderer.setSize(width, height, false);
     camera.aspect = width / height;
@@ -85,7 +88,7 @@ async function main() {
     camera.lookAt(...TARGET);
     renderer.render(scene, camera);
   };
-  await page.run(device, draw, () => `filtered by ${filter.selectedOptions[0].text}`);
+  await page.run(device, draw, () => (filter.value === 'both' ? 'both filters' : `filtered by ${filter.selectedOptions[0].text}`));
 }
 
 main().catch((error) => page.stop(error.message));

@@ -6,12 +6,12 @@ import { parallel, perspective } from './matrix.js';
 export const REACH = 10;
 
 /** What the camera looks at, and how near: the cotangent of half of the picture's shorter angle. */
-export const TARGET = [0, 1, 0];
+export const TARGET = [0.4, 1.5, 0];
 export const ZOOM = 1.6;
 
 /** The direction to a sun that is `angle` radians about the scene. */
 export function sunTowards(angle) {
-  const towards = [Math.sin(angle), 1.1, Math.cos(angle)];
+  const towards = [Math.sin(angle), 0.75, Math.cos(angle)];
   const length = Math.hypot(...towards);
   return towards.map((value) => value / length);
 }
