@@ -1,7 +1,7 @@
 // Drives both pages of examples/hosts/web in headless Chromium, on its software adapter SwiftShader.
 //
-// usage: node browser.mjs FOLDER MOMENT_SHADOWS WEB_PAGE
-// FOLDER takes screenshots. The pages are served by their own command, with the program MOMENT_SHADOWS; WEB_PAGE is the example that draws
+// usage: node --import ./check/import_map.mjs check/browser/browser.mjs FOLDER MOMENT_SHADOWS WEB_PAGE [CHECK...]
+// FOLDER takes screenshots. Without a CHECK all of them run. The pages are served by their own command, with the program MOMENT_SHADOWS; WEB_PAGE is the example that draws
 // the picture of the page without a browser.
 
 import { mkdirSync, rmSync } from 'node:fs';
@@ -14,7 +14,9 @@ import { phone } from './phone.mjs';
 import { serve } from './serve.mjs';
 import { troubles } from './troubles.mjs';
 
-async function main(folder, command, native) {
+const CHECKS = { controls, natively, phone, troubles, loading };
+
+async function main(folder, command, native, names) {
   rmSync(folder, { recursive: true, force: true });
   mkdirSync(folder, { recursive: true });
   const server = await serve(command);
@@ -22,10 +24,10 @@ async function main(folder, command, native) {
   const faults = [];
   const tell = { folder, browser, ...server, native, fault: (message) => faults.push(message) && console.error(message) };
   try {
-    for (const check of [controls, natively, phone, troubles, loading]) {
+    for (const name of names) {
       const start = performance.now();
-      await check(tell);
-      console.log(`${check.name}: ${((performance.now() - start) / 1000).toFixed(1)} s`);
+      await CHECKS[name](tell);
+      console.log(`${name}: ${((performance.now() - start) / 1000).toFixed(1)} s`);
     }
   } finally {
     await browser.close();
@@ -35,9 +37,12 @@ async function main(folder, command, native) {
   return faults.length === 0;
 }
 
-if (process.argv.length !== 5) {
-  console.error('usage: node browser.mjs FOLDER MOMENT_SHADOWS WEB_PAGE');
+const [paths, names] = [process.argv.slice(2, 5), process.argv.slice(5)];
+const unknown = names.find((name) => !(name in CHECKS));
+if (paths.length < 3 || unknown !== undefined) {
+  if (unknown !== undefined) console.error(`there is no check '${unknown}'`);
+  console.error(`usage: browser.mjs FOLDER MOMENT_SHADOWS WEB_PAGE [${Object.keys(CHECKS).join('|')}]...`);
   process.exit(2);
 }
-const passed = await main(...process.argv.slice(2).map((path) => resolve(path)));
+const passed = await main(...paths.map((path) => resolve(path)), names.length > 0 ? names : Object.keys(CHECKS));
 process.exitCode = passed ? 0 : 1;

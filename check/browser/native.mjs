@@ -28,6 +28,9 @@ function shadedInThree() {
   return { ...rest, imports, nodes, edges, outputs: [{ name: 'shadow_intensity', from: 'shade.shadow_intensity' }] };
 }
 
+// Where the sun is at first.
+const ANGLE = 150;
+
 const radians = (degrees) => (degrees * Math.PI) / 180;
 
 // What is chosen on the page, by the keyboard or not, and what it is natively.
@@ -45,7 +48,7 @@ const CASES = [
     set: { split: 100, fog: true },
     frame: async () => {
       const { FAR, air } = await import('../../examples/hosts/web/air.js');
-      return { graph: graph('hamburger4_float16'), air: { graph: graph('air'), far: FAR, ...air({ density: 0.05, anisotropy: 0.4 }) } };
+      return { graph: graph('hamburger4_float16'), air: { graph: graph('air'), far: FAR, ...air({ density: 0.06, anisotropy: 0.4 }) } };
     },
   },
   { name: 'three', at: 'three', set: { filter: 'plan' }, samples: 1, frame: () => ({ graph: shadedInThree() }) },
@@ -69,7 +72,7 @@ export async function natively({ browser, folder, native, fault, ...addresses })
     const { width, height } = await picture(page, join(folder, `browser_${name}.png`));
     await page.context().close();
     const { eye } = new Orbit({ addEventListener() {} });
-    const { towardsSun, sun, camera } = view({ eye, angle: radians(120), size: [width, height] });
+    const { towardsSun, sun, camera } = view({ eye, angle: radians(ANGLE), size: [width, height] });
     const file = join(folder, `native_${name}.json`);
     const scene = { shader: SHADER, vertices: [...vertices()], map: [1024, samples], size: [width, height] };
     writeFileSync(file, JSON.stringify({ ...scene, towards_sun: towardsSun, sun, camera: camera.clipFromWorld, ...(await frame()) }));

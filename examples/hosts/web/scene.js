@@ -78,7 +78,8 @@ struct Corner {
 // As a screen wants it.
 fn shown(colour: vec3f, pixel: vec2u) -> vec4f {
     let seen = textureLoad(air, min(pixel, textureDimensions(air) - 1u), 0);
-    let linear = clamp(colour * seen.w + seen.xyz, vec3f(0.0), vec3f(1.0));
+    // The air that takes light from a surface gives some of the sky's.
+    let linear = clamp(colour * seen.w + seen.xyz + (1.0 - seen.w) * vec3f(0.07, 0.09, 0.12), vec3f(0.0), vec3f(1.0));
     return vec4f(select(1.055 * pow(linear, vec3f(1.0 / 2.4)) - 0.055, 12.92 * linear, linear <= vec3f(0.0031308)), 1.0);
 }
 

@@ -46,9 +46,6 @@ function makeScene() {
   sun.castShadow = true;
   sun.shadow.mapSize.set(1024, 1024);
   Object.assign(sun.shadow.camera, { left: -REACH, right: REACH, top: REACH, bottom: -REACH, near: 0, far: 2 * REACH });
-  // What its own filter needs; ours derives its bias.
-  sun.shadow.normalBias = 0.05;
-  sun.shadow.bias = -0.002;
   scene.add(mesh, sky, sun);
   return { scene, sun };
 }
@@ -83,6 +80,8 @@ async function main() {
     line.style.left = `${100 * share}%`;
     shadow.told.share.value = share;
     sun.shadow.radius = Number(radius.value);
+    // What its own filter needs; ours derives its bias.
+    sun.shadow.bias = -0.0012 * sun.shadow.radius;
     sun.position.set(...sunTowards((angle.value * Math.PI) / 180)).setLength(REACH);
     camera.position.set(...orbit.eye);
     camera.lookAt(...TARGET);
