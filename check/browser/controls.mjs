@@ -19,7 +19,13 @@ const TECHNIQUES = [
   { id: 'angle', keys: ['ArrowRight', 'ArrowRight'], says: 'the sun moves', reads: '160°', seen: BOTH },
   { id: 'radius', keys: ['ArrowRight', 'ArrowRight', 'ArrowRight'], says: 'the blur widens', reads: '6 texels', seen: BOTH },
   { id: 'storage', keys: ['ArrowDown'], says: 'the storage is another', labels: 'hamburger4, float32', seen: [LEFT], fewest: 0 },
-  { id: 'technique', keys: ['ArrowDown', 'ArrowDown', 'ArrowDown'], says: 'the technique is another', labels: 'evsm4, float32', seen: [LEFT] },
+  {
+    id: 'technique',
+    keys: ['ArrowDown', 'ArrowDown', 'ArrowDown'],
+    says: 'the technique is another',
+    labels: 'evsm4, float32',
+    seen: [LEFT],
+  },
   { id: 'technique', keys: ['End'], says: 'shadows are soft', labels: 'soft hamburger4, float32', seen: [LEFT] },
   { id: 'size', keys: ['End'], says: 'the sun grows', reads: '6°', seen: [LEFT] },
   { id: 'fog', keys: [' '], says: 'there is fog', seen: BOTH },
@@ -54,7 +60,9 @@ async function walk({ browser, folder, fault }, name, address, steps) {
     for (const key of keys) await page.keyboard.press(key);
     const after = await picture(page, join(folder, `${name}_${String(index + 1).padStart(2, '0')}_${id}.png`));
     const changes = BOTH.map((side) => difference(before, after, side).changed);
-    console.log(`${name}, ${id} ${keys.join(' ')}: ${says}; ${changes.map((share) => `${(100 * share).toFixed(2)} %`).join(' and ')} of pixels`);
+    console.log(
+      `${name}, ${id} ${keys.join(' ')}: ${says}; ${changes.map((share) => `${(100 * share).toFixed(2)} %`).join(' and ')} of pixels`,
+    );
     for (const [side, share] of changes.entries()) {
       const [is, acts] = [['left', 'right'][side], seen.includes(BOTH[side])];
       if (acts && !(share > fewest)) fault(`${name}: ${id} changes ${share} of the pixels on the ${is}`);
@@ -66,7 +74,9 @@ async function walk({ browser, folder, fault }, name, address, steps) {
     if (label !== labels) fault(`${name}: the picture is called '${label}', not '${labels}'`);
     before = after;
   }
-  await page.waitForFunction(() => /^\d+\.\d ms a frame, /.test(document.getElementById('times').textContent), undefined, { timeout: 20_000 });
+  await page.waitForFunction(() => /^\d+\.\d ms a frame, /.test(document.getElementById('times').textContent), undefined, {
+    timeout: 20_000,
+  });
   const unnamed = await page.evaluate(() => {
     const named = (control) => control.labels?.length > 0 || control.getAttribute('aria-label');
     return [...document.querySelectorAll('canvas, input, select, fieldset fieldset')].filter((control) => !named(control)).length;

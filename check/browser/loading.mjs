@@ -15,6 +15,8 @@ export async function loading({ browser, ...addresses }) {
       await page.context().close();
     }
     times.sort((a, b) => a - b);
-    console.log(`${at}: loads in ${(times[LOADS >> 1] / 1000).toFixed(2)} s, the median of ${LOADS}, from ${times.map((time) => (time / 1000).toFixed(2)).join(', ')}`);
+    console.log(
+      `${at}: loads in ${(times[LOADS >> 1] / 1000).toFixed(2)} s, the median of ${LOADS}, from ${times.map((time) => (time / 1000).toFixed(2)).join(', ')}`,
+    );
   }
 }

@@ -11,8 +11,8 @@ import { view } from '../../examples/hosts/web/view.js';
 import { open } from './chromium.mjs';
 import { difference, picture, read } from './pictures.mjs';
 
-// Of 255, over the picture.
-const LARGEST_MEAN = 1;
+// Of 255, over the picture. Rasterisers place corners on grids of their own, which is 0.07 to 0.09; a kernel one texel wider is 0.3.
+const LARGEST_MEAN = 0.15;
 
 const graph = (name) => {
   const file = new URL(`../../examples/hosts/web/plans/graphs/${name}.json`, import.meta.url);

@@ -13,7 +13,21 @@ import {
   write,
 } from 'moment-shadows-graph/parameters.js';
 import { ExternalTexture, LinearFilter, Matrix4, RenderTarget, Vector3 } from 'three';
-import { ShadowNode, dFdx, dFdy, lightShadowMatrix, positionWorld, renderGroup, screenUV, texture, uniform, vec2, vec3, wgsl, wgslFn } from 'three/tsl';
+import {
+  ShadowNode,
+  dFdx,
+  dFdy,
+  lightShadowMatrix,
+  positionWorld,
+  renderGroup,
+  screenUV,
+  texture,
+  uniform,
+  vec2,
+  vec3,
+  wgsl,
+  wgslFn,
+} from 'three/tsl';
 import { kernel } from './kernel.js';
 
 // The lit share, called by name from what three.js generates.
@@ -44,7 +58,15 @@ export class FilteredShadow extends ShadowNode {
     // Of the render's group: those of an object are only taken up where three.js sees that the object has changed.
     const told = { bias: uniform(new Vector3()), step: uniform(0, 'uint'), share: uniform(1) };
     for (const value of Object.values(told)) value.setGroup(renderGroup);
-    return Object.assign(node, { device, recorder, map, told, format: depth.format, block: initialBlock(plan), lit: wgslFn(LIT, [wgsl(linked)]) });
+    return Object.assign(node, {
+      device,
+      recorder,
+      map,
+      told,
+      format: depth.format,
+      block: initialBlock(plan),
+      lit: wgslFn(LIT, [wgsl(linked)]),
+    });
   }
 
   setupRenderTarget(shadow, builder) {

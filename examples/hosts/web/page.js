@@ -58,7 +58,10 @@ export class Page {
     this.waiting += 1;
     this.ask();
     const done = () => this.say('');
-    this.changes = this.changes.then(work).then(done, onError).finally(() => (this.waiting -= 1));
+    this.changes = this.changes
+      .then(work)
+      .then(done, onError)
+      .finally(() => (this.waiting -= 1));
     return this.changes;
   }
 

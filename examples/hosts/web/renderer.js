@@ -54,7 +54,11 @@ export class Renderer {
     // Filterable maps are made of several samples per texel, what compares with the plain map has one.
     const map = (sampleCount) => device.createTexture({ size: [MAP, MAP], format: 'depth32float', sampleCount, usage: DRAWN });
     this.maps = { 1: map(1), 4: map(4) };
-    this.noAir = device.createTexture({ size: [1, 1], format: 'rgba8unorm', usage: GPUTextureUsage.TEXTURE_BINDING | GPUTextureUsage.COPY_DST });
+    this.noAir = device.createTexture({
+      size: [1, 1],
+      format: 'rgba8unorm',
+      usage: GPUTextureUsage.TEXTURE_BINDING | GPUTextureUsage.COPY_DST,
+    });
     device.queue.writeTexture({ texture: this.noAir }, new Uint8Array([0, 0, 0, 255]), {}, [1, 1]);
   }
 

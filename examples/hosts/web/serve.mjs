@@ -4,7 +4,7 @@
 // COMMAND is `moment-shadows`; without it, it is built from this checkout.
 
 import { execFileSync } from 'node:child_process';
-import { createReadStream, existsSync, statSync } from 'node:fs';
+import { createReadStream, statSync } from 'node:fs';
 import { createServer } from 'node:http';
 import { extname, join, normalize, relative } from 'node:path';
 import { fileURLToPath } from 'node:url';
@@ -23,17 +23,30 @@ const TYPES = {
   '.wgsl': 'text/plain; charset=utf-8',
 };
 
+// When a file was written; one that is not there was never.
+const age = (file) => statSync(join(here, file), { throwIfNoEntry: false })?.mtimeMs ?? 0;
+
 function make(command) {
   const run = (program, ...settings) => execFileSync(program, settings, { cwd: here, stdio: ['ignore', 'inherit', 'inherit'] });
   run('bash', 'plans.sh', ...command);
-  if (!existsSync(join(here, 'node_modules/three'))) run('npm', 'ci', '--ignore-scripts', '--no-audit', '--no-fund', '--loglevel=error');
+  if (age('node_modules/.package-lock.json') < age('package-lock.json'))
+    run('npm', 'ci', '--ignore-scripts', '--no-audit', '--no-fund', '--loglevel=error');
   run('node', join(root, 'packages/npm/build.mjs'), 'plans/moment-shadows');
   run('node', 'link.mjs', 'filtered_shadow.wgsl', 'plans/moment-shadows', 'plans/filtered_shadow.wgsl');
 }
 
+// The path that a request is for, or nothing where it is for none.
+function pathOf(request) {
+  try {
+    return normalize(decodeURIComponent(new URL(request.url, 'http://localhost').pathname)).slice(1);
+  } catch {
+    return '';
+  }
+}
+
 function answer(request, response) {
   const say = (status, text) => response.writeHead(status, { 'content-type': 'text/plain' }).end(text);
-  let path = normalize(decodeURIComponent(new URL(request.url, 'http://localhost').pathname)).slice(1);
+  let path = pathOf(request);
   if (path.endsWith('/')) path += 'index.html';
   const file = join(root, path);
   if (!SERVED.some((folder) => path.startsWith(folder))) return say(404, 'not a part of the pages');
