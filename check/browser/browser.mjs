@@ -26,7 +26,7 @@ async function main(folder, command, native, names) {
   try {
     for (const name of names) {
       const start = performance.now();
-      await CHECKS[name](tell);
+      await CHECKS[name](tell).catch((error) => tell.fault(`${name}: ${error.message}`));
       console.log(`${name}: ${((performance.now() - start) / 1000).toFixed(1)} s`);
     }
   } finally {
