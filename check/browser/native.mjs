@@ -35,7 +35,7 @@ const radians = (degrees) => (degrees * Math.PI) / 180;
 
 // What is chosen on the page, by the keyboard or not, and what it is natively.
 const CASES = [
-  { name: 'hard', at: 'techniques', set: { split: 100 }, frame: () => ({ graph: graph('hamburger4_float16') }) },
+  { name: 'hard', at: 'techniques', set: { split: 100 }, frame: () => ({ graph: graph('hamburger4_float16_3') }) },
   {
     name: 'soft',
     at: 'techniques',
@@ -48,7 +48,7 @@ const CASES = [
     set: { split: 100, fog: true },
     frame: async () => {
       const { FAR, air } = await import('../../examples/hosts/web/air.js');
-      return { graph: graph('hamburger4_float16'), air: { graph: graph('air'), far: FAR, ...air({ density: 0.06, anisotropy: 0.4 }) } };
+      return { graph: graph('hamburger4_float16_3'), air: { graph: graph('air'), far: FAR, ...air({ density: 0.06, anisotropy: 0.4 }) } };
     },
   },
   { name: 'three', at: 'three', set: { filter: 'plan' }, samples: 1, frame: () => ({ graph: shadedInThree() }) },

@@ -7,6 +7,7 @@ import {
   blurParameters,
   depthConversion,
   depthPerTexel,
+  gaussianKernel,
   initialBlock,
   receiverBias,
   standardDeviation,
@@ -28,7 +29,6 @@ import {
   wgsl,
   wgslFn,
 } from 'three/tsl';
-import { kernel } from './kernel.js';
 
 // The lit share, called by name from what three.js generates.
 const LIT = `
@@ -78,7 +78,7 @@ export class FilteredShadow extends ShadowNode {
     super.renderShadow(frame);
     const { plan, parameters } = this.recorder;
     const { camera, mapSize, radius } = this.shadow;
-    const weights = kernel(radius);
+    const weights = gaussianKernel(radius, 0.6 * radius);
     const clipFromWorld = new Matrix4().multiplyMatrices(camera.projectionMatrix, camera.matrixWorldInverse).elements;
     const perTexel = depthPerTexel({ clipFromWorld, depth: DEPTH }, mapSize.toArray());
     const conversion = depthConversion(DEPTH);

@@ -36,20 +36,21 @@ async function main() {
 
   const take = async (which, { file, map, name }) => renderer.take(which, await fetchPlan(file), { map, name });
   const chosen = () => {
-    const found = plans.find((plan) => plan.technique === technique.value && plan.storage === storage.value);
+    const isChosen = (plan) => plan.technique === technique.value && plan.storage === storage.value;
+    const found = plans.find((plan) => isChosen(plan) && [null, Number(radius.value)].includes(plan.radius));
     return { ...found, name: `${found.technique}, ${found.storage}` };
   };
   const compared = () => take('reference', { file: references[radius.value], map: 'light_depth', name: 'percentage closer' });
   // What was there before stays where a plan cannot be had.
   const change = (work) => page.change(work, (error) => page.say(error.message));
   const choose = () => {
-    const isSoft = chosen().map.endsWith('.table');
+    const isSoft = chosen().radius === null;
     // The sun's size makes soft shadows, the width of the blur all others.
     element('blurred').hidden = isSoft;
     element('sized').hidden = !isSoft;
     return change(() => take('chosen', chosen()));
   };
-  const storages = () => plans.filter((plan) => plan.technique === technique.value).map((plan) => plan.storage);
+  const storages = () => [...new Set(plans.filter((plan) => plan.technique === technique.value).map((plan) => plan.storage))];
   const breathe = async () => {
     if (fog.checked && !renderer.air) await change(() => take('air', { file: 'air.json' }));
     fog.checked &&= Boolean(renderer.air);
@@ -63,32 +64,39 @@ async function main() {
     choose();
   });
   storage.addEventListener('change', choose);
-  radius.addEventListener('change', () => change(compared));
+  // One width after the other; those that have been passed over meanwhile are left out.
+  let width = radius.value;
+  const widen = async () => {
+    if (width === radius.value) return;
+    width = radius.value;
+    await Promise.all([take('chosen', chosen()), compared()]);
+  };
+  radius.addEventListener('input', () => change(widen));
   fog.addEventListener('change', breathe);
-  await page.change(() => Promise.all([take('chosen', chosen()), compared()]));
-  if (page.stopped) return;
+  await page.change(() => take('chosen', chosen()));
 
   const line = element('line');
   const [left, right] = line.children;
   const draw = () => {
     const share = split.value / 100;
-    line.hidden = share === 0 || share === 1;
+    line.hidden = share === 0 || share === 1 || !renderer.reference;
     line.style.left = `${100 * share}%`;
-    [left.textContent, right.textContent] = [renderer.chosen.name, renderer.reference.name];
+    [left.textContent, right.textContent] = [renderer.chosen.name, renderer.reference?.name];
     renderer.draw(context.getCurrentTexture().createView(), {
       eye: orbit.eye,
       angle: radians(angle.value),
       split: share,
-      radius: Number(radius.value),
       size: radians(size.value),
       air: fog.checked && renderer.air ? { density: Number(density.value), anisotropy: Number(anisotropy.value) } : undefined,
     });
   };
   const note = () => {
-    if (split.value === '0') return `${renderer.reference.name} alone`;
-    return split.value === '100' ? `${renderer.chosen.name} alone` : 'both techniques';
+    const shown = renderer.shown(split.value / 100);
+    return shown.length === 1 ? `${shown[0].name} alone` : 'both techniques';
   };
   await page.run(device, draw, note);
+  // After the first frame, which need not wait for it.
+  await change(compared);
 }
 
 main().catch((error) => page.stop(error.message));

@@ -67,16 +67,19 @@ export class Page {
 
   /** Keeps the canvas as many pixels as the screen shows of it, within what the device has. `take` is told of each size. */
   async fit(device, take) {
-    const fit = async () => {
+    const shown = () => {
       const scale = Math.min(devicePixelRatio, 2);
       const side = (length) => Math.min(Math.max(Math.round(length * scale), 1), device.limits.maxTextureDimension2D);
-      const size = [side(this.picture.clientWidth), side(this.picture.clientHeight)];
-      if (String(size) === String(this.size)) return;
-      this.size = size;
-      await take(...size);
+      return [side(this.picture.clientWidth), side(this.picture.clientHeight)];
     };
-    await fit();
-    new ResizeObserver(() => this.change(fit)).observe(this.picture);
+    let size = shown();
+    await take(...size);
+    const fit = () => {
+      if (String(shown()) === String(size)) return;
+      size = shown();
+      this.change(() => take(...size));
+    };
+    new ResizeObserver(fit).observe(this.picture);
   }
 
   /** Wants another frame: something that it shows has changed. */
@@ -87,6 +90,7 @@ export class Page {
 
   /** Draws a frame by `draw`, which submits it, whenever one is asked for, and says what frames take with `note` behind. */
   async run(device, draw, note) {
+    if (this.stopped) return;
     const controls = element('controls');
     controls.disabled = false;
     for (const event of ['input', 'change']) controls.addEventListener(event, () => this.ask());
@@ -99,14 +103,12 @@ export class Page {
         draw();
         // The next frame waits for this one, so that times are not those of a queue.
         await device.queue.onSubmittedWorkDone();
+        performance.mark('drawn');
         measured.unshift(performance.now() - start);
         measured.splice(MEASURED);
         const median = [...measured].sort((a, b) => a - b)[measured.length >> 1];
         element('times').textContent = `${median.toFixed(1)} ms a frame, ${note()}`;
-        if (!this.asked) {
-          this.picture.removeAttribute('aria-busy');
-          performance.mark('drawn');
-        }
+        if (!this.asked) this.picture.removeAttribute('aria-busy');
       }
       requestAnimationFrame(() => frame().catch((error) => this.stop(error.message)));
     };

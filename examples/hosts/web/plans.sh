@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
-# Compiles the plans of the pages into the folder `plans`: one for every technique and storage that core WebGPU has, percentage-closer
-# filtering for every width of the blur, the air, and the map for three.js. The graph files stay in `plans/graphs`.
+# Compiles the plans of the pages into the folder `plans`: one for every technique and storage that core WebGPU has, and for every width of
+# the blur; percentage-closer filtering of these widths, the air, and the map for three.js. The graph files stay in `plans/graphs`.
 #
 # usage: plans.sh [COMMAND...]
 # COMMAND is `moment-shadows`; without it, it is built from this checkout.
@@ -29,10 +29,10 @@ compile() {
   "${command[@]}" export-plan "plans/graphs/$1" --profile webgpu-core --compact --out "plans/$1"
 }
 
-# shaded FILE TECHNIQUE STORAGE MAP FILTER SHADE SLOT: the technique's map through the filter node, whose output MAP goes to the slot of
-# the shading node.
+# shaded FILE TECHNIQUE STORAGE MAP RADIUS FILTER SHADE SLOT: the technique's map through the filter node, whose output MAP goes to the slot
+# of the shading node.
 shaded() {
-  local technique=$2 storage=$3 map=$4 filter=$5 shade=$6 slot=$7
+  local technique=$2 storage=$3 map=$4 radius=$5 filter=$6 shade=$7 slot=$8
   compile "$1" <<JSON
 { "version": 2, $(imports 4),
   "nodes": [
@@ -48,18 +48,22 @@ shaded() {
   ],
   "outputs": [{ "name": "shadow_intensity", "from": "shade.shadow_intensity" }] }
 JSON
-  listed+=("{ \"file\": \"$1\", \"technique\": \"$technique\", \"storage\": \"$storage\", \"map\": \"$map\" }")
+  listed+=("{ \"file\": \"$1\", \"technique\": \"$technique\", \"storage\": \"$storage\", \"map\": \"$map\", \"radius\": $radius }")
 }
 
-# hard TECHNIQUE STORAGE
+# hard TECHNIQUE STORAGE: with a kernel of each width. One whose weights can change per frame takes more instructions.
 hard() {
-  local blur='"type": "blur", "properties": { "kernel": { "radius": 3 }, "per_frame": true }'
-  shaded "$1_$2.json" "$1" "$2" blur.blurred "$blur" shade_hard map
+  local radius
+  for radius in "${widths[@]}"; do
+    shaded "$1_$2_$radius.json" "$1" "$2" blur.blurred "$radius" \
+      "\"type\": \"blur\", \"properties\": { \"kernel\": { \"radius\": $radius } }" shade_hard map
+  done
 }
 
-# soft TECHNIQUE STORAGE
+# soft TECHNIQUE STORAGE: as wide as the sun makes them.
 soft() {
-  shaded "soft_$1_$2.json" "soft $1" "$2" sum.table '"type": "summed_area_table", "properties": { "largest_kernel": 65 }' shade_soft table
+  shaded "soft_$1_$2.json" "soft $1" "$2" sum.table null \
+    '"type": "summed_area_table", "properties": { "largest_kernel": 65 }' shade_soft table
 }
 
 for storage in float16 float32; do
@@ -119,4 +123,4 @@ JSON
 plans=$(printf '%s,\n' "${listed[@]}")
 references=$(printf '%s, ' "${references[@]}")
 printf '{ "plans": [\n%s\n],\n"references": { %s } }\n' "${plans%,}" "${references%, }" > plans/index.json
-echo "$(find plans -maxdepth 1 -name '*_*.json' | wc -l) plans of shadows are in $PWD/plans"
+echo "${#listed[@]} plans of shadows, and what they are compared with, are in $PWD/plans"

@@ -85,11 +85,17 @@ export class Renderer {
     this[which] = taken;
   }
 
+  /** What is seen, from left to right. Before there is something to compare with, that is the chosen technique. */
+  shown(split) {
+    const shown = [split > 0 && this.chosen, split < 1 && this.reference].filter(Boolean);
+    return shown.length > 0 ? shown : [this.chosen];
+  }
+
   /**
    * Draws a frame. `split` is the share of the picture that shows the chosen technique; one that is not seen is not recorded. `air` is left
-   * out where it is clear. `radius` and `size` are how soft shadows are.
+   * out where it is clear.
    */
-  draw(target, { eye, angle, split, radius, size, air }) {
+  draw(target, { eye, angle, split, size, air }) {
     const [width] = this.size;
     const { towardsSun, sun, camera } = view({ eye, angle, size: this.size });
     const uniform = (buffer, matrix) => {
@@ -97,8 +103,8 @@ export class Renderer {
     };
     uniform(this.uniforms.sun, sun);
     uniform(this.uniforms.camera, camera.clipFromWorld);
-    const shadows = [split > 0 && this.chosen, split < 1 && this.reference].filter(Boolean);
-    for (const plan of shadows) plan.look(camera, sun, { radius, size });
+    const shadows = this.shown(split);
+    for (const plan of shadows) plan.look(camera, sun, size);
     if (air) this.air.look(camera, sun, air);
     const plans = air ? [...shadows, this.air] : shadows;
 

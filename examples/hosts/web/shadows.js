@@ -3,15 +3,12 @@
 import {
   areaLight,
   biasForStoredDepth,
-  blurParameters,
   depthConversion,
   depthPerTexel,
   receiverBias,
-  standardDeviation,
   viewParameters,
   write,
 } from 'moment-shadows-graph/parameters.js';
-import { kernel } from './kernel.js';
 import { Recorded } from './recorded.js';
 
 // What depth is off by where a rasteriser moves corners to the nearest sixteenth of a pixel, as SwiftShader does, in moment depth: two
@@ -19,8 +16,8 @@ import { Recorded } from './recorded.js';
 const RASTERISER = 0.002;
 
 export class Shadows extends Recorded {
-  /** Tells the plan's nodes where camera and sun are, and how soft shadows are: the radius of the blur, or the sun's `size` in radians. */
-  look(camera, clipFromWorld, { radius, size }) {
+  /** Tells the plan's nodes where camera and sun are, and where shadows are soft how large the sun is, in radians. */
+  look(camera, clipFromWorld, size) {
     const { plan } = this.recorder;
     // The resource that the node `shade` looks up.
     const map = this.texture(this.map);
@@ -31,12 +28,7 @@ export class Shadows extends Recorded {
       size: isSoft ? { angularDiameter: size } : undefined,
     };
     const conversion = depthConversion(sun.depth);
-    let { deviation = 0 } = map;
-    if (this.has('blur')) {
-      const weights = kernel(radius);
-      deviation = standardDeviation(weights);
-      write(plan, this.block, 'blur', 0, blurParameters(weights));
-    }
+    const { deviation = 0 } = map;
     const bias = biasForStoredDepth(receiverBias(deviation, depthPerTexel(sun, map.size)), 'depth32float', conversion);
     if (!map.encoding) bias.constant += RASTERISER;
     const largest = isSoft ? Math.min(...map.encoding.table.largest_kernel) / 2 : 1;
