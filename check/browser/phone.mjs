@@ -25,7 +25,7 @@ async function look({ browser, folder, fault }, name, address) {
     // What a name belongs to is hit by it too; a link's line is its height.
     if (box.height < SMALLEST_CONTROL && !['fog'].includes(id)) fault(`${name}: ${id} is ${box.height} pixels high`);
   }
-  // Two fingers and one work on the picture alone.
+  // A finger, or a mouse, turns the camera.
   const before = await picture(page);
   await page.mouse.move(200, 150);
   await page.mouse.down();

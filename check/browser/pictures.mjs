@@ -7,10 +7,10 @@ import { drawn } from './chromium.mjs';
 
 export const read = (file) => png.PNG.sync.read(readFileSync(file));
 
-/** The canvas without what lies over it, once it no longer changes. With `path` it is kept. */
+/** The canvas without what lies over and around it, once it no longer changes. With `path` it is kept. */
 export async function picture(page, path) {
   await drawn(page);
-  await page.addStyleTag({ content: '#line { visibility: hidden; }' });
+  await page.addStyleTag({ content: '#line { visibility: hidden; } #picture { outline: none !important; }' });
   const canvas = page.locator('#picture');
   let before;
   for (let tries = 0; tries < 40; tries++) {

@@ -6,11 +6,12 @@ const clamp = (value, [low, high]) => Math.min(Math.max(value, low), high);
 export class Orbit {
   angle = 0.7;
   height = 0.38;
-  distance = 10;
 
   /** `moved` is called after each move. */
   constructor(canvas, moved) {
     this.moved = moved;
+    // Where the picture is upright less of the scene is seen to the sides.
+    this.distance = canvas.clientWidth < canvas.clientHeight ? 13 : 10;
     const pointers = new Map();
     canvas.addEventListener('pointerdown', (event) => {
       canvas.setPointerCapture(event.pointerId);

@@ -60,7 +60,14 @@ function answer(request, response) {
 function main(settings) {
   const given = settings[0] === '--port';
   const port = Number(given ? settings[1] : 8000);
-  make(settings.slice(given ? 2 : 0));
+  try {
+    make(settings.slice(given ? 2 : 0));
+  } catch (error) {
+    // What failed has said why.
+    console.error(`the pages could not be made: ${error.message}`);
+    process.exitCode = 1;
+    return;
+  }
   const server = createServer(answer);
   server.on('error', (error) => {
     console.error(error.code === 'EADDRINUSE' ? `port ${port} is taken; another one: serve.mjs --port ${port + 1}` : error.message);

@@ -81,7 +81,7 @@ async function main() {
     shadow.told.share.value = share;
     sun.shadow.radius = Number(radius.value);
     // What its own filter needs; ours derives its bias.
-    sun.shadow.bias = -0.0012 * sun.shadow.radius;
+    sun.shadow.bias = -0.0018 * sun.shadow.radius;
     sun.position.set(...sunTowards((angle.value * Math.PI) / 180)).setLength(REACH);
     camera.position.set(...orbit.eye);
     camera.lookAt(...TARGET);
