@@ -11,8 +11,8 @@ import { view } from '../../examples/hosts/web/view.js';
 import { open } from './chromium.mjs';
 import { difference, picture, read } from './pictures.mjs';
 
-// Of 255, over the picture. Rasterisers place corners on grids of their own, which is 0.07 to 0.09; a kernel one texel wider is 0.3.
-const LARGEST_MEAN = 0.15;
+// Of 255, over the picture. Rasterisers place corners on grids of their own, which is 0.07 to 0.12; a kernel one texel wider is 0.3.
+const LARGEST_MEAN = 0.2;
 
 const graph = (name) => {
   const file = new URL(`../../examples/hosts/web/plans/graphs/${name}.json`, import.meta.url);
@@ -51,6 +51,7 @@ const CASES = [
       return { graph: graph('hamburger4_float16_3'), air: { graph: graph('air'), far: FAR, ...air({ density: 0.06, anisotropy: 0.4 }) } };
     },
   },
+  { name: 'pcf', at: 'techniques', set: { split: 0 }, samples: 1, frame: () => ({ graph: graph('pcf_3') }) },
   { name: 'three', at: 'three', set: { filter: 'plan' }, samples: 1, frame: () => ({ graph: shadedInThree() }) },
 ];
 
