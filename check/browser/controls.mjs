@@ -30,7 +30,7 @@ const TECHNIQUES = [
   { id: 'size', keys: ['End'], says: 'the sun grows', reads: '6°', seen: [LEFT] },
   { id: 'fog', keys: [' '], says: 'there is fog', seen: BOTH },
   { id: 'density', keys: ['PageUp'], says: 'the fog is denser', reads: /0\.0[7-9]/, seen: BOTH },
-  { id: 'anisotropy', keys: ['End'], says: 'the fog scatters forwards', reads: '0.80', seen: BOTH },
+  { id: 'anisotropy', keys: ['End'], says: 'the fog scatters forwards', reads: '0.8', seen: BOTH },
   { id: 'fog', keys: [' '], says: 'there is none', seen: BOTH },
   { id: 'split', keys: ['End'], says: 'one technique alone', reads: '100 %', seen: [RIGHT] },
 ];

@@ -10,13 +10,22 @@ const SIZE = [390, 844];
 const SMALLEST_CONTROL = 24;
 const SMALLEST_PICTURE = 300;
 
+// Nothing is wider than the screen, and the canvas has the pixels that are seen.
+async function fits(page, name, fault) {
+  const { wide, pixels, seen } = await page.evaluate(() => {
+    const { width, height, clientWidth, clientHeight } = document.getElementById('picture');
+    return { wide: document.documentElement.scrollWidth - innerWidth, pixels: [width, height], seen: [clientWidth, clientHeight] };
+  });
+  if (wide > 0) fault(`${name}: a phone's screen scrolls sideways by ${wide} pixels`);
+  if (String(pixels) !== String(seen)) fault(`${name}: a picture of ${pixels} pixels is shown on ${seen}`);
+}
+
 async function look({ browser, folder, fault }, name, address) {
   const page = await open(browser, address, { size: SIZE });
   const { height } = await picture(page);
   await page.screenshot({ path: join(folder, `phone_${name}.png`) });
   if (height < SMALLEST_PICTURE) fault(`${name}: on a phone the picture is ${height} pixels high`);
-  const wide = await page.evaluate(() => document.documentElement.scrollWidth - innerWidth);
-  if (wide > 0) fault(`${name}: a phone's screen scrolls sideways by ${wide} pixels`);
+  await fits(page, name, fault);
   for (const control of await page.locator('select:visible, input:visible, a:visible').all()) {
     const box = await control.boundingBox();
     const id = await control.evaluate((element) => element.id || element.textContent);
@@ -33,6 +42,12 @@ async function look({ browser, folder, fault }, name, address) {
   await page.mouse.up();
   const after = await picture(page);
   if (after.data.equals(before.data)) fault(`${name}: dragging does not turn the camera`);
+  // On its side, the picture takes the new size.
+  await page.setViewportSize({ width: SIZE[1], height: SIZE[0] });
+  await page.waitForFunction((height) => document.getElementById('picture').height === height, SIZE[0]);
+  await picture(page);
+  await page.screenshot({ path: join(folder, `phone_on_its_side_${name}.png`) });
+  await fits(page, name, fault);
   for (const complaint of page.complaints) fault(`${name}: on a phone the console has: ${complaint}`);
   await page.context().close();
 }

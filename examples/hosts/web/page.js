@@ -7,7 +7,7 @@ const READINGS = {
   texels: (value) => `${value} ${value === 1 ? 'texel' : 'texels'}`,
   degrees: (value) => `${value}°`,
   percent: (value) => `${value} %`,
-  number: (value) => value.toFixed(2),
+  number: (value) => `${value}`,
 };
 
 // Frames whose times a median is taken of.
