@@ -73,6 +73,13 @@ run_page() {
   on_swiftshader node --import ./check/import_map.mjs check/page.mjs
 }
 
+# Both pages in a browser. How long they take to load is a matter of an idle machine: check/browser.sh loading.
+run_browser() {
+  need_chromium
+  need_npm_packages
+  check/browser.sh controls natively phone troubles
+}
+
 # The library's npm package, in $work/npm and among the packages of the checks, and what npm's linker of WESL makes of every module
 # with it. The example of its README is run too.
 run_wesl_npm() {
@@ -159,37 +166,26 @@ run_isa() {
   lab isa --check
 }
 
-# SwiftShader, a rasteriser that shares nothing with Mesa: its driver file, in $work/swiftshader. Chromium carries it; the
-# browser itself is not installed.
+# A browser, and a font for its pages.
+need_chromium() {
+  need_packages chromium chromium fonts-dejavu-core
+}
+
+# SwiftShader, a rasteriser that shares nothing with Mesa: its driver file. Chromium carries it.
 need_swiftshader() {
-  local folder=$work/swiftshader package
-  swiftshader=$folder/usr/lib/chromium/vk_swiftshader_icd.json
-  if [ -e "$swiftshader" ]; then return; fi
-  if [ -e /usr/lib/chromium/vk_swiftshader_icd.json ]; then
-    swiftshader=/usr/lib/chromium/vk_swiftshader_icd.json
-    return
-  fi
-  if ! command -v apt-get >/dev/null; then
-    echo "SwiftShader is needed; this script finds it in Debian's package chromium-common only." >&2
+  need_chromium
+  swiftshader=/usr/lib/chromium/vk_swiftshader_icd.json
+  if [ ! -e "$swiftshader" ]; then
+    echo "SwiftShader is needed; this script finds it in Debian's package chromium only, as $swiftshader." >&2
     exit 1
   fi
-  update_packages
-  package=$(mktemp -d)
-  (cd "$package" && apt-get download -qq -o APT::Sandbox::User=root chromium-common)
-  rm -rf "$folder"
-  mkdir -p "$folder"
-  dpkg-deb --fsys-tarfile "$package"/chromium-common_*.deb |
-    tar -x -C "$folder" --wildcards './usr/lib/chromium/*swiftshader*'
-  rm -r "$package"
 }
 
 # Runs a command whose Vulkan driver is SwiftShader.
 on_swiftshader() {
   need_swiftshader
   # Two names: the second one serves loaders of Vulkan before 1.3.207.
-  local driver
-  driver=$(realpath "$swiftshader")
-  VK_DRIVER_FILES=$driver VK_ICD_FILENAMES=$driver "$@"
+  VK_DRIVER_FILES=$swiftshader VK_ICD_FILENAMES=$swiftshader "$@"
 }
 
 # Tests that depend on the arithmetic of shaders, and on the recorder. Tests of pictures are left out: SwiftShader places
@@ -197,10 +193,8 @@ on_swiftshader() {
 numerics_on_swiftshader() {
   need_swiftshader
   # Two names: the second one serves loaders of Vulkan before 1.3.207.
-  local driver
-  driver=$(realpath "$swiftshader")
   (
-    export VK_DRIVER_FILES=$driver VK_ICD_FILENAMES=$driver
+    export VK_DRIVER_FILES=$swiftshader VK_ICD_FILENAMES=$swiftshader
     lab adapter | tee "$work/adapter"
     if ! grep -q "^SwiftShader" "$work/adapter"; then
       echo "the adapter should be SwiftShader" >&2
@@ -268,6 +262,7 @@ check() {
   step "What is ok here is ok in browsers: agreement with Tint" run_agreement
   step "A second recorder: plans and parameters in JavaScript" run_javascript
   step "A page in JavaScript" run_page
+  step "Both pages in a browser: Chromium" run_browser
   step "SARIF by its schema" run_sarif
   step "WESL: the npm package, linked by npm's wesl" run_wesl_npm
   step "WESL: the Rust package, linked by the crate wesl" run_wesl_rs

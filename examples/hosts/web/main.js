@@ -1,29 +1,16 @@
-// The page: controls, frames, and what went wrong, in words.
+// The page of techniques: what its controls do to the picture.
 
 import { openDevice } from './device.js';
 import { Orbit } from './orbit.js';
+import { Page, element } from './page.js';
 import { fetchPlan } from './plans.js';
 import { Renderer } from './renderer.js';
 
-const element = (id) => document.getElementById(id);
-const [canvas, trouble, times] = ['picture', 'trouble', 'times'].map(element);
-const [technique, storage, sun, split] = ['technique', 'storage', 'sun', 'split'].map(element);
+const page = new Page();
+const [technique, storage, radius, size] = ['technique', 'storage', 'radius', 'size'].map(element);
+const [angle, split, fog, density, anisotropy] = ['angle', 'split', 'fog', 'density', 'anisotropy'].map(element);
 
-let stopped = false;
-
-// Says what is wrong, or that nothing is.
-function say(message) {
-  // What has stopped the page stays.
-  if (stopped) return;
-  trouble.textContent = message;
-  trouble.hidden = !message;
-}
-
-// Says what went wrong, and draws no further frame.
-function stop(message) {
-  say(message);
-  stopped = true;
-}
+const radians = (degrees) => (degrees * Math.PI) / 180;
 
 function fill(select, names) {
   const before = select.value;
@@ -31,84 +18,85 @@ function fill(select, names) {
   if (names.includes(before)) select.value = before;
 }
 
-// Width and height of the canvas in pixels of the screen, within what the device has.
-function pixels(device) {
-  const scale = Math.min(devicePixelRatio, 2);
-  const side = (length) => Math.min(Math.max(Math.round(length * scale), 1), device.limits.maxTextureDimension2D);
-  return [side(canvas.clientWidth), side(canvas.clientHeight)];
-}
-
 async function main() {
-  const device = await openDevice(stop);
-  device.addEventListener('uncapturederror', ({ error }) => stop(`The graphics device objects: ${error.message}`));
-  const context = canvas.getContext('webgpu');
+  // Fetched meanwhile; whoever waits for it hears of what went wrong.
+  const listed = fetchPlan('index.json');
+  listed.catch(() => {});
+  const device = await openDevice((message) => page.stop(message));
+  const context = page.picture.getContext('webgpu');
   const format = navigator.gpu.getPreferredCanvasFormat();
   context.configure({ device, format });
   const renderer = new Renderer(device, format);
-  const orbit = new Orbit(canvas);
+  const orbit = new Orbit(page.picture, () => page.ask());
+  const { plans, references } = await listed;
+  await page.fit(device, (width, height) => {
+    Object.assign(page.picture, { width, height });
+    return renderer.resize(width, height);
+  });
 
-  const { plans, reference } = await fetchPlan('index.json');
-  const fit = async () => {
-    const [width, height] = pixels(device);
-    if (String([width, height]) === String(renderer.size)) return;
-    [canvas.width, canvas.height] = [width, height];
-    await renderer.resize(width, height);
+  const take = async (which, { file, map, name }) => renderer.take(which, await fetchPlan(file), { map, name });
+  const chosen = () => {
+    const isChosen = (plan) => plan.technique === technique.value && plan.storage === storage.value;
+    const found = plans.find((plan) => isChosen(plan) && [null, Number(radius.value)].includes(plan.radius));
+    return { ...found, name: `${found.technique}, ${found.storage}` };
   };
-  await fit();
-  await renderer.take('reference', await fetchPlan(reference.file), reference.map);
+  const compared = () => take('reference', { file: references[radius.value], map: 'light_depth', name: 'percentage closer' });
+  // What was there before stays where a plan cannot be had.
+  const change = (work) => page.change(work, (error) => page.say(error.message));
+  const choose = () => {
+    const isSoft = chosen().radius === null;
+    // The sun's size makes soft shadows, the width of the blur all others.
+    element('blurred').hidden = isSoft;
+    element('sized').hidden = !isSoft;
+    return change(() => take('chosen', chosen()));
+  };
+  const storages = () => [...new Set(plans.filter((plan) => plan.technique === technique.value).map((plan) => plan.storage))];
+  const breathe = async () => {
+    if (fog.checked && !renderer.air) await change(() => take('air', { file: 'air.json' }));
+    fog.checked &&= Boolean(renderer.air);
+    element('air').disabled = !fog.checked;
+  };
 
-  const storages = () => plans.filter((plan) => plan.technique === technique.value).map((plan) => plan.storage);
   fill(technique, [...new Set(plans.map((plan) => plan.technique))]);
   fill(storage, storages());
-
-  // One change after the other: a plan, or a size.
-  let changes = Promise.resolve();
-  let waiting = 0;
-  const change = (work, onError) => {
-    waiting += 1;
-    changes = changes.then(work).then(() => say(''), onError).finally(() => (waiting -= 1));
-    return changes;
-  };
-  const choose = () => {
-    const chosen = plans.find((plan) => plan.technique === technique.value && plan.storage === storage.value);
-    const take = async () => renderer.take('chosen', await fetchPlan(chosen.file), chosen.map);
-    // The plan before stays.
-    return change(take, (error) => (renderer.chosen ? say : stop)(error.message));
-  };
   technique.addEventListener('change', () => {
     fill(storage, storages());
     choose();
   });
   storage.addEventListener('change', choose);
-  await choose();
-  new ResizeObserver(() => change(fit, (error) => stop(error.message))).observe(canvas);
+  // One width after the other; those that have been passed over meanwhile are left out.
+  let width = radius.value;
+  const widen = async () => {
+    if (width === radius.value) return;
+    width = radius.value;
+    await Promise.all([take('chosen', chosen()), compared()]);
+  };
+  radius.addEventListener('input', () => change(widen));
+  fog.addEventListener('change', breathe);
+  await page.change(() => take('chosen', chosen()));
 
   const line = element('line');
   const [left, right] = line.children;
-  let [measured, since] = [[], 0];
-  const frame = async () => {
-    if (stopped) return;
-    if (waiting === 0) {
-      const share = split.value / 100;
-      line.hidden = share === 0 || share === 1;
-      line.style.left = `${100 * share}%`;
-      left.textContent = `${technique.value}, ${storage.value}`;
-      right.textContent = reference.technique;
-      const start = performance.now();
-      const angle = (sun.value * Math.PI) / 180;
-      renderer.draw(context.getCurrentTexture().createView(), { eye: orbit.eye, angle, split: share });
-      // The next frame waits for this one, so that times are not those of a queue.
-      await device.queue.onSubmittedWorkDone();
-      measured.push(performance.now() - start);
-      if (start - since > 1000) {
-        const median = measured.sort((a, b) => a - b)[measured.length >> 1];
-        times.textContent = `${median.toFixed(1)} ms a frame, both techniques`;
-        [measured, since] = [[], start];
-      }
-    }
-    requestAnimationFrame(() => frame().catch((error) => stop(error.message)));
+  const draw = () => {
+    const share = split.value / 100;
+    line.hidden = share === 0 || share === 1 || !renderer.reference;
+    line.style.left = `${100 * share}%`;
+    [left.textContent, right.textContent] = [renderer.chosen.name, renderer.reference?.name];
+    renderer.draw(context.getCurrentTexture().createView(), {
+      eye: orbit.eye,
+      angle: radians(angle.value),
+      split: share,
+      size: radians(size.value),
+      air: fog.checked && renderer.air ? { density: Number(density.value), anisotropy: Number(anisotropy.value) } : undefined,
+    });
   };
-  await frame();
+  const note = () => {
+    const shown = renderer.shown(split.value / 100);
+    return shown.length === 1 ? `${shown[0].name} alone` : 'both techniques';
+  };
+  await page.run(device, draw, note);
+  // After the first frame, which need not wait for it.
+  await change(compared);
 }
 
-main().catch((error) => stop(error.message));
+main().catch((error) => page.stop(error.message));

@@ -14,7 +14,7 @@ function axes(eye, target) {
 }
 
 /** A camera with reversed depth: 1 at the distance `near`, 0 infinitely far away. */
-export function perspective(eye, target, { aspect, zoom = 1.6, near = 0.1 }) {
+export function perspective(eye, target, { aspect, zoom, near = 0.1 }) {
   const [right, up, forward] = axes(eye, target);
   const along = (axis, factor) => [...axis.map((value) => factor * value), -factor * dot(axis, eye)];
   return byRows([along(right, zoom / Math.max(aspect, 1)), along(up, zoom * Math.min(aspect, 1)), [0, 0, 0, near], along(forward, 1)]);

@@ -5,10 +5,13 @@ const clamp = (value, [low, high]) => Math.min(Math.max(value, low), high);
 
 export class Orbit {
   angle = 0.7;
-  height = 0.5;
-  distance = 13;
+  height = 0.38;
 
-  constructor(canvas) {
+  /** `moved` is called after each move. */
+  constructor(canvas, moved) {
+    this.moved = moved;
+    // Where the picture is upright less of the scene is seen to the sides.
+    this.distance = canvas.clientWidth < canvas.clientHeight ? 13 : 10;
     const pointers = new Map();
     canvas.addEventListener('pointerdown', (event) => {
       canvas.setPointerCapture(event.pointerId);
@@ -52,10 +55,12 @@ export class Orbit {
   turn(angle, height) {
     this.angle += angle;
     this.height = clamp(this.height + height, LIMITS.height);
+    this.moved();
   }
 
   move(factor) {
     this.distance = clamp(this.distance * factor, LIMITS.distance);
+    this.moved();
   }
 
   /** Where the camera is. */
