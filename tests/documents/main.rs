@@ -6,6 +6,7 @@
     reason = "a test that fails says where"
 )]
 
+mod best;
 mod graph_file;
 mod links;
 mod plan;

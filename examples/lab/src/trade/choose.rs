@@ -5,6 +5,7 @@ use core::fmt;
 use serde_json::{Value, json};
 
 use super::axes::Cell;
+use super::held_out::HeldOut;
 use super::interval::prediction;
 use super::results::{Results, Row, SceneResults};
 use crate::cost::table::Columns;
@@ -149,6 +150,8 @@ impl<'a> Choice<'a> {
                 mean(3)
             ));
         }
+        let held_out = HeldOut::of(self.scene, best.cell.radius);
+        reasons.extend(held_out.map(|held_out| held_out.to_string()));
         reasons
     }
 

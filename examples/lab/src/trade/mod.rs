@@ -10,6 +10,7 @@ pub mod chart;
 pub mod choose;
 mod crop;
 pub mod front;
+pub mod held_out;
 pub mod inspect;
 pub mod interval;
 mod isa;

@@ -110,6 +110,9 @@ fn shown(section: &Section<'_>) -> String {
     html += &format!("<details>\n<summary>The other {}</summary>\n", others.len());
     html += &table(&others);
     html += "</details>\n";
+    if let Some(held_out) = section.held_out {
+        html += &format!("<p>{held_out}</p>\n");
+    }
     if !section.crops.is_empty() {
         html += "<h3>Where each errs most</h3>\n<p>The part of its worst view with the largest error: the truth, the technique, and the \
                  difference, red where it is too dark, blue where light leaks; half of full shadow has the full colour.</p>\n\

@@ -3,6 +3,7 @@
 use super::super::Crop;
 use super::super::chart::{self, Point};
 use super::super::front::front;
+use super::super::held_out::HeldOut;
 use super::super::interval::prediction;
 use super::super::journal::Finding;
 use super::super::results::{Results, Row, SceneResults};
@@ -17,6 +18,8 @@ pub(super) struct Section<'a> {
     pub series: Vec<String>,
     /// All rows, the least error first.
     pub rows: Vec<Line<'a>>,
+    /// Whether what some views say holds for others.
+    pub held_out: Option<HeldOut>,
     /// The worst parts of pictures, the least error first.
     pub crops: Vec<(&'a Row, &'a Crop)>,
 }
@@ -155,6 +158,7 @@ fn section<'a>(
         scene: &scene.scene,
         radius,
         charts: COSTS.iter().map(chart).collect(),
+        held_out: HeldOut::of(scene, radius),
         crops: lines.iter().filter_map(crop_of).collect(),
         series: names,
         rows: lines,
