@@ -46,6 +46,8 @@ mod constants {
 
 mod area_light;
 mod depth;
+#[cfg(feature = "validate")]
+mod export;
 mod format;
 mod kernel;
 mod leak_reduction;
@@ -70,6 +72,8 @@ mod view;
 
 pub use area_light::{AreaLight, LightSize};
 pub use depth::{DepthConversion, DepthRange};
+#[cfg(feature = "validate")]
+pub use export::{Bits, Exported, FunctionVectors, Target, VectorRow, Vectors, export};
 pub use format::{FormatSupport, TextureFormat};
 pub use kernel::Kernel;
 pub use leak_reduction::LeakReduction;

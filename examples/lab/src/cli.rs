@@ -7,7 +7,7 @@ use clap::{CommandFactory, FromArgMatches, Parser, Subcommand};
 
 use crate::command::cost::CostOptions;
 use crate::command::{
-    CommandResult, bias, error, error_table, isa, measure, render, scattering_error,
+    CommandResult, bias, error, error_table, isa, measure, ports, render, scattering_error,
     scattering_flicker, shaders, soft_error, stability, technique_pictures,
     troubleshooting_pictures, vectors,
 };
@@ -62,6 +62,9 @@ enum Command {
     Stability(stability::Options),
     /// Compiles every shader for chips that need not be there, and counts what the code does (Linux, Mesa's RADV).
     Isa(isa::Options),
+    /// Writes compute shaders around what `export` writes as GLSL and HLSL; with `--compiled`, runs what other compilers made of
+    /// them and compares it with the vectors and with WGSL. Exits with 1 where a row is beyond its tolerance.
+    Ports(ports::Options),
     /// The process that compiles for one chip, which its environment names.
     #[command(name = child::COMMAND, hide = true)]
     IsaChip(isa::ChildOptions),
@@ -105,6 +108,7 @@ fn run(command: Command) -> CommandResult {
         Command::Bias(options) => options.run(),
         Command::Stability(options) => options.run(),
         Command::Isa(options) => options.run(),
+        Command::Ports(options) => options.run(),
         Command::IsaChip(options) => options.run(),
     }
 }

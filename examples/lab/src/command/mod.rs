@@ -8,6 +8,7 @@ pub mod error;
 pub mod error_table;
 pub mod isa;
 pub mod measure;
+pub mod ports;
 pub mod render;
 pub mod scattering_error;
 pub mod scattering_flicker;
