@@ -178,3 +178,42 @@ fn check(
         "`{function}` is passed `{passed}` where `{wanted}` is baked in"
     ))
 }
+
+#[cfg(test)]
+mod tests {
+    #![allow(clippy::unwrap_used, reason = "a test that fails says where")]
+
+    use std::collections::BTreeMap;
+
+    use super::bake;
+
+    const BAKED: [(&str, &str); 2] = [("stored_as", "STORAGE"), ("both", "BOTH")];
+
+    #[test]
+    fn parameters_go_from_functions_and_calls() {
+        let text = "
+fn a(stored_as: u32) -> u32 { return stored_as + x.stored_as; }
+fn b(t: array<f32, 2>, stored_as: u32, both: bool, u: f32) -> u32 { return c(max(1, 2), a(stored_as), both); }
+fn c(x: u32, y: u32, both: bool,) -> u32 { return select(x, y, both); }
+fn d() -> u32 { return b(array<f32, 2>(1.0, 2.0), STORAGE, true, 3.0); }
+";
+        let expected = "
+fn a() -> u32 { return STORAGE + x.stored_as; }
+fn b(t: array<f32, 2>, u: f32) -> u32 { return c(max(1, 2), a()); }
+fn c(x: u32, y: u32,) -> u32 { return select(x, y, BOTH); }
+fn d() -> u32 { return b(array<f32, 2>(1.0, 2.0), 3.0); }
+";
+        let values = BTreeMap::from([("BOTH", "true")]);
+        assert_eq!(bake(text, &BAKED, &values).unwrap(), expected);
+    }
+
+    #[test]
+    fn another_value_than_the_baked_one_is_refused() {
+        for passed in ["STORAGE_FLOAT16", "1u", "stored_as + 1u", "false"] {
+            let text =
+                format!("fn a(stored_as: u32) {{}}\nfn b(stored_as: u32) {{ a({passed}); }}");
+            let error = bake(&text, &BAKED, &BTreeMap::new()).unwrap_err();
+            assert!(error.contains("`a` is passed"), "{error}");
+        }
+    }
+}

@@ -141,3 +141,52 @@ fn enclosing(tokens: &[Token<'_>], at: usize) -> Option<usize> {
     }
     None
 }
+
+#[cfg(test)]
+mod tests {
+    use super::fold;
+
+    fn folded(body: &str) -> String {
+        let known = |condition: &[&str]| match condition {
+            ["YES"] => Some(true),
+            ["NO"] => Some(false),
+            _ => None,
+        };
+        let text = fold(&format!("fn f() {{\n{body}}}\n"), &known);
+        let text = text.strip_prefix("fn f() {\n").unwrap_or_default();
+        text.strip_suffix("}\n").unwrap_or_default().to_owned()
+    }
+
+    #[test]
+    fn branches_that_are_decided_go() {
+        let [a, b, c] = ["        a();\n", "        b();\n", "        c();\n"];
+        let other = |chain: &str| format!("    if x {{\n{a}    }}{chain}\n    d();\n");
+        for (body, expected) in [
+            (format!("    if NO {{\n{a}    }}\n    d();\n"), "    d();\n".to_owned()),
+            (format!("    if YES {{\n{a}    }}\n    d();\n"), "    a();\n    d();\n".to_owned()),
+            (format!("    if NO {{\n{a}    }} else {{\n{b}    }}\n    d();\n"), "    b();\n    d();\n".to_owned()),
+            (format!("    if YES {{\n{a}    }} else {{\n{b}    }}\n    d();\n"), "    a();\n    d();\n".to_owned()),
+            (
+                format!("    if NO {{\n{b}    }} else if x {{\n{a}    }}\n    d();\n"),
+                other(""),
+            ),
+            (other(&format!(" else if NO {{\n{b}    }}")), other("")),
+            (
+                other(&format!(" else if NO {{\n{b}    }} else {{\n{c}    }}")),
+                other(&format!(" else {{\n{c}    }}")),
+            ),
+            (
+                other(&format!(" else if YES {{\n{b}    }} else {{\n{c}    }}")),
+                other(&format!(" else {{\n{b}    }}")),
+            ),
+            // What comes behind a return.
+            ("    if YES {\n        return 1;\n    }\n    return 2;\n".to_owned(), "    return 1;\n".to_owned()),
+            (
+                "    if YES {\n        if x {\n            return 1;\n        }\n    }\n    return 2;\n".to_owned(),
+                "    if x {\n        return 1;\n    }\n    return 2;\n".to_owned(),
+            ),
+        ] {
+            assert_eq!(folded(&body), expected, "{body}");
+        }
+    }
+}

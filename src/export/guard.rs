@@ -51,3 +51,40 @@ fn check_function(function: &Function) -> Result<(), String> {
         )),
     }
 }
+
+#[cfg(test)]
+mod tests {
+    #![allow(clippy::unwrap_used, reason = "a test that fails says where")]
+
+    use super::check;
+    use crate::export::translate::parse;
+
+    #[test]
+    fn what_naga_writes_wrongly_is_refused() {
+        for (wgsl, expected) in [
+            (
+                "struct S { m: mat3x2f }\nfn f(s: S) -> S { return s; }",
+                Some("`m` is a matrix of two rows"),
+            ),
+            (
+                "struct S { m: array<mat2x2f, 3> }\nfn f(s: S) -> S { return s; }",
+                Some("`m` is a matrix"),
+            ),
+            (
+                "struct S { m: mat2x3f }\nfn f(s: S) -> S { return s; }",
+                None,
+            ),
+            (
+                "fn f(x: f32) -> f32 { return sign(x); }",
+                Some("`f` takes a sign"),
+            ),
+            ("fn f(m: mat2x2f) -> vec2f { return m[0]; }", None),
+        ] {
+            let found = check(&parse(wgsl).unwrap());
+            match expected {
+                None => assert_eq!(found, Ok(())),
+                Some(expected) => assert!(found.unwrap_err().contains(expected), "{wgsl}"),
+            }
+        }
+    }
+}

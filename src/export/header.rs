@@ -74,18 +74,13 @@ fn map(encoding: &MapEncoding) -> Vec<String> {
         1 => String::new(),
         planes => format!("; a map is {planes} such textures, its planes"),
     };
-    let mut lines = vec![format!(
-        "The map's texture is {}, of which {} are used{planes}.",
-        encoding.format().name(),
-        match row.channels {
-            1 => "the first channel is",
-            2 => "the first two channels are",
-            _ => "all channels are",
-        }
-    )];
-    lines[0] = lines[0]
-        .replace(" is are used", " is used")
-        .replace(" are are used", " are used");
+    let used = match row.channels {
+        1 => "of which the first channel is used",
+        2 => "of which the first two channels are used",
+        _ => "all channels of which are used",
+    };
+    let texture = encoding.format().name();
+    let mut lines = vec![format!("The map's texture is {texture}, {used}{planes}.")];
     let far = row.far_texels(encoding.storage()).unwrap_or_default();
     for (plane, texel) in far.iter().enumerate() {
         let texel: Vec<_> = texel.iter().map(|it| format!("{:?}", *it as f32)).collect();

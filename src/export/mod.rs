@@ -78,8 +78,18 @@ pub struct Exported {
     pub text: String,
     /// The names of the functions that are meant for others to call, in the order of the file's head.
     pub functions: Vec<&'static str>,
-    /// Inputs of these functions and what they give, the same for all languages.
-    pub vectors: Vectors,
+    encoding: MapEncoding,
+    wgsl: String,
+}
+
+impl Exported {
+    /// Inputs of the functions that every file has and what they give, the same for all languages.
+    ///
+    /// # Errors
+    /// [`ValueError`] if a function uses what is not evaluated.
+    pub fn vectors(&self) -> Result<Vectors, ValueError> {
+        vectors::vectors(&self.encoding, &self.wgsl).map_err(|error| broken(&error))
+    }
 }
 
 /// Exports a technique in a storage. No adapter is needed.
@@ -110,11 +120,11 @@ pub fn export(encoding: &MapEncoding, target: Target) -> Result<Exported, ValueE
             translate::translate(&wgsl, target, &comments).map_err(|error| broken(&error))?
         }
     };
-    let vectors = vectors::vectors(encoding, &wgsl).map_err(|error| broken(&error))?;
     Ok(Exported {
         text: format!("{head}\n{}\n", body.trim()),
         functions,
-        vectors,
+        encoding: encoding.clone(),
+        wgsl,
     })
 }
 

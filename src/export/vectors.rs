@@ -261,7 +261,10 @@ impl Source<'_> {
         }
         let bits = self.values(name, &read)?;
         let fused = self.run(name, &read, Rounding::new(Rule::Fused, 0))?;
-        let mut tolerance = vec![0.0_f32; bits.len()];
+        // What is below the normal numbers may count as zero.
+        let values = bits.iter().map(|it| f32::from_bits(*it));
+        let tolerance = values.map(|it| if it.is_subnormal() { it.abs() } else { 0.0 });
+        let mut tolerance: Vec<f32> = tolerance.collect();
         let mut widen = |other: &[u32]| {
             for ((tolerance, a), b) in tolerance.iter_mut().zip(&bits).zip(other) {
                 let distance = (f32::from_bits(*a) - f32::from_bits(*b)).abs();

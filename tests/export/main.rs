@@ -7,6 +7,7 @@
     reason = "a test that fails says where"
 )]
 
+mod opengl;
 mod oracles;
 mod refused;
 mod texts;

@@ -2,9 +2,9 @@
 
 use std::f64::consts::PI;
 
-use moment_shadows::{EsmFiltering, MapEncoding, Storage, Target, Technique};
+use moment_shadows::{EsmFiltering, MapEncoding, Storage, Technique};
 use moment_shadows_lab::oracle::{hamburger, hausdorff, rational, sensitivity, tolerance_unit};
-use moment_shadows_lab::ports::{encodings, exported, name};
+use moment_shadows_lab::ports::{encodings, name, vectors};
 use moment_shadows_lab::vectors::HARD_TOLERANCE;
 
 /// What a row should give, and how far an f32 solver of moment problems may be off; of other techniques the vectors say so.
@@ -13,7 +13,7 @@ type Truth = (f64, Option<f64>);
 #[test]
 fn intensities_are_those_of_other_algorithms() {
     for encoding in encodings() {
-        let vectors = exported(&encoding, Target::Wgsl).unwrap().vectors;
+        let vectors = vectors(&encoding).unwrap();
         let function = vectors
             .functions
             .iter()

@@ -38,16 +38,20 @@ fn words(text: &str) -> BTreeSet<&str> {
         .collect()
 }
 
-/// The names that WGSL defines, those of parameters and variables too.
+/// The names that WGSL defines, those of parameters, members and variables too; what a call gives has a number in some languages.
 fn defined(wgsl: &str) -> BTreeSet<&str> {
     let code = wgsl
         .lines()
         .filter(|line| !line.trim_start().starts_with("//"));
     let mut names = BTreeSet::new();
     for line in code {
+        // Constants within functions are values everywhere else.
+        if line.starts_with("    const") {
+            continue;
+        }
         let words: Vec<_> = line.split_whitespace().collect();
         for pair in words.windows(2) {
-            if ["fn", "struct", "const", "let", "var"].contains(&pair[0]) {
+            if ["fn", "struct", "const", "var"].contains(&pair[0]) {
                 names.insert(pair[1].split(['(', ':', '<']).next().unwrap());
             }
         }
@@ -70,7 +74,7 @@ fn every_name_and_comment_is_in_every_language() {
         let wgsl = export(&encoding, Target::Wgsl).unwrap();
         let of_wgsl = defined(&wgsl.text);
         let commented = commented(&wgsl.text);
-        assert!(of_wgsl.len() > 40 && commented.len() > 20);
+        assert!(of_wgsl.len() > 30 && commented.len() > 20);
         for target in Target::ALL {
             let exported = export(&encoding, target).unwrap();
             let text = &exported.text;
@@ -94,13 +98,11 @@ fn every_name_and_comment_is_in_every_language() {
                 );
             }
             for (comment, name) in &commented {
-                let below = text.split_once(comment.as_str());
-                let (_, below) = below.unwrap_or_else(|| panic!("{place}: {comment}"));
-                let line = below.lines().next().unwrap();
-                assert!(
-                    words(line).contains(name.as_str()),
-                    "{place}: {line} has no {name}"
-                );
+                let places = text.match_indices(comment.as_str());
+                let mut below = places.map(|(at, _)| &text[at + comment.len()..]);
+                let is_right =
+                    |below: &str| words(below.lines().next().unwrap()).contains(name.as_str());
+                assert!(below.any(is_right), "{place}: {name} has not {comment}");
                 comments += 1;
             }
             for unwanted in [

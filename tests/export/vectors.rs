@@ -1,11 +1,12 @@
 //! The vectors, which come from the processor, against the same functions on the adapter.
 
 use moment_shadows::{Bits, MapEncoding, Storage, Target, Technique, Vectors};
-use moment_shadows_lab::ports::{Compared, Runner, Shader, encodings, exported, name, wrapper};
+use moment_shadows_lab::ports::{
+    Compared, Runner, Shader, encodings, exported, name, vectors, wrapper,
+};
 
 fn compared(runner: &Runner, encoding: &MapEncoding, vectors: &Vectors) -> Compared {
-    let exported = exported(encoding, Target::Wgsl).unwrap();
-    let text = wrapper(encoding, &exported, Target::Wgsl).unwrap();
+    let text = wrapper(encoding, Target::Wgsl, vectors).unwrap();
     let given = runner.run(&Shader::Wgsl(&text), vectors).unwrap();
     Compared::new(name(encoding), Target::Wgsl, vectors, &given, &given)
 }
@@ -15,7 +16,7 @@ fn wgsl_gives_the_vectors_on_the_adapter() {
     let runner = Runner::open().unwrap();
     let mut rows = 0;
     for encoding in encodings() {
-        let vectors = exported(&encoding, Target::Wgsl).unwrap().vectors;
+        let vectors = vectors(&encoding).unwrap();
         let compared = compared(&runner, &encoding, &vectors);
         println!("{compared}");
         let total = compared.total();
@@ -29,7 +30,7 @@ fn wgsl_gives_the_vectors_on_the_adapter() {
 fn a_port_that_is_wrong_is_found() {
     let runner = Runner::open().unwrap();
     let encoding = MapEncoding::new(Technique::Hamburger4, Storage::Float32).unwrap();
-    let right = exported(&encoding, Target::Wgsl).unwrap().vectors;
+    let right = vectors(&encoding).unwrap();
     for (number, function) in right.functions.iter().enumerate() {
         let mut wrong = right.clone();
         let row = &mut wrong.functions[number].rows[5];
@@ -49,8 +50,9 @@ fn a_port_that_is_wrong_is_found() {
 #[test]
 fn vectors_are_read_as_they_are_written() {
     let encoding = MapEncoding::new(Technique::Hamburger6, Storage::Unorm10).unwrap();
-    let vectors = exported(&encoding, Target::Msl).unwrap().vectors;
-    assert_eq!(vectors, exported(&encoding, Target::Wgsl).unwrap().vectors);
+    let vectors = vectors(&encoding).unwrap();
+    let of_msl = exported(&encoding, Target::Msl).unwrap().vectors();
+    assert_eq!(of_msl.unwrap(), vectors);
     let text = serde_json::to_string(&vectors).unwrap();
     assert_eq!(serde_json::from_str::<Vectors>(&text).unwrap(), vectors);
     let wrong = text.replacen("\"0x", "\"0y", 1);

@@ -60,7 +60,7 @@ impl Options {
         let beside = vectors_beside(&path)?;
         let parts = [Part::beside(&path)?, Part::beside(&beside)?];
         let exported = moment_shadows::export(&encoding, self.target)?;
-        let vectors = lines(&exported.vectors)?;
+        let vectors = lines(&exported.vectors()?)?;
         let [text, file] = parts;
         let text = text.write(|file| file.write_all(exported.text.as_bytes()))?;
         let file = file.write(|file| file.write_all(vectors.as_bytes()))?;

@@ -8,7 +8,7 @@ mod wrap;
 use std::fs;
 use std::path::Path;
 
-use moment_shadows::{Exported, MapEncoding, Target, export};
+use moment_shadows::{Exported, MapEncoding, Target, Vectors, export};
 
 use crate::error::LabError;
 use crate::techniques::{filterable, label, variant};
@@ -40,21 +40,27 @@ pub fn name(encoding: &MapEncoding) -> String {
     format!("{}_{}", label(encoding.technique()), encoding.storage())
 }
 
-/// The export of an encoding, which none of [`encodings`] refuses.
+/// The export of an encoding; none of [`encodings`] is refused.
 pub fn exported(encoding: &MapEncoding, target: Target) -> Result<Exported, LabError> {
     export(encoding, target).map_err(|error| LabError::unsuitable(name(encoding), error.message))
+}
+
+/// The vectors of an encoding.
+pub fn vectors(encoding: &MapEncoding) -> Result<Vectors, LabError> {
+    let vectors = exported(encoding, Target::Wgsl)?.vectors();
+    vectors.map_err(|error| LabError::unsuitable(name(encoding), error.message))
 }
 
 /// Writes a compute shader for each of [`encodings`] and [`COMPILED`], in a folder for each language.
 pub fn write(folder: &Path) -> Result<usize, LabError> {
     let mut count = 0;
-    for (target, extension) in COMPILED {
-        let folder = folder.join(target.name());
-        let failed = |error| LabError::unsuitable(folder.display(), format!("{error}"));
-        fs::create_dir_all(&folder).map_err(failed)?;
-        for encoding in encodings() {
-            let exported = exported(&encoding, target)?;
-            let text = wrapper(&encoding, &exported, target)?;
+    for encoding in encodings() {
+        let vectors = vectors(&encoding)?;
+        for (target, extension) in COMPILED {
+            let folder = folder.join(target.name());
+            let failed = |error| LabError::unsuitable(folder.display(), format!("{error}"));
+            fs::create_dir_all(&folder).map_err(failed)?;
+            let text = wrapper(&encoding, target, &vectors)?;
             let path = folder.join(name(&encoding)).with_extension(extension);
             fs::write(path, text).map_err(failed)?;
             count += 1;
@@ -68,17 +74,11 @@ pub fn run(folder: &Path) -> Result<Vec<Compared>, LabError> {
     let runner = Runner::open()?;
     let mut all = Vec::new();
     for encoding in encodings() {
-        let exported_wgsl = exported(&encoding, Target::Wgsl)?;
-        let text = wrapper(&encoding, &exported_wgsl, Target::Wgsl)?;
-        let vectors = &exported_wgsl.vectors;
+        let vectors = &vectors(&encoding)?;
+        let text = wrapper(&encoding, Target::Wgsl, vectors)?;
         let wgsl = runner.run(&Shader::Wgsl(&text), vectors)?;
-        all.push(Compared::new(
-            name(&encoding),
-            Target::Wgsl,
-            vectors,
-            &wgsl,
-            &wgsl,
-        ));
+        let as_wgsl = Compared::new(name(&encoding), Target::Wgsl, vectors, &wgsl, &wgsl);
+        all.push(as_wgsl);
         for (target, _) in COMPILED {
             let path = folder
                 .join(target.name())

@@ -2,7 +2,7 @@
 
 use core::fmt::Write;
 
-use moment_shadows::{Exported, MapEncoding, Target};
+use moment_shadows::{MapEncoding, Target, Vectors};
 use naga::{ArraySize, Handle, Module, ScalarKind, Type, TypeInner};
 
 use super::{exported, name};
@@ -20,9 +20,10 @@ pub(super) const WORKGROUP: usize = 64;
 /// The shader: its entry point is `main`, its inputs are binding 0, its outputs are binding 1.
 pub fn wrapper(
     encoding: &MapEncoding,
-    exported_as: &Exported,
     target: Target,
+    vectors: &Vectors,
 ) -> Result<String, LabError> {
+    let functions = exported(encoding, target)?.text;
     let wgsl = exported(encoding, Target::Wgsl)?.text;
     let failed = |reason: String| LabError::unsuitable(name(encoding), reason);
     let module =
@@ -32,17 +33,12 @@ pub fn wrapper(
         target,
     };
     let mut cases = String::new();
-    for (number, function) in exported_as.vectors.functions.iter().enumerate() {
+    for (number, function) in vectors.functions.iter().enumerate() {
         let case = writer.case(number, &function.name);
         cases += &case.ok_or_else(|| failed(format!("{} takes other types", function.name)))?;
     }
-    let rows = exported_as
-        .vectors
-        .functions
-        .iter()
-        .map(|it| it.rows.len())
-        .sum();
-    Ok(writer.shader(&exported_as.text, &cases, rows))
+    let rows = vectors.functions.iter().map(|it| it.rows.len()).sum();
+    Ok(writer.shader(&functions, &cases, rows))
 }
 
 struct Writer<'a> {
