@@ -47,6 +47,10 @@ mod constants {
 mod area_light;
 mod depth;
 #[cfg(feature = "validate")]
+#[allow(
+    clippy::wildcard_enum_match_arm,
+    reason = "of the compiler's many expressions and types functions use a few"
+)]
 mod export;
 mod format;
 mod kernel;

@@ -130,11 +130,11 @@ fn list(tokens: &[Token<'_>], open: usize) -> List {
 }
 
 /// Removes items of a list that are baked, each with a comma beside it.
-fn remove<'a>(
+fn remove(
     tokens: &[Token<'_>],
     list: &List,
     parameters: Option<&Vec<Option<&str>>>,
-    edits: &mut Vec<(Range<usize>, &'a str)>,
+    edits: &mut Vec<(Range<usize>, &str)>,
 ) {
     let parameters = parameters.map_or(&[][..], Vec::as_slice);
     let starts_at = |at: usize| tokens.get(at).map_or(0, |token| token.start);

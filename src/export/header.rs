@@ -3,7 +3,7 @@
 use core::fmt::Write;
 
 use super::{Target, root};
-use crate::{MapEncoding, Storage, modules};
+use crate::{MapEncoding, modules};
 
 const VERSION: &str = env!("CARGO_PKG_VERSION");
 
@@ -119,11 +119,10 @@ fn use_of(encoding: &MapEncoding) -> String {
     } else {
         "samplers cannot average these texels; load four and average their values yourself"
     };
-    let storage = match encoding.storage() {
-        Storage::Unorm10 => {
-            "\n   Draw it; the functions see to it that drivers round to the nearest number."
-        }
-        _ => "",
+    let storage = if encoding.storage().is_drawn() {
+        "\n   Draw it; the functions see to it that drivers round to the nearest number."
+    } else {
+        ""
     };
     format!(
         "\

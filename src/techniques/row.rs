@@ -92,8 +92,16 @@ pub struct Row {
     /// `depth_map`: the body of a function.
     pub(crate) evaluation: &'static str,
     /// The same without a map, where `evaluation` filters its texels by itself.
+    #[cfg_attr(
+        not(feature = "validate"),
+        expect(dead_code, reason = "exports read it")
+    )]
     pub(crate) exported: Option<&'static str>,
     /// Functions of the library that belong to the technique and that nothing above reaches.
+    #[cfg_attr(
+        not(feature = "validate"),
+        expect(dead_code, reason = "exports read it")
+    )]
     pub(crate) functions: &'static [&'static str],
     /// Soft shadow intensity of a `receiver` from the summed-area table of the map, by `soft_table` and `soft_receiver`.
     pub(super) soft: Option<&'static str>,

@@ -2,7 +2,9 @@
 
 use std::collections::BTreeSet;
 
-use moment_shadows::{MapEncoding, Storage, Target, Technique, export};
+use moment_shadows::{
+    MapEncoding, Source, Storage, Target, Technique, ValidationOptions, export, validate,
+};
 use moment_shadows_lab::ports::{encodings, name};
 
 /// The comments above what a text defines at top level, and above members, with the name that is defined below each.
@@ -134,6 +136,21 @@ fn every_technique_with_a_map_is_exported_in_each_of_its_storages() {
                 assert!(exported.contains(&encoding), "{encoding}");
             }
         }
+    }
+}
+
+#[test]
+fn exported_wgsl_is_valid_in_browsers() {
+    for encoding in encodings() {
+        let name = name(&encoding);
+        let text = export(&encoding, Target::Wgsl).unwrap().text;
+        let source = Source {
+            name: &name,
+            text: &text,
+        };
+        // The default profile is core WebGPU.
+        let report = validate(source, &ValidationOptions::default());
+        assert!(report.is_valid(), "{report}");
     }
 }
 
