@@ -11,6 +11,7 @@ mod evaluate;
 mod fold;
 mod guard;
 mod header;
+mod inputs;
 mod names;
 mod root;
 mod translate;

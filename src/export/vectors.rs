@@ -7,6 +7,7 @@ use serde::de::Error;
 use serde::{Deserialize, Deserializer, Serialize, Serializer};
 
 use super::evaluate::{Machine, Rounding, Rule, Value};
+use super::inputs::{average, conversions, depths, fragment_depths, mixtures, reductions, words};
 use super::translate::parse;
 use crate::MapEncoding;
 
@@ -109,14 +110,9 @@ struct Source<'a> {
     module: &'a Module,
 }
 
-/// The words of a value of numbers.
-fn words(numbers: impl IntoIterator<Item = f32>) -> Vec<u32> {
-    numbers.into_iter().map(f32::to_bits).collect()
-}
-
 impl Source<'_> {
     fn functions(&self) -> Option<Vec<FunctionVectors>> {
-        let depths = self.depths();
+        let depths = depths();
         let row = self.encoding.technique().row();
         let planes = if row.encodes_planes() { row.planes } else { 1 };
         let mut channels = Vec::new();
@@ -138,7 +134,7 @@ impl Source<'_> {
         let mut lit = Vec::new();
         let whole = self.lookups()?;
         for (index, value) in whole.iter().enumerate() {
-            for depth in self.fragment_depths(index) {
+            for depth in fragment_depths(index) {
                 lit.push([value.clone(), words([depth])].concat());
             }
         }
@@ -151,15 +147,6 @@ impl Source<'_> {
             self.vectors("depth_to_moment_depth", &conversions())?,
             self.vectors("leak_reduction_apply", &reductions())?,
         ])
-    }
-
-    /// Depths to encode: the ends, the middle, and places in between that no storage holds exactly.
-    fn depths(&self) -> Vec<f32> {
-        let between = (0..24).map(|index| ((index as f32 * 0.618_034).fract()) * 2.0 - 1.0);
-        [-1.0, 1.0, 0.0, -0.5, 0.25, 1e-4, -1e-7]
-            .into_iter()
-            .chain(between)
-            .collect()
     }
 
     /// The mean of what is encoded for the depths of a mixture.
@@ -196,15 +183,6 @@ impl Source<'_> {
         }
         all.push(far);
         Some(all)
-    }
-
-    /// Fragments from before everything to behind it, and beyond both ends.
-    fn fragment_depths(&self, index: usize) -> Vec<f32> {
-        let places = [
-            -1.5, -0.95, -0.6, -0.3, -0.1, 0.05, 0.2, 0.35, 0.5, 0.65, 0.8, 0.95, 1.0, 1.5,
-        ];
-        let shift = 0.007 * index as f32;
-        places.iter().map(|place| place + shift).collect()
     }
 
     fn function(&self, name: &str) -> Option<(Handle<Function>, &Function)> {
@@ -287,74 +265,6 @@ impl Source<'_> {
             tolerance,
         })
     }
-}
-
-/// The mean of two values.
-fn average(a: &[u32], b: &[u32]) -> Vec<u32> {
-    let pairs = a.iter().zip(b);
-    let mean = |(a, b): (&u32, &u32)| 0.5 * f32::from_bits(*a) + 0.5 * f32::from_bits(*b);
-    words(pairs.map(mean))
-}
-
-/// Depths under a filter: one surface, an edge, an edge with more texels on one side, three surfaces, a slope.
-fn mixtures() -> Vec<Vec<f32>> {
-    vec![
-        vec![0.1],
-        vec![-0.7],
-        vec![-0.4, 0.3],
-        vec![-0.8, 0.6, 0.6, 0.6],
-        vec![-0.2, -0.2, -0.2, 0.9],
-        vec![-0.5, 0.1, 0.7],
-        vec![-0.9, -0.3, 0.2, 0.8],
-        vec![0.3, 0.31, 0.32, 0.33, 0.34, 0.35, 0.36],
-    ]
-}
-
-/// Stored depths with conversions of parallel rays, and of a perspective from 0.5 to 100 in forward and reversed depth.
-fn conversions() -> Vec<Vec<u32>> {
-    let perspective = [[-1.0, 0.995], [1.0, 0.005]];
-    let conversions = [
-        ([[-1.0, 1.0], [1.0, 1.0]], [1.0, 0.0]),
-        (perspective, [1.0, 0.0]),
-        (perspective, [-1.0, 1.0]),
-    ];
-    let mut all = Vec::new();
-    for ([numerator, denominator], factor) in conversions {
-        for stored in [
-            0.0,
-            1e-3,
-            0.25,
-            0.5,
-            0.75,
-            0.99,
-            1.0,
-            1.25,
-            -0.5,
-            f32::NAN,
-            f32::INFINITY,
-        ] {
-            let conversion = [numerator, denominator, factor, [0.0; 2]].concat();
-            all.push([words([stored]), words(conversion)].concat());
-        }
-    }
-    all
-}
-
-/// Intensities with each of the reductions, and with all.
-fn reductions() -> Vec<Vec<u32>> {
-    let mut all = Vec::new();
-    for reduction in [
-        [1.0, 0.0, 1.0],
-        [0.98, 0.0, 1.0],
-        [1.0, 0.2, 1.0],
-        [1.0, 0.0, 2.0],
-        [0.95, 0.1, 1.5],
-    ] {
-        for intensity in [0.0, 0.1, 0.35, 0.6, 0.85, 0.97, 1.0] {
-            all.push(words([intensity].into_iter().chain(reduction).chain([0.0])));
-        }
-    }
-    all
 }
 
 /// A type in WGSL.
