@@ -29,6 +29,7 @@
 //!
 //! The import lines are WESL, so the same text works in hosts that read WESL. `validate()` (feature `validate`, on by
 //! default) checks a shader under a [`Profile`] and writes it for every backend; its errors point at the lines before linking.
+//! `export()` writes a technique as functions for engines whose shaders are HLSL, GLSL or MSL.
 
 // A technique, a storage or a format is never taken for another one.
 #![warn(clippy::wildcard_enum_match_arm)]

@@ -2,8 +2,8 @@
 
 use naga::{Expression, Function, MathFunction, Module, Type, TypeInner, VectorSize};
 
-/// Refuses members that are matrices of two rows, to which naga's HLSL loses stores, and the sign of an integer or a float, of which it stores
-/// the bits of another type.
+/// Refuses members that are matrices of two rows, to which naga's HLSL loses stores, and the sign of a number, of which it stores the
+/// bits of another type.
 pub(super) fn check(module: &Module) -> Result<(), String> {
     for (_, ty) in module.types.iter() {
         let TypeInner::Struct { members, .. } = &ty.inner else {

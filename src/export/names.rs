@@ -110,7 +110,7 @@ impl Names {
         restored
     }
 
-    /// What the line defines: the first name in a line without an indent, but for the types before it and a helper's.
+    /// What a line without an indent defines: the last name before its parameters, value or members. Helpers of the writer are no definitions.
     fn defined<'a>(&'a self, line: &'a str) -> Option<&'a str> {
         if line.starts_with([' ', '}', '#', '/'])
             || line.contains("Construct") && !line.starts_with("static const")

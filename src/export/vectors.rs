@@ -81,7 +81,8 @@ impl<'de> Deserialize<'de> for Bits {
     }
 }
 
-const DESCRIPTION: &str = "Words are scalars in the order of parameters, members and elements. A port gives the bits, or the fused ones, or numbers that differ from the bits by at most the tolerance.";
+const DESCRIPTION: &str = "Words are scalars in the order of parameters, members and elements. A port gives the bits, or the fused \
+    ones, or numbers that differ from the bits by at most the tolerance.";
 
 /// Runs with arithmetic at random, from which tolerances come.
 const RUNS: u64 = 48;

@@ -115,7 +115,11 @@ fn what_cannot_be_exported_is_refused_with_the_reason() {
         ),
         (export("hamburger", "float16", &hlsl), 2, "hamburger4"),
         (export(r#"{"vsm": "#, "float16", &hlsl), 2, "--technique"),
-        (export("vsm", "half", &hlsl), 2, "'float16'"),
+        (
+            export("vsm", "half", &hlsl),
+            2,
+            "[possible values: unorm16, float16",
+        ),
         (
             hamburger("cg"),
             2,
