@@ -90,6 +90,9 @@ struct File<'a> {
     /// Where the schema is, for editors.
     #[serde(rename = "$schema", default)]
     _schema: Option<&'a str>,
+    /// For people: why the graph is as it is.
+    #[serde(rename = "comment", default)]
+    _comment: Option<String>,
     #[serde(borrow)]
     imports: Vec<&'a RawValue>,
     #[serde(borrow)]

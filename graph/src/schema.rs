@@ -44,6 +44,7 @@ impl Graph {
             "type": "object",
             "properties": {
                 "$schema": { "description": "Where this schema is, for editors.", "type": "string" },
+                "comment": { "description": "For people: why the graph is as it is.", "type": "string" },
                 "version": { "description": "The version of the format.", "const": VERSION },
                 "imports": list(imports.to_value()),
                 "nodes": list(json!({ "oneOf": nodes })),

@@ -1,18 +1,74 @@
 //! Graph files: their passes, bytes and bandwidths.
 
 use moment_shadows::{Profile, Storage};
+use moment_shadows_lab::candidate::Candidate;
 use moment_shadows_lab::command::cost;
+use moment_shadows_lab::command::render::RenderOptions;
 use moment_shadows_lab::cost::bandwidth::Memory;
 use moment_shadows_lab::cost::blur::BlurredMap;
 use moment_shadows_lab::cost::copies::CopyWork;
+use moment_shadows_lab::cost::passes::cases;
 use moment_shadows_lab::cost::protocol::FEWEST_ROUNDS;
 use moment_shadows_lab::cost::texels::noise;
 use moment_shadows_lab::gpu::Gpu;
+use moment_shadows_lab::graph_file::GraphFile;
+use moment_shadows_lab::scene;
+use moment_shadows_lab::techniques::{self, described};
 use std::path::{Path, PathBuf};
 
 fn example(name: &str) -> PathBuf {
     let root = Path::new(env!("CARGO_MANIFEST_DIR"));
     root.join("examples").join(name)
+}
+
+fn with_map(side: u32) -> RenderOptions {
+    RenderOptions {
+        map: Some(side),
+        ..RenderOptions::default()
+    }
+}
+
+/// What a technique gives, in every storage and with every kind of taps, is what it makes of the unfiltered depths.
+#[test]
+fn every_technique_is_found_right() {
+    let text = std::fs::read_to_string(example("hard_shadows.json")).unwrap();
+    let file = GraphFile::parse("hard_shadows.json", text, None).unwrap();
+    let gpu = Gpu::open(Profile::NativeAdapter).unwrap();
+    let scene = scene::load("fence-and-foliage").unwrap();
+    let options = RenderOptions {
+        size: Some([320, 180]),
+        ..with_map(256)
+    };
+    let frames = [false, true].map(|reads_depth| {
+        let mut drawn = options.drawn(&file).unwrap();
+        drawn.samples = if reads_depth { 1 } else { drawn.samples };
+        let margin = file.radius().unwrap();
+        options.frame(&gpu, &scene, &drawn, margin).unwrap()
+    });
+    let reading_depth = techniques::reading_depth().into_iter();
+    let mut candidates = Candidate::all();
+    candidates.extend(reading_depth.map(Candidate::ReadingDepth));
+    let mut without = Vec::new();
+    for candidate in candidates {
+        let graph = candidate.graph(&file).unwrap();
+        let name = described(&graph.technique().unwrap());
+        let frame = &frames[usize::from(candidate.reads_depth())];
+        let (cases, _) = cases(&gpu, frame, &graph).unwrap();
+        let shaded = cases.last().unwrap();
+        assert_eq!(shaded.name, "shade/shade", "{name}");
+        let Some(difference) = shaded.difference else {
+            without.push(name);
+            continue;
+        };
+        println!(
+            "{name} in {:?}: {:.5}",
+            candidate.storage(),
+            difference.error
+        );
+        difference.accepted(&name).unwrap();
+    }
+    // Its taps differ from pixel to pixel, and a binary test has no filter.
+    assert_eq!(without, ["binary", "binary", "pcf_poisson", "pcss"]);
 }
 
 /// Every pass of the example is found right, and its bytes are those of its textures.
@@ -21,7 +77,7 @@ fn the_example_graph_is_checked_and_its_bytes_are_counted() {
     let memories: Vec<Memory> = vec!["224:GTX 970".parse().unwrap(), "100".parse().unwrap()];
     let cost = cost::graph(
         &example("hard_shadows.json"),
-        Some(256),
+        &with_map(256),
         FEWEST_ROUNDS,
         memories.clone(),
     )
@@ -107,7 +163,7 @@ fn mip_levels_are_checked_and_small_ones_are_summed() {
     let folder = tempfile::tempdir().unwrap();
     let path = folder.path().join("mipmapped.json");
     std::fs::write(&path, fewer).unwrap();
-    let cost = cost::graph(&path, Some(256), FEWEST_ROUNDS, Memory::known()).unwrap();
+    let cost = cost::graph(&path, &with_map(256), FEWEST_ROUNDS, Memory::known()).unwrap();
     let rows: Vec<_> = cost
         .passes
         .iter()

@@ -4,6 +4,7 @@
 mod bases;
 mod bias;
 mod hausdorff;
+mod ideal;
 mod orderings;
 mod six;
 

@@ -7,7 +7,8 @@ use moment_shadows_lab::gpu::Gpu;
 use moment_shadows_lab::graph_frame::shade_parameters;
 use moment_shadows_lab::scene::{self, feet};
 use moment_shadows_lab::surface_error::MapPoint;
-use moment_shadows_lab::truth::exact_bound::{Lookup, biased_bound};
+use moment_shadows_lab::truth::exact_bound::biased_bound;
+use moment_shadows_lab::truth::lookup::Lookup;
 use moment_shadows_lab::truth::pcf::Receiver;
 use moment_shadows_lab::truth::peel::Peeler;
 

@@ -9,7 +9,8 @@ use moment_shadows_lab::error::LabError;
 use moment_shadows_lab::graph_file::GraphFile;
 use moment_shadows_lab::judgement::Unfiltered;
 use moment_shadows_lab::scene;
-use moment_shadows_lab::truth::exact_bound::{Lookup, biased_bound};
+use moment_shadows_lab::truth::exact_bound::biased_bound;
+use moment_shadows_lab::truth::lookup::Lookup;
 use moment_shadows_lab::truth::pcf::{Receiver, pcf_at};
 use moment_shadows_lab::truth::peel::Peeler;
 

@@ -1,9 +1,8 @@
 //! The lower bound of four moments, in f64.
 
 use glam::DVec3;
-use moment_shadows_lab::truth::exact_bound::{
-    Lookup, exact_bound, lower_bound, lower_bound_of_moments,
-};
+use moment_shadows_lab::truth::exact_bound::{exact_bound, lower_bound, lower_bound_of_moments};
+use moment_shadows_lab::truth::lookup::Lookup;
 use moment_shadows_lab::truth::pcf::pcf;
 use moment_shadows_lab::truth::surface::DepthRounding;
 

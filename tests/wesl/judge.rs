@@ -46,3 +46,13 @@ pub(crate) fn difference(words: usize, ours: &[u32], theirs: &[u32]) -> Option<S
         f32::from_bits(theirs),
     ))
 }
+
+#[test]
+fn a_bit_that_differs_is_seen() {
+    let ours = [1.0_f32, 2.0, 3.0, 4.0].map(f32::to_bits);
+    assert_eq!(difference(2, &ours, &ours), None);
+    let theirs = [ours[0], ours[1], ours[2] + 1, ours[3]];
+    let said = difference(2, &ours, &theirs).unwrap();
+    let first = "1 words differ; the first is word 0 of invocation 1: ";
+    assert!(said.starts_with(first), "{said}");
+}

@@ -1,6 +1,6 @@
 //! The modules through linkers of WESL, the language of our imports: what they make of each module and of the example of forward
-//! shading is valid, and all constants and functions have the same bits on the adapter as through our linker. The crate `wesl` of
-//! our lock file runs with all tests; the newest one and npm's `wesl`, with the packages that are made for them, in `./run check`.
+//! shading is valid, and all constants and functions have the same bits on the adapter as through our linker. `./run check` runs the
+//! crate `wesl` and npm's `wesl`, with the packages that are made for them.
 #![allow(
     clippy::unwrap_used,
     clippy::expect_used,
@@ -13,5 +13,4 @@ mod commands;
 mod judge;
 mod package;
 mod roots;
-mod rust;
 mod values;

@@ -1,5 +1,6 @@
 //! Techniques that a command line names, and what a graph is measured with in place of its own technique and storage.
 
+use core::fmt;
 use core::str::FromStr;
 
 use moment_shadows::{
@@ -8,7 +9,7 @@ use moment_shadows::{
 
 use crate::error::LabError;
 use crate::graph_file::GraphFile;
-use crate::techniques::{self, label};
+use crate::techniques::{self, described, label};
 
 /// A technique with its storage.
 #[derive(Clone, Debug, PartialEq)]
@@ -107,6 +108,24 @@ impl Candidate {
             Self::Filterable(encoding) => Some(encoding.technique()),
             Self::ReadingDepth(technique) => Some(technique),
             Self::Storage(_) | Self::PercentageCloser => None,
+        }
+    }
+}
+
+impl fmt::Display for Candidate {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Storage(storage) => write!(f, "{storage}"),
+            Self::Filterable(encoding) => {
+                write!(
+                    f,
+                    "{} {}",
+                    described(encoding.technique()),
+                    encoding.storage()
+                )
+            }
+            Self::ReadingDepth(technique) => f.write_str(&described(technique)),
+            Self::PercentageCloser => f.write_str(PCF),
         }
     }
 }
@@ -230,12 +249,11 @@ pub fn candidates(
     }
     let mut chosen = Vec::new();
     for choice in choices {
-        match storage {
-            Some(_) if !choice.candidates[0].reads_depth() => {
-                chosen.push(choice.in_storage(storage)?);
-            }
-            Some(_) => chosen.extend_from_slice(choice.candidates()),
-            None => chosen.extend_from_slice(choice.candidates()),
+        // Techniques that read depth have no storage that could be another.
+        if storage.is_some() && !choice.candidates[0].reads_depth() {
+            chosen.push(choice.in_storage(storage)?);
+        } else {
+            chosen.extend_from_slice(choice.candidates());
         }
     }
     Ok(chosen)

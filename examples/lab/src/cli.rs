@@ -7,9 +7,9 @@ use clap::{CommandFactory, FromArgMatches, Parser, Subcommand};
 
 use crate::command::cost::CostOptions;
 use crate::command::{
-    CommandResult, bias, error, error_table, isa, measure, ports, render, scattering_error,
-    scattering_flicker, shaders, soft_error, stability, technique_pictures,
-    troubleshooting_pictures, vectors,
+    CommandResult, bias, choose, error, error_table, inspect, isa, measure, ports, probe, render,
+    scattering_error, scattering_flicker, shaders, soft_error, stability, technique_pictures,
+    trade, troubleshooting_pictures, vectors,
 };
 use crate::isa::child;
 
@@ -43,6 +43,16 @@ enum Command {
     Error(error::Options),
     /// Prints the error over all surfaces of several scenes, for several radii, techniques and storages.
     ErrorTable(error_table::Options),
+    /// Measures what every technique and storage costs and how far it is off, on your scenes, as a page with fronts of error against time,
+    /// bytes and instructions.
+    Trade(trade::Options),
+    /// Chooses technique, storage, map and samples for a scene within bounds, and writes the graph. Exits with 3 if nothing keeps to the
+    /// bounds; the nearest is printed then.
+    Choose(choose::Options),
+    /// Prints what a scene asks of its shadows: surfaces under the filter, the part of the light's range that is used, texels per pixel.
+    Probe(probe::Options),
+    /// Looks at one pixel: the depths under its filter, and what each technique makes of them, step by step from the truth to what is shown.
+    Inspect(inspect::Options),
     /// Prints how far soft shadows are from those of an area light that is sampled at many places: hard moment shadows,
     /// percentage closer soft shadows, and graphs of your own.
     SoftError(soft_error::SoftErrorOptions),
@@ -101,6 +111,10 @@ fn run(command: Command) -> CommandResult {
         Command::Shaders(options) => options.run(),
         Command::Error(options) => options.run(),
         Command::ErrorTable(options) => options.run(),
+        Command::Trade(options) => options.run(),
+        Command::Choose(options) => options.run(),
+        Command::Probe(options) => options.run(),
+        Command::Inspect(options) => options.run(),
         Command::SoftError(options) => print_all(&soft_error::run(&options)?),
         Command::ScatteringError(options) => print_all(&scattering_error::run(&options)?),
         Command::ScatteringFlicker(options) => options.run(),

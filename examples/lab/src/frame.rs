@@ -1,10 +1,13 @@
 //! One frame of the reference host: a scene seen by a camera and a light, drawn, ready for a graph.
 
+use glam::{DMat4, DVec3};
+
 use crate::error::LabError;
 use crate::gpu::Gpu;
 use crate::host::{DepthMap, DepthMapDesc, Lighting, Model, Renderer, Surface};
 use crate::light::{LightShape, LightView};
 use crate::scene::Scene;
+use crate::truth::surface::MomentDepths;
 use crate::view::Camera;
 
 /// What is drawn, and how large.
@@ -118,6 +121,41 @@ impl Frame {
         self.lighting = Lighting::new(scene, &desc.camera, &desc.light)?;
         self.desc = desc;
         Ok(())
+    }
+
+    /// The light's depth at any number of places within each texel, as truths read it: whatever the light's map has, they see the
+    /// same.
+    pub fn light_samples(
+        &self,
+        gpu: &Gpu,
+        positions: &[[f64; 2]],
+    ) -> Result<MomentDepths, LabError> {
+        let (light, size) = (&self.desc.light, self.desc.map);
+        let map = self.renderer.depth_map(
+            gpu,
+            &DepthMapDesc {
+                size,
+                samples: 1,
+                format: wgpu::TextureFormat::Depth32Float,
+                reversed: light.depth.reversed(),
+            },
+        )?;
+        MomentDepths::from_maps(light, size, positions, |position| {
+            // What lies there moves to the texel's middle, where a map has its sample.
+            let [right, up] = [position[0] - 0.5, 0.5 - position[1]];
+            let moved = DVec3::new(
+                -2.0 * right / f64::from(size[0]),
+                -2.0 * up / f64::from(size[1]),
+                0.0,
+            );
+            let clip = DMat4::from_translation(moved) * light.clip_from_world();
+            let mut encoder = gpu.device.create_command_encoder(&Default::default());
+            self.renderer
+                .draw_depth(gpu, &mut encoder, &self.model, &map, clip);
+            gpu.queue.submit([encoder.finish()]);
+            let bytes = gpu.read_texture(&map.texture, 0, "light samples")?;
+            Ok(bytemuck::pod_collect_to_vec(&bytes))
+        })
     }
 
     /// The picture, as sRGB bytes with alpha, for a texture of shadow intensity.

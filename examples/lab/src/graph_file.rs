@@ -119,12 +119,17 @@ impl GraphFile {
 
     /// This graph with a Gaussian of this radius and 0.6 times that as its standard deviation in place of its kernel.
     pub fn with_radius(&self, radius: u32) -> Result<Self, LabError> {
+        self.with_kernel(&serde_json::json!({ "radius": radius }))
+    }
+
+    /// This graph with another kernel, as files describe it.
+    pub fn with_kernel(&self, kernel: &Value) -> Result<Self, LabError> {
         if self.kernel()?.is_none() {
             return Err(
                 self.unsuitable("it has no blur node whose radius could be another; add one")
             );
         }
-        let kernel = serde_json::json!({ "radius": radius });
+        let kernel = kernel.clone();
         let file = self.edited(|file| set_property(file, "blur", "kernel", kernel))?;
         file.kernel()?;
         Ok(file)

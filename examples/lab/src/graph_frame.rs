@@ -35,6 +35,8 @@ pub struct GraphFrame {
     pub plan: Plan,
     /// The bound plan.
     pub bindings: Bindings,
+    pipelines: Pipelines,
+    resources: Resources,
     parameters: wgpu::Buffer,
     /// Recordings until what is kept from frame to frame has settled.
     frames: u32,
@@ -71,28 +73,24 @@ impl GraphFrame {
             usage: wgpu::BufferUsages::UNIFORM | wgpu::BufferUsages::COPY_DST,
             mapped_at_creation: false,
         });
-        let bindings = block_on(Bindings::create(
-            &gpu.device,
-            &plan,
-            &pipelines,
-            &resources,
-            &[
-                (
-                    "light_depth",
-                    ImportedResource::from(&frame.light_map.texture),
-                ),
-                ("camera_depth", ImportedResource::from(frame.camera_depth())),
-            ],
-            Some(&parameters),
-        ))?;
+        let bindings = bind(gpu, frame, &plan, (&pipelines, &resources), &parameters)?;
         let graph = Self {
             plan,
             bindings,
+            pipelines,
+            resources,
             parameters,
             frames: file.frames(),
         };
         graph.fill(gpu, desc, file, air)?;
         Ok(graph)
+    }
+
+    /// Binds the graph to another frame with textures of the same sizes and formats, and fills in its parameters.
+    pub fn rebind(&mut self, gpu: &Gpu, frame: &Frame, file: &GraphFile) -> Result<(), LabError> {
+        let made = (&self.pipelines, &self.resources);
+        self.bindings = bind(gpu, frame, &self.plan, made, &self.parameters)?;
+        self.fill(gpu, &frame.desc, file, None)
     }
 
     /// Fills in the parameters for a light and a camera.
@@ -146,6 +144,30 @@ impl GraphFrame {
     pub fn read_shadow(&self, gpu: &Gpu, file: &GraphFile) -> Result<Vec<f32>, LabError> {
         read_intensity(gpu, self.shadow(file)?)
     }
+}
+
+fn bind(
+    gpu: &Gpu,
+    frame: &Frame,
+    plan: &Plan,
+    (pipelines, resources): (&Pipelines, &Resources),
+    parameters: &wgpu::Buffer,
+) -> Result<Bindings, LabError> {
+    let imports = [
+        (
+            "light_depth",
+            ImportedResource::from(&frame.light_map.texture),
+        ),
+        ("camera_depth", ImportedResource::from(frame.camera_depth())),
+    ];
+    Ok(block_on(Bindings::create(
+        &gpu.device,
+        plan,
+        pipelines,
+        resources,
+        &imports,
+        Some(parameters),
+    ))?)
 }
 
 /// What a texture with one channel of shadow intensity holds, the top row first.

@@ -12,9 +12,10 @@ use crate::graph_frame::shade_parameters;
 use crate::host::{SurfacePixels, read_depth_samples, read_gbuffer};
 use crate::light::LightView;
 use crate::metric::{Comparison, Excess, compare, excess};
-use crate::truth::exact_bound::{Lookup, biased_bound, exact_bound};
+use crate::truth::exact_bound::{biased_bound, exact_bound};
 use crate::truth::fragment::fragments;
 use crate::truth::kernel::TapPattern;
+use crate::truth::lookup::Lookup;
 use crate::truth::pcf::pcf;
 use crate::truth::surface::{DepthRounding, MomentDepths};
 

@@ -2,7 +2,7 @@
 
 use std::fmt;
 
-use serde::Serialize;
+use serde::{Deserialize, Serialize};
 
 use crate::error::LabError;
 use crate::truth::check_length;
@@ -13,7 +13,7 @@ pub const PENUMBRA: [f32; 2] = [0.01, 0.99];
 
 /// Figures of the absolute error over a set of samples: pixels, or surfaces that a light's rays meet. An empty set has none: they
 /// are NaN, `null` in JSON.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct ErrorFigures {
     /// How many samples the set has.
     pub samples: usize,

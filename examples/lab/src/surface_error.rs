@@ -58,6 +58,8 @@ const RAYS_AT_ONCE: u32 = 1 << 16;
 
 /// The surfaces along the rays of a light. Takes 28 bytes per surface.
 struct LitSurfaces {
+    /// Texels of the map that rays were made for.
+    map: [u32; 2],
     rays: u64,
     caster_rays: u64,
     layers: u32,
@@ -106,6 +108,19 @@ pub struct SurfaceErrors {
 }
 
 impl LitSurfaces {
+    /// The error of estimates over some of the surfaces, summed in their order.
+    fn errors(
+        &self,
+        estimates: &[f32],
+        truths: &[f32],
+        of: fn(&SurfaceKind) -> bool,
+    ) -> ErrorFigures {
+        let pairs = self.kinds.iter().zip(estimates.iter().zip(truths));
+        let errors = pairs.filter(|(kind, _)| of(kind));
+        let errors = errors.map(|(_, (&estimate, &truth))| signed_error(estimate, truth));
+        figures(errors.collect())
+    }
+
     /// Adds what was peeled, row by row.
     fn add(&mut self, frame: &Frame, found: &[LightSurface]) {
         let light = &frame.desc.light;
@@ -152,6 +167,7 @@ impl SurfaceTruth {
             .inverse()
             .transform_vector3(glam::DVec3::Z);
         let mut lit = LitSurfaces {
+            map,
             rays: 0,
             caster_rays: 0,
             layers: 0,
@@ -199,6 +215,29 @@ impl SurfaceTruth {
             .collect())
     }
 
+    /// The error of shading with a map of `size` texels that the same light has drawn, larger or smaller than that of the truth: over
+    /// all surfaces on rays that meet a caster, and over those of them that face the light.
+    pub fn judge_size(
+        &self,
+        evaluator: &MapEvaluator<'_>,
+        shading: Evaluation,
+        size: [u32; 2],
+    ) -> Result<[ErrorFigures; 2], LabError> {
+        let lit = &self.lit;
+        let scale = [0, 1].map(|axis| lit.map[axis] as f32 / size[axis] as f32);
+        let scaled = lit.points.iter().map(|point| MapPoint {
+            gradient: [0, 1].map(|axis| point.gradient[axis] * scale[axis]),
+            ..*point
+        });
+        let shaded = evaluator.run(shading, &Vec::from_iter(scaled))?;
+        let errors =
+            |of: fn(&SurfaceKind) -> bool| lit.errors(&shaded, &self.in_front_of_plane, of);
+        Ok([
+            errors(|kind| kind.counts),
+            errors(|kind| kind.counts && kind.faces_light),
+        ])
+    }
+
     /// How many steps [`of`](Self::of) takes for a map of `map` texels.
     pub fn steps(map: [u32; 2]) -> u64 {
         u64::from(map[1]).div_ceil(rows_at_once(map) as u64)
@@ -225,24 +264,16 @@ impl SurfaceTruth {
             },
             &lit.points,
         )?;
-        let errors = |estimates: &[f32], truths: &[f32], of: fn(&SurfaceKind) -> bool| {
-            let pairs = lit.kinds.iter().zip(estimates.iter().zip(truths));
-            let errors: Vec<f64> = pairs
-                .filter(|(kind, _)| of(kind))
-                .map(|(_, (&estimate, &truth))| signed_error(estimate, truth))
-                .collect();
-            figures(errors)
-        };
         let (plane, depth) = (&self.in_front_of_plane, &self.in_front_of_depth);
         let estimates = shaded.iter().zip(&bound);
         Ok(SurfaceErrors {
             rays: lit.rays,
             caster_rays: lit.caster_rays,
             peels: lit.layers,
-            shading: errors(&shaded, plane, |kind| kind.counts),
-            shading_facing: errors(&shaded, plane, |kind| kind.counts && kind.faces_light),
-            shading_all_rays: errors(&shaded, plane, |_| true),
-            distribution: errors(&bound, depth, |kind| kind.counts),
+            shading: lit.errors(&shaded, plane, |kind| kind.counts),
+            shading_facing: lit.errors(&shaded, plane, |kind| kind.counts && kind.faces_light),
+            shading_all_rays: lit.errors(&shaded, plane, |_| true),
+            distribution: lit.errors(&bound, depth, |kind| kind.counts),
             nan: estimates
                 .filter(|(shaded, bound)| shaded.is_nan() || bound.is_nan())
                 .count(),

@@ -14,7 +14,7 @@ use moment_shadows_graph::command::Cli;
 use moment_shadows_lab::cli::parser;
 
 /// Sub-commands that are run here, with arguments that make them short; `OUT` is a folder or a file in it.
-const RUN: [(&str, &[&str]); 12] = [
+const RUN: [(&str, &[&str]); 14] = [
     ("adapter", &[]),
     (
         "export",
@@ -75,13 +75,33 @@ const RUN: [(&str, &[&str]); 12] = [
             "64",
         ],
     ),
+    (
+        "probe",
+        &["hall", "--quick", "--map", "128", "--views", "1"],
+    ),
+    (
+        "inspect",
+        &[
+            "hall",
+            "--pixel",
+            "20,25",
+            "--width",
+            "64",
+            "--map",
+            "64",
+            "--technique",
+            "vsm",
+            "--out",
+            "OUT/pixel.svg",
+        ],
+    ),
     ("vectors", &["tests/vectors/moment_problem.json"]),
     ("shaders", &["--out", "OUT/shaders"]),
     ("troubleshooting-pictures", &["--out", "OUT/pictures"]),
 ];
 
 /// Sub-commands that are not run here, and why.
-const LONG: [(&str, &str); 9] = [
+const LONG: [(&str, &str); 11] = [
     ("error-table", "peels whole scenes, for a minute each"),
     ("soft-error", "traces 256 rays per pixel"),
     ("scattering-error", "marches 1,024 steps per pixel"),
@@ -91,6 +111,8 @@ const LONG: [(&str, &str); 9] = [
         "draws every technique in single precision with its truth",
     ),
     ("cost", "times work that should have the machine for itself"),
+    ("trade", "judges and times hundreds of combinations"),
+    ("choose", "trades first"),
     ("bias", "searches a million patches of depth"),
     ("stability", "tries random inputs for a quarter of an hour"),
     (
@@ -246,8 +268,18 @@ fn check_cargo(words: &[String], pasted: bool) -> Option<String> {
         let place = words.iter().position(|word| word == flag)?;
         words.get(place + 1)
     };
+    let package = after("-p").map(String::as_str);
+    let folder = match package {
+        None | Some("moment-shadows") => ".",
+        Some("moment-shadows-graph") => "graph",
+        Some("moment-shadows-lab") => "examples/lab",
+        Some(other) => panic!("'{other}' is no package"),
+    };
     if let Some(test) = after("--test") {
-        let files = [format!("tests/{test}.rs"), format!("tests/{test}/main.rs")];
+        let files = [
+            format!("{folder}/tests/{test}.rs"),
+            format!("{folder}/tests/{test}/main.rs"),
+        ];
         assert!(
             files.iter().any(|file| root().join(file).exists()),
             "there is no test '{test}'"
@@ -266,10 +298,12 @@ fn check_cargo(words: &[String], pasted: bool) -> Option<String> {
         let declared = graph.contains(&format!("\n{feature} = ["));
         assert!(declared, "there is no feature '{feature}'");
     }
-    let package = after("-p")?;
-    assert_eq!(package, "moment-shadows-lab");
     let ours = words.iter().position(|word| word == "--")? + 1;
-    Some(check_ours(parser(), &words[ours..], pasted))
+    match package {
+        Some("moment-shadows-lab") => Some(check_ours(parser(), &words[ours..], pasted)),
+        // Arguments of the tests' own program.
+        _ => None,
+    }
 }
 
 #[test]

@@ -9,6 +9,7 @@ use std::collections::BTreeMap;
 
 use moment_shadows::{Module, modules};
 use moment_shadows_wesl::PACKAGE;
+use wesl::package::PackageBuilder;
 use wesl::resolver::VirtualResolver;
 use wesl::syntax::ModulePath;
 use wesl::{CompileOptions, compile};
@@ -81,4 +82,20 @@ fn modules_link_as_they_are_where_visibility_is_off() {
             assert!(linked.matches(item).count() >= 2, "{name}: {item}");
         }
     }
+}
+
+/// `wgsl/` is a package by itself, for projects that add the folder.
+#[test]
+fn the_folder_is_a_package_with_every_module() {
+    let folder = concat!(env!("CARGO_MANIFEST_DIR"), "/../../wgsl");
+    let package = PackageBuilder::new("moment-shadows").scan_toml(folder).unwrap();
+    let mut found = BTreeMap::new();
+    for folder in &package.root.submodules {
+        for module in &folder.submodules {
+            let path = (folder.name.as_str(), module.name.as_str());
+            found.insert(path, module.source.as_str());
+        }
+    }
+    let registered = modules().iter().map(|it| ((it.folder, it.name), it.source));
+    assert_eq!(found, registered.collect());
 }

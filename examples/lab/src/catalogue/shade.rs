@@ -1,7 +1,7 @@
 //! What shades with maps, tables and plain depth.
 
 use moment_shadows::TextureFormat::{Rg16Float, Rgb10a2Unorm};
-use moment_shadows::{MapEncoding, PcfTaps, Profile, Storage, SummedAreaTable, Technique};
+use moment_shadows::{MapEncoding, PcfTaps, Storage, SummedAreaTable, Technique};
 use moment_shadows_graph::nodes::{ShadeHard, ShadeSoft};
 
 use super::Variant;
@@ -138,9 +138,8 @@ pub(super) fn of_technique(map: &MapEncoding) -> Vec<Variant> {
     let label = techniques::label(technique);
     let shade = || Variant::new(ShadeHard::default(), map);
     let file = shade().file(format!("shade_hard_{label}_{storage}"), super::is_kept(map));
-    // The storage that a native device would choose, and what is drawn; others change how a texel is decoded.
-    let chosen = technique.best_storage(Profile::Native) == Some(storage) || storage.is_drawn();
-    if !chosen || label.contains("lloyd") {
+    // Its layers are looked up like others.
+    if label.contains("lloyd") {
         return vec![file];
     }
     let trips = match technique {
@@ -151,7 +150,8 @@ pub(super) fn of_technique(map: &MapEncoding) -> Vec<Variant> {
     let settings = format!("{label}, {storage}");
     if storage == Storage::Float32 {
         let filterable = shade().on(|capabilities| capabilities.float32_filterable = true);
-        vec![file, filterable.row(true, settings, trips)]
+        let loaded = file.row(true, format!("{settings}, loaded"), trips);
+        vec![loaded, filterable.row(true, settings, trips)]
     } else {
         vec![file.row(true, settings, trips)]
     }

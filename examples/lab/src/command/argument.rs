@@ -40,10 +40,10 @@ fn numbers<const N: usize>(text: &str) -> Result<[f64; N], String> {
         .ok_or_else(|| format!("give {N} numbers from -1e15 to 1e15, with commas between them"))
 }
 
-/// What a command takes where nothing is given.
-pub(crate) fn defaults<A: clap::Args>() -> A {
+/// What a command takes where nothing is given but these arguments.
+pub(crate) fn defaults<A: clap::Args>(given: &[&str]) -> A {
     let command = A::augment_args(clap::Command::new("defaults"));
-    let matches = command.get_matches_from(["defaults"]);
+    let matches = command.get_matches_from(["defaults"].iter().chain(given));
     A::from_arg_matches(&matches).unwrap_or_else(|error| error.exit())
 }
 

@@ -3,9 +3,12 @@
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 
+use moment_shadows::Storage;
+
 use super::drawn::Drawn;
 use super::render::RenderOptions;
-use super::{CommandResult, print};
+use super::{CommandResult, argument, print};
+use crate::candidate::TechniqueChoice;
 use crate::cost::SubjectList;
 use crate::cost::bandwidth::Memory;
 use crate::cost::blur::{BLURS, PROFILE};
@@ -19,7 +22,6 @@ use crate::cost::summed_area::TABLES;
 use crate::cost::table::CostTable;
 use crate::error::LabError;
 use crate::gpu::Gpu;
-use crate::graph_file::GraphFile;
 use crate::progress;
 use crate::scene;
 
@@ -29,6 +31,12 @@ pub struct CostOptions {
     /// What is timed.
     #[command(flatten)]
     pub subject: CostSubject,
+    /// A technique in place of the graph's own: a name with usual settings (vsm, evsm4, pcf, ...), or an object as in graph files.
+    #[arg(long, value_name = "NAME|JSON", conflicts_with_all = ["blur", "summed_area_table", "scattering"])]
+    pub technique: Option<TechniqueChoice>,
+    /// A storage in place of the graph's own.
+    #[arg(long, value_parser = argument::storage(), conflicts_with_all = ["blur", "summed_area_table", "scattering"])]
+    pub storage: Option<Storage>,
     /// A memory to bound the time by, in 10^9 bytes per second, with a name if you like: 224:GTX 970. Several may be
     /// given; by default three cards.
     #[arg(long, value_name = "GB/S[:NAME]", conflicts_with_all = ["blur", "summed_area_table", "scattering"])]
@@ -68,7 +76,13 @@ impl CostOptions {
     /// Prints what the subject costs; fails where a gate is passed.
     pub fn run(self) -> CommandResult {
         if let Some(path) = &self.subject.graph {
-            let cost = graph(path, self.size, self.rounds, self.bandwidth)?;
+            let options = RenderOptions {
+                map: self.size,
+                technique: self.technique,
+                storage: self.storage,
+                ..RenderOptions::default()
+            };
+            let cost = graph(path, &options, self.rounds, self.bandwidth)?;
             return print(&cost, self.json);
         }
         let [usual, _] = Drawn::default().map;
@@ -94,23 +108,19 @@ impl CostSubject {
     }
 }
 
-/// Times every pass of a graph on its own, on a scene with a light's map of `size` texels squared or as the file says, and says how long its
-/// bytes take with each of the memories at least: by default three cards.
+/// Times every pass of a graph on its own, on what the options and the file say, and says how long its bytes take with each of the
+/// memories at least: by default three cards.
 pub fn graph(
     path: &Path,
-    size: Option<u32>,
+    options: &RenderOptions,
     rounds: u32,
     memories: Vec<Memory>,
 ) -> Result<GraphCost, LabError> {
-    let file = GraphFile::read(path, None)?;
-    let gpu = Gpu::open_with(PROFILE, FEATURES)?;
-    let options = RenderOptions {
-        map: size,
-        ..RenderOptions::default()
-    };
+    let file = options.graph(path, None)?;
+    let drawn = options.drawn(&file)?;
+    let gpu = Gpu::open_with(file.profile(drawn.samples), FEATURES)?;
     let scene = scene::load(&options.scene)?;
     let margin = file.radius()?;
-    let drawn = options.drawn(&file)?;
     eprintln!("{drawn}");
     let frame = options.frame(&gpu, &scene, &drawn, margin)?;
     let (cases, bytes) = cases(&gpu, &frame, &file)?;

@@ -2,13 +2,16 @@
 
 pub(crate) mod argument;
 pub mod bias;
+pub mod choose;
 pub mod cost;
 pub mod drawn;
 pub mod error;
 pub mod error_table;
+pub mod inspect;
 pub mod isa;
 pub mod measure;
 pub mod ports;
+pub mod probe;
 pub mod render;
 pub mod scattering_error;
 pub mod scattering_flicker;
@@ -16,6 +19,7 @@ pub mod shaders;
 pub mod soft_error;
 pub mod stability;
 pub mod technique_pictures;
+pub mod trade;
 pub mod troubleshooting_pictures;
 pub mod vectors;
 

@@ -102,7 +102,7 @@ pub struct RenderOptions {
 
 impl Default for RenderOptions {
     fn default() -> Self {
-        argument::defaults()
+        argument::defaults(&[])
     }
 }
 

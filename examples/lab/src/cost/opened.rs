@@ -1,6 +1,6 @@
 //! A graph whose every connection is an output, so that what each node takes and gives can be read and compared.
 
-use moment_shadows::{DepthConversion, Storage, TextureFormat};
+use moment_shadows::{DepthConversion, MapEncoding, Storage, Technique};
 use moment_shadows_graph::Named;
 use moment_shadows_graph::nodes::Blur;
 
@@ -135,22 +135,35 @@ impl OpenedGraph {
     /// Only a map without mip levels: the reference looks up the finest.
     fn of_shade(&self, gpu: &Gpu, frame: &Frame, node: &str) -> Checked {
         let map = self.frame.plan.output_texture(&self.source(node, "map"));
-        let map = map.filter(|map| map.mips == 1 && map.size == frame.desc.map);
         let output = self.held(node, "shadow_intensity");
-        let (Some(map), Some(intensity)) = (map, self.frame.bindings.output(&output)) else {
+        let Some(intensity) = self.frame.bindings.output(&output) else {
             return Ok(None);
         };
-        shading::difference(gpu, frame, &self.file, intensity, storage(map.format)?)
+        let encoding = map.and_then(|map| map.encoding.as_ref());
+        let judged = match map {
+            Some(map) => map.mips == 1 && map.size == frame.desc.map && encoding.is_some(),
+            None => self.file.reads_depth(),
+        };
+        if !judged {
+            return Ok(None);
+        }
+        shading::difference(gpu, frame, &self.file, intensity, encoding)
     }
 
-    /// A mip level of an output that holds moments.
+    /// A mip level of an output that holds four moments; the other techniques are judged by what is shaded with them.
     fn level(&self, gpu: &Gpu, output: &str, level: u32) -> Result<Option<Level>, LabError> {
         let Self { frame, .. } = self;
         let desc = frame.plan.output_texture(output);
         let (Some(desc), Some(texture)) = (desc, frame.bindings.output(output)) else {
             return Ok(None);
         };
-        let storage = storage(desc.format)?;
+        let four = desc
+            .encoding
+            .as_ref()
+            .filter(|encoding| encoding.table().is_none());
+        let Some(storage) = four.filter(holds_four_moments).map(MapEncoding::storage) else {
+            return Ok(None);
+        };
         Ok(Some(Level {
             storage,
             size: desc.size_at(level).map(|side| side as usize),
@@ -193,9 +206,9 @@ impl Level {
     }
 }
 
-fn storage(format: TextureFormat) -> Result<Storage, LabError> {
-    Storage::of_format(format)
-        .ok_or_else(|| LabError::unsuitable(format, "the reference knows moments alone"))
+/// Whether a map is made as for Hamburger's bound of four moments.
+fn holds_four_moments(encoding: &&MapEncoding) -> bool {
+    (Technique::Hamburger4.row()).shares_map_with(&encoding.technique().row())
 }
 
 /// The output of the node that an edge leads to, if it is the same texture as this input.

@@ -1,12 +1,12 @@
 //! Median and spread.
 
-use serde::Serialize;
+use serde::{Deserialize, Serialize};
 
 /// Beyond this interquartile range, as a part of the median, a figure is marked unreliable.
 pub const LARGEST_SPREAD: f64 = 0.15;
 
 /// The distribution of a figure over the rounds.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Distribution {
     /// The median.
     pub median: f64,

@@ -65,7 +65,7 @@ pub struct StageDesc {
 
 impl Default for StageDesc {
     fn default() -> Self {
-        defaults()
+        defaults(&[])
     }
 }
 

@@ -58,6 +58,14 @@ impl MapRun {
         })
     }
 
+    /// Runs the graph on another frame with textures of the same sizes and formats.
+    pub fn rerun(&mut self, gpu: &Gpu, frame: &Frame) -> Result<(), LabError> {
+        self.graph.rebind(gpu, frame, &self.file)?;
+        self.graph.run(gpu)?;
+        self.shading = Evaluation::shading(frame, &self.file)?;
+        Ok(())
+    }
+
     /// The map that was shaded with on this frame.
     pub fn map<'a>(&'a self, frame: &'a Frame) -> Result<JudgedMap<'a>, LabError> {
         let found = match &self.output {

@@ -10,19 +10,10 @@
 //! section 3: the least share of a distribution in front of the fragment that its first four moments allow.
 
 use moment_shadows::FourMomentsBias;
-use rayon::prelude::*;
 
-use super::kernel::{AxisTaps, TapPattern};
+use super::kernel::TapPattern;
+use super::lookup::{Lookup, at_each};
 use super::surface::MomentDepths;
-
-/// What the shader asks of the filtered map at one pixel.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Lookup {
-    /// Where it looks the map up.
-    pub uv: [f64; 2],
-    /// The fragment's moment depth, from which the receiver bias has been taken.
-    pub fragment_depth: f64,
-}
 
 /// The exact lower bound of the shadow intensity for each lookup in `depths` filtered with `taps`; 0 where there is no
 /// lookup.
@@ -31,15 +22,7 @@ pub fn exact_bound(
     taps: &TapPattern,
     lookups: &[Option<Lookup>],
 ) -> Vec<f32> {
-    lookups
-        .par_iter()
-        .map_init(Scratch::default, |scratch, lookup| {
-            lookup.map_or(0.0, |lookup| {
-                scratch.gather(depths, taps, lookup.uv);
-                lower_bound(&scratch.depths, &scratch.weights, lookup.fragment_depth) as f32
-            })
-        })
-        .collect()
+    at_each(depths, taps, lookups, lower_bound)
 }
 
 /// The exact lower bound for each lookup after a moment bias, which storage with rounding errors cannot do without: what
@@ -51,55 +34,14 @@ pub fn biased_bound(
     bias: FourMomentsBias,
 ) -> Vec<f32> {
     let [alpha, second, fourth] = [bias.alpha, bias.second, bias.fourth].map(f64::from);
-    lookups
-        .par_iter()
-        .map_init(Scratch::default, |scratch, lookup| {
-            lookup.map_or(0.0, |lookup| {
-                scratch.gather(depths, taps, lookup.uv);
-                let moments = [1, 2, 3, 4].map(|power| {
-                    let target = [0.0, second, 0.0, fourth][power as usize - 1];
-                    let moment = weighted_sum(&scratch.depths, &scratch.weights, |z| z.powi(power));
-                    moment + alpha * (target - moment)
-                });
-                lower_bound_of_moments(moments, lookup.fragment_depth) as f32
-            })
-        })
-        .collect()
-}
-
-/// Lists that are reused from pixel to pixel.
-#[derive(Default)]
-struct Scratch {
-    columns: AxisTaps,
-    rows: AxisTaps,
-    depths: Vec<f64>,
-    weights: Vec<f64>,
-}
-
-impl Scratch {
-    /// Collects all samples that the filtered map combines at `uv`.
-    fn gather(&mut self, depths: &MomentDepths, taps: &TapPattern, uv: [f64; 2]) {
-        let [width, height] = depths.size();
-        taps.along_axis(uv[0], width, &mut self.columns);
-        taps.along_axis(uv[1], height, &mut self.rows);
-        let samples = depths.positions().len();
-        self.depths.clear();
-        self.weights.clear();
-        for (y, row_weight) in self.rows.weights.iter().enumerate() {
-            let share = row_weight / samples as f64;
-            for sample in 0..samples {
-                let row = depths.row(
-                    self.rows.first + y,
-                    sample,
-                    self.columns.first,
-                    self.columns.weights.len(),
-                );
-                self.depths.extend_from_slice(row);
-                self.weights
-                    .extend(self.columns.weights.iter().map(|weight| share * weight));
-            }
-        }
-    }
+    at_each(depths, taps, lookups, |samples, weights, fragment_depth| {
+        let moments = [1, 2, 3, 4].map(|power| {
+            let target = [0.0, second, 0.0, fourth][power as usize - 1];
+            let moment = weighted_sum(samples, weights, |z| z.powi(power));
+            moment + alpha * (target - moment)
+        });
+        lower_bound_of_moments(moments, fragment_depth)
+    })
 }
 
 /// The least share of depths in front of `fragment_depth` that the first four moments of the distribution with atoms at

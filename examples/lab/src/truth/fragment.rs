@@ -8,7 +8,7 @@ use glam::{DVec2, DVec3, DVec4};
 use moment_shadows::ViewParameters;
 use rayon::prelude::*;
 
-use super::exact_bound::Lookup;
+use super::lookup::Lookup;
 use crate::host::DepthSamples;
 
 /// The lookups of `shade_hard` with `parameters` on the camera's depth (one sample per pixel) for a map of `map`

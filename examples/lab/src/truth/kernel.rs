@@ -20,14 +20,16 @@ pub struct AxisTaps {
 impl TapPattern {
     /// The pattern of a map blurred with `kernel`. The weights are normalised once more, in f64.
     pub fn of_kernel(kernel: &Kernel) -> Self {
-        let sum: f64 = kernel.weights().iter().copied().map(f64::from).sum();
-        Self {
-            weights: kernel
-                .weights()
-                .iter()
-                .map(|&weight| f64::from(weight) / sum)
-                .collect(),
+        Self::of_weights(kernel.weights().iter().copied().map(f64::from).collect())
+    }
+
+    /// The pattern of an odd number of weights with a sum above 0, which are normalised.
+    pub fn of_weights(mut weights: Vec<f64>) -> Self {
+        let sum: f64 = weights.iter().sum();
+        for weight in &mut weights {
+            *weight /= sum;
         }
+        Self { weights }
     }
 
     /// The pattern of a map that is not blurred: the lookup alone.
@@ -84,4 +86,19 @@ pub fn sample_positions(samples: u32) -> Option<&'static [[f64; 2]]> {
         ]),
         _ => None,
     }
+}
+
+/// Positions of `count` samples inside a texel, spread so evenly that an edge of any direction divides them as it divides the texel:
+/// each axis has them all at different places (Hammersley's points).
+#[must_use]
+pub fn even_positions(count: u32) -> Vec<[f64; 2]> {
+    let share = |index: u32| (f64::from(index) + 0.5) / f64::from(count.max(1));
+    let bits = count.max(2).next_power_of_two().trailing_zeros();
+    let mirrored = |index: u32| {
+        let reversed = index.reverse_bits() >> (32 - bits);
+        (f64::from(reversed) + 0.5) / f64::from(1_u32 << bits)
+    };
+    (0..count)
+        .map(|index| [share(index), mirrored(index)])
+        .collect()
 }

@@ -4,6 +4,7 @@ pub mod area_light;
 pub mod exact_bound;
 pub mod fragment;
 pub mod kernel;
+pub mod lookup;
 mod opacity;
 pub mod pcf;
 pub mod peel;

@@ -33,7 +33,7 @@ pub enum DepthRounding {
 #[derive(Clone, Debug, PartialEq)]
 pub struct MomentDepths {
     size: [u32; 2],
-    positions: &'static [[f64; 2]],
+    positions: Vec<[f64; 2]>,
     rounding: DepthRounding,
     /// By row, then sample, then column, so that the taps of a row are neighbours.
     moment_depth: Vec<f64>,
@@ -72,8 +72,37 @@ impl MomentDepths {
         }
         Ok(Self {
             size,
-            positions,
+            positions: positions.to_vec(),
             rounding,
+            moment_depth,
+        })
+    }
+
+    /// The samples of maps of `light` that were drawn one by one, each of `size` texels with its samples at one place within a
+    /// texel. `draw` gives what a map stores, row by row, for such a place.
+    pub fn from_maps(
+        light: &LightView,
+        size: [u32; 2],
+        positions: &[[f64; 2]],
+        mut draw: impl FnMut([f64; 2]) -> Result<Vec<f32>, LabError>,
+    ) -> Result<Self, LabError> {
+        check_map(size)?;
+        let [width, height] = size.map(|length| length as usize);
+        let mut moment_depth = vec![1.0; width * height * positions.len()];
+        for (sample, &position) in positions.iter().enumerate() {
+            let stored = draw(position)?;
+            check_length("the depth map", stored.len(), width * height)?;
+            for (y, row) in stored.chunks_exact(width).enumerate() {
+                let start = (y * positions.len() + sample) * width;
+                for (to, &depth) in moment_depth[start..].iter_mut().zip(row) {
+                    *to = light.moment_depth_of_stored(f64::from(depth));
+                }
+            }
+        }
+        Ok(Self {
+            size,
+            positions: positions.to_vec(),
+            rounding: DepthRounding::Float32,
             moment_depth,
         })
     }
@@ -84,8 +113,8 @@ impl MomentDepths {
     }
 
     /// Where the samples of each texel lie.
-    pub fn positions(&self) -> &'static [[f64; 2]] {
-        self.positions
+    pub fn positions(&self) -> &[[f64; 2]] {
+        &self.positions
     }
 
     /// How the texture rounded what it stored.
