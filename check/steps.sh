@@ -153,7 +153,8 @@ run_glslang() {
 need_slang() {
   local version=0.43.1
   if [ -e "$work/slang/slangpy-$version.dist-info" ]; then return; fi
-  need_packages python3 python3 python3-pip
+  need_packages python3 python3
+  need_packages pip3 python3-pip
   rm -rf "$work/slang"
   python3 -m pip install --quiet --no-deps --disable-pip-version-check --root-user-action=ignore \
     --target "$work/slang" "slangpy==$version"
