@@ -156,6 +156,31 @@ run_glslang() {
   [ "$refused" = 0 ]
 }
 
+# Slang, a compiler of HLSL: the library that a package of PyPI carries, in $work/slang.
+need_slang() {
+  local version=0.43.1
+  if [ -e "$work/slang/slangpy-$version.dist-info" ]; then return; fi
+  need_packages python3 python3
+  need_packages pip3 python3-pip
+  rm -rf "$work/slang"
+  python3 -m pip install --quiet --no-deps --disable-pip-version-check --root-user-action=ignore \
+    --target "$work/slang" "slangpy==$version"
+}
+
+# What `export` writes: GLSL by glslang and HLSL by Slang, run on the adapter beside WGSL and compared with the vectors.
+run_ports() {
+  need_packages glslangValidator glslang-tools
+  need_slang
+  rm -rf "$work/ports"
+  lab ports "$work/ports"
+  local file
+  for file in "$work"/ports/glsl/*.comp; do
+    glslangValidator -V --quiet "$file" -o "${file%.comp}.spv"
+  done
+  python3 check/slang.py "$work/slang" "$work/ports/hlsl"
+  lab ports --compiled "$work/ports"
+}
+
 # What a compiler for GPUs makes of every shader, against the table that is kept: Mesa's driver for AMD chips compiles
 # without one.
 run_isa() {
@@ -200,7 +225,7 @@ numerics_on_swiftshader() {
       echo "the adapter should be SwiftShader" >&2
       exit 1
     fi
-    cargo test --release --locked --workspace --test numerics --test stability --test vector_files \
+    cargo test --release --locked --workspace --test numerics --test stability --test vector_files --test export \
       --test quantisation --test light_leaking --test receiver_bias --test blur --test recorder \
       --test percentage_closer --test summed_area_table --test soft_shadows
   )
@@ -268,6 +293,7 @@ check() {
   step "WESL: the Rust package, linked by the crate wesl" run_wesl_rs
   step "The SPIR-V: spirv-val" run_spirv_val
   step "The GLSL: glslang" run_glslang
+  step "Other languages: exported GLSL and HLSL on the adapter" run_ports
   step "What the code costs: instructions for two AMD chips" run_isa
   step "A second rasteriser: the tests of numerics on SwiftShader" numerics_on_swiftshader
   step "Fuzzing" run_fuzzing

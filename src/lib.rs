@@ -29,6 +29,7 @@
 //!
 //! The import lines are WESL, so the same text works in hosts that read WESL. `validate()` (feature `validate`, on by
 //! default) checks a shader under a [`Profile`] and writes it for every backend; its errors point at the lines before linking.
+//! `export()` writes a technique as functions for engines whose shaders are HLSL, GLSL or MSL.
 
 // A technique, a storage or a format is never taken for another one.
 #![warn(clippy::wildcard_enum_match_arm)]
@@ -46,6 +47,12 @@ mod constants {
 
 mod area_light;
 mod depth;
+#[cfg(feature = "validate")]
+#[allow(
+    clippy::wildcard_enum_match_arm,
+    reason = "of the compiler's many expressions and types functions use a few"
+)]
+mod export;
 mod format;
 mod kernel;
 mod leak_reduction;
@@ -70,6 +77,8 @@ mod view;
 
 pub use area_light::{AreaLight, LightSize};
 pub use depth::{DepthConversion, DepthRange};
+#[cfg(feature = "validate")]
+pub use export::{Bits, Exported, FunctionVectors, Target, VectorRow, Vectors, export};
 pub use format::{FormatSupport, TextureFormat};
 pub use kernel::Kernel;
 pub use leak_reduction::LeakReduction;

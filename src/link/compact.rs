@@ -20,14 +20,29 @@ pub fn compact(source: Source<'_>, roots: &[&str]) -> Result<String, ShaderError
         let message = "only linked text is made compact; link it first";
         return Err(file.error(import.path.clone(), message));
     }
+    let kept = reached(&file, |name| roots.contains(&name));
+    let mut text = String::new();
+    let declarations = kept
+        .iter()
+        .filter_map(|&index| file.declarations.get(index));
+    for declaration in declarations {
+        let code = file.text.get(declaration.code.clone());
+        without_comments(code.unwrap_or_default(), &mut text);
+        text.push('\n');
+    }
+    Ok(text)
+}
+
+/// The declarations that those of which `is_root` says so reach by their words, and those without a name, by index.
+pub(crate) fn reached(file: &File<'_>, is_root: impl Fn(&str) -> bool) -> BTreeSet<usize> {
     let mut owners: BTreeMap<&str, Vec<usize>> = BTreeMap::new();
     let mut waiting = Vec::new();
     for (index, declaration) in file.declarations.iter().enumerate() {
         for name in &declaration.names {
             owners.entry(name.text).or_default().push(index);
         }
-        let is_root = declaration.names.iter().any(|it| roots.contains(&it.text));
-        if is_root || declaration.names.is_empty() {
+        let named = declaration.names.iter().any(|it| is_root(it.text));
+        if named || declaration.names.is_empty() {
             waiting.push(index);
         }
     }
@@ -40,16 +55,7 @@ pub fn compact(source: Source<'_>, roots: &[&str]) -> Result<String, ShaderError
             waiting.extend(words.filter_map(|word| owners.get(word.text)).flatten());
         }
     }
-    let mut text = String::new();
-    let declarations = kept
-        .iter()
-        .filter_map(|&index| file.declarations.get(index));
-    for declaration in declarations {
-        let code = file.text.get(declaration.code.clone());
-        without_comments(code.unwrap_or_default(), &mut text);
-        text.push('\n');
-    }
-    Ok(text)
+    kept
 }
 
 /// Adds code, with a line break and the indent for whatever has one between two tokens.

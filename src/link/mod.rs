@@ -4,7 +4,7 @@ mod compact;
 mod dialect;
 mod error;
 pub(crate) mod file;
-mod import;
+pub(crate) mod import;
 mod linked;
 mod location;
 mod module;
@@ -15,6 +15,8 @@ pub(crate) mod tokens;
 use std::collections::{BTreeMap, BTreeSet};
 
 pub use self::compact::compact;
+#[cfg(feature = "validate")]
+pub(crate) use self::compact::reached;
 pub use self::error::ShaderError;
 use self::file::File;
 use self::import::Form;

@@ -14,7 +14,7 @@ pub(crate) struct Declaration<'a> {
     /// The bytes from its first word on.
     pub(crate) code: Range<usize>,
     /// The bytes that go if nothing reaches it: those of its comments too.
-    range: Range<usize>,
+    pub(crate) range: Range<usize>,
     /// The names it defines: one, but for directives, `const_assert`, and text that is not WGSL.
     pub(crate) names: Vec<Token<'a>>,
     /// Every word in it that may name another: no member (`.name`).

@@ -36,6 +36,7 @@ pub(super) fn row(exponent: Option<Finite>, filtering: EsmFiltering) -> Row {
         },
         EsmFiltering::Logarithmic => Row {
             averaged_by_samplers: false,
+            exported: Some(EXPORTED_LOGARITHMIC),
             largest_exponents: &[
                 LARGEST,
                 LARGEST,
@@ -63,6 +64,7 @@ pub(super) fn row(exponent: Option<Finite>, filtering: EsmFiltering) -> Row {
     });
     Row {
         far,
+        functions: &["exponential_mean_of_texel"],
         exponents: Vec::from_iter(exponent),
         constants: vec![
             Constant::of_map("EXPONENT", float(exponent.unwrap_or_default().get())),
@@ -86,3 +88,6 @@ const EVALUATION_LOGARITHMIC: &str = "let place = map_region_place(receiver.regi
     let bottom_right = exponential_mean_of_texel(textureLoad(moments_map, high, receiver.layer, 0), STORAGE, EXPONENT, true);
     let mean = mix(mix(top_left, top_right, weight.x), mix(bottom_left, bottom_right, weight.x), weight.y);
     return exponential_shadow_intensity(mean, receiver.fragment_depth, EXPONENT, 0.0);";
+
+/// What is looked up is the mean itself.
+const EXPORTED_LOGARITHMIC: &str = "return exponential_shadow_intensity(map_texel(receiver, 0u).x, receiver.fragment_depth, EXPONENT, 0.0);";

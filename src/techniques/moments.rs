@@ -19,6 +19,11 @@ pub(super) fn hamburger4() -> Row {
     Row {
         soft: Some(soft),
         both_bounds: true,
+        functions: &[
+            "four_moments_from_texel",
+            "hamburger4_bounds",
+            "hamburger4_shadow_intensity",
+        ],
         ..of_four("hamburger4", evaluation)
     }
 }
@@ -35,7 +40,10 @@ fn of_four(name: &'static str, evaluation: &'static str) -> Row {
 /// The sharp lower bound from four moments on the light's range (Peters & Klein, i3D 2015).
 pub(super) fn hausdorff4() -> Row {
     let evaluation = "return hausdorff4_shadow_intensity_of_texel(map_texel(receiver, 0u), receiver.fragment_depth, STORAGE);";
-    of_four("hausdorff4", evaluation)
+    Row {
+        functions: &["four_moments_from_texel", "hausdorff4_bounds"],
+        ..of_four("hausdorff4", evaluation)
+    }
 }
 
 const SIX: Encoding = Encoding {
@@ -55,6 +63,7 @@ pub(super) fn hamburger6() -> Row {
         planes: 2,
         bounded_channels: true,
         both_bounds: true,
+        functions: &["six_moments_from_texels", "hamburger6_bounds"],
         far: far::of_each(storages, far_of_six),
         ..Row::of_map("hamburger6", storages, 4, SIX, evaluation)
     }

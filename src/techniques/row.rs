@@ -5,7 +5,7 @@ use crate::{Storage, ValueError};
 
 /// How a map is made and filtered: expressions in WGSL, which can use whatever the library defines, and the row's constants.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) struct Encoding {
+pub(crate) struct Encoding {
     /// The channels to average for a moment depth `z`, a vec4f.
     pub channels: &'static str,
     /// The texel to write for the averages `mean` of channels, a vec4f.
@@ -75,7 +75,7 @@ pub struct Row {
     /// Constants of the pieces below.
     pub(super) constants: Vec<Constant>,
     /// How the map is made and filtered; `None` where the plain depth map is read.
-    pub(super) encoding: Option<Encoding>,
+    pub(crate) encoding: Option<Encoding>,
     /// Whether channels are means of values in [-1, 1], whose storage in float32 is as fine as sums of f32 are.
     pub bounded_channels: bool,
     /// Whether a summed-area table can be made of the map.
@@ -90,7 +90,19 @@ pub struct Row {
     pub places_layers: bool,
     /// Shadow intensity of a `receiver`, by `map_texel(receiver, plane)` or on the plane `plane` of the plain depth map
     /// `depth_map`: the body of a function.
-    pub(super) evaluation: &'static str,
+    pub(crate) evaluation: &'static str,
+    /// The same without a map, where `evaluation` filters its texels by itself.
+    #[cfg_attr(
+        not(feature = "validate"),
+        expect(dead_code, reason = "exports read it")
+    )]
+    pub(crate) exported: Option<&'static str>,
+    /// Functions of the library that belong to the technique and that nothing above reaches.
+    #[cfg_attr(
+        not(feature = "validate"),
+        expect(dead_code, reason = "exports read it")
+    )]
+    pub(crate) functions: &'static [&'static str],
     /// Soft shadow intensity of a `receiver` from the summed-area table of the map, by `soft_table` and `soft_receiver`.
     pub(super) soft: Option<&'static str>,
 }
@@ -122,6 +134,8 @@ impl Row {
             comparison: None,
             places_layers: false,
             evaluation,
+            exported: None,
+            functions: &[],
             soft: None,
         }
     }

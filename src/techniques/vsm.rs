@@ -21,6 +21,7 @@ pub(super) fn row() -> Row {
         bounded_channels: true,
         has_table: true,
         soft: Some(SOFT),
+        functions: &["two_moments_from_texel", "chebyshev_upper_bound"],
         far: far::of_each(storages, |storage| far_of_pairs(storage, 1)),
         ..Row::of_map("vsm", storages, 2, ENCODING, EVALUATION)
     }

@@ -7,9 +7,9 @@ use clap::{CommandFactory, FromArgMatches, Parser, Subcommand};
 
 use crate::command::cost::CostOptions;
 use crate::command::{
-    CommandResult, best, bias, choose, error, error_table, inspect, isa, measure, probe, render,
-    scattering_error, scattering_flicker, shaders, soft_error, stability, technique_pictures,
-    trade, troubleshooting_pictures, vectors,
+    CommandResult, best, bias, choose, error, error_table, inspect, isa, measure, ports, probe,
+    render, scattering_error, scattering_flicker, shaders, soft_error, stability,
+    technique_pictures, trade, troubleshooting_pictures, vectors,
 };
 use crate::isa::child;
 
@@ -74,6 +74,9 @@ enum Command {
     Stability(stability::Options),
     /// Compiles every shader for chips that need not be there, and counts what the code does (Linux, Mesa's RADV).
     Isa(isa::Options),
+    /// Writes compute shaders around what `export` writes as GLSL and HLSL; with `--compiled`, runs what other compilers made of
+    /// them and compares it with the vectors and with WGSL. Exits with 1 where a row is beyond its tolerance.
+    Ports(ports::Options),
     /// The process that compiles for one chip, which its environment names.
     #[command(name = child::COMMAND, hide = true)]
     IsaChip(isa::ChildOptions),
@@ -122,6 +125,7 @@ fn run(command: Command) -> CommandResult {
         Command::Bias(options) => options.run(),
         Command::Stability(options) => options.run(),
         Command::Isa(options) => options.run(),
+        Command::Ports(options) => options.run(),
         Command::IsaChip(options) => options.run(),
     }
 }

@@ -29,6 +29,7 @@ mod pass;
 pub mod penumbra;
 pub mod picture;
 pub mod plot;
+pub mod ports;
 pub mod progress;
 pub mod scattering;
 pub mod scene;

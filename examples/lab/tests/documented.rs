@@ -14,8 +14,22 @@ use moment_shadows_graph::command::Cli;
 use moment_shadows_lab::cli::parser;
 
 /// Sub-commands that are run here, with arguments that make them short; `OUT` is a folder or a file in it.
-const RUN: [(&str, &[&str]); 12] = [
+const RUN: [(&str, &[&str]); 14] = [
     ("adapter", &[]),
+    (
+        "export",
+        &[
+            "--technique",
+            "hamburger4",
+            "--storage",
+            "float16",
+            "--target",
+            "hlsl",
+            "--out",
+            "OUT/a.hlsl",
+        ],
+    ),
+    ("ports", &["OUT/ports"]),
     ("graph", &["examples/hard_shadows.json", "--plan"]),
     ("export-plan", &["examples/hard_shadows.json"]),
     ("validate", &["examples/forward_shading.wgsl"]),

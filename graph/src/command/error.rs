@@ -2,6 +2,8 @@
 
 use std::io;
 
+use moment_shadows::ValueError;
+
 use crate::GraphError;
 
 /// Why a sub-command could not do what it was asked for. Each names its culprit.
@@ -46,6 +48,15 @@ pub enum CommandError {
     /// A plan as JSON.
     #[error("the plan cannot be written as JSON: {0}")]
     Json(#[from] serde_json::Error),
+    /// A technique, a setting or a storage that cannot be exported.
+    #[error("{0}")]
+    Value(#[from] ValueError),
+    /// A technique of which no functions without bindings can be made.
+    #[error(
+        "'{0}' reads the plain depth map, through textures and samplers that a file of functions does not have; export a technique \
+         that has a map of its own, as hamburger4"
+    )]
+    ReadsDepth(&'static str),
     /// No adapter runs graphs here.
     #[error(
         "no graphics adapter was found for Vulkan, Metal or Direct3D 12; on Debian install a software driver with \

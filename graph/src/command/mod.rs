@@ -4,6 +4,7 @@
 
 pub mod adapter;
 pub mod argument;
+pub mod export;
 pub mod export_plan;
 pub mod graph;
 pub mod runtime_dir;
@@ -28,7 +29,7 @@ pub use part::Part;
 /// The exit code where nobody reads the output to its end, as shells have it.
 pub const NOT_READ: u8 = 141;
 
-/// Filterable shadows: validates shaders, checks graphs and exports their plans.
+/// Filterable shadows: validates shaders, checks graphs, exports their plans, and techniques in other languages.
 #[derive(Debug, Parser)]
 #[command(
     name = "moment-shadows",
@@ -49,6 +50,8 @@ pub enum Command {
     Graph(graph::Options),
     /// Compiles a graph file and writes its plan as JSON, for a recorder in any language.
     ExportPlan(export_plan::Options),
+    /// Writes a technique as functions in another shading language, with vectors that prove a port.
+    Export(export::Options),
     /// Prints the graphics adapter that graphs run on; fails if there is none.
     Adapter,
 }
@@ -81,6 +84,7 @@ impl Command {
             Self::Validate(options) => options.run(),
             Self::Graph(options) => options.run(),
             Self::ExportPlan(options) => options.run(),
+            Self::Export(options) => options.run(),
             Self::Adapter => adapter::run(),
         };
         result.unwrap_or_else(|error| {

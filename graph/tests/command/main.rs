@@ -7,6 +7,7 @@
 )]
 
 mod ci;
+mod export;
 mod validate;
 
 use std::fs;
@@ -307,6 +308,7 @@ fn the_help_has_the_exit_codes() {
         "validate",
         "graph",
         "export-plan",
+        "export ",
         "adapter",
         "Exit codes: 0 ",
         "1 ",

@@ -11,6 +11,7 @@ pub mod error_table;
 pub mod inspect;
 pub mod isa;
 pub mod measure;
+pub mod ports;
 pub mod probe;
 pub mod render;
 pub mod scattering_error;

@@ -1,7 +1,7 @@
 //! A Vulkan device that compiles shaders for a chip which need not be there.
 //!
-//! wgpu cannot open it: the driver's null device has no semaphores that can be shared. So this is Vulkan itself, and the
-//! only unsafe code of the project.
+//! wgpu cannot open it: the driver's null device has no semaphores that can be shared. So this is Vulkan itself, in
+//! unsafe code.
 
 #![allow(unsafe_code)]
 
