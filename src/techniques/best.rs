@@ -5,14 +5,41 @@ use crate::Profile;
 use crate::Storage::{self, Float16, Float32, Unorm8, Unorm10, Unorm16};
 
 /// Techniques with usual settings and their storages, the least error first. Recorded in `examples/lab/best.json`; a test holds both.
-const RECORDED: [(&str, Storage); 0] = [];
+const RECORDED: [(&str, Storage); 26] = [
+    ("hamburger6", Float32),
+    ("hamburger4", Float32),
+    ("hausdorff4", Float32),
+    ("hamburger6", Unorm16),
+    ("hausdorff4", Unorm16),
+    ("hamburger4", Unorm16),
+    ("evsm4", Float16),
+    ("evsm4", Float32),
+    ("hamburger6", Float16),
+    ("hausdorff4", Float16),
+    ("hamburger4", Float16),
+    ("vsm", Float32),
+    ("vsm", Unorm16),
+    ("lvsm", Float32),
+    ("lvsm", Unorm16),
+    ("hamburger6", Unorm10),
+    ("lvsm", Float16),
+    ("vsm", Float16),
+    ("evsm2", Float16),
+    ("esm", Float16),
+    ("convolution", Float16),
+    ("convolution", Unorm16),
+    ("convolution", Unorm8),
+    ("evsm2", Float32),
+    ("esm", Float32),
+    ("esm", Unorm16),
+];
 
 impl Technique {
     /// The encoding with the least error in pictures among those whose map has at most `bits` bits per texel, all planes, and that every
     /// device of the profile can write.
     ///
     /// The order is that of `moment-shadows-lab best`: the mean over procedural scenes, views and filters, on a software adapter. It is
-    /// of scenes of many fine casters and contacts; `moment-shadows-lab choose` measures yours. `None` for fewer than 16 bits.
+    /// of scenes of many fine casters and contacts; `moment-shadows-lab choose` measures yours. `None` where no map has so few bits.
     #[must_use]
     pub fn best(profile: Profile, bits: u32) -> Option<MapEncoding> {
         let all = Self::examples();
