@@ -105,7 +105,15 @@ pub(crate) fn prepare_cameras(
             ))
             .into());
         }
-        let camera = camera(&mut cameras.0, entity, &given, &compiled, &maps, &adapter, &device)?;
+        let camera = camera(
+            &mut cameras.0,
+            entity,
+            &given,
+            &compiled,
+            &maps,
+            &adapter,
+            &device,
+        )?;
         let seen = lights.of(view_lights, layers, &settings)?;
         camera.lit = !seen.views.is_empty();
         if !camera.lit {
@@ -166,7 +174,11 @@ fn camera<'a>(
         let target = HostTarget::scattered(given.target);
         let options = PipelineOptions {
             cache: None,
-            host_targets: compiled.scattering.iter().map(|pass| (pass.clone(), target)).collect(),
+            host_targets: compiled
+                .scattering
+                .iter()
+                .map(|pass| (pass.clone(), target))
+                .collect(),
         };
         let graph = compiled.text.parse()?;
         let session = Session::new(adapter, device.wgpu_device(), graph, &imports, options);
@@ -204,8 +216,7 @@ fn medium(
     let light = sun.color.to_vec3() * sun.illuminance * exposure;
     let air = settings.air;
     let (extinction, scattering) = (air.extinction, air.scattering);
-    let medium =
-        SingleScattering::new(extinction, scattering, air.asymmetry, light.to_array())?;
+    let medium = SingleScattering::new(extinction, scattering, air.asymmetry, light.to_array())?;
     Ok((medium, air.far))
 }
 
@@ -220,7 +231,10 @@ fn row(
     let eye = view.world_from_view.translation().as_dvec3();
     let clip = clip_from_world(view).as_mat4();
     let mut row = bytemuck::bytes_of(&ShadowCamera::new(clip)).to_vec();
-    let table = compiled.map.as_ref().and_then(|(_, encoding)| encoding.table());
+    let table = compiled
+        .map
+        .as_ref()
+        .and_then(|(_, encoding)| encoding.table());
     let size = camera.light_depth.width();
     for light in lights {
         let area = match table {
@@ -239,4 +253,3 @@ fn row(
     }
     Ok(row)
 }
-

@@ -29,7 +29,11 @@ pub(crate) fn filter(
         let mip = |texture, layer| wgpu::TexelCopyTextureInfo {
             texture,
             mip_level,
-            origin: wgpu::Origin3d { x: 0, y: 0, z: layer },
+            origin: wgpu::Origin3d {
+                x: 0,
+                y: 0,
+                z: layer,
+            },
             aspect: wgpu::TextureAspect::All,
         };
         let extent = wgpu::Extent3d {
@@ -59,13 +63,18 @@ pub(crate) fn scatter(
         view: target.main_texture_view(),
         depth_slice: None,
         resolve_target: None,
-        ops: wgpu::Operations { load: wgpu::LoadOp::Load, store: wgpu::StoreOp::Store },
+        ops: wgpu::Operations {
+            load: wgpu::LoadOp::Load,
+            store: wgpu::StoreOp::Store,
+        },
     };
-    let mut drawn = ctx.command_encoder().begin_render_pass(&wgpu::RenderPassDescriptor {
-        label: Some("moment-shadows/scattering"),
-        color_attachments: &[Some(attachment)],
-        ..Default::default()
-    });
+    let mut drawn = ctx
+        .command_encoder()
+        .begin_render_pass(&wgpu::RenderPassDescriptor {
+            label: Some("moment-shadows/scattering"),
+            color_attachments: &[Some(attachment)],
+            ..Default::default()
+        });
     Ok(draw(camera, pass, &mut drawn)?)
 }
 

@@ -21,15 +21,26 @@ pub(crate) fn register(
 ) -> Result<Modules, GraphError> {
     let mut handles = Vec::new();
     for module in moment_shadows::modules() {
-        let path = format!("embedded://moment_shadows/{}/{}.wesl", module.folder, module.name);
+        let path = format!(
+            "embedded://moment_shadows/{}/{}.wesl",
+            module.folder, module.name
+        );
         handles.push(shaders.add(Shader::from_wesl(module.source, path)));
     }
     let Some((map, encoding)) = &compiled.map else {
         return Ok(Modules { _handles: handles });
     };
     let row = encoding.technique().row();
-    let levels = if row.averaged_by_samplers { map.mips } else { 1 };
-    let levels = if levels > 1 { "textureNumLevels(moments_map)" } else { "1u" };
+    let levels = if row.averaged_by_samplers {
+        map.mips
+    } else {
+        1
+    };
+    let levels = if levels > 1 {
+        "textureNumLevels(moments_map)"
+    } else {
+        "1u"
+    };
     let mut constants = format!(
         "const STORAGE = {}u;\nconst PLANES = {}u;\nconst VIEWS = {}u;\nconst CAMERAS = {}u;\n",
         encoding.storage().wgsl_index(),
@@ -55,8 +66,14 @@ pub(crate) fn register(
             unsuitable("there are no soft shadows by the technique of this table; give its map 'hamburger4' or 'vsm'")
         })?;
         node("technique", text);
-        node("technique_map", include_str!("shaders/table.wesl").to_owned());
-        node("technique_soft", include_str!("shaders/soft.wesl").to_owned());
+        node(
+            "technique_map",
+            include_str!("shaders/table.wesl").to_owned(),
+        );
+        node(
+            "technique_soft",
+            include_str!("shaders/soft.wesl").to_owned(),
+        );
     } else {
         let sampled = row.averaged_by_samplers && kind(map, compiled) == 0;
         let lookup = match (sampled, kind(map, compiled)) {
@@ -73,11 +90,17 @@ pub(crate) fn register(
         }
         node("technique", technique);
         node("moments_lookup", lookup.replace("LEVELS", levels));
-        node("map_texel", include_str!("shaders/map_texel.wesl").to_owned());
+        node(
+            "map_texel",
+            include_str!("shaders/map_texel.wesl").to_owned(),
+        );
         let text = include_str!("shaders/technique_map.wesl");
         node("technique_map", text.replace("LEVELS", levels));
     }
-    node("technique_receiver", include_str!("shaders/technique_receiver.wesl").to_owned());
+    node(
+        "technique_receiver",
+        include_str!("shaders/technique_receiver.wesl").to_owned(),
+    );
     node("specialization", constants);
     let own = |name: &str| format!("embedded://moment_shadows_bevy/{name}.wesl");
     let parts = [

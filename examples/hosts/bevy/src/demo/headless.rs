@@ -16,14 +16,52 @@ use bevy::winit::WinitPlugin;
 
 use super::{Look, add_to};
 
-/// What cameras saw, and how long frames took once everything was compiled: the median.
-pub struct Drawn {
-    pub pictures: Vec<Image>,
-    pub frame: Duration,
+/// The scene as an application without a window.
+pub struct Stage {
+    app: App,
+    images: Vec<Handle<Image>>,
 }
 
-/// Draws a look in pictures of this size, with the median time of `frames` frames.
-pub fn draw(look: &Look, [width, height]: [u32; 2], frames: usize) -> Result<Drawn, String> {
+impl Stage {
+    /// A look in pictures of this size. Once it is there, assets are loaded and pipelines compiled.
+    #[must_use]
+    pub fn new(look: &Look, size: [u32; 2]) -> Self {
+        let (app, images) = open(look, size);
+        let mut stage = Self { app, images };
+        for _ in 0..WARM_UP {
+            stage.app.update();
+        }
+        stage
+    }
+
+    /// The median time of some frames, the device's work included.
+    pub fn frame_time(&mut self, frames: usize) -> Result<Duration, String> {
+        let mut times = Vec::new();
+        wait(&self.app)?;
+        for _ in 0..frames {
+            let start = Instant::now();
+            self.app.update();
+            wait(&self.app)?;
+            times.push(start.elapsed());
+        }
+        times.sort();
+        Ok(times.get(frames / 2).copied().unwrap_or_default())
+    }
+
+    /// What each camera sees.
+    pub fn pictures(&mut self) -> Result<Vec<Image>, String> {
+        let images = self.images.clone();
+        let images = images.into_iter();
+        images.map(|image| capture(&mut self.app, image)).collect()
+    }
+
+    /// The application, to change something in it between frames.
+    pub fn app(&mut self) -> &mut App {
+        &mut self.app
+    }
+}
+
+fn open(look: &Look, [width, height]: [u32; 2]) -> (App, Vec<Handle<Image>>) {
     let mut app = App::new();
     let window = WindowPlugin {
         primary_window: None,
@@ -50,34 +88,20 @@ pub fn draw(look: &Look, [width, height]: [u32; 2], frames: usize) -> Result<Dra
     };
     let mut images = app.world_mut().resource_mut::<Assets<Image>>();
     let images: Vec<Handle<Image>> = look.eyes.iter().map(|_| images.add(target())).collect();
-    let targets = images.iter().map(|image| RenderTarget::Image(image.clone().into()));
+    let targets = images
+        .iter()
+        .map(|image| RenderTarget::Image(image.clone().into()));
     let targets = targets.collect();
     add_to(&mut app, look, targets);
     app.finish();
     app.cleanup();
-    // Assets are loaded and pipelines compiled in the first frames.
-    for _ in 0..WARM_UP {
-        app.update();
-    }
-    let mut times = Vec::new();
-    for _ in 0..frames {
-        let start = Instant::now();
-        app.update();
-        wait(&app)?;
-        times.push(start.elapsed());
-    }
-    times.sort();
-    let frame = times.get(frames / 2).copied().unwrap_or_default();
-    let mut pictures = Vec::new();
-    for image in images {
-        pictures.push(capture(&mut app, image)?);
-    }
-    Ok(Drawn { pictures, frame })
+    (app, images)
 }
 
 static LOGGED: AtomicBool = AtomicBool::new(false);
 
-const WARM_UP: usize = 6;
+/// Frames until all is there.
+const WARM_UP: usize = 4;
 
 /// Waits until the device has drawn what was submitted.
 fn wait(app: &App) -> Result<(), String> {
@@ -89,12 +113,12 @@ fn wait(app: &App) -> Result<(), String> {
 fn capture(app: &mut App, image: Handle<Image>) -> Result<Image, String> {
     let (sender, receiver) = channel();
     let world = app.world_mut();
-    world.spawn(Screenshot::image(image)).observe(
-        move |captured: On<ScreenshotCaptured>| {
+    world
+        .spawn(Screenshot::image(image))
+        .observe(move |captured: On<ScreenshotCaptured>| {
             // Nobody listens any more once there is a picture.
             let _ = sender.send(captured.image.clone());
-        },
-    );
+        });
     for _ in 0..MOST_FRAMES {
         app.update();
         wait(app)?;

@@ -26,8 +26,8 @@ pub(super) fn spawn(commands: &mut Commands, meshes: &mut Assets<Mesh>, paint: P
         );
     };
     let (stone, wood, red) = ([0.55, 0.52, 0.48], [0.35, 0.22, 0.12], [0.6, 0.12, 0.1]);
-    body(&cube, [0.0, -0.25, 0.0], [48.0, 0.5, 48.0], [0.5; 3]);
-    body(&cube, [0.0, 4.0, -8.0], [48.0, 16.0, 0.5], stone);
+    body(&cube, [0.0, -0.25, 0.0], [112.0, 0.5, 112.0], [0.5; 3]);
+    body(&cube, [0.0, 8.0, -8.0], [112.0, 24.0, 0.5], stone);
     // Bodies: one stands, one lies, one floats.
     body(&cube, [2.6, 0.75, 2.6], [1.5, 1.5, 1.5], red);
     body(&ball, [4.6, 0.8, 0.4], [1.6, 1.6, 1.6], [0.15, 0.3, 0.55]);

@@ -2,8 +2,8 @@
 
 use bevy::core_pipeline::tonemapping::{DebandDither, Tonemapping};
 use bevy::light::{
-    CascadeShadowConfigBuilder, DirectionalLightShadowMap, FogVolume,
-    ShadowFilteringMethod, VolumetricFog, VolumetricLight,
+    CascadeShadowConfigBuilder, DirectionalLightShadowMap, FogVolume, ShadowFilteringMethod,
+    VolumetricFog, VolumetricLight,
 };
 use bevy::pbr::ExtendedMaterial;
 use bevy::prelude::*;
@@ -33,6 +33,10 @@ pub struct Look {
     pub shadows: bool,
     /// Cascades of the sun; 0 for a scene without a sun.
     pub cascades: usize,
+    /// Up to which distance from the camera there are shadows of the sun, in metres.
+    pub reach: f32,
+    /// Whether surfaces are black, so that the air alone is seen.
+    pub black: bool,
     /// The sun's angular diameter in radians, for soft shadows.
     pub sun: f64,
     /// Whether there is a spot light.
@@ -44,6 +48,8 @@ pub struct Look {
     pub map: usize,
     /// Samples per pixel.
     pub msaa: Msaa,
+    /// The depth bias in metres and the normal bias in texels of Bevy's own filter.
+    pub bias: [f32; 2],
 }
 
 /// The medium of both kinds of fog: 4 % of light are lost per metre, nine tenths of it scattered.
@@ -51,7 +57,7 @@ const EXTINCTION: f32 = 0.04;
 const SCATTERING: f32 = 0.036;
 const ASYMMETRY: f32 = 0.3;
 /// Half of the side of Bevy's volume of fog, which contains the scene and the cameras.
-const FOG_HALF_SIDE: f32 = 40.0;
+const FOG_HALF_SIDE: f32 = 60.0;
 
 impl Default for Look {
     fn default() -> Self {
@@ -60,12 +66,18 @@ impl Default for Look {
             enabled: true,
             shadows: true,
             cascades: 1,
+            reach: 30.0,
+            black: false,
             sun: 0.0,
             spot: false,
             fog: Fog::None,
             eyes: vec![Self::EYE],
             map: 1024,
             msaa: Msaa::Off,
+            bias: [
+                DirectionalLight::DEFAULT_SHADOW_DEPTH_BIAS,
+                DirectionalLight::DEFAULT_SHADOW_NORMAL_BIAS,
+            ],
         }
     }
 }
@@ -75,16 +87,10 @@ impl Look {
     pub const EYE: [Vec3; 2] = [Vec3::new(-5.5, 3.2, 8.5), Vec3::new(-0.3, 1.2, -0.5)];
     /// From the other side.
     pub const OTHER_EYE: [Vec3; 2] = [Vec3::new(7.0, 2.2, 5.0), Vec3::new(0.0, 1.2, -1.5)];
-
-    /// The graph of the look with a bias on Bevy's lights with which Bevy's own filter leaves ours alone.
-    fn bias(&self) -> f32 {
-        match self.graph {
-            // Beyond the shadow map of the light: Bevy takes every surface for lit, and looks nothing up.
-            Some(_) => 1e6,
-            None => DirectionalLight::DEFAULT_SHADOW_DEPTH_BIAS,
-        }
-    }
 }
+
+/// A depth bias that leads out of the shadow map of a directional light: Bevy takes every surface for lit, and looks nothing up.
+const BEVY_IS_LIT: f32 = 1e6;
 
 /// Adds the scene, seen by a camera for each target, to an application that has `DefaultPlugins`.
 pub fn add_to(app: &mut App, look: &Look, targets: Vec<bevy::camera::RenderTarget>) {
@@ -104,7 +110,7 @@ pub fn add_to(app: &mut App, look: &Look, targets: Vec<bevy::camera::RenderTarge
                 extinction: [EXTINCTION; 3],
                 scattering: [SCATTERING; 3],
                 asymmetry: ASYMMETRY,
-                far: 60.0,
+                far: f64::from(look.reach),
             },
             ..default()
         });
@@ -138,8 +144,23 @@ pub fn add_to(app: &mut App, look: &Look, targets: Vec<bevy::camera::RenderTarge
     world.flush();
 }
 
+/// The sun, turned by the tangents of two angles.
+#[must_use]
+pub fn sun([x, y]: [f32; 2]) -> Transform {
+    let straight = Transform::from_xyz(0.45, 0.8, 0.4).looking_at(Vec3::ZERO, Vec3::Y);
+    let towards = *straight.back() + x * straight.right() + y * straight.up();
+    Transform::from_translation(towards).looking_at(Vec3::ZERO, Vec3::Y)
+}
+
 fn spawn_bodies(app: &mut App, look: &Look) {
-    let filtered = look.graph.is_some();
+    let (filtered, black) = (look.graph.is_some(), look.black);
+    let tint = move |mut base: StandardMaterial| {
+        if black {
+            base.base_color = Color::BLACK;
+            base.reflectance = 0.0;
+        }
+        base
+    };
     let world = app.world_mut();
     world.resource_scope(|world, mut meshes: Mut<Assets<Mesh>>| {
         world.resource_scope(|world, mut plain: Mut<Assets<StandardMaterial>>| {
@@ -147,14 +168,14 @@ fn spawn_bodies(app: &mut App, look: &Look) {
                 type Extended = ExtendedMaterial<StandardMaterial, FilteredShadows>;
                 world.resource_scope(|world, mut extended: Mut<Assets<Extended>>| {
                     scene::spawn(&mut world.commands(), &mut meshes, &mut |entity, base| {
-                        let extension = FilteredShadows {};
+                        let (base, extension) = (tint(base), FilteredShadows {});
                         let material = extended.add(ExtendedMaterial { base, extension });
                         entity.insert(MeshMaterial3d(material));
                     });
                 });
             } else {
                 scene::spawn(&mut world.commands(), &mut meshes, &mut |entity, base| {
-                    entity.insert(MeshMaterial3d(plain.add(base)));
+                    entity.insert(MeshMaterial3d(plain.add(tint(base))));
                 });
             }
         });
@@ -167,7 +188,7 @@ fn spawn_lights(commands: &mut Commands, look: &Look) {
         let cascades = CascadeShadowConfigBuilder {
             num_cascades: look.cascades,
             minimum_distance: 0.1,
-            maximum_distance: 30.0,
+            maximum_distance: look.reach,
             first_cascade_far_bound: 9.0,
             ..default()
         };
@@ -175,10 +196,15 @@ fn spawn_lights(commands: &mut Commands, look: &Look) {
             DirectionalLight {
                 illuminance: 3500.0,
                 shadow_maps_enabled: look.shadows,
-                shadow_depth_bias: look.bias(),
+                shadow_depth_bias: if look.graph.is_some() {
+                    BEVY_IS_LIT
+                } else {
+                    look.bias[0]
+                },
+                shadow_normal_bias: look.bias[1],
                 ..default()
             },
-            Transform::from_xyz(0.45, 0.8, 0.4).looking_at(Vec3::ZERO, Vec3::Y),
+            sun([0.0; 2]),
             cascades.build(),
             VolumetricLight,
         ));
@@ -191,6 +217,8 @@ fn spawn_lights(commands: &mut Commands, look: &Look) {
                 outer_angle: 0.6,
                 inner_angle: 0.5,
                 shadow_maps_enabled: look.shadows,
+                shadow_depth_bias: look.bias[0],
+                shadow_normal_bias: look.bias[1],
                 ..default()
             },
             Transform::from_xyz(3.5, 8.0, 7.5).looking_at(Vec3::new(-1.0, 0.5, 0.5), Vec3::Y),
