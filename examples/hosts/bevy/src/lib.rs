@@ -18,3 +18,8 @@ mod table;
 pub use material::FilteredShadows;
 pub use moment_shadows_graph::LightSize;
 pub use plugin::{Air, MomentShadows, MomentShadowsPlugin};
+
+/// What the page about Bevy tells a reader to write compiles.
+#[cfg(doctest)]
+#[doc = include_str!("../../../../docs/bevy.md")]
+mod page {}

@@ -111,7 +111,8 @@ pub(crate) fn prepare_maps(
         mag_filter: FilterMode::Linear,
         min_filter: FilterMode::Linear,
         mipmap_filter: MipmapFilterMode::Linear,
-        anisotropy_clamp: 8,
+        // Only where there are mip levels: some drivers filter anisotropically by where the next pixel looks, which may be another layer.
+        anisotropy_clamp: if whole.mip_level_count() > 1 { 8 } else { 1 },
         ..Default::default()
     });
     let table = device.create_buffer(&wgpu::BufferDescriptor {

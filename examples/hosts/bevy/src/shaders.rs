@@ -75,7 +75,8 @@ pub(crate) fn register(
             include_str!("shaders/soft.wesl").to_owned(),
         );
     } else {
-        let sampled = row.averaged_by_samplers && kind(map, compiled) == 0;
+        let anisotropic = map.mips == 1 || compiled.capabilities.anisotropic_sampling;
+        let sampled = row.averaged_by_samplers && anisotropic && kind(map, compiled) == 0;
         let lookup = match (sampled, kind(map, compiled)) {
             (true, _) => include_str!("shaders/lookup_sampled.wesl").to_owned(),
             (false, kind) => {

@@ -6,7 +6,7 @@ use common::{difference, drawn, filtered, radiance};
 use moment_shadows_bevy::demo::{Fog, Look};
 
 /// Bevy's fog with so many steps that more change nothing that can be seen is the truth of both: it has the same medium.
-const MANY_STEPS: u32 = 512;
+const MANY_STEPS: u32 = 256;
 
 /// Fog over the whole view, which is closed: where Bevy's shadow map ends, its fog is dark.
 fn foggy(look: Look) -> Look {

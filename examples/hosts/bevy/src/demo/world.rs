@@ -48,8 +48,10 @@ pub struct Look {
     pub map: usize,
     /// Samples per pixel.
     pub msaa: Msaa,
-    /// The depth bias in metres and the normal bias in texels of Bevy's own filter.
+    /// The depth bias in metres and the normal bias in texels of Bevy's own filter of the sun.
     pub bias: [f32; 2],
+    /// The same of the spot light.
+    pub spot_bias: [f32; 2],
 }
 
 /// The medium of both kinds of fog: 4 % of light are lost per metre, nine tenths of it scattered.
@@ -77,6 +79,10 @@ impl Default for Look {
             bias: [
                 DirectionalLight::DEFAULT_SHADOW_DEPTH_BIAS,
                 DirectionalLight::DEFAULT_SHADOW_NORMAL_BIAS,
+            ],
+            spot_bias: [
+                SpotLight::DEFAULT_SHADOW_DEPTH_BIAS,
+                SpotLight::DEFAULT_SHADOW_NORMAL_BIAS,
             ],
         }
     }
@@ -217,8 +223,8 @@ fn spawn_lights(commands: &mut Commands, look: &Look) {
                 outer_angle: 0.6,
                 inner_angle: 0.5,
                 shadow_maps_enabled: look.shadows,
-                shadow_depth_bias: look.bias[0],
-                shadow_normal_bias: look.bias[1],
+                shadow_depth_bias: look.spot_bias[0],
+                shadow_normal_bias: look.spot_bias[1],
                 ..default()
             },
             Transform::from_xyz(3.5, 8.0, 7.5).looking_at(Vec3::new(-1.0, 0.5, 0.5), Vec3::Y),

@@ -7,7 +7,7 @@ use bevy::image::Image;
 use moment_shadows_bevy::demo::{Look, Stage};
 
 /// Width and height of pictures.
-pub const SIZE: [u32; 2] = [640, 360];
+pub const SIZE: [u32; 2] = [480, 270];
 
 /// A picture: red, green and blue of each pixel, from 0 to 255.
 pub type Picture = Vec<f64>;
@@ -69,6 +69,7 @@ pub fn truth(look: &Look) -> Look {
     Look {
         graph: None,
         bias: [0.35, 0.0],
+        spot_bias: [0.08, 0.0],
         ..look.clone()
     }
 }
