@@ -35,9 +35,18 @@ pub fn pictures(name: &str, stage: &mut Stage) -> Vec<Picture> {
 fn kept(name: &str, image: Image) -> Picture {
     let pixels = image.try_into_dynamic().expect("a picture of 8 bits");
     let pixels = pixels.to_rgb8();
+    let picture = pixels.into_raw().into_iter().map(f64::from).collect();
+    keep(name, &picture);
+    picture
+}
+
+/// Keeps a picture as a file.
+pub fn keep(name: &str, picture: &Picture) {
+    let pixels = picture.iter().map(|value| value.round() as u8).collect();
+    let pixels =
+        image::RgbImage::from_raw(SIZE[0], SIZE[1], pixels).expect("a picture of this size");
     let path = format!("{}/{name}.png", env!("CARGO_TARGET_TMPDIR"));
     pixels.save(path).expect("a folder that can be written");
-    pixels.into_raw().into_iter().map(f64::from).collect()
 }
 
 /// The mean difference of two pictures, of 255.
