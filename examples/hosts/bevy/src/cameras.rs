@@ -77,10 +77,9 @@ pub(crate) fn prepare_cameras(
     };
     let mut table = vec![0; maps.cameras as usize * maps.row()];
     if !settings.enabled {
+        // Sessions stay for when it is switched on again.
+        cameras.0.values_mut().for_each(|camera| camera.lit = false);
         queue.write_buffer(&bound.table, 0, &table);
-    }
-    if !settings.enabled || views.is_empty() {
-        cameras.0.clear();
         return Ok(());
     }
     cameras.0.retain(|entity, _| views.contains(*entity));

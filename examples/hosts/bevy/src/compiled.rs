@@ -57,6 +57,11 @@ impl Compiled {
                 )));
             }
         }
+        if graph.outputs.is_empty() {
+            return Err(unsuitable(format!(
+                "it has no output; name one '{SHADOW_MAP}' or '{SCATTERING}'"
+            )));
+        }
         let depth = |layers| {
             let size = [NOMINAL; 2];
             let desc = TextureDesc::new(TextureFormat::Depth32Float, size);

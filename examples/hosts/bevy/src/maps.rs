@@ -89,8 +89,10 @@ pub(crate) fn prepare_maps(
         None => texture(small, 1, 1, 1),
         Some(map) => {
             let mips = match map.mips {
-                1 => 1,
-                _ => TextureDesc::most_levels([size; 2]),
+                all if all == TextureDesc::most_levels(map.size) => {
+                    TextureDesc::most_levels([size; 2])
+                }
+                mips => mips,
             };
             texture(map.wgpu_format(), size, layers, mips)
         }

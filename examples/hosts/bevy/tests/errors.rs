@@ -2,6 +2,7 @@
 
 mod common;
 
+use bevy::light::{CascadeShadowConfigBuilder, DirectionalLight};
 use common::{SIZE, filtered};
 use moment_shadows_bevy::demo::{Fog, Look, Stage};
 
@@ -26,6 +27,29 @@ fn an_import_that_bevy_does_not_have() {
 #[should_panic(expected = "nothing in Bevy takes the output 'moments'")]
 fn an_output_that_bevy_does_not_take() {
     Stage::new(&changed("hamburger4", "shadow_map", "moments"), SIZE);
+}
+
+#[test]
+#[should_panic(expected = "it has no output")]
+fn a_graph_without_an_output() {
+    let output = "{ \"name\": \"shadow_map\", \"from\": \"blur.blurred\" }";
+    Stage::new(&changed("hamburger4", output, ""), SIZE);
+}
+
+#[test]
+#[should_panic(expected = "two directional lights have shadow maps")]
+fn two_suns() {
+    let mut stage = Stage::new(&filtered("hamburger4"), SIZE);
+    let sun = DirectionalLight {
+        shadow_maps_enabled: true,
+        ..Default::default()
+    };
+    let cascades = CascadeShadowConfigBuilder {
+        num_cascades: 1,
+        ..Default::default()
+    };
+    stage.app().world_mut().spawn((sun, cascades.build()));
+    let _ = stage.pictures();
 }
 
 #[test]

@@ -87,6 +87,32 @@ fn cascades_beside_bevys_own_filter() {
 }
 
 #[test]
+fn a_map_with_mip_levels() {
+    let (truth, _) = drawn("mips_truth", &truth(&Look::default()));
+    let mut look = filtered("hamburger4");
+    let graph = look.graph.as_mut().expect("a graph");
+    let downsample = "{ \"name\": \"downsample\", \"type\": \"downsample\" }";
+    let edge = "{ \"from\": \"blur.blurred\", \"to\": \"downsample.map\" }";
+    *graph = graph
+        .replace(
+            "1] } } }",
+            &format!("1] }}, \"mip_levels\": \"all\" }} }}, {downsample}"),
+        )
+        .replace(
+            "\"to\": \"blur.map\" }",
+            &format!("\"to\": \"blur.map\" }}, {edge}"),
+        )
+        .replace(
+            "\"shadow_map\", \"from\": \"blur.blurred\"",
+            "\"shadow_map\", \"from\": \"downsample.map\"",
+        );
+    let (ours, _) = drawn("mips", &look);
+    let apart = difference(&ours, &truth);
+    println!("with mip levels: {apart:.3} of 255");
+    assert!(apart < 1.0, "{apart}");
+}
+
+#[test]
 fn several_samples_per_pixel() {
     let look = |look: Look| Look {
         msaa: bevy::render::view::Msaa::Sample4,
