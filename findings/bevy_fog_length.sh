@@ -21,6 +21,8 @@ name = "fog"
 version = "0.0.0"
 edition = "2024"
 
+[workspace]
+
 [dependencies]
 bevy = { version = "=0.20.1", default-features = false, features = [
     "std", "async_executor", "bevy_log", "bevy_asset", "bevy_render", "bevy_core_pipeline", "bevy_pbr", "bevy_winit", "png", "x11",

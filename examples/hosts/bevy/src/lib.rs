@@ -14,6 +14,7 @@ mod node;
 mod plugin;
 mod shaders;
 mod table;
+mod warnings;
 
 pub use material::FilteredShadows;
 pub use moment_shadows_graph::LightSize;

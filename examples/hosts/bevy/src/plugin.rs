@@ -15,7 +15,7 @@ use crate::cameras::{Cameras, prepare_cameras, read_camera_depth};
 use crate::compiled::Compiled;
 use crate::maps::{Maps, prepare_maps};
 use crate::material::{FILTERED_SHADOWS_SHADER, FilteredShadows};
-use crate::{node, shaders};
+use crate::{node, shaders, warnings};
 
 /// Filters Bevy's shadow maps by a graph. Add it after `DefaultPlugins`.
 pub struct MomentShadowsPlugin {
@@ -130,6 +130,9 @@ impl Plugin for MomentShadowsPlugin {
         let handles = shaders::register(&compiled, &mut shaders, FILTERED_SHADOWS_SHADER)
             .unwrap_or_else(|error| panic!("the graph of MomentShadowsPlugin: {error}"));
         app.insert_resource(handles);
+        if compiled.map.is_some() {
+            app.add_systems(Update, warnings::found.pipe(warnings::say));
+        }
         app.sub_app_mut(RenderApp)
             .insert_resource(Maps::new(&compiled))
             .insert_resource(compiled);
