@@ -24,7 +24,7 @@ pub(crate) const FILTERED_SHADOWS_SHADER: Handle<Shader> =
 #[derive(Asset, TypePath, Clone, Debug, Default)]
 pub struct FilteredShadows {}
 
-/// Bindings in the material's group; `lookup_*.wesl`, `table.wesl` and `receiver.wesl` have the same numbers.
+/// Bindings in the material's group; `lookup_*.wesl`, `table.wesl` and `shadow_view.wesl` have the same numbers.
 const TEXTURES: [u32; 3] = [100, 102, 103];
 const SAMPLER: u32 = 101;
 const TABLE: u32 = 104;

@@ -4,7 +4,7 @@ use bevy::math::{DMat4, DVec3, DVec4, Mat4};
 use bytemuck::{Pod, Zeroable};
 use moment_shadows::{AreaLight, DepthConversion, LeakReduction, LightView, ReceiverBias};
 
-/// A view of a light: `ShadowView` of `receiver.wesl`.
+/// A view of a light: `ShadowView` of `shadow_view.wesl`.
 #[derive(Clone, Copy, Debug, Pod, Zeroable)]
 #[repr(C)]
 pub(crate) struct ShadowView {
@@ -23,7 +23,7 @@ pub(crate) struct ShadowView {
     padding: u32,
 }
 
-/// The head of a camera's row: `ShadowCamera` of `receiver.wesl`. It is recognised by its matrix, since materials are bound once for
+/// The head of a camera's row: `ShadowCamera` of `shadow_view.wesl`. It is recognised by its matrix, since materials are bound once for
 /// all cameras.
 #[derive(Clone, Copy, Debug, Pod, Zeroable)]
 #[repr(C)]
