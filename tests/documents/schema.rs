@@ -45,6 +45,7 @@ fn every_graph_of_the_repository_is_taken() {
         "tests/support",
         "examples/egui_host",
         "examples/hosts/frame_graph/graphs",
+        "examples/hosts/bevy/graphs",
     ];
     let all: Vec<_> = folders.into_iter().flat_map(graphs).collect();
     assert!(all.len() >= 9, "{}", all.len());
