@@ -13,7 +13,8 @@ use crate::kept;
 const INTRODUCTION: &str = "# The graph file
 
 A graph file is JSON: what a renderer gives (`imports`), `nodes`, the `edges` between them, and what the renderer takes (`outputs`). Keys
-that are not listed here are errors, which name the node, the slot and the place in the file. Order does not matter.
+that are not listed here are errors, which name the node, the slot and the place in the file; a `comment` beside them is for people. Order does
+not matter.
 
 The [schema](../graph/graph_file.schema.json) lets an editor complete and check a file that names it:
 `\"$schema\": \"graph_file.schema.json\"`. This page and the schema are generated from the code; a test holds both.
