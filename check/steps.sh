@@ -93,6 +93,7 @@ run_wesl_npm() {
   awk '/^```/ { inside = /js$/; next } inside' packages/npm/README.md |
     (cd check && node --input-type=module) >"$work/npm_readme.wgsl"
   grep -q 'fn hamburger4_shadow_intensity_of_texel' "$work/npm_readme.wgsl"
+  node check/linked.mjs
   cargo test --release --locked --workspace --test wesl the_npm_package -- --ignored --nocapture
 }
 

@@ -56,6 +56,7 @@ function build(folder) {
   const text = `export const weslBundle = ${JSON.stringify(bundle, null, 2)};\n\nexport default weslBundle;\n`;
   writeFileSync(join(folder, 'dist/weslBundle.js'), text);
   writeFileSync(join(folder, 'dist/weslBundle.d.ts'), DECLARATION);
+  for (const file of ['linked.js', 'linked.d.ts']) cpSync(join(here, file), join(folder, 'dist', file));
   cpSync(join(here, 'README.md'), join(folder, 'README.md'));
   for (const licence of ['LICENSE-APACHE', 'LICENSE-MIT']) cpSync(join(repository, licence), join(folder, licence));
   console.log(`${folder}: ${manifest.name} ${manifest.version}, ${Object.keys(bundle.modules).length} modules`);

@@ -8,6 +8,7 @@
 
 mod choose;
 mod inspect;
+mod sweep;
 mod truth;
 mod whole;
 

@@ -8,7 +8,7 @@ use clap::{CommandFactory, FromArgMatches, Parser, Subcommand};
 use crate::command::cost::CostOptions;
 use crate::command::{
     CommandResult, best, bias, choose, error, error_table, inspect, isa, measure, ports, probe,
-    render, scattering_error, scattering_flicker, shaders, soft_error, stability,
+    render, scattering_error, scattering_flicker, shaders, soft_error, stability, sweep,
     technique_pictures, trade, troubleshooting_pictures, vectors,
 };
 use crate::isa::child;
@@ -49,6 +49,9 @@ enum Command {
     /// Chooses technique, storage, map and samples for a scene within bounds, and writes the graph. Exits with 3 if nothing keeps to the
     /// bounds; the nearest is printed then.
     Choose(choose::Options),
+    /// Times all techniques over the size of the map, that of the picture and the width of the filter, as ratios to percentage-closer
+    /// filtering.
+    Sweep(sweep::Options),
     /// Prints which technique and storage errs least for its bits in a finished trade.
     Best(best::Options),
     /// Prints what a scene asks of its shadows: surfaces under the filter, the part of the light's range that is used, texels per pixel.
@@ -115,6 +118,7 @@ fn run(command: Command) -> CommandResult {
         Command::ErrorTable(options) => options.run(),
         Command::Trade(options) => options.run(),
         Command::Choose(options) => options.run(),
+        Command::Sweep(options) => options.run(),
         Command::Best(options) => options.run(),
         Command::Probe(options) => options.run(),
         Command::Inspect(options) => options.run(),

@@ -38,6 +38,7 @@ pub mod soft;
 pub mod stability;
 pub mod summed_area;
 pub mod surface_error;
+pub mod sweep;
 pub mod techniques;
 mod texture;
 pub mod trade;

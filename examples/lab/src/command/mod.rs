@@ -19,6 +19,7 @@ pub mod scattering_flicker;
 pub mod shaders;
 pub mod soft_error;
 pub mod stability;
+pub mod sweep;
 pub mod technique_pictures;
 pub mod trade;
 pub mod troubleshooting_pictures;

@@ -11,6 +11,7 @@ pub mod choose;
 mod crop;
 pub mod front;
 pub mod held_out;
+mod identity;
 pub mod inspect;
 pub mod interval;
 mod isa;
@@ -94,7 +95,7 @@ impl Trade {
             self.load(scene)?;
         }
         let gpu = Gpu::open_with(self.profile, FEATURES)?;
-        let setting = self.setting(&gpu);
+        let setting = self.setting(&gpu)?;
         if let Some(finished) = self.finished(folder, &setting) {
             return Ok(finished);
         }
@@ -169,7 +170,7 @@ impl Trade {
     pub fn probe(&self, name: &str) -> Result<Vec<ViewProbe>, LabError> {
         let file = Self::graph()?;
         let gpu = Gpu::open(self.profile)?;
-        let setting = self.setting(&gpu);
+        let setting = self.setting(&gpu)?;
         let (scene, setups) = self.load(name)?;
         Stage::of(&gpu, (&file, &self.axes), &setting, &scene).probes(&setups)
     }
@@ -213,10 +214,11 @@ impl Trade {
         Ok((scene, setups))
     }
 
-    fn setting(&self, gpu: &Gpu) -> Setting {
+    fn setting(&self, gpu: &Gpu) -> Result<Setting, LabError> {
         let info = gpu.adapter.get_info();
-        Setting {
+        Ok(Setting {
             library: env!("CARGO_PKG_VERSION").to_owned(),
+            of: identity::identity(&self.scenes)?,
             adapter: format!("{}, {} {}", info.name, info.driver, info.driver_info),
             profile: self.profile.name().to_owned(),
             is_software: info.device_type == wgpu::DeviceType::Cpu,
@@ -228,7 +230,7 @@ impl Trade {
             rounds: self.rounds,
             ground: self.ground,
             axes: self.axes.described(),
-        }
+        })
     }
 
     /// The findings in the order of the axes.

@@ -27,6 +27,9 @@ pub struct Results {
 pub struct Setting {
     /// The version of the library.
     pub library: String,
+    /// What the command itself is, and what scenes hold: the beginning of the SHA-256 of its file, and of each scene's with its views.
+    /// What another build or another file has given is not taken for this one's.
+    pub of: Vec<String>,
     /// The adapter and its driver.
     pub adapter: String,
     /// What the device offers.

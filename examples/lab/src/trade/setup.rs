@@ -99,7 +99,8 @@ impl SceneSetup {
     }
 }
 
-fn path_beside(scene: &str) -> PathBuf {
+/// Where the views of a scene would be.
+pub(super) fn path_beside(scene: &str) -> PathBuf {
     Path::new(scene).with_extension(ENDING)
 }
 

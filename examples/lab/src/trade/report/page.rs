@@ -53,14 +53,17 @@ fn title(section: &Section<'_>) -> String {
         1 => "1 texel".to_owned(),
         radius => format!("{radius} texels"),
     };
-    format!("{}, filtered by {texels}", escaped(section.scene))
+    let views = match section.rows.first().map_or(0, |line| line.row.views.len()) {
+        1 => "1 view".to_owned(),
+        views => format!("{views} views"),
+    };
+    format!("{}, filtered by {texels}, {views}", escaped(section.scene))
 }
 
 /// What the figures are of.
 fn setting(results: &Results) -> String {
     let setting = &results.setting;
     let [width, height] = setting.picture;
-    let [views, first] = setting.views;
     let time = match setting.is_software {
         true => {
             "The adapter is a processor, so times rank what is done as a processor does it: for a graphics card the charts of \
@@ -71,9 +74,8 @@ fn setting(results: &Results) -> String {
     format!(
         "<p>Errors are mean absolute differences of shadow intensity in percent of full shadow, against percentage-closer filtering \
          of {} samples per texel of a map of {}² texels, whatever the map of the technique: a smaller map and fewer samples are \
-         errors too. <b>Picture</b>: over the pixels of {width}x{height} that face the light, the mean of {views} views from number \
-         {first} on, with the interval that another view of the scene lies in with 90 %: take it for what is seen from such \
-         cameras. <b>All surfaces</b>: over everything that the light's rays meet, hidden or not: take it where cameras go \
+         errors too. <b>Picture</b>: over the pixels of {width}x{height} that face the light, the mean of the views, with the \
+         interval that another view of the scene lies in with 90 %: take it for what is seen from such cameras. <b>All surfaces</b>: over everything that the light's rays meet, hidden or not: take it where cameras go \
          anywhere, and for what leaks behind occluders.</p>\n\
          <p>Times are in copies of a map of 1024² texels of 64 bits by a compute shader, in the same rounds. {time}. Instructions \
          are those of the shader that shades, by the compiler for RDNA 2, where the kept table has its row.</p>\n\
