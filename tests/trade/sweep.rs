@@ -50,9 +50,13 @@ fn every_technique_is_timed_at_every_place() {
         panic!("two filters");
     };
     // 16 and 1,156 taps per pixel: no timing decides this.
-    for row in 2..names.len() {
-        let [narrow, wide] = [narrow, wide].map(|times| times.of_percentage_closer[row].median);
-        assert!(wide < 0.5 * narrow, "{}: {narrow} {wide}", names[row]);
+    let rows = narrow
+        .of_percentage_closer
+        .iter()
+        .zip(&wide.of_percentage_closer);
+    for (name, (narrow, wide)) in names.iter().zip(rows).skip(2) {
+        let [narrow, wide] = [narrow, wide].map(|ratio| ratio.median);
+        assert!(wide < 0.5 * narrow, "{name}: {narrow} {wide}");
     }
     let text = swept.to_string();
     assert!(
