@@ -37,7 +37,7 @@ pub use stage::Stage;
 use self::axes::{Axes, Cell};
 use self::journal::{Finding, Journal};
 use self::probe::ViewProbe;
-use self::results::{Results, Row, SceneResults, Setting, VERSION};
+use self::results::{JobResults, Results, Row, SceneResults, Setting, VERSION};
 use self::setup::{SceneSetup, ViewSetup};
 use crate::cost::clock::FEATURES;
 use crate::error::LabError;
@@ -251,7 +251,22 @@ impl Trade {
             version: VERSION,
             setting,
             scenes,
+            jobs: journal.findings.iter().filter_map(job_of).collect(),
         })
+    }
+}
+
+/// What a finding says of another job.
+fn job_of(finding: &Finding) -> Option<JobResults> {
+    match finding {
+        Finding::Job {
+            job, scene, report, ..
+        } => Some(JobResults {
+            job: job.clone(),
+            scene: scene.clone(),
+            report: report.clone(),
+        }),
+        Finding::Row { .. } | Finding::Probe { .. } => None,
     }
 }
 

@@ -2,6 +2,7 @@
 
 use moment_shadows::{Storage, Technique};
 use serde::{Deserialize, Serialize};
+use serde_json::Value;
 
 use super::axes::Cell;
 use super::probe::ViewProbe;
@@ -20,6 +21,19 @@ pub struct Results {
     pub setting: Setting,
     /// A scene each.
     pub scenes: Vec<SceneResults>,
+    /// What other jobs than hard shadows have compared.
+    pub jobs: Vec<JobResults>,
+}
+
+/// What a job has compared on a scene.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct JobResults {
+    /// `soft` or `air`.
+    pub job: String,
+    /// The scene as it was named.
+    pub scene: String,
+    /// The reports of `soft-error` or `scattering-error`, as these write them.
+    pub report: Value,
 }
 
 /// What is the same for all scenes. A trade that goes on where another stopped has the same.
