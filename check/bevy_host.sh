@@ -8,24 +8,9 @@ out=$(realpath -m "${CARGO_TARGET_DIR:-target}")/check/bevy_host
 mkdir -p "$out"
 rm -rf "$out"/target/tmp
 
-as_root() {
-  if [ "$(id -u)" = 0 ]; then "$@"; else sudo "$@"; fi
-}
-
-# The screen, what finds windows and takes pictures of them, and what winit and Mesa load while they run.
-need_packages() {
-  if command -v Xvfb xdotool import >/dev/null && ldconfig -p | grep -q libxkbcommon-x11; then return; fi
-  if ! command -v apt-get >/dev/null; then
-    echo "Xvfb, xdotool, ImageMagick and the X11 client libraries are needed; install them and try again." >&2
-    exit 1
-  fi
-  as_root apt-get update -qq
-  as_root env DEBIAN_FRONTEND=noninteractive apt-get install -y -qq --no-install-recommends xvfb xdotool imagemagick \
-    libx11-6 libx11-xcb1 libxcb1 libxcb-dri3-0 libxcb-present0 libxcb-randr0 libxcb-shm0 libxcb-sync1 libxcb-xfixes0 \
-    libxcursor1 libxi6 libxkbcommon-x11-0 >/dev/null
-}
-
-need_packages
+# shellcheck source=check/screen.sh
+source check/screen.sh
+need_screen
 # Its own target folder: its dependencies are others than those of the workspace. Bevy names a newer Rust than it needs.
 cargo=(--release --locked --ignore-rust-version --manifest-path examples/hosts/bevy/Cargo.toml --target-dir "$out/target")
 cargo build --quiet "${cargo[@]}"

@@ -10,6 +10,7 @@ import { join } from 'node:path';
 import { isDeepStrictEqual } from 'node:util';
 import { createRecorder } from '../graph/js/recorder.js';
 import { resized } from '../graph/js/resize.js';
+import { command } from './command.mjs';
 import { openDevice } from './dawn.mjs';
 import { makeImports, sizesOfPlan } from './plan_imports.mjs';
 import { HANDLED, PLANTED } from './planted/plans.mjs';
@@ -152,15 +153,4 @@ async function main(folder) {
   return refused === 0;
 }
 
-if (process.argv.length !== 3) {
-  console.error('usage: node plans.mjs FOLDER');
-  process.exit(2);
-}
-main(process.argv[2]).then(
-  // An open device keeps the process alive.
-  (passed) => process.exit(passed ? 0 : 1),
-  (error) => {
-    console.error(error.message);
-    process.exit(1);
-  },
-);
+await command('node plans.mjs FOLDER', main);

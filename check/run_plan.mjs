@@ -18,6 +18,7 @@ import {
   write,
 } from '../graph/js/parameters.js';
 import { createRecorder } from '../graph/js/recorder.js';
+import { command } from './command.mjs';
 
 Object.assign(globalThis, globals);
 
@@ -172,15 +173,4 @@ async function main(file) {
   return faults.length === 0 && mean < LARGEST_MEAN_ERROR && dark > 1000 && partly > 100;
 }
 
-if (process.argv.length !== 3) {
-  console.error('usage: node run_plan.mjs PLAN');
-  process.exit(2);
-}
-main(process.argv[2]).then(
-  // An open device keeps the process alive.
-  (passed) => process.exit(passed ? 0 : 1),
-  (error) => {
-    console.error(error.message);
-    process.exit(1);
-  },
-);
+await command('node run_plan.mjs PLAN', main);

@@ -8,6 +8,7 @@
 import { readFileSync } from 'node:fs';
 import { dirname, join } from 'node:path';
 import { fileURLToPath } from 'node:url';
+import { command } from './command.mjs';
 import { judge, openDevice } from './dawn.mjs';
 
 // What a profile may rely on, as WebGPU names it.
@@ -60,15 +61,4 @@ async function main(folder) {
   return refused === 0 && shaders.length > 0;
 }
 
-if (process.argv.length !== 3) {
-  console.error('usage: node tint.mjs FOLDER');
-  process.exit(2);
-}
-main(process.argv[2]).then(
-  // An open device keeps the process alive.
-  (passed) => process.exit(passed ? 0 : 1),
-  (error) => {
-    console.error(error.message);
-    process.exit(1);
-  },
-);
+await command('node tint.mjs FOLDER', main);
