@@ -2,6 +2,7 @@
 
 use core::fmt;
 
+use moment_shadows::Profile;
 use serde::Serialize;
 
 use super::trade::Varied;
@@ -17,8 +18,21 @@ pub struct Options {
     /// Radii of the filter, in texels of the largest map.
     #[arg(long, value_name = "N,...", value_delimiter = ',', default_values = ["2", "6"], value_parser = clap::value_parser!(u32).range(1..=64))]
     radius: Vec<u32>,
-    #[command(flatten)]
-    varied: Varied,
+    /// Smaller pictures and two views.
+    #[arg(long)]
+    quick: bool,
+    /// Texels per side of the light's map.
+    #[arg(long, default_value_t = 1024, value_parser = clap::value_parser!(u32).range(64..=4096))]
+    map: u32,
+    /// How many views are looked at. By default 4, with --quick 2. Scenes with a file of views have those.
+    #[arg(long, value_parser = clap::value_parser!(u32).range(1..=64))]
+    views: Option<u32>,
+    /// The number of the first view.
+    #[arg(long, default_value_t = 0)]
+    first_view: u32,
+    /// Leaves out the ground plane, which otherwise touches the scene's lowest point.
+    #[arg(long)]
+    no_ground: bool,
     /// Prints JSON.
     #[arg(long)]
     json: bool,
@@ -39,7 +53,17 @@ impl Options {
     /// Prints what all views ask for.
     pub fn run(self) -> CommandResult {
         let scenes = vec![self.scene.clone()];
-        let trade = self.varied.trade(scenes, self.radius, vec![Job::Hard])?;
+        let varied = Varied {
+            quick: self.quick,
+            profile: Profile::WebgpuCore,
+            map: vec![self.map],
+            samples: Vec::new(),
+            technique: Vec::new(),
+            views: self.views,
+            first_view: self.first_view,
+            no_ground: self.no_ground,
+        };
+        let trade = varied.trade(scenes, self.radius, vec![Job::Hard])?;
         let report = Report {
             views: trade.probe(&self.scene)?,
             scene: self.scene,

@@ -38,7 +38,7 @@ use self::axes::{Axes, Cell};
 use self::journal::{Finding, Journal};
 use self::probe::ViewProbe;
 use self::results::{JobResults, Results, Row, SceneResults, Setting, VERSION};
-use self::setup::{SceneSetup, ViewSetup};
+use self::setup::{SceneSetup, ViewSetup, path_beside};
 use crate::cost::clock::FEATURES;
 use crate::error::LabError;
 use crate::frame::Frame;
@@ -93,6 +93,7 @@ impl Trade {
         // What is wrong with a scene is said before the work.
         for scene in &self.scenes {
             self.load(scene)?;
+            tell_of_views(scene)?;
         }
         let gpu = Gpu::open_with(self.profile, FEATURES)?;
         let setting = self.setting(&gpu)?;
@@ -172,6 +173,7 @@ impl Trade {
         let gpu = Gpu::open(self.profile)?;
         let setting = self.setting(&gpu)?;
         let (scene, setups) = self.load(name)?;
+        tell_of_views(name)?;
         Stage::of(&gpu, (&file, &self.axes), &setting, &scene).probes(&setups)
     }
 
@@ -254,6 +256,18 @@ impl Trade {
             jobs: journal.findings.iter().filter_map(job_of).collect(),
         })
     }
+}
+
+/// Says that a scene's own views are taken, which arguments about views do not change.
+fn tell_of_views(scene: &str) -> Result<(), LabError> {
+    if let Some(given) = SceneSetup::beside(scene)? {
+        let (count, file) = (given.views.len(), path_beside(scene));
+        eprintln!(
+            "{scene}: the {count} views of {} are judged, whatever else is said of views",
+            file.display()
+        );
+    }
+    Ok(())
 }
 
 /// What a finding says of another job.
