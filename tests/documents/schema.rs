@@ -73,6 +73,8 @@ fn settings_in_every_form_are_taken() {
         json!({ "technique": { "pcf": { "weights": [1, 2, 1] } } }),
         json!({ "storage": "best", "mip_levels": "all" }),
         json!({ "storage": "unorm16", "mip_levels": 3 }),
+        json!({ "technique": "best" }),
+        json!({ "technique": "best", "bits": 128 }),
     ] {
         assert!(resolve(properties.clone()), "{properties}");
     }
@@ -85,7 +87,7 @@ fn settings_in_every_form_are_taken() {
 
 #[test]
 fn what_is_wrong_is_refused_by_both() {
-    let wrong: [fn(&mut Value); 18] = [
+    let wrong: [fn(&mut Value); 19] = [
         |file| file["extra"] = json!(1),
         |file| file["$schema"] = json!(1),
         |file| file["version"] = json!(3),
@@ -101,6 +103,7 @@ fn what_is_wrong_is_refused_by_both() {
         |file| file["nodes"][0]["properties"]["storage"] = json!("unorm15"),
         |file| file["nodes"][0]["properties"]["technique"] = json!("evsm5"),
         |file| file["nodes"][0]["properties"]["technique"] = json!({ "vsm": {}, "esm": {} }),
+        |file| file["nodes"][0]["properties"]["bits"] = json!(-64),
         |file| file["nodes"][1]["properties"] = json!({}),
         |file| file["edges"][0]["via"] = json!("x"),
         |file| file["outputs"][0] = json!({ "name": "x" }),

@@ -7,6 +7,7 @@
 )]
 
 mod arbitrary;
+mod best;
 mod declarations;
 mod drawn;
 mod example;

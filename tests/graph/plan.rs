@@ -94,7 +94,8 @@ fn compiling_and_describing_are_repeatable() {
     let connected = Connected::new(&inputs, &capabilities);
     let nodes: [Box<dyn Node>; 4] = [
         Box::new(Resolve {
-            technique: moment_shadows::Technique::Hamburger4,
+            technique: Some(moment_shadows::Technique::Hamburger4),
+            bits: None,
             storage: vec![moment_shadows::Storage::Float16],
             mip_levels: Some(1),
         }),

@@ -280,7 +280,8 @@ fn structs_of_the_nodes_are_laid_out_alike() {
 fn nodes_declare_the_structs_that_their_shaders_bind() {
     let nodes = [
         described(&Resolve {
-            technique: Technique::Hamburger4,
+            technique: Some(Technique::Hamburger4),
+            bits: None,
             storage: vec![Storage::Float16],
             mip_levels: Some(1),
         }),

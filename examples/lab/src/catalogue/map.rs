@@ -13,7 +13,8 @@ const REGIONS: u32 = 16;
 
 fn resolve(map: &MapEncoding) -> Variant {
     let node = Resolve {
-        technique: map.technique().clone(),
+        technique: Some(map.technique().clone()),
+        bits: None,
         storage: vec![map.storage()],
         mip_levels: Some(1),
     };

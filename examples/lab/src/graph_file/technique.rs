@@ -48,6 +48,7 @@ impl GraphFile {
                     remove_property(node, "technique");
                 } else if node["name"] == resolve.as_str() && !technique.reads_depth() {
                     node["properties"]["technique"] = json!(technique);
+                    remove_property(node, "bits");
                     if let Some(storage) = storage {
                         node["properties"]["storage"] = json!(storage);
                     }

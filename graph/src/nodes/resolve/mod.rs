@@ -1,10 +1,9 @@
 //! Turns a light's depth map into a map of moments.
 
-use core::fmt;
+mod best;
+
 use moment_shadows::{MapEncoding, Profile, Storage, Technique, ValueError};
-use serde::de::value::SeqAccessDeserializer;
-use serde::de::{self, IntoDeserializer, SeqAccess, Visitor};
-use serde::{Deserialize, Deserializer};
+use serde::Deserialize;
 
 use super::shared::{depth_input, mip_levels, regions, wrong_property};
 use super::techniques;
@@ -18,13 +17,18 @@ use crate::{Connected, GraphError, Node, NodeDesc, Stage, TextureRule, bind};
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[serde(deny_unknown_fields)]
 pub struct Resolve {
-    /// What the map is made for; nodes that read it need not be told.
+    /// What the map is made for; nodes that read it need not be told. None, or `"best"` in a file, where it is left to the
+    /// library with its storage: those with the least error for the bits on devices of the profile, as recorded.
+    #[serde(default = "best::usual", deserialize_with = "best::technique")]
+    #[cfg_attr(feature = "schema", schemars(schema_with = "best::technique_schema", extend("default" = "hamburger4")))]
+    pub technique: Option<Technique>,
+    /// With `"best"`: how many bits a texel of the map has at most, all planes; 64 where it is left out.
     #[serde(default)]
-    pub technique: Technique,
+    pub bits: Option<u32>,
     /// How the moments are stored: the first of these that the device can write. Empty, or `"best"` in a file, where it is
     /// left to the library: that with the least error per bit.
-    #[serde(default, deserialize_with = "storages")]
-    #[cfg_attr(feature = "schema", schemars(schema_with = "storages_schema", extend("default" = "best")))]
+    #[serde(default, deserialize_with = "best::storages")]
+    #[cfg_attr(feature = "schema", schemars(schema_with = "best::storages_schema", extend("default" = "best")))]
     pub storage: Vec<Storage>,
     /// Room for mip levels, for a map that is not blurred, as that of [`super::Blur`].
     #[serde(default = "mip_levels::one", deserialize_with = "mip_levels::read")]
@@ -32,59 +36,36 @@ pub struct Resolve {
     pub mip_levels: Option<u32>,
 }
 
-fn storages<'de, D: Deserializer<'de>>(file: D) -> Result<Vec<Storage>, D::Error> {
-    file.deserialize_any(Storages)
-}
-
-#[cfg(feature = "schema")]
-fn storages_schema(generator: &mut schemars::SchemaGenerator) -> schemars::Schema {
-    let storage = generator.subschema_for::<Storage>();
-    schemars::json_schema!({
-        "anyOf": [{ "const": "best" }, storage, { "type": "array", "items": storage }],
-    })
-}
-
-/// A storage, several in the order of preference, or `"best"`.
-struct Storages;
-
-impl<'de> Visitor<'de> for Storages {
-    type Value = Vec<Storage>;
-
-    fn expecting(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.write_str("a storage, a list of storages or \"best\"")
-    }
-
-    fn visit_str<E: de::Error>(self, name: &str) -> Result<Vec<Storage>, E> {
-        if name == "best" {
-            return Ok(Vec::new());
-        }
-        Ok(vec![Storage::deserialize(name.into_deserializer())?])
-    }
-
-    fn visit_seq<A: SeqAccess<'de>>(self, list: A) -> Result<Vec<Storage>, A::Error> {
-        Vec::deserialize(SeqAccessDeserializer::new(list))
-    }
-}
-
 impl Resolve {
     /// How the map is encoded on a device of the profile; if the device can write none of the storages, as the last one.
     ///
     /// # Errors
-    /// [`ValueError`], if the technique has not one of the storages, or its settings are out of range.
+    /// [`ValueError`], if the technique has not one of the storages, its settings are out of range, or no map has so few
+    /// bits.
     pub fn encoding(&self, profile: Profile) -> Result<MapEncoding, ValueError> {
+        let Some(technique) = &self.technique else {
+            return self.best(profile);
+        };
+        if let Some(bits) = self.bits {
+            let message = format!(
+                "{bits} beside the technique '{}'; it goes with \"best\"",
+                technique.name()
+            );
+            return Err(ValueError::new("'bits'", message));
+        }
         let storages = match self.storage.as_slice() {
-            [] => self.technique.row().storages,
+            [] => technique.row().storages,
             given => given,
         };
         let encodings = storages
             .iter()
-            .map(|&storage| MapEncoding::new(self.technique.clone(), storage))
+            .map(|&storage| MapEncoding::new(technique.clone(), storage))
             .collect::<Result<Vec<_>, _>>()?;
         let written = encodings.iter().find(|it| it.check(profile).is_ok());
         match written.or(encodings.last()) {
             Some(encoding) => Ok(encoding.clone()),
             // A technique that reads the plain depth map has no storages; whatever is asked of it says so.
-            None => MapEncoding::new(self.technique.clone(), Storage::Float32),
+            None => MapEncoding::new(technique.clone(), Storage::Float32),
         }
     }
 }
@@ -93,9 +74,9 @@ impl Node for Resolve {
     fn describe(&self, upstream: &Connected<'_>) -> Result<NodeDesc, GraphError> {
         let depth = upstream.texture("depth")?;
         let mips = mip_levels::count(self.mip_levels, depth.size)?;
-        let technique = &self.technique;
         let profile = upstream.capabilities().profile;
         let encoding = self.encoding(profile).map_err(wrong_property)?;
+        let technique = encoding.technique();
         let wgsl = techniques::of_map(upstream.capabilities(), &encoding)
             .alias("DepthTexture", depth_input::texture_type(depth))
             .unsigned("REGIONS", depth.regions)
