@@ -1,7 +1,7 @@
 //! What the processor peels and evaluates against what the device draws.
 
 use glam::DVec2;
-use moment_shadows::{Profile, ReceiverBias, Storage, Technique};
+use moment_shadows::{MapEncoding, Profile, ReceiverBias, Storage, Technique};
 use moment_shadows_lab::candidate::Candidate;
 use moment_shadows_lab::command::render::LightChoice;
 use moment_shadows_lab::frame::Frame;
@@ -112,12 +112,20 @@ fn points_are_evaluated_as_by_shade_hard() {
     let gpu = Gpu::open(Profile::NativeAdapter).unwrap();
     let scene = scene::load("hall").unwrap();
     let frame = frame(&gpu, &scene, (256, 4), 4);
-    for encoding in techniques::filterable() {
+    let placed = |encoding: &MapEncoding| {
+        let lloyd = techniques::variant(encoding.technique())?;
+        let lloyd = MapEncoding::new(lloyd, encoding.storage()).ok()?;
+        lloyd.technique().row().places_layers.then_some(lloyd)
+    };
+    let mut encodings = techniques::filterable();
+    encodings.extend(encodings.iter().find_map(placed));
+    for encoding in encodings {
         let candidate = Candidate::Filterable(encoding.clone());
         let file = candidate.graph(&graph(Storage::Float32, 4)).unwrap();
         let run = MapRun::new(&gpu, &frame, &file).unwrap();
         let map = run.map(&frame).unwrap();
-        assert_eq!(map.desc.encoding, Some(encoding.clone()));
+        let is_placed = encoding.technique().row().places_layers;
+        assert_eq!(map.desc.encoding != Some(encoding.clone()), is_placed);
         let (points, shaded) = shaded_points(&frame, &run, &gpu);
         assert!(points.len() > 20_000);
         let evaluation = Evaluation {

@@ -146,14 +146,18 @@ impl GraphFile {
             .find("edges", "to", &slot)
             .map(|edge| edge["from"].as_str().unwrap_or_default().to_owned())
             .ok_or_else(|| unsuitable("no edge leads to the moments of its shade_hard node"))?;
-        if let Some(output) = self.find("outputs", "from", &source) {
+        self.with_output(&source, "lab_filtered_map")
+    }
+
+    /// This graph with what a slot gives as a further output of this name, and the output's name, if there is one already its.
+    pub(crate) fn with_output(&self, slot: &str, name: &str) -> Result<(Self, String), LabError> {
+        if let Some(output) = self.find("outputs", "from", slot) {
             let name = output["name"].as_str().unwrap_or_default().to_owned();
             return Ok((self.edited(|_| ())?, name));
         }
-        let name = "lab_filtered_map".to_owned();
-        let output = serde_json::json!({ "name": name, "from": source });
+        let output = serde_json::json!({ "name": name, "from": slot });
         let file = self.edited(|file| push(file, "outputs", output))?;
-        Ok((file, name))
+        Ok((file, name.to_owned()))
     }
 
     /// An entry of a node as the file has it, such as its type; null where it is missing.

@@ -132,19 +132,19 @@ pub(crate) fn figures(mut errors: Vec<f64>) -> ErrorFigures {
 /// What stands for a figure over an empty set of pixels.
 pub const NO_PIXEL: &str = "no pixel";
 
-/// A figure as text; `none` where it is NaN, over an empty set.
+/// An error as text, the unit of all tables: percent of full shadow. `none` where it is NaN, over an empty set.
 #[must_use]
-pub fn figure(figure: f64, decimals: usize, none: &str) -> String {
-    match figure.is_nan() {
+pub fn percent(error: f64, none: &str) -> String {
+    match error.is_nan() {
         true => none.to_owned(),
-        false => format!("{figure:.decimals$}"),
+        false => format!("{:.3}", 100.0 * error),
     }
 }
 
 impl ErrorFigures {
-    /// The number of samples and all figures in columns of this width, each after a space; `none` for those over an empty set.
+    /// The number of samples and all figures in percent in columns, each after a space; `none` for those over an empty set.
     #[must_use]
-    pub fn columns(&self, width: usize, decimals: usize, none: &str) -> String {
+    pub fn columns(&self, none: &str) -> String {
         let figures = [
             self.mean_absolute,
             self.leaking,
@@ -152,9 +152,9 @@ impl ErrorFigures {
             self.percentile_95,
             self.maximum,
         ];
-        let figures = figures.map(|value| figure(value, decimals, none));
+        let figures = figures.map(|value| percent(value, none));
         let cells = core::iter::once(self.samples.to_string()).chain(figures);
-        cells.map(|cell| format!(" {cell:>width$}")).collect()
+        cells.map(|cell| format!(" {cell:>10}")).collect()
     }
 }
 
@@ -162,23 +162,24 @@ impl fmt::Display for Comparison {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         writeln!(
             f,
-            "{:<9} {:>9} {:>9} {:>9} {:>9} {:>9} {:>9}",
-            "pixels", "count", "mean abs", "leaking", "too dark", "95 %", "maximum"
+            "{:<9} {:>10} {:>10} {:>10} {:>10} {:>10} {:>10}",
+            "percent", "pixels", "mean abs", "leaking", "too dark", "95 %", "maximum"
         )?;
         for (name, row) in [("facing", &self.facing), ("penumbra", &self.penumbra)] {
-            writeln!(f, "{name:<9}{}", row.columns(9, 6, NO_PIXEL))?;
+            writeln!(f, "{name:<9}{}", row.columns(NO_PIXEL))?;
         }
         write!(
             f,
-            "whole picture: mean abs {:.6}, NaN pixels {}",
-            self.picture_mean_absolute, self.nan_pixels
+            "whole picture: mean abs {:.3} %, NaN pixels {}",
+            100.0 * self.picture_mean_absolute,
+            self.nan_pixels
         )
     }
 }
 
 impl fmt::Display for Excess {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let percent = |ratio: Option<f64>| {
+        let excess = |ratio: Option<f64>| {
             ratio.map_or_else(
                 || "undefined".to_owned(),
                 |ratio| format!("{:+.1} %", 100.0 * ratio),
@@ -187,8 +188,8 @@ impl fmt::Display for Excess {
         write!(
             f,
             "excess over the exact bound: error {}, leaking {}",
-            percent(self.error),
-            percent(self.leaking)
+            excess(self.error),
+            excess(self.leaking)
         )
     }
 }

@@ -30,6 +30,7 @@
 mod evaluate;
 mod judged_map;
 mod map_point;
+mod placed;
 
 use std::sync::Arc;
 

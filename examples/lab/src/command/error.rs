@@ -211,7 +211,7 @@ impl ErrorSubject {
         let map = run.map(frame)?;
         let shadow = run.graph.read_shadow(gpu, &run.file)?;
         Ok(GraphErrors {
-            technique: map.technique(),
+            technique: file.technique().unwrap_or_else(|| map.technique()),
             storage: map.storage(),
             bits_per_texel: map.bits_per_texel(),
             surfaces: self.surfaces.judge(gpu, &map, run.shading, moment_bias)?,
@@ -334,7 +334,13 @@ impl fmt::Display for ErrorReport {
         writeln!(
             f,
             "{:<26} {:>10} {:>10} {:>10} {:>10} {:>10} {:>10}",
-            "mean absolute error", "samples", "mean abs", "leaking", "too dark", "95 %", "maximum"
+            "percent of full shadow",
+            "samples",
+            "mean abs",
+            "leaking",
+            "too dark",
+            "95 %",
+            "maximum"
         )?;
         let rows: [(&str, &ErrorFigures); 6] = [
             ("all surfaces, shading", &surfaces.shading),
@@ -346,7 +352,7 @@ impl fmt::Display for ErrorReport {
         ];
         for (index, (name, figures)) in rows.into_iter().enumerate() {
             let none = if index < 4 { "no surface" } else { NO_PIXEL };
-            writeln!(f, "{name:<26}{}", figures.columns(10, 7, none))?;
+            writeln!(f, "{name:<26}{}", figures.columns(none))?;
         }
         Ok(())
     }

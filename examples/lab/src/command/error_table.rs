@@ -18,7 +18,7 @@ use crate::cost::table::columns;
 use crate::error::LabError;
 use crate::gpu::Gpu;
 use crate::graph_file::GraphFile;
-use crate::metric::{NO_PIXEL, figure};
+use crate::metric::{NO_PIXEL, percent};
 use crate::picture::create_folder;
 use crate::progress;
 use crate::techniques::described;
@@ -180,7 +180,7 @@ impl fmt::Display for ErrorTable {
         let cells = |row: &ErrorRow| {
             let errors = &row.errors;
             let shading = &errors.surfaces.shading;
-            let percent = |error: f64| figure(100.0 * error, 3, "no surface");
+            let of_surfaces = |error: f64| percent(error, "no surface");
             let facing = errors.surfaces.shading_facing.mean_absolute;
             vec![
                 ("scene", row.scene.clone()),
@@ -190,19 +190,19 @@ impl fmt::Display for ErrorTable {
                 ("bits", errors.bits_per_texel.to_string()),
                 ("surfaces", shading.samples.to_string()),
                 ("peels", errors.surfaces.peels.to_string()),
-                ("error", percent(shading.mean_absolute)),
-                ("leaking", percent(shading.leaking)),
-                ("too dark", percent(shading.overdarkening)),
-                ("95 %", percent(shading.percentile_95)),
-                ("maximum", percent(shading.maximum)),
-                ("facing", percent(facing)),
+                ("error", of_surfaces(shading.mean_absolute)),
+                ("leaking", of_surfaces(shading.leaking)),
+                ("too dark", of_surfaces(shading.overdarkening)),
+                ("95 %", of_surfaces(shading.percentile_95)),
+                ("maximum", of_surfaces(shading.maximum)),
+                ("facing", of_surfaces(facing)),
                 (
                     "distribution",
-                    percent(errors.surfaces.distribution.mean_absolute),
+                    of_surfaces(errors.surfaces.distribution.mean_absolute),
                 ),
                 (
                     "picture",
-                    figure(100.0 * errors.picture.facing.mean_absolute, 3, NO_PIXEL),
+                    percent(errors.picture.facing.mean_absolute, NO_PIXEL),
                 ),
             ]
         };

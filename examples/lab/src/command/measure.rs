@@ -14,7 +14,7 @@ use crate::error::LabError;
 use crate::gpu::Gpu;
 use crate::graph_frame::GraphFrame;
 use crate::judgement::{Judgement, Truth};
-use crate::metric::{NO_PIXEL, figure};
+use crate::metric::{NO_PIXEL, percent};
 use crate::progress;
 
 /// What `measure` takes.
@@ -81,8 +81,8 @@ fn rows(
                 None => &*truth.insert(Truth::of(&gpu, &frame, &file)?),
             };
             let Judgement { error, excess, .. } = truth.judge(&shadow)?;
-            let figure = |value: f64| figure(value, 5, NO_PIXEL);
-            let percent = |ratio: Option<f64>| {
+            let figure = |value: f64| percent(value, NO_PIXEL);
+            let excess_of = |ratio: Option<f64>| {
                 ratio.map_or("-".to_owned(), |ratio| format!("{:+.1} %", 100.0 * ratio))
             };
             let bound = truth.bound_error.facing.mean_absolute;
@@ -94,8 +94,8 @@ fn rows(
                 ("leaking", figure(error.facing.leaking)),
                 ("too dark", figure(error.facing.overdarkening)),
                 ("bound", figure(bound)),
-                ("excess", percent(excess.error)),
-                ("leak exc.", percent(excess.leaking)),
+                ("excess", excess_of(excess.error)),
+                ("leak exc.", excess_of(excess.leaking)),
                 ("NaN", error.nan_pixels.to_string()),
             ]);
             bar.inc(1);

@@ -18,7 +18,7 @@ use crate::graph_file::GraphFile;
 use crate::graph_frame::GraphFrame;
 use crate::judgement::{Judgement, Truth};
 use crate::light::LightShape;
-use crate::metric::{NO_PIXEL, figure};
+use crate::metric::{NO_PIXEL, percent};
 use crate::picture::{check_picture, grey, save_grey, save_rgba, signed_difference};
 use crate::progress;
 use crate::scene::{self, Scene};
@@ -211,7 +211,10 @@ impl Options {
             println!("exact bound on the same depths\n{}", truth.bound_error);
             println!("{}", judgement.excess);
             let error = judgement.error.facing.mean_absolute;
-            println!("mean absolute error {}", figure(error, 6, NO_PIXEL));
+            println!(
+                "mean absolute error in percent: {}",
+                percent(error, NO_PIXEL)
+            );
         }
         Ok(ExitCode::SUCCESS)
     }

@@ -17,7 +17,7 @@ use crate::graph_file::GraphFile;
 use crate::graph_frame::GraphFrame;
 use crate::host::read_gbuffer;
 use crate::judgement::{PictureTruth, Unfiltered};
-use crate::metric::compare;
+use crate::metric::{NO_PIXEL, compare, percent};
 use crate::picture::{create_folder, save_panels, signed_difference};
 use crate::progress;
 use crate::scene::{self, Scene, contacts, place_on_ground, stacked_boards};
@@ -147,8 +147,8 @@ fn draw(out: &Path, view: &str, only: Option<&str>) -> Result<Vec<Vec<Cell<'stat
                 map.map_or("-".to_owned(), |map| map.bits_per_texel().to_string()),
             ),
             ("planes", map.map_or(0, MapEncoding::planes).to_string()),
-            ("on view", format!("{:.5}", on_view.error)),
-            ("failing", format!("{:.5}", failing.error)),
+            ("on view, percent", percent(on_view.error, NO_PIXEL)),
+            ("failing, percent", percent(failing.error, NO_PIXEL)),
         ]);
         bar.inc(1);
     }

@@ -145,7 +145,7 @@ impl GraphFile {
         Ok(self.kernel()?.as_ref().map_or(0, Kernel::radius))
     }
 
-    pub(super) fn node_of(&self, node_type: &str) -> Option<Value> {
+    pub(crate) fn node_of(&self, node_type: &str) -> Option<Value> {
         self.find("nodes", "type", node_type)
     }
 

@@ -4,6 +4,7 @@ use serde::Serialize;
 
 use super::truth::MarchedRays;
 use crate::compare::{Errors, Row, Table};
+use crate::metric::{NO_PIXEL, percent};
 
 /// How far a picture is off.
 #[derive(Clone, Debug, Serialize)]
@@ -69,7 +70,7 @@ impl Errors for ScatteringErrors {
     fn tables(rows: &[Row<Self>]) -> Vec<Table> {
         let cells = |row: &Row<ScatteringErrors>| {
             let errors = &row.errors;
-            let [red, green, blue] = errors.plain.mean_absolute.map(|it| format!("{it:.4}"));
+            let [red, green, blue] = errors.plain.mean_absolute.map(|it| percent(it, NO_PIXEL));
             let bias = errors.plain.mean.iter().sum::<f64>() / 3.0;
             let steps = equal_steps(rows, errors.plain.overall()).filter(|_| errors.ours);
             let steps = steps.map(|(steps, side)| match side {
@@ -78,14 +79,14 @@ impl Errors for ScatteringErrors {
                 _ => format!("{steps:.0}"),
             });
             vec![
-                ("mean absolute", row.name.clone()),
+                ("percent of mean radiance", row.name.clone()),
                 ("fetches", errors.fetches.to_string()),
                 ("red", red),
                 ("green", green),
                 ("blue", blue),
-                ("bias", format!("{bias:+.4}")),
-                ("largest", format!("{:.3}", errors.plain.largest)),
-                ("filtered", format!("{:.4}", errors.filtered.overall())),
+                ("bias", format!("{:+.3}", 100.0 * bias)),
+                ("largest", percent(errors.plain.largest, NO_PIXEL)),
+                ("filtered", percent(errors.filtered.overall(), NO_PIXEL)),
                 ("steps", steps.unwrap_or("-".to_owned())),
                 ("NaN", errors.plain.not_finite.to_string()),
             ]

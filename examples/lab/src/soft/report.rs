@@ -3,7 +3,7 @@
 use serde::Serialize;
 
 use crate::compare::{Errors, Row, Table};
-use crate::metric::{Comparison, ErrorFigures, NO_PIXEL, figure};
+use crate::metric::{Comparison, ErrorFigures, NO_PIXEL, percent};
 
 /// How far a picture is off.
 #[derive(Clone, Debug, Serialize)]
@@ -16,12 +16,12 @@ impl Errors for SoftErrors {
     fn tables(rows: &[Row<Self>]) -> Vec<Table> {
         type Figures = fn(&Comparison) -> &ErrorFigures;
         let sets: [(&str, Figures); 2] = [
-            ("facing", |error| &error.facing),
-            ("penumbra", |error| &error.penumbra),
+            ("percent, facing", |error| &error.facing),
+            ("percent, penumbra", |error| &error.penumbra),
         ];
         let errors = sets.map(|(name, figures)| {
             let cells = |row: &Row<Self>| {
-                let (error, figure) = (&row.errors.error, |value: f64| figure(value, 5, NO_PIXEL));
+                let (error, figure) = (&row.errors.error, |value: f64| percent(value, NO_PIXEL));
                 let of = figures(error);
                 vec![
                     (name, row.name.clone()),

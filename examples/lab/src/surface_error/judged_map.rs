@@ -1,6 +1,6 @@
 //! The map that a graph shades with, once the graph has run.
 
-use moment_shadows::{Storage, Technique};
+use moment_shadows::{MapEncoding, Storage, Technique};
 use moment_shadows_graph::{ResourceDesc, TextureDesc};
 
 use super::Evaluation;
@@ -9,6 +9,7 @@ use crate::frame::Frame;
 use crate::gpu::Gpu;
 use crate::graph_file::GraphFile;
 use crate::graph_frame::{GraphFrame, imports};
+use crate::surface_error::placed::PlacedLayers;
 
 /// A graph that has run, and gives out its map.
 pub struct MapRun {
@@ -21,6 +22,7 @@ pub struct MapRun {
     /// The output of the filtered map; none where the plain depth map is read.
     output: Option<String>,
     technique: Option<Technique>,
+    placed: Option<PlacedLayers>,
 }
 
 /// A map, and how it is evaluated.
@@ -47,14 +49,19 @@ impl MapRun {
             let (file, output) = file.with_filtered_map()?;
             (file, Some(output))
         };
+        let (file, mut placed) = PlacedLayers::of(file)?;
         let graph = GraphFrame::new(gpu, frame, &file)?;
         graph.run(gpu)?;
+        if let Some(placed) = &mut placed {
+            placed.read(gpu, &graph)?;
+        }
         Ok(Self {
             shading: Evaluation::shading(frame, &file)?,
             file,
             graph,
             output,
             technique,
+            placed,
         })
     }
 
@@ -62,6 +69,9 @@ impl MapRun {
     pub fn rerun(&mut self, gpu: &Gpu, frame: &Frame) -> Result<(), LabError> {
         self.graph.rebind(gpu, frame, &self.file)?;
         self.graph.run(gpu)?;
+        if let Some(placed) = &mut self.placed {
+            placed.read(gpu, &self.graph)?;
+        }
         self.shading = Evaluation::shading(frame, &self.file)?;
         Ok(())
     }
@@ -76,17 +86,24 @@ impl MapRun {
                 desc.map(|desc| (&frame.light_map.texture, desc))
             }
         };
-        let (texture, desc) = found.ok_or_else(|| {
+        let (texture, mut desc) = found.ok_or_else(|| {
             LabError::unsuitable(
                 &self.file.name,
                 "the input of its shade_hard node is no map",
             )
         })?;
+        let mut technique = self.technique.clone();
+        if let (Some(placed), Some(map)) = (&self.placed, &mut desc.encoding) {
+            let unsuitable = |error| LabError::unsuitable(&self.file.name, error);
+            let known = placed.technique(map.technique()).map_err(unsuitable)?;
+            *map = MapEncoding::new(known.clone(), map.storage()).map_err(unsuitable)?;
+            technique = Some(known);
+        }
         Ok(JudgedMap {
             name: self.file.name.clone(),
             texture,
             desc,
-            technique: self.technique.clone(),
+            technique,
         })
     }
 
@@ -108,7 +125,7 @@ impl JudgedMap<'_> {
         let made_for = self.desc.encoding.as_ref();
         let technique = self.technique.as_ref();
         technique
-            .or(made_for.map(moment_shadows::MapEncoding::technique))
+            .or(made_for.map(MapEncoding::technique))
             .cloned()
             .unwrap_or_default()
     }

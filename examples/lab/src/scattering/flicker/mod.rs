@@ -18,6 +18,7 @@ pub use walk::chains;
 use crate::cost::table::columns as write_columns;
 use crate::error::LabError;
 use crate::gpu::Gpu;
+use crate::metric::{NO_PIXEL, percent};
 use crate::scene::Scene;
 
 /// A pixel is static while its true radiance, with shadows and without, changes by at most this from frame to frame, in parts of
@@ -141,12 +142,12 @@ impl fmt::Display for Flicker {
         let cells = |(name, change): (&str, &Change)| {
             let part = change.largest / self.unfiltered.largest;
             vec![
-                ("change per frame", name.to_owned()),
-                ("largest", format!("{:.5}", change.largest)),
+                ("percent per frame", name.to_owned()),
+                ("largest", percent(change.largest, NO_PIXEL)),
                 ("part", format!("{part:.3}")),
-                ("1/1000", format!("{:.5}", change.thousandth)),
-                ("mean", format!("{:.6}", change.mean)),
-                ("less truth's", format!("{:.5}", change.largest_less_truth)),
+                ("1/1000", percent(change.thousandth, NO_PIXEL)),
+                ("mean", percent(change.mean, NO_PIXEL)),
+                ("less truth's", percent(change.largest_less_truth, NO_PIXEL)),
             ]
         };
         write_columns(f, &rows.map(cells))?;
