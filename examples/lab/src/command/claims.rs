@@ -35,7 +35,7 @@ impl Options {
             true => Extent::Quick,
             false => Extent::Full,
         };
-        let found = judge(&CLAIMS, extent)?;
+        let found = judge(CLAIMS, extent)?;
         let table = found.to_string();
         let text = serde_json::to_string_pretty(&found)? + "\n";
         let mut files = vec![
