@@ -86,6 +86,7 @@ claims! {
     STORAGE, HPG17, "16 bits per moment leak noticeably more than 32" => Leaking, "hamburger4 float32" <= 0.9 * "hamburger4 unorm16";
     STORAGE, GI08, "layers do with 16 bits per channel" => Picture, "lvsm unorm16" <= 1.05 * "lvsm float32";
     LEAKS, JCGT17, "four moments in 64 bits leak less than exponential variance" => Leaking, "hamburger4 unorm16" <= 1.0 * "evsm4 float16";
+    LEAKS, JCGT17, "four moments in 64 bits leak less than exponential variance" => Leaking, "hamburger4 float16" <= 1.0 * "evsm4 float16";
     LEAKS, JCGT17, "four moments in 128 bits leak less than exponential variance" => Leaking, "hamburger4 float32" <= 1.0 * "evsm4 float32";
     LEAKS, EXPONENTIAL, "exponential variance leaks less than variance" => Leaking, "evsm4 float32" <= 1.0 * "vsm float32";
     LEAKS, EXPONENTIAL, "exponential variance leaks less than layers of the same size" => Leaking, "evsm4 float32" <= 1.0 * "lvsm unorm16";
