@@ -7,6 +7,7 @@
 )]
 
 mod best;
+mod claims;
 mod graph_file;
 mod links;
 mod plan;

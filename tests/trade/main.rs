@@ -7,6 +7,7 @@
 )]
 
 mod choose;
+mod claims;
 mod inspect;
 mod sweep;
 mod truth;

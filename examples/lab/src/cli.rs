@@ -7,8 +7,8 @@ use clap::{CommandFactory, FromArgMatches, Parser, Subcommand};
 
 use crate::command::cost::CostOptions;
 use crate::command::{
-    CommandResult, best, bias, choose, error, error_table, inspect, isa, measure, ports, probe,
-    render, scattering_error, scattering_flicker, shaders, soft_error, stability, sweep,
+    CommandResult, best, bias, choose, claims, error, error_table, inspect, isa, measure, ports,
+    probe, render, scattering_error, scattering_flicker, shaders, soft_error, stability, sweep,
     technique_pictures, trade, troubleshooting_pictures, vectors,
 };
 use crate::isa::child;
@@ -52,6 +52,8 @@ enum Command {
     /// Times all techniques over the size of the map, that of the picture and the width of the filter, as ratios to percentage-closer
     /// filtering.
     Sweep(sweep::Options),
+    /// Measures what papers claim of shadow maps, soft shadows, light in the air and times, and prints a verdict on each.
+    Claims(claims::Options),
     /// Prints which technique and storage errs least for its bits in a finished trade.
     Best(best::Options),
     /// Prints what a scene asks of its shadows: surfaces under the filter, the part of the light's range that is used, texels per pixel.
@@ -119,6 +121,7 @@ fn run(command: Command) -> CommandResult {
         Command::Trade(options) => options.run(),
         Command::Choose(options) => options.run(),
         Command::Sweep(options) => options.run(),
+        Command::Claims(options) => options.run(),
         Command::Best(options) => options.run(),
         Command::Probe(options) => options.run(),
         Command::Inspect(options) => options.run(),

@@ -7,6 +7,7 @@ pub mod batch;
 pub mod bias;
 pub mod candidate;
 pub mod catalogue;
+pub mod claims;
 pub mod cli;
 pub mod command;
 pub mod compare;

@@ -4,6 +4,7 @@ pub(crate) mod argument;
 pub mod best;
 pub mod bias;
 pub mod choose;
+pub mod claims;
 pub mod cost;
 pub mod drawn;
 pub mod error;

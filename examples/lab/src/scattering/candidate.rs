@@ -12,6 +12,9 @@ use crate::gpu::Gpu;
 use crate::graph_file::GraphFile;
 use crate::graph_frame::GraphFrame;
 
+/// Six moments as they were published.
+const TEN_BITS: &str = "6 moments unorm10";
+
 /// Steps of marching.
 const STEPS: [u32; 4] = [16, 32, 64, 128];
 
@@ -36,7 +39,8 @@ enum Way {
     Convolution([u32; 2]),
 }
 
-/// Our nodes with six and four moments in float16; the convolution map of the same extent; marching.
+/// Our nodes with six and four moments in float16; six moments that are looked up with 10 bits; the convolution map of the same extent;
+/// marching.
 pub fn candidates(radius: u32, extent: [u32; 2]) -> Result<Vec<ScatteringCandidate>, LabError> {
     let mut all = Vec::new();
     let mut push = |name: String, fetches: f64, way: Way| {
@@ -50,11 +54,21 @@ pub fn candidates(radius: u32, extent: [u32; 2]) -> Result<Vec<ScatteringCandida
             rectify: "rectify_moments",
             rectified: (technique, storage),
             extent,
+            composite: "composite_scattering",
         };
         let fetches = f64::from(count / 2 - 1).max(1.0);
         let way = Way::Graph(chain.graph()?);
         push(format!("{count} moments {storage}"), fetches, way);
     }
+    let chain = Chain {
+        map: Storage::Float16,
+        radius: Some(radius),
+        rectify: "rectify_moments",
+        rectified: (MapTechnique::Hamburger6, Storage::Unorm16),
+        extent,
+        composite: "composite_ten_bits",
+    };
+    push(TEN_BITS.to_owned(), 2.0, Way::Graph(chain.graph()?));
     push("convolution".to_owned(), 4.0, Way::Convolution(extent));
     for steps in STEPS {
         let way = Way::March { steps, half: false };
@@ -105,6 +119,6 @@ impl ScatteringCandidate {
     /// Whether it is made of the library's nodes.
     #[must_use]
     pub fn is_ours(&self) -> bool {
-        matches!(self.way, Way::Graph(_))
+        matches!(self.way, Way::Graph(_)) && self.name != TEN_BITS
     }
 }

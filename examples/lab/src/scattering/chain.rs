@@ -5,6 +5,7 @@ use moment_shadows_graph::{Graph, NodeRegistry};
 use serde_json::{Value, json};
 
 use super::flicker::RectifyNearest;
+use super::ten_bits::CompositeTenBits;
 use crate::error::LabError;
 use crate::graph_file::GraphFile;
 
@@ -20,6 +21,8 @@ pub(super) struct Chain {
     pub(super) rectified: (Technique, Storage),
     /// Columns and rows of the rectified map.
     pub(super) extent: [u32; 2],
+    /// The type of the node that lights the air.
+    pub(super) composite: &'static str,
 }
 
 impl Chain {
@@ -41,11 +44,7 @@ impl Chain {
                 json!({}),
                 ["rectified", "integrated"],
             ),
-            (
-                "composite_scattering",
-                json!({}),
-                ["integrated", "scattering"],
-            ),
+            (self.composite, json!({}), ["integrated", "scattering"]),
         ]);
         graph(&links)
     }
@@ -53,8 +52,8 @@ impl Chain {
 
 fn graph(links: &[(&str, Value, [&str; 2])]) -> Result<GraphFile, LabError> {
     let mut nodes = Vec::new();
-    let mut edges =
-        vec![json!({ "from": "camera_depth", "to": "composite_scattering.camera_depth" })];
+    let last = links.last().map_or("", |(node, ..)| *node);
+    let mut edges = vec![json!({ "from": "camera_depth", "to": format!("{last}.camera_depth") })];
     let mut from = "light_depth".to_owned();
     for (node, properties, [input, output]) in links {
         nodes.push(json!({ "name": node, "type": node, "properties": properties }));
@@ -71,6 +70,7 @@ fn graph(links: &[(&str, Value, [&str; 2])]) -> Result<GraphFile, LabError> {
     .to_string();
     let mut registry = NodeRegistry::new();
     registry.register::<RectifyNearest>("rectify_nearest");
+    registry.register::<CompositeTenBits>("composite_ten_bits");
     Ok(GraphFile {
         name: "scattering".to_owned(),
         graph: Graph::parse(&text, &registry).map_err(LabError::graph("scattering"))?,

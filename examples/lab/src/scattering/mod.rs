@@ -10,6 +10,7 @@ mod look;
 mod march;
 mod report;
 mod stage;
+mod ten_bits;
 mod truth;
 
 pub use air::Air;

@@ -116,7 +116,8 @@ type Judged = (
     (usize, Vec<f32>),
 );
 
-fn errors(
+/// Judges a combination on frames of all views of a stage.
+pub(super) fn errors(
     stage: &Stage<'_>,
     frames: &[Frame],
     cell: Cell,

@@ -17,6 +17,7 @@ pub mod interval;
 mod isa;
 mod jobs;
 mod journal;
+mod judge;
 mod measure;
 pub mod probe;
 pub mod report;
@@ -31,6 +32,7 @@ use moment_shadows::Profile;
 pub use crop::Crop;
 pub use isa::Kept;
 pub use jobs::Job;
+pub use judge::Judged;
 pub use measure::{Measured, Meter};
 pub use stage::Stage;
 

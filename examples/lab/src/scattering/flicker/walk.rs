@@ -45,6 +45,7 @@ pub fn chains(extent: [u32; 2]) -> Result<[GraphFile; 2], LabError> {
             rectify,
             rectified: (MapTechnique::Hamburger6, Storage::Float16),
             extent,
+            composite: "composite_scattering",
         };
         chain.graph()
     };
