@@ -10,6 +10,7 @@ mod choose;
 mod inspect;
 mod sweep;
 mod truth;
+mod views;
 mod whole;
 
 use moment_shadows::Profile;

@@ -150,7 +150,7 @@ impl<'a> Choice<'a> {
                 mean(3)
             ));
         }
-        let held_out = HeldOut::of(self.scene, best.cell.radius);
+        let held_out = HeldOut::of(&[(self.scene, best.cell.radius)]);
         reasons.extend(held_out.map(|held_out| held_out.to_string()));
         reasons
     }
@@ -278,9 +278,7 @@ fn named(row: &Row) -> String {
 impl fmt::Display for Choice<'_> {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let cells = |(number, row): (usize, &&Row)| {
-            let pictures = row.views.iter().filter_map(|view| view.picture);
-            let errors = Vec::from_iter(pictures.map(|picture| 100.0 * picture.error));
-            let interval = prediction(&errors);
+            let interval = prediction(&row.errors());
             vec![
                 ("", if number < self.within { "+" } else { "-" }.to_owned()),
                 ("technique", row.name.clone()),
@@ -295,7 +293,7 @@ impl fmt::Display for Choice<'_> {
                 (
                     "90 % of views",
                     interval.map_or("-".to_owned(), |[low, high]| {
-                        format!("{low:.3} .. {high:.3}")
+                        format!("{:.3} .. {:.3}", 100.0 * low, 100.0 * high)
                     }),
                 ),
                 ("time", format!("{:.2}", row.time.total.median)),
