@@ -8,7 +8,7 @@
 pub const LEAST: f64 = 1e-4;
 
 /// The standard deviation of logarithms of errors among views of a scene, in the root mean square over scenes and techniques.
-const USUAL: f64 = 0.5;
+const USUAL: f64 = 0.55;
 
 /// As many degrees of freedom as that is worth. Scenes that were tried are more alike; others may not be.
 const WORTH: f64 = 4.0;
