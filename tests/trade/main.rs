@@ -11,6 +11,7 @@ mod claims;
 mod inspect;
 mod sweep;
 mod truth;
+mod views;
 mod whole;
 
 use moment_shadows::Profile;

@@ -66,24 +66,38 @@ impl LightView {
         casters: &[DVec3],
         fit: DirectionalFit,
     ) -> Result<Self, LabError> {
+        Self::directional_over(direction, casters, casters, fit)
+    }
+
+    /// A directional light as [`directional_fitted`](Self::directional_fitted) makes it, whose map covers other points than the casters
+    /// along whose depth its distances run.
+    pub fn directional_over(
+        direction: DVec3,
+        casters: &[DVec3],
+        across: &[DVec3],
+        fit: DirectionalFit,
+    ) -> Result<Self, LabError> {
         let rotation = rotation_towards(direction)?;
-        if casters.is_empty() {
+        if casters.is_empty() || across.is_empty() {
             return Err(LabError::refused(
                 "a directional light cannot be fitted: there are no casters; give at least one point",
             ));
         }
-        let mut low = DVec3::INFINITY;
-        let mut high = DVec3::NEG_INFINITY;
-        for (index, &point) in casters.iter().enumerate() {
-            let inside = rotation.transform_vector3(point);
-            if !inside.is_finite() {
-                return Err(LabError::refused(format!(
-                    "a directional light cannot be fitted: caster point {index} is {point}, which is not finite"
-                )));
+        let extent = |points: &[DVec3]| {
+            let mut ends = [DVec3::INFINITY, DVec3::NEG_INFINITY];
+            for (index, &point) in points.iter().enumerate() {
+                let inside = rotation.transform_vector3(point);
+                if !inside.is_finite() {
+                    return Err(LabError::refused(format!(
+                        "a directional light cannot be fitted: point {index} is {point}, which is not finite"
+                    )));
+                }
+                ends = [ends[0].min(inside), ends[1].max(inside)];
             }
-            low = low.min(inside);
-            high = high.max(inside);
-        }
+            Ok(ends)
+        };
+        let [depths, sides] = [extent(casters)?, extent(across)?];
+        let [low, high] = [0, 1].map(|end| sides[end].truncate().extend(depths[end].z));
         // A single point or an edge-on plane still needs a volume.
         let diameter = (high - low).length();
         let smallest = (1e-3 * diameter).max(1e-6 * (1.0 + high.abs().max_element()));

@@ -19,9 +19,13 @@ fn main() -> ExitCode {
     let usual = std::panic::take_hook();
     std::panic::set_hook(Box::new(move |panic| {
         let said = panic.payload_as_str().unwrap_or_default();
-        // Whoever read the output has had enough of it.
-        if said.contains("failed printing to stdout") {
-            std::process::exit(NOT_READ.into());
+        if let Some((_, reason)) = said.split_once("failed printing to stdout: ") {
+            // Whoever read the output has had enough of it.
+            if reason.contains("Broken pipe") {
+                std::process::exit(NOT_READ.into());
+            }
+            eprintln!("error: the output cannot be written: {reason}");
+            std::process::exit(1);
         }
         usual(panic);
     }));

@@ -45,6 +45,24 @@ impl Camera {
         Ok(clip_from_view * self.view_from_world()?)
     }
 
+    /// How far along its axis a point lies.
+    pub fn distance(&self, point: DVec3) -> f64 {
+        (point - self.eye).dot((self.target - self.eye).normalize_or_zero())
+    }
+
+    /// The corners of what it sees between two distances along its axis.
+    pub fn corners(&self, part: [f64; 2]) -> Result<Vec<DVec3>, LabError> {
+        let world_from_view = self.view_from_world()?.inverse();
+        let up = (0.5 * self.vertical_angle).tan();
+        let sides = [[-1.0, -1.0], [1.0, -1.0], [-1.0, 1.0], [1.0, 1.0]];
+        let corners = part.into_iter().flat_map(|distance| {
+            sides.map(|[x, y]| distance * DVec3::new(x * up * self.aspect, y * up, -1.0))
+        });
+        Ok(corners
+            .map(|corner| world_from_view.transform_point3(corner))
+            .collect())
+    }
+
     /// [`clip_from_world`](Self::clip_from_world) by columns.
     pub fn clip_from_world_columns(&self) -> Result<[[f64; 4]; 4], LabError> {
         Ok(self.clip_from_world()?.to_cols_array_2d())

@@ -11,6 +11,7 @@ use crate::candidate::{Candidate, TechniqueChoice, candidates};
 use crate::cost::protocol::FEWEST_ROUNDS;
 use crate::picture::create_folder;
 use crate::trade::axes::Axes;
+use crate::trade::held_out::Table;
 use crate::trade::{Job, Trade};
 
 /// What `trade` takes.
@@ -73,7 +74,8 @@ impl Options {
             (true, true) => vec![4],
         };
         let trade = self.varied.trade(self.scene, radii, self.jobs)?;
-        trade.run(&self.out)?;
+        let results = trade.run(&self.out)?;
+        print!("{}", Table(&results));
         println!("{}", self.out.join("report.html").display());
         Ok(ExitCode::SUCCESS)
     }

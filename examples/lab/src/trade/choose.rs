@@ -6,7 +6,7 @@ use serde_json::{Value, json};
 
 use super::axes::Cell;
 use super::held_out::HeldOut;
-use super::interval::prediction;
+use super::interval::{LEAST, prediction};
 use super::results::{Results, Row, SceneResults};
 use crate::cost::table::Columns;
 use crate::error::LabError;
@@ -51,12 +51,15 @@ impl Bounds {
         error.max(bytes).max(over(row.time.total.median, self.time))
     }
 
-    /// What is made least among rows within the bounds, and then.
-    fn merit(&self, row: &Row) -> [f64; 2] {
-        let (time, error) = (row.time.total.median, percent(row));
+    /// What is made least among rows within the bounds, and what next. Of errors that nobody sees none is less than another: what these
+    /// views do not show decides.
+    fn merit(&self, row: &Row) -> [f64; 3] {
+        let (time, bytes) = (row.time.total.median, row.bytes_resident as f64);
+        let seen = percent(row).max(100.0 * LEAST);
+        let all = row.surface_error().unwrap_or(f64::INFINITY);
         match self.error {
-            Some(_) => [time, row.bytes_resident as f64],
-            None => [error, time],
+            Some(_) => [time, bytes, seen],
+            None => [seen, all, time],
         }
     }
 }
@@ -69,8 +72,8 @@ impl<'a> Choice<'a> {
             .filter(|row| row.cell.radius == radius && row.error().is_some())
             .collect();
         let key = |row: &Row| {
-            let [first, second] = bounds.merit(row);
-            [bounds.excess(row), first, second]
+            let [first, second, third] = bounds.merit(row);
+            [bounds.excess(row), first, second, third]
         };
         rows.sort_by(|one, other| {
             let pairs = key(one).into_iter().zip(key(other));
@@ -150,7 +153,7 @@ impl<'a> Choice<'a> {
                 mean(3)
             ));
         }
-        let held_out = HeldOut::of(self.scene, best.cell.radius);
+        let held_out = HeldOut::of(&[(self.scene, best.cell.radius)]);
         reasons.extend(held_out.map(|held_out| held_out.to_string()));
         reasons
     }
@@ -278,9 +281,7 @@ fn named(row: &Row) -> String {
 impl fmt::Display for Choice<'_> {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let cells = |(number, row): (usize, &&Row)| {
-            let pictures = row.views.iter().filter_map(|view| view.picture);
-            let errors = Vec::from_iter(pictures.map(|picture| 100.0 * picture.error));
-            let interval = prediction(&errors);
+            let interval = prediction(&row.errors());
             vec![
                 ("", if number < self.within { "+" } else { "-" }.to_owned()),
                 ("technique", row.name.clone()),
@@ -295,7 +296,7 @@ impl fmt::Display for Choice<'_> {
                 (
                     "90 % of views",
                     interval.map_or("-".to_owned(), |[low, high]| {
-                        format!("{low:.3} .. {high:.3}")
+                        format!("{:.3} .. {:.3}", 100.0 * low, 100.0 * high)
                     }),
                 ),
                 ("time", format!("{:.2}", row.time.total.median)),
@@ -315,5 +316,30 @@ impl fmt::Display for Choice<'_> {
             "{}",
             Columns(&Vec::from_iter(self.rows.iter().enumerate().map(cells)))
         )
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::held_out::tests::{row, scene};
+    use super::super::results::Figures;
+    use super::*;
+
+    #[test]
+    fn of_errors_that_nobody_sees_that_over_all_surfaces_decides() {
+        let with = |mut row: Row, error: f64| {
+            for view in &mut row.views {
+                view.surfaces = view.picture.map(|picture| Figures { error, ..picture });
+            }
+            row
+        };
+        let chosen = |seen: [f64; 2]| {
+            let [one, other] = [0, 1].map(|at| row(at, 1.0, &[seen[at]]));
+            let scene = scene(vec![with(one, 0.2), with(other, 0.1)]);
+            let choice = Choice::of(&scene, 4, Bounds::default());
+            choice.chosen().map(|row| row.cell.candidate)
+        };
+        assert_eq!(chosen([1e-6, 9e-5]), Some(1));
+        assert_eq!(chosen([1e-6, 2e-4]), Some(0));
     }
 }

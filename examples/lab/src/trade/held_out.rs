@@ -2,63 +2,101 @@
 
 use core::fmt;
 
-use serde::{Deserialize, Serialize};
+use super::choose::{Bounds, Choice};
+use super::interval::{LEAST, prediction, width};
+use super::results::{Results, Row, SceneResults, mean};
+use crate::cost::statistics::Distribution;
+use crate::cost::table::Columns;
 
-use super::interval::prediction;
-use super::results::{Row, SceneResults, mean};
-
-/// How well every other view of a scene foretells the rest.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+/// How well every other view of scenes foretells the rest.
+#[derive(Clone, Copy, Debug, PartialEq)]
 pub struct HeldOut {
     /// The share of errors of the rest that lie in the intervals for nine of ten.
     pub covered: f64,
-    /// By how much more, in the mean over all bounds of time, the choice errs on the rest than the best choice there: 0.1 is a tenth.
+    /// The median of the factors between the ends of these intervals.
+    pub width: f64,
+    /// By how much more the choice errs on the rest than the best choice there, in the mean over all bounds of bytes and of time: 0.1
+    /// is a tenth. A bound of the error leads to one of these choices, since whatever takes less time was seen to err more.
     pub regret: f64,
 }
 
-impl HeldOut {
-    /// Of a scene's rows with one softness; `None` with fewer than four views, half of which can tell nothing.
-    #[must_use]
-    pub fn of(scene: &SceneResults, radius: u32) -> Option<Self> {
-        let rows: Vec<&Row> = scene
-            .rows
-            .iter()
-            .filter(|row| row.cell.radius == radius)
-            .collect();
-        let errors = |row: &Row, parity: usize| -> Vec<f64> {
-            let pictures = row.views.iter().skip(parity).step_by(2);
-            pictures
-                .filter_map(|view| Some(view.picture?.error))
-                .collect()
-        };
-        let (mut covered, mut all) = (0, 0);
-        for row in &rows {
-            let [low, high] = prediction(&errors(row, 0))?;
-            let others = errors(row, 1);
-            all += others.len();
-            covered += others
-                .iter()
-                .filter(|error| (low..=high).contains(*error))
-                .count();
-        }
-        let mean_of = |row: &Row, parity: usize| mean(errors(row, parity).into_iter());
-        let mut regrets = Vec::new();
-        for bound in rows.iter().map(|row| row.time.total.median) {
-            let within = || rows.iter().filter(|row| row.time.total.median <= bound);
-            let least = |parity: usize| {
-                within().min_by(|one, other| {
-                    let [one, other] = [one, other].map(|row| mean_of(row, parity).unwrap_or(1.0));
-                    one.total_cmp(&other)
-                })
+/// What each interval and each choice came to.
+#[derive(Default)]
+struct Tally {
+    /// Errors of views that were held out, and how many of them lie in the intervals.
+    errors: [usize; 2],
+    widths: Vec<f64>,
+    regrets: Vec<f64>,
+}
+
+impl Tally {
+    fn add(&mut self, scene: &SceneResults, radius: u32) {
+        let [seen, rest] = [0, 1].map(|parity| half(scene, radius, parity));
+        for (seen, rest) in seen.rows.iter().zip(&rest.rows) {
+            let Some([low, high]) = prediction(&seen.errors()) else {
+                continue;
             };
-            let chosen = mean_of(least(0)?, 1)?;
-            let best = mean_of(least(1)?, 1)?;
-            regrets.push(chosen / best - 1.0);
+            let rest = rest.errors();
+            let within = rest.iter().filter(|error| (low..=high).contains(*error));
+            self.errors[1] += within.count();
+            self.errors[0] += rest.len();
+            self.widths.push(width([low, high]));
         }
-        (all > 0).then_some(Self {
-            covered: covered as f64 / all as f64,
-            regret: mean(regrets.into_iter())?,
+        let error_there = |row: &Row| {
+            let mut there = rest.rows.iter();
+            there.find(|it| it.cell == row.cell).and_then(Row::error)
+        };
+        for bounds in seen.rows.iter().flat_map(bounds_of) {
+            let choice = |half| Choice::of(half, radius, bounds).chosen();
+            let errors = [&seen, &rest].map(|half| choice(half).and_then(error_there));
+            if let [Some(chosen), Some(best)] = errors {
+                let [chosen, best] = [chosen, best].map(|error| error.max(LEAST));
+                self.regrets.push(chosen / best - 1.0);
+            }
+        }
+    }
+
+    /// `None` with fewer than three views, every other of which tells nothing.
+    fn summed(self) -> Option<HeldOut> {
+        let [errors, within] = self.errors;
+        (errors > 0).then_some(HeldOut {
+            covered: within as f64 / errors as f64,
+            width: Distribution::of(self.widths).median,
+            regret: mean(self.regrets.into_iter())?,
         })
+    }
+}
+
+/// Every other view of a scene's rows with one softness, from the first or from the second on.
+fn half(scene: &SceneResults, radius: u32, parity: usize) -> SceneResults {
+    let rows = scene.rows.iter().filter(|row| row.cell.radius == radius);
+    let of_half = |row: &Row| Row {
+        views: row.views.iter().copied().skip(parity).step_by(2).collect(),
+        ..row.clone()
+    };
+    SceneResults {
+        rows: rows.map(of_half).collect(),
+        ..scene.clone()
+    }
+}
+
+/// The bounds of bytes and of time that a row just keeps to.
+fn bounds_of(row: &Row) -> [Bounds; 2] {
+    let bytes = Some(row.bytes_resident);
+    let time = Some(row.time.total.median);
+    let none = Bounds::default();
+    [Bounds { bytes, ..none }, Bounds { time, ..none }]
+}
+
+impl HeldOut {
+    /// Of some scenes' rows with one softness each; `None` where none has three views: one tells nothing of others.
+    #[must_use]
+    pub fn of(scenes: &[(&SceneResults, u32)]) -> Option<Self> {
+        let mut tally = Tally::default();
+        for (scene, radius) in scenes {
+            tally.add(scene, *radius);
+        }
+        tally.summed()
     }
 }
 
@@ -66,23 +104,55 @@ impl fmt::Display for HeldOut {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         write!(
             f,
-            "What every other view says holds for the rest: {:.0} % of their errors lie in the intervals for 90 %, and the choice within a \
-             time errs {:.1} % more than the best there.",
+            "What every other view says holds for the rest: {:.0} % of their errors lie in the intervals for 90 %, whose ends are a factor \
+             of {:.1} apart, and the choice within a time or within bytes errs {:.1} % more than the best there.",
             100.0 * self.covered,
+            self.width,
             100.0 * self.regret
         )
     }
 }
 
+/// A line for each scene and softness with three views or more, and one for all of them.
+pub struct Table<'a>(pub &'a Results);
+
+impl fmt::Display for Table<'_> {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let radii = &self.0.setting.axes.radii;
+        let scenes = self.0.scenes.iter();
+        let pairs: Vec<(&SceneResults, u32)> = scenes
+            .flat_map(|scene| radii.iter().map(move |&radius| (scene, radius)))
+            .collect();
+        let line = |scene: &str, radius: String, found: HeldOut| {
+            vec![
+                ("scene", scene.to_owned()),
+                ("radius", radius),
+                ("covered %", format!("{:.0}", 100.0 * found.covered)),
+                ("width", format!("{:.1}", found.width)),
+                ("regret %", format!("{:.2}", 100.0 * found.regret)),
+            ]
+        };
+        let of_one = |(scene, radius): &(&SceneResults, u32)| {
+            let found = HeldOut::of(&[(*scene, *radius)])?;
+            Some(line(&scene.scene, radius.to_string(), found))
+        };
+        let mut lines: Vec<_> = pairs.iter().filter_map(of_one).collect();
+        if let Some(all) = HeldOut::of(&pairs).filter(|_| lines.len() > 1) {
+            lines.push(line("all", "-".to_owned(), all));
+        }
+        write!(f, "{}", Columns(&lines))
+    }
+}
+
 #[cfg(test)]
-mod tests {
+pub(super) mod tests {
     use super::*;
     use crate::cost::statistics::Distribution;
     use crate::trade::axes::Cell;
     use crate::trade::results::{Errors, Figures, Time};
     use moment_shadows::Technique;
 
-    fn row(candidate: usize, time: f64, errors: &[f64]) -> Row {
+    pub(in crate::trade) fn row(candidate: usize, time: f64, errors: &[f64]) -> Row {
         let once = Distribution::of([time]);
         let views = errors.iter().zip(0..).map(|(&error, view)| Errors {
             view,
@@ -108,7 +178,7 @@ mod tests {
             technique: Technique::Vsm,
             storage: None,
             bits_per_texel: 32,
-            bytes_resident: 1,
+            bytes_resident: candidate as u64,
             bytes_moved: 1,
             time: Time {
                 map: once,
@@ -120,27 +190,55 @@ mod tests {
         }
     }
 
-    #[test]
-    fn a_choice_that_the_rest_does_not_bear_out_is_regretted() {
-        let scene = |rows| SceneResults {
+    pub(in crate::trade) fn scene(rows: Vec<Row>) -> SceneResults {
+        SceneResults {
             scene: String::new(),
             triangles: 1,
             probes: Vec::new(),
             rows,
-        };
-        // The slower one seems better by the first, third and fifth view, and is half as bad again on the others.
-        let rows = vec![
+        }
+    }
+
+    fn found(rows: Vec<Row>) -> Option<HeldOut> {
+        HeldOut::of(&[(&scene(rows), 4)])
+    }
+
+    #[test]
+    fn a_choice_that_the_rest_does_not_bear_out_is_regretted() {
+        // The larger and slower one seems better by the first, third and fifth view, and is half as bad again on the others.
+        let found = found(vec![
             row(0, 1.0, &[0.011, 0.010, 0.012, 0.011, 0.010, 0.010]),
             row(1, 2.0, &[0.009, 0.015, 0.010, 0.0165, 0.0095, 0.015]),
-        ];
-        let found = HeldOut::of(&scene(rows), 4);
-        let found = found.unwrap_or(HeldOut {
-            covered: 0.0,
-            regret: 0.0,
-        });
-        // At the first bound there is no choice.
-        assert!((found.regret - 0.25).abs() < 1e-9, "{found:?}");
-        assert_eq!(found.covered, 0.5, "{found:?}");
-        assert_eq!(HeldOut::of(&scene(vec![row(0, 1.0, &[0.1, 0.2])]), 4), None);
+        ]);
+        // Within the smaller bounds there is no choice.
+        assert!(
+            found.is_some_and(|it| (it.regret - 0.25).abs() < 1e-9 && it.covered == 1.0),
+            "{found:?}"
+        );
+    }
+
+    #[test]
+    fn errors_beyond_the_intervals_are_counted() {
+        let found = found(vec![row(0, 1.0, &[0.01, 0.1, 0.01, 0.01, 0.01, 0.01])]);
+        let width = prediction(&[0.01; 3]).map_or(0.0, width);
+        assert!(
+            found
+                .is_some_and(|it| it.covered == 2.0 / 3.0 && it.regret == 0.0 && it.width == width),
+            "{found:?}"
+        );
+        assert!((7.0..8.0).contains(&width), "{width}");
+    }
+
+    #[test]
+    fn two_views_tell_nothing() {
+        assert_eq!(found(vec![row(0, 1.0, &[0.1, 0.2])]), None);
+    }
+
+    #[test]
+    fn all_scenes_are_summed_up() {
+        let [one, other] =
+            [0.01, 0.1].map(|error| scene(vec![row(0, 1.0, &[0.01, error, 0.01, error])]));
+        let found = HeldOut::of(&[(&one, 4), (&other, 4), (&other, 5)]);
+        assert!(found.is_some_and(|it| it.covered == 0.5), "{found:?}");
     }
 }

@@ -3,7 +3,7 @@
 //! A line per finding. The last one may be torn: what follows the last end of a line was never finished, and is found again.
 
 use std::fs::{File, OpenOptions};
-use std::io::Write;
+use std::io::{Seek, SeekFrom, Write};
 use std::path::{Path, PathBuf};
 
 use serde::{Deserialize, Serialize};
@@ -84,7 +84,7 @@ impl Journal {
             // Without a torn line at the end.
             let end = whole.len() as u64;
             file.set_len(end)
-                .and_then(|()| std::io::Seek::seek(&mut file, std::io::SeekFrom::End(0)).map(drop))
+                .and_then(|()| file.seek(SeekFrom::End(0)).map(drop))
         };
         written.map_err(failed)?;
         Ok(Self {
@@ -94,13 +94,19 @@ impl Journal {
         })
     }
 
-    /// Adds a finding; it is in the file when this returns.
+    /// Adds a finding; it is in the file when this returns, and nothing of it if that fails.
     pub(super) fn add(&mut self, finding: Finding) -> Result<(), LabError> {
         let line = serde_json::to_string(&finding)? + "\n";
-        self.file
-            .write_all(line.as_bytes())
-            .and_then(|()| self.file.flush())
-            .map_err(|error| LabError::unsuitable(self.path.display(), error))?;
+        let failed = |error: std::io::Error| {
+            let way = "what was found so far is kept; run it again with the same folder to go on";
+            LabError::unsuitable(self.path.display(), format!("{error}; {way}"))
+        };
+        let end = self.file.stream_position().map_err(failed)?;
+        if let Err(error) = self.file.write_all(line.as_bytes()) {
+            // A torn line would be left out by the next run, too.
+            let _ = self.file.set_len(end);
+            return Err(failed(error));
+        }
         self.findings.push(finding);
         Ok(())
     }

@@ -163,8 +163,9 @@ impl Trade {
         bar.finish_and_clear();
         let results = self.results(setting, &journal)?;
         let text = serde_json::to_string_pretty(&results)? + "\n";
-        save_atomically(&folder.join(RESULTS), |out| out.write_all(text.as_bytes()))?;
+        // Where there are results, there is everything else.
         report::save(folder, &results, &journal.findings)?;
+        save_atomically(&folder.join(RESULTS), |out| out.write_all(text.as_bytes()))?;
         journal.finish()?;
         Ok(results)
     }
@@ -212,7 +213,7 @@ impl Trade {
         }
         let [count, first] = self.views;
         let setups = match given {
-            Some(given) => given.views.into_iter().map(ViewSetup::Given).collect(),
+            Some(given) => given.judged(),
             None => (first..first + count).map(ViewSetup::Numbered).collect(),
         };
         Ok((scene, setups))
@@ -263,9 +264,10 @@ impl Trade {
 /// Says that a scene's own views are taken, which arguments about views do not change.
 fn tell_of_views(scene: &str) -> Result<(), LabError> {
     if let Some(given) = SceneSetup::beside(scene)? {
-        let (count, file) = (given.views.len(), path_beside(scene));
+        let file = path_beside(scene);
         eprintln!(
-            "{scene}: the {count} views of {} are judged, whatever else is said of views",
+            "{scene}: the {} views of {} are judged, whatever else is said of views",
+            given.judged().len(),
             file.display()
         );
     }

@@ -197,15 +197,17 @@ impl Errors {
 }
 
 impl Row {
-    /// The mean over views of the picture's error; none where no view shows anything that faces the light.
+    /// The picture's error in each view that shows something that faces the light.
+    #[must_use]
+    pub fn errors(&self) -> Vec<f64> {
+        let pictures = self.views.iter().filter_map(|view| view.picture);
+        pictures.map(|picture| picture.error).collect()
+    }
+
+    /// The mean of these; none of none.
     #[must_use]
     pub fn error(&self) -> Option<f64> {
-        mean(
-            self.views
-                .iter()
-                .filter_map(|view| view.picture)
-                .map(|it| it.error),
-        )
+        mean(self.errors().into_iter())
     }
 
     /// The mean over views of the error over all surfaces.

@@ -6,7 +6,7 @@ use glam::DVec3;
 use serde::Deserialize;
 
 use crate::error::LabError;
-use crate::light::LightView;
+use crate::light::{DirectionalFit, LightView};
 use crate::scene::Scene;
 use crate::view::{Camera, View};
 
@@ -51,6 +51,10 @@ pub enum GivenLight {
     Sun {
         /// Along which it shines, of any length but zero.
         direction: [f64; 3],
+        /// The distances along the camera's axis at which cascades end, ascending from above 0. Each has a map of its own, fitted to the
+        /// part of the camera's view that it is for, and is judged as a view of its own, by the pixels in that part.
+        #[serde(default)]
+        cascades: Vec<f64>,
     },
     /// A spot light with a square map.
     Spot {
@@ -71,7 +75,12 @@ pub enum ViewSetup {
     /// One of the numbered views.
     Numbered(u32),
     /// One that the scene's owner gives.
-    Given(GivenView),
+    Given {
+        /// What is given.
+        view: GivenView,
+        /// Distances along the camera's axis between which pixels are judged, where the light has cascades.
+        part: Option<[f64; 2]>,
+    },
 }
 
 impl SceneSetup {
@@ -89,12 +98,47 @@ impl SceneSetup {
                 format!("this is no description of views: {error}"),
             )
         })?;
-        match setup.views.is_empty() {
-            true => Err(LabError::unsuitable(
-                path.display(),
-                "it has no view; give at least one",
+        let wrong = |reason| Err(LabError::unsuitable(path.display(), reason));
+        let ascends = |view: &GivenView| {
+            let ends = [&[0.0], view.light.cascades()].concat();
+            ends.iter().all(|end| end.is_finite()) && ends.is_sorted_by(|one, other| one < other)
+        };
+        match setup.views.iter().position(|view| !ascends(view)) {
+            _ if setup.views.is_empty() => wrong("it has no view; give at least one".to_owned()),
+            Some(view) => wrong(format!(
+                "cascades of view {view} end at {:?}; give distances that ascend from above 0",
+                setup.views[view].light.cascades()
             )),
-            false => Ok(Some(setup)),
+            None => Ok(Some(setup)),
+        }
+    }
+
+    /// What is judged: every view, or each cascade of it.
+    pub(super) fn judged(self) -> Vec<ViewSetup> {
+        let parts = |view: GivenView| {
+            let ends = [&[0.0], view.light.cascades()].concat();
+            let mut parts: Vec<_> = ends
+                .windows(2)
+                .map(|ends| Some([ends[0], ends[1]]))
+                .collect();
+            if parts.is_empty() {
+                parts.push(None);
+            }
+            parts.into_iter().map(move |part| ViewSetup::Given {
+                view: view.clone(),
+                part,
+            })
+        };
+        self.views.into_iter().flat_map(parts).collect()
+    }
+}
+
+impl GivenLight {
+    /// Where its cascades end; none of a light with one map.
+    fn cascades(&self) -> &[f64] {
+        match self {
+            Self::Sun { cascades, .. } => cascades,
+            Self::Spot { .. } => &[],
         }
     }
 }
@@ -109,7 +153,7 @@ impl ViewSetup {
     pub(super) fn camera(&self, scene: &Scene) -> Result<Camera, LabError> {
         match self {
             Self::Numbered(number) => Ok(View::numbered(scene, *number).camera),
-            Self::Given(view) => {
+            Self::Given { view, .. } => {
                 let [eye, target] = [view.eye, view.target].map(DVec3::from_array);
                 let seen = View::numbered(scene, 0).seen_from(scene, [eye, target])?;
                 let mut camera = seen.camera;
@@ -125,40 +169,55 @@ impl ViewSetup {
         }
     }
 
-    /// The light, with a map of this size whose borders keep so many texels free if it is fitted.
+    /// Distances along the camera's axis between which pixels are judged, if not all are.
+    pub(super) fn part(&self) -> Option<[f64; 2]> {
+        match self {
+            Self::Numbered(_) => None,
+            Self::Given { part, .. } => *part,
+        }
+    }
+
+    /// The light, with a map of this size whose borders keep so many texels free if it is fitted, to the casters or to its part of what
+    /// the camera sees.
     pub(super) fn light(
         &self,
         scene: &Scene,
-        map: [u32; 2],
-        margin: f64,
+        camera: &Camera,
+        (map, margin): ([u32; 2], f64),
     ) -> Result<LightView, LabError> {
-        let numbered = |number: u32| View::numbered(scene, number);
-        match self {
-            Self::Numbered(number) => numbered(*number).sun(scene, map, margin, false),
-            Self::Given(view) => match view.light {
-                GivenLight::Sun { direction } => {
-                    let light_direction = DVec3::from_array(direction);
-                    let view = View {
-                        light_direction,
-                        ..numbered(0)
-                    };
-                    view.sun(scene, map, margin, false)
-                }
-                GivenLight::Spot {
-                    position,
-                    direction,
-                    angle,
-                    range: [near, far],
-                } => LightView::spot(
-                    DVec3::from_array(position) - scene.origin,
-                    DVec3::from_array(direction),
-                    angle,
-                    near,
-                    Some(far),
-                    [near, far],
-                    false,
-                ),
-            },
+        let view = match self {
+            Self::Numbered(number) => {
+                return View::numbered(scene, *number).sun(scene, map, margin, false);
+            }
+            Self::Given { view, .. } => view,
+        };
+        match view.light {
+            GivenLight::Sun { direction, .. } => {
+                let casters = scene.extremes();
+                let seen = self.part().map(|part| camera.corners(part)).transpose()?;
+                let fit = DirectionalFit {
+                    map,
+                    margin,
+                    reversed: false,
+                };
+                let direction = DVec3::from_array(direction);
+                let across = seen.as_ref().map_or(&casters[..], |corners| &corners[..]);
+                LightView::directional_over(direction, &casters, across, fit)
+            }
+            GivenLight::Spot {
+                position,
+                direction,
+                angle,
+                range: [near, far],
+            } => LightView::spot(
+                DVec3::from_array(position) - scene.origin,
+                DVec3::from_array(direction),
+                angle,
+                near,
+                Some(far),
+                [near, far],
+                false,
+            ),
         }
     }
 }

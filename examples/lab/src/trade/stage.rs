@@ -1,5 +1,7 @@
 //! A scene with its views, and the truths of what each shows.
 
+use glam::DVec3;
+
 use super::axes::{Axes, Cell};
 use super::crop::Crop;
 use super::measure::Measured;
@@ -66,18 +68,17 @@ impl<'a> Stage<'a> {
     /// Draws all views and computes their truths. Takes seconds per view.
     pub fn with_views(mut self, setups: &[ViewSetup]) -> Result<Self, LabError> {
         for (number, setup) in (self.setting.views[1]..).zip(setups) {
-            let view = self.view(number, self.desc(setup)?)?;
-            self.views.push(view);
+            let view = self.view(number, setup);
+            self.views.push(view.map_err(|error| {
+                LabError::refused(format!("{}, view {number}: {error}", self.scene.name))
+            })?);
         }
         Ok(self)
     }
 
     /// What all views ask for.
     pub fn probes(&self, setups: &[ViewSetup]) -> Result<Vec<ViewProbe>, LabError> {
-        let probe = |(number, setup)| {
-            let desc = self.desc(setup)?;
-            Ok(self.drawn(number, desc)?.probe)
-        };
+        let probe = |(number, setup)| Ok(self.drawn(number, setup)?.probe);
         (self.setting.views[1]..).zip(setups).map(probe).collect()
     }
 
@@ -110,11 +111,11 @@ impl<'a> Stage<'a> {
 
     /// What a view draws for truths.
     fn desc(&self, setup: &ViewSetup) -> Result<FrameDesc, LabError> {
-        let map = [self.axes.largest_map(); 2];
-        let light = setup.light(self.scene, map, self.axes.margin())?;
         let [width, height] = self.setting.picture;
         let mut camera = setup.camera(self.scene)?;
         camera.aspect = f64::from(width) / f64::from(height.max(1));
+        let map = [self.axes.largest_map(); 2];
+        let light = setup.light(self.scene, &camera, (map, self.axes.margin()))?;
         Ok(FrameDesc {
             picture: self.setting.picture,
             map,
@@ -129,14 +130,15 @@ impl<'a> Stage<'a> {
 
     /// A view with its truths for each softness: whatever a map's size and samples, they are those of the largest map with as many
     /// samples as the setting says.
-    fn view(&self, number: u32, desc: FrameDesc) -> Result<View, LabError> {
+    fn view(&self, number: u32, setup: &ViewSetup) -> Result<View, LabError> {
         let Drawn {
             frame,
             kernels,
             pixels,
             facing,
             probe,
-        } = self.drawn(number, desc)?;
+        } = self.drawn(number, setup)?;
+        let desc = frame.desc;
         let positions = even_positions(self.setting.truth_samples);
         let depths = frame.light_samples(self.gpu, &positions)?;
         let stride = self.setting.stride;
@@ -160,7 +162,8 @@ impl<'a> Stage<'a> {
     }
 
     /// A view as it is drawn, and what it asks for.
-    fn drawn(&self, number: u32, desc: FrameDesc) -> Result<Drawn, LabError> {
+    fn drawn(&self, number: u32, setup: &ViewSetup) -> Result<Drawn, LabError> {
+        let desc = self.desc(setup)?;
         let frame = Frame::draw(self.gpu, self.scene, desc)?;
         let mut kernels = Vec::new();
         for &radius in &self.axes.radii {
@@ -170,7 +173,13 @@ impl<'a> Stage<'a> {
                 .push(kernel.map_or_else(TapPattern::unblurred, |it| TapPattern::of_kernel(&it)));
         }
         let pixels = read_gbuffer(self.gpu, &frame.surface)?;
-        let facing = facing(&desc.light, &pixels);
+        let mut facing = facing(&desc.light, &pixels);
+        if let Some([near, far]) = setup.part() {
+            for (facing, position) in facing.iter_mut().zip(&pixels.position) {
+                let distance = (desc.camera).distance(DVec3::from(position.map(f64::from)));
+                *facing &= near <= distance && distance < far;
+            }
+        }
         let depths = frame.light_samples(self.gpu, &even_positions(1))?;
         let probe = ViewProbe::of(number, &desc, &depths, &kernels, &pixels, &facing);
         Ok(Drawn {

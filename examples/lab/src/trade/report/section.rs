@@ -131,13 +131,10 @@ fn section<'a>(
     };
     let fronts = COSTS.each_ref().map(on_front);
     let mut lines: Vec<Line> = (rows.iter().enumerate())
-        .map(|(number, row)| {
-            let pictures = row.views.iter().filter_map(|view| view.picture);
-            Line {
-                row,
-                interval: prediction(&Vec::from_iter(pictures.map(|picture| picture.error))),
-                on_fronts: fronts.each_ref().map(|front| front.contains(&number)),
-            }
+        .map(|(number, row)| Line {
+            row,
+            interval: prediction(&row.errors()),
+            on_fronts: fronts.each_ref().map(|front| front.contains(&number)),
         })
         .collect();
     lines.sort_by(|one, other| {
@@ -158,7 +155,7 @@ fn section<'a>(
         scene: &scene.scene,
         radius,
         charts: COSTS.iter().map(chart).collect(),
-        held_out: HeldOut::of(scene, radius),
+        held_out: HeldOut::of(&[(scene, radius)]),
         crops: lines.iter().filter_map(crop_of).collect(),
         series: names,
         rows: lines,
