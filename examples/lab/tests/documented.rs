@@ -101,7 +101,7 @@ const RUN: [(&str, &[&str]); 14] = [
 ];
 
 /// Sub-commands that are not run here, and why.
-const LONG: [(&str, &str); 13] = [
+const LONG: [(&str, &str); 14] = [
     ("error-table", "peels whole scenes, for a minute each"),
     ("soft-error", "traces 256 rays per pixel"),
     ("scattering-error", "marches 1,024 steps per pixel"),
@@ -113,6 +113,7 @@ const LONG: [(&str, &str); 13] = [
     ("cost", "times work that should have the machine for itself"),
     ("trade", "judges and times hundreds of combinations"),
     ("choose", "trades first"),
+    ("scores", "draws every technique a dozen times"),
     ("best", "needs a finished trade"),
     (
         "sweep",

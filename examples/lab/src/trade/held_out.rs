@@ -96,6 +96,7 @@ mod tests {
             surfaces: None,
             facing_surfaces: None,
             nan: 0,
+            flip: None,
         });
         Row {
             cell: Cell {

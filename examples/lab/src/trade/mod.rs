@@ -8,7 +8,7 @@ pub mod axes;
 pub mod best;
 pub mod chart;
 pub mod choose;
-mod crop;
+pub(crate) mod crop;
 pub mod front;
 pub mod held_out;
 mod identity;
@@ -32,6 +32,7 @@ pub use crop::Crop;
 pub use isa::Kept;
 pub use jobs::Job;
 pub use measure::{Measured, Meter};
+pub(crate) use stage::Drawn;
 pub use stage::Stage;
 
 use self::axes::{Axes, Cell};
@@ -78,7 +79,7 @@ pub struct Trade {
 const RESULTS: &str = "results.json";
 
 /// Samples per texel that truths are made of.
-const TRUTH_SAMPLES: u32 = 64;
+pub(crate) const TRUTH_SAMPLES: u32 = 64;
 
 impl Trade {
     /// The graph whose kernel, technique and storage are varied.
@@ -188,7 +189,7 @@ impl Trade {
     }
 
     /// Whether the picture of a combination is shown: those with the largest map and the most samples.
-    fn shows(&self, cell: Cell) -> bool {
+    pub(crate) fn shows(&self, cell: Cell) -> bool {
         let most = self.axes.samples.iter().copied().max().unwrap_or(1);
         let samples = match self.axes.candidates[cell.candidate].reads_depth() {
             true => 1,
@@ -198,7 +199,7 @@ impl Trade {
     }
 
     /// A scene with its views.
-    fn load(&self, name: &str) -> Result<(Scene, Vec<ViewSetup>), LabError> {
+    pub(crate) fn load(&self, name: &str) -> Result<(Scene, Vec<ViewSetup>), LabError> {
         let given = SceneSetup::beside(name)?;
         let mut scene = scene::load(name)?;
         if !self.ground || given.as_ref().is_some_and(|given| !given.ground) {
@@ -216,7 +217,7 @@ impl Trade {
         Ok((scene, setups))
     }
 
-    fn setting(&self, gpu: &Gpu) -> Result<Setting, LabError> {
+    pub(crate) fn setting(&self, gpu: &Gpu) -> Result<Setting, LabError> {
         let info = gpu.adapter.get_info();
         Ok(Setting {
             library: env!("CARGO_PKG_VERSION").to_owned(),
@@ -259,7 +260,7 @@ impl Trade {
 }
 
 /// Says that a scene's own views are taken, which arguments about views do not change.
-fn tell_of_views(scene: &str) -> Result<(), LabError> {
+pub(crate) fn tell_of_views(scene: &str) -> Result<(), LabError> {
     if let Some(given) = SceneSetup::beside(scene)? {
         let (count, file) = (given.views.len(), path_beside(scene));
         eprintln!(
