@@ -1,4 +1,4 @@
-//! What receiver biases are judged on: plates of every slope against the light, a ball, and boxes and posts that stand on the ground.
+//! What receiver biases are judged on: plates of every slope against the light, a ball, and boards and posts that stand on the ground.
 
 use glam::{DMat3, DQuat, DVec3};
 
@@ -8,8 +8,8 @@ use super::{Material, Scene, Stand};
 /// The name under which [`load`](super::load) knows the scene.
 pub const SLOPES: &str = "slopes-and-feet";
 
-/// The light comes from above, so that every plate faces the viewer, too.
-const TOWARDS_LIGHT: DVec3 = DVec3::new(0.4, 1.0, 0.3);
+/// The light comes from above and from the right, a little from behind: shadows lie beside what stands on the ground.
+const TOWARDS_LIGHT: DVec3 = DVec3::new(0.7, 1.0, -0.2);
 
 /// Nine plates in a row that turn from the light in steps of 10 degrees, the first facing it, and what stands in front of them. Not
 /// yet on a ground plane.
@@ -25,12 +25,13 @@ pub fn slopes_and_feet() -> Scene {
         plates.turned_cuboid(centre, DVec3::new(0.2, 0.01, 0.3), rotation);
     }
     let mut solids = Shape::new(1);
-    for (x, turn, half) in [(-2.0, 0.3, 0.2), (-1.1, 0.9, 0.12), (-0.5, 1.3, 0.06)] {
-        let (centre, turn) = (DVec3::new(x, half, 0.6), DQuat::from_rotation_y(turn));
-        solids.turned_cuboid(centre, DVec3::splat(half), turn);
+    // Thin boards across the light: what lies just behind them is close to what the light sees of them.
+    for (x, turn) in [(-2.2, -0.4), (-1.5, 0.0), (-0.8, 0.4)] {
+        let (centre, turn) = (DVec3::new(x, 0.2, 0.6), DQuat::from_rotation_y(turn));
+        solids.turned_cuboid(centre, DVec3::new(0.006, 0.2, 0.3), turn);
     }
     for number in 0..5 {
-        let base = DVec3::new(0.1 + 0.25 * f64::from(number), 0.0, 0.5);
+        let base = DVec3::new(0.2 * f64::from(number), 0.0, 0.5);
         solids.rod(base, base + 0.6 * DVec3::Y, [0.03; 2], 16);
     }
     let base = DVec3::new(1.9, 0.0, 0.5);
@@ -43,7 +44,7 @@ pub fn slopes_and_feet() -> Scene {
             Material::plain("solids", [0.5, 0.34, 0.2]),
         ],
         stand: Some(Stand {
-            eye: DVec3::new(0.0, 2.3, 4.4),
+            eye: DVec3::new(0.0, 3.0, 3.7),
             target: DVec3::new(0.0, 0.3, 0.0),
             light_direction: -light,
         }),

@@ -4,7 +4,7 @@ use glam::{DVec2, DVec3};
 use moment_shadows::{ReceiverBias, Storage, Technique};
 use serde::Serialize;
 
-use super::{Biases, FEET, Part, VISIBLE};
+use super::{Biases, FEET, FEWEST, Part, VISIBLE};
 use crate::contacts::{ContactErrors, Ground, POINTS, ground_around_legs};
 use crate::error::LabError;
 use crate::frame::{Frame, FrameDesc};
@@ -74,7 +74,7 @@ pub struct Acne {
     pub mean: f64,
     /// The share of pixels that are darker than [`VISIBLE`].
     pub visible: f64,
-    /// The mean for slopes around 0, 10, .. 80 degrees; none where the view shows no such slope.
+    /// The mean for slopes around 0, 10, .. 80 degrees; none where the view shows too little of one.
     pub slopes: [Option<f64>; SLOPES],
 }
 
@@ -204,8 +204,13 @@ impl Judge<'_> {
     ) -> Result<(ViewScores, Vec<Part>), LabError> {
         let truth = &self.seen.truths[self.softness];
         let width = frame.desc.picture[0];
-        let crop = |pictures, judged: &[bool], full| {
-            Crop::of((self.seen.number, width), pictures, judged, full)
+        let crop = |[shown, beside]: [&[f32]; 2], judged: &[bool], full| {
+            // What is not judged is not shown to differ.
+            let pixels = shown.iter().zip(beside).zip(judged);
+            let shown: Vec<f32> = pixels
+                .map(|((shown, beside), judged)| if *judged { *shown } else { *beside })
+                .collect();
+            Crop::of((self.seen.number, width), [&shown, beside], judged, full)
         };
         let mut crops = Vec::new();
         let ours = run.graph.read_shadow(self.gpu, &run.file)?;
@@ -357,18 +362,20 @@ fn change(before: f32, now: f32) -> f64 {
 }
 
 fn acne(lit: &[Option<usize>], shadow: &[f32]) -> Option<Acne> {
-    let (mut sums, mut visible, mut counts) = ([0.0; SLOPES], [0.0; SLOPES], [0.0; SLOPES]);
+    let (mut sums, mut visible, mut counts) = ([0.0; SLOPES], [0.0; SLOPES], [0; SLOPES]);
     for (class, &shadow) in lit.iter().zip(shadow) {
         if let Some(class) = *class {
             // A NaN is black.
             let shadow = if shadow.is_nan() { 1.0 } else { shadow };
             sums[class] += f64::from(shadow);
             visible[class] += f64::from(u8::from(shadow > VISIBLE));
-            counts[class] += 1.0;
+            counts[class] += 1;
         }
     }
     let classes = |sums: [f64; SLOPES]| -> [Option<f64>; SLOPES] {
-        core::array::from_fn(|class| (counts[class] > 0.0).then(|| sums[class] / counts[class]))
+        core::array::from_fn(|class| {
+            (counts[class] >= FEWEST).then(|| sums[class] / counts[class] as f64)
+        })
     };
     let slopes = classes(sums);
     Some(Acne {
@@ -380,6 +387,9 @@ fn acne(lit: &[Option<usize>], shadow: &[f32]) -> Option<Acne> {
 
 /// What is lost of shadow, from the first picture to the second.
 fn lost(feet: &[bool], [whole, left]: [&[f32]; 2]) -> Option<f64> {
+    if feet.iter().filter(|feet| **feet).count() < FEWEST {
+        return None;
+    }
     let pairs = feet.iter().zip(whole.iter().zip(left));
     let lost = pairs.filter(|(feet, _)| **feet);
     mean(lost.map(|(_, (whole, left))| f64::from((whole - left).max(0.0))))

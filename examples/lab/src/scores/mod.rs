@@ -38,7 +38,10 @@ use crate::trade::{Crop, Stage, Trade, tell_of_views};
 pub const VISIBLE: f32 = 0.1;
 
 /// How far in front of a receiver its caster is at its feet, in widths of a texel.
-pub const FEET: f64 = 16.0;
+pub const FEET: f64 = 32.0;
+
+/// Fewer pixels of a class of slopes, or at feet, are not judged.
+const FEWEST: usize = 64;
 
 /// A figure with a constant receiver bias, and with ours.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]

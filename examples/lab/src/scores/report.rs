@@ -105,7 +105,7 @@ impl fmt::Display for Report {
                 )?;
                 for column in 0..FIGURES.len() {
                     let figure = row.figure(column);
-                    let figure = figure.map_or("-".to_owned(), |it| format!("{:.3}", 100.0 * it));
+                    let figure = figure.map_or("-".to_owned(), |it| format!("{:.4}", 100.0 * it));
                     write!(f, " {figure:>11}")?;
                 }
                 writeln!(f)?;
