@@ -62,15 +62,20 @@ fn no_bias_is_acne_a_large_one_is_peter_panning_and_ours_is_neither() {
     let large = run(&scores(SLOPES, &names, 40.0));
     for row in &none.rows {
         let [[acne, our_acne], [lost, _]] = biases(row);
-        println!("none  {} {acne} {our_acne} {lost}", row.name);
-        assert!(acne > 0.1, "{}: {acne}", row.name);
-        // The plane of a pixel's neighbours is that of another facet at times, which a test on the depth map has no room for.
-        let limit = if row.storage.is_some() {
-            0.01
-        } else {
-            0.3 * acne
-        };
-        assert!(our_acne < limit, "{}: {our_acne}", row.name);
+        println!(
+            "none  {} {:?} {acne} {our_acne} {lost}",
+            row.name, row.storage
+        );
+        // Filters hide most of it. The plane of a pixel's neighbours is that of another facet at times, which a test on the depth map
+        // has no room for.
+        let is_test = row.storage.is_none();
+        let [least, most] = if is_test { [0.3, 0.05] } else { [0.0, 5e-4] };
+        assert!(acne > least, "{}: {acne}", row.name);
+        assert!(
+            our_acne < most && our_acne < acne,
+            "{}: {our_acne}",
+            row.name
+        );
         assert_eq!(lost, 0.0, "{}", row.name);
     }
     for row in &large.rows {
@@ -78,7 +83,7 @@ fn no_bias_is_acne_a_large_one_is_peter_panning_and_ours_is_neither() {
         println!("large {} {acne} {lost} {our_loss}", row.name);
         assert!(acne < 0.01, "{}: {acne}", row.name);
         assert!(lost > 0.5, "{}: {lost}", row.name);
-        assert!(our_loss < 0.25 * lost, "{}: {our_loss} {lost}", row.name);
+        assert!(our_loss < 0.05 * lost, "{}: {our_loss} {lost}", row.name);
     }
 }
 

@@ -32,7 +32,7 @@ const SLOPES: usize = 9;
 
 /// Differences of shadow intensity that have the full colour in pictures.
 const FULL: f32 = 0.5;
-const FULL_FLICKER: f32 = 0.1;
+const FULL_OF_SMALL: f32 = 0.1;
 
 /// A combination on a scene.
 #[derive(Clone, Debug, PartialEq, Serialize)]
@@ -220,14 +220,14 @@ impl Judge<'_> {
         let lit: Vec<bool> = truth.lit.iter().map(Option::is_some).collect();
         for (bias, shadow) in [("constant bias", &constant), ("our bias", &ours)] {
             crops.push((0, bias, crop([shadow, &truth.shadow], &lit, FULL)?));
-            crops.push((1, bias, crop([shadow, &none], &truth.feet, FULL)?));
+            crops.push((1, bias, crop([shadow, &none], &truth.feet, FULL_OF_SMALL)?));
         }
         if let Some((_, crop)) = &contact {
             crops.push((2, "our bias", crop.clone()));
         }
         let flicker = self.flicker(frame, run)?;
         if let Some((_, [before, after])) = &flicker {
-            let crop = crop([after, before], &self.seen.facing, FULL_FLICKER)?;
+            let crop = crop([after, before], &self.seen.facing, FULL_OF_SMALL)?;
             crops.push((3, "our bias", crop));
         }
         let scores = ViewScores {

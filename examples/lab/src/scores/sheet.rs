@@ -13,7 +13,7 @@ use crate::trade::crop::SIZE;
 /// What the three parts of a picture are, and from where on a difference has the full colour.
 const PARTS: [&str; 4] = [
     "the truth, the technique, and the difference: red where it is too dark; half of full shadow has the full colour",
-    "without a receiver bias, with it, and the difference: blue where it takes shadow away; half of full shadow has the full colour",
+    "without a receiver bias, with it, and the difference: blue where it takes shadow away; a tenth of full shadow has the full colour",
     "the truth around a leg, the technique, and the difference: blue where it is too light; half of full shadow has the full colour",
     "a frame, the next, and the difference: red where it is darker, blue where it is lighter; a tenth of full shadow has the full colour",
 ];
