@@ -8,7 +8,7 @@ use clap::{CommandFactory, FromArgMatches, Parser, Subcommand};
 use crate::command::cost::CostOptions;
 use crate::command::{
     CommandResult, best, bias, choose, claims, error, error_table, inspect, isa, measure, ports,
-    probe, render, scattering_error, scattering_flicker, shaders, soft_error, stability, sweep,
+    probe, render, scattering_error, scattering_flicker, scores, shaders, soft_error, stability, sweep,
     technique_pictures, trade, troubleshooting_pictures, vectors,
 };
 use crate::isa::child;
@@ -49,6 +49,8 @@ enum Command {
     /// Chooses technique, storage, map and samples for a scene within bounds, and writes the graph. Exits with 3 if nothing keeps to the
     /// bounds; the nearest is printed then.
     Choose(choose::Options),
+    /// Scores acne, peter-panning, contact and flicker of every technique and storage, with a picture of each.
+    Scores(scores::Options),
     /// Times all techniques over the size of the map, that of the picture and the width of the filter, as ratios to percentage-closer
     /// filtering.
     Sweep(sweep::Options),
@@ -120,6 +122,7 @@ fn run(command: Command) -> CommandResult {
         Command::ErrorTable(options) => options.run(),
         Command::Trade(options) => options.run(),
         Command::Choose(options) => options.run(),
+        Command::Scores(options) => options.run(),
         Command::Sweep(options) => options.run(),
         Command::Claims(options) => options.run(),
         Command::Best(options) => options.run(),

@@ -17,7 +17,7 @@ use crate::truth::pcf::{Receiver, pcf_at};
 pub const BAND: f64 = 0.03;
 
 /// Points along either side of the square around a foot.
-const POINTS: u32 = 64;
+pub(crate) const POINTS: u32 = 64;
 
 /// Ground that is darker than this, of 1, is in full shadow.
 const FULL: f32 = 0.99;
@@ -57,7 +57,7 @@ impl Contacts {
         let frame = options.frame(gpu, &scene, &options.drawn(file)?, margin)?;
         let unfiltered = Unfiltered::of(gpu, &frame, file)?;
         let light = &frame.desc.light;
-        let receivers = ground_around_legs(&scene);
+        let receivers = ground_around_legs(&scene).receivers;
         let truth = pcf_at(light, &unfiltered.depths, &unfiltered.taps, &receivers);
         let points = receivers
             .iter()
@@ -81,31 +81,45 @@ impl Contacts {
         let run = MapRun::new(gpu, frame, file)?;
         let map = run.map(frame)?;
         let shaded = MapEvaluator::new(gpu, &map, None)?.run(run.shading, &self.points)?;
-        let mean = |values: Vec<f32>| {
+        Ok(ContactErrors::of(map.technique(), &shaded, &self.truth))
+    }
+}
+
+impl ContactErrors {
+    /// Those of shadow intensities around legs.
+    pub(crate) fn of(technique: Technique, shaded: &[f32], truth: &[f32]) -> Self {
+        let mean = |values: &[f32]| {
             values.iter().copied().map(f64::from).sum::<f64>() / values.len().max(1) as f64
         };
         let leaks = |least: f32| -> Vec<f32> {
-            let pairs = shaded.iter().zip(&self.truth);
+            let pairs = shaded.iter().zip(truth);
             let pairs = pairs.filter(|(_, truth)| **truth > least);
             pairs
                 .map(|(shaded, truth)| (truth - shaded).max(0.0))
                 .collect()
         };
         let in_full_shadow = leaks(FULL);
-        Ok(ContactErrors {
-            technique: map.technique(),
-            truth: mean(self.truth.clone()),
-            leaking: mean(leaks(f32::NEG_INFINITY)),
+        Self {
+            technique,
+            truth: mean(truth),
+            leaking: mean(&leaks(f32::NEG_INFINITY)),
             points_in_full_shadow: in_full_shadow.len(),
-            leaking_in_full_shadow: mean(in_full_shadow),
-        })
+            leaking_in_full_shadow: mean(&in_full_shadow),
+        }
     }
 }
 
+/// Points on the ground around all legs, in a column of squares of [`POINTS`] by [`POINTS`], one for each leg.
+pub(crate) struct Ground {
+    pub(crate) receivers: Vec<Receiver>,
+    /// The number of each point in the column, row by row.
+    pub(crate) places: Vec<usize>,
+}
+
 /// A grid of points on the ground around every leg, from its farthest corner to [`BAND`] beyond.
-fn ground_around_legs(scene: &Scene) -> Vec<Receiver> {
-    let mut receivers = Vec::new();
-    for foot in feet(scene) {
+pub(crate) fn ground_around_legs(scene: &Scene) -> Ground {
+    let (mut receivers, mut places) = (Vec::new(), Vec::new());
+    for (number, foot) in (0..).zip(feet(scene)) {
         let reach = foot.radius + BAND;
         let at = |index: u32| reach * (2.0 * (f64::from(index) + 0.5) / f64::from(POINTS) - 1.0);
         for z in 0..POINTS {
@@ -113,6 +127,7 @@ fn ground_around_legs(scene: &Scene) -> Vec<Receiver> {
                 let offset = DVec2::new(at(x), at(z));
                 let distance = offset.length();
                 if distance > foot.radius && distance <= reach {
+                    places.push(((number * POINTS + z) * POINTS + x) as usize);
                     receivers.push(Receiver {
                         position: foot.centre + DVec3::new(offset.x, 0.0, offset.y),
                         normal: DVec3::Y,
@@ -121,5 +136,5 @@ fn ground_around_legs(scene: &Scene) -> Vec<Receiver> {
             }
         }
     }
-    receivers
+    Ground { receivers, places }
 }

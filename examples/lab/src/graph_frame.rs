@@ -106,6 +106,28 @@ impl GraphFrame {
         Ok(())
     }
 
+    /// Fills in the parameters, with another receiver bias than the one that follows from the graph.
+    pub fn fill_biased(
+        &self,
+        gpu: &Gpu,
+        desc: &FrameDesc,
+        file: &GraphFile,
+        bias: ReceiverBias,
+    ) -> Result<(), LabError> {
+        let mut bytes = parameter_bytes(&self.plan, desc, file, None)?;
+        let parameters = ViewParameters {
+            receiver_bias: bias,
+            ..shade_parameters(desc, file)?
+        };
+        let blocks = &self.plan.parameters;
+        let of_views = |name: &str| name == "ViewParameters";
+        for block in blocks.blocks.iter().filter(|it| of_views(&it.name)) {
+            blocks.write(&mut bytes, &block.node, 0, &parameters)?;
+        }
+        self.write(gpu, &bytes);
+        Ok(())
+    }
+
     /// Writes parameters that were filled in otherwise.
     pub fn write(&self, gpu: &Gpu, bytes: &[u8]) {
         gpu.queue.write_buffer(&self.parameters, 0, bytes);

@@ -198,6 +198,15 @@ impl LightView {
         self
     }
 
+    /// The same parallel light with its map of `map` texels so many of them beside its place: shadows stay where they are, and texels
+    /// lie elsewhere.
+    #[must_use]
+    pub fn slid(mut self, texels: DVec2, map: [u32; 2]) -> Self {
+        let by = texels * DVec2::from_array(self.texel_size(map));
+        self.view_from_world = DMat4::from_translation(by.extend(0.0)) * self.view_from_world;
+        self
+    }
+
     /// The kind of this light.
     pub fn kind(&self) -> LightKind {
         match self.depth {

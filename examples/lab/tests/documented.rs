@@ -113,6 +113,7 @@ const LONG: [(&str, &str); 14] = [
     ("cost", "times work that should have the machine for itself"),
     ("trade", "judges and times hundreds of combinations"),
     ("choose", "trades first"),
+    ("scores", "draws every technique a dozen times"),
     ("best", "needs a finished trade"),
     ("claims", "judges, marches, traces and times for minutes"),
     (

@@ -17,6 +17,7 @@ pub mod probe;
 pub mod render;
 pub mod scattering_error;
 pub mod scattering_flicker;
+pub mod scores;
 pub mod shaders;
 pub mod soft_error;
 pub mod stability;

@@ -124,7 +124,7 @@ impl Varied {
     }
 }
 
-fn ascending(values: &[u32]) -> Vec<u32> {
+pub(super) fn ascending(values: &[u32]) -> Vec<u32> {
     let mut values = values.to_vec();
     values.sort_unstable();
     values.dedup();

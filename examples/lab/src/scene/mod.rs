@@ -17,6 +17,7 @@ mod material;
 mod mesh;
 mod mips;
 mod shapes;
+mod slopes;
 
 use std::path::Path;
 
@@ -33,11 +34,12 @@ pub use hall::hall_with_open_roof;
 pub use material::{Image, Material};
 pub use mesh::{Bounds, Mesh};
 pub(crate) use mips::mips;
+pub use slopes::{SLOPES, slopes_and_feet};
 
 use crate::error::LabError;
 
 /// Names under which [`load`] knows the procedural scenes that techniques are compared on; there are also [`CHAIRS`],
-/// [`EDGE`] and [`HOLE`].
+/// [`SLOPES`], [`EDGE`] and [`HOLE`].
 pub const PROCEDURAL: [&str; 2] = ["fence-and-foliage", "hall"];
 
 /// Where to stand in a scene that should not be looked at from every side.
@@ -125,13 +127,14 @@ impl Scene {
     }
 }
 
-/// The scene that a command line names: a file, one of [`PROCEDURAL`], [`CHAIRS`], [`EDGE`] or [`HOLE`]. It stands on its
+/// The scene that a command line names: a file, one of [`PROCEDURAL`], [`CHAIRS`], [`SLOPES`], [`EDGE`] or [`HOLE`]. It stands on its
 /// ground plane, or hovers above it. What a file has and the scene has not is said on the standard error.
 pub fn load(name: &str) -> Result<Scene, LabError> {
     match name {
         "fence-and-foliage" => Ok(place_on_ground(fence_and_foliage())),
         "hall" => Ok(place_on_ground(hall_with_open_roof())),
         CHAIRS => Ok(place_on_ground(chairs())),
+        SLOPES => Ok(place_on_ground(slopes_and_feet())),
         EDGE => Ok(straight_edges()),
         HOLE => Ok(small_hole()),
         _ if Path::new(name).exists() => {
@@ -142,8 +145,8 @@ pub fn load(name: &str) -> Result<Scene, LabError> {
             Ok(place_on_ground(scene))
         }
         _ => Err(LabError::refused(format!(
-            "there is no file '{name}', nor a procedural scene of that name; the procedural scenes are {}, {CHAIRS}, {EDGE} \
-             and {HOLE}",
+            "there is no file '{name}', nor a procedural scene of that name; the procedural scenes are {}, {CHAIRS}, {SLOPES}, \
+             {EDGE} and {HOLE}",
             PROCEDURAL.join(", ")
         ))),
     }

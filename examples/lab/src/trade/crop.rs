@@ -8,10 +8,7 @@ use crate::error::LabError;
 use crate::picture::{grey, signed_difference};
 
 /// Width and height of a crop, in pixels.
-const SIZE: [u32; 2] = [96, 72];
-
-/// A difference of this shadow intensity has the full colour.
-const FULL: f32 = 0.5;
+pub(crate) const SIZE: [u32; 2] = [96, 72];
 
 /// Truth, estimate and their difference side by side, as a PNG.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -27,19 +24,19 @@ pub struct Crop {
 }
 
 impl Crop {
-    /// The part of a picture of a width with the largest error over pixels that face the light.
+    /// The part of a picture of a width with the largest error over pixels that are judged, such as those that face the light. A
+    /// difference of the shadow intensity `full` has the full colour.
     pub fn of(
-        view: u32,
-        width: u32,
-        estimate: &[f32],
-        truth: &[f32],
-        facing: &[bool],
+        (view, width): (u32, u32),
+        [estimate, truth]: [&[f32]; 2],
+        judged: &[bool],
+        full: f32,
     ) -> Result<Self, LabError> {
         let height = truth.len() as u32 / width.max(1);
         let size = [SIZE[0].min(width), SIZE[1].min(height)];
         let error = |x: u32, y: u32| {
             let at = (y * width + x) as usize;
-            f64::from((estimate[at] - truth[at]).abs()) * f64::from(u8::from(facing[at]))
+            f64::from((estimate[at] - truth[at]).abs()) * f64::from(u8::from(judged[at]))
         };
         let mut best = ([0; 2], f64::NEG_INFINITY);
         // Corners on a grid of a quarter of the size are close enough to the worst.
@@ -69,7 +66,7 @@ impl Crop {
             let light: Vec<f32> = shadow.iter().map(|intensity| 1.0 - intensity).collect();
             grey(&light).into_iter().map(|level| [level; 3]).collect()
         };
-        let difference = signed_difference(&estimate, &truth, FULL);
+        let difference = signed_difference(&estimate, &truth, full);
         let difference = difference
             .chunks_exact(4)
             .map(|pixel| [pixel[0], pixel[1], pixel[2]]);
@@ -125,7 +122,7 @@ mod tests {
                 facing[y * width + x] = false;
             }
         }
-        let crop = Crop::of(3, width as u32, &estimate, &truth, &facing)?;
+        let crop = Crop::of((3, width as u32), [&estimate, &truth], &facing, 0.5)?;
         let [left, top] = crop.corner;
         assert!(
             left <= 200 && left + 96 >= 230 && top <= 100 && top + 72 >= 120,

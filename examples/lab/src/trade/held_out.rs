@@ -166,6 +166,7 @@ pub(super) mod tests {
             surfaces: None,
             facing_surfaces: None,
             nan: 0,
+            flip: None,
         });
         Row {
             cell: Cell {

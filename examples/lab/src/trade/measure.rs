@@ -2,6 +2,7 @@
 
 use moment_shadows::{Storage, TextureFormat};
 use moment_shadows_graph::{Stage as PassStage, TextureDesc};
+use rayon::prelude::*;
 
 use super::axes::Cell;
 use super::isa::Kept;
@@ -12,6 +13,7 @@ use crate::cost::clock::{Clock, ClockKind};
 use crate::cost::copies::{Copies, CopyWork};
 use crate::cost::protocol::{Rounds, Subject};
 use crate::error::LabError;
+use crate::flip::flip;
 use crate::frame::Frame;
 use crate::gpu::Gpu;
 use crate::graph_file::GraphFile;
@@ -127,6 +129,7 @@ pub(super) fn errors(
     let softness = stage.axes.softness(cell);
     let mut run = MapRun::new(gpu, &frames[0], file)?;
     let (mut errors, mut worst) = (Vec::new(), (0, Vec::new()));
+    let mut lit = Vec::new();
     let mut largest = f64::NEG_INFINITY;
     let mut looked_up = None;
     for (index, (view, frame)) in stage.views.iter().zip(frames).enumerate() {
@@ -136,6 +139,7 @@ pub(super) fn errors(
         let truth = &view.truths[softness];
         let shadow = run.graph.read_shadow(gpu, &run.file)?;
         let picture = compare(&shadow, &truth.picture.shadow, &truth.picture.facing)?;
+        lit.push(frame.picture(gpu, run.graph.shadow(&run.file)?)?);
         let map = run.map(frame)?;
         let evaluator = MapEvaluator::new(gpu, &map, None)?;
         let surfaces = (truth.surfaces).judge_size(&evaluator, run.shading, frame.desc.map)?;
@@ -145,6 +149,13 @@ pub(super) fn errors(
         if error > largest || index == 0 {
             (largest, worst) = (error, (index, shadow));
         }
+    }
+    let seen = lit.par_iter().zip(&stage.views);
+    let flips: Result<Vec<f64>, LabError> = seen
+        .map(|(lit, view)| flip(stage.setting.picture, &view.truths[softness].lit, lit))
+        .collect();
+    for (errors, flip) in errors.iter_mut().zip(flips?) {
+        errors.flip = Some(flip);
     }
     let (technique, stored) =
         looked_up.ok_or_else(|| LabError::refused("a trade needs at least one view"))?;

@@ -8,7 +8,7 @@ pub mod axes;
 pub mod best;
 pub mod chart;
 pub mod choose;
-mod crop;
+pub(crate) mod crop;
 pub mod front;
 pub mod held_out;
 mod identity;
@@ -34,6 +34,7 @@ pub use isa::Kept;
 pub use jobs::Job;
 pub use judge::Judged;
 pub use measure::{Measured, Meter};
+pub(crate) use stage::Drawn;
 pub use stage::Stage;
 
 use self::axes::{Axes, Cell};
@@ -80,7 +81,7 @@ pub struct Trade {
 const RESULTS: &str = "results.json";
 
 /// Samples per texel that truths are made of.
-const TRUTH_SAMPLES: u32 = 64;
+pub(crate) const TRUTH_SAMPLES: u32 = 64;
 
 impl Trade {
     /// The graph whose kernel, technique and storage are varied.
@@ -191,7 +192,7 @@ impl Trade {
     }
 
     /// Whether the picture of a combination is shown: those with the largest map and the most samples.
-    fn shows(&self, cell: Cell) -> bool {
+    pub(crate) fn shows(&self, cell: Cell) -> bool {
         let most = self.axes.samples.iter().copied().max().unwrap_or(1);
         let samples = match self.axes.candidates[cell.candidate].reads_depth() {
             true => 1,
@@ -201,7 +202,7 @@ impl Trade {
     }
 
     /// A scene with its views.
-    fn load(&self, name: &str) -> Result<(Scene, Vec<ViewSetup>), LabError> {
+    pub(crate) fn load(&self, name: &str) -> Result<(Scene, Vec<ViewSetup>), LabError> {
         let given = SceneSetup::beside(name)?;
         let mut scene = scene::load(name)?;
         if !self.ground || given.as_ref().is_some_and(|given| !given.ground) {
@@ -219,7 +220,7 @@ impl Trade {
         Ok((scene, setups))
     }
 
-    fn setting(&self, gpu: &Gpu) -> Result<Setting, LabError> {
+    pub(crate) fn setting(&self, gpu: &Gpu) -> Result<Setting, LabError> {
         let info = gpu.adapter.get_info();
         Ok(Setting {
             library: env!("CARGO_PKG_VERSION").to_owned(),
@@ -262,7 +263,7 @@ impl Trade {
 }
 
 /// Says that a scene's own views are taken, which arguments about views do not change.
-fn tell_of_views(scene: &str) -> Result<(), LabError> {
+pub(crate) fn tell_of_views(scene: &str) -> Result<(), LabError> {
     if let Some(given) = SceneSetup::beside(scene)? {
         let file = path_beside(scene);
         eprintln!(

@@ -157,6 +157,9 @@ pub struct Errors {
     pub facing_surfaces: Option<Figures>,
     /// Pixels that are NaN.
     pub nan: usize,
+    /// The mean of FLIP over the picture that the shadows light, beside that of the truth; none in results of before it was there.
+    #[serde(default)]
+    pub flip: Option<f64>,
 }
 
 /// An error with its parts.
@@ -192,6 +195,7 @@ impl Errors {
             surfaces: Figures::of(&surfaces[0]),
             facing_surfaces: Figures::of(&surfaces[1]),
             nan: picture.nan_pixels,
+            flip: None,
         }
     }
 }
@@ -221,6 +225,12 @@ impl Row {
         )
     }
 
+    /// The mean over views of FLIP.
+    #[must_use]
+    pub fn flip(&self) -> Option<f64> {
+        mean(self.views.iter().filter_map(|view| view.flip))
+    }
+
     /// The view with the largest error in the picture.
     #[must_use]
     pub fn worst_view(&self) -> Option<&Errors> {
@@ -232,7 +242,7 @@ impl Row {
 }
 
 /// The mean of some figures; none of none.
-pub(super) fn mean(figures: impl Iterator<Item = f64>) -> Option<f64> {
+pub(crate) fn mean(figures: impl Iterator<Item = f64>) -> Option<f64> {
     let (sum, count) = figures.fold((0.0, 0), |(sum, count), figure| (sum + figure, count + 1));
     (count > 0).then(|| sum / f64::from(count))
 }

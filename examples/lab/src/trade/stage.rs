@@ -1,6 +1,8 @@
 //! A scene with its views, and the truths of what each shows.
 
 use glam::DVec3;
+use moment_shadows::TextureFormat;
+use moment_shadows_graph::TextureDesc;
 
 use super::axes::{Axes, Cell};
 use super::crop::Crop;
@@ -17,8 +19,12 @@ use crate::judgement::{PictureTruth, facing};
 use crate::light::LightShape;
 use crate::scene::Scene;
 use crate::surface_error::SurfaceTruth;
+use crate::texture::upload;
 use crate::truth::kernel::{TapPattern, even_positions};
 use crate::truth::pcf::pcf;
+
+/// A difference of this shadow intensity has the full colour in crops.
+const FULL: f32 = 0.5;
 
 /// A scene that is judged from several views.
 pub struct Stage<'a> {
@@ -43,6 +49,8 @@ pub(super) struct View {
 /// What a view should show with one softness.
 pub(super) struct ViewTruth {
     pub(super) picture: PictureTruth,
+    /// The picture that it lights, as sRGB bytes with alpha.
+    pub(super) lit: Vec<u8>,
     pub(super) surfaces: SurfaceTruth,
 }
 
@@ -100,13 +108,8 @@ impl<'a> Stage<'a> {
         let view = &self.views[measured.worst];
         let truth = &view.truths[self.axes.softness(cell)].picture;
         let width = self.setting.picture[0];
-        Crop::of(
-            view.number,
-            width,
-            &measured.picture,
-            &truth.shadow,
-            &truth.facing,
-        )
+        let pictures = [&*measured.picture, &*truth.shadow];
+        Crop::of((view.number, width), pictures, &truth.facing, FULL)
     }
 
     /// What a view draws for truths.
@@ -144,9 +147,14 @@ impl<'a> Stage<'a> {
         let stride = self.setting.stride;
         let surfaces = SurfaceTruth::of(self.scene, &frame, &depths, &kernels, stride, || ())?;
         let of_kernel = |(taps, surfaces): (&TapPattern, SurfaceTruth)| {
+            let shadow = pcf(&desc.light, &depths, taps, &pixels)?;
+            let size = self.setting.picture;
+            let texture = TextureDesc::new(TextureFormat::R32Float, size);
+            let texture = upload(self.gpu, &texture, bytemuck::cast_slice(&shadow));
             Ok(ViewTruth {
+                lit: frame.picture(self.gpu, &texture)?,
                 picture: PictureTruth {
-                    shadow: pcf(&desc.light, &depths, taps, &pixels)?,
+                    shadow,
                     facing: facing.clone(),
                 },
                 surfaces,
@@ -162,7 +170,7 @@ impl<'a> Stage<'a> {
     }
 
     /// A view as it is drawn, and what it asks for.
-    fn drawn(&self, number: u32, setup: &ViewSetup) -> Result<Drawn, LabError> {
+    pub(crate) fn drawn(&self, number: u32, setup: &ViewSetup) -> Result<Drawn, LabError> {
         let desc = self.desc(setup)?;
         let frame = Frame::draw(self.gpu, self.scene, desc)?;
         let mut kernels = Vec::new();
@@ -193,11 +201,11 @@ impl<'a> Stage<'a> {
 }
 
 /// A view before its truths are known.
-struct Drawn {
-    frame: Frame,
+pub(crate) struct Drawn {
+    pub(crate) frame: Frame,
     /// For each softness.
-    kernels: Vec<TapPattern>,
-    pixels: SurfacePixels,
-    facing: Vec<bool>,
+    pub(crate) kernels: Vec<TapPattern>,
+    pub(crate) pixels: SurfacePixels,
+    pub(crate) facing: Vec<bool>,
     probe: ViewProbe,
 }

@@ -9,7 +9,7 @@ use crate::error::LabError;
 use crate::frame::Frame;
 use crate::gpu::Gpu;
 use crate::graph_file::GraphFile;
-use crate::graph_frame::{GraphFrame, parameter_bytes, read_intensity, shade_parameters};
+use crate::graph_frame::{GraphFrame, read_intensity, receiver_bias};
 
 /// Hard shadows in single precision.
 const GRAPH: &str = include_str!("../../../hard_shadows.json");
@@ -79,12 +79,8 @@ pub(super) fn by_objects(
     let file = GraphFile::parse("hard_shadows.json", graph(1), None)?;
     let file = file.with_technique(technique, None)?;
     let objects = GraphFrame::new(gpu, frame, &file)?;
-    let mut bytes = parameter_bytes(&objects.plan, &frame.desc, &file, None)?;
-    let mut parameters = shade_parameters(&frame.desc, &file)?;
-    parameters.receiver_bias = bias(parameters.receiver_bias);
-    let blocks = &objects.plan.parameters;
-    blocks.write(&mut bytes, "shade", 0, &parameters)?;
-    objects.write(gpu, &bytes);
+    let usual = receiver_bias(&frame.desc, &file)?;
+    objects.fill_biased(gpu, &frame.desc, &file, bias(usual))?;
     objects.run(gpu)?;
     shown(gpu, frame, objects.shadow(&file)?)
 }

@@ -76,7 +76,8 @@ fn setting(results: &Results) -> String {
          of {} samples per texel of a map of {}² texels, whatever the map of the technique: a smaller map and fewer samples are \
          errors too. <b>Picture</b>: over the pixels of {width}x{height} that face the light, the mean of the views, with the \
          interval that another view of the scene lies in with 90 %: take it for what is seen from such cameras. <b>All surfaces</b>: over everything that the light's rays meet, hidden or not: take it where cameras go \
-         anywhere, and for what leaks behind occluders.</p>\n\
+         anywhere, and for what leaks behind occluders. <b>FLIP</b>: how different the lit pictures look to someone who flips between \
+         truth and technique, in percent, the mean over pixels at 67 of them per degree of sight.</p>\n\
          <p>Times are in copies of a map of 1024² texels of 64 bits by a compute shader, in the same rounds. {time}. Instructions \
          are those of the shader that shades, by the compiler for RDNA 2, where the kept table has its row.</p>\n\
          <p class=\"setting\">{}; profile {}; library {}</p>\n",
@@ -137,7 +138,7 @@ fn shown(section: &Section<'_>) -> String {
 }
 
 /// Heads of the table's columns.
-const HEADS: [&str; 13] = [
+const HEADS: [&str; 14] = [
     "technique",
     "storage",
     "map",
@@ -147,6 +148,7 @@ const HEADS: [&str; 13] = [
     "90 % interval",
     "leaking",
     "worst view",
+    "FLIP",
     "all surfaces",
     "time",
     "MiB",
@@ -174,7 +176,7 @@ fn table(lines: &[&Line<'_>]) -> String {
     html + "</tbody>\n</table></div>\n"
 }
 
-fn cells(row: &Row, interval: Option<[f64; 2]>) -> [String; 13] {
+fn cells(row: &Row, interval: Option<[f64; 2]>) -> [String; 14] {
     let percent =
         |error: Option<f64>| error.map_or("-".to_owned(), |it| format!("{:.3}", 100.0 * it));
     let leaking = row.views.iter().filter_map(|view| view.picture);
@@ -194,6 +196,7 @@ fn cells(row: &Row, interval: Option<[f64; 2]>) -> [String; 13] {
         }),
         percent(leaking),
         percent(worst.map(|picture| picture.error)),
+        percent(row.flip()),
         percent(row.surface_error()),
         format!("{:.2}", row.time.total.median),
         format!("{:.1}", row.bytes_resident as f64 / f64::from(1 << 20)),
