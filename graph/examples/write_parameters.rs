@@ -352,6 +352,11 @@ fn light(random: &mut Random) -> (LightView, Value) {
             [random.of(1, 512), random.of(1, 512)],
         )
     };
+    let guard = if random.one_in(2) {
+        0
+    } else {
+        random.of(0, 40)
+    };
     let (layer, channel) = (random.of(0, 4), random.of(0, 4));
     let sizes = if kind == 0 {
         [0, 1, 1, 1]
@@ -365,7 +370,7 @@ fn light(random: &mut Random) -> (LightView, Value) {
     };
     let (size, sized) = size(random, chosen);
     let written = json!({
-        "clipFromWorld": matrix, "depth": stored, "layer": layer, "channel": channel,
+        "clipFromWorld": matrix, "depth": stored, "layer": layer, "channel": channel, "guard": guard,
         "region": { "origin": region.origin, "extent": region.extent }, "size": sized,
     });
     (
@@ -374,6 +379,7 @@ fn light(random: &mut Random) -> (LightView, Value) {
             depth,
             layer,
             region,
+            guard,
             channel,
             size,
         },
