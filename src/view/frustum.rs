@@ -2,8 +2,11 @@
 
 use glam::{DMat4, DVec3};
 
-use super::{CameraView, inverse, singular};
+use super::{CameraView, singular};
 use crate::ValueError;
+
+/// The smallest volume that three directions of length 1 span: those of a picture that is not flat.
+const SMALLEST_VOLUME: f64 = 1e-9;
 
 /// The four edges of a camera's frustum. At the distance `t` along the camera's axis an edge is at `origin + t step`.
 pub(super) struct Frustum {
@@ -11,38 +14,35 @@ pub(super) struct Frustum {
 }
 
 impl Frustum {
-    /// Distances count from the camera, or, where its rays are parallel, from its near plane.
+    /// Distances count from the camera, or, where its rays are parallel, from its near plane. How a perspective camera stores depth does
+    /// not matter, nor what that loses in digits.
     pub(super) fn new(camera: &CameraView) -> Result<Self, ValueError> {
         let clip = DMat4::from_cols_array_2d(&camera.clip_from_world);
-        let [x, y, z, middle] = {
-            let inverse = inverse(clip, "camera")?;
-            [
-                inverse.x_axis,
-                inverse.y_axis,
-                inverse.z_axis,
-                inverse.w_axis,
-            ]
-        };
-        let axis = clip.row(3).truncate();
+        let [x, y, z, w] = [0, 1, 2, 3].map(|index| clip.row(index));
+        let parallel = w.truncate() == DVec3::ZERO;
+        let given = [x, y, if parallel { z } else { w }];
+        let [a, b, c] = given.map(|row| row.truncate());
+        let constants = DVec3::from(given.map(|row| row.w));
+        let volume = a.dot(b.cross(c));
+        // False for what is no number.
+        let spans = volume.abs() > SMALLEST_VOLUME * a.length() * b.length() * c.length();
+        // The place with these three coordinates.
+        let solved =
+            |at: DVec3| (at.x * b.cross(c) + at.y * c.cross(a) + at.z * a.cross(b)) / volume;
+        let far = f64::from(camera.far_depth);
         let corners = [[-1.0, -1.0], [1.0, -1.0], [-1.0, 1.0], [1.0, 1.0]];
         let edges = corners.map(|[across, up]| {
-            let at_zero = across * x + up * y + middle;
-            if axis == DVec3::ZERO {
-                let far = f64::from(camera.far_depth);
-                let near = at_zero + (1.0 - far) * z;
-                let along = (2.0 * far - 1.0) * z.truncate() * near.w.signum();
-                return [near.truncate() / near.w, along.normalize()];
+            if parallel {
+                let near = solved(DVec3::new(across, up, 1.0 - far) * w.w - constants);
+                let along = solved(DVec3::Z * (2.0 * far - 1.0) * w.w);
+                return [near, along.normalize()];
             }
-            // All rays meet where clip x, y and w are 0. A position less that one, times its homogeneous coordinate, does not
-            // depend on depth.
-            let eye = z.truncate() / z.w;
-            let along = at_zero.truncate() - at_zero.w * eye;
-            [eye, along * (axis.length() / axis.dot(along))]
+            let step = solved(DVec3::new(across, up, 1.0)) * c.length();
+            [solved(-constants), step]
         });
-        let frustum = Self { edges };
-        let finite = frustum.edges.as_flattened().iter();
-        if finite.copied().all(DVec3::is_finite) {
-            Ok(frustum)
+        let finite = edges.as_flattened().iter().copied().all(DVec3::is_finite);
+        if spans && finite && clip.is_finite() {
+            Ok(Self { edges })
         } else {
             Err(singular("camera"))
         }

@@ -121,7 +121,7 @@ fn depth_is_stored_as_the_light_says() {
             let reversed = matches!(depth, LightDepth::Perspective { reversed: true, .. });
             // Its sign is that of a camera's projection, which mirrors nothing.
             assert!(
-                clip.determinant() * if reversed { -1.0 } else { 1.0 } > 0.0,
+                clip.determinant() * if reversed { 1.0 } else { -1.0 } > 0.0,
                 "{depth:?}"
             );
             for _ in 0..50 {

@@ -1,7 +1,10 @@
 // What a camera sees between two distances.
 
-import { columns, inverse, row, singular } from './matrix.js';
-import { difference, dot, isFinite, length, scaled, sum } from './vector.js';
+import { columns, singular, transposed } from './matrix.js';
+import { cross, difference, dot, isFinite, length, scaled, sum } from './vector.js';
+
+// The smallest volume that three directions of length 1 span: those of a picture that is not flat.
+const SMALLEST_VOLUME = 1e-9;
 
 const CORNERS = [[-1, -1], [1, -1], [-1, 1], [1, 1]];
 
@@ -29,22 +32,27 @@ export function sphereOf(camera) {
   };
 }
 
-// The edges of the frustum. At the distance `t` along the camera's axis an edge is at `start + t step`.
+// The edges of the frustum. At the distance `t` along the camera's axis an edge is at `start + t step`; distances count from the camera, or,
+// where its rays are parallel, from its near plane.
 function edgesOf(camera) {
   const clip = columns(camera.clipFromWorld, 'camera');
-  const [x, y, z, middle] = inverse(clip, 'camera');
-  const axis = row(clip, 3).slice(0, 3);
-  const parallel = axis.every((entry) => entry === 0);
+  const [x, y, z, w] = transposed(clip);
+  const parallel = w.slice(0, 3).every((entry) => entry === 0);
+  const given = [x, y, parallel ? z : w];
+  const [a, b, c] = given.map((entries) => entries.slice(0, 3));
+  const constants = given.map((entries) => entries[3]);
+  const volume = dot(a, cross(b, c));
+  const spans = Math.abs(volume) > SMALLEST_VOLUME * length(a) * length(b) * length(c);
+  if (!(spans && isFinite(clip.flat()))) throw singular('camera');
+  // The place with these three coordinates.
+  const solved = (at) => scaled(sum(sum(scaled(cross(b, c), at[0]), scaled(cross(c, a), at[1])), scaled(cross(a, b), at[2])), 1 / volume);
+  const far = camera.farDepth;
   return CORNERS.map(([across, up]) => {
-    const atZero = sum(sum(scaled(x, across), scaled(y, up)), middle);
     if (parallel) {
-      const near = sum(atZero, scaled(z, 1 - camera.farDepth));
-      const along = scaled(z.slice(0, 3), (2 * camera.farDepth - 1) * Math.sign(near[3]));
-      return [near.slice(0, 3).map((value) => value / near[3]), scaled(along, 1 / length(along))];
+      const near = solved(difference(scaled([across, up, 1 - far], w[3]), constants));
+      const along = solved([0, 0, (2 * far - 1) * w[3]]);
+      return [near, scaled(along, 1 / length(along))];
     }
-    // All rays meet where clip x, y and w are 0. A position less that one, times its homogeneous coordinate, does not depend on depth.
-    const eye = z.slice(0, 3).map((value) => value / z[3]);
-    const along = difference(atZero.slice(0, 3), scaled(eye, atZero[3]));
-    return [eye, scaled(along, length(axis) / dot(axis, along))];
+    return [solved(scaled(constants, -1)), scaled(solved([across, up, 1]), length(c))];
   });
 }
