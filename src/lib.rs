@@ -108,3 +108,7 @@ pub use view::{
 #[cfg(doctest)]
 #[doc = include_str!("../README.md")]
 struct Readme;
+
+#[cfg(doctest)]
+#[doc = include_str!("../docs/views.md")]
+struct Views;

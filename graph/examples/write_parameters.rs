@@ -3,6 +3,9 @@
 //!
 //! `cargo run --release -p moment-shadows-graph --no-default-features --example write_parameters -- FILE`. The same inputs each time.
 
+#[path = "write_parameters/views.rs"]
+mod views;
+
 use std::error::Error;
 
 use bytemuck::bytes_of;
@@ -15,12 +18,14 @@ use moment_shadows_graph::{Capabilities, Graph, NodeRegistry, Plan, nodes::Blur}
 use serde_json::{Value, json};
 
 /// How many inputs of each kind there are.
-const COUNTS: [(Make, usize); 5] = [
+const COUNTS: [(Make, usize); 7] = [
     (conversion, 150),
     (view, 400),
     (scattering, 250),
     (blur, 100),
     (regions, 100),
+    (views::cascades, 300),
+    (views::point_light, 200),
 ];
 
 type Make = fn(&mut Random, &Plan) -> Value;
