@@ -139,25 +139,6 @@ fn texels_keep_their_size_and_phase_while_a_camera_moves_and_turns() {
 }
 
 #[test]
-fn a_cascade_moves_by_no_more_than_its_slice() {
-    let cascades = cascades();
-    let seen = |along: f64| {
-        let pose = Pose {
-            lens: FORWARD,
-            eye: DVec3::X * along,
-            forward: DVec3::Z,
-        };
-        cascades.views(&pose.camera()).unwrap()
-    };
-    for (index, (before, after)) in seen(0.0).iter().zip(seen(40.0)).enumerate() {
-        let at = |view: &LightView, point: DVec3| place(view, point).unwrap().0;
-        let moved = at(before, DVec3::X * 40.0) - at(&after, DVec3::X * 80.0);
-        // Snapping moves either by half a texel.
-        assert!(moved.abs().max_element() <= 1.0, "{index}: {moved}");
-    }
-}
-
-#[test]
 fn ranges_contain_all_casters_or_clamp_those_in_front() {
     let mut random = random();
     let (mut clamped, mut tighter) = (0, 0);
@@ -187,17 +168,10 @@ fn ranges_contain_all_casters_or_clamp_those_in_front() {
             for _ in 0..20 {
                 let part = DVec3::from([0; 3].map(|_| random.random_range(0.0..=1.0)));
                 let caster = low + part * (high - low);
-                let [(texel, shallow), (_, depth)] =
-                    [with, without].map(|view| place(view, caster).unwrap());
+                let [shallow, depth] = [with, without].map(|view| place(view, caster).unwrap().1);
                 // In front of the near plane only those that are clamped there.
                 assert!(depth >= 0.0, "{depth}");
                 clamped += usize::from(shallow < 0.0);
-                // The map is no larger than the casters; if it is as small, it holds them all.
-                if with.texel_size([512; 2])[0]
-                    < 0.9 * cascades().views(&pose.camera()).unwrap()[0].texel_size([512; 2])[0]
-                {
-                    assert!(within(with, texel) >= 0.0);
-                }
             }
         }
     }
