@@ -65,7 +65,7 @@ fn regions_of_any_sizes_are_apart_and_keep_their_extents() {
 }
 
 #[test]
-fn squares_of_powers_of_two_fill_a_map() {
+fn regions_that_fit_fill_a_map() {
     let atlas = Atlas {
         size: [256, 128],
         layers: 2,
@@ -76,6 +76,14 @@ fn squares_of_powers_of_two_fill_a_map() {
     views.push(view([128; 2], 3));
     atlas.place(&mut views).unwrap();
     assert_eq!(assert_apart(atlas, &views), 256 * 128 * 2);
+    // The larger of what is left beside a region stays whole.
+    let atlas = Atlas {
+        size: [100, 60],
+        layers: 1,
+    };
+    let mut views = [[60, 40], [40, 60], [60, 20]].map(|extent| view(extent, 0));
+    atlas.place(&mut views).unwrap();
+    assert_eq!(assert_apart(atlas, &views), 6000);
 }
 
 #[test]
