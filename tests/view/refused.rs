@@ -14,7 +14,7 @@ fn camera() -> CameraView {
     let pose = Pose {
         lens: LENSES[1],
         eye: DVec3::ONE,
-        forward: DVec3::Z,
+        forward: DVec3::new(0.3, 0.2, 1.0).normalize(),
     };
     pose.camera()
 }
@@ -84,7 +84,8 @@ fn cascades_that_cannot_be_are_refused() {
 fn cameras_without_a_frustum_are_refused() {
     let plain = camera().clip_from_world;
     let mut flat = plain;
-    flat.iter_mut().for_each(|column| column[1] = column[0]);
+    flat.iter_mut()
+        .for_each(|column| column[1] = 0.3 * column[0]);
     let mut none = plain;
     none[2][2] = f64::NAN;
     let mut far_away = plain;
@@ -94,13 +95,19 @@ fn cameras_without_a_frustum_are_refused() {
             .map(|axis| plain[axis][row] * place[axis])
             .sum::<f64>();
     }
-    for clip_from_world in [flat, none, far_away, [[0.0; 4]; 4]] {
+    for (clip_from_world, words) in [
+        (flat, "singular"),
+        (none, "not finite"),
+        (far_away, "too far away"),
+        ([[0.0; 4]; 4], "singular"),
+    ] {
         let camera = CameraView {
             clip_from_world,
             far_depth: 0.0,
         };
         let found = cascades().views(&camera).unwrap_err();
         assert_eq!(found.name, "camera", "{found}");
+        assert!(found.message.contains(words), "{words}: {found}");
     }
 }
 
