@@ -85,7 +85,7 @@ fn cameras_without_a_frustum_are_refused() {
     let plain = camera().clip_from_world;
     let mut flat = plain;
     flat.iter_mut()
-        .for_each(|column| column[1] = 0.3 * column[0]);
+        .for_each(|column| column[1] = column[0] + 1e-12 * column[1]);
     let mut none = plain;
     none[2][2] = f64::NAN;
     let mut far_away = plain;
