@@ -10,6 +10,8 @@ import {
   areaLight,
   biasForStoredDepth,
   blurParameters,
+  cascadeSlices,
+  cascadeViews,
   depthConversion,
   depthPerTexel,
   gaussianKernel,
@@ -17,8 +19,11 @@ import {
   kernelFromWeights,
   leakReduction,
   medium,
+  placeViews,
+  pointLightFaces,
   receiverBias,
   scatteringParameters,
+  spotView,
   standardDeviation,
   structBytes,
   viewParameters,
@@ -31,6 +36,15 @@ const hexadecimal = (bytes) => Buffer.from(bytes).toString('hex');
 // JSON has no numbers that are none.
 const NUMBERS = { NaN, inf: Infinity, '-inf': -Infinity };
 const revive = (_, value) => (typeof value === 'string' && value in NUMBERS ? NUMBERS[value] : value);
+
+// Powers and tangents differ in the last bit.
+const viewed = ({ clipFromWorld, layer, region, guard }) => [
+  clipFromWorld.flat().map(Math.fround),
+  layer,
+  region.origin,
+  region.extent,
+  guard,
+];
 
 // For each kind of input, what it makes: text, or an object of texts and numbers.
 function makers(plan) {
@@ -65,6 +79,13 @@ function makers(plan) {
       }
       return hexadecimal(block);
     },
+    cascades: ({ cascades, camera, atlas }) => ({
+      views: placeViews(atlas, cascadeViews(cascades, camera)).map(viewed),
+      slices: cascadeSlices(cascades).flat().map(Math.fround),
+    }),
+    pointLight: ({ light, direction, angle, atlas }) => ({
+      views: placeViews(atlas, [...pointLightFaces(light), spotView(light, direction, angle)]).map(viewed),
+    }),
   };
 }
 

@@ -100,11 +100,15 @@ pub use validate::{
 pub use value_error::ValueError;
 
 pub use view::{
-    CameraView, CompositeScatteringParameters, IntegrateScatteringParameters, LightDepth,
-    LightView, RectifiedFrame, RectifiedView, RectifyMomentsParameters, ScatteringParameters,
-    ViewParameters,
+    Atlas, CameraView, CascadeSplits, Cascades, CompositeScatteringParameters,
+    IntegrateScatteringParameters, LightDepth, LightView, PointLight, RectifiedFrame,
+    RectifiedView, RectifyMomentsParameters, ScatteringParameters, Tile, ViewParameters,
 };
 
 #[cfg(doctest)]
 #[doc = include_str!("../README.md")]
 struct Readme;
+
+#[cfg(doctest)]
+#[doc = include_str!("../docs/views.md")]
+struct Views;

@@ -3,6 +3,9 @@
 //!
 //! `cargo run --release -p moment-shadows-graph --no-default-features --example write_parameters -- FILE`. The same inputs each time.
 
+#[path = "write_parameters/views.rs"]
+mod views;
+
 use std::error::Error;
 
 use bytemuck::bytes_of;
@@ -15,12 +18,14 @@ use moment_shadows_graph::{Capabilities, Graph, NodeRegistry, Plan, nodes::Blur}
 use serde_json::{Value, json};
 
 /// How many inputs of each kind there are.
-const COUNTS: [(Make, usize); 5] = [
+const COUNTS: [(Make, usize); 7] = [
     (conversion, 150),
     (view, 400),
     (scattering, 250),
     (blur, 100),
     (regions, 100),
+    (views::cascades, 300),
+    (views::point_light, 200),
 ];
 
 type Make = fn(&mut Random, &Plan) -> Value;
@@ -352,6 +357,11 @@ fn light(random: &mut Random) -> (LightView, Value) {
             [random.of(1, 512), random.of(1, 512)],
         )
     };
+    let guard = if random.one_in(2) {
+        0
+    } else {
+        random.of(0, 40)
+    };
     let (layer, channel) = (random.of(0, 4), random.of(0, 4));
     let sizes = if kind == 0 {
         [0, 1, 1, 1]
@@ -365,7 +375,7 @@ fn light(random: &mut Random) -> (LightView, Value) {
     };
     let (size, sized) = size(random, chosen);
     let written = json!({
-        "clipFromWorld": matrix, "depth": stored, "layer": layer, "channel": channel,
+        "clipFromWorld": matrix, "depth": stored, "layer": layer, "channel": channel, "guard": guard,
         "region": { "origin": region.origin, "extent": region.extent }, "size": sized,
     });
     (
@@ -374,6 +384,7 @@ fn light(random: &mut Random) -> (LightView, Value) {
             depth,
             layer,
             region,
+            guard,
             channel,
             size,
         },

@@ -37,8 +37,52 @@ export interface LightView {
   depth?: LightDepth;
   layer?: number;
   region?: MapRegion;
+  /** Texels along the region's edges that are drawn and filtered, but in which nodes that shade look up no place. */
+  guard?: number;
   channel?: number;
   size?: LightSize;
+}
+
+/** A light's view with nothing left out but a size: what is made here. */
+export type PlacedView = Required<Omit<LightView, 'size'>>;
+
+/** The square region that each view gets, and how many texels the graph's filters reach to each side. */
+export interface Tile {
+  texels: number;
+  filterRadius: number;
+}
+
+/** Where cascades end: so many between uniform, 0, and logarithmic, 1, or at given distances, one less than there are cascades. */
+export type CascadeSplits = { blend: { count: number; logarithmic: number } } | { given: number[] };
+
+/** The cascades of a sun. Distances count along the camera's axis. */
+export interface Cascades {
+  /** Where light travels to. */
+  direction: Triple;
+  splits: CascadeSplits;
+  near: number;
+  far: number;
+  /** How far a cascade reaches into the next one, as a part of its own length; 0 where it is left out. */
+  overlap?: number;
+  /** The lowest and the highest corner of a box around all that casts. */
+  casters?: [Triple, Triple];
+  /** Whether casters in front of the near plane are clamped to it. */
+  pancaking?: boolean;
+  reversed?: boolean;
+  tile: Tile;
+}
+
+/** A light that shines from a point: `depth` is perspective or linear. */
+export interface PointLight {
+  position: Triple;
+  depth: LightDepth;
+  tile: Tile;
+}
+
+/** A map whose layers views of lights share. */
+export interface Atlas {
+  size: Pair;
+  layers: number;
 }
 
 export interface DepthConversion {
@@ -110,6 +154,27 @@ export function viewParameters(
 export function receiverBias(standardDeviation: number, depthPerTexel: number): ReceiverBias;
 export function biasForStoredDepth(bias: ReceiverBias, format: GPUTextureFormat, conversion: DepthConversion): ReceiverBias;
 export function leakReduction(settings?: { fullShadow?: number; bleedReduction?: number; visibilityExponent?: number }): LeakReduction;
+
+/** The width of a tile's guard band in texels. */
+export function guardOf(tile: Tile): number;
+
+/** Where each cascade's part of the frustum begins and ends, its overlap with the next one included. */
+export function cascadeSlices(cascades: Cascades): Pair[];
+
+/** The cascades, from near to far. Texels keep their size and stay where they are in the scene while the camera moves and turns. */
+export function cascadeViews(cascades: Cascades, camera: CameraView): PlacedView[];
+
+/** The six faces, +x, -x, +y, -y, +z and -z. */
+export function pointLightFaces(light: PointLight): PlacedView[];
+
+/** A spot along `direction`; `angle` is the full angle of its cone in radians. */
+export function spotView(light: PointLight, direction: Triple, angle: number): PlacedView;
+
+/** The views with a layer and a place in a map each. */
+export function placeViews<View extends LightView>(atlas: Atlas, views: View[]): View[];
+
+/** Checks views that a page has placed. */
+export function checkPlaces(atlas: Atlas, views: PlacedView[]): void;
 
 /** Width and height of a texel in scene units. `extent` are the texels of the light's region, here and below. */
 export function texelSize(light: LightView, extent: Pair): Pair;

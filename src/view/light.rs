@@ -18,6 +18,9 @@ pub struct LightView {
     pub layer: u32,
     /// The region of that layer that the matrix's clip space covers; [`MapRegion::WHOLE`] where it has the layer to itself.
     pub region: MapRegion,
+    /// Texels along the region's edges that are drawn and filtered, but where nodes that shade look up no place: such pixels
+    /// belong to other views. 0 where the region goes on nowhere else. [`crate::Tile::guard`] follows from a filter.
+    pub guard: u32,
     /// The light's channel in the node's output, 0 to 3.
     pub channel: u32,
     /// How large the light is; for soft shadows.
@@ -34,6 +37,7 @@ impl LightView {
             depth: LightDepth::Orthographic { reversed: false },
             layer: 0,
             region: MapRegion::WHOLE,
+            guard: 0,
             channel: 0,
             size: LightSize::Point,
         }
@@ -99,6 +103,23 @@ impl LightView {
             LightDepth::Perspective { .. } | LightDepth::Linear { .. } => far,
         };
         2.0 * width.max(height) * spread / (far - near)
+    }
+
+    /// Checks that a region of `extent` texels has some within its guard band.
+    ///
+    /// # Errors
+    /// [`ValueError`] about the `guard` band.
+    pub fn check_guard(&self, extent: [u32; 2]) -> Result<(), ValueError> {
+        let [width, height] = extent;
+        if 2 * u64::from(self.guard) < u64::from(width.min(height)) || self.guard == 0 {
+            return Ok(());
+        }
+        let message = format!(
+            "a region of {width}x{height} texels has no room between guard bands of {} texels; give it more texels, or a filter \
+             that reaches less far",
+            self.guard
+        );
+        Err(ValueError::new("guard", message))
     }
 
     /// The light with its size over a map whose region has `extent` texels, as `shade_soft` and percentage-closer soft

@@ -1,25 +1,47 @@
-//! Host-side mathematics: cameras, views of lights, and the uniform structs that are made of them.
+//! Host-side mathematics: cameras, views of lights, what they have to see, and the uniform structs that are made of them.
 //!
 //! Matrices are plain arrays of f64 by columns outside, glam's inside: products of f32 matrices with large translations lose
 //! digits, and shadows then move by texels. A host whose matrices are f32 makes them relative to its camera.
 
+mod atlas;
 mod camera;
+mod cascade_splits;
+mod cascades;
+mod frustum;
 mod light;
 mod parameters;
+mod point_light;
 mod rectified;
 mod scattering;
+mod tile;
 
+pub use atlas::Atlas;
 pub use camera::CameraView;
-use glam::{DMat4, DVec4};
+pub use cascade_splits::CascadeSplits;
+pub use cascades::Cascades;
+use glam::{DMat4, DVec3, DVec4};
 pub use light::{LightDepth, LightView};
 pub use parameters::ViewParameters;
+pub use point_light::PointLight;
 pub use rectified::{RectifiedFrame, RectifiedView};
 pub use scattering::{
     CompositeScatteringParameters, IntegrateScatteringParameters, RectifyMomentsParameters,
     ScatteringParameters,
 };
+pub use tile::Tile;
 
 use crate::ValueError;
+
+/// Where light travels to, with length 1.
+fn light_direction(direction: [f64; 3]) -> Result<DVec3, ValueError> {
+    let direction = DVec3::from(direction);
+    rectified::normalized(direction).ok_or_else(|| {
+        let message = format!(
+            "the light's direction is {direction}, but must be finite and not zero: where light travels to"
+        );
+        ValueError::new("light_direction", message)
+    })
+}
 
 /// The refusal of the matrix of a `camera` or a `light`.
 fn singular(name: &'static str) -> ValueError {

@@ -3,6 +3,7 @@
 use bytemuck::{Pod, Zeroable};
 use glam::DMat4;
 
+use super::tile::PLACE_ERROR;
 use super::{CameraView, LightView, inverse};
 use crate::{AreaLight, DepthConversion, LeakReduction, MapRegion, ReceiverBias, ValueError};
 
@@ -30,8 +31,8 @@ pub struct ViewParameters {
     pub layer: u32,
     /// The light's channel in the output, 0 to 3. The first view of a channel that contains a pixel shades it.
     pub channel: u32,
-    /// Unused; keeps the WGSL layout.
-    pub padding: f32,
+    /// Texels along the region's edges in which no place is looked up.
+    pub guard: f32,
     /// How the light's map stores depth: for techniques that read the plain depth map.
     pub conversion: DepthConversion,
     /// The light's size: for percentage-closer soft shadows.
@@ -54,6 +55,7 @@ impl ViewParameters {
         inverse(light_clip, "light")?;
         let conversion = light.depth.conversion()?;
         light.depth.check_matrix(light_clip)?;
+        light.check_guard(light.region.extent)?;
         let [x, y, w] = [0, 1, 3].map(|index| light_clip.row(index));
         // From clip space to the map: u = (x + w) / 2, v = (w - y) / 2, both still times w.
         let rows = [0.5 * (w + x), 0.5 * (w - y), w, light.depth.row(light_clip)];
@@ -79,7 +81,7 @@ impl ViewParameters {
             far_depth: camera.far_depth,
             layer: light.layer,
             channel: light.channel,
-            padding: 0.0,
+            guard: (f64::from(light.guard) - PLACE_ERROR).max(0.0) as f32,
             conversion,
             light: AreaLight::NONE,
         })

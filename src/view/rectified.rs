@@ -73,13 +73,7 @@ impl RectifiedView {
             );
             return Err(ValueError::new("far", message));
         }
-        let direction = DVec3::from(light_direction);
-        let light = normalized(direction).ok_or_else(|| {
-            let message = format!(
-                "the light's direction is {direction}, but must be finite and not zero: where light travels to"
-            );
-            ValueError::new("light_direction", message)
-        })?;
+        let light = super::light_direction(light_direction)?;
         // All view rays meet where clip x, y and w are 0.
         let [x, y, z, middle] = world_from_clip.to_cols_array_2d().map(DVec4::from);
         if z.w.abs() <= 1e-12 * z.truncate().length() || z.w == 0.0 {
@@ -128,7 +122,7 @@ impl RectifiedView {
 }
 
 /// The vector scaled to length 1; `None` if it is zero or not finite.
-fn normalized(vector: DVec3) -> Option<DVec3> {
+pub(super) fn normalized(vector: DVec3) -> Option<DVec3> {
     let largest = vector.abs().max_element();
     if !(largest > 0.0 && vector.is_finite()) {
         return None;
@@ -137,7 +131,7 @@ fn normalized(vector: DVec3) -> Option<DVec3> {
 }
 
 /// Right-handed axes, the last of which is `light`.
-fn axes_of(light: DVec3) -> [DVec3; 3] {
+pub(super) fn axes_of(light: DVec3) -> [DVec3; 3] {
     // The axis of the scene that is least along the light.
     let smallest = light.abs().min_position();
     let other = DVec3::AXES[smallest];

@@ -105,6 +105,7 @@ fn degenerate_views_are_refused() {
                 depth,
                 layer: 0,
                 region: MapRegion::WHOLE,
+                guard: 0,
                 channel: 0,
                 size: LightSize::Point,
             },

@@ -258,7 +258,7 @@ fn structs_of_the_nodes_are_laid_out_alike() {
             far_depth: f32,
             layer: u32,
             channel: u32,
-            padding: f32,
+            guard: f32,
             conversion: DepthConversion,
             light: AreaLight,
         }),

@@ -24,6 +24,7 @@ pub(crate) fn view(reversed: bool, bias: ReceiverBias) -> ViewParameters {
             depth: LightDepth::Orthographic { reversed },
             layer: 0,
             region: MapRegion::WHOLE,
+            guard: 0,
             channel: 0,
             size: LightSize::Point,
         },

@@ -164,6 +164,7 @@ pub(crate) fn view(camera: [[f64; 4]; 4], light: [[f64; 4]; 4], layer: u32) -> V
             depth,
             layer,
             region: MapRegion::WHOLE,
+            guard: 0,
             channel: 0,
             size: LightSize::Point,
         },

@@ -62,6 +62,7 @@ pub(crate) fn view(
             depth: LightDepth::Orthographic { reversed: false },
             layer,
             region,
+            guard: 0,
             channel,
             size: LightSize::Point,
         },

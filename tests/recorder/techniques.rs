@@ -94,6 +94,7 @@ fn shade(gpu: &Gpu, capabilities: &Capabilities, text: &str, layer: u32) -> Vec<
             depth: LightDepth::Orthographic { reversed: false },
             layer,
             region: MapRegion::WHOLE,
+            guard: 0,
             channel: 0,
             size: LightSize::Point,
         },

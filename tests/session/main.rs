@@ -16,6 +16,7 @@ mod orders;
 mod refused;
 mod same;
 mod stored;
+mod views;
 
 use moment_shadows::{CameraView, LightView, Profile};
 use moment_shadows_graph::record::ImportedResource;

@@ -41,7 +41,7 @@ fn views_of_lights_that_the_graph_has_no_place_for_are_named() {
     session.view(&gpu.queue, 0, &camera, &[light]).unwrap();
     let before = recorded(&gpu, &session, 0, "shadow_intensity");
     let singular = [[0.0; 4]; 4];
-    let wrong: [(&[LightView], &str); 6] = [
+    let wrong: [(&[LightView], &str); 7] = [
         (&[LightView { layer: 1, ..light }], "layer is 1"),
         (
             &[LightView {
@@ -49,6 +49,13 @@ fn views_of_lights_that_the_graph_has_no_place_for_are_named() {
                 ..light
             }],
             "channel is 1",
+        ),
+        (
+            &[LightView {
+                guard: 128,
+                ..light
+            }],
+            "guard bands of 128",
         ),
         (&[light, light], "at most 1"),
         (&[LightView::orthographic(singular)], "light"),

@@ -353,6 +353,7 @@ pub fn light_view(desc: &FrameDesc) -> LightView {
         },
         layer: 0,
         region: MapRegion::WHOLE,
+        guard: 0,
         channel: 0,
         size: match desc.shape {
             shape if shape.is_point() => LightSize::Point,

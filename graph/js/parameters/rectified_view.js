@@ -1,9 +1,10 @@
 // The rectified coordinates of a camera and a directional light: the struct `RectifiedFrame`.
 
+import { lightAxes, normalized } from './light_axes.js';
 import { columns, inverse, singular } from './matrix.js';
 import { isNormal, single, whole } from './rounding.js';
 import { ValueError } from './value_error.js';
-import { cross, difference, dot, isFinite, largest, length, scaled, sum } from './vector.js';
+import { cross, difference, dot, isFinite, length, scaled, sum } from './vector.js';
 
 const TAU = 2 * Math.PI;
 
@@ -23,11 +24,7 @@ export function rectifiedView(clipFromWorld, far, lightDirection) {
     const message = `the far distance is ${far}, but must be above 0 and finite: how far along the camera's axis light is scattered`;
     throw new ValueError('far', message);
   }
-  const light = normalized(lightDirection);
-  if (!light) {
-    const message = `the light's direction is ${lightDirection}, but must be finite and not zero: where light travels to`;
-    throw new ValueError('light_direction', message);
-  }
+  const axes = lightAxes(lightDirection);
   // All view rays meet where clip x, y and w are 0.
   const [x, y, z, middle] = worldFromClip;
   if (Math.abs(z[3]) <= 1e-12 * length(z.slice(0, 3)) || z[3] === 0) {
@@ -37,7 +34,6 @@ export function rectifiedView(clipFromWorld, far, lightDirection) {
     throw new ValueError('camera', message);
   }
   const camera = z.slice(0, 3).map((component) => component / z[3]);
-  const axes = axesOf(light);
   // A position less the camera's, times its homogeneous coordinate, is linear in x and y and independent of depth.
   const direction = (column) => {
     const scene = difference(column.slice(0, 3), scaled(camera, column[3]));
@@ -64,26 +60,6 @@ export function rectifiedView(clipFromWorld, far, lightDirection) {
     throw new ValueError('frustum', "the frustum's size is beyond single precision; choose another unit of length");
   }
   return { camera, axes, frame };
-}
-
-// The vector scaled to length 1; nothing if it is zero or not finite.
-function normalized(vector) {
-  const most = largest(vector);
-  if (!(most > 0 && isFinite(vector))) return undefined;
-  const even = vector.map((component) => component / most);
-  return scaled(even, 1 / length(even));
-}
-
-// Right-handed axes, the last of which is `light`.
-function axesOf(light) {
-  // The axis of the scene that is least along the light.
-  const [x, y, z] = light.map(Math.abs);
-  const smallest = z < Math.min(x, y) ? 2 : y < x ? 1 : 0;
-  const other = [0, 1, 2].map((axis) => (axis === smallest ? 1 : 0));
-  // Before it is normalised its length is at least sqrt(2 / 3).
-  const across = difference(other, scaled(light, dot(other, light)));
-  const first = scaled(across, 1 / length(across));
-  return [first, cross(light, first), light];
 }
 
 // The bounds of the frustum whose far plane is spanned by the changes of position there along x and y, and their middle.

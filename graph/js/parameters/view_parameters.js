@@ -6,6 +6,7 @@ import { leakReduction } from './leak_reduction.js';
 import { checkMatrix, completed, momentDepthRow } from './light_view.js';
 import { columns, inverse, product, row, transposed } from './matrix.js';
 import { single } from './rounding.js';
+import { PLACE_ERROR, checkGuard } from './tile.js';
 import { number } from './value_error.js';
 import { difference, scaled, sum } from './vector.js';
 
@@ -17,10 +18,11 @@ import { difference, scaled, sum } from './vector.js';
  */
 export function viewParameters(camera, light, receiverBias, reduction = leakReduction(), areaLight = NO_AREA) {
   const worldFromClip = inverse(columns(camera.clipFromWorld, 'camera'), 'camera');
-  const { clip, depth, region, layer, channel } = completed(light);
+  const { clip, depth, region, guard, layer, channel } = completed(light);
   inverse(clip, 'light');
   const conversion = depthConversion(depth);
   checkMatrix(depth, clip);
+  checkGuard(guard, region.extent);
   const [x, y, w] = [0, 1, 3].map((index) => row(clip, index));
   // From clip space to the map: u = (x + w) / 2, v = (w - y) / 2, both still times w.
   const rows = [scaled(sum(w, x), 0.5), scaled(difference(w, y), 0.5), w, momentDepthRow(depth, clip)];
@@ -38,6 +40,7 @@ export function viewParameters(camera, light, receiverBias, reduction = leakRedu
     far_depth: single(number("the camera's farDepth", camera.farDepth)),
     layer,
     channel,
+    guard: single(Math.max(guard - PLACE_ERROR, 0)),
     conversion,
     light: areaLight,
   };

@@ -85,6 +85,8 @@ impl Shading {
             )));
         }
         let extent = extent(&self.map, light);
+        let guarded = light.check_guard(extent);
+        guarded.map_err(|error| unsuitable(error.to_string()))?;
         let bias = receiver_bias(&self.map, light, told.depth_format)?;
         let parameters = ViewParameters::new(told.camera, light, bias, told.leak_reduction);
         let mut parameters = parameters.map_err(|error| unsuitable(error.to_string()))?;

@@ -97,6 +97,7 @@ impl Lights<'_, '_> {
                 },
                 layer: first + number,
                 region: MapRegion::WHOLE,
+                guard: 0,
                 channel: 0,
                 size: settings.spots,
             });

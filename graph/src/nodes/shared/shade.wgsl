@@ -34,7 +34,8 @@ struct ViewParameters {
     layer: u32,
     // The target's channel, 0 to 3. Of the views of one channel the first that contains a pixel shades it.
     channel: u32,
-    padding: f32,
+    // Texels along the region's edges that filters read, but in which no place is looked up.
+    guard: f32,
     // How the light's map stores depth, and how large the light is: for tests on the plain depth map.
     conversion: DepthConversion,
     light: AreaLight,
@@ -131,7 +132,8 @@ fn shade(covered: Covered) -> @location(0) vec4f {
         let region = map_region_within(views[view].region, technique_map_size());
         let receiver = receiver_at(view, pixel, stored_depth);
         let uv = receiver.place.xy;
-        let inside = receiver.light_w > 0.0 && all(uv >= vec2f(0.0)) && all(uv <= vec2f(1.0));
+        let from_edge = min(uv, 1.0 - uv) * vec2f(region.extent);
+        let inside = receiver.light_w > 0.0 && all(from_edge >= vec2f(views[view].guard));
         if inside && all(region.extent > vec2u(0u)) && any(channel & open_channels) {
             let intensity = view_shadow_intensity(view, pixel, receiver, neighbours, region);
             intensities = select(intensities, vec4f(intensity), channel);

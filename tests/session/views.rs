@@ -1,0 +1,271 @@
+//! Cascades and the faces of a point light, as the core crate makes them: no border is to be seen. Each pixel is that of a view
+//! whose borders are far away: the same texels with ten times the guard band.
+
+use glam::{DMat4, DVec3};
+use moment_shadows::{
+    Atlas, CameraView, CascadeSplits, Cascades, DepthRange, LightDepth, LightView, MapRegion,
+    PointLight, TextureFormat, Tile,
+};
+use moment_shadows_lab::frame::{Frame, FrameDesc};
+use moment_shadows_lab::gpu::Gpu;
+use moment_shadows_lab::light::LightView as Sun;
+use moment_shadows_lab::scene::{Material, Mesh, Scene};
+use moment_shadows_lab::view::Camera;
+
+use crate::normals::texture;
+use crate::stored::floor;
+use crate::{HARD, gpu, imports, places, recorded, session};
+
+/// Texels between the guard bands, and the radius of the graph's blur.
+const INNER: u32 = 128;
+const RADIUS: u32 = 4;
+
+const LAMP: DVec3 = DVec3::new(0.0, 4.0, 0.0);
+
+/// Boards above a floor, each at a height, in rows whose shadows lie across every border.
+fn board_at(point: DVec3) -> bool {
+    let part = (1.7 * point).fract_gl();
+    part.x < 0.45 && part.z < 0.45
+}
+
+/// How far a ray goes until it meets the boards one unit above the floor, or the floor.
+fn distance(origin: DVec3, along: DVec3) -> f64 {
+    let to = |height: f64| {
+        let t = (height - origin.y) / along.y;
+        (t > 0.0).then_some(t)
+    };
+    let board = to(1.0).filter(|t| board_at(origin + *t * along));
+    board.or(to(0.0)).unwrap_or(1e6)
+}
+
+/// The depth map that a host would draw for these views.
+fn drawn(gpu: &Gpu, size: [u32; 2], views: &[LightView]) -> wgpu::Texture {
+    let mut texels = vec![f32::INFINITY; (size[0] * size[1]) as usize];
+    for view in views {
+        let clip = DMat4::from_cols_array_2d(&view.clip_from_world);
+        let inverse = clip.inverse();
+        let MapRegion { origin, extent } = view.region;
+        for y in 0..extent[1] {
+            for x in 0..extent[0] {
+                let at = |texel: u32, axis: usize| {
+                    2.0 * (f64::from(texel) + 0.5) / f64::from(extent[axis]) - 1.0
+                };
+                let at = |depth| inverse.project_point3(DVec3::new(at(x, 0), -at(y, 1), depth));
+                let [first, last] = [at(0.25), at(0.75)];
+                let along = last - first;
+                let parallel = matches!(view.depth, LightDepth::Orthographic { .. });
+                let start = if parallel { first - 1e3 * along } else { LAMP };
+                let hit = start + distance(start, along) * along;
+                let hit = clip * hit.extend(1.0);
+                // Casters in front of the near plane are clamped there.
+                let stored = if parallel {
+                    hit.z.clamp(0.0, 1.0)
+                } else {
+                    hit.w
+                };
+                texels[((origin[1] + y) * size[0] + origin[0] + x) as usize] = stored as f32;
+            }
+        }
+    }
+    texture(
+        gpu,
+        TextureFormat::R32Float,
+        size,
+        bytemuck::cast_slice(&texels),
+    )
+}
+
+/// What a session shows of views that are placed.
+fn shaded(
+    gpu: &Gpu,
+    frame: &Frame,
+    camera: &CameraView,
+    size: [u32; 2],
+    views: &[LightView],
+) -> Vec<f32> {
+    let count = views.len();
+    let import =
+        format!(r#""texture": {{ "format": "r32float", "size": [64, 64], "regions": {count} }}"#);
+    let depth = r#""texture": { "format": "depth32float", "size": [1024, 1024], "samples": 4 }"#;
+    let shade = format!(
+        r#""type": "shade_hard", "properties": {{ "format": "r32float", "views": {count} }}"#
+    );
+    let storage = r#""storage": ["unorm16", "float16"]"#;
+    let text = HARD
+        .replace(depth, &import)
+        .replace(storage, r#""storage": "float32""#)
+        .replace(r#""type": "shade_hard""#, &shade);
+    let map = drawn(gpu, size, views);
+    let mut imports = imports(frame);
+    imports[0].1 = (&map).into();
+    let mut session = session(gpu, &text, &imports);
+    session.view(&gpu.queue, 0, camera, views).unwrap();
+    bytemuck::pod_collect_to_vec(&recorded(gpu, &session, 0, "shadow_intensity"))
+}
+
+/// A tile with a guard band of `guard` texels.
+fn tile(guard: u32) -> Tile {
+    Tile {
+        texels: INNER + 2 * guard,
+        filter_radius: f64::from(guard - 1),
+    }
+}
+
+/// Where a camera's pixel shows the floor, if it does.
+fn seen(camera: &CameraView, [width, height]: [u32; 2], pixel: usize) -> Option<DVec3> {
+    let inverse = DMat4::from_cols_array_2d(&camera.clip_from_world).inverse();
+    let [x, y] = [pixel as u32 % width, pixel as u32 / width].map(|at| 2.0 * (f64::from(at) + 0.5));
+    let at = |depth| {
+        inverse.project_point3(DVec3::new(
+            x / f64::from(width) - 1.0,
+            1.0 - y / f64::from(height),
+            depth,
+        ))
+    };
+    let [start, end] = [at(1.0), at(0.5)];
+    let part = start.y / (start.y - end.y);
+    (part > 0.0).then(|| start + part * (end - start))
+}
+
+/// How many texels a place lies within what a view shows; negative outside.
+fn within(view: &LightView, point: DVec3) -> f64 {
+    let clip = DMat4::from_cols_array_2d(&view.clip_from_world) * point.extend(1.0);
+    let edge = 1.0 - (clip.truncate().truncate() / clip.w).abs().max_element();
+    let texels = 0.5 * edge * f64::from(view.region.extent[0]) - f64::from(view.guard);
+    if clip.w > 0.0 {
+        texels
+    } else {
+        f64::NEG_INFINITY
+    }
+}
+
+/// Compares views in one atlas with each of them alone. Gives the largest difference with guard bands and without, and how many
+/// pixels lie within a blur's radius of a border.
+fn compare(gpu: &Gpu, frame: &Frame, views: &dyn Fn(u32) -> Vec<LightView>) -> [f64; 3] {
+    let (camera, _) = places(frame);
+    let place = |mut views: Vec<LightView>| {
+        let texels = views[0].region.extent[0];
+        let atlas = Atlas {
+            size: [3 * texels, 2 * texels],
+            layers: 1,
+        };
+        atlas.place(&mut views).unwrap();
+        atlas.check(&views).unwrap();
+        shaded(gpu, frame, &camera, atlas.size, &views)
+    };
+    let wide = views(10 * (RADIUS + 1)).into_iter();
+    let alone = wide.map(|mut view| {
+        // Shown wherever it is a little more than the view itself.
+        view.guard -= 1;
+        shaded(gpu, frame, &camera, view.region.extent, &[view])
+    });
+    let alone: Vec<Vec<f32>> = alone.collect();
+    let guarded = views(RADIUS + 1);
+    assert_eq!(guarded[0].guard, RADIUS + 1);
+    // Touching regions: what there is without guard bands.
+    let touching = guarded.iter().map(|view| {
+        let scale = f64::from(view.region.extent[0]) / f64::from(INNER);
+        let scale = DMat4::from_scale(DVec3::new(scale, scale, 1.0));
+        let clip = scale * DMat4::from_cols_array_2d(&view.clip_from_world);
+        LightView {
+            clip_from_world: clip.to_cols_array_2d(),
+            region: MapRegion::new([0; 2], [INNER; 2]),
+            guard: 0,
+            ..*view
+        }
+    });
+    let pictures = [guarded.clone(), touching.collect()].map(place);
+    let (mut largest, mut near) = ([0.0_f64; 2], 0);
+    for pixel in 0..pictures[0].len() {
+        let Some(point) = seen(&camera, frame.desc.picture, pixel) else {
+            continue;
+        };
+        let inside: Vec<f64> = guarded.iter().map(|view| within(view, point)).collect();
+        // The rounding of places decides right at a border.
+        if inside.iter().any(|it| (it + 1.0 / 16.0).abs() < 0.07) {
+            continue;
+        }
+        let first = inside.iter().position(|&it| it > 0.0);
+        let expected = first.map_or(0.0, |view| f64::from(alone[view][pixel]));
+        near += usize::from(inside.iter().any(|it| it.abs() < f64::from(RADIUS)));
+        for (largest, picture) in largest.iter_mut().zip(&pictures) {
+            *largest = largest.max((f64::from(picture[pixel]) - expected).abs());
+        }
+    }
+    let [with, without] = largest;
+    println!("{with:.6} with guard bands, {without:.3} without; {near} pixels near borders");
+    [with, without, near as f64]
+}
+
+/// A camera over the floor.
+fn frame(gpu: &Gpu, eye: DVec3, target: DVec3) -> Frame {
+    let FrameDesc { camera, .. } = floor(gpu, wgpu::TextureFormat::Depth32Float, 1.0, false).desc;
+    let mut mesh = Mesh::default();
+    for [x, z] in [[-1.0, 1.0], [1.0, 1.0], [1.0, -1.0], [-1.0, -1.0]] {
+        mesh.positions.push([60.0 * x, 0.0, 60.0 * z]);
+        mesh.normals.push([0.0, 1.0, 0.0]);
+        mesh.uvs.push([0.0; 2]);
+    }
+    mesh.indices.extend([0, 1, 2, 0, 2, 3]);
+    let scene = Scene {
+        name: "floor".to_owned(),
+        meshes: vec![mesh],
+        materials: vec![Material::plain("grey", [0.5; 3])],
+        ..Scene::default()
+    };
+    let light = Sun::spot(LAMP, DVec3::NEG_Y, 1.0, 1.0, None, [1.0, 9.0], false).unwrap();
+    let desc = FrameDesc {
+        picture: [240, 136],
+        camera: Camera {
+            eye,
+            target,
+            ..camera
+        },
+        light,
+        ..floor(gpu, wgpu::TextureFormat::Depth32Float, 1.0, false).desc
+    };
+    Frame::draw(gpu, &scene, desc).unwrap()
+}
+
+#[test]
+fn no_border_is_seen_between_the_faces_of_a_point_light() {
+    let gpu = gpu();
+    // Where the face below, one to the side and one ahead meet.
+    let corner = DVec3::new(4.0, 0.0, 4.0);
+    let frame = frame(&gpu, DVec3::new(1.0, 3.0, 0.0), corner);
+    let range = DepthRange {
+        near: 0.5,
+        far: 16.0,
+    };
+    let [with, without, near] = compare(&gpu, &frame, &|guard| {
+        let light = PointLight {
+            position: LAMP.to_array(),
+            depth: LightDepth::Linear { range },
+            tile: tile(guard),
+        };
+        light.faces().unwrap().to_vec()
+    });
+    assert!(with <= 1.0 / 255.0 && without > 0.1 && near > 500.0);
+}
+
+#[test]
+fn no_border_is_seen_between_cascades() {
+    let gpu = gpu();
+    let frame = frame(&gpu, DVec3::new(1.0, 3.0, 0.0), DVec3::new(4.0, 0.0, 4.0));
+    let (camera, _) = places(&frame);
+    let [with, without, near] = compare(&gpu, &frame, &|guard| {
+        let cascades = Cascades {
+            direction: [0.4, -1.0, 0.3],
+            splits: CascadeSplits::Given(vec![4.0, 7.0]),
+            near: 1.0,
+            far: 16.0,
+            overlap: 0.1,
+            casters: Some([[-60.0, 0.0, -60.0], [60.0, 1.0, 60.0]]),
+            pancaking: true,
+            reversed: false,
+            tile: tile(guard),
+        };
+        cascades.views(&camera).unwrap()
+    });
+    assert!(with <= 1.0 / 255.0 && without > 0.1 && near > 500.0);
+}
