@@ -36,6 +36,7 @@ fn judged(name: &str, radius: u32, pictures: &[f64]) -> Judged {
         surfaces: Some(figures(2.0 * error)),
         facing_surfaces: None,
         nan: 0,
+        flip: None,
     };
     Judged {
         scene: "hall".to_owned(),

@@ -8,8 +8,8 @@ use clap::{CommandFactory, FromArgMatches, Parser, Subcommand};
 use crate::command::cost::CostOptions;
 use crate::command::{
     CommandResult, best, bias, choose, claims, error, error_table, inspect, isa, measure, ports,
-    probe, render, scattering_error, scattering_flicker, scores, shaders, soft_error, stability, sweep,
-    technique_pictures, trade, troubleshooting_pictures, vectors,
+    probe, render, scattering_error, scattering_flicker, scores, shaders, soft_error, stability,
+    sweep, technique_pictures, trade, troubleshooting_pictures, vectors,
 };
 use crate::isa::child;
 
