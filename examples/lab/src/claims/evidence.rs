@@ -19,11 +19,11 @@ pub enum Figure {
     Leaking,
     /// The mean absolute error of light in the air, for each scene and camera.
     Air,
-    /// The time of light in the air, for a picture of [`PICTURE`].
+    /// The time of light in the air, for a picture of `PICTURE` pixels.
     AirTime,
     /// The mean absolute error of soft shadows, for each scene.
     Soft,
-    /// The time of soft shadows, for a picture of [`PICTURE`].
+    /// The time of soft shadows, for a picture of `PICTURE` pixels.
     SoftTime,
     /// The time of hard shadows in a sweep.
     Time(Place),
