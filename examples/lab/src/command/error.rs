@@ -211,7 +211,7 @@ impl ErrorSubject {
         let map = run.map(frame)?;
         let shadow = run.graph.read_shadow(gpu, &run.file)?;
         Ok(GraphErrors {
-            technique: file.technique().unwrap_or_else(|| map.technique()),
+            technique: map.technique(),
             storage: map.storage(),
             bits_per_texel: map.bits_per_texel(),
             surfaces: self.surfaces.judge(gpu, &map, run.shading, moment_bias)?,

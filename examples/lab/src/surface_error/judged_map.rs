@@ -35,6 +35,8 @@ pub struct JudgedMap<'a> {
     pub desc: TextureDesc,
     /// The technique that `shade_hard` evaluates; otherwise it is that of the map.
     pub technique: Option<Technique>,
+    /// The technique as the graph has it; layers that the device placed are given ones in the others.
+    asked: Technique,
 }
 
 impl MapRun {
@@ -93,6 +95,11 @@ impl MapRun {
             )
         })?;
         let mut technique = self.technique.clone();
+        let made_for = desc.encoding.as_ref().map(MapEncoding::technique);
+        let asked = (technique.as_ref())
+            .or(made_for)
+            .cloned()
+            .unwrap_or_default();
         if let (Some(placed), Some(map)) = (&self.placed, &mut desc.encoding) {
             let unsuitable = |error| LabError::unsuitable(&self.file.name, error);
             let known = placed.technique(map.technique()).map_err(unsuitable)?;
@@ -104,6 +111,7 @@ impl MapRun {
             texture,
             desc,
             technique,
+            asked,
         })
     }
 
@@ -119,15 +127,16 @@ impl MapRun {
 }
 
 impl JudgedMap<'_> {
-    /// The technique that it is evaluated with.
+    /// The technique as the graph has it.
     #[must_use]
     pub fn technique(&self) -> Technique {
-        let made_for = self.desc.encoding.as_ref();
-        let technique = self.technique.as_ref();
-        technique
-            .or(made_for.map(MapEncoding::technique))
-            .cloned()
-            .unwrap_or_default()
+        self.asked.clone()
+    }
+
+    /// The technique that it is evaluated with: where the device has placed layers, with these.
+    #[must_use]
+    pub fn evaluated(&self) -> Technique {
+        self.technique.clone().unwrap_or_else(|| self.technique())
     }
 
     /// The storage of a filterable map.

@@ -131,7 +131,7 @@ pub fn inspect(
         let graph = candidate.graph(file)?;
         let run = MapRun::new(gpu, &frame, &graph)?;
         let map = run.map(&frame)?;
-        let (technique, storage) = (map.technique(), map.storage());
+        let (technique, storage) = (map.evaluated(), map.storage());
         let evaluator = MapEvaluator::new(gpu, &map, None)?;
         // The fragment is known: nothing moves it further.
         let point = MapPoint::new(
@@ -155,7 +155,7 @@ pub fn inspect(
             continue;
         };
         techniques.push(Steps {
-            name: described(&technique),
+            name: described(&map.technique()),
             storage: storage.map_or("", |storage| storage.name()).to_owned(),
             bound,
             biased,

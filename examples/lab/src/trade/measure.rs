@@ -143,8 +143,7 @@ pub(super) fn errors(
         let map = run.map(frame)?;
         let evaluator = MapEvaluator::new(gpu, &map, None)?;
         let surfaces = (truth.surfaces).judge_size(&evaluator, run.shading, frame.desc.map)?;
-        let technique = file.technique().unwrap_or_else(|| map.technique());
-        looked_up = Some((technique, (map.storage(), map.bits_per_texel())));
+        looked_up = Some((map.technique(), (map.storage(), map.bits_per_texel())));
         errors.push(Errors::of(view.number, &picture, &surfaces));
         let error = picture.facing.mean_absolute;
         if error > largest || index == 0 {
