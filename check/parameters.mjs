@@ -38,12 +38,13 @@ const NUMBERS = { NaN, inf: Infinity, '-inf': -Infinity };
 const revive = (_, value) => (typeof value === 'string' && value in NUMBERS ? NUMBERS[value] : value);
 
 // Powers and tangents differ in the last bit.
-const viewed = ({ clipFromWorld, layer, region, guard }) => [
+const viewed = ({ clipFromWorld, layer, region, guard, border }) => [
   clipFromWorld.flat().map(Math.fround),
   layer,
   region.origin,
   region.extent,
   guard,
+  border === 'sharp' ? border : Object.fromEntries(Object.entries(border).map(([kind, width]) => [kind, Math.fround(width)])),
 ];
 
 // For each kind of input, what it makes: text, or an object of texts and numbers.

@@ -100,7 +100,7 @@ pub use validate::{
 pub use value_error::ValueError;
 
 pub use view::{
-    Atlas, CameraView, CascadeSplits, Cascades, CompositeScatteringParameters,
+    Atlas, Border, CameraView, CascadeSplits, Cascades, CompositeScatteringParameters,
     IntegrateScatteringParameters, LightDepth, LightView, PointLight, RectifiedFrame,
     RectifiedView, RectifyMomentsParameters, ScatteringParameters, Tile, ViewParameters,
 };

@@ -10,8 +10,8 @@ use std::error::Error;
 
 use bytemuck::bytes_of;
 use moment_shadows::{
-    CameraView, DepthRange, Kernel, LeakReduction, LightDepth, LightSize, LightView, MapRegion,
-    ReceiverBias, ScatteringParameters, SingleScattering, TextureFormat, ValueError,
+    Border, CameraView, DepthRange, Kernel, LeakReduction, LightDepth, LightSize, LightView,
+    MapRegion, ReceiverBias, ScatteringParameters, SingleScattering, TextureFormat, ValueError,
     ViewParameters,
 };
 use moment_shadows_graph::{Capabilities, Graph, NodeRegistry, Plan, nodes::Blur};
@@ -344,6 +344,18 @@ fn size(random: &mut Random, kind: usize) -> (LightSize, Value) {
     }
 }
 
+/// A border as both languages have it.
+fn border(random: &mut Random) -> (Border, Value) {
+    let width = random.between(0.0, 20.0);
+    let width = random.spoilt(width);
+    match random.below(6) {
+        0 => (Border::Blend(width), json!({ "blend": number(width) })),
+        1 => (Border::Fade(width), json!({ "fade": number(width) })),
+        2 => (Border::Cone(width), json!({ "cone": number(width) })),
+        _ => (Border::Sharp, json!("sharp")),
+    }
+}
+
 fn light(random: &mut Random) -> (LightView, Value) {
     let kind = random.below(3);
     let (depth, stored) = depth(random, kind);
@@ -362,6 +374,7 @@ fn light(random: &mut Random) -> (LightView, Value) {
     } else {
         random.of(0, 40)
     };
+    let (border, border_written) = border(random);
     let (layer, channel) = (random.of(0, 4), random.of(0, 4));
     let sizes = if kind == 0 {
         [0, 1, 1, 1]
@@ -375,7 +388,7 @@ fn light(random: &mut Random) -> (LightView, Value) {
     };
     let (size, sized) = size(random, chosen);
     let written = json!({
-        "clipFromWorld": matrix, "depth": stored, "layer": layer, "channel": channel, "guard": guard,
+        "clipFromWorld": matrix, "depth": stored, "layer": layer, "channel": channel, "guard": guard, "border": border_written,
         "region": { "origin": region.origin, "extent": region.extent }, "size": sized,
     });
     (
@@ -385,6 +398,7 @@ fn light(random: &mut Random) -> (LightView, Value) {
             layer,
             region,
             guard,
+            border,
             channel,
             size,
         },

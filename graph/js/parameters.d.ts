@@ -31,6 +31,12 @@ export interface CameraView {
   farDepth: number;
 }
 
+/**
+ * What becomes of shadows along the border of what a view shows, within its guard band, over a width in texels of its region: the next view
+ * takes over; it blends with the next ones that contain a place; shadows fade out; or they do so towards a spot's cone.
+ */
+export type Border = 'sharp' | { blend: number } | { fade: number } | { cone: number };
+
 /** What one region of a light's map was drawn with. Without more than a matrix it is that of a sun without size. */
 export interface LightView {
   clipFromWorld: Matrix;
@@ -39,6 +45,8 @@ export interface LightView {
   region?: MapRegion;
   /** Texels along the region's edges that are drawn and filtered, but in which nodes that shade look up no place. */
   guard?: number;
+  /** What becomes of shadows along the border of what it shows. */
+  border?: Border;
   channel?: number;
   size?: LightSize;
 }
@@ -64,6 +72,8 @@ export interface Cascades {
   far: number;
   /** How far a cascade reaches into the next one, as a part of its own length; 0 where it is left out. */
   overlap?: number;
+  /** The part of a view's width over which it blends with coarser ones, and the last one fades out, 0 to 0.5. */
+  blend?: number;
   /** The lowest and the highest corner of a box around all that casts. */
   casters?: [Triple, Triple];
   /** Whether casters in front of the near plane are clamped to it. */

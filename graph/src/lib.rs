@@ -65,5 +65,5 @@ pub use session::Session;
 
 /// What a [`Session`] is told, from the core crate.
 pub use moment_shadows::{
-    CameraView, DepthRange, LightDepth, LightSize, LightView, SingleScattering,
+    Border, CameraView, DepthRange, LightDepth, LightSize, LightView, SingleScattering,
 };

@@ -80,7 +80,7 @@ impl Atlas {
                     view.layer, view.region.origin, view.region.extent, self.layers
                 ));
             }
-            view.check_guard(if whole { self.size } else { view.region.extent })?;
+            view.check_border(if whole { self.size } else { view.region.extent })?;
             let overlaps = |other: &LightView| {
                 other.layer == view.layer && other.region.overlaps(&view.region)
             };

@@ -4,7 +4,7 @@ use glam::{DMat4, DVec2, DVec3, DVec4};
 
 use super::frustum::Frustum;
 use super::rectified::axes_of;
-use super::{CameraView, CascadeSplits, LightView, Tile, light_direction};
+use super::{Border, CameraView, CascadeSplits, LightView, Tile, light_direction};
 use crate::value_error::check;
 use crate::{LightDepth, ValueError};
 
@@ -31,6 +31,9 @@ pub struct Cascades {
     pub far: f64,
     /// How far a cascade reaches into the next one, as a part of its own length, 0 to 1: room to blend between them.
     pub overlap: f64,
+    /// The part of a view's width along its border over which it blends with coarser ones, and the last one fades out, 0 to 0.5;
+    /// 0 for sharp borders.
+    pub blend: f64,
     /// The lowest and the highest corner of a box around all that casts. Maps and their ranges are no larger than it; without
     /// it ranges are the spheres'.
     pub casters: Option<[[f64; 3]; 2]>,
@@ -77,13 +80,24 @@ impl Cascades {
         let texels = self.tile.texels;
         let range = "2 texels more than the guard bands";
         check(texels - 2 * guard > 1, "cascades", "texels", texels, range)?;
+        let blend = self.blend;
+        let valid = (0.0..=0.5).contains(&blend);
+        check(valid, "cascades", "blend", blend, "0 to 0.5")?;
+        let width = blend * f64::from(texels - 2 * guard);
         let axes = axes_of(light_direction(self.direction)?);
         let casters = self.casters(&axes)?;
         let frustum = Frustum::new(camera)?;
         let spheres = slices.into_iter().map(|slice| frustum.sphere(slice));
         let views =
             spheres.map(|(centre, radius)| self.view(&axes, centre, radius, casters, guard));
-        views.collect()
+        let mut views = views.collect::<Result<Vec<_>, _>>()?;
+        if let ([finer @ .., last], true) = (views.as_mut_slice(), blend > 0.0) {
+            finer
+                .iter_mut()
+                .for_each(|view| view.border = Border::Blend(width));
+            last.border = Border::Fade(width);
+        }
+        Ok(views)
     }
 
     /// The lowest and the highest coordinates of the casters in the light's axes.

@@ -5,6 +5,9 @@ use core::ops::RangeInclusive;
 use glam::{DMat4, DVec3, DVec4};
 use serde::{Deserialize, Serialize};
 
+use super::Border;
+use super::border::WIDEST;
+use crate::value_error::check;
 use crate::{AreaLight, DepthConversion, DepthRange, LightSize, MapRegion, ValueError};
 
 /// A view of a light: what one region of its map was drawn with.
@@ -21,6 +24,8 @@ pub struct LightView {
     /// Texels along the region's edges that are drawn and filtered, but where nodes that shade look up no place: such pixels
     /// belong to other views. 0 where the region goes on nowhere else. [`crate::Tile::guard`] follows from a filter.
     pub guard: u32,
+    /// What becomes of shadows along the border of what the view shows.
+    pub border: Border,
     /// The light's channel in the node's output, 0 to 3.
     pub channel: u32,
     /// How large the light is; for soft shadows.
@@ -38,6 +43,7 @@ impl LightView {
             layer: 0,
             region: MapRegion::WHOLE,
             guard: 0,
+            border: Border::Sharp,
             channel: 0,
             size: LightSize::Point,
         }
@@ -105,14 +111,18 @@ impl LightView {
         2.0 * width.max(height) * spread / (far - near)
     }
 
-    /// Checks that a region of `extent` texels has some within its guard band.
+    /// Checks that a region of `extent` texels has some within its guard band, and room for its border.
     ///
     /// # Errors
-    /// [`ValueError`] about the `guard` band.
-    pub fn check_guard(&self, extent: [u32; 2]) -> Result<(), ValueError> {
+    /// [`ValueError`] about the `guard` band or the `border`.
+    pub fn check_border(&self, extent: [u32; 2]) -> Result<(), ValueError> {
         let [width, height] = extent;
-        if 2 * u64::from(self.guard) < u64::from(width.min(height)) || self.guard == 0 {
-            return Ok(());
+        let room = f64::from(width.min(height)) - 2.0 * f64::from(self.guard);
+        if room > 0.0 || self.guard == 0 {
+            let wide = self.border.width();
+            let range = "from 0 texels to half of those between the guard bands, and at most 4095";
+            let valid = (0.0..=WIDEST.min(0.5 * room.max(0.0))).contains(&wide);
+            return check(valid, "a view", "border", wide, range);
         }
         let message = format!(
             "a region of {width}x{height} texels has no room between guard bands of {} texels; give it more texels, or a filter \

@@ -4,6 +4,7 @@
 //! digits, and shadows then move by texels. A host whose matrices are f32 makes them relative to its camera.
 
 mod atlas;
+mod border;
 mod camera;
 mod cascade_splits;
 mod cascades;
@@ -16,6 +17,7 @@ mod scattering;
 mod tile;
 
 pub use atlas::Atlas;
+pub use border::Border;
 pub use camera::CameraView;
 pub use cascade_splits::CascadeSplits;
 pub use cascades::Cascades;

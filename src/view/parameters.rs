@@ -5,6 +5,7 @@ use glam::DMat4;
 
 use super::tile::PLACE_ERROR;
 use super::{CameraView, LightView, inverse};
+use crate::value_error::check;
 use crate::{AreaLight, DepthConversion, LeakReduction, MapRegion, ReceiverBias, ValueError};
 
 /// What nodes that shade a picture need to know of a view of a light: the uniform struct of their shader.
@@ -29,7 +30,9 @@ pub struct ViewParameters {
     pub far_depth: f32,
     /// The map's layer.
     pub layer: u32,
-    /// The light's channel in the output, 0 to 3. The first view of a channel that contains a pixel shades it.
+    /// The light's channel in the output, 0 to 3, of which the first view that contains a pixel shades it. Nodes with borders read
+    /// the rest: 4 where shadows fade out along the border, 8 where that is a circle, and in the upper half its width in
+    /// sixteenths of a texel.
     pub channel: u32,
     /// Texels along the region's edges in which no place is looked up.
     pub guard: f32,
@@ -55,7 +58,9 @@ impl ViewParameters {
         inverse(light_clip, "light")?;
         let conversion = light.depth.conversion()?;
         light.depth.check_matrix(light_clip)?;
-        light.check_guard(light.region.extent)?;
+        light.check_border(light.region.extent)?;
+        let channel = light.channel;
+        check(channel < 4, "a light", "channel", channel, "0 to 3")?;
         let [x, y, w] = [0, 1, 3].map(|index| light_clip.row(index));
         // From clip space to the map: u = (x + w) / 2, v = (w - y) / 2, both still times w.
         let rows = [0.5 * (w + x), 0.5 * (w - y), w, light.depth.row(light_clip)];
@@ -80,7 +85,7 @@ impl ViewParameters {
             region: light.region,
             far_depth: camera.far_depth,
             layer: light.layer,
-            channel: light.channel,
+            channel: channel | light.border.word(),
             guard: (f64::from(light.guard) - PLACE_ERROR).max(0.0) as f32,
             conversion,
             light: AreaLight::NONE,

@@ -3,8 +3,8 @@
 use crate::example::{compiled, native};
 use crate::techniques::example;
 use moment_shadows::{
-    CameraView, DepthRange, Finite, LeakReduction, LightDepth, LightSize, LightView, MapRegion,
-    ReceiverBias, Technique, ViewParameters,
+    Border, CameraView, DepthRange, Finite, LeakReduction, LightDepth, LightSize, LightView,
+    MapRegion, ReceiverBias, Technique, ViewParameters,
 };
 use moment_shadows_graph::GraphErrorKind;
 
@@ -106,6 +106,7 @@ fn degenerate_views_are_refused() {
                 layer: 0,
                 region: MapRegion::WHOLE,
                 guard: 0,
+                border: Border::Sharp,
                 channel: 0,
                 size: LightSize::Point,
             },

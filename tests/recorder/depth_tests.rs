@@ -1,8 +1,8 @@
 //! Pictures of the tests on the plain depth map, and what they say of equal depth.
 
 use moment_shadows::{
-    CameraView, LeakReduction, LightDepth, LightSize, LightView, MapRegion, PcfTaps, ReceiverBias,
-    Technique, TextureFormat, ViewParameters,
+    Border, CameraView, LeakReduction, LightDepth, LightSize, LightView, MapRegion, PcfTaps,
+    ReceiverBias, Technique, TextureFormat, ViewParameters,
 };
 use moment_shadows_graph::TextureDesc;
 use moment_shadows_graph::record::ImportedResource;
@@ -25,6 +25,7 @@ pub(crate) fn view(reversed: bool, bias: ReceiverBias) -> ViewParameters {
             layer: 0,
             region: MapRegion::WHOLE,
             guard: 0,
+            border: Border::Sharp,
             channel: 0,
             size: LightSize::Point,
         },

@@ -1,8 +1,8 @@
 //! A plan, bound and ready.
 
 use moment_shadows::{
-    CameraView, DepthConversion, DepthRange, LeakReduction, LightDepth, LightSize, LightView,
-    MapRegion, Profile, ReceiverBias, ViewParameters,
+    Border, CameraView, DepthConversion, DepthRange, LeakReduction, LightDepth, LightSize,
+    LightView, MapRegion, Profile, ReceiverBias, ViewParameters,
 };
 use moment_shadows_graph::record::{
     Bindings, ImportedResource, PipelineOptions, Pipelines, Recording, Resources,
@@ -165,6 +165,7 @@ pub(crate) fn view(camera: [[f64; 4]; 4], light: [[f64; 4]; 4], layer: u32) -> V
             layer,
             region: MapRegion::WHOLE,
             guard: 0,
+            border: Border::Sharp,
             channel: 0,
             size: LightSize::Point,
         },

@@ -1,8 +1,8 @@
 //! `shade_hard` over regions, layers and mip levels: which views shade which pixels, and what their lookups read.
 
 use moment_shadows::{
-    AreaLight, CameraView, DepthRange, LeakReduction, LightDepth, LightSize, LightView, MapRegion,
-    ReceiverBias, TextureFormat, ViewParameters,
+    AreaLight, Border, CameraView, DepthRange, LeakReduction, LightDepth, LightSize, LightView,
+    MapRegion, ReceiverBias, TextureFormat, ViewParameters,
 };
 use moment_shadows_graph::record::ImportedResource;
 use moment_shadows_graph::{Capabilities, TextureDesc};
@@ -63,6 +63,7 @@ pub(crate) fn view(
             layer,
             region,
             guard: 0,
+            border: Border::Sharp,
             channel,
             size: LightSize::Point,
         },

@@ -1,8 +1,8 @@
 //! Every technique through resolve, blur and shading on the adapter.
 
 use moment_shadows::{
-    CameraView, LeakReduction, LightDepth, LightSize, LightView, MapEncoding, MapRegion, Profile,
-    ReceiverBias, Technique, TextureFormat, ViewParameters,
+    Border, CameraView, LeakReduction, LightDepth, LightSize, LightView, MapEncoding, MapRegion,
+    Profile, ReceiverBias, Technique, TextureFormat, ViewParameters,
 };
 use moment_shadows_graph::record::ImportedResource;
 use moment_shadows_graph::{Capabilities, TextureDesc};
@@ -95,6 +95,7 @@ fn shade(gpu: &Gpu, capabilities: &Capabilities, text: &str, layer: u32) -> Vec<
             layer,
             region: MapRegion::WHOLE,
             guard: 0,
+            border: Border::Sharp,
             channel: 0,
             size: LightSize::Point,
         },

@@ -1,6 +1,6 @@
 //! What does not suit a session is an error that says so, and the session stays as it was.
 
-use moment_shadows::{Kernel, LightDepth, LightSize, LightView};
+use moment_shadows::{Border, Kernel, LightDepth, LightSize, LightView};
 use moment_shadows_graph::nodes::Blur;
 use moment_shadows_graph::{
     Connected, GraphError, GraphErrorKind, Node, NodeDesc, ParameterBlock, Session, Stage,
@@ -41,7 +41,7 @@ fn views_of_lights_that_the_graph_has_no_place_for_are_named() {
     session.view(&gpu.queue, 0, &camera, &[light]).unwrap();
     let before = recorded(&gpu, &session, 0, "shadow_intensity");
     let singular = [[0.0; 4]; 4];
-    let wrong: [(&[LightView], &str); 7] = [
+    let wrong: [(&[LightView], &str); 8] = [
         (&[LightView { layer: 1, ..light }], "layer is 1"),
         (
             &[LightView {
@@ -56,6 +56,13 @@ fn views_of_lights_that_the_graph_has_no_place_for_are_named() {
                 ..light
             }],
             "guard bands of 128",
+        ),
+        (
+            &[LightView {
+                border: Border::Blend(2.0),
+                ..light
+            }],
+            "the property 'borders'",
         ),
         (&[light, light], "at most 1"),
         (&[LightView::orthographic(singular)], "light"),

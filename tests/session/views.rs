@@ -3,8 +3,8 @@
 
 use glam::{DMat4, DVec3};
 use moment_shadows::{
-    Atlas, CameraView, CascadeSplits, Cascades, DepthRange, LightDepth, LightView, MapRegion,
-    PointLight, TextureFormat, Tile,
+    Atlas, Border, CameraView, CascadeSplits, Cascades, DepthRange, LightDepth, LightView,
+    MapRegion, PointLight, TextureFormat, Tile,
 };
 use moment_shadows_lab::frame::{Frame, FrameDesc};
 use moment_shadows_lab::gpu::Gpu;
@@ -87,8 +87,9 @@ fn shaded(
     let import =
         format!(r#""texture": {{ "format": "r32float", "size": [64, 64], "regions": {count} }}"#);
     let depth = r#""texture": { "format": "depth32float", "size": [1024, 1024], "samples": 4 }"#;
+    let borders = views.iter().any(|view| view.border != Border::Sharp);
     let shade = format!(
-        r#""type": "shade_hard", "properties": {{ "format": "r32float", "views": {count} }}"#
+        r#""type": "shade_hard", "properties": {{ "format": "r32float", "views": {count}, "borders": {borders} }}"#
     );
     let storage = r#""storage": ["unorm16", "float16"]"#;
     let text = HARD
@@ -139,20 +140,27 @@ fn within(view: &LightView, point: DVec3) -> f64 {
     }
 }
 
+/// Places views of equal size in one map, and what a session shows of them.
+fn in_one_map(
+    gpu: &Gpu,
+    frame: &Frame,
+    camera: &CameraView,
+    mut views: Vec<LightView>,
+) -> Vec<f32> {
+    let texels = views[0].region.extent[0];
+    let atlas = Atlas {
+        size: [3 * texels, 2 * texels],
+        layers: 1,
+    };
+    atlas.place(&mut views).unwrap();
+    atlas.check(&views).unwrap();
+    shaded(gpu, frame, camera, atlas.size, &views)
+}
+
 /// Compares views in one atlas with each of them alone. Gives the largest difference with guard bands and without, and how many
 /// pixels lie within a blur's radius of a border.
 fn compare(gpu: &Gpu, frame: &Frame, views: &dyn Fn(u32) -> Vec<LightView>) -> [f64; 3] {
     let (camera, _) = places(frame);
-    let place = |mut views: Vec<LightView>| {
-        let texels = views[0].region.extent[0];
-        let atlas = Atlas {
-            size: [3 * texels, 2 * texels],
-            layers: 1,
-        };
-        atlas.place(&mut views).unwrap();
-        atlas.check(&views).unwrap();
-        shaded(gpu, frame, &camera, atlas.size, &views)
-    };
     let wide = views(10 * (RADIUS + 1)).into_iter();
     let alone = wide.map(|mut view| {
         // Shown wherever it is a little more than the view itself.
@@ -174,6 +182,7 @@ fn compare(gpu: &Gpu, frame: &Frame, views: &dyn Fn(u32) -> Vec<LightView>) -> [
             ..*view
         }
     });
+    let place = |views| in_one_map(gpu, frame, &camera, views);
     let pictures = [guarded.clone(), touching.collect()].map(place);
     let (mut largest, mut near) = ([0.0_f64; 2], 0);
     for pixel in 0..pictures[0].len() {
@@ -253,19 +262,157 @@ fn no_border_is_seen_between_cascades() {
     let gpu = gpu();
     let frame = frame(&gpu, DVec3::new(1.0, 3.0, 0.0), DVec3::new(4.0, 0.0, 4.0));
     let (camera, _) = places(&frame);
-    let [with, without, near] = compare(&gpu, &frame, &|guard| {
-        let cascades = Cascades {
-            direction: [0.4, -1.0, 0.3],
-            splits: CascadeSplits::Given(vec![4.0, 7.0]),
-            near: 1.0,
-            far: 16.0,
-            overlap: 0.1,
-            casters: Some([[-60.0, 0.0, -60.0], [60.0, 1.0, 60.0]]),
-            pancaking: true,
-            reversed: false,
-            tile: tile(guard),
-        };
-        cascades.views(&camera).unwrap()
-    });
+    let [with, without, near] = compare(&gpu, &frame, &|guard| cascades(&camera, guard, 0.0));
     assert!(with <= 1.0 / 255.0 && without > 0.1 && near > 500.0);
+}
+
+/// Three cascades with a guard band, that blend over a part of their width.
+fn cascades(camera: &CameraView, guard: u32, blend: f64) -> Vec<LightView> {
+    let cascades = Cascades {
+        direction: [0.4, -1.0, 0.3],
+        splits: CascadeSplits::Given(vec![4.0, 7.0]),
+        near: 1.0,
+        far: 12.0,
+        overlap: 0.1,
+        blend,
+        casters: Some([[-60.0, 0.0, -60.0], [60.0, 1.0, 60.0]]),
+        pancaking: true,
+        reversed: false,
+        tile: tile(guard),
+    };
+    cascades.views(camera).unwrap()
+}
+
+#[test]
+fn cascades_blend_into_each_other_and_the_last_one_fades_out() {
+    let gpu = gpu();
+    let frame = frame(&gpu, DVec3::new(1.0, 3.0, 0.0), DVec3::new(4.0, 0.0, 4.0));
+    let (camera, _) = places(&frame);
+    let width = 0.125 * f64::from(INNER);
+    let views = cascades(&camera, RADIUS + 1, 0.125);
+    let sharp = cascades(&camera, RADIUS + 1, 0.0);
+    let borders = [
+        Border::Blend(width),
+        Border::Blend(width),
+        Border::Fade(width),
+    ];
+    assert_eq!([0, 1, 2].map(|it| views[it].border), borders);
+    let blended = in_one_map(&gpu, &frame, &camera, views.clone());
+    let alone = sharp
+        .iter()
+        .map(|view| shaded(&gpu, &frame, &camera, view.region.extent, &[*view]));
+    let alone: Vec<Vec<f32>> = alone.collect();
+    // How much changes at once at a border, with and without blending, and where the last one ends.
+    let ([mut blending, mut switching], [mut fading, mut ending]) = ([0.0_f32; 2], [0.0_f32; 2]);
+    let mut seen_pixels = [0; 4];
+    for pixel in 0..blended.len() {
+        let Some(point) = seen(&camera, frame.desc.picture, pixel) else {
+            continue;
+        };
+        let found = blended[pixel];
+        let inside: Vec<f64> = views.iter().map(|view| within(view, point)).collect();
+        if inside.iter().any(|it| (it + 1.0 / 16.0).abs() < 0.07) {
+            continue;
+        }
+        let mut containing = (0..3).filter(|&view| inside[view] > 0.0);
+        let Some(first) = containing.next() else {
+            assert_eq!(found, 0.0, "outside of all");
+            continue;
+        };
+        let own = alone[first][pixel];
+        let at_border = inside[first] < 0.5;
+        match containing.next() {
+            _ if inside[first] > width => {
+                assert!((found - own).abs() <= 1.0 / 255.0, "{first}: {found} {own}");
+                seen_pixels[0] += 1;
+            }
+            // The third of three, or the only one left.
+            None if first == 2 => {
+                assert!(found <= own + 1.0 / 255.0);
+                if at_border {
+                    fading = fading.max(found);
+                    ending = ending.max(own);
+                }
+                seen_pixels[1] += 1;
+            }
+            None => {
+                assert!((found - own).abs() <= 1.0 / 255.0, "{first}: {found} {own}");
+                seen_pixels[2] += 1;
+            }
+            Some(next) if inside[next] > width => {
+                let other = alone[next][pixel];
+                let between = own.min(other) - 1.0 / 255.0..=own.max(other) + 1.0 / 255.0;
+                assert!(between.contains(&found), "{found} of {own} and {other}");
+                if at_border {
+                    blending = blending.max((found - other).abs());
+                    switching = switching.max((own - other).abs());
+                }
+                seen_pixels[3] += 1;
+            }
+            Some(_) => {}
+        }
+    }
+    println!(
+        "at borders {blending:.3} with blending, {switching:.3} without; at the end {fading:.3} and {ending:.3}; {seen_pixels:?}"
+    );
+    // Half a texel of sixteen is a part of 1/32.
+    assert!(blending <= switching / 32.0 + 1.0 / 255.0 && switching > 0.2);
+    assert!(fading <= ending / 32.0 + 1.0 / 255.0 && ending > 0.15);
+    assert!(
+        [0, 1, 3].iter().all(|&kind| seen_pixels[kind] > 100),
+        "{seen_pixels:?}"
+    );
+}
+
+#[test]
+fn shadows_of_a_spot_end_with_its_cone() {
+    let gpu = gpu();
+    let frame = frame(&gpu, DVec3::new(1.0, 5.0, 0.0), DVec3::new(2.0, 0.0, 2.0));
+    let (camera, _) = places(&frame);
+    let range = DepthRange {
+        near: 0.5,
+        far: 16.0,
+    };
+    let light = PointLight {
+        position: LAMP.to_array(),
+        depth: LightDepth::Linear { range },
+        tile: tile(RADIUS + 1),
+    };
+    let square = light.spot([0.3, -1.0, 0.3], 1.2).unwrap();
+    let width = 8.0;
+    let cone = LightView {
+        border: Border::Cone(width),
+        ..square
+    };
+    let [square, cone] = [square, cone].map(|view| {
+        (
+            view,
+            shaded(&gpu, &frame, &camera, view.region.extent, &[view]),
+        )
+    });
+    let axis = DVec3::new(0.3, -1.0, 0.3).normalize();
+    let mut seen_pixels = [0; 3];
+    for pixel in 0..cone.1.len() {
+        let Some(point) = seen(&camera, frame.desc.picture, pixel) else {
+            continue;
+        };
+        // Texels from the circle inwards, from the angle to the axis.
+        let to = point - LAMP;
+        let along = to.dot(axis);
+        let tangent = (to.length_squared() - along * along).sqrt() / along;
+        let depth = 0.5 * f64::from(INNER) * (1.0 - tangent / 0.6_f64.tan());
+        let (found, whole) = (cone.1[pixel], square.1[pixel]);
+        let expected = f64::from(whole) * (depth / width).clamp(0.0, 1.0);
+        assert!(
+            (f64::from(found) - expected).abs() <= 0.02,
+            "{found}, not {expected} at {depth}"
+        );
+        let kind = usize::from(depth > 0.0) + usize::from(depth > width);
+        seen_pixels[kind] += usize::from(whole > 0.5);
+    }
+    println!("{seen_pixels:?}");
+    assert!(
+        seen_pixels.iter().all(|&count| count > 50),
+        "{seen_pixels:?}"
+    );
 }

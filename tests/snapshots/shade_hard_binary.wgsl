@@ -12,7 +12,7 @@
 // moment_shadows/techniques/percentage_closer.wgsl: percentage_closer_texel percentage_closer_map_depth percentage_closer_plane_depth percentage_closer_tap percentage_closer_binary
 // technique_map: depth_map technique_map_size
 // technique_receiver: TechniqueReceiver
-// shade.wgsl: ViewParameters views Receiver receiver_at LARGEST_DIFFERENCE receiver_difference view_shadow_intensity shade
+// shade.wgsl: ViewParameters BORDERS VIEW_FADES VIEW_ROUND views Receiver receiver_at LARGEST_DIFFERENCE receiver_difference view_shadow_intensity view_depth view_part shade
 
 // specialization
 const GROUP = 0;

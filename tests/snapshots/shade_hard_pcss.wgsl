@@ -14,7 +14,7 @@
 // moment_shadows/techniques/percentage_closer_soft.wgsl: PercentageCloserSoftBlockers PERCENTAGE_CLOSER_SOFT_MOST_TAPS percentage_closer_soft_search percentage_closer_soft_filter percentage_closer_soft_intensity
 // technique_map: depth_map technique_map_size
 // technique_receiver: TechniqueReceiver
-// shade.wgsl: ViewParameters views Receiver receiver_at LARGEST_DIFFERENCE receiver_difference view_shadow_intensity shade
+// shade.wgsl: ViewParameters BORDERS VIEW_FADES VIEW_ROUND views Receiver receiver_at LARGEST_DIFFERENCE receiver_difference view_shadow_intensity view_depth view_part shade
 
 // specialization
 const GROUP = 0;

@@ -19,7 +19,7 @@
 // technique_receiver: TechniqueReceiver
 // map_texel: map_texel
 // technique_map: technique_map_size
-// shade.wgsl: ViewParameters views Receiver receiver_at LARGEST_DIFFERENCE receiver_difference view_shadow_intensity shade
+// shade.wgsl: ViewParameters BORDERS VIEW_FADES VIEW_ROUND views Receiver receiver_at LARGEST_DIFFERENCE receiver_difference view_shadow_intensity view_depth view_part shade
 
 // specialization
 const GROUP = 0;

@@ -18,7 +18,7 @@
 // technique_map: table_sums technique_map_size
 // technique_receiver: TechniqueReceiver
 // technique_soft: soft_table soft_receiver
-// shade.wgsl: ViewParameters views Receiver receiver_at LARGEST_DIFFERENCE receiver_difference view_shadow_intensity shade
+// shade.wgsl: ViewParameters BORDERS VIEW_FADES VIEW_ROUND views Receiver receiver_at LARGEST_DIFFERENCE receiver_difference view_shadow_intensity view_depth view_part shade
 
 // specialization
 const GROUP = 0;

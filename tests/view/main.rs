@@ -60,6 +60,7 @@ pub(crate) fn cascades() -> Cascades {
         near: 0.1,
         far: 200.0,
         overlap: 0.1,
+        blend: 0.0,
         casters: None,
         pancaking: true,
         reversed: false,

@@ -2,7 +2,7 @@
 
 use glam::DVec3;
 use moment_shadows::{
-    CameraView, CascadeSplits, Cascades, DepthRange, LeakReduction, LightDepth, LightView,
+    Border, CameraView, CascadeSplits, Cascades, DepthRange, LeakReduction, LightDepth, LightView,
     MapRegion, PointLight, ReceiverBias, Tile, ViewParameters,
 };
 
@@ -23,7 +23,7 @@ fn camera() -> CameraView {
 fn cascades_that_cannot_be_are_refused() {
     type Change = fn(&mut Cascades);
     let blend = |count, logarithmic| CascadeSplits::Blend { count, logarithmic };
-    let changes: [(&str, Change); 21] = [
+    let changes: [(&str, Change); 23] = [
         ("near", |it| it.near = -1.0),
         ("near", |it| it.near = f64::NAN),
         ("near", |it| it.near = 200.0),
@@ -31,6 +31,8 @@ fn cascades_that_cannot_be_are_refused() {
         ("far", |it| it.far = f64::INFINITY),
         ("overlap", |it| it.overlap = 1.5),
         ("overlap", |it| it.overlap = f64::NAN),
+        ("blend", |it| it.blend = 0.6),
+        ("blend", |it| it.blend = f64::NAN),
         ("splits", |it| {
             it.splits = CascadeSplits::Given(vec![3.0, 2.0])
         }),
@@ -156,6 +158,36 @@ fn lights_that_cannot_shine_from_a_point_are_refused() {
     assert_eq!(spot([0.0; 3], 1.0), "light_direction");
     for angle in [0.0, -1.0, core::f64::consts::PI, f64::NAN] {
         assert_eq!(spot([1.0; 3], angle), "angle");
+    }
+}
+
+#[test]
+fn a_border_is_told_to_the_shader_or_refused() {
+    let told = |border| {
+        let view = LightView {
+            region: MapRegion::new([5, 7], [40, 20]),
+            guard: 2,
+            border,
+            ..lamp().faces().unwrap()[0]
+        };
+        let (bias, reduction) = (ReceiverBias::NONE, LeakReduction::NONE);
+        let told = ViewParameters::new(&camera(), &view, bias, reduction);
+        told.map(|it| it.channel).map_err(|error| error.name)
+    };
+    assert_eq!(told(Border::Sharp), Ok(0));
+    assert_eq!(told(Border::Blend(8.0)), Ok(128 << 16));
+    assert_eq!(told(Border::Fade(8.0)), Ok(128 << 16 | 4));
+    assert_eq!(told(Border::Cone(7.52)), Ok(120 << 16 | 12));
+    let view = LightView {
+        channel: 4,
+        ..lamp().faces().unwrap()[0]
+    };
+    let told_channel =
+        ViewParameters::new(&camera(), &view, ReceiverBias::NONE, LeakReduction::NONE);
+    assert_eq!(told_channel.unwrap_err().name, "channel");
+    // Between the guard bands are 16 texels.
+    for width in [8.1, -1.0, f64::NAN, f64::INFINITY] {
+        assert_eq!(told(Border::Blend(width)), Err("border"), "{width}");
     }
 }
 

@@ -1,7 +1,7 @@
 //! A graph on a frame: compiled for what the host has drawn, recorded, and read back.
 
 use moment_shadows::{
-    CameraView, DepthRange, LeakReduction, LightDepth, LightSize, LightView, MapRegion,
+    Border, CameraView, DepthRange, LeakReduction, LightDepth, LightSize, LightView, MapRegion,
     ReceiverBias, ScatteringParameters, Technique, TextureFormat, ViewParameters,
 };
 use moment_shadows_graph::record::{
@@ -354,6 +354,7 @@ pub fn light_view(desc: &FrameDesc) -> LightView {
         layer: 0,
         region: MapRegion::WHOLE,
         guard: 0,
+        border: Border::Sharp,
         channel: 0,
         size: match desc.shape {
             shape if shape.is_point() => LightSize::Point,

@@ -1,6 +1,8 @@
 //! Views that follow from a camera, a light and a filter, and their places.
 
-use moment_shadows::{Atlas, CascadeSplits, Cascades, LightView, PointLight, Tile, ValueError};
+use moment_shadows::{
+    Atlas, Border, CascadeSplits, Cascades, LightView, PointLight, Tile, ValueError,
+};
 use moment_shadows_graph::Plan;
 use serde_json::{Value, json};
 
@@ -16,7 +18,13 @@ fn written(views: &[LightView]) -> Value {
             view.layer,
             view.region.origin,
             view.region.extent,
-            view.guard
+            view.guard,
+            match view.border {
+                Border::Sharp => json!("sharp"),
+                Border::Blend(width) => json!({ "blend": width as f32 }),
+                Border::Fade(width) => json!({ "fade": width as f32 }),
+                Border::Cone(width) => json!({ "cone": width as f32 }),
+            }
         ])
     });
     written.collect()
@@ -68,6 +76,11 @@ pub(super) fn cascades(random: &mut Random, _: &Plan) -> Value {
         random.between(0.1, 2.0)
     };
     let (far, overlap) = (random.magnitude(0.5, 3.0), random.between(0.0, 1.0));
+    let blend = if random.one_in(2) {
+        0.0
+    } else {
+        random.between(0.0, 0.6)
+    };
     let (splits, splits_written) = if random.one_in(3) {
         let given: Vec<f64> = (0..random.below(3))
             .map(|index| near + index as f64 + random.between(0.0, 1.2))
@@ -94,6 +107,7 @@ pub(super) fn cascades(random: &mut Random, _: &Plan) -> Value {
         near: random.spoilt(near),
         far: random.spoilt(far),
         overlap: random.spoilt(overlap),
+        blend: random.spoilt(blend),
         casters,
         pancaking: !random.one_in(4),
         reversed: random.one_in(2),
@@ -112,7 +126,7 @@ pub(super) fn cascades(random: &mut Random, _: &Plan) -> Value {
         "camera": camera_written, "atlas": atlas,
         "cascades": {
             "direction": numbers(&cascades.direction), "splits": splits_written, "near": number(cascades.near),
-            "far": number(cascades.far), "overlap": number(cascades.overlap), "casters": casters.map(|corners| corners.map(|it| numbers(&it))),
+            "far": number(cascades.far), "overlap": number(cascades.overlap), "blend": number(cascades.blend), "casters": casters.map(|corners| corners.map(|it| numbers(&it))),
             "pancaking": cascades.pancaking, "reversed": cascades.reversed, "tile": tile_written,
         },
     });

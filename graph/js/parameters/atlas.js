@@ -1,7 +1,7 @@
 // Where regions lie in the layers of a map: `{ size, layers }`.
 
 import { isWhole, overlap } from './map_region.js';
-import { checkGuard } from './tile.js';
+import { checkBorder } from './tile.js';
 import { ValueError } from './value_error.js';
 
 /**
@@ -32,10 +32,10 @@ export function placeViews({ size, layers }, views) {
   return placed;
 }
 
-/** Checks views that a page has placed: each lies in the map, has texels within its guard band, and none with another one. */
+/** Checks views that a page has placed: each lies in the map, has texels within its guard band and room for its border, and none with another one. */
 export function checkPlaces({ size, layers }, views) {
   views.forEach((view, index) => {
-    const { layer, region, guard = 0 } = view;
+    const { layer, region, guard = 0, border } = view;
     const fits = [0, 1].every((axis) => region.extent[axis] > 0 && region.origin[axis] + region.extent[axis] <= size[axis]);
     if (layer >= layers || !(fits || isWhole(region))) {
       const message =
@@ -43,7 +43,7 @@ export function checkPlaces({ size, layers }, views) {
         `${size.join('x')} texels and ${layers} layers`;
       throw new ValueError('region', message);
     }
-    checkGuard(guard, isWhole(region) ? size : region.extent);
+    checkBorder(guard, border, isWhole(region) ? size : region.extent);
     const first = views.slice(0, index).findIndex((other) => other.layer === layer && overlap(other.region, region));
     if (first < 0) return;
     const message = `views ${first} and ${index} overlap in layer ${layer}; each texel belongs to one region`;

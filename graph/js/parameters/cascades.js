@@ -57,10 +57,17 @@ export function cascadeViews(cascades, camera) {
   const { texels } = cascades.tile;
   const guard = guardOf(cascades.tile);
   check(texels - 2 * guard > 1, 'cascades', 'texels', texels, '2 texels more than the guard bands');
+  const { blend = 0 } = cascades;
+  check(blend >= 0 && blend <= 0.5, 'cascades', 'blend', blend, '0 to 0.5');
   const axes = lightAxes(cascades.direction);
   const casters = castersOf(cascades, axes);
   const sphere = sphereOf(camera);
-  return slices.map((slice) => view(cascades, axes, sphere(slice), casters, guard));
+  const width = blend * (texels - 2 * guard);
+  const border = (index) => (index + 1 < slices.length ? { blend: width } : { fade: width });
+  return slices.map((slice, index) => ({
+    ...view(cascades, axes, sphere(slice), casters, guard),
+    border: blend > 0 ? border(index) : 'sharp',
+  }));
 }
 
 // The lowest and the highest coordinates of the casters in the light's axes.

@@ -1,6 +1,6 @@
 // Views of lights: what one region of a light's map was drawn with.
 //
-// A view is `{ clipFromWorld, depth, layer, region, guard, channel, size }`. Only the matrix has to be given: without the rest it is that of a
+// A view is `{ clipFromWorld, depth, layer, region, guard, border, channel, size }`. Only the matrix has to be given: without the rest it is that of a
 // sun without size which has the first layer of its map to itself and stores 0 at the near plane.
 
 import { areaLightOf, sizeOf } from './area_light.js';
@@ -10,7 +10,7 @@ import { columns, row } from './matrix.js';
 import { ValueError } from './value_error.js';
 import { length, scaled, sum } from './vector.js';
 
-const SUN = { depth: { orthographic: { reversed: false } }, layer: 0, region: WHOLE, guard: 0, channel: 0 };
+const SUN = { depth: { orthographic: { reversed: false } }, layer: 0, region: WHOLE, guard: 0, border: 'sharp', channel: 0 };
 
 /** The view with everything said: its matrix by columns, and what was left out. */
 export function completed(light) {

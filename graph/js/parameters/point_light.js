@@ -49,5 +49,5 @@ function view({ position, depth, tile }, [right, up, forward], tangent) {
   const [along, constant] = reversed ? [-ratio, near] : [1, -near];
   const z = scaled(sum(scaled(w, along), [0, 0, 0, constant]), 1 / (1 - ratio));
   const clipFromWorld = transposed([scaled(row(right), across), scaled(row(up), across), z, w]);
-  return { clipFromWorld, depth, layer: 0, region: regionOf(tile), guard, channel: 0 };
+  return { clipFromWorld, depth, layer: 0, region: regionOf(tile), guard, border: 'sharp', channel: 0 };
 }

@@ -6,9 +6,12 @@ import { leakReduction } from './leak_reduction.js';
 import { checkMatrix, completed, momentDepthRow } from './light_view.js';
 import { columns, inverse, product, row, transposed } from './matrix.js';
 import { single } from './rounding.js';
-import { PLACE_ERROR, checkGuard } from './tile.js';
-import { number } from './value_error.js';
+import { PLACE_ERROR, borderOf, checkBorder } from './tile.js';
+import { check, number } from './value_error.js';
 import { difference, scaled, sum } from './vector.js';
+
+// A width in texels in sixteenths, rounded as Rust does: halves away from zero.
+const sixteenths = (texels) => Math.floor(16 * texels + 0.5);
 
 /**
  * The parameters of a camera that looks at receivers of a light's shadow.
@@ -18,11 +21,13 @@ import { difference, scaled, sum } from './vector.js';
  */
 export function viewParameters(camera, light, receiverBias, reduction = leakReduction(), areaLight = NO_AREA) {
   const worldFromClip = inverse(columns(camera.clipFromWorld, 'camera'), 'camera');
-  const { clip, depth, region, guard, layer, channel } = completed(light);
+  const { clip, depth, region, guard, border, layer, channel } = completed(light);
   inverse(clip, 'light');
   const conversion = depthConversion(depth);
   checkMatrix(depth, clip);
-  checkGuard(guard, region.extent);
+  checkBorder(guard, border, region.extent);
+  check(Number.isInteger(channel) && channel >= 0 && channel < 4, 'a light', 'channel', channel, '0 to 3');
+  const { width, flags } = borderOf(border);
   const [x, y, w] = [0, 1, 3].map((index) => row(clip, index));
   // From clip space to the map: u = (x + w) / 2, v = (w - y) / 2, both still times w.
   const rows = [scaled(sum(w, x), 0.5), scaled(difference(w, y), 0.5), w, momentDepthRow(depth, clip)];
@@ -39,7 +44,7 @@ export function viewParameters(camera, light, receiverBias, reduction = leakRedu
     region,
     far_depth: single(number("the camera's farDepth", camera.farDepth)),
     layer,
-    channel,
+    channel: (channel | flags | (sixteenths(width) << 16)) >>> 0,
     guard: single(Math.max(guard - PLACE_ERROR, 0)),
     conversion,
     light: areaLight,

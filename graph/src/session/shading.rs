@@ -2,11 +2,12 @@
 
 use core::ops::RangeInclusive;
 
-use moment_shadows::{LightView, MapRegion, ReceiverBias, TextureFormat, ViewParameters};
+use moment_shadows::{Border, LightView, MapRegion, ReceiverBias, TextureFormat, ViewParameters};
 
 use super::cut::{owner, slot};
 use super::scratch::Told;
 use super::unsuitable;
+use crate::nodes::BORDERS;
 use crate::{Graph, GraphError, Plan, TextureDesc};
 
 /// Half widths in texels where the map is no summed-area table, which limits them. The smallest makes shadows hard where they
@@ -21,6 +22,8 @@ pub(super) struct Shading {
     map: TextureDesc,
     /// Channels of its output, one per light.
     channels: u32,
+    /// Whether views have borders.
+    borders: bool,
     radii: RangeInclusive<f64>,
 }
 
@@ -59,6 +62,8 @@ impl Shading {
             node: node.to_owned(),
             map: map.clone(),
             channels,
+            borders: (plan.passes.iter())
+                .any(|pass| pass.node == node && pass.constants.contains_key(BORDERS)),
             radii: RADII.start().min(largest)..=largest,
         })
     }
@@ -84,8 +89,14 @@ impl Shading {
                 light.channel, self.channels
             )));
         }
+        if light.border != Border::Sharp && !self.borders {
+            return Err(unsuitable(
+                "it has a border that is not sharp; give the node the property 'borders'"
+                    .to_owned(),
+            ));
+        }
         let extent = extent(&self.map, light);
-        let guarded = light.check_guard(extent);
+        let guarded = light.check_border(extent);
         guarded.map_err(|error| unsuitable(error.to_string()))?;
         let bias = receiver_bias(&self.map, light, told.depth_format)?;
         let parameters = ViewParameters::new(told.camera, light, bias, told.leak_reduction);

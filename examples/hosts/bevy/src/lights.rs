@@ -4,7 +4,7 @@ use bevy::math::DMat4;
 use bevy::pbr::{ExtractedPointLight, LightEntity, ShadowView, ViewLightEntities};
 use bevy::prelude::*;
 use bevy::render::view::ExtractedView;
-use moment_shadows::{LightDepth, MapRegion};
+use moment_shadows::{Border, LightDepth, MapRegion};
 use moment_shadows_graph::{DepthRange, LightView};
 
 use crate::MomentShadows;
@@ -98,6 +98,7 @@ impl Lights<'_, '_> {
                 layer: first + number,
                 region: MapRegion::WHOLE,
                 guard: 0,
+                border: Border::Sharp,
                 channel: 0,
                 size: settings.spots,
             });

@@ -20,14 +20,23 @@ pub(super) fn of_four_moments(four: &MapEncoding) -> Result<Vec<Variant>, LabErr
         &[("", "sampled")]
     };
     for &(kind, lookup) in kinds {
+        let shading = |node| {
+            Variant::new(node, four)
+                .on(|capabilities| capabilities.float32_filterable = !kind.is_empty())
+        };
         let shade = |lights, views| {
-            let node = ShadeHard {
+            shading(ShadeHard {
                 lights,
                 views,
                 ..ShadeHard::default()
-            };
-            Variant::new(node, four)
-                .on(|capabilities| capabilities.float32_filterable = !kind.is_empty())
+            })
+        };
+        let bordered = |views| {
+            shading(ShadeHard {
+                views,
+                borders: true,
+                ..ShadeHard::default()
+            })
         };
         let name = format!("shade_hard_{storage}{kind}");
         let row = format!("{storage}, {lookup}");
@@ -44,6 +53,11 @@ pub(super) fn of_four_moments(four: &MapEncoding) -> Result<Vec<Variant>, LabErr
                 .mips(4)
                 .file(format!("{name}_mips_views"), false),
             shade(1, 4).row(unorm16, format!("{row}, 4 views"), &[4]),
+            bordered(4).file(format!("{name}_borders"), unorm16).row(
+                unorm16,
+                format!("{row}, 4 views with borders"),
+                &[4],
+            ),
             shade(1, 1)
                 .samples(4)
                 .normals(Rgb10a2Unorm)

@@ -35,6 +35,9 @@ pub struct ShadeHard {
     pub lights: u32,
     /// The most views of all lights together.
     pub views: u32,
+    /// Whether views blend and fade out along their borders ([`moment_shadows::Border`]), for a few more instructions per view.
+    /// Otherwise borders are sharp.
+    pub borders: bool,
     /// The most probes of a lookup in a map with mip levels, 1 to 16: 1 is a trilinear lookup, more follow the direction
     /// in which a pixel covers more texels.
     pub anisotropy: u16,
@@ -47,6 +50,7 @@ impl Default for ShadeHard {
             format: None,
             lights: 1,
             views: 1,
+            borders: false,
             // What hardware commonly takes at little cost.
             anisotropy: 8,
         }
@@ -63,7 +67,7 @@ impl Node for ShadeHard {
         shading::describe(
             "shade_hard",
             upstream,
-            (self.format, self.lights, self.views),
+            (self.format, self.lights, self.views, self.borders),
             core::iter::once(input).chain(splits),
             evaluation.bindings.into_iter().chain(splits_binding),
             evaluation.specialization,

@@ -24,6 +24,8 @@ pub struct ShadeSoft {
     pub lights: u32,
     /// The most views of all lights together.
     pub views: u32,
+    /// Whether views blend and fade out along their borders, as in [`super::ShadeHard`].
+    pub borders: bool,
     /// Whether the two queries of the table, blocker search and filter, weight texels by the part that they cover, with 16
     /// loads; otherwise they count whole texels, with 4. In a file `"both"`: no bands in penumbrae, however slowly they rise;
     /// `"filter"`, the default: the width of a penumbra changes in steps that its own slope hides; or `"neither"`: for filters
@@ -59,6 +61,7 @@ impl Default for ShadeSoft {
             format: None,
             lights: 1,
             views: 1,
+            borders: false,
             interpolation: [false, true],
         }
     }
@@ -92,7 +95,7 @@ impl Node for ShadeSoft {
         shading::describe(
             "shade_soft",
             upstream,
-            (self.format, self.lights, self.views),
+            (self.format, self.lights, self.views, self.borders),
             [Slot::input("table", "The light's summed-area table.", rule)],
             [Binding::new("table_sums", bind::layers("table"))],
             specialization,

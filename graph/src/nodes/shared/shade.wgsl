@@ -32,7 +32,9 @@ struct ViewParameters {
     far_depth: f32,
     // The map's layer.
     layer: u32,
-    // The target's channel, 0 to 3. Of the views of one channel the first that contains a pixel shades it.
+    // The target's channel, 0 to 3, of which the first view that contains a pixel shades it. With BORDERS also VIEW_FADES, VIEW_ROUND,
+    // and in the upper half, in sixteenths of a texel, the width of the view's border: there it gives way to the other views
+    // that contain the pixel, or, where it fades, to light.
     channel: u32,
     // Texels along the region's edges that filters read, but in which no place is looked up.
     guard: f32,
@@ -40,6 +42,13 @@ struct ViewParameters {
     conversion: DepthConversion,
     light: AreaLight,
 }
+
+// Whether borders count; otherwise they are sharp.
+override BORDERS: bool = false;
+
+// Beside a view's channel: its shadows fade out along its border, or its border is the circle within the region, a spot's cone.
+const VIEW_FADES: u32 = 4u;
+const VIEW_ROUND: u32 = 8u;
 
 @group(GROUP) @binding(0) var<uniform> views: array<ViewParameters, VIEWS>;
 
@@ -114,6 +123,21 @@ fn view_shadow_intensity(view: u32, pixel: vec2i, receiver: Receiver, neighbours
     return leak_reduction_apply(intensity, views[view].leak_reduction);
 }
 
+// How many texels a place lies within a view's border; negative outside.
+fn view_depth(view: u32, uv: vec2f, region: MapRegion) -> f32 {
+    let extent = vec2f(region.extent);
+    let edges = min(uv, 1.0 - uv) * extent;
+    let circle = (0.5 - distance(uv, vec2f(0.5))) * min(extent.x, extent.y);
+    return select(min(edges.x, edges.y), circle, (views[view].channel & VIEW_ROUND) != 0u) - views[view].guard;
+}
+
+// Which part of a pixel a view takes, that far within its border, and which part it shades: the same, but where it fades out.
+fn view_part(view: u32, depth: f32) -> vec2f {
+    let border = f32(views[view].channel >> 16u) / 16.0;
+    let part = select(min(depth / max(border, 0.0625), 1.0), 1.0, border == 0.0);
+    return select(vec2f(max(part, 1e-6)), vec2f(1.0, part), (views[view].channel & VIEW_FADES) != 0u);
+}
+
 @fragment
 fn shade(covered: Covered) -> @location(0) vec4f {
     let size = camera_depth_size();
@@ -125,20 +149,39 @@ fn shade(covered: Covered) -> @location(0) vec4f {
         return intensities;
     }
     let neighbours = surface_neighbours(pixel, stored_depth, views[0].far_depth, views[0].position_from_camera, views[0].scene_w_from_camera);
+    // With borders, the part of each channel that no view has taken yet, and the sum of what views have taken.
     var open_channels = vec4<bool>(true);
+    var left = vec4f(1.0);
+    var taken = vec4f(0.0);
     for (var view = 0u; view < VIEWS; view++) {
         // A single light is in all channels, so that a host can blend with it or show it.
-        let channel = vec4<bool>(LIGHTS == 1u) | vec4<bool>(vec4u(views[view].channel) == vec4u(0u, 1u, 2u, 3u));
+        let channel = vec4<bool>(LIGHTS == 1u) | vec4<bool>(vec4u(views[view].channel & 3u) == vec4u(0u, 1u, 2u, 3u));
         let region = map_region_within(views[view].region, technique_map_size());
         let receiver = receiver_at(view, pixel, stored_depth);
         let uv = receiver.place.xy;
         let from_edge = min(uv, 1.0 - uv) * vec2f(region.extent);
-        let inside = receiver.light_w > 0.0 && all(from_edge >= vec2f(views[view].guard));
+        var inside = receiver.light_w > 0.0 && all(from_edge >= vec2f(views[view].guard));
+        if BORDERS {
+            inside = inside && view_depth(view, uv, region) >= 0.0;
+        }
         if inside && all(region.extent > vec2u(0u)) && any(channel & open_channels) {
             let intensity = view_shadow_intensity(view, pixel, receiver, neighbours, region);
-            intensities = select(intensities, vec4f(intensity), channel);
-            open_channels = open_channels & !channel;
+            if BORDERS {
+                let part = view_part(view, view_depth(view, uv, region));
+                let share = select(vec4f(0.0), left, channel);
+                intensities += share * (part.y * intensity);
+                taken += share * part.x;
+                left -= share * part.x;
+                open_channels = left > vec4f(0.0);
+            } else {
+                intensities = select(intensities, vec4f(intensity), channel);
+                open_channels = open_channels & !channel;
+            }
         }
+    }
+    if BORDERS {
+        // Where the last view that contains a pixel blends with none, those that contain it take all.
+        return intensities / max(taken, vec4f(1e-30));
     }
     return intensities;
 }

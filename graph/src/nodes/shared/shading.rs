@@ -20,7 +20,7 @@ use crate::{
 pub(in crate::nodes) fn describe(
     name: &str,
     upstream: &Connected<'_>,
-    (format, lights, views): (Option<TextureFormat>, u32, u32),
+    (format, lights, views, borders): (Option<TextureFormat>, u32, u32, bool),
     inputs: impl IntoIterator<Item = Slot>,
     bindings: impl IntoIterator<Item = Binding>,
     specialization: Specialization,
@@ -59,6 +59,9 @@ pub(in crate::nodes) fn describe(
         .shader(wgsl, "shade")
         .bind("views", bind::parameters())
         .bind("camera_depth", bind::layer("camera_depth"));
+    if borders {
+        pass = pass.constant(BORDERS, 1);
+    }
     pass.bindings.extend(bindings.into_iter().chain(normals));
     let block = ParameterBlock::of::<ViewParameters>("ViewParameters").elements(views);
     let intensity = "How much of each light is shadowed, a light per channel.";
@@ -73,6 +76,9 @@ pub(in crate::nodes) fn describe(
         // Lit.
         .off("shadow_intensity", Off::Fill(vec![[0.0; 4]])))
 }
+
+/// The constant of a pass by which views have borders.
+pub(crate) const BORDERS: &str = "BORDERS";
 
 /// Formats of normals: those of two channels hold an octahedron, those without a sign hold [-1, 1] in [0, 1].
 const NORMALS: [TextureFormat; 7] = [
