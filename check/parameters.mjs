@@ -17,6 +17,7 @@ import {
   gaussianKernel,
   initialBlock,
   kernelFromWeights,
+  kernelOfWidth,
   leakReduction,
   medium,
   placeViews,
@@ -67,8 +68,12 @@ function makers(plan) {
       const made = scatteringParameters(camera, far, light, medium({ extinction, scattering, anisotropy, irradiance }));
       return Object.fromEntries(Object.entries(made).map(([node, value]) => [node, struct(node, value)]));
     },
-    blur: ({ radius, sigma, weights }) => {
-      const kernel = weights ? kernelFromWeights(weights) : gaussianKernel(radius, sigma);
+    blur: ({ radius, sigma, weights, width, largest }) => {
+      const kernel = weights
+        ? kernelFromWeights(weights)
+        : largest
+          ? kernelOfWidth(width, largest)
+          : gaussianKernel(radius, sigma);
       return { struct: struct('blur', blurParameters(kernel)), deviation: standardDeviation(kernel) };
     },
     regions: ({ map, layer, regions }) => {

@@ -8,6 +8,10 @@ use crate::constants::PERCENTAGE_CLOSER_LARGEST_RADIUS;
 /// Weights are multiples of this, 2^-18, for the sums of the WGSL module `split_sum`.
 const WEIGHT_UNIT: f64 = 1.0 / (1 << 18) as f64;
 
+/// The variance in texels that a map has without a kernel: a texel is the mean of its square, and a bilinear lookup averages two of
+/// them, by 1/6 on average.
+const VARIANCE_OF_TEXELS: f64 = 1.0 / 12.0 + 1.0 / 6.0;
+
 /// Weights of 2 radius + 1 texels along one direction: not negative, multiples of 2^-18 that sum to exactly 1.
 ///
 /// Only filters with such weights keep moments valid.
@@ -40,6 +44,65 @@ impl Kernel {
             })
             .collect();
         Ok(Self::normalised(&weights))
+    }
+
+    /// The kernel by which shadows in a map are filtered over a width in scene units, whatever the size of its texels: `width` is
+    /// the standard deviation of the whole filter in texels, of which the lookup is a part. Below half a texel it is that of the
+    /// lookup alone. The radius is two standard deviations, rounded up.
+    ///
+    /// # Errors
+    /// [`ValueError`] about the `width`, where it is negative, no number, or the radius would be above `largest`.
+    pub fn of_width(width: f64, largest: u32) -> Result<Self, ValueError> {
+        let deviation = Self::deviation_of_width(width);
+        let variance = deviation * deviation;
+        let radius = (2.0 * deviation).ceil().max(1.0);
+        let largest = largest.min(Self::LARGEST_RADIUS);
+        if !(width >= 0.0 && radius <= f64::from(largest)) {
+            let message = format!(
+                "a filter of a standard deviation of {width} texels; a kernel of radius {largest} has at most {}",
+                (f64::from(largest * largest) / 4.0 + VARIANCE_OF_TEXELS).sqrt()
+            );
+            return Err(ValueError::new("width", message));
+        }
+        let radius = radius as usize;
+        // Weights are q^(k k), half of them: from products alone, so that every machine has the same. Their variance grows with q,
+        // from 0 to that of a box, which is above the one that is asked for.
+        let half = |q: f64| {
+            let mut step = q;
+            let mut weights = [1.0; Self::LARGEST_RADIUS as usize + 1];
+            for offset in 0..radius {
+                weights[offset + 1] = weights[offset] * step;
+                step *= q * q;
+            }
+            weights
+        };
+        let variance_of = |half: &[f64]| {
+            let (mut sum, mut squares) = (1.0, 0.0);
+            for (offset, weight) in half.iter().enumerate().take(radius + 1).skip(1) {
+                sum += 2.0 * weight;
+                squares += 2.0 * weight * (offset * offset) as f64;
+            }
+            squares / sum
+        };
+        let (mut low, mut high) = (0.0, 1.0);
+        // Weights are rounded to 2^-18.
+        for _ in 0..32 {
+            let middle = 0.5 * (low + high);
+            if variance_of(&half(middle)) < variance {
+                low = middle;
+            } else {
+                high = middle;
+            }
+        }
+        let half = &half(low)[..=radius];
+        let whole = half.iter().skip(1).rev().chain(half).copied();
+        Ok(Self::normalised(&whole.collect::<Vec<_>>()))
+    }
+
+    /// The standard deviation of the kernel of a filter of that width ([`of_width`](Self::of_width)), both in texels.
+    #[must_use]
+    pub fn deviation_of_width(width: f64) -> f64 {
+        (width * width - VARIANCE_OF_TEXELS).max(0.0).sqrt()
     }
 
     /// Given weights, normalised. Their number is odd, 3 to 129; the middle one belongs to the texel itself.

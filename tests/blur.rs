@@ -240,3 +240,29 @@ fn the_reference_is_a_separable_filter() {
         assert_eq!(*texel, [expected, 1.0, 0.0, -expected]);
     }
 }
+
+#[test]
+fn a_kernel_of_a_width_is_as_wide_with_the_lookup() {
+    for width in [0.55, 0.7, 0.9, 1.3, 2.0, 2.04, 5.5, 12.3, 31.9] {
+        let kernel = Kernel::of_width(width, 64).unwrap();
+        let deviation = f64::from(kernel.standard_deviation());
+        // A texel's square has a variance of 1/12, a bilinear lookup one of 1/6 on average.
+        let whole = (deviation * deviation + 1.0 / 12.0 + 1.0 / 6.0).sqrt();
+        assert!((whole / width - 1.0).abs() <= 0.002, "{width}: {whole}");
+        let least = Kernel::deviation_of_width(width);
+        assert_eq!(f64::from(kernel.radius()), (2.0 * least).ceil().max(1.0));
+        let weights = kernel.weights();
+        assert!(weights.iter().rev().eq(weights), "{width}: {weights:?}");
+    }
+    let none = Kernel::of_width(0.3, 64).unwrap();
+    assert_eq!(none.weights(), [0.0, 1.0, 0.0]);
+    for (width, largest) in [
+        (2.1, 4),
+        (33.0, 64),
+        (33.0, 200),
+        (f64::NAN, 64),
+        (-1.0, 64),
+    ] {
+        assert_eq!(Kernel::of_width(width, largest).unwrap_err().name, "width");
+    }
+}

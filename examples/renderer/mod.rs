@@ -11,6 +11,7 @@ use std::path::Path;
 use glam::dcamera::rh::proj::directx::{orthographic, perspective, perspective_infinite_reverse};
 use glam::dcamera::rh::view::look_at_mat4;
 use glam::{DMat4, DVec3};
+use moment_shadows::LightView;
 pub(crate) use pass::pass;
 use pollster::block_on;
 use wgpu::util::DeviceExt as _;
@@ -138,15 +139,32 @@ impl Renderer {
         light: &Matrix,
         depth: &wgpu::Texture,
     ) {
-        let frame = self.frame(light, [0.0; 4]);
-        self.draw(
-            encoder,
-            &frame,
-            depth,
-            &[],
-            1.0,
-            wgpu::CompareFunction::Less,
-        );
+        self.draw_views(encoder, &[LightView::orthographic(*light)], depth);
+    }
+
+    /// The same of several views, each in its region of the map.
+    pub(crate) fn draw_views(
+        &self,
+        encoder: &mut wgpu::CommandEncoder,
+        views: &[LightView],
+        depth: &wgpu::Texture,
+    ) {
+        let compare = Some(wgpu::CompareFunction::Less);
+        let entries = ["draw", "surface"];
+        let pipeline = self.pipeline(&self.shader, entries, &[], compare, depth.sample_count());
+        let mut pass = pass(encoder, &[], Some((depth, 1.0)));
+        pass.set_pipeline(&pipeline);
+        for view in views {
+            let [x, y] = view.region.origin;
+            let [width, height] = view.region.extent;
+            let [width, height] = [width.min(depth.width()), height.min(depth.height())];
+            let frame = self.frame(&view.clip_from_world, [0.0; 4]);
+            let group = self.group(&pipeline, 0, &[frame.as_entire_binding()]);
+            pass.set_viewport(x as f32, y as f32, width as f32, height as f32, 0.0, 1.0);
+            pass.set_scissor_rect(x, y, width, height);
+            pass.set_bind_group(0, &group, &[]);
+            self.draw_boxes(&mut pass);
+        }
     }
 
     /// The main pass: depth and colours, 0 where nothing is. `light` is the direction towards a sun and 0, or a lamp's
@@ -163,14 +181,15 @@ impl Renderer {
             (&picture.ambient, SKY),
             (&picture.direct, wgpu::Color::BLACK),
         ];
-        self.draw(
-            encoder,
-            &frame,
-            &picture.depth,
-            &colours,
-            0.0,
-            wgpu::CompareFunction::Greater,
-        );
+        let formats = colours.map(|(colour, _)| colour.format());
+        let compare = Some(wgpu::CompareFunction::Greater);
+        let entries = ["draw", "surface"];
+        let pipeline = self.pipeline(&self.shader, entries, &formats, compare, 1);
+        let group = self.group(&pipeline, 0, &[frame.as_entire_binding()]);
+        let mut pass = pass(encoder, &colours, Some((&picture.depth, 0.0)));
+        pass.set_pipeline(&pipeline);
+        pass.set_bind_group(0, &group, &[]);
+        self.draw_boxes(&mut pass);
     }
 
     /// Lights the picture with shadow intensity, and with what the air scatters where that is given.
@@ -303,31 +322,6 @@ impl Renderer {
         self.uniform(bytemuck::cast_slice(&[
             columns[0], columns[1], columns[2], columns[3], light,
         ]))
-    }
-
-    fn draw(
-        &self,
-        encoder: &mut wgpu::CommandEncoder,
-        frame: &wgpu::Buffer,
-        depth: &wgpu::Texture,
-        colours: &[(&wgpu::Texture, wgpu::Color)],
-        far: f32,
-        compare: wgpu::CompareFunction,
-    ) {
-        let formats: Vec<_> = colours.iter().map(|(colour, _)| colour.format()).collect();
-        let entries = ["draw", "surface"];
-        let pipeline = self.pipeline(
-            &self.shader,
-            entries,
-            &formats,
-            Some(compare),
-            depth.sample_count(),
-        );
-        let group = self.group(&pipeline, 0, &[frame.as_entire_binding()]);
-        let mut pass = pass(encoder, colours, Some((depth, far)));
-        pass.set_pipeline(&pipeline);
-        pass.set_bind_group(0, &group, &[]);
-        self.draw_boxes(&mut pass);
     }
 
     /// A pipeline with the vertex and fragment entry points of a shader. With a depth test it draws boxes.

@@ -375,7 +375,7 @@ fn light(random: &mut Random) -> (LightView, Value) {
         random.of(0, 40)
     };
     let (border, border_written) = border(random);
-    let (layer, channel) = (random.of(0, 4), random.of(0, 4));
+    let (layer, channel) = (random.of(0, 4), random.of(0, 17));
     let sizes = if kind == 0 {
         [0, 1, 1, 1]
     } else {
@@ -489,7 +489,13 @@ fn scattering(random: &mut Random, _: &Plan) -> Value {
 }
 
 fn blur(random: &mut Random, _: &Plan) -> Value {
-    let (kernel, input) = if random.one_in(2) {
+    let (kernel, input) = if random.one_in(3) {
+        let width = random.between(0.0, 33.0);
+        let width = random.spoilt(width);
+        let largest = random.of(1, 66);
+        let input = json!({ "width": number(width), "largest": largest });
+        (Kernel::of_width(width, largest), input)
+    } else if random.one_in(2) {
         let radius = if random.one_in(20) {
             random.of(0, 1)
         } else {

@@ -214,8 +214,18 @@ export function rectifiedView(
 /** Weights of a kernel. */
 export function gaussianKernel(radius: number, sigma: number): number[];
 export function kernelFromWeights(weights: ArrayLike<number>): number[];
+/**
+ * The weights by which shadows are filtered over a width in scene units: `width` is the standard deviation of the whole filter in
+ * texels, the width in scene units divided by a texel's. Its radius is at most `largest`, 64 where it is left out.
+ */
+export function kernelOfWidth(width: number, largest?: number): number[];
+/** The standard deviation of that kernel in texels, for `receiverBias`. */
+export function deviationOfWidth(width: number): number;
 export function standardDeviation(weights: number[]): number;
-/** The struct of a node `blur` whose kernel can change per frame, or has a radius above 12. */
+/**
+ * The struct of a node `blur` whose kernel can change per frame, or has a radius above 12. Where `kernel` has a `width`, two for each
+ * region, along x and along y (`kernelOfWidth`).
+ */
 export function blurParameters(weights: number[]): Struct;
 
 /** A view's block with every node's initial values. */

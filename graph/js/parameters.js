@@ -6,7 +6,7 @@ export { checkPlaces, placeViews } from './parameters/atlas.js';
 export { initialBlock, write, writeRegions } from './parameters/block.js';
 export { cascadeSlices, cascadeViews } from './parameters/cascades.js';
 export { depthConversion } from './parameters/depth_conversion.js';
-export { blurParameters, gaussianKernel, kernelFromWeights, standardDeviation } from './parameters/kernel.js';
+export { blurParameters, deviationOfWidth, gaussianKernel, kernelFromWeights, kernelOfWidth, standardDeviation } from './parameters/kernel.js';
 export { leakReduction } from './parameters/leak_reduction.js';
 export { NONE, WHOLE } from './parameters/map_region.js';
 export { pointLightFaces, spotView } from './parameters/point_light.js';

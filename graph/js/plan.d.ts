@@ -93,6 +93,8 @@ export interface TextureDesc {
   encoding?: unknown;
   /** The standard deviation of the filter that a map has been through, in texels; 0 where it is left out. */
   deviation?: number;
+  /** The same of a filter with a kernel for each region, in scene units. */
+  width?: number;
 }
 
 export interface ParameterLayout {

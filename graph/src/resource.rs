@@ -34,6 +34,9 @@ pub struct TextureDesc {
     /// not blurred. The receiver bias follows from it.
     #[serde(default, skip_serializing_if = "is_zero")]
     pub deviation: Finite,
+    /// The same of the filter whose width is given in scene units, with a kernel for each region: 0 for a map without one.
+    #[serde(default, skip_serializing_if = "is_zero")]
+    pub width: Finite,
     /// Samples per texel. A multisampled texture with several layers is a list of textures, one per layer.
     #[serde(default = "one")]
     pub samples: u32,
@@ -60,6 +63,7 @@ impl TextureDesc {
             planes: 1,
             encoding: None,
             deviation: Finite::ZERO,
+            width: Finite::ZERO,
             samples: 1,
         }
     }

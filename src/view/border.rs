@@ -32,8 +32,8 @@ impl Border {
     pub(super) fn word(self) -> u32 {
         let flags = match self {
             Border::Sharp | Border::Blend(_) => 0,
-            Border::Fade(_) => 4,
-            Border::Cone(_) => 4 | 8,
+            Border::Fade(_) => 16,
+            Border::Cone(_) => 16 | 32,
         };
         // A check has found the width to be at most the widest.
         flags | ((16.0 * self.width()).round() as u32) << 16

@@ -26,7 +26,7 @@ pub struct LightView {
     pub guard: u32,
     /// What becomes of shadows along the border of what the view shows.
     pub border: Border,
-    /// The light's channel in the node's output, 0 to 3.
+    /// The light's channel in the node's outputs, 0 to 15: four in each.
     pub channel: u32,
     /// How large the light is; for soft shadows.
     pub size: LightSize,

@@ -30,8 +30,8 @@ pub struct ViewParameters {
     pub far_depth: f32,
     /// The map's layer.
     pub layer: u32,
-    /// The light's channel in the output, 0 to 3, of which the first view that contains a pixel shades it. Nodes with borders read
-    /// the rest: 4 where shadows fade out along the border, 8 where that is a circle, and in the upper half its width in
+    /// The light's channel in the outputs, 0 to 15, of which the first view that contains a pixel shades it. Nodes with borders read
+    /// the rest: 16 where shadows fade out along the border, 32 where that is a circle, and in the upper half its width in
     /// sixteenths of a texel.
     pub channel: u32,
     /// Texels along the region's edges in which no place is looked up.
@@ -60,7 +60,7 @@ impl ViewParameters {
         light.depth.check_matrix(light_clip)?;
         light.check_border(light.region.extent)?;
         let channel = light.channel;
-        check(channel < 4, "a light", "channel", channel, "0 to 3")?;
+        check(channel < 16, "a light", "channel", channel, "0 to 15")?;
         let [x, y, w] = [0, 1, 3].map(|index| light_clip.row(index));
         // From clip space to the map: u = (x + w) / 2, v = (w - y) / 2, both still times w.
         let rows = [0.5 * (w + x), 0.5 * (w - y), w, light.depth.row(light_clip)];

@@ -100,12 +100,12 @@ fn compiling_and_describing_are_repeatable() {
             mip_levels: Some(1),
         }),
         Box::new(Blur {
-            kernel: moment_shadows::Kernel::gaussian(3, 1.5),
+            kernel: moment_shadows::Kernel::gaussian(3, 1.5).map(Into::into),
             per_frame: false,
             mip_levels: Some(1),
         }),
         Box::new(Blur {
-            kernel: moment_shadows::Kernel::gaussian(30, 12.0),
+            kernel: moment_shadows::Kernel::gaussian(30, 12.0).map(Into::into),
             per_frame: true,
             mip_levels: Some(1),
         }),

@@ -22,13 +22,19 @@ fn kernels_say_what_is_wrong_with_them() {
         ("{ \"weights\": [0, 0, 0] }", "all weights are 0"),
         (
             "{ \"weights\": [1, 2, 1], \"radius\": 1 }",
-            "either a 'radius' (with a 'sigma') or 'weights'",
+            "either a 'radius' (with a 'sigma' or a 'width') or 'weights'",
         ),
         (
             "{ \"weights\": [1, 2, 1], \"sigma\": 1 }",
             "give one of them",
         ),
         ("{}", "give one of them"),
+        (
+            "{ \"radius\": 4, \"sigma\": 2, \"width\": 0.1 }",
+            "give one of them",
+        ),
+        ("{ \"radius\": 4, \"width\": 0 }", "positive length"),
+        ("{ \"radius\": 65, \"width\": 0.1 }", "1 to 64 texels"),
     ];
     for (kernel, says) in cases {
         let text = edited("{ \"radius\": 4, \"sigma\": 2.4 }", kernel);

@@ -173,8 +173,8 @@ fn lights_views_and_anisotropy_are_within_their_ranges() {
         )
     };
     for (properties, expected) in [
-        ("{ \"lights\": 5, \"views\": 5 }", "1 to 4 lights"),
-        ("{ \"lights\": 0 }", "1 to 4 lights"),
+        ("{ \"lights\": 17, \"views\": 17 }", "1 to 16 lights"),
+        ("{ \"lights\": 0 }", "1 to 16 lights"),
         (
             "{ \"lights\": 3, \"views\": 2 }",
             "each has at least one view",
@@ -191,5 +191,5 @@ fn lights_views_and_anisotropy_are_within_their_ranges() {
     }
     let error = refused(&shade("{ \"views\": 257 }"));
     assert!(error.to_string().contains("at most 256"), "{error}");
-    compiled(&shade("{ \"lights\": 4, \"views\": 256 }"), &native()).unwrap();
+    compiled(&shade("{ \"lights\": 16, \"views\": 256 }"), &native()).unwrap();
 }

@@ -234,7 +234,7 @@ fn described(node: &dyn Node) -> NodeDesc {
 
 fn per_frame_blur() -> NodeDesc {
     described(&Blur {
-        kernel: Kernel::gaussian(4, 2.4),
+        kernel: Kernel::gaussian(4, 2.4).map(Into::into),
         per_frame: true,
         mip_levels: Some(1),
     })

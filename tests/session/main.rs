@@ -10,6 +10,7 @@ mod cameras;
 mod far;
 mod formats;
 mod frames;
+mod many;
 mod normals;
 mod off;
 mod orders;
@@ -17,6 +18,7 @@ mod refused;
 mod same;
 mod stored;
 mod views;
+mod widths;
 
 use moment_shadows::{CameraView, LightView, Profile};
 use moment_shadows_graph::record::ImportedResource;

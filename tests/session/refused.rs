@@ -171,7 +171,7 @@ fn parameters_that_only_the_host_knows_are_refused() {
     let mut graph = parsed(HARD);
     let blur = graph.nodes.iter_mut().find(|node| node.name == "blur");
     blur.unwrap().value = Box::new(WithParameters(Blur {
-        kernel: Kernel::gaussian(4, 2.4),
+        kernel: Kernel::gaussian(4, 2.4).map(Into::into),
         per_frame: false,
         mip_levels: Some(1),
     }));

@@ -113,7 +113,7 @@ fn tile(guard: u32) -> Tile {
 }
 
 /// Where a camera's pixel shows the floor, if it does.
-fn seen(camera: &CameraView, [width, height]: [u32; 2], pixel: usize) -> Option<DVec3> {
+pub(crate) fn seen(camera: &CameraView, [width, height]: [u32; 2], pixel: usize) -> Option<DVec3> {
     let inverse = DMat4::from_cols_array_2d(&camera.clip_from_world).inverse();
     let [x, y] = [pixel as u32 % width, pixel as u32 / width].map(|at| 2.0 * (f64::from(at) + 0.5));
     let at = |depth| {
@@ -207,7 +207,7 @@ fn compare(gpu: &Gpu, frame: &Frame, views: &dyn Fn(u32) -> Vec<LightView>) -> [
 }
 
 /// A camera over the floor.
-fn frame(gpu: &Gpu, eye: DVec3, target: DVec3) -> Frame {
+pub(crate) fn frame(gpu: &Gpu, eye: DVec3, target: DVec3) -> Frame {
     let FrameDesc { camera, .. } = floor(gpu, wgpu::TextureFormat::Depth32Float, 1.0, false).desc;
     let mut mesh = Mesh::default();
     for [x, z] in [[-1.0, 1.0], [1.0, 1.0], [1.0, -1.0], [-1.0, -1.0]] {

@@ -3,7 +3,7 @@
 // fullscreen: Covered fullscreen
 // regions: regions region_at
 // moment_shadows/map/storage.wgsl: STORAGE_FLOAT16 STORAGE_UNORM10 storage_round_to_float16 storage_round_to_unorm10 storage_round_texel
-// blur_source: moments_map BlurParameters parameters blur_source
+// blur_source: moments_map BlurParameters parameters blur_kernel blur_source
 // moment_shadows/filter/separable.wgsl: separable_add
 // written_texel: LEVEL written_size written_texel
 // write_drawn.wgsl: RegionPixel region_of write_map
@@ -12,6 +12,7 @@
 const GROUP = 0;
 const STORAGE = 5u;
 const REGIONS = 1u;
+const KERNELS = 1u;
 const AXIS = vec2i(1, 0);
 
 // map_filtering
@@ -25,14 +26,15 @@ fn filtering_texel(value: vec4f) -> vec4f {
 }
 
 // blur_texel
-fn blur_texel(texel: vec2i, low: vec2i, last: vec2i) -> vec4f {
+fn blur_texel(texel: vec2i, low: vec2i, last: vec2i, region: u32) -> vec4f {
+    let kernel = blur_kernel(region);
     // 40 vectors of weights hold no larger kernel.
-    let radius = min(parameters.radius, 64u);
+    let radius = min(parameters[kernel].radius, 64u);
     var sum = vec4f(0.0);
     for (var tap = 0u; tap <= 2u * radius; tap++) {
         // 15 zeros come first.
         let place = tap + 15u;
-        let weight = parameters.weights[place / 4u][place % 4u];
+        let weight = parameters[kernel].weights[place / 4u][place % 4u];
         let source = blur_source(texel + (i32(tap) - i32(radius)) * AXIS, low, last);
         sum = separable_add(sum, weight, source, false);
     }

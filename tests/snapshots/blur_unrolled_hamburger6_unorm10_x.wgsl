@@ -25,7 +25,7 @@ fn filtering_texel(value: vec4f) -> vec4f {
 }
 
 // blur_texel
-fn blur_texel(texel: vec2i, low: vec2i, last: vec2i) -> vec4f {
+fn blur_texel(texel: vec2i, low: vec2i, last: vec2i, region: u32) -> vec4f {
     var sum = vec4f(0.0);
     sum = separable_add(sum, 0.16637802, blur_source(texel + -1 * AXIS, low, last), true);
     sum = separable_add(sum, 0.66724396, blur_source(texel + 0 * AXIS, low, last), true);

@@ -30,7 +30,7 @@ fn filtering_texel(value: vec4f) -> vec4f {
 }
 
 // blur_outputs
-fn blur_outputs(first: vec2i, low: vec2i, last: vec2i) {
+fn blur_outputs(first: vec2i, low: vec2i, last: vec2i, region: u32) {
     var sums: SeparableEight;
     sums = separable_add_to_eight(sums, blur_source(first + -1 * AXIS, low, last), vec4f(0.0, 0.0, 0.0, 0.0), vec4f(0.0, 0.0, 0.0, 0.16637802), SPLIT_SUMS, true);
     sums = separable_add_to_eight(sums, blur_source(first + 0 * AXIS, low, last), vec4f(0.0, 0.0, 0.0, 0.0), vec4f(0.0, 0.0, 0.16637802, 0.66724396), SPLIT_SUMS, true);

@@ -5,7 +5,7 @@ mod technique;
 use std::path::Path;
 
 use moment_shadows::{Kernel, Storage};
-use moment_shadows_graph::nodes::Blur;
+use moment_shadows_graph::nodes::{Blur, BlurKernel};
 use moment_shadows_graph::{Graph, GraphError, GraphErrorKind, TextureDesc, command};
 use serde_json::Value;
 
@@ -183,12 +183,14 @@ impl GraphFile {
             .collect();
         match blurs.as_slice() {
             [] => Ok(None),
-            [blur] => blur
-                .kernel
-                .clone()
-                .map(Some)
-                .map_err(|error| GraphError::new(GraphErrorKind::Property, error.to_string()))
-                .map_err(LabError::graph(&self.name)),
+            [blur] => match &blur.kernel {
+                Ok(BlurKernel::Texels(kernel)) => Ok(Some(kernel.clone())),
+                Ok(BlurKernel::Scene { .. }) => Err(self.unsuitable(
+                    "its kernel has a 'width' in scene units, which a session makes kernels from; give it a 'sigma' in texels",
+                )),
+                Err(error) => Err(GraphError::new(GraphErrorKind::Property, error.to_string()))
+                    .map_err(LabError::graph(&self.name)),
+            },
             _ => Err(self.unsuitable(format!(
                 "it has {} blur nodes; the receiver bias and the truth are derived from one kernel",
                 blurs.len()

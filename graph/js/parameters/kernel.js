@@ -8,6 +8,9 @@ import { ValueError } from './value_error.js';
 const WEIGHT_UNIT = 2 ** -18;
 const LARGEST_RADIUS = 64;
 
+// Of a texel's square and of a bilinear lookup.
+const VARIANCE_OF_TEXELS = 1 / 12 + 1 / 6;
+
 // As the node's shader has it: outputs of an invocation, and vectors of weights.
 const OUTPUTS = 16;
 const VECTORS = 40;
@@ -26,6 +29,58 @@ export function gaussianKernel(radius, sigma) {
     return Math.exp(-0.5 * ratio * ratio);
   });
   return normalised(weights);
+}
+
+/**
+ * The kernel by which shadows in a map are filtered over a width in scene units, whatever the size of its texels: `width` is the
+ * standard deviation of the whole filter in texels, of which the lookup is a part. Its radius is at most `largest`.
+ */
+export function kernelOfWidth(width, largest = LARGEST_RADIUS) {
+  const deviation = deviationOfWidth(width);
+  const variance = deviation * deviation;
+  const radius = Math.max(Math.ceil(2 * deviation), 1);
+  const most = Math.min(largest, LARGEST_RADIUS);
+  if (!(width >= 0 && radius <= most)) {
+    const widest = Math.sqrt((most * most) / 4 + VARIANCE_OF_TEXELS);
+    const message = `a filter of a standard deviation of ${width} texels; a kernel of radius ${most} has at most ${widest}`;
+    throw new ValueError('width', message);
+  }
+  let [low, high] = [0, 1];
+  for (let round = 0; round < 32; round++) {
+    const middle = 0.5 * (low + high);
+    if (varianceOf(powers(middle, radius)) < variance) {
+      low = middle;
+    } else {
+      high = middle;
+    }
+  }
+  const half = powers(low, radius);
+  return normalised([...half.slice(1).reverse(), ...half]);
+}
+
+/** The standard deviation of that kernel in texels, for `receiverBias`. */
+export function deviationOfWidth(width) {
+  return Math.sqrt(Math.max(width * width - VARIANCE_OF_TEXELS, 0));
+}
+
+// Half of the weights: q to the power of k k.
+function powers(q, radius) {
+  const weights = [1];
+  let step = q;
+  for (let offset = 0; offset < radius; offset++) {
+    weights.push(weights[offset] * step);
+    step *= q * q;
+  }
+  return weights;
+}
+
+function varianceOf(half) {
+  let [sum, squares] = [1, 0];
+  for (let offset = 1; offset < half.length; offset++) {
+    sum += 2 * half[offset];
+    squares += 2 * half[offset] * (offset * offset);
+  }
+  return squares / sum;
 }
 
 /** Given weights, normalised. Their number is odd, 3 to 129; the middle one belongs to the texel itself. */
@@ -61,6 +116,7 @@ export function blurParameters(weights) {
   return {
     radius,
     blocks: Math.ceil((2 * radius + OUTPUTS) / 16),
+    width: 0,
     weights: Array.from({ length: VECTORS }, (_, index) => padded.slice(4 * index, 4 * index + 4)),
   };
 }

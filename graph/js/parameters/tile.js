@@ -44,7 +44,7 @@ export function borderOf(border) {
   const entries = Object.entries(border ?? {});
   const [kind, width] = entries[0] ?? [];
   if (entries.length === 1 && ['blend', 'fade', 'cone'].includes(kind)) {
-    return { width, flags: { blend: 0, fade: 4, cone: 12 }[kind] };
+    return { width, flags: { blend: 0, fade: 16, cone: 48 }[kind] };
   }
   throw new ValueError('border', "a view's border is 'sharp', { blend }, { fade } or { cone }, each with a width in texels");
 }

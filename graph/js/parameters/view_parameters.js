@@ -26,7 +26,7 @@ export function viewParameters(camera, light, receiverBias, reduction = leakRedu
   const conversion = depthConversion(depth);
   checkMatrix(depth, clip);
   checkBorder(guard, border, region.extent);
-  check(Number.isInteger(channel) && channel >= 0 && channel < 4, 'a light', 'channel', channel, '0 to 3');
+  check(Number.isInteger(channel) && channel >= 0 && channel < 16, 'a light', 'channel', channel, '0 to 15');
   const { width, flags } = borderOf(border);
   const [x, y, w] = [0, 1, 3].map((index) => row(clip, index));
   // From clip space to the map: u = (x + w) / 2, v = (w - y) / 2, both still times w.

@@ -70,6 +70,7 @@ fn alike(desc: &ResourceDesc) -> ResourceDesc {
     let mut desc = desc.clone();
     if let ResourceDesc::Texture(texture) = &mut desc {
         texture.deviation = Finite::ZERO;
+        texture.width = Finite::ZERO;
     }
     desc
 }

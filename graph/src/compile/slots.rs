@@ -93,6 +93,7 @@ fn make(
         mips: count(&rule.mips, "number of mip levels", |other| other.mips)?,
         samples: count(&rule.samples, "number of samples", |other| other.samples)?,
         deviation: rule.deviation,
+        width: rule.width,
         ..TextureDesc::new(format, size)
     };
     if let Some(encoding) = &rule.encoding {
@@ -104,6 +105,7 @@ fn make(
         texture.planes = other.planes;
         texture.encoding = other.encoding.clone();
         texture.deviation = added(other.deviation, rule.deviation);
+        texture.width = added(other.width, rule.width);
     }
     if let (Rule::SameAs(other), [1, 1]) = (&rule.extent, rule.per) {
         texture.regions = texture_of(other, resolved)?.regions;

@@ -85,6 +85,9 @@ pub struct TextureRule {
     /// the texture takes; 0 where the node does not filter.
     #[serde(default)]
     pub deviation: Finite,
+    /// The same in scene units, where each region has a kernel of its own.
+    #[serde(default)]
+    pub width: Finite,
 }
 
 fn one_each() -> [u32; 2] {
@@ -205,6 +208,7 @@ impl TextureRule {
             mips: Rule::Exact(1),
             samples: Rule::Exact(1),
             deviation: Finite::ZERO,
+            width: Finite::ZERO,
         }
     }
 
@@ -257,6 +261,12 @@ impl TextureRule {
     /// Filtered by a kernel of this standard deviation along either axis, in texels.
     pub fn filtered(mut self, deviation: Finite) -> Self {
         self.deviation = deviation;
+        self
+    }
+
+    /// Filtered in each region by a kernel of this standard deviation along either axis, in scene units.
+    pub fn filtered_in_scene(mut self, width: Finite) -> Self {
+        self.width = width;
         self
     }
 

@@ -14,7 +14,7 @@ mod shared;
 mod summed_area_table;
 mod techniques;
 
-pub use blur::Blur;
+pub use blur::{Blur, BlurKernel};
 pub use composite_scattering::CompositeScattering;
 pub use debug_moments::{DebugMoments, Show};
 pub use downsample::Downsample;

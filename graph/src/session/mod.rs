@@ -2,6 +2,7 @@
 
 mod cut;
 mod given;
+mod kernels;
 mod part;
 mod scratch;
 mod shading;

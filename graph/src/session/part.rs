@@ -1,6 +1,7 @@
 //! One part of a graph, ready to be recorded.
 
 use super::given::{Given, described};
+use super::kernels::SceneBlur;
 use super::shading::Shading;
 use crate::record::{Bindings, ImportedResource, PipelineOptions, Pipelines, Resources};
 use crate::{Capabilities, Graph, GraphError, Plan};
@@ -24,6 +25,8 @@ pub(super) struct Part {
     buffer: Option<wgpu::Buffer>,
     /// The nodes that shade.
     pub(super) shading: Vec<Shading>,
+    /// The nodes that filter over a width in scene units.
+    pub(super) blurs: Vec<SceneBlur>,
 }
 
 impl Maker {
@@ -66,6 +69,7 @@ impl Maker {
             block: plan.parameters.initial(),
             buffer,
             shading: Shading::all(graph, &plan)?,
+            blurs: SceneBlur::all(&plan),
             plan,
         })
     }

@@ -5,6 +5,7 @@ use moment_shadows::{
     SingleScattering, TextureFormat, ViewParameters,
 };
 
+use super::kernels;
 use super::part::Part;
 use super::unsuitable;
 use crate::GraphError;
@@ -15,6 +16,7 @@ pub(super) struct Scratch {
     conversions: Vec<DepthConversion>,
     regions: Vec<MapRegion>,
     views: Vec<ViewParameters>,
+    kernels: Vec<kernels::Words>,
     block: Vec<u8>,
 }
 
@@ -71,13 +73,21 @@ impl Scratch {
                 "CompositeScatteringParameters" => {
                     layout.write(bytes, node, 0, &told.scattering()?.composite)?;
                 }
-                // Those above, and a kernel, which is that of the graph file.
+                // Those above, and kernels, which are those of the graph file or follow.
                 "ViewParameters" | "BlurParameters" => {}
                 other => {
                     let reason = format!(
                         "its parameters ({other}) are known to the host alone; record this graph with the objects of 'record'"
                     );
                     return Err(unsuitable(format!("node '{node}'"), reason));
+                }
+            }
+        }
+        for blur in &part.blurs {
+            for layer in 0..blur.layers() {
+                blur.write(&mut self.kernels, told.of_layer(layer))?;
+                if !self.kernels.is_empty() {
+                    layout.write_all(bytes, &blur.node, layer, &self.kernels)?;
                 }
             }
         }

@@ -2,7 +2,9 @@
 
 use core::ops::RangeInclusive;
 
-use moment_shadows::{Border, LightView, MapRegion, ReceiverBias, TextureFormat, ViewParameters};
+use moment_shadows::{
+    Border, Kernel, LightView, MapRegion, ReceiverBias, TextureFormat, ViewParameters,
+};
 
 use super::cut::{owner, slot};
 use super::scratch::Told;
@@ -20,7 +22,7 @@ pub(super) struct Shading {
     pub(super) node: String,
     /// The map that it looks up.
     map: TextureDesc,
-    /// Channels of its output, one per light.
+    /// Channels of its outputs, one per light.
     channels: u32,
     /// Whether views have borders.
     borders: bool,
@@ -48,11 +50,12 @@ impl Shading {
         let map = map.ok_or_else(|| {
             unsuitable("its map is made anew for each camera; record this graph with the objects of 'record'")
         })?;
-        let target = plan.resources.iter().find_map(|resource| {
-            let of_it = resource.name.strip_prefix(node)?.starts_with('.');
-            of_it.then(|| resource.desc.texture()).flatten()
+        let targets = plan.resources.iter().filter_map(|resource| {
+            let slot = resource.name.strip_prefix(node)?.strip_prefix('.')?;
+            let is_target = slot.starts_with("shadow_intensity");
+            is_target.then(|| resource.desc.texture()).flatten()
         });
-        let channels = target.map_or(1, |target| target.format.channels());
+        let channels = targets.map(|target| target.format.channels()).sum();
         let table = map.encoding.as_ref().and_then(|encoding| encoding.table());
         let largest = table.map_or(*RADII.end(), |table| {
             let [width, height] = table.largest_kernel();
@@ -85,7 +88,7 @@ impl Shading {
         }
         if light.channel >= self.channels {
             return Err(unsuitable(format!(
-                "its channel is {}, but the node's output has {}, counted from 0; give the node as many 'lights'",
+                "its channel is {}, but the node's outputs have {}, counted from 0; give the node as many 'lights'",
                 light.channel, self.channels
             )));
         }
@@ -108,7 +111,7 @@ impl Shading {
 }
 
 /// Texels of the map that a view of a light has.
-fn extent(map: &TextureDesc, light: &LightView) -> [u32; 2] {
+pub(super) fn extent(map: &TextureDesc, light: &LightView) -> [u32; 2] {
     if light.region == MapRegion::WHOLE {
         map.size
     } else {
@@ -123,7 +126,11 @@ pub(super) fn receiver_bias(
     depth_format: Option<TextureFormat>,
 ) -> Result<ReceiverBias, GraphError> {
     let depth_per_texel = light.depth_per_texel(extent(map, light)) as f32;
-    let bias = ReceiverBias::for_kernel(map.deviation.get(), depth_per_texel);
+    // Of a kernel with a width of its own, in the coarser direction.
+    let texels = light.texel_size(extent(map, light));
+    let own = Kernel::deviation_of_width(f64::from(map.width.get()) / texels[0].min(texels[1]));
+    let deviation = map.deviation.get().hypot(own as f32);
+    let bias = ReceiverBias::for_kernel(deviation, depth_per_texel);
     let conversion = light.depth.conversion();
     let conversion = conversion.map_err(|error| unsuitable("a view of a light", error))?;
     Ok(depth_format.map_or(bias, |format| bias.for_stored_depth(format, &conversion)))

@@ -1,8 +1,8 @@
 //! What makes, filters, sums and shows maps.
 
-use moment_shadows::{Kernel, MapEncoding, Storage, Technique, TextureFormat, ValueError};
+use moment_shadows::{Finite, Kernel, MapEncoding, Storage, Technique, TextureFormat, ValueError};
 use moment_shadows_graph::nodes::{
-    Blur, DebugMoments, Downsample, PlaceLayers, Resolve, Show, SummedAreaTable,
+    Blur, BlurKernel, DebugMoments, Downsample, PlaceLayers, Resolve, Show, SummedAreaTable,
 };
 
 use super::{SIZE, Variant};
@@ -23,8 +23,19 @@ fn resolve(map: &MapEncoding) -> Variant {
 
 fn blur(map: &MapEncoding, radius: u32, per_frame: bool) -> Variant {
     let node = Blur {
-        kernel: Kernel::gaussian(radius, 0.6 * radius as f32),
+        kernel: Kernel::gaussian(radius, 0.6 * radius as f32).map(Into::into),
         per_frame,
+        mip_levels: Some(1),
+    };
+    Variant::new(node, map)
+}
+
+/// A kernel of radius 12 at most for each region.
+fn in_scene(map: &MapEncoding) -> Variant {
+    let width = Finite::new(0.05).unwrap_or_default();
+    let node = Blur {
+        kernel: Ok(BlurKernel::Scene { width, radius: 12 }),
+        per_frame: false,
         mip_levels: Some(1),
     };
     Variant::new(node, map)
@@ -79,6 +90,18 @@ pub(super) fn of_four_moments(four: &MapEncoding) -> Result<Vec<Variant>, ValueE
         // The weights are parameters: one text for every radius.
         blurred("uniform", 1, true, 1, unorm16),
         blurred("uniform", 1, true, REGIONS, false),
+        // Kernels of radius 12 as parameters, of all regions and of each.
+        blur(four, 12, true)
+            .regions(4)
+            .row(unorm16, row(12) + ", per frame, 4 regions", &[4, 3]),
+        in_scene(four)
+            .regions(4)
+            .file(format!("blur_in_scene_{storage}"), unorm16)
+            .row(
+                unorm16,
+                row(12) + " at most, a kernel for each of 4 regions",
+                &[4, 3],
+            ),
     ]);
     let name = format!("downsample_{storage}");
     let smaller = downsample(four).file(&name, unorm16);

@@ -67,6 +67,16 @@ pub(super) fn of_four_moments(four: &MapEncoding) -> Result<Vec<Variant>, LabErr
                 .normals(Rg16Float)
                 .file(format!("{name}_octahedral_normals"), false),
         ]);
+        if unorm16 {
+            // A pixel in two views of a tile's list, of 16 lights with a view each, and of 256 views.
+            let settings = format!("{row}, 16 lights, 2 views of a pixel");
+            let many = shade(16, 16)
+                .file(format!("{name}_lights"), 2_usize)
+                .row(true, settings, &[1, 2, 1])
+                .pass("find views", &[1, 8]);
+            let most = shade(16, 256).file(format!("{name}_most_views"), false);
+            all.extend([many, most]);
+        }
     }
     all.extend(soft(four)?);
     Ok(all)

@@ -2,7 +2,7 @@
 
 use moment_shadows::{DepthConversion, MapEncoding, Storage, Technique};
 use moment_shadows_graph::Named;
-use moment_shadows_graph::nodes::Blur;
+use moment_shadows_graph::nodes::{Blur, BlurKernel};
 
 use super::harness::Difference;
 use super::reference;
@@ -98,7 +98,8 @@ impl OpenedGraph {
         };
         let properties = self.file.node_entry(node, "properties");
         let Ok(Blur {
-            kernel: Ok(kernel), ..
+            kernel: Ok(BlurKernel::Texels(kernel)),
+            ..
         }) = serde_json::from_value(properties)
         else {
             return Ok(None);

@@ -14,5 +14,5 @@ fn write_map(@builtin(local_invocation_id) local: vec3u, @builtin(workgroup_id) 
         return;
     }
     let low = vec2i(tile.region.origin);
-    blur_outputs(low + vec2i(place), low, low + vec2i(tile.region.extent) - 1);
+    blur_outputs(low + vec2i(place), low, low + vec2i(tile.region.extent) - 1, tile.number);
 }

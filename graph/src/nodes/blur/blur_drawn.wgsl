@@ -14,5 +14,5 @@ fn written_size() -> vec2u {
 fn written_texel(texel: vec2u, region: MapRegion, number: u32) -> vec4f {
     let low = vec2i(region.origin);
     let last = low + vec2i(region.extent) - 1;
-    return filtering_texel(blur_texel(vec2i(texel), low, last));
+    return filtering_texel(blur_texel(vec2i(texel), low, last, number));
 }

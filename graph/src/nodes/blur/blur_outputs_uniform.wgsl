@@ -1,5 +1,5 @@
 import moment_shadows::filter::separable::{SeparableSixteen, separable_add_to_sixteen};
-import node::blur_source::{blur_source, parameters};
+import node::blur_source::{blur_kernel, blur_source, parameters};
 import node::blur_target::{blur_store};
 import node::specialization::{AXIS, SPLIT_SUMS};
 
@@ -19,20 +19,21 @@ fn blur_four(sums: SeparableSixteen, texel: vec2i, low: vec2i, last: vec2i, w0: 
 }
 
 // Stores the outputs from the texel `first` on.
-fn blur_outputs(first: vec2i, low: vec2i, last: vec2i) {
+fn blur_outputs(first: vec2i, low: vec2i, last: vec2i, region: u32) {
+    let kernel = blur_kernel(region);
     var sums: SeparableSixteen;
-    var w0 = parameters.weights[0];
-    var w1 = parameters.weights[1];
-    var w2 = parameters.weights[2];
-    var w3 = parameters.weights[3];
+    var w0 = parameters[kernel].weights[0];
+    var w1 = parameters[kernel].weights[1];
+    var w2 = parameters[kernel].weights[2];
+    var w3 = parameters[kernel].weights[3];
     // 40 vectors of weights hold 9 blocks.
-    let blocks = min(parameters.blocks, 9u);
+    let blocks = min(parameters[kernel].blocks, 9u);
     for (var block_index = 0u; block_index < blocks; block_index++) {
-        let w4 = parameters.weights[4u * block_index + 4u];
-        let w5 = parameters.weights[4u * block_index + 5u];
-        let w6 = parameters.weights[4u * block_index + 6u];
-        let w7 = parameters.weights[4u * block_index + 7u];
-        let texel = first + (i32(16u * block_index) - i32(parameters.radius)) * AXIS;
+        let w4 = parameters[kernel].weights[4u * block_index + 4u];
+        let w5 = parameters[kernel].weights[4u * block_index + 5u];
+        let w6 = parameters[kernel].weights[4u * block_index + 6u];
+        let w7 = parameters[kernel].weights[4u * block_index + 7u];
+        let texel = first + (i32(16u * block_index) - i32(parameters[kernel].radius)) * AXIS;
         sums = blur_four(sums, texel, low, last, w0, w1, w2, w3, w4);
         sums = blur_four(sums, texel + 4 * AXIS, low, last, w1, w2, w3, w4, w5);
         sums = blur_four(sums, texel + 8 * AXIS, low, last, w2, w3, w4, w5, w6);

@@ -1,5 +1,5 @@
 import node::map_filtering::{filtering_value};
-import node::specialization::{GROUP};
+import node::specialization::{AXIS, GROUP, KERNELS};
 
 // What a direction of the blur reads.
 
@@ -11,12 +11,19 @@ struct BlurParameters {
     radius: u32,
     // Blocks of 16 taps: 2 radius + 16 taps, rounded up.
     blocks: u32,
-    padding: vec2u,
+    // Of a map whose regions have kernels of their own, the standard deviation in scene units: for who makes them; not read here.
+    width: f32,
+    padding: u32,
     // The weights, preceded by 15 zeros and followed by zeros.
     weights: array<vec4f, 40>,
 }
 
-@group(GROUP) @binding(2) var<uniform> parameters: BlurParameters;
+@group(GROUP) @binding(2) var<uniform> parameters: array<BlurParameters, KERNELS>;
+
+// Which kernel is a region's: the one of all, or of two for each region that along AXIS.
+fn blur_kernel(region: u32) -> u32 {
+    return select(2u * region + u32(AXIS.y), 0u, KERNELS == 1u);
+}
 
 // A texel as it is averaged. Beyond `low` and `last`, the corners of the region, its texels repeat.
 fn blur_source(texel: vec2i, low: vec2i, last: vec2i) -> vec4f {

@@ -3,6 +3,7 @@
 mod kernel;
 mod unrolled;
 
+pub use kernel::BlurKernel;
 use moment_shadows::{Finite, Kernel, MapEncoding, ValueError};
 use serde::Deserialize;
 
@@ -38,12 +39,14 @@ const WORKGROUP_UNROLLED_Y: [u32; 2] = [64, 1];
 #[serde(deny_unknown_fields)]
 pub struct Blur {
     /// The kernel, the same along both axes; the node refuses what is none. In a file a `radius` and a `sigma` in texels (0.6
-    /// of the radius where it is left out), or `weights`.
+    /// of the radius where it is left out), or `weights`; or the largest `radius` and a `width` in scene units, for a kernel of each
+    /// region's own.
     #[serde(deserialize_with = "kernel::read")]
     #[cfg_attr(feature = "schema", schemars(schema_with = "kernel::schema"))]
-    pub kernel: Result<Kernel, ValueError>,
+    pub kernel: Result<BlurKernel, ValueError>,
     /// Whether the kernel can change per frame: its weights are then a node parameter ([`Blur::parameters`]), which begins
-    /// as `kernel`. Kernels of a radius above 12 have the parameter in any case.
+    /// as `kernel`. Kernels of a radius above 12 have the parameter in any case, as have those of a `width`: two for each region,
+    /// along x and along y ([`Kernel::of_width`]), which begin as the widest. `Session` writes them.
     #[serde(default)]
     pub per_frame: bool,
     /// Room for mip levels, which [`super::Downsample`] fills: a number, the map itself included, or `None` (in a file `"all"`)
@@ -53,17 +56,18 @@ pub struct Blur {
     pub mip_levels: Option<u32>,
 }
 
-/// Words of the struct `BlurParameters` in WGSL: four, then the weights in 16-tap blocks of the largest kernel, and one more block
-/// that the last outputs reach into.
-const PARAMETER_WORDS: usize =
-    4 + 16 * (Kernel::LARGEST_RADIUS as usize * 2 + OUTPUTS_UNIFORM as usize).div_ceil(16) + 16;
-
 impl Blur {
-    /// The parameters that stand for a kernel: its radius, the blocks of 16 taps that the shader runs through, two zeros, and as
-    /// bits of f32 the weights, preceded by 15 zeros and followed by zeros.
+    /// Words of the struct `BlurParameters` in WGSL: four, then the weights in 16-tap blocks of the largest kernel, and one more
+    /// block that the last outputs reach into.
+    pub const PARAMETER_WORDS: usize =
+        4 + 16 * (Kernel::LARGEST_RADIUS as usize * 2 + OUTPUTS_UNIFORM as usize).div_ceil(16) + 16;
+
+    /// The parameters that stand for a kernel: its radius, the blocks of 16 taps that the shader runs through, two zeros (the first of
+    /// which is, in what a plan begins with, the width in scene units), and as bits of f32 the weights, preceded by 15 zeros and
+    /// followed by zeros.
     #[must_use]
-    pub fn parameters(kernel: &Kernel) -> [u32; PARAMETER_WORDS] {
-        let mut words = [0; PARAMETER_WORDS];
+    pub fn parameters(kernel: &Kernel) -> [u32; Self::PARAMETER_WORDS] {
+        let mut words = [0; Self::PARAMETER_WORDS];
         words[0] = kernel.radius();
         words[1] = (2 * kernel.radius() + OUTPUTS_UNIFORM).div_ceil(16);
         let weights = words[4..].iter_mut().skip(OUTPUTS_UNIFORM as usize - 1);
@@ -78,11 +82,38 @@ impl Node for Blur {
     fn describe(&self, upstream: &Connected<'_>) -> Result<NodeDesc, GraphError> {
         let (map, encoding) = map_input::connected(upstream, "map")?;
         let kernel = self.kernel.as_ref().map_err(wrong_property)?;
+        let (kernel, width) = match kernel {
+            BlurKernel::Texels(kernel) => (kernel.clone(), None),
+            BlurKernel::Scene { width, radius } => {
+                let positive = width.get() > 0.0;
+                if !positive {
+                    return Err(wrong_property(format!(
+                        "the kernel's 'width' is {width}; it is a positive length in scene units"
+                    )));
+                }
+                let widest = Kernel::gaussian(*radius, *radius as f32).map_err(wrong_property)?;
+                (widest, Some(*width))
+            }
+        };
+        let kernel = &kernel;
         check_fits(kernel, map)?;
-        let deviation = Finite::new(kernel.standard_deviation()).map_err(wrong_property)?;
+        let deviation = match width {
+            None => Finite::new(kernel.standard_deviation()).map_err(wrong_property)?,
+            Some(_) => Finite::ZERO,
+        };
         let mips = mip_levels::count(self.mip_levels, map.size)?;
-        let is_literal = !self.per_frame && kernel.radius() <= LARGEST_UNROLLED_RADIUS;
-        let along = |axis| pass(axis, upstream, (map, &encoding), kernel, is_literal);
+        let is_literal =
+            !self.per_frame && width.is_none() && kernel.radius() <= LARGEST_UNROLLED_RADIUS;
+        let kernels = width.map_or(1, |_| 2 * map.regions);
+        let along = |axis| {
+            pass(
+                axis,
+                upstream,
+                (map, &encoding),
+                (kernel, kernels),
+                is_literal,
+            )
+        };
         // Each plane has an intermediate map of its own, so that no pass overwrites what another still has to read, whatever
         // the order. In the plan's order all of them share memory.
         let names = (0..map.planes).map(|plane| half_blurred(plane, map.planes));
@@ -98,7 +129,8 @@ impl Node for Blur {
         let blurred = TextureRule::new(Rule::same_as("map"))
             .like("map")
             .mips(mips)
-            .filtered(deviation);
+            .filtered(deviation)
+            .filtered_in_scene(width.unwrap_or_default());
         let rule = map_input::rule(map_input::formats());
         let desc = NodeDesc::new("blur", Stage::AfterShadowMaps)
             .input("map", "The map to filter.", rule)
@@ -114,8 +146,14 @@ impl Node for Blur {
         if is_literal {
             return Ok(desc);
         }
-        let block = ParameterBlock::of::<[u32; PARAMETER_WORDS]>("BlurParameters");
-        Ok(desc.parameters(block.initial(&Self::parameters(kernel))))
+        let mut initial = Self::parameters(kernel);
+        initial[2] = width.unwrap_or_default().get().to_bits();
+        let block = ParameterBlock::of::<[u32; Self::PARAMETER_WORDS]>("BlurParameters");
+        let block = block.elements(kernels).initial(&initial);
+        Ok(desc.parameters(match width {
+            None => block,
+            Some(_) => block.each_layer_of("map"),
+        }))
     }
 }
 
@@ -135,7 +173,7 @@ fn pass(
     axis: usize,
     upstream: &Connected<'_>,
     (map, encoding): (&TextureDesc, &MapEncoding),
-    kernel: &Kernel,
+    (kernel, kernels): (&Kernel, u32),
     is_literal: bool,
 ) -> Result<Pass, GraphError> {
     let (label, step, from, to) = [
@@ -163,6 +201,7 @@ fn pass(
     };
     let wgsl = techniques::of_map(upstream.capabilities(), encoding)
         .unsigned("REGIONS", map.regions)
+        .unsigned("KERNELS", kernels)
         .unsigned("WORKGROUP_X", workgroup[0])
         .unsigned("WORKGROUP_Y", workgroup[1])
         .constant("AXIS", step)

@@ -18,7 +18,7 @@ import node::blur_source::{blur_source};
 import node::blur_target::{blur_store};
 import node::specialization::{AXIS, SPLIT_SUMS};
 
-fn blur_outputs(first: vec2i, low: vec2i, last: vec2i) {
+fn blur_outputs(first: vec2i, low: vec2i, last: vec2i, region: u32) {
     var sums: SeparableEight;
 "
     .to_owned()
@@ -39,7 +39,7 @@ import moment_shadows::filter::separable::{separable_add};
 import node::blur_source::{blur_source};
 import node::specialization::{AXIS};
 
-fn blur_texel(texel: vec2i, low: vec2i, last: vec2i) -> vec4f {
+fn blur_texel(texel: vec2i, low: vec2i, last: vec2i, region: u32) -> vec4f {
     var sum = vec4f(0.0);
 "
     .to_owned()

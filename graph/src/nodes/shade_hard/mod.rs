@@ -19,8 +19,8 @@ mod own_shader;
 /// fullscreen pass: it can also be drawn into a render pass that the host has open. Techniques that read the plain depth map
 /// take it as the input `depth` instead of `map`; layers that are placed on the device come from the input `splits`.
 ///
-/// It shades up to four lights, one in each channel of its output (a single one is in all of them), through any number of
-/// views: cascades, faces and spots, each a region of a layer. Parameters: a [`moment_shadows::ViewParameters`] per view.
+/// It shades up to 16 lights, one in each channel of its outputs, through up to 256 views: cascades, faces and spots, each a region
+/// of a layer. A single light is in all channels; lights 4 to 7 are in `shadow_intensity_4`, and so on. Parameters: a [`moment_shadows::ViewParameters`] per view.
 #[derive(Clone, Debug, PartialEq, Deserialize)]
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[serde(default, deny_unknown_fields)]
@@ -31,9 +31,10 @@ pub struct ShadeHard {
     /// r32float for one, rgba8unorm, rgba16float or rgba32float for up to four. Where it is left out, r8unorm or
     /// rgba8unorm.
     pub format: Option<TextureFormat>,
-    /// The lights, 1 to 4.
+    /// The lights, 1 to 16: four in each output.
     pub lights: u32,
-    /// The most views of all lights together.
+    /// The most views of all lights together, at most 256. From 8 on, a pixel tries those alone that may contain it: a pass finds them
+    /// for each tile of 16x16 pixels.
     pub views: u32,
     /// Whether views blend and fade out along their borders ([`moment_shadows::Border`]), for a few more instructions per view.
     /// Otherwise borders are sharp.
@@ -69,7 +70,11 @@ impl Node for ShadeHard {
             upstream,
             (self.format, self.lights, self.views, self.borders),
             core::iter::once(input).chain(splits),
-            evaluation.bindings.into_iter().chain(splits_binding),
+            evaluation
+                .bindings
+                .into_iter()
+                .chain(splits_binding)
+                .collect(),
             evaluation.specialization,
         )
     }

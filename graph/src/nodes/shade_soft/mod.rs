@@ -20,9 +20,10 @@ use crate::{Binding, Connected, GraphError, Node, NodeDesc, Slot, bind};
 pub struct ShadeSoft {
     /// The format of the shadow intensity, as that of [`super::ShadeHard`].
     pub format: Option<TextureFormat>,
-    /// The lights, 1 to 4.
+    /// The lights, 1 to 16: four in each output.
     pub lights: u32,
-    /// The most views of all lights together.
+    /// The most views of all lights together, at most 256. From 8 on, a pixel tries those alone that may contain it: a pass finds them
+    /// for each tile of 16x16 pixels.
     pub views: u32,
     /// Whether views blend and fade out along their borders, as in [`super::ShadeHard`].
     pub borders: bool,
@@ -97,7 +98,7 @@ impl Node for ShadeSoft {
             upstream,
             (self.format, self.lights, self.views, self.borders),
             [Slot::input("table", "The light's summed-area table.", rule)],
-            [Binding::new("table_sums", bind::layers("table"))],
+            vec![Binding::new("table_sums", bind::layers("table"))],
             specialization,
         )
     }

@@ -7,7 +7,8 @@
 //! | `depth_input`, `map_input` | inputs: formats, and what their texels mean |
 //! | `regions` | passes over the regions of a map (`regions.wgsl`), computed (`write_computed.wgsl`) or drawn (`write_drawn.wgsl`) |
 //! | `lookup` | lookups in a filterable map, by a sampler or by loads (`moments_lookup_*.wgsl`) |
-//! | `shading` | what `shade_hard` and `shade_soft` have in common (`shade.wgsl`) |
+//! | `shading` | what `shade_hard` and `shade_soft` have in common (`shade.wgsl`, `views.wgsl`) |
+//! | `tiled` | which of many views a pixel tries (`find_views.wgsl`, `view_list_*.wgsl`) |
 //! | `mip_levels` | a property that several nodes have |
 //! | `error` | what can be wrong |
 //!
@@ -21,6 +22,7 @@ pub(super) mod mip_levels;
 pub(super) mod regions;
 pub(super) mod shading;
 mod specialization;
+mod tiled;
 
 pub(super) use error::{wrong_format, wrong_property, wrong_size};
 pub(super) use specialization::Specialization;

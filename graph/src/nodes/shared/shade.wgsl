@@ -1,74 +1,25 @@
-import node::camera_depth::{camera_depth_at, camera_depth_clip, camera_depth_size};
+import node::camera_depth::{camera_depth_at, camera_depth_size};
 import node::fullscreen::{Covered};
-import moment_shadows::map::depth::{DepthConversion};
-import moment_shadows::shade::leak_reduction::{LeakReduction, leak_reduction_apply};
+import moment_shadows::shade::leak_reduction::{leak_reduction_apply};
 import moment_shadows::map::map_region::{MapRegion, map_region_within};
 import moment_shadows::map::minification::{minification_depth_variance, minification_footprint};
-import moment_shadows::shade::area_light::{AreaLight};
-import moment_shadows::shade::receiver_bias::{ReceiverBias, receiver_bias_depth, receiver_bias_depth_minified, receiver_bias_plane, receiver_bias_step};
-import node::specialization::{ANISOTROPY, GROUP, LEVELS, LIGHTS, VIEWS};
+import moment_shadows::shade::receiver_bias::{receiver_bias_depth, receiver_bias_depth_minified, receiver_bias_plane, receiver_bias_step};
+import moment_shadows::shade::view_border::{view_border_depth, view_border_parts};
+import node::specialization::{ANISOTROPY, LEVELS, LIGHTS, VIEWS};
 import node::surface::{surface_neighbours};
 import node::technique::{technique_shadow_intensity};
 import node::technique_map::{technique_map_size};
 import node::technique_receiver::{TechniqueReceiver};
+import node::view_list::{view_list_next};
+import node::views::{Receiver, VIEW_FADES, VIEW_ROUND, receiver_at, views};
 
 // Shadow intensity of every pixel, from the camera's depth and a light's map, by the technique of the map. A view of a light is one region of one
-// layer: a sun's cascade, a face of a point light, a spot light. Each light has a channel of the target.
-
-struct ViewParameters {
-    // From the camera's clip space (x, y, stored depth, 1) to the light: x and y are the place in the map in [0, 1], z its
-    // homogeneous coordinate (positive in front of the light) and w the moment depth, all times the factors they are
-    // divided by. Camera and light are combined in one matrix so that no large scene coordinates occur.
-    light_from_camera: mat4x4f,
-    // The homogeneous coordinate of the scene position, which divides the moment depth.
-    scene_w_from_camera: vec4f,
-    // By rows, the scene position relative to the camera, times that coordinate: for normals.
-    position_from_camera: mat3x4f,
-    receiver_bias: ReceiverBias,
-    leak_reduction: LeakReduction,
-    // The view's place in its layer; a view without texels is unused.
-    region: MapRegion,
-    // The stored depth of pixels that show no surface; the same for all views.
-    far_depth: f32,
-    // The map's layer.
-    layer: u32,
-    // The target's channel, 0 to 3, of which the first view that contains a pixel shades it. With BORDERS also VIEW_FADES, VIEW_ROUND,
-    // and in the upper half, in sixteenths of a texel, the width of the view's border: there it gives way to the other views
-    // that contain the pixel, or, where it fades, to light.
-    channel: u32,
-    // Texels along the region's edges that filters read, but in which no place is looked up.
-    guard: f32,
-    // How the light's map stores depth, and how large the light is: for tests on the plain depth map.
-    conversion: DepthConversion,
-    light: AreaLight,
-}
+// layer: a sun's cascade, a face of a point light, a spot light. Each light has a channel of the target, or of one of several.
 
 // Whether borders count; otherwise they are sharp.
 override BORDERS: bool = false;
-
-// Beside a view's channel: its shadows fade out along its border, or its border is the circle within the region, a spot's cone.
-const VIEW_FADES: u32 = 4u;
-const VIEW_ROUND: u32 = 8u;
-
-@group(GROUP) @binding(0) var<uniform> views: array<ViewParameters, VIEWS>;
-
-// A pixel's surface as the light sees it.
-struct Receiver {
-    // x and y in the map from 0 to 1, z in moment depth.
-    place: vec3f,
-    // What x and y were divided by; positive in front of the light.
-    light_w: f32,
-    // What z was divided by; positive in front of the camera.
-    scene_w: f32,
-}
-
-fn receiver_at(view: u32, pixel: vec2i, stored_depth: f32) -> Receiver {
-    let clip = camera_depth_clip(pixel, stored_depth);
-    let light = views[view].light_from_camera * clip;
-    // Results behind the camera or the light are not used.
-    let scene_w = max(dot(views[view].scene_w_from_camera, clip), 1e-30);
-    return Receiver(vec3f(light.xy / max(light.z, 1e-30), light.w / scene_w), light.z, scene_w);
-}
+// The light of the target's first channel.
+override FIRST_LIGHT: u32 = 0u;
 
 // No place in the map is that many texels away. Products of two differences must not overflow.
 const LARGEST_DIFFERENCE: f32 = 1e9;
@@ -124,18 +75,14 @@ fn view_shadow_intensity(view: u32, pixel: vec2i, receiver: Receiver, neighbours
 }
 
 // How many texels a place lies within a view's border; negative outside.
-fn view_depth(view: u32, uv: vec2f, region: MapRegion) -> f32 {
-    let extent = vec2f(region.extent);
-    let edges = min(uv, 1.0 - uv) * extent;
-    let circle = (0.5 - distance(uv, vec2f(0.5))) * min(extent.x, extent.y);
-    return select(min(edges.x, edges.y), circle, (views[view].channel & VIEW_ROUND) != 0u) - views[view].guard;
+fn border_depth(view: u32, uv: vec2f, region: MapRegion) -> f32 {
+    return view_border_depth(uv, vec2f(region.extent), views[view].guard, (views[view].channel & VIEW_ROUND) != 0u);
 }
 
-// Which part of a pixel a view takes, that far within its border, and which part it shades: the same, but where it fades out.
-fn view_part(view: u32, depth: f32) -> vec2f {
-    let border = f32(views[view].channel >> 16u) / 16.0;
-    let part = select(min(depth / max(border, 0.0625), 1.0), 1.0, border == 0.0);
-    return select(vec2f(max(part, 1e-6)), vec2f(1.0, part), (views[view].channel & VIEW_FADES) != 0u);
+// Which part of a pixel a view takes, that far within its border, and which part it shades.
+fn border_parts(view: u32, depth: f32) -> vec2f {
+    let channel = views[view].channel;
+    return view_border_parts(depth, f32(channel >> 16u) / 16.0, (channel & VIEW_FADES) != 0u);
 }
 
 @fragment
@@ -153,21 +100,21 @@ fn shade(covered: Covered) -> @location(0) vec4f {
     var open_channels = vec4<bool>(true);
     var left = vec4f(1.0);
     var taken = vec4f(0.0);
-    for (var view = 0u; view < VIEWS; view++) {
+    for (var view = view_list_next(pixel, 0u); view < VIEWS; view = view_list_next(pixel, view + 1u)) {
         // A single light is in all channels, so that a host can blend with it or show it.
-        let channel = vec4<bool>(LIGHTS == 1u) | vec4<bool>(vec4u(views[view].channel & 3u) == vec4u(0u, 1u, 2u, 3u));
+        let channel = vec4<bool>(LIGHTS == 1u) | (vec4u(views[view].channel & 15u) == FIRST_LIGHT + vec4u(0u, 1u, 2u, 3u));
         let region = map_region_within(views[view].region, technique_map_size());
         let receiver = receiver_at(view, pixel, stored_depth);
         let uv = receiver.place.xy;
         let from_edge = min(uv, 1.0 - uv) * vec2f(region.extent);
         var inside = receiver.light_w > 0.0 && all(from_edge >= vec2f(views[view].guard));
         if BORDERS {
-            inside = inside && view_depth(view, uv, region) >= 0.0;
+            inside = inside && border_depth(view, uv, region) >= 0.0;
         }
         if inside && all(region.extent > vec2u(0u)) && any(channel & open_channels) {
             let intensity = view_shadow_intensity(view, pixel, receiver, neighbours, region);
             if BORDERS {
-                let part = view_part(view, view_depth(view, uv, region));
+                let part = border_parts(view, border_depth(view, uv, region));
                 let share = select(vec4f(0.0), left, channel);
                 intensities += share * (part.y * intensity);
                 taken += share * part.x;

@@ -8,31 +8,38 @@ use moment_shadows::{
     ViewParameters,
 };
 
+use super::tiled::Tiled;
 use super::{Specialization, depth_input, wgsl, wrong_property};
 use crate::{
     Binding, Connected, GraphError, NodeDesc, Off, ParameterBlock, Pass, ResourceDesc, Rule, Slot,
     Stage, TextureRule, bind,
 };
 
-/// The node: a fullscreen pass from a map, whose input (and what belongs to it), bindings and modules are given, and
-/// `camera_depth` to `shadow_intensity`, of a format that has a channel for each light. The shader finds what a pixel's surface is
+/// The node: fullscreen passes from a map, whose input (and what belongs to it), bindings and modules are given, and
+/// `camera_depth` to `shadow_intensity`, of a format that has a channel for each light, or four in each of several outputs
+/// (`shadow_intensity_4`, `_8` and `_12`). The shader finds what a pixel's surface is
 /// to each view of a light, and leaves the rest to the module `technique`.
 pub(in crate::nodes) fn describe(
     name: &str,
     upstream: &Connected<'_>,
     (format, lights, views, borders): (Option<TextureFormat>, u32, u32, bool),
     inputs: impl IntoIterator<Item = Slot>,
-    bindings: impl IntoIterator<Item = Binding>,
+    bindings: Vec<Binding>,
     specialization: Specialization,
 ) -> Result<NodeDesc, GraphError> {
-    if !(1..=4).contains(&lights) {
+    if !(1..=16).contains(&lights) {
         return Err(wrong_property(format!(
-            "'lights' is {lights}; a node shades 1 to 4 lights, one per channel of its output, and more nodes shade more"
+            "'lights' is {lights}; a node shades 1 to 16 lights, four in each of its outputs, and more nodes shade more"
         )));
     }
     if views < lights {
         return Err(wrong_property(format!(
             "'views' is {views}, but there are {lights} lights; each has at least one view"
+        )));
+    }
+    if views > MOST_VIEWS {
+        return Err(wrong_property(format!(
+            "'views' is {views}; a node has at most {MOST_VIEWS}, and more nodes have more"
         )));
     }
     let one_and_four = [
@@ -51,30 +58,72 @@ pub(in crate::nodes) fn describe(
     }
     let camera = upstream.texture("camera_depth")?;
     let (specialization, normals) = surface(specialization, upstream);
-    let wgsl = depth_input::of_camera(specialization, camera)
+    let specialization = depth_input::of_camera(specialization, camera)
         .unsigned("VIEWS", views)
         .unsigned("LIGHTS", lights)
+        .module("views", include_str!("views.wgsl"));
+    let tiled = Tiled::new(views, bindings.clone());
+    let wgsl = tiled
+        .list(specialization.clone())
         .link(wgsl!("shade.wgsl"))?;
-    let mut pass = Pass::fullscreen("shade", "shadow_intensity")
-        .shader(wgsl, "shade")
+    let shade = |first: u32| {
+        let mut pass = Pass::fullscreen(
+            numbered("shade", first),
+            &numbered("shadow_intensity", first),
+        )
+        .shader(wgsl.as_str(), "shade")
         .bind("views", bind::parameters())
         .bind("camera_depth", bind::layer("camera_depth"));
-    if borders {
-        pass = pass.constant(BORDERS, 1);
-    }
-    pass.bindings.extend(bindings.into_iter().chain(normals));
+        if borders {
+            pass = pass.constant(BORDERS, 1);
+        }
+        if first > 0 {
+            pass = pass.constant("FIRST_LIGHT", first);
+        }
+        pass.bindings
+            .extend(bindings.clone().into_iter().chain(normals.clone()));
+        pass.bindings.extend(tiled.bindings());
+        pass
+    };
     let block = ParameterBlock::of::<ViewParameters>("ViewParameters").elements(views);
-    let intensity = "How much of each light is shadowed, a light per channel.";
-    let target = TextureRule::new(format).extent(Rule::same_as("camera_depth"));
-    Ok(NodeDesc::new(name, Stage::AfterMainPass)
+    let firsts = (0..lights).step_by(4);
+    let outputs = firsts.clone().map(|first| {
+        let last = (first + 3).min(lights - 1);
+        let description = match lights {
+            1..=4 => "How much of each light is shadowed, a light per channel.".to_owned(),
+            _ => format!("How much of lights {first} to {last} is shadowed, a light per channel."),
+        };
+        let target = TextureRule::new(format).extent(Rule::same_as("camera_depth"));
+        Slot::output(&numbered("shadow_intensity", first), &description, target)
+    });
+    let desc = NodeDesc::new(name, Stage::AfterMainPass)
         .slots(inputs)
         .input("camera_depth", "Where surfaces are.", depth_input::camera())
         .slots([normals_slot()])
-        .output("shadow_intensity", intensity, target)
-        .pass(pass)
-        .parameters(block)
-        // Lit.
-        .off("shadow_intensity", Off::Fill(vec![[0.0; 4]])))
+        .slots(outputs)
+        .slots(tiled.slots())
+        .passes(tiled.passes(&specialization)?)
+        .passes(firsts.clone().map(shade))
+        .parameters(block);
+    // Lit.
+    let lit = |desc: NodeDesc, first| {
+        desc.off(
+            &numbered("shadow_intensity", first),
+            Off::Fill(vec![[0.0; 4]]),
+        )
+    };
+    Ok(firsts.fold(desc, lit))
+}
+
+/// As many as a uniform buffer holds in core WebGPU.
+const MOST_VIEWS: u32 = 256;
+
+/// A name, of the first of several without a number.
+pub(super) fn numbered(name: &str, first: u32) -> String {
+    match first {
+        0 => name.to_owned(),
+        _ => format!("{name}_{first}"),
+    }
 }
 
 /// The constant of a pass by which views have borders.

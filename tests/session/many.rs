@@ -1,0 +1,215 @@
+//! Many lights through many views: a pixel tries those of its tile, and is what it is of those alone.
+
+use std::time::Instant;
+
+use glam::DVec3;
+use moment_shadows::{
+    DepthRange, LightDepth, LightView, MapRegion, PointLight, TextureFormat, Tile,
+};
+use moment_shadows_graph::{Session, Stage};
+use moment_shadows_lab::frame::Frame;
+use moment_shadows_lab::gpu::Gpu;
+
+use crate::normals::texture;
+use crate::views::frame;
+use crate::{HARD, gpu, imports, places, recorded, session};
+
+/// The map: tiles of 24 texels, 16 by 16 of them.
+const TILE: u32 = 24;
+const SIDE: u32 = 16 * TILE;
+
+const LIGHTS: u32 = 16;
+
+/// A number in [0, 1) for each index.
+fn noise(index: u32) -> f64 {
+    let mut state = index.wrapping_mul(0x9e37_79b9) ^ 0x85eb_ca6b;
+    for _ in 0..3 {
+        state ^= state >> 16;
+        state = state.wrapping_mul(0x7feb_352d);
+        state ^= state >> 15;
+    }
+    f64::from(state) / 4_294_967_296.0
+}
+
+/// A spot somewhere above the floor, in a tile of the map.
+fn spot(number: u32, light: u32, aside: f64) -> LightView {
+    let random = |index: u32| 2.0 * noise(8 * number + index) - 1.0;
+    let eye = DVec3::new(
+        4.0 + aside + 5.0 * random(0),
+        2.5 + random(1),
+        4.0 + 5.0 * random(2),
+    );
+    let along = DVec3::new(0.5 * random(3), -1.0, 0.5 * random(4));
+    let range = DepthRange {
+        near: 0.5,
+        far: 8.0,
+    };
+    let at = PointLight {
+        position: eye.to_array(),
+        depth: LightDepth::Linear { range },
+        tile: Tile {
+            texels: TILE,
+            filter_radius: 1.0,
+        },
+    };
+    LightView {
+        region: MapRegion::new([number % 16 * TILE, number / 16 * TILE], [TILE; 2]),
+        channel: light,
+        ..at.spot(along.to_array(), 0.8).unwrap()
+    }
+}
+
+/// A map of noise, and a session for it.
+fn shading(gpu: &Gpu, frame: &Frame, lights: u32, views: u32) -> Session {
+    let import = r#""texture": { "format": "r32float", "size": [64, 64], "regions": 256 }"#;
+    let depth = r#""texture": { "format": "depth32float", "size": [1024, 1024], "samples": 4 }"#;
+    let format = if lights == 1 {
+        "r32float"
+    } else {
+        "rgba32float"
+    };
+    let shade = format!(
+        r#""type": "shade_hard", "properties": {{ "format": "{format}", "lights": {lights}, "views": {views} }}"#
+    );
+    let outputs = (0..lights).step_by(4).map(|first| {
+        let suffix = if first == 0 {
+            String::new()
+        } else {
+            format!("_{first}")
+        };
+        format!(r#"{{ "name": "lights{first}", "from": "shade.shadow_intensity{suffix}" }}"#)
+    });
+    let outputs: Vec<String> = outputs.collect();
+    let text = HARD
+        .replace(depth, import)
+        .replace(
+            r#""storage": ["unorm16", "float16"]"#,
+            r#""storage": "float32""#,
+        )
+        .replace(r#""radius": 4, "sigma": 2.4"#, r#""radius": 1"#)
+        .replace(r#""type": "shade_hard""#, &shade)
+        .replace(
+            r#"{ "name": "shadow_intensity", "from": "shade.shadow_intensity" }"#,
+            &outputs.join(","),
+        );
+    let texels: Vec<f32> = (0..SIDE * SIDE)
+        .map(|index| 0.5 + 7.0 * noise(index) as f32)
+        .collect();
+    let bytes = bytemuck::cast_slice(&texels);
+    let map = texture(gpu, TextureFormat::R32Float, [SIDE; 2], bytes);
+    let mut imports = imports(frame);
+    imports[0].1 = (&map).into();
+    session(gpu, &text, &imports)
+}
+
+/// The pictures of all outputs, one after the other.
+fn pictures(gpu: &Gpu, session: &Session, lights: u32) -> Vec<Vec<f32>> {
+    let each = (0..lights).step_by(4).map(|first| {
+        let bytes = recorded(gpu, session, 0, &format!("lights{first}"));
+        bytemuck::pod_collect_to_vec(&bytes)
+    });
+    each.collect()
+}
+
+#[test]
+fn sixteen_lights_through_256_views_are_each_what_it_is_alone() {
+    let gpu = gpu();
+    let frame = frame(&gpu, DVec3::new(1.0, 3.0, 0.0), DVec3::new(4.0, 0.0, 4.0));
+    let (camera, _) = places(&frame);
+    // Seven views of each light, which do not follow each other, among views of what nobody sees.
+    let views = (0..256).map(|number| spot(number, number % 16, 1e3));
+    let mut views: Vec<LightView> = views.collect();
+    let mut seen = vec![Vec::new(); LIGHTS as usize];
+    for index in 0..7 * LIGHTS {
+        let (number, light) = ((index * 37 + 11) % 256, index % LIGHTS);
+        views[number as usize] = spot(number, light, 0.0);
+        seen[light as usize].push(number as usize);
+    }
+    let mut all = shading(&gpu, &frame, LIGHTS, 256);
+    all.view(&gpu.queue, 0, &camera, &views).unwrap();
+    let found = pictures(&gpu, &all, LIGHTS);
+    // Few views are tried one after the other.
+    let mut alone = shading(&gpu, &frame, 1, 7);
+    let mut shaded = 0;
+    for light in 0..LIGHTS {
+        let own = &mut seen[light as usize];
+        own.sort_unstable();
+        let own = own.iter().map(|&number| LightView {
+            channel: 0,
+            ..views[number]
+        });
+        let own: Vec<LightView> = own.collect();
+        alone.view(&gpu.queue, 0, &camera, &own).unwrap();
+        let expected = &pictures(&gpu, &alone, 1)[0];
+        let target = &found[light as usize / 4];
+        for (pixel, expected) in expected.iter().enumerate() {
+            assert_eq!(
+                target[4 * pixel + light as usize % 4],
+                *expected,
+                "{light} {pixel}"
+            );
+            shaded += usize::from(*expected > 0.0);
+        }
+    }
+    println!("{shaded} intensities above 0");
+    assert!(shaded > 20_000);
+}
+
+#[test]
+fn a_channel_beyond_the_lights_is_refused() {
+    let gpu = gpu();
+    let frame = frame(&gpu, DVec3::new(1.0, 3.0, 0.0), DVec3::new(4.0, 0.0, 4.0));
+    let (camera, _) = places(&frame);
+    let mut session = shading(&gpu, &frame, 5, 8);
+    let view = |channel| session.view(&gpu.queue, 0, &camera, &[spot(0, channel, 0.0)]);
+    let [seventh, ninth, last] = [7, 8, 16].map(view);
+    assert!(seventh.is_ok());
+    for (found, words) in [(ninth, "8, counted from 0"), (last, "8, counted from 0")] {
+        let found = found.unwrap_err().to_string();
+        assert!(found.contains("view 0") && found.contains(words), "{found}");
+    }
+}
+
+#[test]
+#[ignore = "a benchmark: cargo test --release --test session -- --ignored many --nocapture"]
+fn time_of_many_lights_beside_one() {
+    let gpu = gpu();
+    let mut frame = frame(&gpu, DVec3::new(1.0, 3.0, 0.0), DVec3::new(4.0, 0.0, 4.0));
+    frame.desc.picture = [240, 136];
+    let (camera, _) = places(&frame);
+    let sizes = [(1, 1), (4, 4), (16, 16), (4, 24), (16, 96), (16, 256)];
+    let mut sessions = sizes.map(|(lights, views)| {
+        let mut session = shading(&gpu, &frame, lights, views);
+        let all: Vec<LightView> = (0..views)
+            .map(|number| spot(number, number % lights, 0.0))
+            .collect();
+        session.view(&gpu.queue, 0, &camera, &all).unwrap();
+        session
+    });
+    let mut times = sizes.map(|_| Vec::new());
+    for _ in 0..21 {
+        for (session, times) in sessions.iter_mut().zip(&mut times) {
+            let mut encoder = gpu.device.create_command_encoder(&Default::default());
+            for _ in 0..8 {
+                session.record(Stage::AfterMainPass, &mut encoder).unwrap();
+            }
+            let start = Instant::now();
+            gpu.queue.submit([encoder.finish()]);
+            gpu.check().unwrap();
+            gpu.device
+                .poll(wgpu::PollType::wait_indefinitely())
+                .unwrap();
+            times.push(start.elapsed().as_secs_f64());
+        }
+    }
+    let medians = times.map(|mut times| {
+        times.sort_by(f64::total_cmp);
+        times[times.len() / 2]
+    });
+    for ((lights, views), time) in sizes.into_iter().zip(medians) {
+        println!(
+            "{lights} lights, {views} views: {:.2} of one",
+            time / medians[0]
+        );
+    }
+}
