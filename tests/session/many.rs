@@ -11,7 +11,7 @@ use moment_shadows_lab::frame::Frame;
 use moment_shadows_lab::gpu::Gpu;
 
 use crate::normals::texture;
-use crate::views::frame;
+use crate::views::{frame, seen, within};
 use crate::{HARD, gpu, imports, places, recorded, session};
 
 /// The map: tiles of 24 texels, 16 by 16 of them.
@@ -174,8 +174,7 @@ fn a_channel_beyond_the_lights_is_refused() {
 #[ignore = "a benchmark: cargo test --release --test session -- --ignored many --nocapture"]
 fn time_of_many_lights_beside_one() {
     let gpu = gpu();
-    let mut frame = frame(&gpu, DVec3::new(1.0, 3.0, 0.0), DVec3::new(4.0, 0.0, 4.0));
-    frame.desc.picture = [240, 136];
+    let frame = frame(&gpu, DVec3::new(1.0, 3.0, 0.0), DVec3::new(4.0, 0.0, 4.0));
     let (camera, _) = places(&frame);
     let sizes = [(1, 1), (4, 4), (16, 16), (4, 24), (16, 96), (16, 256)];
     let mut sessions = sizes.map(|(lights, views)| {
@@ -184,11 +183,16 @@ fn time_of_many_lights_beside_one() {
             .map(|number| spot(number, number % lights, 0.0))
             .collect();
         session.view(&gpu.queue, 0, &camera, &all).unwrap();
-        session
+        let points = (0..240 * 136).filter_map(|pixel| seen(&camera, [240, 136], pixel));
+        let points: Vec<DVec3> = points.collect();
+        let contained =
+            |view: &LightView| points.iter().filter(|&&it| within(view, it) > 0.0).count();
+        let contained: usize = all.iter().map(contained).sum();
+        (session, contained as f64 / points.len() as f64)
     });
     let mut times = sizes.map(|_| Vec::new());
     for _ in 0..21 {
-        for (session, times) in sessions.iter_mut().zip(&mut times) {
+        for ((session, _), times) in sessions.iter_mut().zip(&mut times) {
             let mut encoder = gpu.device.create_command_encoder(&Default::default());
             for _ in 0..8 {
                 session.record(Stage::AfterMainPass, &mut encoder).unwrap();
@@ -206,9 +210,9 @@ fn time_of_many_lights_beside_one() {
         times.sort_by(f64::total_cmp);
         times[times.len() / 2]
     });
-    for ((lights, views), time) in sizes.into_iter().zip(medians) {
+    for (((lights, views), time), (_, contained)) in sizes.into_iter().zip(medians).zip(sessions) {
         println!(
-            "{lights} lights, {views} views: {:.2} of one",
+            "{lights} lights, {views} views, of which {contained:.2} contain a pixel: {:.2} of one",
             time / medians[0]
         );
     }

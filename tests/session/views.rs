@@ -129,7 +129,7 @@ pub(crate) fn seen(camera: &CameraView, [width, height]: [u32; 2], pixel: usize)
 }
 
 /// How many texels a place lies within what a view shows; negative outside.
-fn within(view: &LightView, point: DVec3) -> f64 {
+pub(crate) fn within(view: &LightView, point: DVec3) -> f64 {
     let clip = DMat4::from_cols_array_2d(&view.clip_from_world) * point.extend(1.0);
     let edge = 1.0 - (clip.truncate().truncate() / clip.w).abs().max_element();
     let texels = 0.5 * edge * f64::from(view.region.extent[0]) - f64::from(view.guard);

@@ -103,6 +103,10 @@ fn shade(covered: Covered) -> @location(0) vec4f {
     for (var view = view_list_next(pixel, 0u); view < VIEWS; view = view_list_next(pixel, view + 1u)) {
         // A single light is in all channels, so that a host can blend with it or show it.
         let channel = vec4<bool>(LIGHTS == 1u) | (vec4u(views[view].channel & 15u) == FIRST_LIGHT + vec4u(0u, 1u, 2u, 3u));
+        // Of another target, or shaded by a view before.
+        if !any(channel & open_channels) {
+            continue;
+        }
         let region = map_region_within(views[view].region, technique_map_size());
         let receiver = receiver_at(view, pixel, stored_depth);
         let uv = receiver.place.xy;
@@ -111,7 +115,7 @@ fn shade(covered: Covered) -> @location(0) vec4f {
         if BORDERS {
             inside = inside && border_depth(view, uv, region) >= 0.0;
         }
-        if inside && all(region.extent > vec2u(0u)) && any(channel & open_channels) {
+        if inside && all(region.extent > vec2u(0u)) {
             let intensity = view_shadow_intensity(view, pixel, receiver, neighbours, region);
             if BORDERS {
                 let part = border_parts(view, border_depth(view, uv, region));
