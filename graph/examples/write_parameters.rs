@@ -10,9 +10,9 @@ use std::error::Error;
 
 use bytemuck::bytes_of;
 use moment_shadows::{
-    Border, CameraView, ContactShadowParameters, ContactShadows, DepthRange, Kernel, LeakReduction, LightDepth, LightSize, LightView,
-    MapRegion, ReceiverBias, ScatteringParameters, SingleScattering, TextureFormat, ValueError,
-    ViewParameters,
+    Border, CameraView, ContactShadowParameters, ContactShadows, DepthRange, Kernel, LeakReduction,
+    LightDepth, LightSize, LightView, MapRegion, ReceiverBias, ScatteringParameters,
+    SingleScattering, TextureFormat, ValueError, ViewParameters,
 };
 use moment_shadows_graph::{Capabilities, Graph, NodeRegistry, Plan, nodes::Blur};
 use serde_json::{Value, json};
@@ -465,7 +465,11 @@ fn contact(random: &mut Random, _: &Plan) -> Value {
     let input = json!({
         "camera": camera_written, "light": light_written, "length": number(length), "thickness": number(thickness),
     });
-    case("contact", input, made.map(|made| json!(hexadecimal(bytes_of(&made)))))
+    case(
+        "contact",
+        input,
+        made.map(|made| json!(hexadecimal(bytes_of(&made)))),
+    )
 }
 
 fn scattering(random: &mut Random, _: &Plan) -> Value {

@@ -68,7 +68,10 @@ impl Node for ContactShadows {
         let specialization = Specialization::new(upstream.capabilities());
         let (specialization, normals) = shading::surface(specialization, upstream);
         let wgsl = depth_input::of_camera(specialization, camera)
-            .constant("DEPTH_STEP", depth_input::step(camera))
+            .constant(
+                "DEPTH_STEP",
+                format_args!("{:e}", camera.format.depth_step().unwrap_or_default()),
+            )
             .unsigned("LIGHTS", self.lights)
             .unsigned("STEPS", steps)
             .module("intensity", text)

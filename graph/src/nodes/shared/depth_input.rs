@@ -56,16 +56,6 @@ pub(in crate::nodes) fn of_camera(
         .constant("CAMERA_SAMPLE", place)
 }
 
-/// By how much a stored depth from 0 to 1 may be off, as a number of WGSL: half a step where it is stored in 16 bits; else rasterisers and
-/// shaders round by as much as f32 does just below 1.
-pub(in crate::nodes) fn step(depth: &TextureDesc) -> &'static str {
-    if depth.format == TextureFormat::Depth16Unorm {
-        "7.7e-6"
-    } else {
-        "6e-8"
-    }
-}
-
 /// How each region of each of its layers stores depth.
 pub(in crate::nodes) fn conversions(depth: &TextureDesc) -> ParameterBlock {
     ParameterBlock::of::<DepthConversion>("DepthConversion")
