@@ -167,7 +167,7 @@ export interface ContactShadows {
   thickness: number;
 }
 
-/** For scenes in metres: 10 cm, and surfaces of 5 cm. */
+/** For scenes in metres: 6 cm, and surfaces of 2 cm. */
 export const CONTACT_SHADOWS: ContactShadows;
 
 /** The struct of node `contact_shadows`, per light: any view of a light says where it is. */

@@ -19,11 +19,11 @@ pub struct ContactShadows {
 }
 
 impl Default for ContactShadows {
-    /// For scenes in metres: a length of 10 cm, and surfaces of 5 cm.
+    /// For scenes in metres: a length of 6 cm, and surfaces of 2 cm.
     fn default() -> Self {
         Self {
-            length: 0.1,
-            thickness: 0.05,
+            length: 0.06,
+            thickness: 0.02,
         }
     }
 }

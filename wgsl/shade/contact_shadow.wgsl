@@ -80,6 +80,11 @@ fn contact_shadow_place(ray: ContactShadowRay, along: f32) -> vec3f {
     return ray.start + along * ray.way;
 }
 
+// The stored depth that is nearer to the camera.
+fn contact_shadow_nearer(parameters: ContactShadowParameters, stored: vec2f) -> f32 {
+    return select(min(stored.x, stored.y), max(stored.x, stored.y), parameters.depth_scale < 0.0);
+}
+
 // Whether a surface, by its stored depth, hides a place in clip space, (x, y, stored depth, 1), on the same view ray. `depth_step` is by how much
 // stored depth is rounded.
 fn contact_shadow_hides(parameters: ContactShadowParameters, place: vec4f, stored_depth: f32, depth_step: f32) -> bool {

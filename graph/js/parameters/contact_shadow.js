@@ -8,8 +8,8 @@ import { check, number } from './value_error.js';
 import { difference, dot, length, scaled, sum } from './vector.js';
 import { eyeOf, positionRows } from './view_parameters.js';
 
-/** How far shadows at contacts reach, for scenes in metres: 10 cm, and surfaces of 5 cm. */
-export const CONTACT_SHADOWS = { length: 0.1, thickness: 0.05 };
+/** How far shadows at contacts reach, for scenes in metres: 6 cm, and surfaces of 2 cm. */
+export const CONTACT_SHADOWS = { length: 0.06, thickness: 0.02 };
 
 /**
  * The parameters of a camera that looks at receivers of a light's shadow. Of a light with several views, any of them says where it is.

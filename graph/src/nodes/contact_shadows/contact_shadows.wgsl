@@ -1,7 +1,7 @@
 import node::camera_depth::{camera_depth_at, camera_depth_clip, camera_depth_size};
 import node::fullscreen::{Covered};
 import node::intensity::{intensity_at};
-import moment_shadows::shade::contact_shadow::{ContactShadowParameters, contact_shadow_hides, contact_shadow_intensity, contact_shadow_place, contact_shadow_ray};
+import moment_shadows::shade::contact_shadow::{ContactShadowParameters, contact_shadow_hides, contact_shadow_intensity, contact_shadow_nearer, contact_shadow_place, contact_shadow_ray};
 import node::specialization::{CAMERA_SAMPLE, DEPTH_STEP, GROUP, LIGHTS, STEPS};
 import node::surface::{surface_neighbours};
 
@@ -10,18 +10,19 @@ import node::surface::{surface_neighbours};
 @group(GROUP) @binding(0) var<uniform> lights: array<ContactShadowParameters, LIGHTS>;
 
 // The shadow of a light on a pixel's surface in clip space, whose stored depth changes by `slope` from pixel to pixel.
-fn march(light: u32, clip: vec4f, slope: vec2f) -> f32 {
+fn march(light: u32, surface: vec4f, slope: vec2f) -> f32 {
     let last = camera_depth_size() - 1;
-    let ray = contact_shadow_ray(lights[light], clip, vec2f(last + 1), f32(STEPS));
+    let ray = contact_shadow_ray(lights[light], surface, vec2f(last + 1), f32(STEPS));
     for (var step = 0.5; step < ray.steps; step += 1.0) {
         let along = step / ray.steps;
         let place = contact_shadow_place(ray, along);
         let pixel = clamp(vec2i(floor(place.xy - CAMERA_SAMPLE + 0.5)), vec2i(0), last);
         // Depth is known at pixels' samples. The ray moves there along the receiver's plane, so that a plane does not hide its own ray at
-        // any angle.
-        let moved = vec2f(pixel) + CAMERA_SAMPLE - place.xy;
-        let moved_clip = camera_depth_clip(pixel, place.z + dot(slope, moved));
-        if contact_shadow_hides(lights[light], moved_clip, camera_depth_at(pixel), DEPTH_STEP) {
+        // any angle; but not away from the camera, into a wall that stands on the plane half a pixel farther on.
+        let moved = place.z + dot(slope, vec2f(pixel) + CAMERA_SAMPLE - place.xy);
+        let nearer = contact_shadow_nearer(lights[light], vec2f(place.z, moved));
+        let clip = camera_depth_clip(pixel, nearer);
+        if contact_shadow_hides(lights[light], clip, camera_depth_at(pixel), DEPTH_STEP) {
             return contact_shadow_intensity(ray, along);
         }
     }
