@@ -12,6 +12,7 @@ import {
   blurParameters,
   cascadeSlices,
   cascadeViews,
+  contactShadowParameters,
   depthConversion,
   depthPerTexel,
   gaussianKernel,
@@ -64,6 +65,8 @@ function makers(plan) {
       const view = viewParameters(camera, light, bias, leaks);
       return struct('shade', { ...view, light: areaLight(light, extent, radii) });
     },
+    contact: ({ camera, light, length, thickness }) =>
+      struct('contact', contactShadowParameters(camera, light, { length, thickness })),
     scattering: ({ camera, light, far, anisotropy, extinction, scattering, irradiance }) => {
       const made = scatteringParameters(camera, far, light, medium({ extinction, scattering, anisotropy, irradiance }));
       return Object.fromEntries(Object.entries(made).map(([node, value]) => [node, struct(node, value)]));

@@ -101,8 +101,9 @@ pub use value_error::ValueError;
 
 pub use view::{
     Atlas, Border, CameraView, CascadeSplits, Cascades, CompositeScatteringParameters,
-    IntegrateScatteringParameters, LightDepth, LightView, PointLight, RectifiedFrame,
-    RectifiedView, RectifyMomentsParameters, ScatteringParameters, Tile, ViewParameters,
+    ContactShadowParameters, ContactShadows, IntegrateScatteringParameters, LightDepth, LightView,
+    PointLight, RectifiedFrame, RectifiedView, RectifyMomentsParameters, ScatteringParameters,
+    Tile, ViewParameters,
 };
 
 #[cfg(doctest)]

@@ -10,17 +10,18 @@ use std::error::Error;
 
 use bytemuck::bytes_of;
 use moment_shadows::{
-    Border, CameraView, DepthRange, Kernel, LeakReduction, LightDepth, LightSize, LightView,
-    MapRegion, ReceiverBias, ScatteringParameters, SingleScattering, TextureFormat, ValueError,
-    ViewParameters,
+    Border, CameraView, ContactShadowParameters, ContactShadows, DepthRange, Kernel, LeakReduction,
+    LightDepth, LightSize, LightView, MapRegion, ReceiverBias, ScatteringParameters,
+    SingleScattering, TextureFormat, ValueError, ViewParameters,
 };
 use moment_shadows_graph::{Capabilities, Graph, NodeRegistry, Plan, nodes::Blur};
 use serde_json::{Value, json};
 
 /// How many inputs of each kind there are.
-const COUNTS: [(Make, usize); 7] = [
+const COUNTS: [(Make, usize); 8] = [
     (conversion, 150),
     (view, 400),
+    (contact, 250),
     (scattering, 250),
     (blur, 100),
     (regions, 100),
@@ -58,6 +59,7 @@ fn plan() -> Result<Plan, Box<dyn Error>> {
             { "name": "resolve", "type": "resolve", "properties": { "storage": "float16" } },
             { "name": "blur", "type": "blur", "properties": { "kernel": { "radius": 3 }, "per_frame": true } },
             { "name": "shade", "type": "shade_hard", "properties": { "views": 3 } },
+            { "name": "contact", "type": "contact_shadows" },
             { "name": "rectify", "type": "rectify_moments", "properties": { "storage": "float16", "extent": [128, 64] } },
             { "name": "integrate", "type": "integrate_scattering" },
             { "name": "composite", "type": "composite_scattering" },
@@ -67,13 +69,15 @@ fn plan() -> Result<Plan, Box<dyn Error>> {
             { "from": "resolve.map", "to": "blur.map" },
             { "from": "blur.blurred", "to": "shade.map" },
             { "from": "camera_depth", "to": "shade.camera_depth" },
+            { "from": "camera_depth", "to": "contact.camera_depth" },
+            { "from": "shade.shadow_intensity", "to": "contact.intensity" },
             { "from": "blur.blurred", "to": "rectify.map" },
             { "from": "rectify.rectified", "to": "integrate.rectified" },
             { "from": "integrate.integrated", "to": "composite.integrated" },
             { "from": "camera_depth", "to": "composite.camera_depth" },
         ],
         "outputs": [
-            { "name": "shadow", "from": "shade.shadow_intensity" },
+            { "name": "shadow", "from": "contact.shadow_intensity" },
             { "name": "scattering", "from": "composite.scattering" },
         ],
     });
@@ -449,6 +453,23 @@ fn view(random: &mut Random, _: &Plan) -> Value {
         "reduction": numbers(&leaks), "radii": numbers(&radii),
     });
     case("view", input, made())
+}
+
+fn contact(random: &mut Random, _: &Plan) -> Value {
+    let is_parallel = random.one_in(5);
+    let (camera, camera_written) = camera(random, is_parallel);
+    let (light, light_written) = light(random);
+    let (length, thickness) = (random.magnitude(-3.0, 2.0), random.magnitude(-3.0, 2.0));
+    let [length, thickness] = [random.spoilt(length), random.spoilt(thickness)];
+    let made = ContactShadowParameters::new(&camera, &light, ContactShadows { length, thickness });
+    let input = json!({
+        "camera": camera_written, "light": light_written, "length": number(length), "thickness": number(thickness),
+    });
+    case(
+        "contact",
+        input,
+        made.map(|made| json!(hexadecimal(bytes_of(&made)))),
+    )
 }
 
 fn scattering(random: &mut Random, _: &Plan) -> Value {

@@ -198,7 +198,7 @@ fn air(encoded: &Value) -> String {
 }
 
 /// What techniques and storages alone do not reach: layers, regions, mip levels, parameters of the kernel, placed layers, what is
-/// shown of a map, and a stencil beside the depth.
+/// shown of a map, a stencil beside the depth, and shadows at contacts.
 fn others() -> Vec<(String, String)> {
     let float16 = json!({ "storage": "float16" });
     let narrow = json!({ "kernel": { "radius": 2 } });
@@ -248,8 +248,29 @@ fn others() -> Vec<(String, String)> {
         ("soft atlas", soft_atlas()),
         ("placed layers", placed_layers(cascades(1))),
         ("debug", debug(&float16)),
+        ("contact shadows", contact_shadows(&float16)),
     ];
     all.map(|(name, text)| (name.to_owned(), text)).to_vec()
+}
+
+fn contact_shadows(encoded: &Value) -> String {
+    let lights = json!({ "lights": 2, "views": 2 });
+    graph(
+        light(1),
+        &[
+            node("resolve", "resolve", encoded.clone()),
+            node("shade", "shade_hard", lights),
+            node("contact", "contact_shadows", json!({ "lights": 2 })),
+        ],
+        &[
+            ("light_depth", "resolve.depth"),
+            ("resolve.map", "shade.map"),
+            ("camera_depth", "shade.camera_depth"),
+            ("camera_depth", "contact.camera_depth"),
+            ("shade.shadow_intensity", "contact.intensity"),
+        ],
+        "contact.shadow_intensity",
+    )
 }
 
 fn mip_levels(encoded: &Value) -> String {

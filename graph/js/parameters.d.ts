@@ -161,6 +161,18 @@ export function viewParameters(
   areaLight?: AreaLight,
 ): Struct;
 
+/** How far shadows at contacts reach, and how thick surfaces are whose backs the camera does not see, in scene units. */
+export interface ContactShadows {
+  length: number;
+  thickness: number;
+}
+
+/** For scenes in metres: 6 cm, and surfaces of 2 cm. */
+export const CONTACT_SHADOWS: ContactShadows;
+
+/** The struct of node `contact_shadows`, per light: any view of a light says where it is. */
+export function contactShadowParameters(camera: CameraView, light: LightView, contact?: ContactShadows): Struct;
+
 export function receiverBias(standardDeviation: number, depthPerTexel: number): ReceiverBias;
 export function biasForStoredDepth(bias: ReceiverBias, format: GPUTextureFormat, conversion: DepthConversion): ReceiverBias;
 export function leakReduction(settings?: { fullShadow?: number; bleedReduction?: number; visibilityExponent?: number }): LeakReduction;

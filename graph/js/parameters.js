@@ -5,6 +5,7 @@ export { NO_AREA, areaLightOf } from './parameters/area_light.js';
 export { checkPlaces, placeViews } from './parameters/atlas.js';
 export { initialBlock, write, writeRegions } from './parameters/block.js';
 export { cascadeSlices, cascadeViews } from './parameters/cascades.js';
+export { CONTACT_SHADOWS, contactShadowParameters } from './parameters/contact_shadow.js';
 export { depthConversion } from './parameters/depth_conversion.js';
 export { blurParameters, deviationOfWidth, gaussianKernel, kernelFromWeights, kernelOfWidth, standardDeviation } from './parameters/kernel.js';
 export { leakReduction } from './parameters/leak_reduction.js';

@@ -7,8 +7,8 @@ use serde_json::{Value, json};
 use crate::Plan;
 use crate::graph::{Edge, FileImport, FileOutput, Graph, VERSION};
 use crate::nodes::{
-    Blur, CompositeScattering, DebugMoments, Downsample, IntegrateScattering, PlaceLayers,
-    RectifyMoments, Resolve, ShadeHard, ShadeSoft, SummedAreaTable,
+    Blur, CompositeScattering, ContactShadows, DebugMoments, Downsample, IntegrateScattering,
+    PlaceLayers, RectifyMoments, Resolve, ShadeHard, ShadeSoft, SummedAreaTable,
 };
 
 impl Graph {
@@ -22,6 +22,7 @@ impl Graph {
         let nodes = [
             node::<Blur>(generator, "blur"),
             node::<CompositeScattering>(generator, "composite_scattering"),
+            node::<ContactShadows>(generator, "contact_shadows"),
             node::<DebugMoments>(generator, "debug_moments"),
             node::<Downsample>(generator, "downsample"),
             node::<IntegrateScattering>(generator, "integrate_scattering"),

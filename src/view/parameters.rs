@@ -1,7 +1,7 @@
 //! The parameters of nodes that shade a picture, from a camera and a light.
 
 use bytemuck::{Pod, Zeroable};
-use glam::DMat4;
+use glam::{DMat4, DVec3, DVec4};
 
 use super::tile::PLACE_ERROR;
 use super::{CameraView, LightView, inverse};
@@ -66,19 +66,12 @@ impl ViewParameters {
         let rows = [0.5 * (w + x), 0.5 * (w - y), w, light.depth.row(light_clip)];
         let light_from_world =
             DMat4::from_cols_array_2d(&rows.map(|row| row.to_array())).transpose();
-        // Rays of a perspective camera meet in what depth alone leads to, those of another begin at its near plane.
-        let scene_w = world_from_clip.row(3);
-        let eye = match world_from_clip.z_axis {
-            meeting if meeting.w != 0.0 => meeting,
-            _ => world_from_clip.w_axis,
-        };
-        let position =
-            [0, 1, 2].map(|axis| world_from_clip.row(axis) - eye[axis] / eye.w * scene_w);
+        let position = position_rows(world_from_clip);
         Ok(Self {
             light_from_camera: (light_from_world * world_from_clip)
                 .as_mat4()
                 .to_cols_array_2d(),
-            scene_w_from_camera: scene_w.as_vec4().to_array(),
+            scene_w_from_camera: world_from_clip.row(3).as_vec4().to_array(),
             position_from_camera: position.map(|row| row.as_vec4().to_array()),
             receiver_bias,
             leak_reduction,
@@ -91,4 +84,20 @@ impl ViewParameters {
             light: AreaLight::NONE,
         })
     }
+}
+
+/// What positions are relative to: rays of a perspective camera meet in what depth alone leads to, those of another begin at its near
+/// plane.
+pub(super) fn eye_of(world_from_clip: DMat4) -> DVec3 {
+    let eye = match world_from_clip.z_axis {
+        meeting if meeting.w != 0.0 => meeting,
+        _ => world_from_clip.w_axis,
+    };
+    eye.truncate() / eye.w
+}
+
+/// The rows that give a scene position relative to the camera, times its homogeneous coordinate, of clip coordinates.
+pub(super) fn position_rows(world_from_clip: DMat4) -> [DVec4; 3] {
+    let (eye, scene_w) = (eye_of(world_from_clip), world_from_clip.row(3));
+    [0, 1, 2].map(|axis| world_from_clip.row(axis) - eye[axis] * scene_w)
 }

@@ -11,13 +11,14 @@ mod constants;
 use std::mem::offset_of;
 
 use moment_shadows::{
-    AreaLight, CompositeScatteringParameters, DepthConversion, FourMomentsBias,
-    IntegrateScatteringParameters, Kernel, LeakReduction, MapRegion, Profile, ReceiverBias,
-    RectifiedFrame, RectifyMomentsParameters, SingleScattering, Storage, Technique, TextureFormat,
-    ViewParameters,
+    AreaLight, CompositeScatteringParameters, ContactShadowParameters, DepthConversion,
+    FourMomentsBias, IntegrateScatteringParameters, Kernel, LeakReduction, MapRegion, Profile,
+    ReceiverBias, RectifiedFrame, RectifyMomentsParameters, SingleScattering, Storage, Technique,
+    TextureFormat, ViewParameters,
 };
 use moment_shadows_graph::nodes::{
-    Blur, CompositeScattering, IntegrateScattering, RectifyMoments, Resolve, ShadeHard,
+    Blur, CompositeScattering, ContactShadows, IntegrateScattering, RectifyMoments, Resolve,
+    ShadeHard,
 };
 use moment_shadows_graph::{
     BindingResource, Capabilities, Connected, Node, NodeDesc, ResourceDesc, TextureDesc,
@@ -134,6 +135,21 @@ fn structs_of_the_modules_are_laid_out_alike() {
             smallest_radius: f32,
             largest_radius: f32,
             rectangular: u32
+        }),
+    );
+    assert_same_layout(
+        &module("contact_shadow", "ContactShadowParameters"),
+        "ContactShadowParameters",
+        size_of::<ContactShadowParameters>(),
+        &fields!(ContactShadowParameters {
+            light_clip: [f32; 4],
+            light_position: [f32; 4],
+            position_from_camera: [[f32; 4]; 3],
+            scene_w_from_camera: [f32; 4],
+            depth_scale: f32,
+            length: f32,
+            thickness: f32,
+            far_depth: f32
         }),
     );
 }
@@ -287,6 +303,7 @@ fn nodes_declare_the_structs_that_their_shaders_bind() {
         }),
         per_frame_blur(),
         described(&ShadeHard::default()),
+        described(&ContactShadows::default()),
     ];
     for node in nodes {
         let block = node.parameters.as_ref().unwrap();

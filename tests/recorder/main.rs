@@ -7,6 +7,7 @@
 )]
 
 mod camera_samples;
+mod contact_shadows;
 mod debug;
 mod depth_map;
 mod depth_tests;

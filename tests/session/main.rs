@@ -7,6 +7,7 @@
 )]
 
 mod cameras;
+mod contacts;
 mod far;
 mod formats;
 mod frames;

@@ -3,6 +3,7 @@
 #![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic)]
 
 mod choices;
+mod contact_shadows;
 mod contacts;
 mod device;
 mod figures;

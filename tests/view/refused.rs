@@ -2,8 +2,9 @@
 
 use glam::DVec3;
 use moment_shadows::{
-    Border, CameraView, CascadeSplits, Cascades, DepthRange, LeakReduction, LightDepth, LightView,
-    MapRegion, PointLight, ReceiverBias, Tile, ViewParameters,
+    Border, CameraView, CascadeSplits, Cascades, ContactShadowParameters, ContactShadows,
+    DepthRange, LeakReduction, LightDepth, LightView, MapRegion, PointLight, ReceiverBias, Tile,
+    ViewParameters,
 };
 
 use crate::camera::{LENSES, Pose};
@@ -212,4 +213,63 @@ fn a_guard_band_is_told_to_the_shader_or_refused() {
     assert_eq!(told(MapRegion::WHOLE, 100), Ok(100.0 - 0.0625));
     assert_eq!(told(region, 0), Ok(0.0));
     assert_eq!(told(MapRegion::NONE, 0), Ok(0.0));
+}
+
+#[test]
+fn contact_shadows_without_a_length_or_a_light_are_refused() {
+    let sun = LightView::orthographic(sun_clip());
+    let usual = ContactShadows::default();
+    let with = |contact| ContactShadowParameters::new(&camera(), &sun, contact);
+    let lengths = [0.0, -1.0, f64::NAN, f64::INFINITY, 1e-60, 1e60];
+    for wrong in lengths {
+        for (name, contact) in [
+            (
+                "length",
+                ContactShadows {
+                    length: wrong,
+                    ..usual
+                },
+            ),
+            (
+                "thickness",
+                ContactShadows {
+                    thickness: wrong,
+                    ..usual
+                },
+            ),
+        ] {
+            let found = with(contact).unwrap_err();
+            assert_eq!(found.name, name, "{found}");
+            assert!(found.message.contains("above 0"), "{found}");
+        }
+    }
+    let flat = LightView::orthographic([[0.0; 4]; 4]);
+    let refused = |camera: &CameraView, light| {
+        ContactShadowParameters::new(camera, light, usual)
+            .unwrap_err()
+            .name
+    };
+    assert_eq!(refused(&camera(), &flat), "light");
+    let blind = CameraView {
+        clip_from_world: [[0.0; 4]; 4],
+        far_depth: 0.0,
+    };
+    assert_eq!(refused(&blind, &sun), "camera");
+    let range = DepthRange {
+        near: 1.0,
+        far: 2.0,
+    };
+    let depth = LightDepth::Linear { range };
+    assert_eq!(refused(&camera(), &LightView { depth, ..sun }), "depth");
+    with(usual).unwrap();
+}
+
+/// That of a sun over the origin.
+fn sun_clip() -> [[f64; 4]; 4] {
+    let pose = Pose {
+        lens: LENSES[3],
+        eye: DVec3::ONE,
+        forward: DVec3::new(0.3, -0.9, 0.2).normalize(),
+    };
+    pose.camera().clip_from_world
 }

@@ -7,9 +7,9 @@ use clap::{CommandFactory, FromArgMatches, Parser, Subcommand};
 
 use crate::command::cost::CostOptions;
 use crate::command::{
-    CommandResult, best, bias, choose, claims, error, error_table, inspect, isa, measure, ports,
-    probe, render, scattering_error, scattering_flicker, scores, shaders, soft_error, stability,
-    sweep, technique_pictures, trade, troubleshooting_pictures, vectors,
+    CommandResult, best, bias, choose, claims, contact_shadows, error, error_table, inspect, isa,
+    measure, ports, probe, render, scattering_error, scattering_flicker, scores, shaders,
+    soft_error, stability, sweep, technique_pictures, trade, troubleshooting_pictures, vectors,
 };
 use crate::isa::child;
 
@@ -51,6 +51,8 @@ enum Command {
     Choose(choose::Options),
     /// Scores acne, peter-panning, contact and flicker of every technique and storage, with a picture of each.
     Scores(scores::Options),
+    /// Prints how much light at contacts a march through the camera's depth takes away, and what false shadow it makes.
+    ContactShadows(contact_shadows::Options),
     /// Times all techniques over the size of the map, that of the picture and the width of the filter, as ratios to percentage-closer
     /// filtering.
     Sweep(sweep::Options),
@@ -123,6 +125,7 @@ fn run(command: Command) -> CommandResult {
         Command::Trade(options) => options.run(),
         Command::Choose(options) => options.run(),
         Command::Scores(options) => options.run(),
+        Command::ContactShadows(options) => options.run(),
         Command::Sweep(options) => options.run(),
         Command::Claims(options) => options.run(),
         Command::Best(options) => options.run(),

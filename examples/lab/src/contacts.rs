@@ -20,7 +20,7 @@ pub const BAND: f64 = 0.03;
 pub(crate) const POINTS: u32 = 64;
 
 /// Ground that is darker than this, of 1, is in full shadow.
-const FULL: f32 = 0.99;
+pub(crate) const FULL: f32 = 0.99;
 
 /// The ground around all legs, with its true shadow intensity under a kernel.
 pub struct Contacts {

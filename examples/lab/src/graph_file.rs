@@ -7,7 +7,7 @@ use std::path::Path;
 use moment_shadows::{Kernel, Storage};
 use moment_shadows_graph::nodes::{Blur, BlurKernel};
 use moment_shadows_graph::{Graph, GraphError, GraphErrorKind, TextureDesc, command};
-use serde_json::Value;
+use serde_json::{Value, json};
 
 use crate::error::LabError;
 
@@ -73,6 +73,34 @@ impl GraphFile {
         })
     }
 
+    /// This graph with shadows at contacts after its `shade_hard` node, of so many steps, and the output of what maps say without them.
+    pub fn with_contact_shadows(&self, steps: u32) -> Result<(Self, String), LabError> {
+        let shade = self.node_of("shade_hard").ok_or_else(|| {
+            self.unsuitable("it has no shade_hard node after which contacts could be marched")
+        })?;
+        let slot = |slot| format!("{}.{slot}", shade["name"].as_str().unwrap_or_default());
+        let intensity = slot("shadow_intensity");
+        let camera = self.find("edges", "to", &slot("camera_depth"));
+        let camera = camera.map_or(Value::Null, |edge| edge["from"].clone());
+        let file = self.edited(|file| {
+            for output in items(file, "outputs").filter(|output| output["from"] == *intensity) {
+                output["from"] = "contact.shadow_intensity".into();
+            }
+            let properties = json!({ "steps": steps });
+            let node =
+                json!({ "name": "contact", "type": "contact_shadows", "properties": properties });
+            push(file, "nodes", node);
+            for (from, to) in [
+                (camera, "camera_depth"),
+                (intensity.as_str().into(), "intensity"),
+            ] {
+                let edge = json!({ "from": from, "to": format!("contact.{to}") });
+                push(file, "edges", edge);
+            }
+        })?;
+        file.with_output(&intensity, "lab_intensity_of_maps")
+    }
+
     /// What the file says of an import that is a texture.
     #[must_use]
     pub fn import(&self, name: &str) -> Option<&TextureDesc> {
@@ -119,7 +147,7 @@ impl GraphFile {
 
     /// This graph with a Gaussian of this radius and 0.6 times that as its standard deviation in place of its kernel.
     pub fn with_radius(&self, radius: u32) -> Result<Self, LabError> {
-        self.with_kernel(&serde_json::json!({ "radius": radius }))
+        self.with_kernel(&json!({ "radius": radius }))
     }
 
     /// This graph with another kernel, as files describe it.
@@ -155,7 +183,7 @@ impl GraphFile {
             let name = output["name"].as_str().unwrap_or_default().to_owned();
             return Ok((self.edited(|_| ())?, name));
         }
-        let output = serde_json::json!({ "name": name, "from": slot });
+        let output = json!({ "name": name, "from": slot });
         let file = self.edited(|file| push(file, "outputs", output))?;
         Ok((file, name.to_owned()))
     }

@@ -1,8 +1,9 @@
 //! A graph on a frame: compiled for what the host has drawn, recorded, and read back.
 
 use moment_shadows::{
-    Border, CameraView, DepthRange, LeakReduction, LightDepth, LightSize, LightView, MapRegion,
-    ReceiverBias, ScatteringParameters, Technique, TextureFormat, ViewParameters,
+    Border, CameraView, ContactShadowParameters, ContactShadows, DepthRange, LeakReduction,
+    LightDepth, LightSize, LightView, MapRegion, ReceiverBias, ScatteringParameters, Technique,
+    TextureFormat, ViewParameters,
 };
 use moment_shadows_graph::record::{
     Bindings, ImportedResource, PipelineOptions, Pipelines, Recording, Resources,
@@ -128,6 +129,26 @@ impl GraphFrame {
         Ok(())
     }
 
+    /// Fills in the parameters, with another reach of shadows at contacts than the usual one.
+    pub fn fill_contacts(
+        &self,
+        gpu: &Gpu,
+        desc: &FrameDesc,
+        file: &GraphFile,
+        contact: ContactShadows,
+    ) -> Result<(), LabError> {
+        let mut bytes = parameter_bytes(&self.plan, desc, file, None)?;
+        let blocks = &self.plan.parameters;
+        let parameters =
+            ContactShadowParameters::new(&camera_view(desc)?, &light_view(desc), contact)?;
+        let of_contacts = |name: &str| name == "ContactShadowParameters";
+        for block in blocks.blocks.iter().filter(|it| of_contacts(&it.name)) {
+            blocks.write(&mut bytes, &block.node, 0, &parameters)?;
+        }
+        self.write(gpu, &bytes);
+        Ok(())
+    }
+
     /// Writes parameters that were filled in otherwise.
     pub fn write(&self, gpu: &Gpu, bytes: &[u8]) {
         gpu.queue.write_buffer(&self.parameters, 0, bytes);
@@ -160,6 +181,19 @@ impl GraphFrame {
         self.bindings.output(SHADOW_INTENSITY).ok_or_else(|| {
             LabError::unsuitable(&file.name, format!("it has no output '{SHADOW_INTENSITY}'"))
         })
+    }
+
+    /// What another output with one channel of shadow intensity holds, the top row first.
+    pub fn read_output(
+        &self,
+        gpu: &Gpu,
+        file: &GraphFile,
+        name: &str,
+    ) -> Result<Vec<f32>, LabError> {
+        let output = self.bindings.output(name).ok_or_else(|| {
+            LabError::unsuitable(&file.name, format!("it has no output '{name}'"))
+        })?;
+        read_intensity(gpu, output)
     }
 
     /// The shadow intensity per pixel, the top row first.
@@ -252,6 +286,11 @@ pub fn parameter_bytes(
                 blocks.write(into, node, 0, &light_view(desc).depth.conversion()?)?;
             }
             ("ViewParameters", _) => blocks.write(into, node, 0, &shade_parameters(desc, file)?)?,
+            ("ContactShadowParameters", _) => {
+                let (camera, contact) = (camera_view(desc)?, ContactShadows::default());
+                let parameters = ContactShadowParameters::new(&camera, &light_view(desc), contact)?;
+                blocks.write(into, node, 0, &parameters)?;
+            }
             ("RectifyMomentsParameters", Some(air)) => blocks.write(into, node, 0, &air.rectify)?,
             ("IntegrateScatteringParameters", Some(air)) => {
                 blocks.write(into, node, 0, &air.integrate)?;

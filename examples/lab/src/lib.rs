@@ -11,6 +11,7 @@ pub mod claims;
 pub mod cli;
 pub mod command;
 pub mod compare;
+pub mod contact_shadows;
 pub mod contacts;
 pub mod cost;
 pub mod dense;

@@ -101,7 +101,7 @@ const RUN: [(&str, &[&str]); 14] = [
 ];
 
 /// Sub-commands that are not run here, and why.
-const LONG: [(&str, &str); 15] = [
+const LONG: [(&str, &str); 16] = [
     ("error-table", "peels whole scenes, for a minute each"),
     ("soft-error", "traces 256 rays per pixel"),
     ("scattering-error", "marches 1,024 steps per pixel"),
@@ -114,6 +114,7 @@ const LONG: [(&str, &str); 15] = [
     ("trade", "judges and times hundreds of combinations"),
     ("choose", "trades first"),
     ("scores", "draws every technique a dozen times"),
+    ("contact-shadows", "judges pictures of three scenes"),
     ("best", "needs a finished trade"),
     ("claims", "judges, marches, traces and times for minutes"),
     (

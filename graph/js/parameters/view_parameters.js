@@ -13,6 +13,18 @@ import { difference, scaled, sum } from './vector.js';
 // A width in texels in sixteenths, rounded as Rust does: halves away from zero.
 const sixteenths = (texels) => Math.floor(16 * texels + 0.5);
 
+/** What positions are relative to: rays of a perspective camera meet in what depth alone leads to, those of another begin at its near plane. */
+export function eyeOf(worldFromClip) {
+  const eye = worldFromClip[2][3] !== 0 ? worldFromClip[2] : worldFromClip[3];
+  return [0, 1, 2].map((axis) => eye[axis] / eye[3]);
+}
+
+/** The rows that give a scene position relative to the camera, times its homogeneous coordinate, of clip coordinates. */
+export function positionRows(worldFromClip) {
+  const [eye, sceneW] = [eyeOf(worldFromClip), row(worldFromClip, 3)];
+  return [0, 1, 2].map((axis) => difference(row(worldFromClip, axis), scaled(sceneW, eye[axis])));
+}
+
 /**
  * The parameters of a camera that looks at receivers of a light's shadow.
  *
@@ -31,13 +43,10 @@ export function viewParameters(camera, light, receiverBias, reduction = leakRedu
   const [x, y, w] = [0, 1, 3].map((index) => row(clip, index));
   // From clip space to the map: u = (x + w) / 2, v = (w - y) / 2, both still times w.
   const rows = [scaled(sum(w, x), 0.5), scaled(difference(w, y), 0.5), w, momentDepthRow(depth, clip)];
-  const sceneW = row(worldFromClip, 3);
-  // Rays of a perspective camera meet in what depth alone leads to, those of another begin at its near plane.
-  const eye = worldFromClip[2][3] !== 0 ? worldFromClip[2] : worldFromClip[3];
-  const position = [0, 1, 2].map((axis) => difference(row(worldFromClip, axis), scaled(sceneW, eye[axis] / eye[3])));
+  const position = positionRows(worldFromClip);
   return {
     light_from_camera: product(transposed(rows), worldFromClip).map((column) => column.map(single)),
-    scene_w_from_camera: sceneW.map(single),
+    scene_w_from_camera: row(worldFromClip, 3).map(single),
     position_from_camera: position.map((components) => components.map(single)),
     receiver_bias: receiverBias,
     leak_reduction: reduction,

@@ -2,6 +2,7 @@
 
 mod blur;
 mod composite_scattering;
+mod contact_shadows;
 mod debug_moments;
 mod downsample;
 mod integrate_scattering;
@@ -16,6 +17,7 @@ mod techniques;
 
 pub use blur::{Blur, BlurKernel};
 pub use composite_scattering::CompositeScattering;
+pub use contact_shadows::ContactShadows;
 pub use debug_moments::{DebugMoments, Show};
 pub use downsample::Downsample;
 pub use integrate_scattering::IntegrateScattering;
@@ -39,6 +41,7 @@ pub(crate) fn register(registry: &mut NodeRegistry) {
     registry.register::<DebugMoments>("debug_moments");
     registry.register::<ShadeHard>("shade_hard");
     registry.register::<ShadeSoft>("shade_soft");
+    registry.register::<ContactShadows>("contact_shadows");
     registry.register::<RectifyMoments>("rectify_moments");
     registry.register::<IntegrateScattering>("integrate_scattering");
     registry.register::<CompositeScattering>("composite_scattering");

@@ -39,8 +39,9 @@ pub(super) fn slot(end: &str) -> &str {
 }
 
 /// Parameters of nodes that a camera decides on.
-const OF_CAMERAS: [&str; 4] = [
+const OF_CAMERAS: [&str; 5] = [
     "ViewParameters",
+    "ContactShadowParameters",
     "RectifyMomentsParameters",
     "IntegrateScatteringParameters",
     "CompositeScatteringParameters",

@@ -10,7 +10,8 @@ mod shading;
 use cut::{Cut, cut};
 use given::Given;
 use moment_shadows::{
-    CameraView, LeakReduction, LightView, ReceiverBias, SingleScattering, TextureFormat,
+    CameraView, ContactShadows, LeakReduction, LightView, ReceiverBias, SingleScattering,
+    TextureFormat,
 };
 use part::{Maker, Part};
 use scratch::{Scratch, Told};
@@ -42,6 +43,8 @@ pub struct Session {
     /// What is in the air, and up to which distance from the camera it is lit, in scene units: for graphs with single
     /// scattering. Nothing at first.
     pub medium: (SingleScattering, f64),
+    /// How far shadows at contacts reach, in scene units: for graphs with such shadows. For scenes in metres at first.
+    pub contact: ContactShadows,
     scratch: Scratch,
 }
 
@@ -100,6 +103,7 @@ impl Session {
             views: Vec::new(),
             leak_reduction: LeakReduction::DEFAULT,
             medium: (SingleScattering::NONE, 1.0),
+            contact: ContactShadows::default(),
             scratch: Scratch::default(),
         };
         session.add_view(&[]).await?;
@@ -185,6 +189,7 @@ impl Session {
             lights,
             leak_reduction: self.leak_reduction,
             medium: self.medium,
+            contact: self.contact,
             depth_format: self.depth_format(),
         };
         let view = &mut self.views[view];

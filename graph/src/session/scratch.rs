@@ -1,8 +1,8 @@
 //! Uniform data of a frame, put together in memory that is kept.
 
 use moment_shadows::{
-    CameraView, DepthConversion, LeakReduction, LightView, MapRegion, ScatteringParameters,
-    SingleScattering, TextureFormat, ViewParameters,
+    CameraView, ContactShadowParameters, ContactShadows, DepthConversion, LeakReduction, LightView,
+    MapRegion, ScatteringParameters, SingleScattering, TextureFormat, ViewParameters,
 };
 
 use super::kernels;
@@ -17,6 +17,7 @@ pub(super) struct Scratch {
     regions: Vec<MapRegion>,
     views: Vec<ViewParameters>,
     kernels: Vec<kernels::Words>,
+    contacts: Vec<ContactShadowParameters>,
     block: Vec<u8>,
 }
 
@@ -26,6 +27,7 @@ pub(super) struct Told<'a> {
     pub(super) lights: &'a [LightView],
     pub(super) leak_reduction: LeakReduction,
     pub(super) medium: (SingleScattering, f64),
+    pub(super) contact: ContactShadows,
     pub(super) depth_format: Option<TextureFormat>,
 }
 
@@ -63,6 +65,10 @@ impl Scratch {
                             layout.write_all(bytes, node, layer, &self.conversions)?;
                         }
                     }
+                }
+                "ContactShadowParameters" => {
+                    told.contacts(&mut self.contacts, node, block.elements)?;
+                    layout.write_all(bytes, node, 0, &self.contacts)?;
                 }
                 "RectifyMomentsParameters" => {
                     layout.write(bytes, node, 0, &told.scattering()?.rectify)?;
@@ -116,6 +122,36 @@ impl Told<'_> {
         let (medium, far) = self.medium;
         ScatteringParameters::new(self.camera, far, light, medium)
             .map_err(|error| unsuitable("single scattering", error))
+    }
+
+    /// What shadows at contacts are told, of as many lights as the node has: the first view of each says where it is.
+    fn contacts(
+        &self,
+        contacts: &mut Vec<ContactShadowParameters>,
+        node: &str,
+        lights: u32,
+    ) -> Result<(), GraphError> {
+        contacts.clear();
+        let mut found = [None; 4];
+        for (index, light) in self.lights.iter().enumerate() {
+            let what = || format!("view {index} of a light, for node '{node}'");
+            let channels = found.get_mut(..lights as usize).unwrap_or_default();
+            // Lights beyond are those of the node that shades, which knows how many there are.
+            let Some(of_channel) = channels.get_mut(light.channel as usize) else {
+                continue;
+            };
+            if of_channel.is_none() {
+                let made = ContactShadowParameters::new(self.camera, light, self.contact);
+                *of_channel = Some(made.map_err(|error| unsuitable(what(), error))?);
+            }
+        }
+        // A channel without a light is as it was.
+        if let Some(any) = found.iter().flatten().next() {
+            let none = any.without_light();
+            let all = found.iter().take(lights as usize);
+            contacts.extend(all.map(|of_channel| of_channel.unwrap_or(none)));
+        }
+        Ok(())
     }
 
     /// The views of a layer, with their numbers.

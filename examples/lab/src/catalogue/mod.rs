@@ -29,6 +29,8 @@ pub struct Variant {
     depth: TextureFormat,
     /// Normals, if there are any.
     normals: Option<TextureFormat>,
+    /// What maps say of shadows, if anything.
+    intensity: Option<TextureFormat>,
     capabilities: Capabilities,
     /// The beginning of the names of its files, if it has any.
     pub file: Option<String>,
@@ -66,6 +68,7 @@ impl Variant {
             samples: 1,
             depth: TextureFormat::Depth32Float,
             normals: None,
+            intensity: None,
             capabilities: Capabilities::of_profile(profile(map)),
             file: None,
             kept: 0,
@@ -93,6 +96,12 @@ impl Variant {
     fn normals(self, format: TextureFormat) -> Self {
         let normals = Some(format);
         Self { normals, ..self }
+    }
+
+    /// Connects what maps say of shadows, in this format.
+    fn intensity(self, format: TextureFormat) -> Self {
+        let intensity = Some(format);
+        Self { intensity, ..self }
     }
 
     fn mips(mut self, mips: u32) -> Self {
@@ -167,6 +176,8 @@ impl Variant {
         };
         let normals = self.normals.map(|format| TextureDesc::new(format, SIZE));
         let normals = normals.iter().map(|desc| ("normals", desc));
+        let intensity = self.intensity.map(|format| TextureDesc::new(format, SIZE));
+        let intensity = intensity.iter().map(|desc| ("intensity", desc));
         let map = ["map", "table", "rectified", "integrated"].map(|name| (name, &self.map));
         map.into_iter()
             .chain([
@@ -175,6 +186,7 @@ impl Variant {
                 ("camera_depth", &camera),
             ])
             .chain(normals)
+            .chain(intensity)
             .map(|(name, desc)| (name.to_owned(), ResourceDesc::Texture(desc.clone())))
             .collect()
     }
@@ -215,6 +227,7 @@ pub fn variants() -> Result<Vec<Variant>, LabError> {
     let any = MapEncoding::new(Technique::Hamburger4, Storage::Float16)?;
     all.extend(shade::of_depth(&any));
     all.extend(map::of_depth(&any));
+    all.extend(shade::contacts(&any));
     let mut encodings = techniques::filterable();
     encodings.retain(|encoding| *encoding.technique() != Technique::Hamburger4);
     let lloyd = Technique::Lvsm {

@@ -1,8 +1,8 @@
 //! What shades with maps, tables and plain depth.
 
-use moment_shadows::TextureFormat::{Rg16Float, Rgb10a2Unorm};
+use moment_shadows::TextureFormat::{R8Unorm, Rg16Float, Rgb10a2Unorm, Rgba8Unorm};
 use moment_shadows::{MapEncoding, PcfTaps, Storage, SummedAreaTable, Technique};
-use moment_shadows_graph::nodes::{ShadeHard, ShadeSoft};
+use moment_shadows_graph::nodes::{ContactShadows, ShadeHard, ShadeSoft};
 
 use super::Variant;
 use crate::error::LabError;
@@ -120,6 +120,36 @@ fn soft(four: &MapEncoding) -> Result<Vec<Variant>, LabError> {
             .file(format!("shade_soft_views_{storage}"), false),
     );
     Ok(all)
+}
+
+/// Shadows at contacts, which read no map: after maps and alone, for one light and for several.
+pub(super) fn contacts(any: &MapEncoding) -> Vec<Variant> {
+    let march = |lights| {
+        let node = ContactShadows {
+            lights,
+            ..ContactShadows::default()
+        };
+        let steps = node.steps;
+        (Variant::new(node, any), steps)
+    };
+    let ((one, steps), (four, _), (alone, _)) = (march(1), march(4), march(1));
+    vec![
+        one.intensity(R8Unorm).file("contact_shadows", true).row(
+            true,
+            format!("{steps} steps"),
+            &[steps],
+        ),
+        four.intensity(Rgba8Unorm)
+            .samples(4)
+            .normals(Rgb10a2Unorm)
+            .file("contact_shadows_lights", false)
+            .row(
+                true,
+                format!("{steps} steps, 4 lights, normals"),
+                &[4, steps],
+            ),
+        alone.file("contact_shadows_alone", false),
+    ]
 }
 
 /// Techniques without a filterable map.

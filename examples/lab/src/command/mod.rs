@@ -5,6 +5,7 @@ pub mod best;
 pub mod bias;
 pub mod choose;
 pub mod claims;
+pub mod contact_shadows;
 pub mod cost;
 pub mod drawn;
 pub mod error;

@@ -32,6 +32,7 @@ pub(in crate::nodes) fn describe(
             "'lights' is {lights}; a node shades 1 to 16 lights, four in each of its outputs, and more nodes shade more"
         )));
     }
+    let format = self::format(format, lights)?;
     if views < lights {
         return Err(wrong_property(format!(
             "'views' is {views}, but there are {lights} lights; each has at least one view"
@@ -40,20 +41,6 @@ pub(in crate::nodes) fn describe(
     if views > MOST_VIEWS {
         return Err(wrong_property(format!(
             "'views' is {views}; a node has at most {MOST_VIEWS}, and more nodes have more"
-        )));
-    }
-    let one_and_four = [
-        [R8Unorm, R16Float, R32Float],
-        [Rgba8Unorm, Rgba16Float, Rgba32Float],
-    ];
-    let allowed = &one_and_four[usize::from(lights > 1)..];
-    let format = format.unwrap_or(allowed[0][0]);
-    if !allowed.as_flattened().contains(&format) {
-        let names = allowed.iter().map(|all| all.map(TextureFormat::name));
-        let names: Vec<String> = names.map(|all| all.join(", ")).collect();
-        return Err(wrong_property(format!(
-            "lights need a channel each; for {lights} of them 'format' is {}, not {format}",
-            names.join(" or ")
         )));
     }
     let camera = upstream.texture("camera_depth")?;
@@ -126,6 +113,40 @@ pub(super) fn numbered(name: &str, first: u32) -> String {
     }
 }
 
+/// The format that is given, or the smallest one that has a channel for each light, or for four of many.
+pub(in crate::nodes) fn format(
+    given: Option<TextureFormat>,
+    lights: u32,
+) -> Result<TextureFormat, GraphError> {
+    let allowed = formats(lights);
+    let format = given.unwrap_or(allowed[0]);
+    if !allowed.contains(&format) {
+        let names = allowed.chunks(3).map(|all| {
+            let all: Vec<&str> = all.iter().map(|format| format.name()).collect();
+            all.join(", ")
+        });
+        let names: Vec<String> = names.collect();
+        return Err(wrong_property(format!(
+            "lights need a channel each; for {lights} of them 'format' is {}, not {format}",
+            names.join(" or ")
+        )));
+    }
+    Ok(format)
+}
+
+/// The formats of shadow intensity that have a channel for each light, or for four of many, in threes of one and of four channels.
+pub(in crate::nodes) fn formats(lights: u32) -> Vec<TextureFormat> {
+    let one_and_four = [
+        R8Unorm,
+        R16Float,
+        R32Float,
+        Rgba8Unorm,
+        Rgba16Float,
+        Rgba32Float,
+    ];
+    one_and_four[if lights > 1 { 3 } else { 0 }..].to_vec()
+}
+
 /// The constant of a pass by which views have borders.
 pub(crate) const BORDERS: &str = "BORDERS";
 
@@ -141,7 +162,7 @@ const NORMALS: [TextureFormat; 7] = [
 ];
 
 /// The optional input of normals.
-fn normals_slot() -> Slot {
+pub(in crate::nodes) fn normals_slot() -> Slot {
     let rule = TextureRule::new(NORMALS.to_vec()).extent(Rule::same_as("camera_depth"));
     let description = "Where surfaces face, in the scene's axes: x, y and z, or an octahedron in two channels; from 0 to 1 where \
                        the format has no sign. Of curved and thin things they say more than depth does.";
@@ -149,7 +170,7 @@ fn normals_slot() -> Slot {
 }
 
 /// How a pixel's surface continues: the module `surface`, from normals where they are connected.
-fn surface(
+pub(in crate::nodes) fn surface(
     specialization: Specialization,
     upstream: &Connected<'_>,
 ) -> (Specialization, Option<Binding>) {

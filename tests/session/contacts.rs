@@ -1,0 +1,95 @@
+//! Shadows at contacts through a session: it tells the node where lights are.
+
+use moment_shadows::{ContactShadows, LightView};
+
+use crate::{HARD, frame, gpu, imports, places, recorded, session};
+
+/// The example with shadows at contacts after its maps, for so many lights, and what maps say of them as a further output.
+fn contacts(lights: u32) -> String {
+    let contact = format!(
+        r#""nodes": [ {{ "name": "contact", "type": "contact_shadows", "properties": {{ "lights": {lights} }} }},"#
+    );
+    let edges = r#""edges": [ { "from": "camera_depth", "to": "contact.camera_depth" },
+        { "from": "shade.shadow_intensity", "to": "contact.intensity" },"#;
+    let shade = format!(
+        r#""type": "shade_hard", "properties": {{ "lights": {lights}, "views": {lights} }}"#
+    );
+    HARD.replace(r#""nodes": ["#, &contact)
+        .replace(r#""edges": ["#, edges)
+        .replace(r#""type": "shade_hard""#, &shade)
+        .replace(
+            r#"{ "name": "shadow_intensity", "from": "shade.shadow_intensity" }"#,
+            r#"{ "name": "shadow_intensity", "from": "contact.shadow_intensity" },
+               { "name": "maps", "from": "shade.shadow_intensity" }"#,
+        )
+}
+
+#[test]
+fn the_darker_one_of_maps_and_march_is_shown_channel_by_channel() {
+    let gpu = gpu();
+    let frame = frame(&gpu, 0, [160, 90]);
+    let (camera, light) = places(&frame);
+    let mut one = session(&gpu, &contacts(1), &imports(&frame));
+    one.view(&gpu.queue, 0, &camera, &[light]).unwrap();
+    let single = recorded(&gpu, &one, 0, "shadow_intensity");
+    let maps = recorded(&gpu, &one, 0, "maps");
+    let darker = single.iter().zip(&maps).filter(|(both, maps)| both > maps);
+    assert!(single.iter().zip(&maps).all(|(both, maps)| both >= maps));
+    assert!(darker.count() > 20);
+    // Of four lights the second and the last are there.
+    let mut four = session(&gpu, &contacts(4), &imports(&frame));
+    let lights = [1, 3].map(|channel| LightView { channel, ..light });
+    four.view(&gpu.queue, 0, &camera, &lights).unwrap();
+    let all = recorded(&gpu, &four, 0, "shadow_intensity");
+    for (texel, single) in all.chunks_exact(4).zip(&single) {
+        assert_eq!(texel, [0, *single, 0, *single]);
+    }
+}
+
+#[test]
+fn lengths_that_are_none_and_too_many_lights_are_named() {
+    let gpu = gpu();
+    let frame = frame(&gpu, 0, [96, 54]);
+    let (camera, light) = places(&frame);
+    let mut session = session(&gpu, &contacts(1), &imports(&frame));
+    session.view(&gpu.queue, 0, &camera, &[light]).unwrap();
+    let before = recorded(&gpu, &session, 0, "shadow_intensity");
+    let usual = session.contact;
+    for (wrong, word) in [
+        (
+            ContactShadows {
+                length: 0.0,
+                ..usual
+            },
+            "length is 0",
+        ),
+        (
+            ContactShadows {
+                thickness: f64::NAN,
+                ..usual
+            },
+            "thickness is NaN",
+        ),
+    ] {
+        session.contact = wrong;
+        let found = session
+            .view(&gpu.queue, 0, &camera, &[light])
+            .unwrap_err()
+            .to_string();
+        assert!(
+            found.contains(word) && found.contains("'contact'"),
+            "{found}"
+        );
+    }
+    session.contact = usual;
+    let second = LightView {
+        channel: 1,
+        ..light
+    };
+    let found = session
+        .view(&gpu.queue, 0, &camera, &[second])
+        .unwrap_err()
+        .to_string();
+    assert!(found.contains("channel is 1"), "{found}");
+    assert_eq!(recorded(&gpu, &session, 0, "shadow_intensity"), before);
+}
