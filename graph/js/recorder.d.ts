@@ -25,7 +25,7 @@ export interface Recording {
   offset?: number;
   /** The layers to make anew: of every map, or for each map its own (others are left out). All, where it is left out. */
   layers?: number[] | Record<string, number[]>;
-  /** Draws what the graph leaves to the host. */
+  /** Draws what the graph leaves to the host, once per layer that is made anew. */
   hostPass?: (pass: HostPass, encoder: GPUCommandEncoder) => void;
 }
 

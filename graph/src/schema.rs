@@ -8,7 +8,7 @@ use crate::Plan;
 use crate::graph::{Edge, FileImport, FileOutput, Graph, VERSION};
 use crate::nodes::{
     Blur, CompositeScattering, DebugMoments, Downsample, IntegrateScattering, PlaceLayers,
-    RectifyMoments, Resolve, ShadeHard, ShadeSoft, SummedAreaTable,
+    RectifyMoments, Resolve, ShadeHard, ShadeSoft, SummedAreaTable, TranslucentCasters,
 };
 
 impl Graph {
@@ -31,6 +31,7 @@ impl Graph {
             node::<ShadeHard>(generator, "shade_hard"),
             node::<ShadeSoft>(generator, "shade_soft"),
             node::<SummedAreaTable>(generator, "summed_area_table"),
+            node::<TranslucentCasters>(generator, "translucent_casters"),
         ];
         let [imports, edges, outputs] = [
             generator.subschema_for::<FileImport>(),

@@ -38,4 +38,5 @@ mod techniques;
 mod threshold;
 mod threshold_node;
 mod timestamps;
+mod translucent;
 mod views;

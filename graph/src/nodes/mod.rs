@@ -13,6 +13,7 @@ mod shade_soft;
 mod shared;
 mod summed_area_table;
 mod techniques;
+mod translucent_casters;
 
 pub use blur::Blur;
 pub use composite_scattering::CompositeScattering;
@@ -26,6 +27,7 @@ pub use shade_hard::ShadeHard;
 pub use shade_soft::ShadeSoft;
 pub(crate) use shared::shading::BORDERS;
 pub use summed_area_table::SummedAreaTable;
+pub use translucent_casters::TranslucentCasters;
 
 use crate::NodeRegistry;
 
@@ -33,6 +35,7 @@ use crate::NodeRegistry;
 pub(crate) fn register(registry: &mut NodeRegistry) {
     registry.register::<Resolve>("resolve");
     registry.register::<PlaceLayers>("place_layers");
+    registry.register::<TranslucentCasters>("translucent_casters");
     registry.register::<Blur>("blur");
     registry.register::<Downsample>("downsample");
     registry.register::<SummedAreaTable>("summed_area_table");
