@@ -1,5 +1,5 @@
-//! Translucent casters, blended by a host into maps of every storage, against the exact transmittance.
+//! Translucent casters, which a host blends into maps of every storage.
 
 mod bound;
-mod draw;
 mod layers;
+mod refused;

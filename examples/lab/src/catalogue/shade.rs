@@ -68,6 +68,10 @@ pub(super) fn of_four_moments(four: &MapEncoding) -> Result<Vec<Variant>, LabErr
                 .file(format!("{name}_octahedral_normals"), false),
         ]);
     }
+    // A map with translucent casters.
+    let blended = four.clone().with_blends(16)?;
+    let name = format!("shade_hard_{storage}_blended");
+    all.push(Variant::new(ShadeHard::default(), &blended).file(name, unorm16));
     all.extend(soft(four)?);
     Ok(all)
 }

@@ -4,11 +4,14 @@ import node::storage::{STORAGE};
 // A caster all over the map.
 
 struct Caster {
+    centre: vec2f,
+    // Both 0 where the opacity does not fade out.
+    inverse_radius: vec2f,
     // Moment depth.
     depth: f32,
     opacity: f32,
     // Whether the opacity differs from texel to texel.
-    textured: u32,
+    hashed: u32,
     padding: u32,
 }
 
@@ -21,8 +24,10 @@ fn cover(@builtin(vertex_index) index: u32) -> @builtin(position) vec4f {
 
 fn opacity(position: vec4f) -> f32 {
     let texel = vec2u(position.xy);
-    let share = f32((5u * texel.x + 3u * texel.y) % 8u + 1u) / 8.0;
-    return caster.opacity * select(1.0, share, caster.textured != 0u);
+    let hashed = f32((5u * texel.x + 3u * texel.y) % 8u + 1u) / 8.0;
+    let offset = (position.xy - caster.centre) * caster.inverse_radius;
+    let inside = saturate(1.0 - dot(offset, offset));
+    return caster.opacity * select(1.0, hashed, caster.hashed != 0u) * inside * inside;
 }
 
 @fragment

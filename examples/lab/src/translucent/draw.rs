@@ -1,28 +1,12 @@
 //! A host that draws translucent casters all over a map.
 
 use moment_shadows::{MapEncoding, Opacity, Source, Technique, link};
+use moment_shadows_graph::TextureDesc;
 use moment_shadows_graph::record::{HostPass, blend_state};
-use moment_shadows_lab::gpu::Gpu;
 
-use crate::setup::uniform;
-
-/// A translucent caster.
-#[derive(Clone, Copy, Debug)]
-pub(super) struct Caster {
-    /// As the map stores it, from 0 to 1.
-    pub(super) depth: f32,
-    pub(super) opacity: f32,
-    /// Whether the opacity differs from texel to texel.
-    pub(super) textured: bool,
-}
-
-impl Caster {
-    /// The opacity at a texel, as the shader has it.
-    pub(super) fn opacity_at(&self, x: u32, y: u32) -> f64 {
-        let share = f64::from((5 * x + 3 * y) % 8 + 1) / 8.0;
-        f64::from(self.opacity) * if self.textured { share } else { 1.0 }
-    }
-}
+use super::casters::{Caster, Texture};
+use crate::error::LabError;
+use crate::gpu::Gpu;
 
 /// The fragment entry points for the draws of a caster.
 fn entry_points(technique: &Technique, opacity: Opacity) -> &'static [&'static str] {
@@ -48,7 +32,7 @@ impl Casters {
         encoding: &MapEncoding,
         opacity: Opacity,
         casters: &[Caster],
-    ) -> Self {
+    ) -> Result<Self, LabError> {
         let storage = format!("const STORAGE = {}u;", encoding.storage().wgsl_index());
         let mut text = include_str!("fragment.wgsl").to_owned();
         if opacity == Opacity::SecondSource {
@@ -65,17 +49,17 @@ impl Casters {
             name: "storage",
             text: &storage,
         };
-        let linked = link(source, &[storage]).unwrap();
+        let linked = link(source, &[storage])
+            .map_err(|error| LabError::unsuitable("fragment.wgsl", error))?;
         let module = gpu
             .device
             .create_shader_module(wgpu::ShaderModuleDescriptor {
                 label: Some("casters"),
                 source: wgpu::ShaderSource::Wgsl(linked.wgsl().into()),
             });
-        let format = moment_shadows_graph::TextureDesc::new(encoding.format(), [1; 2]);
-        let states = encoding.blend_states(opacity).unwrap();
+        let format = TextureDesc::new(encoding.format(), [1; 2]);
+        let states = encoding.blend_states(opacity)?;
         let names = entry_points(encoding.technique(), opacity);
-        assert_eq!(states.len(), names.len());
         let pipelines = states.iter().zip(names).map(|(state, entry_point)| {
             let target = wgpu::ColorTargetState {
                 format: format.wgpu_format(),
@@ -107,23 +91,27 @@ impl Casters {
         });
         let pipelines: Vec<_> = pipelines.collect();
         let draws = casters.iter().map(|caster| {
-            let words = [
+            let (centre, inverse) = caster.shape();
+            let shape = [centre, inverse].concat();
+            let mut words: Vec<u32> = shape.iter().map(|value| value.to_bits()).collect();
+            words.extend([
                 (2.0 * caster.depth - 1.0).to_bits(),
                 caster.opacity.to_bits(),
-                u32::from(caster.textured),
+                u32::from(caster.texture == Texture::Hashed),
                 0,
-            ];
-            let buffer = uniform(gpu, bytemuck::cast_slice(&words));
+            ]);
+            let words = bytemuck::cast_slice(&words);
+            let buffer = gpu.filled("caster", words, wgpu::BufferUsages::UNIFORM);
             let groups = pipelines.iter().map(|pipeline| {
                 let layout = pipeline.get_bind_group_layout(0);
                 gpu.bind(&layout, [buffer.as_entire_binding()])
             });
             (groups.collect(), f64::from(caster.opacity))
         });
-        Self {
+        Ok(Self {
             draws: draws.collect(),
             pipelines,
-        }
+        })
     }
 
     /// Draws them to the targets of a host's pass.
@@ -139,7 +127,6 @@ impl Casters {
             drawn.set_blend_constant(wgpu::Color { r, g, b, a });
             for (pipeline, group) in self.pipelines.iter().zip(groups) {
                 drawn.set_pipeline(pipeline);
-                // What a pipeline does not use is not in its layout.
                 drawn.set_bind_group(0, group, &[]);
                 drawn.draw(0..3, 0..1);
             }
