@@ -14,6 +14,9 @@ export interface RecorderOptions {
 export interface HostPass {
   /** `node/pass`. */
   name: string;
+  /** The layer that it is drawn for; 0 where it is drawn once. */
+  layer: number;
+  /** Of a map with planes all those of the layer. */
   targets: GPUTextureView[];
   depth?: GPUTextureView;
   /** Whether the node asks for blending. */

@@ -16,6 +16,7 @@ mod orders;
 mod refused;
 mod same;
 mod stored;
+mod translucent;
 mod views;
 
 use moment_shadows::{CameraView, LightView, Profile};

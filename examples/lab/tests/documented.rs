@@ -101,7 +101,7 @@ const RUN: [(&str, &[&str]); 14] = [
 ];
 
 /// Sub-commands that are not run here, and why.
-const LONG: [(&str, &str); 15] = [
+const LONG: [(&str, &str); 16] = [
     ("error-table", "peels whole scenes, for a minute each"),
     ("soft-error", "traces 256 rays per pixel"),
     ("scattering-error", "marches 1,024 steps per pixel"),
@@ -121,6 +121,7 @@ const LONG: [(&str, &str); 15] = [
         "times work that should have the machine for itself",
     ),
     ("bias", "searches a million patches of depth"),
+    ("transmittance", "blends and shades for a minute"),
     ("stability", "tries random inputs for a quarter of an hour"),
     (
         "isa",

@@ -3,3 +3,4 @@
 mod bound;
 mod layers;
 mod refused;
+mod samples;

@@ -41,7 +41,7 @@ fn nodes_say_what_they_cannot_blend() {
         (
             vec![(storage, r#""float32""#)],
             GraphErrorKind::Capability,
-            "rgba32float cannot be drawn to and blended",
+            "request the device with FLOAT32_BLENDABLE of wgpu",
         ),
         (
             vec![(r#", "blends": 16"#, "")],

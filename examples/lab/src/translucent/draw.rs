@@ -36,10 +36,9 @@ impl Casters {
         let storage = format!("const STORAGE = {}u;", encoding.storage().wgsl_index());
         let mut text = include_str!("fragment.wgsl").to_owned();
         if opacity == Opacity::SecondSource {
-            text = format!(
-                "enable dual_source_blending;\n{text}{}",
-                include_str!("second_source.wgsl")
-            );
+            // Behind the imports.
+            text = text.replacen("\n\n", "\n\nenable dual_source_blending;\n\n", 1);
+            text += include_str!("second_source.wgsl");
         }
         let source = Source {
             name: "fragment.wgsl",

@@ -135,44 +135,60 @@ fn errors(found: &[f32], truth: &[f64]) -> (f64, f64) {
     (above, below / truth.len() as f64)
 }
 
-/// A section through the plume, and the floor behind it: casters, and the depth of receivers.
-type View = (Vec<Caster>, fn(f32) -> f32);
-
-fn views(side: u32) -> [View; 2] {
-    [
-        (plume(side, true), |row| row),
-        (plume(side, false), |_| 0.96),
-    ]
+/// A section through the plume, or the floor behind it: casters and the depth of receivers in a row, with the truth.
+struct View {
+    casters: Vec<Caster>,
+    receiver: fn(f32) -> f32,
+    truth: Vec<f64>,
 }
 
-fn plume_in(
-    stage: &TranslucentStage,
-    map: &MapEncoding,
-    (casters, depth): &View,
-) -> Result<(Vec<f32>, Vec<f64>), LabError> {
-    let side = stage.side() as f32;
-    let surfaces = Surfaces {
-        opaque: &|_| 1.0,
-        receiver: &|[_, y]| depth((y as f32 + 0.5) / side),
-        blurred: true,
-    };
-    let found = stage.found(map, opacity_of(map, true), casters, &surfaces)?;
-    Ok((found, stage.truth(casters, &surfaces)?))
+impl View {
+    fn both(stage: &TranslucentStage) -> Result<[Self; 2], LabError> {
+        let of = |flat, receiver| {
+            let casters = plume(stage.side(), flat);
+            let truth = Vec::new();
+            let mut view = Self {
+                casters,
+                receiver,
+                truth,
+            };
+            view.truth = view.on(stage, |surfaces| stage.truth(&view.casters, surfaces))?;
+            Ok::<_, LabError>(view)
+        };
+        Ok([of(true, |row| row)?, of(false, |_| 0.96)?])
+    }
+
+    /// What `shade` makes of its surfaces.
+    fn on<T>(&self, stage: &TranslucentStage, shade: impl FnOnce(&Surfaces<'_>) -> T) -> T {
+        let (side, receiver) = (stage.side() as f32, self.receiver);
+        shade(&Surfaces {
+            opaque: &|_| 1.0,
+            receiver: &|[_, y]| receiver((y as f32 + 0.5) / side),
+            blurred: true,
+        })
+    }
+
+    fn found(&self, stage: &TranslucentStage, map: &MapEncoding) -> Result<Vec<f32>, LabError> {
+        let opacity = opacity_of(map, true);
+        self.on(stage, |surfaces| {
+            stage.found(map, opacity, &self.casters, surfaces)
+        })
+    }
 }
 
 /// The plume in every map.
 pub fn plumes(stage: &TranslucentStage) -> Result<Vec<PlumeRow>, LabError> {
-    let views = views(stage.side());
+    let views = View::both(stage)?;
     let mut rows = Vec::new();
-    for (map, _) in maps(views[0].0.len() as u32)? {
+    for (map, _) in maps(views[0].casters.len() as u32)? {
         let mut of_views = [(0.0, 0.0); 2];
         for (view, errors_of) in views.iter().zip(&mut of_views) {
-            let (found, truth) = plume_in(stage, &map, view)?;
-            let pairs = found.iter().zip(&truth);
+            let found = view.found(stage, &map)?;
+            let pairs = found.iter().zip(&view.truth);
             let sum: f64 = pairs
                 .map(|(found, truth)| (f64::from(*found) - truth).abs())
                 .sum();
-            *errors_of = (sum / truth.len() as f64, errors(&found, &truth).0);
+            *errors_of = (sum / found.len() as f64, errors(&found, &view.truth).0);
         }
         let [itself, floor] = of_views;
         rows.push(PlumeRow {
@@ -185,25 +201,17 @@ pub fn plumes(stage: &TranslucentStage) -> Result<Vec<PlumeRow>, LabError> {
     Ok(rows)
 }
 
-/// Saves the plume in two maps: a row for its section and one for the floor, the truth first, then each map with its differences, a
-/// tenth of full shadow in full colour.
+/// Saves the plume in two maps: a row for its section, in which the light comes from above, and one for the floor. The truth is first, then
+/// each map with its differences, a tenth of full shadow in full colour.
 pub fn picture(stage: &TranslucentStage, path: &Path) -> Result<(), LabError> {
     let mut panels = Vec::new();
-    for view in views(stage.side()) {
-        let blends = view.0.len() as u32;
-        for (number, (technique, storage)) in [
-            (Technique::Hamburger4, Storage::Unorm16),
-            (Technique::Hamburger6, Storage::Unorm16),
-        ]
-        .into_iter()
-        .enumerate()
-        {
-            let map = MapEncoding::new(technique, storage)?.with_blends(blends)?;
-            let (found, truth) = plume_in(stage, &map, &view)?;
-            let truth: Vec<f32> = truth.iter().map(|&truth| truth as f32).collect();
-            if number == 0 {
-                panels.push(lit(&truth));
-            }
+    for view in View::both(stage)? {
+        let truth: Vec<f32> = view.truth.iter().map(|&truth| truth as f32).collect();
+        panels.push(lit(&truth));
+        for technique in [Technique::Hamburger4, Technique::Hamburger6] {
+            let map = MapEncoding::new(technique, Storage::Unorm16)?;
+            let map = map.with_blends(view.casters.len() as u32)?;
+            let found = view.found(stage, &map)?;
             panels.push(lit(&found));
             panels.push(signed_difference(&found, &truth, 0.1));
         }
