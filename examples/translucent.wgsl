@@ -2,7 +2,8 @@ import moment_shadows::bounds::hamburger6::{hamburger6_shadow_intensity};
 import moment_shadows::map::depth::{DepthConversion, depth_to_moment_depth};
 import moment_shadows::map::map_load::{map_load_bilinear};
 import moment_shadows::map::map_region::{MapRegion};
-import moment_shadows::map::translucent_casters::{translucent_casters_opaque_depth, translucent_casters_six_moments, translucent_casters_six_moments_bias};
+import moment_shadows::map::opaque_depth::{opaque_depth_farthest};
+import moment_shadows::map::translucent_casters::{translucent_casters_six_moments, translucent_casters_six_moments_bias};
 import moment_shadows::moments::six_moments::{six_moments_bias_of, six_moments_from_texels};
 import node::map::{BLENDS, STORAGE};
 
@@ -61,7 +62,7 @@ struct Planes {
 @fragment
 fn caster(vertex: Vertex) -> Planes {
     let depth = depth_to_moment_depth(vertex.clip.z, frame.conversion);
-    if depth >= translucent_casters_opaque_depth(light_depth, vec2i(vertex.clip.xy), frame.conversion) {
+    if depth >= opaque_depth_farthest(light_depth, vec2i(vertex.clip.xy), frame.conversion) {
         discard;
     }
     let texels = translucent_casters_six_moments(depth, opacity(vertex), STORAGE);

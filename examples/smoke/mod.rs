@@ -30,21 +30,23 @@ fn quads() -> impl Iterator<Item = Quad> {
         up: [0.0, 0.8, 0.0],
         brightness: 0.55,
     });
-    let puffs = (0..28).map(|index| {
+    // Puffs face the middle between sun and camera.
+    let facing = Vec3::new(-0.32, 0.69, 0.65);
+    let right = Vec3::Y.cross(facing).normalize();
+    let up = facing.cross(right).normalize();
+    let puffs = (0..28).map(move |index| {
         let height = index as f32 / 27.0;
         let (sine, cosine) = (2.4 * index as f32).sin_cos();
-        let radius = 0.16 + 0.5 * height;
-        let away = Vec3::new(-5.0, 0.0, 3.2).normalize();
-        let right = Vec3::Y.cross(away);
-        let centre = Vec3::new(1.2 + 0.5 * height * height, 0.15 + 2.5 * height, 3.2)
-            + 0.3 * height * Vec3::new(cosine, 0.0, sine);
+        let radius = 0.22 + 0.5 * height;
+        let drift = Vec3::new(0.7 * height * height, 0.25 + 2.3 * height, 0.0);
+        let centre = Vec3::new(0.7, 0.0, 3.3) + drift + 0.3 * height * Vec3::new(cosine, 0.0, sine);
         Quad {
             centre: centre.to_array(),
-            opacity: 0.55 - 0.3 * height,
+            opacity: 0.5 - 0.3 * height,
             right: (radius * right).to_array(),
             soft: 1.0,
-            up: [0.0, radius, 0.0],
-            brightness: 0.9,
+            up: (radius * up).to_array(),
+            brightness: 0.95,
         }
     });
     panes.chain(puffs)

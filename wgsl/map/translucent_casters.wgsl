@@ -1,4 +1,3 @@
-import super::super::map::depth::{DepthConversion, depth_to_moment_depth};
 import super::super::moments::four_moments::{FourMomentsBias, four_moments_from_depth, four_moments_to_texel};
 import super::super::moments::six_moments::{SixMomentsBias, six_moments_channels, six_moments_to_texel};
 import super::super::moments::two_moments::{two_moments_from_depth, two_moments_to_texel};
@@ -58,19 +57,4 @@ fn translucent_casters_six_moments(z: f32, opacity: f32, stored_as: u32) -> arra
     let odd = six_moments_to_texel(six_moments_channels(z, 0u), 0u, stored_as);
     let even = six_moments_to_texel(six_moments_channels(z, 1u), 1u, stored_as);
     return array<vec4f, 2>(vec4f(odd.xyz, opacity), vec4f(even.xyz, opacity));
-}
-
-// The moment depth of the farthest sample of a light's multisampled depth map, which no pass can test beside a map of one sample per
-// texel. A translucent fragment is drawn where it lies before this depth.
-//
-// Whatever sample decides, the result stays a lower bound: where a fragment behind an opaque sample is drawn, shadow moves away from
-// the light, and where one in front of a sample is left out, shadow is missing. The farthest sample is exact for what lies behind both
-// casters, and loses some of the opaque caster's shadow between them alone; with any other, edges of opaque casters have gaps in
-// the shadow of translucent ones.
-fn translucent_casters_opaque_depth(depth_map: texture_depth_multisampled_2d, texel: vec2i, conversion: DepthConversion) -> f32 {
-    var farthest = -1.0;
-    for (var index = 0; index < i32(textureNumSamples(depth_map)); index++) {
-        farthest = max(farthest, depth_to_moment_depth(textureLoad(depth_map, texel, index), conversion));
-    }
-    return farthest;
 }

@@ -22,9 +22,9 @@ fn of_two_moments(storage: Storage, casters: u32) -> f64 {
 #[test]
 fn bounds_are_below_the_truth_but_for_the_bias() {
     let stage = TranslucentStage::new(64).unwrap();
-    let rows = stacks(&stage, &[1, 2, 4, 8, 16]).unwrap();
+    let rows = stacks(&stage, &[1, 4, 16]).unwrap();
     // 13 maps, uniform and textured, apart and as a cloud.
-    assert_eq!(rows.len(), 5 * 4 * 13);
+    assert_eq!(rows.len(), 3 * 4 * 13);
     for row in &rows {
         println!("{row:?}");
     }

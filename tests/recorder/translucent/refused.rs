@@ -44,6 +44,11 @@ fn nodes_say_what_they_cannot_blend() {
             "request the device with FLOAT32_BLENDABLE of wgpu",
         ),
         (
+            vec![(storage, r#""unorm16""#)],
+            GraphErrorKind::Capability,
+            "TEXTURE_FORMAT_16BIT_NORM and TEXTURE_ADAPTER_SPECIFIC_FORMAT_FEATURES of wgpu ('texture-formats-tier1' in browsers)",
+        ),
+        (
             vec![(r#", "blends": 16"#, "")],
             GraphErrorKind::Format,
             "give the node that makes it the property 'blends'",
