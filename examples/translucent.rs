@@ -1,7 +1,7 @@
 //! Glass and smoke that cast shadows: your pass blends them into the filtered map, between our nodes.
 //!
 //! `cargo run --release --example translucent [PICTURE]`. Ordinary alpha blending into a map of six moments, on any device; the other ways
-//! are in `docs/translucent_casters.md`. The small renderer in `examples/renderer` stands in for yours.
+//! are in `docs/translucent_casters/README.md`. The small renderer in `examples/renderer` stands in for yours.
 
 mod renderer;
 mod smoke;
