@@ -1,11 +1,11 @@
 //! A session whose plan leaves a hole for translucent casters, beside a depth map of four samples.
 
-use moment_shadows::{Opacity, Source, link};
+use moment_shadows::{Opacity, Profile, Source, Storage, link};
 use moment_shadows_graph::record::{HostPass, blend_state};
 use moment_shadows_graph::{GraphErrorKind, Stage};
 use moment_shadows_lab::gpu::Gpu;
 
-use crate::{frame, gpu, imports, places, recorded, session};
+use crate::{frame, imports, places, recorded, session};
 
 const GRAPH: &str = include_str!("../../examples/translucent.json");
 
@@ -111,10 +111,12 @@ fn draw_pane(
 
 #[test]
 fn a_pane_before_everything_halves_the_light_and_one_behind_it_does_nothing() {
-    let gpu = gpu();
+    // 16-bit formats are drawn to where the adapter says so. One caster has the smallest bias.
+    let gpu = Gpu::open(Profile::NativeAdapter).unwrap();
+    let graph = GRAPH.replace("\"blends\": 16", "\"blends\": 1");
     let frame = frame(&gpu, 0, [96, 54]);
     let (camera, light) = places(&frame);
-    let mut session = session(&gpu, GRAPH, &imports(&frame));
+    let mut session = session(&gpu, &graph, &imports(&frame));
     session.view(&gpu.queue, 0, &camera, &[light]).unwrap();
 
     let mut encoder = gpu.device.create_command_encoder(&Default::default());
@@ -127,7 +129,7 @@ fn a_pane_before_everything_halves_the_light_and_one_behind_it_does_nothing() {
     );
 
     let map = session.encoding("shadow_map").unwrap().clone();
-    assert_eq!(map.blends(), 16);
+    assert_eq!((map.blends(), map.storage()), (1, Storage::Unorm16));
     assert!(session.encoding("shadow_intensity").is_none());
     let blend = blend_state(&map.blend_states(Opacity::Alpha).unwrap()[0]);
     let shaded = |depth: &str| {
@@ -180,12 +182,11 @@ fn a_pane_before_everything_halves_the_light_and_one_behind_it_does_nothing() {
             covered += 1;
             assert!((-0.1..0.01).contains(&difference), "{near} of {far}");
         }
-        assert!(near + 0.01 >= far, "{near} of {far}");
     }
     println!("{covered} of {} lit pixels in the pane's shadow", lit(&far));
     assert!(covered > 500);
     // What no host draws is the map without casters.
-    let plain = GRAPH
+    let plain = graph
         .replace(
             "{ \"name\": \"casters\", \"type\": \"translucent_casters\" },",
             "",
