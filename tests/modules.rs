@@ -349,8 +349,7 @@ fn files_and_functions_open_with_a_comment() {
     assert_none(&failures);
 }
 
-/// Modules that test the plain depth map texel by texel. GLSL samples depth textures through comparison samplers only, so
-/// on OpenGL they are not available; `percentage_closer_hardware` is.
+/// Modules that load depth. GLSL samples depth textures through comparison samplers only, so they are not available on OpenGL.
 const LOADS_DEPTH: [&str; 3] = [
     "opaque_depth",
     "percentage_closer",
@@ -360,9 +359,6 @@ const LOADS_DEPTH: [&str; 3] = [
 /// Modules that choose among integers by component, which GLSL ES 3.00 does for floats only. Summed-area tables are made by compute
 /// shaders, which it does not have either.
 const SELECTS_INTEGERS: [&str; 2] = ["summed_area_table", "moment_soft_shadows"];
-
-/// The module that reads depth sample by sample, and counts samples first, which GLSL ES 3.00 does not do.
-const COUNTS_SAMPLES: &str = "opaque_depth";
 
 #[test]
 fn every_module_validates_alone_on_every_backend() {
@@ -381,15 +377,15 @@ fn every_module_validates_alone_on_every_backend() {
             }
             assert_eq!(report.outcomes.len(), Backend::ALL.len());
             for (backend, outcome) in report.outcomes {
-                let glsl = matches!(backend, Backend::Glsl450 | Backend::GlslEs300);
-                let lacking = if backend == Backend::GlslEs300 && module.name == COUNTS_SAMPLES {
-                    Some("TEXTURE_SAMPLES")
-                } else if glsl && LOADS_DEPTH.contains(&module.name) {
-                    Some("textureLoad")
-                } else if backend == Backend::GlslEs300 && SELECTS_INTEGERS.contains(&module.name) {
-                    Some("`select` by component of integers")
-                } else {
-                    None
+                let lacking = match backend {
+                    Backend::GlslEs300 if module.name == "opaque_depth" => Some("TEXTURE_SAMPLES"),
+                    Backend::Glsl450 | Backend::GlslEs300 if LOADS_DEPTH.contains(&module.name) => {
+                        Some("textureLoad")
+                    }
+                    Backend::GlslEs300 if SELECTS_INTEGERS.contains(&module.name) => {
+                        Some("`select` by component of integers")
+                    }
+                    _ => None,
                 };
                 match (outcome, lacking) {
                     (Ok(()), None) => {}

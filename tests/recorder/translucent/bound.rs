@@ -71,6 +71,36 @@ fn every_source_of_opacity_makes_the_same_map() {
 }
 
 #[test]
+fn two_casters_before_the_far_end_are_reproduced_if_drawn_far_to_near() {
+    let stage = TranslucentStage::new(32).unwrap();
+    let surfaces = Surfaces {
+        opaque: &|_| 1.0,
+        receiver: &|[x, _]| (x as f32 + 0.3) / 32.0,
+        blurred: false,
+    };
+    // Three surfaces, which six moments reproduce.
+    let map = MapEncoding::new(Technique::Hamburger6, Storage::Float32).unwrap();
+    let map = map.with_blends(2).unwrap();
+    let mut casters = stack(2, false, Texture::Hashed);
+    let truth = stage.truth(&casters, &surfaces).unwrap();
+    let mut error = |reversed: bool| {
+        if reversed {
+            casters.reverse();
+        }
+        let found = stage.found(&map, Opacity::Alpha, &casters, &surfaces);
+        let found = found.unwrap();
+        let pairs = found.iter().zip(&truth);
+        let sum: f64 = pairs
+            .map(|(found, truth)| (f64::from(*found) - truth).abs())
+            .sum();
+        sum / truth.len() as f64
+    };
+    let (in_order, reversed) = (error(false), error(true));
+    println!("mean error {in_order:.5}, reversed {reversed:.5}");
+    assert!(in_order < 1e-3 && reversed > 1e-2, "{in_order} {reversed}");
+}
+
+#[test]
 fn a_plume_shadows_itself_and_the_floor() {
     let stage = TranslucentStage::new(96).unwrap();
     let rows = plumes(&stage).unwrap();
