@@ -25,13 +25,18 @@ const PROFILES = {
 
 const STAGES = ['after_shadow_maps', 'after_main_pass'];
 
+// What a host draws: nothing, to targets that keep what they hold.
+function hostPass({ targets }, encoder) {
+  encoder.beginRenderPass({ colorAttachments: targets.map((view) => ({ view, loadOp: 'load', storeOp: 'store' })) }).end();
+}
+
 // Records both stages, all layers and then some of them, and submits them.
 async function recordAll(device, recorder) {
   device.pushErrorScope('validation');
   const encoder = device.createCommandEncoder();
   const first = Object.fromEntries(recorder.plan.passes.map(({ map }) => [map, [0]]));
   for (const layers of [undefined, [0], first, {}]) {
-    for (const stage of STAGES) recorder.record(stage, encoder, { layers });
+    for (const stage of STAGES) recorder.record(stage, encoder, { layers, hostPass });
   }
   device.queue.submit([encoder.finish()]);
   const error = await device.popErrorScope();

@@ -206,6 +206,31 @@ impl TextureFormat {
         format!("the feature {wgpu} of wgpu ('{webgpu}' in browsers)")
     }
 
+    /// The features to request of a device so that it blends into the format where that is optional, in wgpu's words and WebGPU's. An
+    /// adapter may not have it all the same.
+    #[must_use]
+    pub fn features_to_blend(self) -> Option<String> {
+        use TextureFormat as F;
+        let (wgpu, webgpu) = match self {
+            F::R16Unorm | F::Rg16Unorm | F::Rgba16Unorm => (
+                "TEXTURE_FORMAT_16BIT_NORM and TEXTURE_ADAPTER_SPECIFIC_FORMAT_FEATURES",
+                Self::TIER1,
+            ),
+            F::R32Float | F::Rg32Float | F::Rgba32Float => {
+                ("FLOAT32_BLENDABLE", "float32-blendable")
+            }
+            F::R8Unorm | F::Rgba8Unorm | F::R16Float | F::Rg16Float | F::Rgba16Float => {
+                return None;
+            }
+            F::Rgb10a2Unorm | F::Rg32Uint | F::Rgba32Uint => return None,
+            F::Depth16Unorm | F::Depth32Float | F::Depth24Plus | F::Depth24PlusStencil8 => {
+                return None;
+            }
+            F::Depth32FloatStencil8 => return None,
+        };
+        Some(format!("{wgpu} of wgpu ('{webgpu}' in browsers)"))
+    }
+
     /// What every device of the profile can do with the format, without optional features beyond the profile's own.
     #[must_use]
     pub fn support(self, profile: Profile) -> FormatSupport {

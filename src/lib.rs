@@ -46,6 +46,7 @@ mod constants {
 }
 
 mod area_light;
+mod blend;
 mod depth;
 #[cfg(feature = "validate")]
 #[allow(
@@ -76,6 +77,7 @@ mod value_error;
 mod view;
 
 pub use area_light::{AreaLight, LightSize};
+pub use blend::{BlendComponent, BlendFactor, BlendState, Opacity};
 pub use depth::{DepthConversion, DepthRange};
 #[cfg(feature = "validate")]
 pub use export::{Bits, Exported, FunctionVectors, Target, VectorRow, Vectors, export};
@@ -91,7 +93,9 @@ pub use receiver_bias::ReceiverBias;
 pub use single_scattering::SingleScattering;
 pub use storage::Storage;
 pub use summed_area_table::SummedAreaTable;
-pub use techniques::{EsmFiltering, Finite, LayerSplits, MapEncoding, PcfTaps, Row, Technique};
+pub use techniques::{
+    Blended, EsmFiltering, Finite, LayerSplits, MapEncoding, PcfTaps, Row, Technique,
+};
 #[cfg(feature = "validate")]
 pub use validate::{
     Backend, COMPILER_THREAD, Features, UnknownFeature, ValidationOptions, ValidationReport,

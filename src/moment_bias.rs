@@ -31,6 +31,30 @@ pub struct SixMomentsBias {
     pub alpha: f32,
 }
 
+/// The factor of a bias where so many translucent casters were blended over each other into the map.
+fn growth(blends: u32) -> f32 {
+    let blends = blends.min(TRANSLUCENT_CASTERS_MOST_BLENDS) as f32;
+    1.0 + TRANSLUCENT_CASTERS_BIAS_PER_ROOT * blends.sqrt()
+        + TRANSLUCENT_CASTERS_BIAS_PER_BLEND * blends
+}
+
+impl FourMomentsBias {
+    /// The same for a map that up to so many translucent casters are blended into over each other: `translucent_casters_four_moments_bias`.
+    #[must_use]
+    pub fn with_blends(self, blends: u32) -> Self {
+        with_alpha(self.alpha * growth(blends), self)
+    }
+}
+
+impl SixMomentsBias {
+    /// The same for a map that up to so many translucent casters are blended into over each other: `translucent_casters_six_moments_bias`.
+    #[must_use]
+    pub fn with_blends(self, blends: u32) -> Self {
+        let alpha = self.alpha * growth(blends);
+        Self { alpha, ..self }
+    }
+}
+
 const fn of_four([alpha, second, fourth]: [f32; 3]) -> FourMomentsBias {
     FourMomentsBias {
         alpha,

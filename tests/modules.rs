@@ -349,9 +349,12 @@ fn files_and_functions_open_with_a_comment() {
     assert_none(&failures);
 }
 
-/// Modules that test the plain depth map texel by texel. GLSL samples depth textures through comparison samplers only, so
-/// on OpenGL they are not available; `percentage_closer_hardware` is.
-const LOADS_DEPTH: [&str; 2] = ["percentage_closer", "percentage_closer_soft"];
+/// Modules that load depth. GLSL samples depth textures through comparison samplers only, so they are not available on OpenGL.
+const LOADS_DEPTH: [&str; 3] = [
+    "opaque_depth",
+    "percentage_closer",
+    "percentage_closer_soft",
+];
 
 /// Modules that choose among integers by component, which GLSL ES 3.00 does for floats only. Summed-area tables are made by compute
 /// shaders, which it does not have either.
@@ -374,13 +377,15 @@ fn every_module_validates_alone_on_every_backend() {
             }
             assert_eq!(report.outcomes.len(), Backend::ALL.len());
             for (backend, outcome) in report.outcomes {
-                let glsl = matches!(backend, Backend::Glsl450 | Backend::GlslEs300);
-                let lacking = if glsl && LOADS_DEPTH.contains(&module.name) {
-                    Some("textureLoad")
-                } else if backend == Backend::GlslEs300 && SELECTS_INTEGERS.contains(&module.name) {
-                    Some("`select` by component of integers")
-                } else {
-                    None
+                let lacking = match backend {
+                    Backend::GlslEs300 if module.name == "opaque_depth" => Some("TEXTURE_SAMPLES"),
+                    Backend::Glsl450 | Backend::GlslEs300 if LOADS_DEPTH.contains(&module.name) => {
+                        Some("textureLoad")
+                    }
+                    Backend::GlslEs300 if SELECTS_INTEGERS.contains(&module.name) => {
+                        Some("`select` by component of integers")
+                    }
+                    _ => None,
                 };
                 match (outcome, lacking) {
                     (Ok(()), None) => {}

@@ -187,14 +187,14 @@ export const HANDLED = {
     const drawn = [];
     device.pushErrorScope('validation');
     const commands = encoder(device);
-    const hostPass = ({ name, targets, depth, blend }, encoder) => {
-      drawn.push([name, targets.length, depth, blend]);
+    const hostPass = ({ name, layer, targets, depth, blend }, encoder) => {
+      drawn.push([name, layer, targets.length, depth, blend]);
       encoder.beginRenderPass({ colorAttachments: [{ view: targets[0], loadOp: 'clear', storeOp: 'store' }] }).end();
     };
     recorder.record('after_main_pass', commands, { hostPass });
     commands.finish();
     assert.equal(await device.popErrorScope(), null);
-    assert.deepEqual(drawn, [['shade/shade', 1, undefined, true]]);
+    assert.deepEqual(drawn, [['shade/shade', 0, 1, undefined, true]]);
   },
   'a bind group above the host\'s': async (device, plan) => {
     plan.bind_group = 2;

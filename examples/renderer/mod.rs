@@ -46,6 +46,13 @@ pub(crate) struct Picture {
     lit: wgpu::Texture,
 }
 
+impl Picture {
+    /// The lit picture, to draw to.
+    pub(crate) fn lit_view(&self) -> wgpu::TextureView {
+        self.lit.create_view(&Default::default())
+    }
+}
+
 /// A sun from `towards`, whose map covers the colonnade: 0 is stored at the near plane.
 pub(crate) fn sun(towards: [f64; 3]) -> Matrix {
     let towards = DVec3::from(towards).normalize();
@@ -288,11 +295,20 @@ impl Renderer {
 
     /// A uniform buffer.
     pub(crate) fn uniform(&self, contents: &[u8]) -> wgpu::Buffer {
+        self.buffer(contents, wgpu::BufferUsages::UNIFORM)
+    }
+
+    /// A buffer of an array.
+    pub(crate) fn storage(&self, contents: &[u8]) -> wgpu::Buffer {
+        self.buffer(contents, wgpu::BufferUsages::STORAGE)
+    }
+
+    fn buffer(&self, contents: &[u8], usage: wgpu::BufferUsages) -> wgpu::Buffer {
         self.device
             .create_buffer_init(&wgpu::util::BufferInitDescriptor {
                 label: None,
                 contents,
-                usage: wgpu::BufferUsages::UNIFORM,
+                usage,
             })
     }
 

@@ -15,14 +15,19 @@ export function allocate(device, { label, desc, usage }) {
   });
 }
 
-/** What a pass is recorded with: `groups` and `targets`, one per layer, and of a host's pass `depth`. */
+/** What a pass is recorded with, one per layer: `groups` and `targets`, or of a host's pass `drawn` with its `targets` and `depth`. */
 export function bindPass(bound, pass, { label, layout }) {
   const { fullscreen, host } = pass.work;
-  if (host) {
-    const drawn = (target) => view(bound, target, { level: 0, plane: 0 }, 0, 'all');
-    return { targets: host.targets.map(drawn), depth: host.depth === null ? undefined : drawn(host.depth) };
-  }
   const layers = Array.from({ length: pass.layers }, (_, layer) => layer);
+  if (host) {
+    const planes = Array.from({ length: host.planes ?? 1 }, (_, plane) => plane);
+    const drawn = (target, plane, layer) => view(bound, target, { level: 0, plane }, layer, 'all');
+    const ofLayer = (layer) => ({
+      targets: host.targets.flatMap((target) => planes.map((plane) => drawn(target, plane, layer))),
+      depth: host.depth === null ? undefined : drawn(host.depth, 0, layer),
+    });
+    return { drawn: layers.map(ofLayer) };
+  }
   const groups = layers.map((layer) => {
     const entries = pass.bindings.map((planned) => ({ binding: planned.binding, resource: held(bound, planned, layer) }));
     return bound.device.createBindGroup({ label, layout, entries });

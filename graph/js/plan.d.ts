@@ -69,7 +69,7 @@ export interface PlannedBinding {
 export type PlannedWork =
   | { compute: { workgroups: [number, number]; covers: number; level: number; texels_per_workgroup: [number, number]; regions?: number } }
   | { fullscreen: { target: number; part: Part; keeps: boolean } }
-  | { host: { targets: number[]; blend: boolean; depth: number | null } };
+  | { host: { targets: number[]; planes?: number; blend: boolean; depth: number | null } };
 
 export interface PlannedResource {
   name: string;

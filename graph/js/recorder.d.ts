@@ -14,6 +14,9 @@ export interface RecorderOptions {
 export interface HostPass {
   /** `node/pass`. */
   name: string;
+  /** The layer that it is drawn for; 0 where it is drawn once. */
+  layer: number;
+  /** Of a map with planes all those of the layer. */
   targets: GPUTextureView[];
   depth?: GPUTextureView;
   /** Whether the node asks for blending. */
@@ -25,7 +28,7 @@ export interface Recording {
   offset?: number;
   /** The layers to make anew: of every map, or for each map its own (others are left out). All, where it is left out. */
   layers?: number[] | Record<string, number[]>;
-  /** Draws what the graph leaves to the host. */
+  /** Draws what the graph leaves to the host, once per layer that is made anew. */
   hostPass?: (pass: HostPass, encoder: GPUCommandEncoder) => void;
 }
 

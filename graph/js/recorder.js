@@ -80,19 +80,18 @@ class Recorder {
   /**
    * Records a stage, 'after_shadow_maps' or 'after_main_pass'. `offset` is where the view's block begins in the parameter buffer. `layers`
    * are those to make anew: numbers, or for each map its own, `{ light_depth: [0, 2] }`; without it all. `hostPass` is called with
-   * `{ name, targets, depth, blend }` and the encoder where the graph leaves drawing to the host.
+   * `{ name, layer, targets, depth, blend }` and the encoder where the graph leaves drawing to the host, for each layer that is made anew.
    */
   record(stage, encoder, { offset = 0, layers, hostPass } = {}) {
     // Everything is checked first: an error leaves the encoder as it was.
     checkRecording(this, stage, { offset, layers, hostPass });
     for (const step of this.steps.filter(({ pass }) => pass.stage === stage)) {
-      const { pass, label, pipeline, groups, targets, depth } = step;
+      const { pass, label, pipeline, groups, targets, drawn } = step;
       const { compute, fullscreen, host } = pass.work;
-      if (host) {
-        hostPass({ name: `${pass.node}/${pass.label}`, targets, depth, blend: host.blend }, encoder);
-        continue;
-      }
       const dirty = dirtyLayers(pass, layers);
+      for (const layer of host ? dirty : []) {
+        hostPass({ name: `${pass.node}/${pass.label}`, layer, ...drawn[layer], blend: host.blend }, encoder);
+      }
       if (compute && dirty.length > 0) {
         const computePass = encoder.beginComputePass({ label });
         computePass.setPipeline(pipeline);

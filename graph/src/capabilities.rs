@@ -9,6 +9,8 @@ pub struct Capabilities {
     pub profile: Profile,
     /// Whether single-precision textures can be sampled with a filtering sampler.
     pub float32_filterable: bool,
+    /// Formats that can be drawn to and blended into beyond those of the profile.
+    pub blended: Vec<TextureFormat>,
     /// Whether samplers take the probes of a minified lookup, rather than the shader. Software adapters need many times as
     /// long for an anisotropic lookup, and may filter twice as much as the pixel covers.
     pub anisotropic_sampling: bool,
@@ -37,6 +39,7 @@ impl Capabilities {
         Self {
             profile,
             float32_filterable: false,
+            blended: Vec::new(),
             anisotropic_sampling: true,
             software_adapter: false,
             depth_samples: vec![1, 4],
@@ -56,6 +59,9 @@ impl Capabilities {
         let mut support = format.support(self.profile);
         let is_float32 = matches!(format, R32Float | Rg32Float | Rgba32Float);
         support.filterable |= is_float32 && self.float32_filterable;
+        if self.blended.contains(&format) {
+            (support.renderable, support.blendable) = (true, true);
+        }
         support
     }
 
@@ -80,9 +86,28 @@ impl Capabilities {
         depth_samples.retain(|&count| {
             [1, 4].contains(&count) || (adapter_specific && flags.sample_count_supported(count))
         });
+        // What wgpu lets this device do; its adapter may do more.
+        let is_blended = |format: &TextureFormat| {
+            let format = crate::TextureDesc::new(*format, [1; 2]).wgpu_format();
+            let found = if adapter_specific {
+                adapter.get_texture_format_features(format)
+            } else {
+                format.guaranteed_format_features(features)
+            };
+            let blendable = wgpu::TextureFormatFeatureFlags::BLENDABLE;
+            features.contains(format.required_features())
+                && found.flags.contains(blendable)
+                && found
+                    .allowed_usages
+                    .contains(wgpu::TextureUsages::RENDER_ATTACHMENT)
+        };
+        let blended = TextureFormat::ALL.into_iter().filter(is_blended);
         let software_adapter = adapter.get_info().device_type == wgpu::DeviceType::Cpu;
         let limits = device.limits();
         Self {
+            blended: blended
+                .filter(|format| !format.support(profile).blendable)
+                .collect(),
             float32_filterable: features.contains(wgpu::Features::FLOAT32_FILTERABLE),
             anisotropic_sampling: !software_adapter,
             software_adapter,

@@ -252,11 +252,24 @@ pub enum PlannedWork {
     Host {
         /// Colour targets, indices into [`Plan::resources`].
         targets: Vec<usize>,
+        /// Planes of each colour target: all of those of the layer that the pass is recorded for are drawn to at once, one target's after
+        /// the other's.
+        #[serde(default = "one", skip_serializing_if = "is_one")]
+        planes: u32,
         /// Whether the host blends.
         blend: bool,
         /// Depth target, index into [`Plan::resources`].
         depth: Option<usize>,
     },
+}
+
+fn one() -> u32 {
+    1
+}
+
+#[expect(clippy::trivially_copy_pass_by_ref, reason = "as serde calls it")]
+fn is_one(planes: &u32) -> bool {
+    *planes == 1
 }
 
 /// A resource.

@@ -9,6 +9,7 @@ use crate::graph::{Edge, FileImport, FileOutput, Graph, VERSION};
 use crate::nodes::{
     Blur, CompositeScattering, ContactShadows, DebugMoments, Downsample, IntegrateScattering,
     PlaceLayers, RectifyMoments, Resolve, ShadeHard, ShadeSoft, SummedAreaTable,
+    TranslucentCasters,
 };
 
 impl Graph {
@@ -32,6 +33,7 @@ impl Graph {
             node::<ShadeHard>(generator, "shade_hard"),
             node::<ShadeSoft>(generator, "shade_soft"),
             node::<SummedAreaTable>(generator, "summed_area_table"),
+            node::<TranslucentCasters>(generator, "translucent_casters"),
         ];
         let [imports, edges, outputs] = [
             generator.subschema_for::<FileImport>(),

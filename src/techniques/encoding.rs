@@ -5,7 +5,11 @@ use core::fmt;
 use serde::{Deserialize, Serialize};
 
 use super::{Row, Technique};
-use crate::{Profile, Storage, SummedAreaTable, TextureFormat, ValueError};
+use crate::constants::TRANSLUCENT_CASTERS_MOST_BLENDS;
+use crate::{
+    BlendComponent, BlendState, Opacity, Profile, Storage, SummedAreaTable, TextureFormat,
+    ValueError,
+};
 
 /// The encoding of a filterable map: a technique with a storage that it can use.
 #[derive(Clone, Debug, PartialEq, Eq, Hash, Serialize, Deserialize)]
@@ -18,6 +22,13 @@ pub struct MapEncoding {
     format: TextureFormat,
     #[serde(skip_serializing_if = "Option::is_none")]
     table: Option<SummedAreaTable>,
+    #[serde(skip_serializing_if = "is_zero")]
+    blends: u32,
+}
+
+#[expect(clippy::trivially_copy_pass_by_ref, reason = "as serde calls it")]
+fn is_zero(blends: &u32) -> bool {
+    *blends == 0
 }
 
 /// The encoding's form in files.
@@ -29,9 +40,14 @@ struct Pair {
     technique: Technique,
     storage: Storage,
     table: Option<SummedAreaTable>,
+    #[serde(default)]
+    blends: u32,
 }
 
 impl MapEncoding {
+    /// The most translucent casters over each other that the moment bias is known for.
+    pub const MOST_BLENDS: u32 = TRANSLUCENT_CASTERS_MOST_BLENDS;
+
     /// The encoding, if the storage is one of the technique's and its settings are within their ranges.
     pub fn new(technique: Technique, storage: Storage) -> Result<Self, ValueError> {
         let row = technique.row();
@@ -58,7 +74,76 @@ impl MapEncoding {
             storage,
             format,
             table: None,
+            blends: 0,
         })
+    }
+
+    /// The same for a map that up to so many translucent casters are blended into, one after the other at any texel, far to near from the
+    /// light: every blend rounds, and the bias of the bound grows with their number.
+    /// Refused, if the technique's texels are no means that blending keeps, or its bias is not known for so many.
+    pub fn with_blends(self, blends: u32) -> Result<Self, ValueError> {
+        let refused = |message| Err(ValueError::new("blends", message));
+        let technique = &self.technique;
+        if blends > 0 && (self.table.is_some() || technique.row().blended.is_none()) {
+            let all = Technique::examples();
+            let others = all.iter().filter(|other| other.row().blended.is_some());
+            let what = match self.table {
+                Some(_) => "a summed-area table".to_owned(),
+                None => format!("a map for '{technique}'"),
+            };
+            return refused(format!(
+                "translucent casters are not blended into {what}; they are into maps for {}",
+                listed(others.map(Technique::name))
+            ));
+        }
+        if blends > Self::MOST_BLENDS {
+            return refused(format!(
+                "{blends} translucent casters over each other; the moment bias is known for up to {}",
+                Self::MOST_BLENDS
+            ));
+        }
+        Ok(Self { blends, ..self })
+    }
+
+    /// How many translucent casters are blended into the map over each other, at most.
+    #[must_use]
+    pub fn blends(&self) -> u32 {
+        self.blends
+    }
+
+    /// How a host's pipelines blend translucent casters into the map, all planes alike: a state for each draw of a caster.
+    /// Refused, if the map does not leave its fourth channel free for [`Opacity::Alpha`], or has more than the one texture layer that
+    /// [`Opacity::SecondSource`] can draw to.
+    pub fn blend_states(&self, opacity: Opacity) -> Result<Vec<BlendState>, ValueError> {
+        let row = self.technique.row();
+        let refused = |why: &str| {
+            let message = format!("a map for '{}' {why}", self.technique);
+            Err(ValueError::new("opacity", message))
+        };
+        let Some(blended) = row.blended.filter(|_| self.table.is_none()) else {
+            return refused("is none that translucent casters are blended into");
+        };
+        if opacity == Opacity::Alpha && !blended.alpha_is_free {
+            return refused(
+                "has four moments in its four channels, so that none is left for the opacity; use Opacity::SecondSource, \
+                 Opacity::TwoDraws, or Opacity::Constant for draws of one opacity",
+            );
+        }
+        if opacity == Opacity::SecondSource && row.planes > 1 {
+            return refused(
+                "has several texture layers, but a fragment with a second source draws to one; its fourth channel is free: use \
+                 Opacity::Alpha",
+            );
+        }
+        let state = |&color: &BlendComponent| BlendState {
+            color,
+            alpha: if blended.alpha_is_free {
+                BlendComponent::KEEP
+            } else {
+                color
+            },
+        };
+        Ok(opacity.components().iter().map(state).collect())
     }
 
     /// The encoding of a summed-area table of a map with this technique, which stores four moments or two.
@@ -81,6 +166,7 @@ impl MapEncoding {
             storage: Storage::Fixed32,
             format,
             table: Some(table),
+            blends: 0,
         })
     }
 
@@ -168,7 +254,7 @@ impl TryFrom<Pair> for MapEncoding {
     type Error = ValueError;
 
     fn try_from(pair: Pair) -> Result<Self, ValueError> {
-        match (pair.storage, pair.table) {
+        let encoding = match (pair.storage, pair.table) {
             (Storage::Fixed32, Some(table)) => Self::of_table(pair.technique, table),
             (_, None) => Self::new(pair.technique, pair.storage),
             (storage, Some(_)) => {
@@ -177,7 +263,8 @@ impl TryFrom<Pair> for MapEncoding {
                 );
                 Err(ValueError::new("storage", message))
             }
-        }
+        };
+        encoding?.with_blends(pair.blends)
     }
 }
 

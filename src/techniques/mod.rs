@@ -21,7 +21,7 @@ use core::fmt;
 
 pub use encoding::MapEncoding;
 pub use finite::Finite;
-pub use row::Row;
+pub use row::{Blended, Row};
 use serde::{Deserialize, Serialize};
 pub use settings::{EsmFiltering, LayerSplits, PcfTaps};
 

@@ -10,9 +10,10 @@ use super::row::Row;
 use crate::link::ITEMS;
 
 /// What the pieces of a row can use besides the library and the row's own constants: the module and the item.
-const NODE_ITEMS: [(&str, &str); 12] = [
+const NODE_ITEMS: [(&str, &str); 13] = [
     ("map_texel", "map_texel"),
     ("moments_lookup", "moments_map"),
+    ("specialization", "BLENDS"),
     ("specialization", "PLANES"),
     ("specialization", "STORAGE"),
     ("specialization", "TABLE_ERROR"),
@@ -87,6 +88,13 @@ impl Row {
     #[must_use]
     pub fn technique(&self) -> String {
         intensity(self, self.evaluation)
+    }
+
+    /// The same from a map that `BLENDS` translucent casters were blended into, one after the other: another module `technique`. None
+    /// where none can be.
+    #[must_use]
+    pub fn blended_technique(&self) -> Option<String> {
+        self.blended.map(|it| intensity(self, it.evaluation))
     }
 
     /// How a fragment is shaded softly from the summed-area table of the map: another module `technique`. None where the technique has no

@@ -1,7 +1,7 @@
 //! Moment shadow mapping: `hamburger4`, `hausdorff4`, `hamburger6`.
 
 use super::far;
-use super::row::{Encoding, LINEAR, Row};
+use super::row::{Blended, Encoding, LINEAR, Row};
 use crate::Storage::{self, Float16, Float32, Unorm10, Unorm16};
 use crate::constants::{SIX_MOMENTS_EVEN_BASIS, SIX_MOMENTS_EVEN_OFFSET};
 
@@ -16,8 +16,14 @@ pub(super) fn hamburger4() -> Row {
     let evaluation = "return hamburger4_shadow_intensity_of_texel(map_texel(receiver, 0u), receiver.fragment_depth, STORAGE);";
     let soft = "let bias = summed_area_encoding_moment_bias(TABLE_ERROR);
     return moment_soft_shadows_intensity(table_sums, soft_table(receiver), bias, soft_receiver(receiver), receiver.light);";
+    let blended = "let bias = translucent_casters_four_moments_bias(four_moments_bias_of(STORAGE), BLENDS);
+    return hamburger4_shadow_intensity(four_moments_from_texel(map_texel(receiver, 0u), STORAGE), receiver.fragment_depth, bias);";
     Row {
         soft: Some(soft),
+        blended: Some(Blended {
+            alpha_is_free: false,
+            evaluation: blended,
+        }),
         both_bounds: true,
         functions: &[
             "four_moments_from_texel",
@@ -40,7 +46,14 @@ fn of_four(name: &'static str, evaluation: &'static str) -> Row {
 /// The sharp lower bound from four moments on the light's range (Peters & Klein, i3D 2015).
 pub(super) fn hausdorff4() -> Row {
     let evaluation = "return hausdorff4_shadow_intensity_of_texel(map_texel(receiver, 0u), receiver.fragment_depth, STORAGE);";
+    let blended = "let bias = translucent_casters_four_moments_bias(hausdorff4_bias_of(STORAGE), BLENDS);
+    let moments = four_moments_from_texel(storage_finite_texel(map_texel(receiver, 0u), STORAGE), STORAGE);
+    return hausdorff4_lower_bound(four_moments_apply_bias(four_moments_clamp(moments), bias), receiver.fragment_depth, bias.alpha);";
     Row {
+        blended: Some(Blended {
+            alpha_is_free: false,
+            evaluation: blended,
+        }),
         functions: &["four_moments_from_texel", "hausdorff4_bounds"],
         ..of_four("hausdorff4", evaluation)
     }
@@ -57,10 +70,17 @@ pub(super) fn hamburger6() -> Row {
     let evaluation =
         "let texels = array<vec4f, 2>(map_texel(receiver, 0u), map_texel(receiver, 1u));
     return hamburger6_shadow_intensity_of_texels(texels, receiver.fragment_depth, STORAGE);";
+    let blended = "let bias = translucent_casters_six_moments_bias(six_moments_bias_of(STORAGE), BLENDS);
+    let texels = array<vec4f, 2>(map_texel(receiver, 0u), map_texel(receiver, 1u));
+    return hamburger6_shadow_intensity(six_moments_from_texels(texels, STORAGE), receiver.fragment_depth, bias);";
     // The last is half as large as the others, but the one that leaks farthest.
     let storages = &[Unorm16, Float16, Float32, Unorm10];
     Row {
         planes: 2,
+        blended: Some(Blended {
+            alpha_is_free: true,
+            evaluation: blended,
+        }),
         bounded_channels: true,
         both_bounds: true,
         functions: &["six_moments_from_texels", "hamburger6_bounds"],

@@ -53,6 +53,15 @@ impl Constant {
     }
 }
 
+/// How a map is evaluated that translucent casters were blended into.
+#[derive(Clone, Copy, Debug)]
+pub struct Blended {
+    /// Whether the fourth channel of texels is free for a fragment's opacity.
+    pub alpha_is_free: bool,
+    /// As the row's evaluation, with the bias for `BLENDS` casters.
+    pub(crate) evaluation: &'static str,
+}
+
 /// A technique with its settings. What a technique lacks is `None`, and a node refuses it for that.
 #[derive(Clone, Debug)]
 pub struct Row {
@@ -91,6 +100,8 @@ pub struct Row {
     /// Shadow intensity of a `receiver`, by `map_texel(receiver, plane)` or on the plane `plane` of the plain depth map
     /// `depth_map`: the body of a function.
     pub(crate) evaluation: &'static str,
+    /// The same for maps that translucent casters are blended into; `None` where none can be, or nothing is known of the bias.
+    pub blended: Option<Blended>,
     /// The same without a map, where `evaluation` filters its texels by itself.
     #[cfg_attr(
         not(feature = "validate"),
@@ -134,6 +145,7 @@ impl Row {
             comparison: None,
             places_layers: false,
             evaluation,
+            blended: None,
             exported: None,
             functions: &[],
             soft: None,

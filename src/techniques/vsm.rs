@@ -1,7 +1,7 @@
 //! Variance shadow maps (Donnelly & Lauritzen, i3D 2006).
 
 use super::far;
-use super::row::{Encoding, LINEAR, Row};
+use super::row::{Blended, Encoding, LINEAR, Row};
 use crate::Storage::{self, Fixed32, Float16, Float32, Unorm8, Unorm10, Unorm16};
 
 const ENCODING: Encoding = Encoding {
@@ -12,6 +12,13 @@ const ENCODING: Encoding = Encoding {
 
 const EVALUATION: &str = "return chebyshev_shadow_intensity_of_texel(map_texel(receiver, 0u), receiver.fragment_depth, STORAGE);";
 
+const BLENDED: Blended = Blended {
+    alpha_is_free: true,
+    evaluation: "let variance = translucent_casters_smallest_variance(two_moments_smallest_variance_of(STORAGE), BLENDS);
+    let moments = two_moments_from_texel(map_texel(receiver, 0u), STORAGE).xy;
+    return chebyshev_lower_bound(moments, depth_of_fragment(receiver.fragment_depth), variance);",
+};
+
 const SOFT: &str = "let variance = summed_area_encoding_smallest_variance(TABLE_ERROR);
     return moment_soft_shadows_variance_intensity(table_sums, soft_table(receiver), variance, soft_receiver(receiver), receiver.light);";
 
@@ -21,6 +28,7 @@ pub(super) fn row() -> Row {
         bounded_channels: true,
         has_table: true,
         soft: Some(SOFT),
+        blended: Some(BLENDED),
         functions: &["two_moments_from_texel", "chebyshev_upper_bound"],
         far: far::of_each(storages, |storage| far_of_pairs(storage, 1)),
         ..Row::of_map("vsm", storages, 2, ENCODING, EVALUATION)

@@ -2,8 +2,11 @@
 
 use std::collections::BTreeMap;
 
+use moment_shadows::{MapEncoding, Profile, Storage, Technique};
+use moment_shadows_graph::nodes::TranslucentCasters;
 use moment_shadows_graph::{
-    Direction, Graph, NodeDesc, NodeRegistry, Rule, SlotResource, TextureRule,
+    Capabilities, Connected, Direction, Graph, Node as _, NodeDesc, NodeRegistry, ResourceDesc,
+    Rule, SlotResource, TextureDesc, TextureRule,
 };
 use moment_shadows_lab::catalogue;
 use serde_json::{Map, Value};
@@ -264,6 +267,15 @@ fn parameters(desc: &NodeDesc, page: &mut String) {
     ));
 }
 
+fn translucent_casters() -> NodeDesc {
+    let map = MapEncoding::new(Technique::Hamburger6, Storage::Float16).unwrap();
+    let map = TextureDesc::of_map(map.with_blends(1).unwrap(), [64, 64]);
+    let inputs = [("map".to_owned(), ResourceDesc::Texture(map))].into();
+    let capabilities = Capabilities::of_profile(Profile::WebgpuCore);
+    let connected = Connected::new(&inputs, &capabilities);
+    TranslucentCasters {}.describe(&connected).unwrap()
+}
+
 fn page() -> String {
     let schema = Graph::schema();
     let mut described: BTreeMap<String, Vec<NodeDesc>> = BTreeMap::new();
@@ -271,6 +283,9 @@ fn page() -> String {
         let desc = variant.describe().unwrap();
         described.entry(desc.name.clone()).or_default().push(desc);
     }
+    // The host draws it: it has no shader, and no place in the catalogue.
+    let drawn = described.entry("translucent_casters".to_owned());
+    drawn.or_default().push(translucent_casters());
     let mut page = INTRODUCTION.to_owned();
     page.push_str("\n## Imports, edges, outputs\n");
     for (list, name) in [

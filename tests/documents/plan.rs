@@ -38,6 +38,7 @@ fn the_schema_takes_plans_and_refuses_what_is_none() {
         "soft_shadows",
         "volumetric_scattering",
         "forward_shading",
+        "translucent",
     ] {
         let plan = serde_json::to_value(plan(&format!("examples/{file}.json"))).unwrap();
         let taken = schema.validate(&plan).map_err(|error| error.to_string());

@@ -95,6 +95,7 @@ fn compiling_and_describing_are_repeatable() {
     let nodes: [Box<dyn Node>; 4] = [
         Box::new(Resolve {
             technique: Some(moment_shadows::Technique::Hamburger4),
+            blends: 0,
             bits: None,
             storage: vec![moment_shadows::Storage::Float16],
             mip_levels: Some(1),

@@ -206,7 +206,8 @@ fn a_format_that_cannot_be_drawn_to_is_refused() {
         "host",
         "to",
         "",
-        "rgba16unorm cannot be drawn to under the profile native; use storage 'unorm16'",
+        "rgba16unorm cannot be drawn to under the profile native; request the device with TEXTURE_FORMAT_16BIT_NORM and \
+         TEXTURE_ADAPTER_SPECIFIC_FORMAT_FEATURES of wgpu",
     );
 }
 

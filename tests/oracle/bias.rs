@@ -48,10 +48,10 @@ fn error_factors_are_the_known_ones() {
 
 #[test]
 fn the_search_confirms_the_library_and_stays_within_the_bound() {
-    let table = search(BiasTechnique::Hamburger4, None, SAMPLES, 8, || ()).unwrap();
+    let table = search(BiasTechnique::Hamburger4, None, (0, SAMPLES, 8), || ()).unwrap();
     println!("{table}");
     assert_eq!(table.rows.len(), 3 + Form::published().len());
-    let interval = search(BiasTechnique::Hausdorff4, None, SAMPLES, 8, || ()).unwrap();
+    let interval = search(BiasTechnique::Hausdorff4, None, (0, SAMPLES, 8), || ()).unwrap();
     println!("{interval}");
     assert_eq!(interval.rows.len(), 3);
     for row in table.rows[..3].iter().chain(&interval.rows) {
@@ -92,7 +92,7 @@ fn the_search_confirms_the_library_and_stays_within_the_bound() {
 
 #[test]
 fn the_search_confirms_the_biases_of_six_moments() {
-    let table = search(BiasTechnique::Hamburger6, None, SAMPLES, 8, || ()).unwrap();
+    let table = search(BiasTechnique::Hamburger6, None, (0, SAMPLES, 8), || ()).unwrap();
     println!("{table}");
     assert_eq!(table.rows.len(), 4);
     for row in &table.rows {
@@ -119,8 +119,7 @@ fn the_search_confirms_the_biases_of_six_moments() {
     let refused = search(
         BiasTechnique::Hamburger6,
         Some(Storage::Unorm8),
-        10,
-        8,
+        (0, 10, 8),
         || (),
     );
     let refused = refused.unwrap_err().to_string();
@@ -128,8 +127,7 @@ fn the_search_confirms_the_biases_of_six_moments() {
     let unorm10 = search(
         BiasTechnique::Hamburger6,
         Some(Storage::Unorm10),
-        10,
-        8,
+        (0, 10, 8),
         || (),
     );
     assert_eq!(unorm10.unwrap().rows[0].form, "unorm10");
@@ -139,7 +137,12 @@ fn the_search_confirms_the_biases_of_six_moments() {
 fn an_interval_asks_for_a_little_more() {
     for storage in Storage::OF_FOUR_MOMENTS {
         let [line, interval] = [Condition::Line, Condition::Interval].map(|condition| {
-            measure(&Form::of_library(storage, condition), SAMPLES, 9, || ()).unwrap()
+            measure(
+                &Form::of_library(storage, condition),
+                (0, SAMPLES, 9),
+                || (),
+            )
+            .unwrap()
         });
         assert!(interval.one_rounding.all <= interval.bound);
         let ratio = interval.three_roundings.all / line.three_roundings.all;
@@ -147,7 +150,7 @@ fn an_interval_asks_for_a_little_more() {
         // The target of the real line is on the interval's boundary, and repairs nothing there.
         let mut wrong = Form::of_library(storage, Condition::Interval);
         wrong.target = Form::of_library(storage, Condition::Line).target;
-        let wrong = measure(&wrong, 3000, 9, || ()).unwrap();
+        let wrong = measure(&wrong, (0, 3000, 9), || ()).unwrap();
         assert_eq!(wrong.three_roundings.all, f64::INFINITY);
         assert_eq!(wrong.error_factor, f64::INFINITY);
     }
@@ -164,8 +167,7 @@ fn the_search_is_the_same_on_any_number_of_threads() {
             search(
                 BiasTechnique::Hausdorff4,
                 Some(Storage::Float16),
-                9000,
-                10,
+                (0, 9000, 10),
                 || (),
             )
         };
@@ -173,7 +175,7 @@ fn the_search_is_the_same_on_any_number_of_threads() {
     };
     assert_eq!(run(1), run(3));
     assert_eq!(run(1).rows.len(), 1);
-    let refused = search(BiasTechnique::Hausdorff4, None, 0, 10, || ());
+    let refused = search(BiasTechnique::Hausdorff4, None, (0, 0, 10), || ());
     assert!(refused.unwrap_err().to_string().starts_with("0 samples"));
 }
 

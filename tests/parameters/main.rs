@@ -297,6 +297,7 @@ fn nodes_declare_the_structs_that_their_shaders_bind() {
     let nodes = [
         described(&Resolve {
             technique: Some(Technique::Hamburger4),
+            blends: 0,
             bits: None,
             storage: vec![Storage::Float16],
             mip_levels: Some(1),

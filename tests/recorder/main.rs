@@ -39,4 +39,5 @@ mod techniques;
 mod threshold;
 mod threshold_node;
 mod timestamps;
+mod translucent;
 mod views;

@@ -18,6 +18,7 @@ mod orders;
 mod refused;
 mod same;
 mod stored;
+mod translucent;
 mod views;
 mod widths;
 

@@ -9,7 +9,8 @@ use crate::command::cost::CostOptions;
 use crate::command::{
     CommandResult, best, bias, choose, claims, contact_shadows, error, error_table, inspect, isa,
     measure, ports, probe, render, scattering_error, scattering_flicker, scores, shaders,
-    soft_error, stability, sweep, technique_pictures, trade, troubleshooting_pictures, vectors,
+    soft_error, stability, sweep, technique_pictures, trade, transmittance,
+    troubleshooting_pictures, vectors,
 };
 use crate::isa::child;
 
@@ -77,6 +78,8 @@ enum Command {
     Cost(CostOptions),
     /// Finds the smallest safe moment bias of each storage by search over filtered patches of depth.
     Bias(bias::Options),
+    /// Blends translucent casters into every map, and prints how far its bound is from the exact transmittance.
+    Transmittance(transmittance::Options),
     /// Tries every technique with every storage on random, extreme and invalid inputs, and on hill-climbs towards the worst,
     /// and prints how far results are above the truth. Takes about a quarter of an hour. Exits with 3 if a result is NaN,
     /// infinite, outside of 0 to 1 or farther above the truth than is documented.
@@ -136,6 +139,7 @@ fn run(command: Command) -> CommandResult {
         Command::ScatteringFlicker(options) => options.run(),
         Command::Cost(options) => options.run(),
         Command::Bias(options) => options.run(),
+        Command::Transmittance(options) => options.run(),
         Command::Stability(options) => options.run(),
         Command::Isa(options) => options.run(),
         Command::Ports(options) => options.run(),

@@ -46,6 +46,7 @@ pub mod sweep;
 pub mod techniques;
 mod texture;
 pub mod trade;
+pub mod translucent;
 pub mod troubleshooting;
 pub mod truth;
 pub mod vectors;

@@ -122,6 +122,7 @@ const LONG: [(&str, &str); 16] = [
         "times work that should have the machine for itself",
     ),
     ("bias", "searches a million patches of depth"),
+    ("transmittance", "blends and shades for a minute"),
     ("stability", "tries random inputs for a quarter of an hour"),
     (
         "isa",

@@ -24,11 +24,13 @@ pub(super) fn count(pass: &mut PlannedPass, resources: &[PlannedResource]) {
     }
     if let PlannedWork::Host {
         targets,
+        planes,
         blend: true,
         ..
     } = &pass.work
     {
-        read += targets.iter().map(|&target| level(target, 0)).sum::<u64>();
+        let targets = targets.iter().map(|&target| level(target, 0));
+        read += targets.sum::<u64>() * u64::from(*planes);
     }
     (pass.bytes_read, pass.bytes_written) = (read, written);
 }

@@ -91,5 +91,10 @@ pub(super) fn usable(
         fails("written as a storage texture").replacen("; use ", &or, 1)
     })?;
     let drawn = !access.render_target || support.renderable;
-    ensure(drawn, Capability, || fails("drawn to"))
+    ensure(drawn, Capability, || match format.features_to_blend() {
+        Some(features) => format!(
+            "{format} cannot be drawn to under the profile {profile}; request the device with {features}, or use storage 'float16'"
+        ),
+        None => fails("drawn to"),
+    })
 }

@@ -51,9 +51,8 @@ impl Planner<'_> {
         let (work, followed) = self.work()?;
         let followed = &self.known[followed];
         let pass = self.pass;
-        let each_layer = pass.each_layer && !matches!(work, PlannedWork::Host { .. });
         let layers = followed.desc.layers();
-        let layers = if each_layer { layers } else { 1 };
+        let layers = if pass.each_layer { layers } else { 1 };
         let mut planned = PlannedPass {
             node: self.node.to_owned(),
             label: pass.label.clone(),
@@ -79,7 +78,7 @@ impl Planner<'_> {
             after_in_memory: Vec::new(),
             work,
             layers,
-            each_layer,
+            each_layer: pass.each_layer,
             map: self.known[followed.root].name.clone(),
             bytes_read: 0,
             bytes_written: 0,
@@ -292,11 +291,21 @@ impl Planner<'_> {
                 let first = drawn.next();
                 let first = first.ok_or_else(|| self.fault("draws to nothing"))?;
                 let target = |slot: &String| Ok(self.indices[&self.texture(slot, 0)?.0]);
+                let planes = targets
+                    .iter()
+                    .map(|slot| Ok(self.texture(slot, 0)?.1.planes));
+                let planes = planes.collect::<Result<Vec<u32>, GraphError>>()?;
+                if planes.windows(2).any(|pair| pair[0] != pair[1]) {
+                    return Err(self.fault(
+                        "draws to maps of different numbers of texture layers per layer at once",
+                    ));
+                }
                 let work = PlannedWork::Host {
                     targets: targets
                         .iter()
                         .map(target)
                         .collect::<Result<_, GraphError>>()?,
+                    planes: planes.first().copied().unwrap_or(1),
                     blend: *blend,
                     depth: depth.as_ref().map(target).transpose()?,
                 };

@@ -6,6 +6,7 @@ use crate::{
     Capabilities, Direction, GraphError, GraphErrorKind, PlannedPass, PlannedResource, PlannedUse,
     PlannedWork, SlotResource, TextureDesc,
 };
+use moment_shadows::TextureFormat;
 
 /// Checks the uses of a pass against each other and its targets against the device.
 pub(super) fn check_pass(
@@ -37,6 +38,7 @@ pub(super) fn check_pass(
             targets,
             blend,
             depth,
+            ..
         } => {
             let colours = targets.iter().filter_map(|&target| texture(target));
             (colours.collect(), depth.and_then(texture), *blend)
@@ -50,8 +52,9 @@ pub(super) fn check_pass(
         let blendable = !blend || capabilities.support(format).blendable;
         ensure(blendable, GraphErrorKind::Capability, || {
             format!(
-                "pass '{label}' blends into {format}, which cannot be blended under the profile {}; use another format",
-                capabilities.profile
+                "pass '{label}' blends into {format}, which cannot be blended under the profile {}; {}",
+                capabilities.profile,
+                to_blend(format)
             )
         })?;
     }
@@ -72,6 +75,14 @@ pub(super) fn check_pass(
         );
         Err(GraphError::new(GraphErrorKind::Size, message))
     })
+}
+
+/// What to do about a format that cannot be blended.
+fn to_blend(format: TextureFormat) -> String {
+    match format.features_to_blend() {
+        Some(features) => format!("request the device with {features}, or use another format"),
+        None => "use another format".to_owned(),
+    }
 }
 
 /// A node makes what it promises: some pass of it writes every output.

@@ -23,7 +23,7 @@ pub struct Pass {
     /// The plane that bindings of a single layer mean, where a map has several.
     #[serde(default)]
     pub plane: u32,
-    /// Once per dirty layer of what is covered or drawn to; otherwise once. A host draws once.
+    /// Once per dirty layer of what is covered or drawn to; otherwise once.
     #[serde(default)]
     pub each_layer: bool,
     /// What is recorded.
@@ -118,7 +118,7 @@ pub enum Work {
     },
     /// A hole in the plan where the host draws.
     Host {
-        /// The colour targets.
+        /// The colour targets; of maps with planes all of those.
         targets: Vec<String>,
         /// Whether the host blends into them.
         blend: bool,

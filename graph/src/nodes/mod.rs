@@ -14,6 +14,7 @@ mod shade_soft;
 mod shared;
 mod summed_area_table;
 mod techniques;
+mod translucent_casters;
 
 pub use blur::{Blur, BlurKernel};
 pub use composite_scattering::CompositeScattering;
@@ -28,6 +29,7 @@ pub use shade_hard::ShadeHard;
 pub use shade_soft::ShadeSoft;
 pub(crate) use shared::shading::BORDERS;
 pub use summed_area_table::SummedAreaTable;
+pub use translucent_casters::TranslucentCasters;
 
 use crate::NodeRegistry;
 
@@ -35,6 +37,7 @@ use crate::NodeRegistry;
 pub(crate) fn register(registry: &mut NodeRegistry) {
     registry.register::<Resolve>("resolve");
     registry.register::<PlaceLayers>("place_layers");
+    registry.register::<TranslucentCasters>("translucent_casters");
     registry.register::<Blur>("blur");
     registry.register::<Downsample>("downsample");
     registry.register::<SummedAreaTable>("summed_area_table");

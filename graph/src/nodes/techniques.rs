@@ -30,16 +30,27 @@ fn constants(specialization: Specialization, technique: &Technique) -> Specializ
 }
 
 /// How a fragment is shaded: the constants and the module `technique`, and what that imports.
-pub(super) fn evaluation(specialization: Specialization, technique: &Technique) -> Specialization {
+///
+/// `blends` translucent casters were blended into the map over each other; a map that can have some is evaluated for them.
+pub(super) fn evaluation(
+    specialization: Specialization,
+    technique: &Technique,
+    blends: u32,
+) -> Specialization {
     let row = technique.row();
+    let blended = row.blended_technique().filter(|_| blends > 0);
     let map = if row.reads_depth() {
         include_str!("techniques/map_depth.wgsl")
     } else {
         include_str!("techniques/map_filterable.wgsl")
     };
-    constants(specialization, technique)
-        .unsigned("PLANES", row.planes)
-        .module("technique", row.technique())
+    let specialization = constants(specialization, technique).unsigned("PLANES", row.planes);
+    let specialization = match &blended {
+        Some(_) => specialization.unsigned("BLENDS", blends),
+        None => specialization,
+    };
+    specialization
+        .module("technique", blended.unwrap_or_else(|| row.technique()))
         .module("technique_map", map)
         .module("technique_layers", layers(technique, false))
 }

@@ -42,9 +42,16 @@ impl PlannedPass {
         match &self.work {
             PlannedWork::Compute { .. } => {}
             &PlannedWork::Fullscreen { target, part, .. } => draw(target, part.level, part.plane),
-            PlannedWork::Host { targets, depth, .. } => {
-                let drawn = targets.iter().chain(depth);
-                drawn.for_each(|&target| draw(target, 0, 0));
+            PlannedWork::Host {
+                targets,
+                planes,
+                depth,
+                ..
+            } => {
+                for &target in targets {
+                    (0..*planes).for_each(|plane| draw(target, 0, plane));
+                }
+                depth.iter().for_each(|&target| draw(target, 0, 0));
             }
         }
         touches

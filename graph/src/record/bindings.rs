@@ -61,8 +61,8 @@ pub(super) enum Action {
         load: wgpu::LoadOp<wgpu::Color>,
     },
     Host {
-        targets: Vec<wgpu::TextureView>,
-        depth: Option<wgpu::TextureView>,
+        /// For each layer the colour targets, and the depth target.
+        targets: Vec<(Vec<wgpu::TextureView>, Option<wgpu::TextureView>)>,
         blend: bool,
     },
 }
@@ -192,18 +192,26 @@ impl Objects<'_> {
             (
                 PlannedWork::Host {
                     targets: colours,
+                    planes,
                     blend,
                     depth,
                 },
                 _,
-            ) => Action::Host {
-                targets: colours
-                    .iter()
-                    .map(|&target| view(target, whole, 0))
-                    .collect::<Result<_, _>>()?,
-                depth: depth.map(|target| view(target, whole, 0)).transpose()?,
-                blend: *blend,
-            },
+            ) => {
+                let drawn = |layer| {
+                    let each = colours
+                        .iter()
+                        .flat_map(|&target| (0..*planes).map(move |plane| (target, plane)));
+                    let each = each
+                        .map(|(target, plane)| view(target, PlannedPart { plane, ..whole }, layer));
+                    let depth = depth.map(|target| view(target, whole, layer)).transpose()?;
+                    Ok::<_, GraphError>((each.collect::<Result<_, _>>()?, depth))
+                };
+                Action::Host {
+                    targets: (0..pass.layers).map(drawn).collect::<Result<_, _>>()?,
+                    blend: *blend,
+                }
+            }
             _ => return Err(missing(pass)),
         };
         Ok(Step {

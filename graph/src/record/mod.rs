@@ -5,6 +5,7 @@
 //! because it waits for the device's verdict: what fails to be created is an error, not a panic or a callback.
 
 mod bindings;
+mod blend;
 mod format;
 mod given;
 mod layout;
@@ -16,7 +17,9 @@ mod samplers;
 mod scope;
 
 pub use bindings::Bindings;
+pub use blend::blend_state;
 pub use given::ImportedResource;
 pub use pipelines::{HostTarget, PipelineOptions, Pipelines};
+pub(crate) use recording::HostPassHandler;
 pub use recording::{HostPass, Layers, Recording};
 pub use resources::Resources;

@@ -24,7 +24,9 @@ pub enum Layers<'a> {
 pub struct HostPass<'a> {
     /// `node/pass`.
     pub name: &'a str,
-    /// The colour targets.
+    /// The layer that it is drawn for; 0 where it is drawn once.
+    pub layer: u32,
+    /// The colour targets: of a map with planes all those of the layer.
     pub targets: &'a [wgpu::TextureView],
     /// The depth target.
     pub depth: Option<&'a wgpu::TextureView>,
@@ -33,7 +35,7 @@ pub struct HostPass<'a> {
 }
 
 /// Draws a host's pass.
-type HostPassHandler<'a> = &'a mut dyn FnMut(HostPass<'_>, &mut wgpu::CommandEncoder);
+pub(crate) type HostPassHandler<'a> = &'a mut dyn FnMut(HostPass<'_>, &mut wgpu::CommandEncoder);
 
 /// What to record.
 #[derive(Default)]
@@ -88,14 +90,17 @@ impl Bindings {
                     let targets = (&targets[..], *load);
                     self.draw_layers(step, pipeline, targets, encoder, &recording, queries);
                 }
-                Action::Host {
-                    targets,
-                    depth,
-                    blend,
-                } => {
-                    if let Some(handler) = &mut recording.host_passes {
+                Action::Host { targets, blend } => {
+                    let Some(handler) = &mut recording.host_passes else {
+                        continue;
+                    };
+                    for layer in step.dirty(recording.layers) {
+                        let Some((targets, depth)) = targets.get(layer as usize) else {
+                            continue;
+                        };
                         let pass = HostPass {
                             name: &step.name,
+                            layer,
                             targets,
                             depth: depth.as_ref(),
                             blend: *blend,

@@ -10,13 +10,15 @@ mod shading;
 use cut::{Cut, cut};
 use given::Given;
 use moment_shadows::{
-    CameraView, ContactShadows, LeakReduction, LightView, ReceiverBias, SingleScattering,
-    TextureFormat,
+    CameraView, ContactShadows, LeakReduction, LightView, MapEncoding, ReceiverBias,
+    SingleScattering, TextureFormat,
 };
 use part::{Maker, Part};
 use scratch::{Scratch, Told};
 
-use crate::record::{Bindings, ImportedResource, PipelineOptions, Pipelines, Recording};
+use crate::record::{
+    Bindings, HostPass, HostPassHandler, ImportedResource, PipelineOptions, Pipelines, Recording,
+};
 use crate::{Capabilities, Graph, GraphError, GraphErrorKind, Named, ResourceDesc, Stage};
 
 /// A graph at work: pipelines, textures, bindings and uniform data for one set of light maps and any number of cameras.
@@ -209,11 +211,41 @@ impl Session {
         stage: Stage,
         encoder: &mut wgpu::CommandEncoder,
     ) -> Result<(), GraphError> {
+        self.record_all(stage, encoder, Recording::default())
+    }
+
+    /// The same for a graph with passes of the host's, such as `translucent_casters`: `draw` is called in their places.
+    /// Refused, if a camera was never placed by [`view`](Self::view); the encoder is then as it was.
+    pub fn record_with(
+        &self,
+        stage: Stage,
+        encoder: &mut wgpu::CommandEncoder,
+        draw: &mut dyn FnMut(HostPass<'_>, &mut wgpu::CommandEncoder),
+    ) -> Result<(), GraphError> {
+        let recording = Recording {
+            host_passes: Some(draw),
+            ..Recording::default()
+        };
+        self.record_all(stage, encoder, recording)
+    }
+
+    fn record_all(
+        &self,
+        stage: Stage,
+        encoder: &mut wgpu::CommandEncoder,
+        mut recording: Recording<'_>,
+    ) -> Result<(), GraphError> {
         (0..self.views.len()).try_for_each(|view| self.placed(view).map(|_| ()))?;
-        self.maps
-            .bindings
-            .record(stage, encoder, Recording::default())?;
-        (0..self.views.len()).try_for_each(|view| self.record_view(view, stage, encoder))
+        let parts = core::iter::once(&self.maps).chain(self.views.iter().map(|view| &view.part));
+        for part in parts {
+            let host_passes = recording.host_passes.as_deref_mut();
+            let of_part = Recording {
+                host_passes: host_passes.map(|draw| draw as HostPassHandler<'_>),
+                ..Recording::default()
+            };
+            part.bindings.record(stage, encoder, of_part)?;
+        }
+        Ok(())
     }
 
     /// Records a stage for one camera, without the light maps.
@@ -233,6 +265,13 @@ impl Session {
     pub fn output(&self, view: usize, name: &str) -> Option<&wgpu::Texture> {
         let of_view = self.views.get(view)?.part.bindings.output(name);
         of_view.or_else(|| self.maps.bindings.output(name))
+    }
+
+    /// How the map behind an output of the graph is encoded, where it is one that all cameras share: what a host's own shaders and
+    /// blend states follow from.
+    #[must_use]
+    pub fn encoding(&self, output: &str) -> Option<&MapEncoding> {
+        self.maps.plan.output_texture(output)?.encoding.as_ref()
     }
 
     /// The receiver bias of a view of a light whose map is an output of the graph, for shaders of your own.

@@ -5,6 +5,7 @@
 //! storage, and solving for the alpha from which on the moments are possible again. Beside it stands the bound to first
 //! order in the rounding error, by maximisation over the boundary of the moment space.
 
+mod casters;
 mod definite;
 mod form;
 mod patch;

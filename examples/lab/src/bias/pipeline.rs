@@ -1,5 +1,7 @@
-//! What a graph does to a patch: resolve and a Gaussian in two passes, every stage rounded to the storage.
+//! What a graph does to a patch: resolve, the blending of translucent casters and a Gaussian in two passes, every stage rounded to the
+//! storage.
 
+use super::casters::Caster;
 use super::form::{Form, rounded};
 use super::patch::{Patch, SIDE};
 use crate::basis::powers;
@@ -21,17 +23,28 @@ pub(super) fn weights() -> [f32; SIDE] {
     weights
 }
 
-/// The filtered moments after every texel, every row and the column have been rounded.
+/// The filtered moments after every texel, every caster that is blended over it, every row and the column have been rounded.
 pub(super) fn three_roundings<const M: usize>(
     form: &Form<M>,
     patch: &Patch,
+    casters: &[Caster],
     weights: &[f32; SIDE],
 ) -> [f64; M] {
     let store = |texel: [f32; M]| texel.map(|channel| rounded(form.storage, channel));
+    let texel = |index: usize| {
+        casters
+            .iter()
+            .fold(store(form.texel(patch[index])), |below, caster| {
+                let (above, alpha) = (form.texel(caster.depths[index]), caster.alphas[index]);
+                let channels = core::array::from_fn(|channel| {
+                    alpha * above[channel] + (1.0 - alpha) * below[channel]
+                });
+                store(channels)
+            })
+    };
     let mut column = [[0.0; M]; SIDE];
     for (row, filtered) in column.iter_mut().enumerate() {
-        let texels: [[f32; M]; SIDE] =
-            core::array::from_fn(|tap| store(form.texel(patch[SIDE * row + tap])));
+        let texels: [[f32; M]; SIDE] = core::array::from_fn(|tap| texel(SIDE * row + tap));
         *filtered = store(blend(&texels, weights));
     }
     form.moments(store(blend(&column, weights)))

@@ -8,6 +8,7 @@ use rand_chacha::ChaCha8Rng;
 use rayon::prelude::*;
 use serde::Serialize;
 
+use super::casters::casters;
 use super::definite::{Condition, Repair};
 use super::form::Form;
 use super::{patch, pipeline, scaling};
@@ -75,7 +76,7 @@ pub struct BiasRow {
     pub target: Vec<f64>,
     /// Exact moments, rounded once.
     pub one_rounding: Quantiles,
-    /// Resolve and both passes of a blur, each rounded.
+    /// Resolve, every blend and both passes of a blur, each rounded.
     pub three_roundings: Quantiles,
     /// K: alpha per error of a channel, to first order, for the worst moments and the worst errors.
     pub error_factor: f64,
@@ -92,6 +93,8 @@ pub struct BiasRow {
 pub struct BiasTable {
     /// What the bias is for.
     pub technique: BiasTechnique,
+    /// Translucent casters that are blended over each patch.
+    pub blends: u32,
     /// Patches per row.
     pub samples: usize,
     /// Seed of the random numbers.
@@ -105,8 +108,7 @@ pub struct BiasTable {
 pub fn search(
     technique: BiasTechnique,
     storage: Option<Storage>,
-    samples: usize,
-    seed: u64,
+    (blends, samples, seed): (u32, usize, u64),
     step: impl Fn() + Sync,
 ) -> Result<BiasTable, LabError> {
     let storages = storage.map_or(technique.storages().to_vec(), |storage| vec![storage]);
@@ -115,13 +117,16 @@ pub fn search(
         let (mut row, alpha) = match technique {
             BiasTechnique::Hamburger4 => {
                 let form = Form::of_library(storage, Condition::Line);
-                let row = measure(&form, samples, seed, &step)?;
-                (row, storage.moment_bias().alpha)
+                let row = measure(&form, (blends, samples, seed), &step)?;
+                (row, storage.moment_bias().with_blends(blends).alpha)
             }
             BiasTechnique::Hausdorff4 => {
                 let form = Form::of_library(storage, Condition::Interval);
-                let row = measure(&form, samples, seed, &step)?;
-                (row, storage.hausdorff_moment_bias().alpha)
+                let row = measure(&form, (blends, samples, seed), &step)?;
+                (
+                    row,
+                    storage.hausdorff_moment_bias().with_blends(blends).alpha,
+                )
             }
             BiasTechnique::Hamburger6 => {
                 let form = Form::of_six_moments(storage).zip(storage.six_moments_bias());
@@ -130,7 +135,10 @@ pub fn search(
                         "'hamburger6' is not stored as {storage}; choose one of unorm16, float16, float32 and unorm10"
                     ))
                 })?;
-                (measure(&form, samples, seed, &step)?, bias.alpha)
+                (
+                    measure(&form, (blends, samples, seed), &step)?,
+                    bias.with_blends(blends).alpha,
+                )
             }
         };
         row.library = Some(f64::from(alpha));
@@ -138,11 +146,12 @@ pub fn search(
     }
     if storage.is_none() && technique == BiasTechnique::Hamburger4 {
         for form in Form::published() {
-            rows.push(measure(&form, samples, seed, &step)?);
+            rows.push(measure(&form, (blends, samples, seed), &step)?);
         }
     }
     Ok(BiasTable {
         technique,
+        blends,
         samples,
         seed,
         rows,
@@ -152,8 +161,7 @@ pub fn search(
 /// Searches the smallest safe bias of one form.
 pub fn measure<const M: usize>(
     form: &Form<M>,
-    samples: usize,
-    seed: u64,
+    (blends, samples, seed): (u32, usize, u64),
     step: impl Fn() + Sync,
 ) -> Result<BiasRow, LabError> {
     if samples == 0 {
@@ -172,8 +180,13 @@ pub fn measure<const M: usize>(
             let alphas: Vec<[f64; 2]> = (0..count)
                 .map(|_| {
                     let patch = patch::patch(&mut random);
-                    [pipeline::one_rounding, pipeline::three_roundings]
-                        .map(|filter| repair.smallest_alpha(filter(form, &patch, &weights)))
+                    // Without casters no random number is drawn, and patches are those of every search.
+                    let casters = casters(&mut random, blends as usize);
+                    [
+                        pipeline::one_rounding(form, &patch, &weights),
+                        pipeline::three_roundings(form, &patch, &casters, &weights),
+                    ]
+                    .map(|moments| repair.smallest_alpha(moments))
                 })
                 .collect();
             step();
@@ -230,8 +243,13 @@ impl fmt::Display for BiasTable {
         writeln!(
             f,
             "Smallest moment bias alpha for {technique}: {} patches of 9 x 9 texels, seed {}\n\
-             one: exact filtered moments rounded once; three: resolve and a two-pass Gaussian of deviation 2.4, each rounded\n",
-            self.samples, self.seed
+             one: exact filtered moments rounded once; three: resolve{} and a two-pass Gaussian of deviation 2.4, each rounded\n",
+            self.samples,
+            self.seed,
+            match self.blends {
+                0 => String::new(),
+                blends => format!(", {blends} translucent casters blended one after the other"),
+            }
         )?;
         writeln!(
             f,

@@ -14,6 +14,7 @@ const REGIONS: u32 = 16;
 fn resolve(map: &MapEncoding) -> Variant {
     let node = Resolve {
         technique: Some(map.technique().clone()),
+        blends: map.blends(),
         bits: None,
         storage: vec![map.storage()],
         mip_levels: Some(1),

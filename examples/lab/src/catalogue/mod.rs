@@ -266,7 +266,10 @@ mod tests {
             }
         }
         let registry = NodeRegistry::new();
-        let nodes: BTreeSet<String> = registry.type_names().map(str::to_owned).collect();
+        // The host draws it.
+        let drawn = |name: &&str| *name != "translucent_casters";
+        let nodes = registry.type_names().filter(drawn);
+        let nodes: BTreeSet<String> = nodes.map(str::to_owned).collect();
         assert_eq!(files, nodes, "add a variant with a file to the catalogue");
         assert_eq!(rows, nodes, "add a variant with a row to the catalogue");
         Ok(())

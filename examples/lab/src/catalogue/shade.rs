@@ -78,6 +78,10 @@ pub(super) fn of_four_moments(four: &MapEncoding) -> Result<Vec<Variant>, LabErr
             all.extend([many, most]);
         }
     }
+    // A map with translucent casters.
+    let blended = four.clone().with_blends(16)?;
+    let name = format!("shade_hard_{storage}_blended");
+    all.push(Variant::new(ShadeHard::default(), &blended).file(name, unorm16));
     all.extend(soft(four)?);
     Ok(all)
 }

@@ -18,6 +18,9 @@ pub struct Options {
     /// Summed-area tables of every storage instead, for both solvers and for two moments.
     #[arg(long, conflicts_with_all = ["technique", "storage"])]
     tables: bool,
+    /// Translucent casters that are blended over each patch between resolve and blur.
+    #[arg(long, default_value_t = 0, value_parser = clap::value_parser!(u32).range(..=256), conflicts_with = "tables")]
+    blends: u32,
     /// Patches per row of the table.
     #[arg(long, default_value_t = 1_000_000, value_parser = clap::value_parser!(u64).range(1..=1_000_000_000))]
     samples: u64,
@@ -53,7 +56,9 @@ impl Options {
             (None, _) => technique.storages().len(),
         };
         let bar = progress::bar((rows * steps(samples)) as u64, "filtering patches");
-        let table = search(technique, storage, samples, seed, || bar.inc(1));
+        let table = search(technique, storage, (self.blends, samples, seed), || {
+            bar.inc(1)
+        });
         bar.finish_and_clear();
         print(&table?, self.json)
     }

@@ -25,6 +25,7 @@ pub mod stability;
 pub mod sweep;
 pub mod technique_pictures;
 pub mod trade;
+pub mod transmittance;
 pub mod troubleshooting_pictures;
 pub mod vectors;
 

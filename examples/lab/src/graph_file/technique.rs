@@ -1,6 +1,7 @@
 //! A graph with another technique than its own.
 
 use moment_shadows::{EsmFiltering, Kernel, LayerSplits, MapEncoding, Profile, Storage, Technique};
+use moment_shadows_graph::Capabilities;
 use moment_shadows_graph::nodes::Resolve;
 use serde_json::{Value, json};
 
@@ -89,7 +90,9 @@ impl GraphFile {
             given => given,
         };
         let resolve: Resolve = serde_json::from_value(properties).ok()?;
-        resolve.encoding(Profile::Native).ok()
+        resolve
+            .encoding(&Capabilities::of_profile(Profile::Native))
+            .ok()
     }
 
     /// The technique that the graph shades with.

@@ -39,6 +39,7 @@ const ANISOTROPY: u16 = 8;
 impl Node for RectifyMoments {
     fn describe(&self, upstream: &Connected<'_>) -> Result<NodeDesc, GraphError> {
         let (map, source) = map_input::of_four_moments(upstream, "resamples")?;
+        map_input::refuse_blended(&source)?;
         let technique = &self.technique;
         let texel = techniques::of_both_bounds(
             technique,

@@ -2,12 +2,12 @@
 
 mod best;
 
-use moment_shadows::{MapEncoding, Profile, Storage, Technique, ValueError};
+use moment_shadows::{MapEncoding, Storage, Technique, ValueError};
 use serde::Deserialize;
 
 use super::shared::{depth_input, mip_levels, regions, wrong_property};
 use super::techniques;
-use crate::{Connected, GraphError, Node, NodeDesc, Stage, TextureRule, bind};
+use crate::{Capabilities, Connected, GraphError, Node, NodeDesc, Stage, TextureRule, bind};
 
 /// Node `resolve`: `depth` (of any number of layers and samples) to
 /// `map`, a filterable map of the same size, layers and regions, encoded for a technique. The *moments* (or what else the
@@ -30,6 +30,10 @@ pub struct Resolve {
     #[serde(default, deserialize_with = "best::storages")]
     #[cfg_attr(feature = "schema", schemars(schema_with = "best::storages_schema", extend("default" = "best")))]
     pub storage: Vec<Storage>,
+    /// How many translucent casters are blended into the map over each other, at most: the node [`super::TranslucentCasters`] comes
+    /// next. The bias grows with their number, and the storage is one that the device can blend.
+    #[serde(default)]
+    pub blends: u32,
     /// Room for mip levels, for a map that is not blurred, as that of [`super::Blur`].
     #[serde(default = "mip_levels::one", deserialize_with = "mip_levels::read")]
     #[cfg_attr(feature = "schema", schemars(schema_with = "mip_levels::schema"))]
@@ -37,14 +41,15 @@ pub struct Resolve {
 }
 
 impl Resolve {
-    /// How the map is encoded on a device of the profile; if the device can write none of the storages, as the last one.
+    /// How the map is encoded on a device of these capabilities; if the device can make none of the storages, as the last one.
     ///
     /// # Errors
-    /// [`ValueError`], if the technique has not one of the storages, its settings are out of range, or no map has so few
-    /// bits.
-    pub fn encoding(&self, profile: Profile) -> Result<MapEncoding, ValueError> {
+    /// [`ValueError`], if the technique has not one of the storages, its settings are out of range, no map has so few
+    /// bits, or no translucent casters are blended into it.
+    pub fn encoding(&self, capabilities: &Capabilities) -> Result<MapEncoding, ValueError> {
+        let profile = capabilities.profile;
         let Some(technique) = &self.technique else {
-            return self.best(profile);
+            return self.best(profile)?.with_blends(self.blends);
         };
         if let Some(bits) = self.bits {
             let message = format!(
@@ -59,9 +64,13 @@ impl Resolve {
         };
         let encodings = storages
             .iter()
-            .map(|&storage| MapEncoding::new(technique.clone(), storage))
+            .map(|&storage| MapEncoding::new(technique.clone(), storage)?.with_blends(self.blends))
             .collect::<Result<Vec<_>, _>>()?;
-        let written = encodings.iter().find(|it| it.check(profile).is_ok());
+        let blended =
+            |it: &MapEncoding| self.blends == 0 || capabilities.support(it.format()).blendable;
+        let written = encodings
+            .iter()
+            .find(|it| it.check(profile).is_ok() && blended(it));
         match written.or(encodings.last()) {
             Some(encoding) => Ok(encoding.clone()),
             // A technique that reads the plain depth map has no storages; whatever is asked of it says so.
@@ -74,8 +83,9 @@ impl Node for Resolve {
     fn describe(&self, upstream: &Connected<'_>) -> Result<NodeDesc, GraphError> {
         let depth = upstream.texture("depth")?;
         let mips = mip_levels::count(self.mip_levels, depth.size)?;
-        let profile = upstream.capabilities().profile;
-        let encoding = self.encoding(profile).map_err(wrong_property)?;
+        let encoding = self
+            .encoding(upstream.capabilities())
+            .map_err(wrong_property)?;
         let technique = encoding.technique();
         let wgsl = techniques::of_map(upstream.capabilities(), &encoding)
             .alias("DepthTexture", depth_input::texture_type(depth))

@@ -120,7 +120,7 @@ impl ShadeHard {
             let map = Binding::new("depth_map", bind::layers("depth"));
             return Ok(Evaluation {
                 technique: technique.clone(),
-                specialization: techniques::evaluation(specialization, technique),
+                specialization: techniques::evaluation(specialization, technique, 0),
                 slot: "depth",
                 formats: depth_input::FORMATS.to_vec(),
                 bindings: [Some(map), sampler].into_iter().flatten().collect(),
@@ -137,7 +137,7 @@ impl ShadeHard {
             return Err(wrong_format(message).at_slot("map"));
         }
         let specialization = specialization.unsigned("STORAGE", encoding.storage().wgsl_index());
-        let specialization = techniques::evaluation(specialization, &technique);
+        let specialization = techniques::evaluation(specialization, &technique, encoding.blends());
         let (specialization, sampler) =
             moments_lookup(specialization, capabilities, &encoding, map.mips, probes);
         let map = Binding::new("moments_map", bind::layers("map"));

@@ -49,6 +49,19 @@ pub(in crate::nodes) fn of_four_moments<'a>(
     .at_slot("map"))
 }
 
+/// Refuses a map with translucent casters, for a node that has no bias for them.
+pub(in crate::nodes) fn refuse_blended(encoding: &MapEncoding) -> Result<(), GraphError> {
+    if encoding.blends() == 0 {
+        return Ok(());
+    }
+    Err(wrong_format(format!(
+        "the map has up to {} translucent casters over each other, whose bias this node does not know: 'shade_hard' does; connect a map \
+         without 'blends' here",
+        encoding.blends()
+    ))
+    .at_slot("map"))
+}
+
 /// The encoding of a filterable map other than a table: four moments, unless the map says otherwise.
 pub(in crate::nodes) fn encoding_of(map: &TextureDesc) -> Result<MapEncoding, GraphError> {
     if map.format.is_integer() {

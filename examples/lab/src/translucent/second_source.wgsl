@@ -1,0 +1,10 @@
+
+struct Sources {
+    @location(0) @blend_src(0) texel: vec4f,
+    @location(0) @blend_src(1) opacity: vec4f,
+}
+
+@fragment
+fn four_moments_and_opacity(@builtin(position) position: vec4f) -> Sources {
+    return Sources(translucent_casters_four_moments(caster.depth, STORAGE), vec4f(opacity(position)));
+}
