@@ -93,6 +93,8 @@ export interface TextureDesc {
   encoding?: unknown;
   /** The standard deviation of the filter that a map has been through, in texels; 0 where it is left out. */
   deviation?: number;
+  /** What a map's depths are fitted to, as `node.slot`; the host's range where it is left out. */
+  range?: string;
 }
 
 export interface ParameterLayout {

@@ -34,6 +34,10 @@ pub struct TextureDesc {
     /// not blurred. The receiver bias follows from it.
     #[serde(default, skip_serializing_if = "is_zero")]
     pub deviation: Finite,
+    /// What the depths of a map are fitted to: the output of a node that gives the range, as `node.slot`, which itself carries the
+    /// same name. None where they are those of the host's range.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub range: Option<String>,
     /// Samples per texel. A multisampled texture with several layers is a list of textures, one per layer.
     #[serde(default = "one")]
     pub samples: u32,
@@ -60,6 +64,7 @@ impl TextureDesc {
             planes: 1,
             encoding: None,
             deviation: Finite::ZERO,
+            range: None,
             samples: 1,
         }
     }

@@ -7,8 +7,8 @@ use serde_json::{Value, json};
 use crate::Plan;
 use crate::graph::{Edge, FileImport, FileOutput, Graph, VERSION};
 use crate::nodes::{
-    Blur, CompositeScattering, DebugMoments, Downsample, IntegrateScattering, PlaceLayers,
-    RectifyMoments, Resolve, ShadeHard, ShadeSoft, SummedAreaTable,
+    Blur, CompositeScattering, DebugMoments, Downsample, FitRange, IntegrateScattering,
+    PlaceLayers, RectifyMoments, Resolve, ShadeHard, ShadeSoft, SummedAreaTable,
 };
 
 impl Graph {
@@ -24,6 +24,7 @@ impl Graph {
             node::<CompositeScattering>(generator, "composite_scattering"),
             node::<DebugMoments>(generator, "debug_moments"),
             node::<Downsample>(generator, "downsample"),
+            node::<FitRange>(generator, "fit_range"),
             node::<IntegrateScattering>(generator, "integrate_scattering"),
             node::<PlaceLayers>(generator, "place_layers"),
             node::<RectifyMoments>(generator, "rectify_moments"),

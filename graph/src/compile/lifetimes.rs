@@ -98,6 +98,7 @@ pub(super) fn share_memory(plan: &mut Plan, known: &[&Known]) {
         if let ResourceDesc::Texture(texture) = &mut desc {
             // What a map has been through is not its memory's.
             texture.deviation = Finite::ZERO;
+            texture.range = None;
         }
         let mut taken = blocks.iter();
         let home = match taken.position(|block| block.takes(life, &desc, root)) {

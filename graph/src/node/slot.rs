@@ -85,6 +85,10 @@ pub struct TextureRule {
     /// the texture takes; 0 where the node does not filter.
     #[serde(default)]
     pub deviation: Finite,
+    /// The slot whose range the map's depths are fitted to, where that is connected; ranges name their own slot. A texture that
+    /// takes the format of another slot takes its range, too.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub fitted_to: Option<String>,
 }
 
 fn one_each() -> [u32; 2] {
@@ -205,6 +209,7 @@ impl TextureRule {
             mips: Rule::Exact(1),
             samples: Rule::Exact(1),
             deviation: Finite::ZERO,
+            fitted_to: None,
         }
     }
 
@@ -257,6 +262,12 @@ impl TextureRule {
     /// Filtered by a kernel of this standard deviation along either axis, in texels.
     pub fn filtered(mut self, deviation: Finite) -> Self {
         self.deviation = deviation;
+        self
+    }
+
+    /// With depths that are fitted to the range of a slot, where that is connected; for ranges their own slot.
+    pub fn fitted_to(mut self, slot: &str) -> Self {
+        self.fitted_to = Some(slot.to_owned());
         self
     }
 

@@ -4,6 +4,7 @@ mod blur;
 mod composite_scattering;
 mod debug_moments;
 mod downsample;
+mod fit_range;
 mod integrate_scattering;
 mod place_layers;
 mod rectify_moments;
@@ -18,6 +19,7 @@ pub use blur::Blur;
 pub use composite_scattering::CompositeScattering;
 pub use debug_moments::{DebugMoments, Show};
 pub use downsample::Downsample;
+pub use fit_range::FitRange;
 pub use integrate_scattering::IntegrateScattering;
 pub use place_layers::PlaceLayers;
 pub use rectify_moments::RectifyMoments;
@@ -32,6 +34,7 @@ use crate::NodeRegistry;
 /// Registers the nodes by the names that graph files use.
 pub(crate) fn register(registry: &mut NodeRegistry) {
     registry.register::<Resolve>("resolve");
+    registry.register::<FitRange>("fit_range");
     registry.register::<PlaceLayers>("place_layers");
     registry.register::<Blur>("blur");
     registry.register::<Downsample>("downsample");

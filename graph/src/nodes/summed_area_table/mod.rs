@@ -112,7 +112,8 @@ impl Node for SummedAreaTable {
         let rule = map_input::rule(map_input::formats());
         let whole = TextureRule::of_map(encoding.clone())
             .like("map")
-            .filtered(map.deviation);
+            .filtered(map.deviation)
+            .fitted_to("map");
         let description =
             "The sum of all texels of a region that lie neither below nor to the right.";
         let tiles = [0, 1].map(|axis| tile[axis] * workgroup[axis]);
