@@ -18,6 +18,9 @@ use crate::techniques;
 /// Texels per side of all textures. Shaders do not depend on it, but how often some loops run does.
 pub const SIZE: [u32; 2] = [1024, 1024];
 
+/// What ranges are named by.
+const RANGES: &str = "fit.ranges";
+
 /// A node with settings, and what is connected to it.
 pub struct Variant {
     node: Box<dyn Node>,
@@ -29,6 +32,8 @@ pub struct Variant {
     depth: TextureFormat,
     /// Normals, if there are any.
     normals: Option<TextureFormat>,
+    /// Whether the input for ranges is connected.
+    fitted: bool,
     capabilities: Capabilities,
     /// The beginning of the names of its files, if it has any.
     pub file: Option<String>,
@@ -66,6 +71,7 @@ impl Variant {
             samples: 1,
             depth: TextureFormat::Depth32Float,
             normals: None,
+            fitted: false,
             capabilities: Capabilities::of_profile(profile(map)),
             file: None,
             kept: 0,
@@ -93,6 +99,13 @@ impl Variant {
     fn normals(self, format: TextureFormat) -> Self {
         let normals = Some(format);
         Self { normals, ..self }
+    }
+
+    /// Connects ranges, to which the depths of the map are fitted.
+    fn fitted(mut self) -> Self {
+        self.map.range = Some(RANGES.to_owned());
+        self.fitted = true;
+        self
     }
 
     fn mips(mut self, mips: u32) -> Self {
@@ -161,6 +174,10 @@ impl Variant {
             ..TextureDesc::new(self.depth, SIZE)
         };
         let splits = TextureDesc::new(TextureFormat::Rgba32Float, [2, 1]);
+        let ranges = self.fitted.then(|| TextureDesc {
+            range: self.map.range.clone(),
+            ..TextureDesc::new(TextureFormat::Rgba32Float, [self.map.regions, 1])
+        });
         let camera = TextureDesc {
             samples: self.samples,
             ..TextureDesc::new(TextureFormat::Depth32Float, SIZE)
@@ -175,6 +192,7 @@ impl Variant {
                 ("camera_depth", &camera),
             ])
             .chain(normals)
+            .chain(ranges.iter().map(|desc| ("ranges", desc)))
             .map(|(name, desc)| (name.to_owned(), ResourceDesc::Texture(desc.clone())))
             .collect()
     }

@@ -5,6 +5,7 @@ use moment_shadows::{AreaLight, DepthConversion, FourMomentsBias, LeakReduction,
 use moment_shadows_graph::nodes::ShadeHard;
 use moment_shadows_graph::{BindingResource, Capabilities};
 
+use super::fitted::RangeFit;
 use super::judged_map::JudgedMap;
 use super::map_point::MapPoint;
 use crate::error::LabError;
@@ -33,6 +34,8 @@ pub struct Evaluation {
     pub conversion: DepthConversion,
     /// The light's size: for percentage-closer soft shadows.
     pub light: AreaLight,
+    /// What the map's depths are fitted to; points and bias are those of the host's range.
+    pub range: RangeFit,
 }
 
 /// `Parameters` of the shader.
@@ -45,6 +48,7 @@ struct Uniform {
     padding: f32,
     conversion: DepthConversion,
     light: AreaLight,
+    range: RangeFit,
 }
 
 /// Evaluates a map at any points, by the functions that `shade_hard` calls on this device.
@@ -116,6 +120,7 @@ impl<'a> MapEvaluator<'a> {
             padding: 0.0,
             conversion: evaluation.conversion,
             light: evaluation.light,
+            range: evaluation.range,
         };
         let contents = bytemuck::bytes_of(&uniform);
         let parameters = gpu.filled(LABEL, contents, wgpu::BufferUsages::UNIFORM);
