@@ -101,7 +101,9 @@ fn check([near, far]: [f32; 2], range: Range) {
     assert!(-1.0 <= first && last <= 1.0, "{range:?}");
     assert!(first <= near && far <= last, "{range:?}");
     let room = 1.5e-2 * range.length() + 2.0 * depth * (1.0 / 64.0);
-    assert!(near - first <= depth / 32.0 + room, "{near}: {range:?}");
+    // At the host's far end the shortest range reaches farther to the front.
+    let nearest = near.min(1.0 - SHORTEST);
+    assert!(nearest - first <= depth / 32.0 + room, "{near}: {range:?}");
     // A single depth gets the shortest range, behind it.
     assert!(
         last - far.max(near + depth) <= depth / 16.0 + room,
@@ -141,8 +143,8 @@ fn without_casters_the_range_is_the_hosts_or_what_it_was() {
     assert_eq!((empty.ends, empty.scale), ([-1.0, 1.0], 1.0));
     let found = map.frame(&gpu, 0, casters([-0.25, 0.5]));
     check([-0.25, 0.5], found);
-    // What is no depth counts as none.
-    for nothing in [1.0, f32::NAN, f32::INFINITY, 1e30] {
+    // What is beyond the far end counts as none.
+    for nothing in [1.0, f32::INFINITY, 1e30] {
         assert_eq!(map.frame(&gpu, 0, |_, _| nothing), found, "{nothing}");
     }
 }
@@ -159,7 +161,8 @@ fn a_range_grows_at_once_and_shrinks_where_it_is_clearly_too_long() {
     // The end that is too near moves, the other one stays.
     let farther = map.frame(&gpu, 0, casters([-0.25, 0.28]));
     check([-0.25, 0.28], farther);
-    assert_eq!(farther.ends[0], first.ends[0]);
+    // Middle and scale are rounded.
+    assert!((farther.ends[0] - first.ends[0]).abs() <= 1e-6);
     assert!(farther.ends[1] > first.ends[1]);
     let longer = map.frame(&gpu, 0, casters([-0.75, 0.5]));
     check([-0.75, 0.5], longer);
@@ -167,7 +170,8 @@ fn a_range_grows_at_once_and_shrinks_where_it_is_clearly_too_long() {
     assert_eq!(back, first);
 }
 
-/// A caster that bobs through a quarter of the range, and one that leaves slowly.
+/// A caster that bobs through a third of the casters' depth, twice, and one that moves away until that is two thirds longer. The range
+/// grows by 1/32 or more at once, half of its room, and each fall shrinks it by an eighth or more.
 #[test]
 fn what_moves_slowly_changes_the_range_seldom() {
     const FRAMES: u32 = 60;
@@ -175,8 +179,8 @@ fn what_moves_slowly_changes_the_range_seldom() {
     let bob = |frame: u32| 0.125 * (frame as f32 * core::f32::consts::TAU / 30.0).sin();
     let leave = |frame: u32| 0.5 * frame as f32 / FRAMES as f32;
     for (what, far, most) in [
-        ("bobs", &bob as &dyn Fn(u32) -> f32, 12),
-        ("leaves", &leave, 16),
+        ("bobs", &bob as &dyn Fn(u32) -> f32, 16),
+        ("leaves", &leave, 20),
     ] {
         let map = Map::new(&gpu, 1, 1, 1);
         let ranges: Vec<Range> = (0..FRAMES)

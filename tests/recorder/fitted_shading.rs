@@ -121,8 +121,11 @@ fn a_fitted_map_shades_like_one_with_a_tight_range() {
                 .map(|texel| 1.0 - intensities[texel as usize])
                 .fold(0.0, f32::max)
         };
+        // Near its edge the plane shadows the floor.
+        let away = |texel: u32| (texel / MAP[0]).abs_diff(30) > 4;
         let lit = |intensities: &[f32]| {
-            let lit = (0..MAP[1] * MAP[0]).filter(|texel| texel % MAP[0] > MAP[0] / 2 + 4);
+            let lit = (0..MAP[1] * MAP[0])
+                .filter(|texel| texel % MAP[0] > MAP[0] / 2 + 4 && away(*texel));
             lit.map(|texel| intensities[texel as usize])
                 .fold(0.0, f32::max)
         };
@@ -168,6 +171,6 @@ fn a_shadow_that_lies_still_hardly_changes_while_the_range_does() {
         "intensity from {:.3} to {:.3}: {changes} changes in 60 frames, the largest {largest:.4}",
         frames[0], frames[59]
     );
-    assert!(changes <= 20 && changes > 0, "{changes}");
-    assert!(largest <= 0.05, "{largest}");
+    assert!((1..=20).contains(&changes), "{changes}");
+    assert!(largest <= 0.02, "{largest}");
 }

@@ -6,6 +6,7 @@ mod choices;
 mod contacts;
 mod device;
 mod figures;
+mod fitted;
 mod peeling;
 mod sensitivity;
 mod setup;

@@ -5,7 +5,6 @@ use moment_shadows::{AreaLight, DepthConversion, FourMomentsBias, LeakReduction,
 use moment_shadows_graph::nodes::ShadeHard;
 use moment_shadows_graph::{BindingResource, Capabilities};
 
-use super::fitted::RangeFit;
 use super::judged_map::JudgedMap;
 use super::map_point::MapPoint;
 use crate::error::LabError;
@@ -34,8 +33,8 @@ pub struct Evaluation {
     pub conversion: DepthConversion,
     /// The light's size: for percentage-closer soft shadows.
     pub light: AreaLight,
-    /// What the map's depths are fitted to; points and bias are those of the host's range.
-    pub range: RangeFit,
+    /// Middle and scale of what the map's depths are fitted to, 0 and 1 where they are not; points and bias are those of the host's range.
+    pub range: [f32; 2],
 }
 
 /// `Parameters` of the shader.
@@ -48,7 +47,7 @@ struct Uniform {
     padding: f32,
     conversion: DepthConversion,
     light: AreaLight,
-    range: RangeFit,
+    range: [f32; 2],
 }
 
 /// Evaluates a map at any points, by the functions that `shade_hard` calls on this device.

@@ -6,10 +6,10 @@ use crate::graph_file::GraphFile;
 use crate::graph_frame::GraphFrame;
 
 /// Middle and scale of a range within the host's, `RangeFit` of the shader.
-pub type RangeFit = [f32; 2];
+pub(super) type RangeFit = [f32; 2];
 
 /// The host's range itself.
-pub const HOSTS_RANGE: RangeFit = [0.0, 1.0];
+pub(super) const HOSTS_RANGE: RangeFit = [0.0, 1.0];
 
 /// The output with the ranges of a graph's map, so that it can be evaluated elsewhere.
 pub(super) struct FittedRange(String);

@@ -125,7 +125,7 @@ fn on_grid(ends: vec2f) -> vec2f {
 fn fitted(casters: vec2f, before: vec2f) -> vec2f {
     let made = on_grid(range_around(casters, ROOM_IN_FRONT, ROOM_BEHIND));
     let needed = range_around(casters, 0.0, 0.5 * ROOM_BEHIND);
-    let grown = select(before, made, vec2<bool>(needed.x < before.x, needed.y > before.y));
+    let grown = select(before, made, vec2<bool>(before.x > needed.x, needed.y > before.y));
     let too_long = grown.y - grown.x > LONGEST * (made.y - made.x);
     return select(grown, made, too_long);
 }
