@@ -93,17 +93,18 @@ fn casters([near, far]: [f32; 2]) -> impl Fn(u32, u32) -> f32 {
     }
 }
 
-/// The range goes around the casters, by 1/32 of their depth in front and 1/16 behind, and at most one step of the grid more at
-/// either end: 1/64 of the length. It does not leave the host's.
+/// The range goes around the casters, by 1/64 of their depth in front and 1/16 behind, and at most one step of the grid more at
+/// either end: 1/128 of the length. It does not leave the host's.
 fn check([near, far]: [f32; 2], range: Range) {
     let depth = (far - near).max(SHORTEST);
     let [first, last] = range.ends;
     assert!(-1.0 <= first && last <= 1.0, "{range:?}");
     assert!(first <= near && far <= last, "{range:?}");
-    let room = 1.5e-2 * range.length() + 2.0 * depth * (1.0 / 64.0);
+    // At most as long as is rounded up to twice.
+    let room = range.length() / 128.0 + 1e-6;
     // At the host's far end the shortest range reaches farther to the front.
     let nearest = near.min(1.0 - SHORTEST);
-    assert!(nearest - first <= depth / 32.0 + room, "{near}: {range:?}");
+    assert!(nearest - first <= depth / 64.0 + room, "{near}: {range:?}");
     // A single depth gets the shortest range, behind it.
     assert!(
         last - far.max(near + depth) <= depth / 16.0 + room,

@@ -8,6 +8,7 @@
 
 mod cameras;
 mod far;
+mod fitted;
 mod formats;
 mod frames;
 mod normals;

@@ -149,11 +149,11 @@ pub(super) fn of_depth(any: &MapEncoding) -> Vec<Variant> {
             .file(format!("fit_range_{samples}"), regions == 1)
     };
     vec![
-        // Blocks of a workgroup, or workgroups per invocation; halvings of a workgroup's ends.
+        // Memory of the workgroup that is cleared; blocks of a workgroup, or workgroups per invocation; halvings of their ends.
         fit(1, 1)
             .row(true, "1 samples", &[])
-            .pass("find ends", &[4, 8])
-            .pass("fit ranges", &[4, 8])
+            .pass("find ends", &[1, 4, 8])
+            .pass("fit ranges", &[1, 4, 8])
             .pass("keep ranges", &[1]),
         fit(4, 1),
         fit(4, REGIONS),

@@ -23,10 +23,10 @@ const INVOCATIONS: u32 = 256u;
 // a single occluder leaks that is stored in 16-bit numbers. Casters may move through all of the front and half of the back before
 // the range has to grow.
 const ROOM_BEHIND: f32 = 0.0625;
-const ROOM_IN_FRONT: f32 = 0.03125;
+const ROOM_IN_FRONT: f32 = 0.015625;
 
 // Steps of the grid in the range, at least.
-const STEPS: f32 = 64.0;
+const STEPS: f32 = 128.0;
 
 // By how much the range may be longer than one that is made anew: after something has left.
 const LONGEST: f32 = 1.125;
