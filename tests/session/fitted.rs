@@ -20,7 +20,7 @@ fn penumbrae_are_as_wide_as_in_the_hosts_range() {
         map: [256; 2],
         ..Drawn::default()
     };
-    let scene = scene::load("hall").unwrap();
+    let scene = scene::load("edge").unwrap();
     let frame = options.frame(&gpu, &scene, &drawn, 4).unwrap();
     let (camera, light) = places(&frame);
     let plain = SOFT.replace(
@@ -49,6 +49,7 @@ fn penumbrae_are_as_wide_as_in_the_hosts_range() {
     let apart = both.clone().map(|(a, b)| (a - b).abs()).sum::<f32>() / plain.len() as f32;
     let partly = both.filter(|(a, _)| (0.1..0.9).contains(*a)).count();
     println!("{apart:.4} apart on average; {partly} pixels in penumbrae");
-    // Moments of a tight range leak less. With the light's ends those of the host's range it is FOUND.
-    assert!(apart <= 0.02 && partly > 500, "{apart} {partly}");
+    // One blocker in front of one receiver: nothing leaks. A light that knows the host's range alone is as many times too large
+    // as that is too long.
+    assert!(apart <= 0.02 && partly > 100, "{apart} {partly}");
 }
