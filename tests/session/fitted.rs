@@ -51,5 +51,5 @@ fn penumbrae_are_as_wide_as_in_the_hosts_range() {
     println!("{apart:.4} apart on average; {partly} pixels in penumbrae");
     // One blocker in front of one receiver: nothing leaks. A light that knows the host's range alone is as many times too large
     // as that is too long.
-    assert!(apart <= 0.02 && partly > 100, "{apart} {partly}");
+    assert!(apart <= 2e-3 && partly > 100, "{apart} {partly}");
 }

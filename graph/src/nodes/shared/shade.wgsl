@@ -4,7 +4,7 @@ import moment_shadows::map::depth::{DepthConversion};
 import moment_shadows::shade::leak_reduction::{LeakReduction, leak_reduction_apply};
 import moment_shadows::map::map_region::{MapRegion, map_region_within};
 import moment_shadows::map::minification::{minification_depth_variance, minification_footprint};
-import moment_shadows::map::range_fit::{range_fit_depth};
+import moment_shadows::map::range_fit::{range_fit_depth, range_fit_none};
 import moment_shadows::shade::area_light::{AreaLight, area_light_fitted};
 import moment_shadows::shade::receiver_bias::{ReceiverBias, receiver_bias_depth, receiver_bias_depth_minified, receiver_bias_fitted, receiver_bias_plane, receiver_bias_step};
 import node::range_of_view::{range_of_view};
@@ -97,21 +97,18 @@ fn view_shadow_intensity(view: u32, pixel: vec2i, receiver: Receiver, neighbours
     let texels = vec2f(region.extent);
     var difference_x = receiver_difference(view, neighbours[0], receiver, texels);
     var difference_y = receiver_difference(view, neighbours[1], receiver, texels);
-    var settings = views[view].receiver_bias;
-    var z = receiver.place.z;
-    var step = receiver_bias_step(settings, z);
-    var light = views[view].light;
+    // All that is a moment depth, or a difference of two, becomes one of the map's range.
+    var fit = range_fit_none();
     if FITTED {
-        // All that is a moment depth, or a difference of two, becomes one of the map's range.
-        let fit = range_of_view(views[view].layer, region.origin);
+        fit = range_of_view(views[view].layer, region.origin);
         difference_x.z *= fit.scale;
         difference_y.z *= fit.scale;
-        settings = receiver_bias_fitted(settings, fit.scale);
-        z = range_fit_depth(fit, z);
-        step *= fit.scale;
-        light = area_light_fitted(light, fit);
     }
     let gradient = receiver_bias_plane(difference_x, difference_y);
+    var settings = views[view].receiver_bias;
+    if FITTED {
+        settings = receiver_bias_fitted(settings, fit.scale);
+    }
     var bias = receiver_bias_depth(settings, length(gradient));
     if LEVELS > 1u {
         let footprint = minification_footprint(difference_x.xy, difference_y.xy, ANISOTROPY);
@@ -120,6 +117,14 @@ fn view_shadow_intensity(view: u32, pixel: vec2i, receiver: Receiver, neighbours
     }
     // The map holds a surface that leaves the light's range at the far end. The bias counts from there, since some of the
     // kernel may still see the surface within the range.
+    var z = receiver.place.z;
+    var step = receiver_bias_step(settings, z);
+    var light = views[view].light;
+    if FITTED {
+        step *= fit.scale;
+        z = range_fit_depth(fit, z);
+        light = area_light_fitted(light, fit);
+    }
     let depth = min(z, 1.0) - step;
     let intensity = technique_shadow_intensity(TechniqueReceiver(
         views[view].layer,
