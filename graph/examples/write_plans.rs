@@ -197,8 +197,8 @@ fn air(encoded: &Value) -> String {
     )
 }
 
-/// What techniques and storages alone do not reach: layers, regions, mip levels, parameters of the kernel, placed layers, what is
-/// shown of a map, a stencil beside the depth, and shadows at contacts.
+/// What techniques and storages alone do not reach: layers, regions, mip levels, parameters of the kernel, placed layers, fitted ranges,
+/// what is shown of a map, a stencil beside the depth, and shadows at contacts.
 fn others() -> Vec<(String, String)> {
     let float16 = json!({ "storage": "float16" });
     let narrow = json!({ "kernel": { "radius": 2 } });
@@ -247,6 +247,7 @@ fn others() -> Vec<(String, String)> {
         ("mip levels", mip_levels(&float16)),
         ("soft atlas", soft_atlas()),
         ("placed layers", placed_layers(cascades(1))),
+        ("fitted ranges", fitted_ranges(cascades(4))),
         ("debug", debug(&float16)),
         ("contact shadows", contact_shadows(&float16)),
     ];
@@ -337,6 +338,26 @@ fn placed_layers(light: Value) -> String {
             ("light_depth", "resolve.depth"),
             ("place.splits", "resolve.splits"),
             ("place.splits", "shade.splits"),
+            ("resolve.map", "shade.map"),
+            ("camera_depth", "shade.camera_depth"),
+        ],
+        "shade.shadow_intensity",
+    )
+}
+
+fn fitted_ranges(light: Value) -> String {
+    graph(
+        light,
+        &[
+            node("fit", "fit_range", json!({})),
+            node("resolve", "resolve", json!({ "storage": "float16" })),
+            node("shade", "shade_hard", json!({ "views": 4 })),
+        ],
+        &[
+            ("light_depth", "fit.depth"),
+            ("light_depth", "resolve.depth"),
+            ("fit.ranges", "resolve.ranges"),
+            ("fit.ranges", "shade.ranges"),
             ("resolve.map", "shade.map"),
             ("camera_depth", "shade.camera_depth"),
         ],

@@ -95,6 +95,8 @@ export interface TextureDesc {
   deviation?: number;
   /** The same of a filter with a kernel for each region, in scene units. */
   width?: number;
+  /** What a map's depths are fitted to, as `node.slot`; the host's range where it is left out. */
+  range?: string;
 }
 
 export interface ParameterLayout {

@@ -37,6 +37,10 @@ pub struct TextureDesc {
     /// The same of the filter whose width is given in scene units, with a kernel for each region: 0 for a map without one.
     #[serde(default, skip_serializing_if = "is_zero")]
     pub width: Finite,
+    /// What the depths of a map are fitted to: the output of a node that gives the range, as `node.slot`, which itself carries the
+    /// same name. None where they are those of the host's range.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub range: Option<String>,
     /// Samples per texel. A multisampled texture with several layers is a list of textures, one per layer.
     #[serde(default = "one")]
     pub samples: u32,
@@ -64,6 +68,7 @@ impl TextureDesc {
             encoding: None,
             deviation: Finite::ZERO,
             width: Finite::ZERO,
+            range: None,
             samples: 1,
         }
     }

@@ -7,9 +7,9 @@ use serde_json::{Value, json};
 use crate::Plan;
 use crate::graph::{Edge, FileImport, FileOutput, Graph, VERSION};
 use crate::nodes::{
-    Blur, CompositeScattering, ContactShadows, DebugMoments, Downsample, IntegrateScattering,
-    PlaceLayers, RectifyMoments, Resolve, ShadeHard, ShadeSoft, SummedAreaTable,
-    TranslucentCasters,
+    Blur, CompositeScattering, ContactShadows, DebugMoments, Downsample, FitRange,
+    IntegrateScattering, PlaceLayers, RectifyMoments, Resolve, ShadeHard, ShadeSoft,
+    SummedAreaTable, TranslucentCasters,
 };
 
 impl Graph {
@@ -26,6 +26,7 @@ impl Graph {
             node::<ContactShadows>(generator, "contact_shadows"),
             node::<DebugMoments>(generator, "debug_moments"),
             node::<Downsample>(generator, "downsample"),
+            node::<FitRange>(generator, "fit_range"),
             node::<IntegrateScattering>(generator, "integrate_scattering"),
             node::<PlaceLayers>(generator, "place_layers"),
             node::<RectifyMoments>(generator, "rectify_moments"),

@@ -8,13 +8,14 @@ use moment_shadows_graph::{Capabilities, Home, Lives, Plan, PlannedBindingResour
 use crate::example::compiled;
 use crate::techniques::{STORAGES, TECHNIQUES, example};
 
-const EXAMPLES: [&str; 6] = [
+const EXAMPLES: [&str; 7] = [
     include_str!("../../examples/hard_shadows.json"),
     include_str!("../../examples/soft_shadows.json"),
     include_str!("../../examples/volumetric_scattering.json"),
     include_str!("../../examples/mipmapped_shadows.json"),
     include_str!("../../examples/forward_shading.json"),
     include_str!("../../examples/translucent.json"),
+    include_str!("../../examples/fitted_range.json"),
 ];
 
 /// Scattering in a map of six moments, whose planes are integrated one by one, with layers of a light that are placed.

@@ -23,6 +23,7 @@ mod parameters_again;
 mod plan;
 mod plan_file;
 mod properties;
+mod ranges;
 mod regions;
 mod resized;
 mod resources;

@@ -12,6 +12,8 @@ mod debug;
 mod depth_map;
 mod depth_tests;
 mod errors;
+mod fit_range;
+mod fitted_shading;
 #[allow(dead_code, reason = "shared with the tests of the compiler")]
 #[path = "../support/host_node.rs"]
 mod host_node;

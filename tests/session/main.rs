@@ -9,6 +9,7 @@
 mod cameras;
 mod contacts;
 mod far;
+mod fitted;
 mod formats;
 mod frames;
 mod many;
@@ -34,6 +35,7 @@ use moment_shadows_lab::scene;
 use pollster::block_on;
 
 pub(crate) const HARD: &str = include_str!("../../examples/hard_shadows.json");
+pub(crate) const FITTED: &str = include_str!("../../examples/fitted_range.json");
 pub(crate) const MINIFIED: &str = include_str!("../../examples/mipmapped_shadows.json");
 pub(crate) const AIR: &str = include_str!("../../examples/volumetric_scattering.json");
 pub(crate) const MAP_ALONE: &str = include_str!("../../examples/forward_shading.json");

@@ -5,7 +5,9 @@ use moment_shadows_lab::graph_file::GraphFile;
 use moment_shadows_lab::graph_frame::GraphFrame;
 use moment_shadows_lab::scattering::Air;
 
-use crate::{AIR, HARD, MAP_ALONE, MINIFIED, frame, gpu, imports, places, recorded, session};
+use crate::{
+    AIR, FITTED, HARD, MAP_ALONE, MINIFIED, frame, gpu, imports, places, recorded, session,
+};
 
 const SIZE: [u32; 2] = [160, 90];
 
@@ -23,6 +25,7 @@ fn pictures_are_those_of_the_five_objects() {
     let cases = [
         (HARD, "shadow_intensity"),
         (MINIFIED, "shadow_intensity"),
+        (FITTED, "shadow_intensity"),
         (AIR, "shadow_intensity"),
         (AIR, "scattering"),
     ];

@@ -2,8 +2,10 @@
 // moment_shadows/map/map_region.wgsl: MapRegion map_region_within map_region_at_level
 // regions: regions region_at RegionTile region_tile
 // moment_shadows/map/depth.wgsl: DepthConversion DEPTH_SMALLEST_DENOMINATOR depth_is_nan depth_to_moment_depth
+// moment_shadows/map/range_fit.wgsl: RangeFit range_fit_none range_fit_depth range_fit_map_depth
 // moment_shadows/map/storage.wgsl: STORAGE_FLOAT16 STORAGE_FLOAT32 STORAGE_LARGEST_FLOAT16 storage_is_float storage_round_to_float16
 // moment_shadows/techniques/exponential.wgsl: EXPONENTIAL_LARGEST_EXPONENT EXPONENTIAL_SMALLEST_EXPONENT EXPONENTIAL_SMALLEST_MEAN exponential_exponent exponential_channels exponential_to_texel
+// range_of_region: range_of_region
 // written_texel: conversions depth_map LEVEL written_size written_texel
 // write_computed.wgsl: written_map write_map
 
@@ -13,6 +15,7 @@ alias MomentsStorage = texture_storage_2d<r32float, write>;
 const EXPONENT = f32(80.0);
 const LOGARITHMIC = true;
 const STORAGE = 2u;
+const FITTED = false;
 alias DepthTexture = texture_depth_multisampled_2d;
 const REGIONS = 1u;
 const SAMPLES = 4;

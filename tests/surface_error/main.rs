@@ -7,6 +7,7 @@ mod contact_shadows;
 mod contacts;
 mod device;
 mod figures;
+mod fitted;
 mod peeling;
 mod sensitivity;
 mod setup;

@@ -1,3 +1,5 @@
+import super::super::map::range_fit::{RangeFit};
+
 // Area lights: how wide a light appears on its map when a receiver sees it through a blocker.
 //
 // The light's outline, projected from the receiver through the blocker onto the map, is what a filter has to average for a
@@ -29,6 +31,13 @@ const AREA_LIGHT_LARGEST_RADIUS: f32 = 4096.0;
 // width 1: along an axis a box of half width h has the variance h^2 / 3, a disk of radius r the variance r^2 / 4.
 const AREA_LIGHT_BOX_OF_DISK: f32 = 0.8660254;
 const AREA_LIGHT_DISK_OF_BOX: f32 = 1.1547005;
+
+// The light for moment depths of a fitted range.
+fn area_light_fitted(light: AreaLight, fit: RangeFit) -> AreaLight {
+    let ends = fit.middle + vec2f(-1.0, 1.0) / fit.scale;
+    let distances = mix(vec2f(light.near), vec2f(light.far), 0.5 * ends + 0.5);
+    return AreaLight(light.size, distances.x, distances.y, light.perspective, light.smallest_radius, light.largest_radius, light.rectangular);
+}
 
 // Half the light's width and height in texels as a receiver sees it through a blocker, projected onto the map. Both depths
 // are moment depths; the result is 0 for a blocker that is not in front.

@@ -27,6 +27,17 @@ struct ReceiverBias {
     step: u32,
 }
 
+// What arithmetic in single precision loses of a moment depth at most, beside what is stored.
+const RECEIVER_BIAS_ROUNDING: f32 = 4.76837158203125e-7;
+
+// The bias in moment depth of a fitted range (`range_fit`), of which the host's range has `scale` times the length. The host's
+// slopes, and with them the largest bias, become that many times as steep. The constant is what moment depths themselves are off
+// by, whatever their range; only the rounding error of the host's moment depth grows.
+fn receiver_bias_fitted(bias: ReceiverBias, scale: f32) -> ReceiverBias {
+    let constant = fma(scale - 1.0, RECEIVER_BIAS_ROUNDING, bias.constant);
+    return ReceiverBias(constant, bias.slope_scale, fma(scale, bias.maximum - bias.constant, constant), bias.step);
+}
+
 // The gradient of moment depth per texel on the receiver's plane, from the differences of two neighbouring points on it
 // in light space: xy in texels of the map, z in moment depth, each at most 1e9. Where the differences in xy are parallel
 // or zero (the plane is edge-on to the light, or a neighbour is missing) the result is huge, and `receiver_bias_depth`

@@ -198,6 +198,20 @@ impl LightView {
         self
     }
 
+    /// This light with a range that is so many times as long, at least once: with parallel rays by as much in front as behind, with
+    /// rays from a point behind.
+    #[must_use]
+    pub fn with_range_times(mut self, times: f64) -> Self {
+        let [first, last] = self.range;
+        let longer = (times.max(1.0) - 1.0) * (last - first);
+        if self.kind() == LightKind::Directional {
+            let back = 0.5 * longer;
+            self.view_from_world =
+                DMat4::from_translation(DVec3::new(0.0, 0.0, -back)) * self.view_from_world;
+        }
+        self.reaching(last + longer)
+    }
+
     /// The same parallel light with its map of `map` texels so many of them beside its place: shadows stay where they are, and texels
     /// lie elsewhere.
     #[must_use]

@@ -28,6 +28,7 @@
 //! differ by far more than between techniques.
 
 mod evaluate;
+mod fitted;
 mod judged_map;
 mod map_point;
 mod placed;
@@ -291,6 +292,7 @@ impl Evaluation {
             leak_reduction: parameters.leak_reduction,
             conversion: parameters.conversion,
             light: parameters.light,
+            range: fitted::HOSTS_RANGE,
         })
     }
 }

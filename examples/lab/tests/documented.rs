@@ -101,7 +101,7 @@ const RUN: [(&str, &[&str]); 14] = [
 ];
 
 /// Sub-commands that are not run here, and why.
-const LONG: [(&str, &str); 16] = [
+const LONG: [(&str, &str); 17] = [
     ("error-table", "peels whole scenes, for a minute each"),
     ("soft-error", "traces 256 rays per pixel"),
     ("scattering-error", "marches 1,024 steps per pixel"),

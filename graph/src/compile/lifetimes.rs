@@ -99,6 +99,7 @@ pub(super) fn share_memory(plan: &mut Plan, known: &[&Known]) {
             // What a map has been through is not its memory's.
             texture.deviation = Finite::ZERO;
             texture.width = Finite::ZERO;
+            texture.range = None;
         }
         let mut taken = blocks.iter();
         let home = match taken.position(|block| block.takes(life, &desc, root)) {

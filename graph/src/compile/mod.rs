@@ -30,6 +30,7 @@ use crate::error::unknown;
 use crate::{
     Access, Capabilities, Connected, Direction, Graph, GraphError, GraphErrorKind, Home, Lives,
     Named, NodeDesc, Plan, PlannedDevice, PlannedExtent, PlannedResource, ResourceDesc, Slot,
+    SlotResource,
 };
 pub(crate) use reflect::numbers as binding_numbers;
 use wiring::Wiring;
@@ -307,9 +308,17 @@ fn describe_all(
                 let per = [0, 1].map(|axis| from.per[axis].saturating_mul(per[axis]));
                 (from.root, per)
             });
+            let name = format!("{}.{}", graph_node.name, slot.name);
+            let mut desc = made.clone();
+            if let (SlotResource::Texture(rule), ResourceDesc::Texture(made)) =
+                (&slot.resource, &mut desc)
+                && rule.fitted_to.as_ref() == Some(&slot.name)
+            {
+                made.range = Some(name.clone());
+            }
             known.push(Known {
-                name: format!("{}.{}", graph_node.name, slot.name),
-                desc: made.clone(),
+                name,
+                desc,
                 persistent: false,
                 root,
                 per,

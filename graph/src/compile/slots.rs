@@ -100,8 +100,13 @@ fn make(
         texture.planes = encoding.planes();
         texture.encoding = Some(encoding.as_ref().clone());
     }
+    // Ranges themselves get their name from the compiler.
+    let ranges = rule.fitted_to.iter().filter(|other| **other != slot.name);
+    let mut ranges = ranges.filter_map(|other| resolved.get(other)?.texture());
+    texture.range = ranges.find_map(|ranges| ranges.range.clone());
     if let Rule::SameAs(other) = &rule.format {
         let other = texture_of(other, resolved)?;
+        texture.range = other.range.clone();
         texture.planes = other.planes;
         texture.encoding = other.encoding.clone();
         texture.deviation = added(other.deviation, rule.deviation);

@@ -48,6 +48,10 @@ impl Direction {
 /// What a slot holds.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
+#[expect(
+    clippy::large_enum_variant,
+    reason = "a description has a handful of slots, nearly all of them textures"
+)]
 pub enum SlotResource {
     /// A texture.
     Texture(TextureRule),
@@ -88,6 +92,10 @@ pub struct TextureRule {
     /// The same in scene units, where each region has a kernel of its own.
     #[serde(default)]
     pub width: Finite,
+    /// The slot whose range the map's depths are fitted to, where that is connected; ranges name their own slot. A texture that
+    /// takes the format of another slot takes its range, too.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub fitted_to: Option<String>,
 }
 
 fn one_each() -> [u32; 2] {
@@ -209,6 +217,7 @@ impl TextureRule {
             samples: Rule::Exact(1),
             deviation: Finite::ZERO,
             width: Finite::ZERO,
+            fitted_to: None,
         }
     }
 
@@ -267,6 +276,12 @@ impl TextureRule {
     /// Filtered in each region by a kernel of this standard deviation along either axis, in scene units.
     pub fn filtered_in_scene(mut self, width: Finite) -> Self {
         self.width = width;
+        self
+    }
+
+    /// With depths that are fitted to the range of a slot, where that is connected; for ranges their own slot.
+    pub fn fitted_to(mut self, slot: &str) -> Self {
+        self.fitted_to = Some(slot.to_owned());
         self
     }
 

@@ -5,6 +5,7 @@ mod composite_scattering;
 mod contact_shadows;
 mod debug_moments;
 mod downsample;
+mod fit_range;
 mod integrate_scattering;
 mod place_layers;
 mod rectify_moments;
@@ -21,6 +22,7 @@ pub use composite_scattering::CompositeScattering;
 pub use contact_shadows::ContactShadows;
 pub use debug_moments::{DebugMoments, Show};
 pub use downsample::Downsample;
+pub use fit_range::FitRange;
 pub use integrate_scattering::IntegrateScattering;
 pub use place_layers::PlaceLayers;
 pub use rectify_moments::RectifyMoments;
@@ -36,6 +38,7 @@ use crate::NodeRegistry;
 /// Registers the nodes by the names that graph files use.
 pub(crate) fn register(registry: &mut NodeRegistry) {
     registry.register::<Resolve>("resolve");
+    registry.register::<FitRange>("fit_range");
     registry.register::<PlaceLayers>("place_layers");
     registry.register::<TranslucentCasters>("translucent_casters");
     registry.register::<Blur>("blur");

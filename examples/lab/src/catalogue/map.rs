@@ -2,7 +2,8 @@
 
 use moment_shadows::{Finite, Kernel, MapEncoding, Storage, Technique, TextureFormat, ValueError};
 use moment_shadows_graph::nodes::{
-    Blur, BlurKernel, DebugMoments, Downsample, PlaceLayers, Resolve, Show, SummedAreaTable,
+    Blur, BlurKernel, DebugMoments, Downsample, FitRange, PlaceLayers, Resolve, Show,
+    SummedAreaTable,
 };
 
 use super::{SIZE, Variant};
@@ -64,6 +65,10 @@ pub(super) fn of_four_moments(four: &MapEncoding) -> Result<Vec<Variant>, ValueE
         let settings = format!("{storage}, {samples} samples");
         all.push(made.file(name, listed).row(listed, settings, &[]));
     }
+    let fitted = resolve(four).samples(4).fitted();
+    let settings = format!("{storage}, 4 samples, fitted");
+    let fitted = fitted.file(format!("resolve_fitted_{storage}"), unorm16);
+    all.push(fitted.row(unorm16, settings, &[]));
     for (kind, samples) in [("distances", 1), ("distances_samples", 4)] {
         let made = resolve(four)
             .samples(samples)
@@ -153,7 +158,7 @@ fn summed(four: &MapEncoding) -> Result<Vec<Variant>, ValueError> {
     ])
 }
 
-/// Placing layers, for one depth map with one region and one with several.
+/// Fitting ranges and placing layers, for one depth map with one region and one with several.
 pub(super) fn of_depth(any: &MapEncoding) -> Vec<Variant> {
     let node = PlaceLayers::default();
     let place = |samples, regions| {
@@ -162,7 +167,21 @@ pub(super) fn of_depth(any: &MapEncoding) -> Vec<Variant> {
             .regions(regions)
             .file(format!("place_layers_{samples}"), regions == 1)
     };
+    let fit = |samples, regions| {
+        Variant::new(FitRange {}, any)
+            .samples(samples)
+            .regions(regions)
+            .file(format!("fit_range_{samples}"), regions == 1)
+    };
     vec![
+        // Memory of the workgroup that is cleared; blocks of a workgroup, or workgroups per invocation; halvings of their ends.
+        fit(1, 1)
+            .row(true, "1 samples", &[])
+            .pass("find ends", &[1, 4, 8])
+            .pass("fit ranges", &[1, 4, 8])
+            .pass("keep ranges", &[1]),
+        fit(4, 1),
+        fit(4, REGIONS),
         // Splits of layers of equal depth, where there is no state yet; parts of a tile, or tiles per invocation; halvings of
         // a workgroup's sums. And for either of two splits the others that it may pass, in front and behind.
         place(1, 1)

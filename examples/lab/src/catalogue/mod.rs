@@ -18,6 +18,9 @@ use crate::techniques;
 /// Texels per side of all textures. Shaders do not depend on it, but how often some loops run does.
 pub const SIZE: [u32; 2] = [1024, 1024];
 
+/// What ranges are named by.
+const RANGES: &str = "fit.ranges";
+
 /// A node with settings, and what is connected to it.
 pub struct Variant {
     node: Box<dyn Node>,
@@ -31,6 +34,8 @@ pub struct Variant {
     normals: Option<TextureFormat>,
     /// What maps say of shadows, if anything.
     intensity: Option<TextureFormat>,
+    /// Whether the input for ranges is connected.
+    fitted: bool,
     capabilities: Capabilities,
     /// The beginning of the names of its files, if it has any.
     pub file: Option<String>,
@@ -69,6 +74,7 @@ impl Variant {
             depth: TextureFormat::Depth32Float,
             normals: None,
             intensity: None,
+            fitted: false,
             capabilities: Capabilities::of_profile(profile(map)),
             file: None,
             kept: 0,
@@ -102,6 +108,13 @@ impl Variant {
     fn intensity(self, format: TextureFormat) -> Self {
         let intensity = Some(format);
         Self { intensity, ..self }
+    }
+
+    /// Connects ranges, to which the depths of the map are fitted.
+    fn fitted(mut self) -> Self {
+        self.map.range = Some(RANGES.to_owned());
+        self.fitted = true;
+        self
     }
 
     fn mips(mut self, mips: u32) -> Self {
@@ -170,6 +183,10 @@ impl Variant {
             ..TextureDesc::new(self.depth, SIZE)
         };
         let splits = TextureDesc::new(TextureFormat::Rgba32Float, [2, 1]);
+        let ranges = self.fitted.then(|| TextureDesc {
+            range: self.map.range.clone(),
+            ..TextureDesc::new(TextureFormat::Rgba32Float, [self.map.regions, 1])
+        });
         let camera = TextureDesc {
             samples: self.samples,
             ..TextureDesc::new(TextureFormat::Depth32Float, SIZE)
@@ -187,6 +204,7 @@ impl Variant {
             ])
             .chain(normals)
             .chain(intensity)
+            .chain(ranges.iter().map(|desc| ("ranges", desc)))
             .map(|(name, desc)| (name.to_owned(), ResourceDesc::Texture(desc.clone())))
             .collect()
     }

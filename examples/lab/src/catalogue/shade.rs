@@ -64,6 +64,10 @@ pub(super) fn of_four_moments(four: &MapEncoding) -> Result<Vec<Variant>, LabErr
                 .file(format!("{name}_normals"), unorm16)
                 .row(unorm16, format!("{row}, normals, 4 samples"), &[]),
             shade(1, 1)
+                .fitted()
+                .file(format!("{name}_fitted"), unorm16)
+                .row(unorm16, format!("{row}, fitted"), &[1]),
+            shade(1, 1)
                 .normals(Rg16Float)
                 .file(format!("{name}_octahedral_normals"), false),
         ]);
@@ -113,6 +117,12 @@ fn soft(four: &MapEncoding) -> Result<Vec<Variant>, LabError> {
                 .row(listed, format!("{technique}, {words} interpolated"), &[1]),
         );
     }
+    all.push(
+        Variant::new(ShadeSoft::default(), four)
+            .connected(&MapEncoding::of_table(four_moments.clone(), table)?)
+            .fitted()
+            .file(format!("shade_soft_fitted_{storage}"), false),
+    );
     let lights = ShadeSoft {
         lights: 2,
         views: 6,

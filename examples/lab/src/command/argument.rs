@@ -31,6 +31,15 @@ pub(super) fn camera(text: &str) -> Result<[DVec3; 2], String> {
     Ok([eye, target])
 }
 
+/// How many times as long, up to which single precision has digits left.
+pub(super) fn times(text: &str) -> Result<f64, String> {
+    let [times] = numbers(text)?;
+    (1.0..=1000.0)
+        .contains(&times)
+        .then_some(times)
+        .ok_or_else(|| format!("{times} is not from 1 to 1000"))
+}
+
 /// Numbers between commas, as large as places in a scene may be.
 fn numbers<const N: usize>(text: &str) -> Result<[f64; N], String> {
     let number = |part: &str| part.trim().parse().ok();
@@ -49,11 +58,11 @@ pub(crate) fn defaults<A: clap::Args>(given: &[&str]) -> A {
 
 #[cfg(test)]
 mod tests {
-    use super::{camera, direction};
+    use super::{camera, direction, times};
     use glam::DVec3;
 
     #[test]
-    fn directions_have_a_length_and_cameras_look_somewhere() {
+    fn directions_have_a_length_cameras_look_somewhere_and_ranges_are_not_too_short() {
         let is_right = |found: DVec3| (found - DVec3::new(0.6, 0.0, -0.8)).length() < 1e-15;
         for text in ["3e-200,0,-4e-200", "+0.75, 0,-1", "6e14,0,-8e14"] {
             assert!(direction(text).is_ok_and(is_right), "{text}");
@@ -63,6 +72,13 @@ mod tests {
         ] {
             assert!(direction(text).is_err(), "{text}");
         }
+        assert_eq!([times("1"), times("1e3")], [Ok(1.0), Ok(1000.0)]);
+        assert!(
+            ["0.9", "1001", "nan", "", "1,1"]
+                .map(times)
+                .iter()
+                .all(Result::is_err)
+        );
         let [eye, target] = [DVec3::new(-1.0, 2.0, -3.0), DVec3::new(4.0, -5.0, 6.0)];
         assert_eq!(camera("-1,2,-3,4,-5,6"), Ok([eye, target]));
         for text in ["1,2,3,1,2,3", "1,2,3", "1,2,3,4,5,nan"] {

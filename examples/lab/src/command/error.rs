@@ -100,6 +100,8 @@ pub struct Setting {
     /// Where the camera stands and what it looks at, in place of the view's, in the file's coordinates.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub camera: Option<[[f64; 3]; 2]>,
+    /// How many times as long the light's range is as its casters ask for.
+    pub range_times: f64,
     /// Whether the scene was given a ground plane.
     pub ground: bool,
     /// What is drawn.
@@ -235,6 +237,7 @@ impl Setting {
             camera: options
                 .camera
                 .map(|camera| camera.map(|point| point.to_array())),
+            range_times: options.range_times,
             ground: !options.no_ground,
             drawn: *drawn,
         }
@@ -296,6 +299,9 @@ impl fmt::Display for Setting {
         }
         if let Some([eye, target]) = self.camera {
             write!(f, ", camera at {eye:?} towards {target:?}")?;
+        }
+        if self.range_times > 1.0 {
+            write!(f, ", {} times the range", self.range_times)?;
         }
         f.write_str(if self.ground { "" } else { ", no ground" })
     }

@@ -92,6 +92,10 @@ pub struct RenderOptions {
     /// as the graph's import 'light_depth' has, or 4.
     #[arg(long)]
     pub samples: Option<u32>,
+    /// How many times as long the light's range of moment depth is as its casters ask for: a sun's as much longer in front of them
+    /// as behind, a spot light's behind.
+    #[arg(long, default_value_t = 1.0, value_name = "TIMES", value_parser = argument::times)]
+    pub range_times: f64,
     /// A storage in place of the graph's own.
     #[arg(long, value_parser = argument::storage())]
     pub storage: Option<Storage>,
@@ -169,6 +173,7 @@ impl RenderOptions {
             LightChoice::Sun => view.sun(scene, map, f64::from(margin) + 2.0, self.reversed)?,
             LightChoice::Spot => view.spot(scene, SPOT_NEAR, None, self.reversed)?,
         };
+        let light = light.with_range_times(self.range_times);
         let mut camera = view.camera;
         camera.aspect = f64::from(width) / f64::from(height.max(1));
         let wgpu_format = |format| TextureDesc::new(format, map).wgpu_format();

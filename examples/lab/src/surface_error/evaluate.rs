@@ -33,6 +33,8 @@ pub struct Evaluation {
     pub conversion: DepthConversion,
     /// The light's size: for percentage-closer soft shadows.
     pub light: AreaLight,
+    /// Middle and scale of what the map's depths are fitted to, 0 and 1 where they are not; points and bias are those of the host's range.
+    pub range: [f32; 2],
 }
 
 /// `Parameters` of the shader.
@@ -45,6 +47,7 @@ struct Uniform {
     padding: f32,
     conversion: DepthConversion,
     light: AreaLight,
+    range: [f32; 2],
 }
 
 /// Evaluates a map at any points, by the functions that `shade_hard` calls on this device.
@@ -116,6 +119,7 @@ impl<'a> MapEvaluator<'a> {
             padding: 0.0,
             conversion: evaluation.conversion,
             light: evaluation.light,
+            range: evaluation.range,
         };
         let contents = bytemuck::bytes_of(&uniform);
         let parameters = gpu.filled(LABEL, contents, wgpu::BufferUsages::UNIFORM);

@@ -1,10 +1,11 @@
 import moment_shadows::map::depth::{DepthConversion};
 import moment_shadows::shade::leak_reduction::{LeakReduction, leak_reduction_apply};
 import moment_shadows::map::map_region::{MapRegion};
+import moment_shadows::map::range_fit::{RangeFit, range_fit_depth};
 import moment_shadows::moments::four_moments::{FourMomentsBias};
 import moment_shadows::shade::area_light::{AreaLight};
 import node::point_intensity::{point_intensity};
-import moment_shadows::shade::receiver_bias::{ReceiverBias, receiver_bias_depth, receiver_bias_step};
+import moment_shadows::shade::receiver_bias::{ReceiverBias, receiver_bias_depth, receiver_bias_fitted, receiver_bias_step};
 import node::technique_map::{technique_map_size};
 import node::technique_receiver::{TechniqueReceiver};
 
@@ -17,6 +18,8 @@ struct Parameters {
     moment_bias: FourMomentsBias,
     conversion: DepthConversion,
     light: AreaLight,
+    // Of the map, in the range of points and bias.
+    range: RangeFit,
 }
 
 struct Point {
@@ -38,8 +41,14 @@ fn evaluate(@builtin(global_invocation_id) id: vec3u) {
         return;
     }
     let point = points[id.x];
-    let settings = parameters.receiver_bias;
-    let depth = min(point.moment_depth, 1.0) - receiver_bias_step(settings, point.moment_depth);
+    let fit = parameters.range;
+    var settings = parameters.receiver_bias;
+    let step = fit.scale * receiver_bias_step(settings, point.moment_depth);
+    if fit.scale > 1.0 {
+        settings = receiver_bias_fitted(settings, fit.scale);
+    }
+    let depth = min(range_fit_depth(fit, point.moment_depth), 1.0) - step;
+    let gradient = fit.scale * point.gradient;
     // Layer 0 as a whole, and without a pixel's footprint: mip level 0.
     let intensity = point_intensity(TechniqueReceiver(
         0u,
@@ -47,8 +56,8 @@ fn evaluate(@builtin(global_invocation_id) id: vec3u) {
         point.uv,
         vec2f(0.0),
         vec2f(0.0),
-        point.gradient,
-        depth - receiver_bias_depth(settings, length(point.gradient)),
+        gradient,
+        depth - receiver_bias_depth(settings, length(gradient)),
         depth - settings.constant,
         (settings.maximum - settings.constant) / max(settings.slope_scale, 1e-30),
         parameters.conversion,

@@ -9,6 +9,7 @@ use crate::frame::Frame;
 use crate::gpu::Gpu;
 use crate::graph_file::GraphFile;
 use crate::graph_frame::{GraphFrame, imports};
+use crate::surface_error::fitted::FittedRange;
 use crate::surface_error::placed::PlacedLayers;
 
 /// A graph that has run, and gives out its map.
@@ -23,6 +24,7 @@ pub struct MapRun {
     output: Option<String>,
     technique: Option<Technique>,
     placed: Option<PlacedLayers>,
+    fitted: Option<FittedRange>,
 }
 
 /// A map, and how it is evaluated.
@@ -51,30 +53,37 @@ impl MapRun {
             let (file, output) = file.with_filtered_map()?;
             (file, Some(output))
         };
-        let (file, mut placed) = PlacedLayers::of(file)?;
-        let graph = GraphFrame::new(gpu, frame, &file)?;
-        graph.run(gpu)?;
-        if let Some(placed) = &mut placed {
-            placed.read(gpu, &graph)?;
-        }
-        Ok(Self {
+        let (file, placed) = PlacedLayers::of(file)?;
+        let (file, fitted) = FittedRange::of(file)?;
+        let mut run = Self {
+            graph: GraphFrame::new(gpu, frame, &file)?,
             shading: Evaluation::shading(frame, &file)?,
             file,
-            graph,
             output,
             technique,
             placed,
-        })
+            fitted,
+        };
+        run.run(gpu)?;
+        Ok(run)
     }
 
     /// Runs the graph on another frame with textures of the same sizes and formats.
     pub fn rerun(&mut self, gpu: &Gpu, frame: &Frame) -> Result<(), LabError> {
         self.graph.rebind(gpu, frame, &self.file)?;
+        self.shading = Evaluation::shading(frame, &self.file)?;
+        self.run(gpu)
+    }
+
+    /// Runs the graph, and reads what the device has found out about the map.
+    fn run(&mut self, gpu: &Gpu) -> Result<(), LabError> {
         self.graph.run(gpu)?;
         if let Some(placed) = &mut self.placed {
             placed.read(gpu, &self.graph)?;
         }
-        self.shading = Evaluation::shading(frame, &self.file)?;
+        if let Some(fitted) = &self.fitted {
+            self.shading.range = fitted.read(gpu, &self.graph)?;
+        }
         Ok(())
     }
 

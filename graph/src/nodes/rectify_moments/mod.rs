@@ -4,7 +4,7 @@ use moment_shadows::{MapEncoding, RectifyMomentsParameters, Storage, Technique};
 use serde::Deserialize;
 
 use super::shared::lookup::moments_lookup;
-use super::shared::{map_input, regions, wgsl, wrong_property};
+use super::shared::{map_input, range_input, regions, wgsl, wrong_property};
 use super::techniques;
 use crate::{
     Connected, GraphError, Node, NodeDesc, ParameterBlock, Pass, Stage, TextureRule, bind,
@@ -40,6 +40,7 @@ impl Node for RectifyMoments {
     fn describe(&self, upstream: &Connected<'_>) -> Result<NodeDesc, GraphError> {
         let (map, source) = map_input::of_four_moments(upstream, "resamples")?;
         map_input::refuse_blended(&source)?;
+        range_input::refuse(map, "resamples depths")?;
         let technique = &self.technique;
         let texel = techniques::of_both_bounds(
             technique,

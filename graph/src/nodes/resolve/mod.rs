@@ -5,14 +5,15 @@ mod best;
 use moment_shadows::{MapEncoding, Storage, Technique, ValueError};
 use serde::Deserialize;
 
-use super::shared::{depth_input, mip_levels, regions, wrong_property};
+use super::shared::{depth_input, mip_levels, range_input, regions, wrong_property};
 use super::techniques;
 use crate::{Capabilities, Connected, GraphError, Node, NodeDesc, Stage, TextureRule, bind};
 
 /// Node `resolve`: `depth` (of any number of layers and samples) to
 /// `map`, a filterable map of the same size, layers and regions, encoded for a technique. The *moments* (or what else the
 /// technique stores) of the samples are averaged, not their depths, so edges are antialiased. With splits placed by Lloyd
-/// relaxation there is a second input, `splits`. Parameters: a [`moment_shadows::DepthConversion`] per layer and region.
+/// relaxation there is a second input, `splits`. With the optional input `ranges` ([`super::FitRange`]) depths are those of the range that
+/// casters take. Parameters: a [`moment_shadows::DepthConversion`] per layer and region.
 #[derive(Clone, Debug, PartialEq, Deserialize)]
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[serde(deny_unknown_fields)]
@@ -87,7 +88,14 @@ impl Node for Resolve {
             .encoding(upstream.capabilities())
             .map_err(wrong_property)?;
         let technique = encoding.technique();
-        let wgsl = techniques::of_map(upstream.capabilities(), &encoding)
+        let specialization = techniques::of_map(upstream.capabilities(), &encoding);
+        let (specialization, ranges, ranges_binding) =
+            range_input::of_maker(specialization, upstream, depth)?;
+        if ranges_binding.is_some() && technique.row().places_layers {
+            let message = "the layers of the technique are placed in the host's range; give the splits, or leave this input open";
+            return Err(wrong_property(message).at_slot("ranges"));
+        }
+        let wgsl = specialization
             .alias("DepthTexture", depth_input::texture_type(depth))
             .unsigned("REGIONS", depth.regions)
             .constant("SAMPLES", depth.samples)
@@ -98,15 +106,17 @@ impl Node for Resolve {
         let mut pass = regions::write("resolve", &wgsl, &encoding, ("map", 0), [8, 8], 1)
             .bind("conversions", bind::parameters())
             .bind("depth_map", bind::layer("depth"));
-        pass.bindings.extend(splits_binding);
+        pass.bindings
+            .extend(splits_binding.into_iter().chain(ranges_binding));
         let map = TextureRule::of_map(encoding.clone())
             .like("depth")
+            .fitted_to("ranges")
             .mips(mips);
         let description = "The filterable map, of the depth map's size, layers and regions.";
         Ok(NodeDesc::new("resolve", Stage::AfterShadowMaps)
             .input("depth", "The light's depth map.", depth_input::light())
             .output("map", description, map)
-            .slots(splits)
+            .slots(splits.into_iter().chain([ranges]))
             .passes(techniques::of_each_plane(&encoding, pass))
             .parameters(depth_input::conversions(depth))
             .off("map", techniques::no_shadow(&encoding)))

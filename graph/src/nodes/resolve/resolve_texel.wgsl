@@ -1,7 +1,9 @@
 import moment_shadows::map::depth::{DepthConversion, depth_to_moment_depth};
 import moment_shadows::map::map_region::{MapRegion};
+import moment_shadows::map::range_fit::{range_fit_map_depth};
 import node::map_encoding::{encoding_channels, encoding_texel};
-import node::specialization::{DepthTexture, GROUP, REGIONS, SAMPLES};
+import node::range_of_region::{range_of_region};
+import node::specialization::{DepthTexture, FITTED, GROUP, REGIONS, SAMPLES};
 
 // What a texel of one plane of a filterable map holds, from one layer of a depth map.
 //
@@ -24,7 +26,11 @@ fn written_texel(texel: vec2u, region: MapRegion, number: u32) -> vec4f {
     for (var sample = 0; sample < SAMPLES; sample++) {
         // The first of four channels, where the map is no depth texture.
         let stored = vec4f(textureLoad(depth_map, vec2i(texel), sample)).x;
-        sum += encoding_channels(depth_to_moment_depth(stored, conversion));
+        var z = depth_to_moment_depth(stored, conversion);
+        if FITTED {
+            z = range_fit_map_depth(range_of_region(number), z);
+        }
+        sum += encoding_channels(z);
     }
     return encoding_texel(sum / f32(SAMPLES));
 }

@@ -5,7 +5,7 @@ use serde::Deserialize;
 
 use super::shared::lookup::moments_lookup;
 use super::shared::{
-    Specialization, depth_input, map_input, shading, wrong_format, wrong_property,
+    Specialization, depth_input, map_input, range_input, shading, wrong_format, wrong_property,
 };
 use super::techniques;
 use crate::{
@@ -17,7 +17,8 @@ mod own_shader;
 
 /// Node `shade_hard`: `map` (a filtered map) and `camera_depth` to `shadow_intensity`, of the camera's size. A
 /// fullscreen pass: it can also be drawn into a render pass that the host has open. Techniques that read the plain depth map
-/// take it as the input `depth` instead of `map`; layers that are placed on the device come from the input `splits`.
+/// take it as the input `depth` instead of `map`; layers that are placed on the device come from the input `splits`, and what a
+/// map's depths are fitted to from the input `ranges` ([`super::FitRange`]).
 ///
 /// It shades up to 16 lights, one in each channel of its outputs, through up to 256 views: cascades, faces and spots, each a region
 /// of a layer. A single light is in all channels; lights 4 to 7 are in `shadow_intensity_4`, and so on. Parameters: a [`moment_shadows::ViewParameters`] per view.
@@ -65,17 +66,25 @@ impl Node for ShadeHard {
         let rule = map_input::rule(evaluation.formats);
         let input = Slot::input(evaluation.slot, "The light's map.", rule);
         let (splits, splits_binding) = techniques::splits(&evaluation.technique, false);
+        let specialization = evaluation.specialization;
+        let (specialization, ranges, ranges_binding) = match evaluation.slot {
+            "map" => {
+                let map = upstream.texture("map")?;
+                let (all, slot, binding) = range_input::of_reader(specialization, upstream, map)?;
+                (all, Some(slot), binding)
+            }
+            _ => (range_input::none(specialization), None, None),
+        };
         shading::describe(
             "shade_hard",
             upstream,
             (self.format, self.lights, self.views, self.borders),
-            core::iter::once(input).chain(splits),
-            evaluation
-                .bindings
-                .into_iter()
+            core::iter::once(input).chain(splits).chain(ranges),
+            (evaluation.bindings.into_iter())
                 .chain(splits_binding)
+                .chain(ranges_binding)
                 .collect(),
-            evaluation.specialization,
+            specialization,
         )
     }
 }

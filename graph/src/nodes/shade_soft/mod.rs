@@ -3,7 +3,7 @@
 use moment_shadows::TextureFormat;
 use serde::{Deserialize, Deserializer};
 
-use super::shared::{Specialization, map_input, shading, wrong_format};
+use super::shared::{Specialization, map_input, range_input, shading, wrong_format};
 use super::techniques;
 use crate::{Binding, Connected, GraphError, Node, NodeDesc, Slot, bind};
 
@@ -11,7 +11,7 @@ use crate::{Binding, Connected, GraphError, Node, NodeDesc, Slot, bind};
 /// area lights, hard at contacts and softer with distance, with a number of loads per pixel that does not depend on their
 /// width. A fullscreen pass: it can also be drawn into a render pass that the host has open.
 ///
-/// Lights, views and parameters are those of [`super::ShadeHard`]; `light` of the parameters says how large the light is. Of the
+/// Lights, views, parameters and the input `ranges` are those of [`super::ShadeHard`]; `light` of the parameters says how large the light is. Of the
 /// receiver bias only the constant and the steepest slope count ([`moment_shadows::ReceiverBias::for_kernel`] with a deviation
 /// of 0); the rest follows from each pixel's own filter. No filter is larger than the table's largest kernel.
 #[derive(Clone, Debug, PartialEq, Eq, Deserialize)]
@@ -70,7 +70,8 @@ impl Default for ShadeSoft {
 
 impl Node for ShadeSoft {
     fn describe(&self, upstream: &Connected<'_>) -> Result<NodeDesc, GraphError> {
-        let encoding = upstream.texture("table")?.encoding.as_ref();
+        let map = upstream.texture("table")?;
+        let encoding = map.encoding.as_ref();
         let table = encoding.and_then(|encoding| Some((encoding, encoding.table()?)));
         let (encoding, table) = table.ok_or_else(|| {
             let message = "soft shadows are made of a summed-area table; connect the output of a node 'summed_area_table'";
@@ -92,13 +93,20 @@ impl Node for ShadeSoft {
             .constant("FILTER_INTERPOLATED", filter);
         let specialization = techniques::soft_evaluation(specialization, encoding.technique())
             .map_err(|error| error.at_slot("table"))?;
+        let (specialization, ranges, ranges_binding) =
+            range_input::of_reader(specialization, upstream, map)?;
         let rule = map_input::rule(encoding.format());
         shading::describe(
             "shade_soft",
             upstream,
             (self.format, self.lights, self.views, self.borders),
-            [Slot::input("table", "The light's summed-area table.", rule)],
-            vec![Binding::new("table_sums", bind::layers("table"))],
+            [
+                Slot::input("table", "The light's summed-area table.", rule),
+                ranges,
+            ],
+            core::iter::once(Binding::new("table_sums", bind::layers("table")))
+                .chain(ranges_binding)
+                .collect(),
             specialization,
         )
     }

@@ -6,6 +6,7 @@
 //! | `fullscreen.wgsl` | the vertex stage of fullscreen passes |
 //! | `depth_input`, `map_input` | inputs: formats, and what their texels mean |
 //! | `regions` | passes over the regions of a map (`regions.wgsl`), computed (`write_computed.wgsl`) or drawn (`write_drawn.wgsl`) |
+//! | `range_input` | the input `ranges`: depths of a map that are fitted to its casters (`range_of_*.wgsl`) |
 //! | `lookup` | lookups in a filterable map, by a sampler or by loads (`moments_lookup_*.wgsl`) |
 //! | `shading` | what `shade_hard` and `shade_soft` have in common (`shade.wgsl`, `views.wgsl`) |
 //! | `tiled` | which of many views a pixel tries (`find_views.wgsl`, `view_list_*.wgsl`) |
@@ -19,6 +20,7 @@ mod error;
 pub(super) mod lookup;
 pub(super) mod map_input;
 pub(super) mod mip_levels;
+pub(super) mod range_input;
 pub(super) mod regions;
 pub(super) mod shading;
 mod specialization;

@@ -3,9 +3,12 @@ import node::fullscreen::{Covered};
 import moment_shadows::shade::leak_reduction::{leak_reduction_apply};
 import moment_shadows::map::map_region::{MapRegion, map_region_within};
 import moment_shadows::map::minification::{minification_depth_variance, minification_footprint};
-import moment_shadows::shade::receiver_bias::{receiver_bias_depth, receiver_bias_depth_minified, receiver_bias_plane, receiver_bias_step};
+import moment_shadows::map::range_fit::{range_fit_depth, range_fit_none};
+import moment_shadows::shade::area_light::{area_light_fitted};
+import moment_shadows::shade::receiver_bias::{receiver_bias_depth, receiver_bias_depth_minified, receiver_bias_fitted, receiver_bias_plane, receiver_bias_step};
 import moment_shadows::shade::view_border::{view_border_depth, view_border_parts};
-import node::specialization::{ANISOTROPY, LEVELS, LIGHTS, VIEWS};
+import node::range_of_view::{range_of_view};
+import node::specialization::{ANISOTROPY, FITTED, LEVELS, LIGHTS, VIEWS};
 import node::surface::{surface_neighbours};
 import node::technique::{technique_shadow_intensity};
 import node::technique_map::{technique_map_size};
@@ -44,10 +47,20 @@ fn receiver_difference(view: u32, neighbour: vec3f, receiver: Receiver, texels: 
 // Shadow intensity of a receiver that a view contains.
 fn view_shadow_intensity(view: u32, pixel: vec2i, receiver: Receiver, neighbours: mat2x3f, region: MapRegion) -> f32 {
     let texels = vec2f(region.extent);
-    let difference_x = receiver_difference(view, neighbours[0], receiver, texels);
-    let difference_y = receiver_difference(view, neighbours[1], receiver, texels);
+    var difference_x = receiver_difference(view, neighbours[0], receiver, texels);
+    var difference_y = receiver_difference(view, neighbours[1], receiver, texels);
+    // All that is a moment depth, or a difference of two, becomes one of the map's range.
+    var fit = range_fit_none();
+    if FITTED {
+        fit = range_of_view(views[view].layer, region.origin);
+        difference_x.z *= fit.scale;
+        difference_y.z *= fit.scale;
+    }
     let gradient = receiver_bias_plane(difference_x, difference_y);
-    let settings = views[view].receiver_bias;
+    var settings = views[view].receiver_bias;
+    if FITTED {
+        settings = receiver_bias_fitted(settings, fit.scale);
+    }
     var bias = receiver_bias_depth(settings, length(gradient));
     if LEVELS > 1u {
         let footprint = minification_footprint(difference_x.xy, difference_y.xy, ANISOTROPY);
@@ -56,7 +69,15 @@ fn view_shadow_intensity(view: u32, pixel: vec2i, receiver: Receiver, neighbours
     }
     // The map holds a surface that leaves the light's range at the far end. The bias counts from there, since some of the
     // kernel may still see the surface within the range.
-    let depth = min(receiver.place.z, 1.0) - receiver_bias_step(settings, receiver.place.z);
+    var z = receiver.place.z;
+    var step = receiver_bias_step(settings, z);
+    var light = views[view].light;
+    if FITTED {
+        step *= fit.scale;
+        z = range_fit_depth(fit, z);
+        light = area_light_fitted(light, fit);
+    }
+    let depth = min(z, 1.0) - step;
     let intensity = technique_shadow_intensity(TechniqueReceiver(
         views[view].layer,
         region,
@@ -68,7 +89,7 @@ fn view_shadow_intensity(view: u32, pixel: vec2i, receiver: Receiver, neighbours
         depth - settings.constant,
         (settings.maximum - settings.constant) / max(settings.slope_scale, 1e-30),
         views[view].conversion,
-        views[view].light,
+        light,
         vec2f(pixel),
     ));
     return leak_reduction_apply(intensity, views[view].leak_reduction);

@@ -114,7 +114,8 @@ impl Node for SummedAreaTable {
         let whole = TextureRule::of_map(encoding.clone())
             .like("map")
             .filtered(map.deviation)
-            .filtered_in_scene(map.width);
+            .filtered_in_scene(map.width)
+            .fitted_to("map");
         let description =
             "The sum of all texels of a region that lie neither below nor to the right.";
         let tiles = [0, 1].map(|axis| tile[axis] * workgroup[axis]);
