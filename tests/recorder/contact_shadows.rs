@@ -202,9 +202,9 @@ fn check_wall(surfaces: &[Option<DVec3>], shadow: &[f32], elevation: f64, foot: 
         if !on_floor || ray * sin > 0.9 * height {
             continue;
         }
-        // A pixel is at most 2 cm deep on the floor; next to the wall a ray is shorter than that. A hit is found up to a step later, a
-        // 16th of the length, and shadows fade from three quarters on.
-        if (0.02..0.65 * REACH.length).contains(&ray) {
+        // A pixel is at most 2 cm deep on the floor; next to the wall a ray is shorter than that. A hit is found up to a step later,
+        // a pixel that is up to an eighth of the length, and shadows fade from three quarters on.
+        if (0.02..0.6 * REACH.length).contains(&ray) {
             counts[0] += 1;
             assert_eq!(intensity, 1.0, "{at}, elevation {elevation}");
         }
@@ -246,11 +246,7 @@ fn a_plane_casts_no_shadow_on_itself_at_any_angle_and_distance() {
                         thickness: 0.05 * distance,
                     };
                     let parameters = ContactShadowParameters::new(&camera, &light, reach).unwrap();
-                    for format in [
-                        TextureFormat::Depth32Float,
-                        TextureFormat::Depth24Plus,
-                        TextureFormat::Depth16Unorm,
-                    ] {
+                    for format in [TextureFormat::Depth32Float, TextureFormat::Depth16Unorm] {
                         let shadow = march(&gpu, &depths, &parameters, (format, 1));
                         let dark = shadow.iter().filter(|intensity| **intensity > 0.0).count();
                         assert_eq!(

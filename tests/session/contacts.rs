@@ -36,13 +36,16 @@ fn the_darker_one_of_maps_and_march_is_shown_channel_by_channel() {
     let darker = single.iter().zip(&maps).filter(|(both, maps)| both > maps);
     assert!(single.iter().zip(&maps).all(|(both, maps)| both >= maps));
     assert!(darker.count() > 20);
-    // Of four lights the second and the last are there.
+    // Of four lights the second is there.
     let mut four = session(&gpu, &contacts(4), &imports(&frame));
-    let lights = [1, 3].map(|channel| LightView { channel, ..light });
-    four.view(&gpu.queue, 0, &camera, &lights).unwrap();
+    let second = LightView {
+        channel: 1,
+        ..light
+    };
+    four.view(&gpu.queue, 0, &camera, &[second]).unwrap();
     let all = recorded(&gpu, &four, 0, "shadow_intensity");
     for (texel, single) in all.chunks_exact(4).zip(&single) {
-        assert_eq!(texel, [0, *single, 0, *single]);
+        assert_eq!(texel, [0, *single, 0, 0]);
     }
 }
 

@@ -6,7 +6,7 @@ use moment_shadows_lab::contact_shadows::ContactTrial;
 use moment_shadows_lab::trade::axes::Axes;
 use moment_shadows_lab::trade::{Job, Trade};
 
-fn trial(scene: &str, view: u32) -> ContactTrial {
+fn trial(scene: &str, views: u32) -> ContactTrial {
     let hamburger: TechniqueChoice = "hamburger4".parse().unwrap();
     let in_storage = |storage| hamburger.in_storage(Some(storage)).unwrap();
     ContactTrial {
@@ -22,7 +22,7 @@ fn trial(scene: &str, view: u32) -> ContactTrial {
             },
             profile: Profile::NativeAdapter,
             picture: [640, 360],
-            views: [1, view],
+            views: [views, 0],
             rounds: 9,
             stride: 8,
             ground: true,
@@ -35,8 +35,8 @@ fn trial(scene: &str, view: u32) -> ContactTrial {
 
 #[test]
 fn the_march_halves_the_leak_at_feet_and_hardly_darkens_what_is_lit() {
-    for (scene, view) in [("chairs", 0), ("hall", 0), ("fence-and-foliage", 0)] {
-        let report = trial(scene, view).run(|| ()).unwrap();
+    for (scene, views) in [("chairs", 2), ("hall", 1), ("fence-and-foliage", 1)] {
+        let report = trial(scene, views).run(|| ()).unwrap();
         println!("{report}");
         for row in &report.rows {
             let false_shadow = row.false_shadow().unwrap();
@@ -49,9 +49,9 @@ fn the_march_halves_the_leak_at_feet_and_hardly_darkens_what_is_lit() {
             if scene == "chairs" {
                 let leak = row.leak().unwrap();
                 let pixels: usize = row.views.iter().map(|view| view.in_full_shadow).sum();
-                assert!(pixels > 300, "{pixels}");
+                assert!(pixels > 150, "{pixels}");
                 assert!(
-                    leak.maps > 0.02 && leak.march <= 0.5 * leak.maps,
+                    leak.maps > 0.002 && leak.march <= 0.5 * leak.maps,
                     "{}: {leak:?}",
                     row.name
                 );
