@@ -237,7 +237,7 @@ fn layers_and_regions_have_their_own_ranges_and_samples_count() {
         (true, _) => casters([0.25, 0.5])(2 * x, y).min(if x == 30 { 0.5 } else { 1.0 }),
         (false, true) => 0.0,
         (false, false) => {
-            if x % 2 == 0 {
+            if x.is_multiple_of(2) {
                 0.75
             } else {
                 0.875
