@@ -54,6 +54,21 @@ fn nodes_say_what_they_cannot_blend() {
             "give the node that makes it the property 'blends'",
         ),
         (
+            vec![
+                (
+                    r#"{ "name": "resolve","#,
+                    r#"{ "name": "fit", "type": "fit_range" }, { "name": "resolve","#,
+                ),
+                (
+                    r#"{ "from": "light_depth", "to": "resolve.depth" }"#,
+                    r#"{ "from": "light_depth", "to": "resolve.depth" }, { "from": "light_depth", "to": "fit.depth" },
+                       { "from": "fit.ranges", "to": "resolve.ranges" }"#,
+                ),
+            ],
+            GraphErrorKind::Format,
+            "takes casters whose depths are in the host's range",
+        ),
+        (
             vec![(technique, r#""technique": "evsm4", "storage": "float16""#)],
             GraphErrorKind::Property,
             "translucent casters are not blended into a map for 'evsm4'; they are into maps for vsm or hamburger4",

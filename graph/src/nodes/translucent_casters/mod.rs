@@ -2,7 +2,7 @@
 
 use serde::Deserialize;
 
-use super::shared::{map_input, wrong_format};
+use super::shared::{map_input, range_input, wrong_format};
 use crate::{Connected, GraphError, Node, NodeDesc, Off, Pass, Slot, Stage};
 
 /// Node `translucent_casters`: `map`, which the host blends translucent casters into, is handed on. Its pass is the host's, once per
@@ -24,6 +24,7 @@ impl Node for TranslucentCasters {
             ))
             .at_slot("map"));
         }
+        range_input::refuse(map, "takes casters whose depths are")?;
         if map.mips > 1 {
             return Err(wrong_format(format!(
                 "the map has room for {} mip levels, and casters are drawn to one; give the node 'blur' behind this one the property \
