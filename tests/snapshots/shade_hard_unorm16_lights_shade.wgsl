@@ -4,8 +4,11 @@
 // moment_shadows/shade/leak_reduction.wgsl: LeakReduction leak_reduction_full_shadow leak_reduction_apply
 // moment_shadows/map/map_region.wgsl: MapRegion map_region_within map_region_at_level map_region_place
 // moment_shadows/map/minification.wgsl: MINIFICATION_LARGEST_ANISOTROPY MINIFICATION_TEXEL_PER_WIDTH MinificationFootprint minification_footprint minification_depth_variance
-// moment_shadows/shade/receiver_bias.wgsl: RECEIVER_BIAS_STANDARD_DEVIATIONS RECEIVER_BIAS_EDGE_ON ReceiverBias receiver_bias_plane receiver_bias_step receiver_bias_depth receiver_bias_depth_minified
+// moment_shadows/map/range_fit.wgsl: RangeFit range_fit_none range_fit_depth
+// moment_shadows/shade/area_light.wgsl: AreaLight area_light_fitted
+// moment_shadows/shade/receiver_bias.wgsl: RECEIVER_BIAS_STANDARD_DEVIATIONS RECEIVER_BIAS_EDGE_ON ReceiverBias RECEIVER_BIAS_ROUNDING receiver_bias_fitted receiver_bias_plane receiver_bias_step receiver_bias_depth receiver_bias_depth_minified
 // moment_shadows/shade/view_border.wgsl: view_border_depth view_border_parts
+// range_of_view: range_of_view
 // surface: surface_extrapolation_error SURFACE_UNUSABLE surface_neighbour surface_neighbours
 // moment_shadows/maths/hankel.wgsl: HankelFactor HANKEL_SMALLEST_VARIANCE HANKEL_SMALLEST_RESIDUE hankel_factor hankel_second_polynomial hankel_christoffel_number
 // moment_shadows/map/storage.wgsl: STORAGE_FLOAT16 STORAGE_FLOAT32
@@ -15,7 +18,6 @@
 // moment_shadows/map/map_lookup.wgsl: map_lookup_bilinear
 // moments_lookup: moments_map moments_sampler moments_lookup
 // moment_shadows/map/depth.wgsl: DepthConversion
-// moment_shadows/shade/area_light.wgsl: AreaLight
 // technique_receiver: TechniqueReceiver
 // map_texel: map_texel
 // technique_map: technique_map_size
@@ -30,6 +32,7 @@ const STORAGE = 0u;
 const PLANES = 1u;
 const LEVELS = 1u;
 const ANISOTROPY = 8.0;
+const FITTED = false;
 alias CameraDepth = texture_depth_2d;
 const CAMERA_SAMPLE = vec2f(0.5, 0.5);
 const VIEWS = 16u;

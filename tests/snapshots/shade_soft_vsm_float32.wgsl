@@ -4,12 +4,14 @@
 // moment_shadows/shade/leak_reduction.wgsl: LeakReduction leak_reduction_full_shadow leak_reduction_apply
 // moment_shadows/map/map_region.wgsl: MapRegion map_region_within
 // moment_shadows/map/minification.wgsl: MINIFICATION_LARGEST_ANISOTROPY MINIFICATION_TEXEL_PER_WIDTH MinificationFootprint minification_footprint minification_depth_variance
-// moment_shadows/shade/receiver_bias.wgsl: RECEIVER_BIAS_STANDARD_DEVIATIONS RECEIVER_BIAS_EDGE_ON ReceiverBias receiver_bias_plane receiver_bias_step receiver_bias_depth receiver_bias_depth_minified receiver_bias_depth_of_kernel
+// moment_shadows/map/range_fit.wgsl: RangeFit range_fit_none range_fit_depth
+// moment_shadows/shade/area_light.wgsl: AreaLight AREA_LIGHT_LARGEST_RADIUS AREA_LIGHT_BOX_OF_DISK area_light_fitted area_light_half_extent area_light_limited area_light_box
+// moment_shadows/shade/receiver_bias.wgsl: RECEIVER_BIAS_STANDARD_DEVIATIONS RECEIVER_BIAS_EDGE_ON ReceiverBias RECEIVER_BIAS_ROUNDING receiver_bias_fitted receiver_bias_plane receiver_bias_step receiver_bias_depth receiver_bias_depth_minified receiver_bias_depth_of_kernel
 // moment_shadows/shade/view_border.wgsl: view_border_depth view_border_parts
+// range_of_view: range_of_view
 // surface: surface_extrapolation_error SURFACE_UNUSABLE surface_neighbour surface_neighbours
 // moment_shadows/map/storage.wgsl: STORAGE_UNORM16 STORAGE_FLOAT16 STORAGE_FLOAT32 storage_is_float storage_finite_texel
 // moment_shadows/filter/summed_area_encoding.wgsl: SUMMED_AREA_ENCODING_VARIANCE_PER_ERROR SUMMED_AREA_ENCODING_VARIANCE_OF_F32 SUMMED_AREA_ENCODING_SMALLEST_VARIANCE summed_area_encoding_smallest_variance
-// moment_shadows/shade/area_light.wgsl: AreaLight AREA_LIGHT_LARGEST_RADIUS AREA_LIGHT_BOX_OF_DISK area_light_half_extent area_light_limited area_light_box
 // moment_shadows/shade/soft_blockers.wgsl: SoftBlockers SOFT_BLOCKERS_SMALLEST_SHARE soft_blockers_from soft_blockers_of_two_moments
 // moment_shadows/filter/summed_area_table.wgsl: SummedAreaTableRectangle summed_area_table_rectangle SummedAreaTableOrigin summed_area_table_origin SummedAreaTableStrips summed_area_table_strips summed_area_table_row summed_area_table_mean_interpolated summed_area_table_mean_plain
 // moment_shadows/map/depth.wgsl: DepthConversion
@@ -32,6 +34,7 @@ const TABLE_UNIT = f32(1016560u);
 const TABLE_ERROR = f32(4.918549e-7);
 const SEARCH_INTERPOLATED = false;
 const FILTER_INTERPOLATED = true;
+const FITTED = false;
 alias CameraDepth = texture_depth_2d;
 const CAMERA_SAMPLE = vec2f(0.5, 0.5);
 const VIEWS = 1u;
