@@ -8,6 +8,9 @@ use super::{CameraView, LightDepth, LightView, inverse};
 use crate::ValueError;
 use crate::value_error::check;
 
+/// No march is longer: products of it and of directions stay finite.
+const LONGEST: f64 = 1e18;
+
 /// How far shadows at contacts reach, in scene units.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct ContactShadows {
@@ -59,8 +62,8 @@ impl ContactShadows {
     /// [`ValueError`] about the `length` or the `thickness`.
     pub fn check(&self) -> Result<(), ValueError> {
         for (name, value) in [("length", self.length), ("thickness", self.thickness)] {
-            let valid = value > 0.0 && (value as f32).is_normal();
-            let range = "above 0 and finite in single precision";
+            let valid = value > 0.0 && (value as f32).is_normal() && value <= LONGEST;
+            let range = "above 0, at most 1e18, and normal in single precision";
             check(valid, "shadows at contacts", name, value, range)?;
         }
         Ok(())

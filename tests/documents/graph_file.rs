@@ -224,6 +224,9 @@ fn slots(descriptions: &[NodeDesc], properties: &Value, page: &mut String) {
     for (name, row) in all {
         let needed = match (row.optional, row.count < descriptions.len()) {
             (true, _) => ", can be left out",
+            (false, true) if name.starts_with("shadow_intensity_") => {
+                ", where there are so many `lights`"
+            }
             (false, true) => ", where the technique asks for it",
             (false, false) => "",
         };

@@ -123,6 +123,11 @@ fn what_cannot_be_fitted_says_so() {
         r#""size": [64, 32], "regions": 3"#,
     );
     assert_refused(&crowded, Size, "depth", "fewer regions");
+    // A texture that is none.
+    let imported = FITTED
+        .replace(r#""imports": ["#, r#""imports": [ { "name": "given", "texture": { "format": "rgba32float", "size": [1, 1] } },"#)
+        .replace(&edge("fit.ranges", "resolve.ranges"), &edge("given", "resolve.ranges"));
+    assert_refused(&imported, Format, "ranges", "holds no ranges");
     // Ranges of another depth map.
     let foreign = FITTED
         .replace(r#""imports": ["#, r#""imports": [ { "name": "second", "texture": { "format": "depth32float", "size": [512, 512], "layers": 2 } },"#)

@@ -217,7 +217,7 @@ fn the_largest_kernel_fits_its_uniform_struct() {
     // The drawn blur, which loops over the weights, clamps to the same radius.
     let drawn = include_str!("../../graph/src/nodes/blur/blur_texel_uniform.wgsl");
     assert!(drawn.contains(&format!(
-        "min(parameters.radius, {}u)",
+        "min(parameters[kernel].radius, {}u)",
         Kernel::LARGEST_RADIUS
     )));
 }

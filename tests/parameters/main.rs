@@ -284,7 +284,8 @@ fn structs_of_the_nodes_are_laid_out_alike() {
     let fields = [
         ("radius", 0, 4),
         ("blocks", 4, 4),
-        ("padding", 8, 8),
+        ("width", 8, 4),
+        ("padding", 12, 4),
         ("weights", 16, size - 16),
     ];
     for pass in &blur.passes {

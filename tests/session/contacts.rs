@@ -50,6 +50,35 @@ fn the_darker_one_of_maps_and_march_is_shown_channel_by_channel() {
 }
 
 #[test]
+fn contacts_are_those_of_the_output_that_they_darken() {
+    let gpu = gpu();
+    let frame = frame(&gpu, 0, [160, 90]);
+    let (camera, light) = places(&frame);
+    let mut one = session(&gpu, &contacts(1), &imports(&frame));
+    one.view(&gpu.queue, 0, &camera, &[light]).unwrap();
+    let single = recorded(&gpu, &one, 0, "shadow_intensity");
+    // The second output has lights 4 to 7; of eight views a pass finds those of each tile.
+    let text = contacts(4)
+        .replace(r#""lights": 4, "views": 4"#, r#""lights": 8, "views": 8"#)
+        .replace("shade.shadow_intensity", "shade.shadow_intensity_4");
+    let mut second = session(&gpu, &text, &imports(&frame));
+    let view = |channel| LightView { channel, ..light };
+    second
+        .view(&gpu.queue, 0, &camera, &[view(0), view(6)])
+        .unwrap();
+    let all = recorded(&gpu, &second, 0, "shadow_intensity");
+    for (texel, single) in all.chunks_exact(4).zip(&single) {
+        assert_eq!(texel, [0, 0, *single, 0]);
+    }
+    // A node of one light does not know which of two it is.
+    let text = contacts(4).replace(r#"{ "lights": 4 }"#, r#"{ "lights": 1 }"#);
+    let mut fewer = session(&gpu, &text, &imports(&frame));
+    let found = fewer.view(&gpu.queue, 0, &camera, &[view(0), view(1)]);
+    let found = found.unwrap_err().to_string();
+    assert!(found.contains("1 of the lights"), "{found}");
+}
+
+#[test]
 fn lengths_that_are_none_and_too_many_lights_are_named() {
     let gpu = gpu();
     let frame = frame(&gpu, 0, [96, 54]);

@@ -74,7 +74,7 @@ fn kernels_beyond_the_range_of_sums_are_refused_with_the_largest() {
 #[test]
 fn lights_views_and_formats_are_those_of_hard_shadows() {
     for (properties, named) in [
-        (r#"{ "lights": 5 }"#, "'lights' is 5"),
+        (r#"{ "lights": 17 }"#, "'lights' is 17"),
         (r#"{ "lights": 2, "views": 1 }"#, "'views' is 1"),
         (r#"{ "format": "rg16float" }"#, "r8unorm"),
         (r#"{ "interpolation": "some" }"#, "some"),

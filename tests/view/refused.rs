@@ -177,10 +177,10 @@ fn a_border_is_told_to_the_shader_or_refused() {
     };
     assert_eq!(told(Border::Sharp), Ok(0));
     assert_eq!(told(Border::Blend(8.0)), Ok(128 << 16));
-    assert_eq!(told(Border::Fade(8.0)), Ok(128 << 16 | 4));
-    assert_eq!(told(Border::Cone(7.52)), Ok(120 << 16 | 12));
+    assert_eq!(told(Border::Fade(8.0)), Ok(128 << 16 | 16));
+    assert_eq!(told(Border::Cone(7.52)), Ok(120 << 16 | 48));
     let view = LightView {
-        channel: 4,
+        channel: 16,
         ..lamp().faces().unwrap()[0]
     };
     let told_channel =

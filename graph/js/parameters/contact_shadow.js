@@ -8,6 +8,9 @@ import { check, number } from './value_error.js';
 import { difference, dot, length, scaled, sum } from './vector.js';
 import { eyeOf, positionRows } from './view_parameters.js';
 
+// No march is longer: products of it and of directions stay finite.
+const LONGEST = 1e18;
+
 /** How far shadows at contacts reach, for scenes in metres: 6 cm, and surfaces of 2 cm. */
 export const CONTACT_SHADOWS = { length: 0.06, thickness: 0.02 };
 
@@ -20,7 +23,8 @@ export const CONTACT_SHADOWS = { length: 0.06, thickness: 0.02 };
 export function contactShadowParameters(camera, light, contact = CONTACT_SHADOWS) {
   for (const name of ['length', 'thickness']) {
     const value = contact[name];
-    check(value > 0 && isNormal(value), 'shadows at contacts', name, value, 'above 0 and finite in single precision');
+    const valid = value > 0 && isNormal(value) && value <= LONGEST;
+    check(valid, 'shadows at contacts', name, value, 'above 0, at most 1e18, and normal in single precision');
   }
   const clip = columns(camera.clipFromWorld, 'camera');
   const farDepth = number("the camera's farDepth", camera.farDepth);

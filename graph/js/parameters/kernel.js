@@ -1,4 +1,4 @@
-// Filter kernels of blurs whose weights are a parameter: those with `per_frame`, and those of a radius above 12.
+// Filter kernels of blurs whose weights are a parameter: those with `per_frame`, those of a radius above 12, and those with a `width`.
 //
 // Weights are not negative, multiples of 2^-18, and sum to exactly 1: only filters with such weights keep moments valid.
 

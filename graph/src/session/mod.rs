@@ -1,5 +1,6 @@
 //! The short path: a graph, a device and the host's textures in, shadow intensity out.
 
+mod contacts;
 mod cut;
 mod given;
 mod kernels;

@@ -1,5 +1,6 @@
 //! One part of a graph, ready to be recorded.
 
+use super::contacts::Contacts;
 use super::given::{Given, described};
 use super::kernels::SceneBlur;
 use super::shading::Shading;
@@ -25,6 +26,8 @@ pub(super) struct Part {
     buffer: Option<wgpu::Buffer>,
     /// The nodes that shade.
     pub(super) shading: Vec<Shading>,
+    /// The nodes that find shadows at contacts.
+    pub(super) contacts: Vec<Contacts>,
     /// The nodes that filter over a width in scene units.
     pub(super) blurs: Vec<SceneBlur>,
 }
@@ -69,6 +72,7 @@ impl Maker {
             block: plan.parameters.initial(),
             buffer,
             shading: Shading::all(graph, &plan)?,
+            contacts: Contacts::all(graph, &plan),
             blurs: SceneBlur::all(&plan),
             plan,
         })

@@ -66,10 +66,6 @@ impl Scratch {
                         }
                     }
                 }
-                "ContactShadowParameters" => {
-                    told.contacts(&mut self.contacts, node, block.elements)?;
-                    layout.write_all(bytes, node, 0, &self.contacts)?;
-                }
                 "RectifyMomentsParameters" => {
                     layout.write(bytes, node, 0, &told.scattering()?.rectify)?;
                 }
@@ -80,7 +76,7 @@ impl Scratch {
                     layout.write(bytes, node, 0, &told.scattering()?.composite)?;
                 }
                 // Those above, and kernels, which are those of the graph file or follow.
-                "ViewParameters" | "BlurParameters" => {}
+                "ViewParameters" | "BlurParameters" | "ContactShadowParameters" => {}
                 other => {
                     let reason = format!(
                         "its parameters ({other}) are known to the host alone; record this graph with the objects of 'record'"
@@ -88,6 +84,10 @@ impl Scratch {
                     return Err(unsuitable(format!("node '{node}'"), reason));
                 }
             }
+        }
+        for contacts in &part.contacts {
+            contacts.write(told, &mut self.contacts)?;
+            layout.write_all(bytes, &contacts.node, 0, &self.contacts)?;
         }
         for blur in &part.blurs {
             for layer in 0..blur.layers() {
@@ -122,36 +122,6 @@ impl Told<'_> {
         let (medium, far) = self.medium;
         ScatteringParameters::new(self.camera, far, light, medium)
             .map_err(|error| unsuitable("single scattering", error))
-    }
-
-    /// What shadows at contacts are told, of as many lights as the node has: the first view of each says where it is.
-    fn contacts(
-        &self,
-        contacts: &mut Vec<ContactShadowParameters>,
-        node: &str,
-        lights: u32,
-    ) -> Result<(), GraphError> {
-        contacts.clear();
-        let mut found = [None; 4];
-        for (index, light) in self.lights.iter().enumerate() {
-            let what = || format!("view {index} of a light, for node '{node}'");
-            let channels = found.get_mut(..lights as usize).unwrap_or_default();
-            // Lights beyond are those of the node that shades, which knows how many there are.
-            let Some(of_channel) = channels.get_mut(light.channel as usize) else {
-                continue;
-            };
-            if of_channel.is_none() {
-                let made = ContactShadowParameters::new(self.camera, light, self.contact);
-                *of_channel = Some(made.map_err(|error| unsuitable(what(), error))?);
-            }
-        }
-        // A channel without a light is as it was.
-        if let Some(any) = found.iter().flatten().next() {
-            let none = any.without_light();
-            let all = found.iter().take(lights as usize);
-            contacts.extend(all.map(|of_channel| of_channel.unwrap_or(none)));
-        }
-        Ok(())
     }
 
     /// The views of a layer, with their numbers.

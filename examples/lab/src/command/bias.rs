@@ -19,7 +19,7 @@ pub struct Options {
     #[arg(long, conflicts_with_all = ["technique", "storage"])]
     tables: bool,
     /// Translucent casters that are blended over each patch between resolve and blur.
-    #[arg(long, default_value_t = 0, value_parser = clap::value_parser!(u32).range(..=256), conflicts_with = "tables")]
+    #[arg(long, default_value_t = 0, value_parser = clap::value_parser!(u32).range(..=64), conflicts_with = "tables")]
     blends: u32,
     /// Patches per row of the table.
     #[arg(long, default_value_t = 1_000_000, value_parser = clap::value_parser!(u64).range(1..=1_000_000_000))]

@@ -13,7 +13,7 @@ use crate::{
 /// format and size: the darker one of `intensity` and of the shadow that a short march through the camera's depth towards the light finds.
 /// Without `intensity`, that march alone. A fullscreen pass: it can also be drawn into a render pass that the host has open.
 ///
-/// It marches for up to four lights, one in each channel (a single one is in all of them): of more lights for the first ones. Parameters: a
+/// It marches for up to four lights, one in each channel (a single one is in all of them): those of the output that is `intensity`. Parameters: a
 /// [`moment_shadows::ContactShadowParameters`] per light, with the length of the march and the thickness of surfaces in scene units.
 #[derive(Clone, Debug, PartialEq, Deserialize)]
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]

@@ -38,6 +38,7 @@ pub struct DebugMoments {
 impl Node for DebugMoments {
     fn describe(&self, upstream: &Connected<'_>) -> Result<NodeDesc, GraphError> {
         let (map, encoding) = map_input::of_four_moments(upstream, "shows")?;
+        map_input::refuse_blended(&encoding)?;
         if self.level >= map.mips {
             return Err(wrong_property(format!(
                 "'level' is {}, but the map has {} mip levels, counted from 0",

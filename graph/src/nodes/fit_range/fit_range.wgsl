@@ -14,7 +14,7 @@ import node::specialization::{DepthTexture, GROUP, REGIONS, SAMPLES};
 @group(GROUP) @binding(3) var target_map: texture_storage_2d<rgba32float, write>;
 @group(GROUP) @binding(5) var ends_map: texture_2d<f32>;
 
-// Texels of a block, along each side: one per invocation.
+// Texels of a piece of a layer, along each side: one per invocation.
 const SIDE: u32 = 16u;
 const INVOCATIONS: u32 = 256u;
 
@@ -80,8 +80,8 @@ fn find_ends(@builtin(local_invocation_id) local: vec3u, @builtin(local_invocati
     let blocks = (region.extent + SIDE - 1u) / SIDE;
     let conversion = conversions[number];
     var ends = NO_CASTER;
-    for (var block = own / REGIONS; block < blocks.x * blocks.y; block += shared_by) {
-        let texel = vec2u(block % blocks.x, block / blocks.x) * SIDE + local.xy;
+    for (var piece = own / REGIONS; piece < blocks.x * blocks.y; piece += shared_by) {
+        let texel = vec2u(piece % blocks.x, piece / blocks.x) * SIDE + local.xy;
         if all(texel < region.extent) {
             ends = both_ends(ends, ends_of_texel(region.origin + texel, conversion));
         }

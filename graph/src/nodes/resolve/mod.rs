@@ -50,7 +50,11 @@ impl Resolve {
     pub fn encoding(&self, capabilities: &Capabilities) -> Result<MapEncoding, ValueError> {
         let profile = capabilities.profile;
         let Some(technique) = &self.technique else {
-            return self.best(profile)?.with_blends(self.blends);
+            if self.blends > 0 {
+                let message = "beside \"best\", which is known for opaque casters; name a technique, 'hamburger6' for most scenes";
+                return Err(ValueError::new("'blends'", message));
+            }
+            return self.best(profile);
         };
         if let Some(bits) = self.bits {
             let message = format!(

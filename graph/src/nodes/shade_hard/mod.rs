@@ -28,8 +28,8 @@ mod own_shader;
 pub struct ShadeHard {
     /// How the map becomes shadow intensity. Where it is left out, that which the map was made for.
     pub technique: Option<Technique>,
-    /// The format of the shadow intensity, with at least as many channels as there are lights: r8unorm, r16float or
-    /// r32float for one, rgba8unorm, rgba16float or rgba32float for up to four. Where it is left out, r8unorm or
+    /// The format of the shadow intensity, with a channel for each light: r8unorm, r16float or
+    /// r32float for one, rgba8unorm, rgba16float or rgba32float for more, four in each output. Where it is left out, r8unorm or
     /// rgba8unorm.
     pub format: Option<TextureFormat>,
     /// The lights, 1 to 16: four in each output.

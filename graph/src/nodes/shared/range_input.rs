@@ -49,6 +49,10 @@ pub(in crate::nodes) fn of_maker(
 ) -> Result<WithRange, GraphError> {
     let ranges = connected(upstream)?;
     if let Some(ranges) = ranges {
+        if ranges.range.is_none() {
+            let message = "what is connected holds no ranges; connect the output 'ranges' of a node 'fit_range'";
+            return Err(wrong_format(message).at_slot(SLOT));
+        }
         let (has, needs) = (
             [ranges.size[0], ranges.layers],
             [depth.regions, depth.layers],
