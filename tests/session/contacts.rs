@@ -1,6 +1,6 @@
 //! Shadows at contacts through a session: it tells the node where lights are.
 
-use moment_shadows::{ContactShadows, LightView};
+use moment_shadows::{ContactShadows, LightView, MapRegion};
 
 use crate::{HARD, frame, gpu, imports, places, recorded, session};
 
@@ -63,17 +63,21 @@ fn contacts_are_those_of_the_output_that_they_darken() {
         .replace("shade.shadow_intensity", "shade.shadow_intensity_4");
     let mut second = session(&gpu, &text, &imports(&frame));
     let view = |channel| LightView { channel, ..light };
-    second
-        .view(&gpu.queue, 0, &camera, &[view(0), view(6)])
-        .unwrap();
+    second.view(&gpu.queue, 0, &camera, &[view(6)]).unwrap();
     let all = recorded(&gpu, &second, 0, "shadow_intensity");
     for (texel, single) in all.chunks_exact(4).zip(&single) {
         assert_eq!(texel, [0, 0, *single, 0]);
     }
     // A node of one light does not know which of two it is.
-    let text = contacts(4).replace(r#"{ "lights": 4 }"#, r#"{ "lights": 1 }"#);
+    let text = contacts(4)
+        .replace(r#"{ "lights": 4 }"#, r#"{ "lights": 1 }"#)
+        .replace(r#""samples": 4"#, r#""samples": 4, "regions": 2"#);
     let mut fewer = session(&gpu, &text, &imports(&frame));
-    let found = fewer.view(&gpu.queue, 0, &camera, &[view(0), view(1)]);
+    let half = |channel| LightView {
+        region: MapRegion::new([128 * channel, 0], [128, 256]),
+        ..view(channel)
+    };
+    let found = fewer.view(&gpu.queue, 0, &camera, &[half(0), half(1)]);
     let found = found.unwrap_err().to_string();
     assert!(found.contains("1 of the lights"), "{found}");
 }
