@@ -133,6 +133,10 @@ fn format(ty: &str) -> Option<(wgpu::TextureFormat, wgpu::TextureSampleType)> {
             let format = wgpu::TextureFormat::Depth16Unorm;
             Some((format, wgpu::TextureSampleType::Depth))
         }
+        "texture_depth_multisampled_2d" => {
+            let format = wgpu::TextureFormat::Depth32Float;
+            Some((format, wgpu::TextureSampleType::Depth))
+        }
         _ => None,
     }
 }
@@ -149,16 +153,52 @@ fn binding_type(ty: &str) -> wgpu::BindingType {
         Some((_, sample_type)) => wgpu::BindingType::Texture {
             sample_type,
             view_dimension: dimension(ty),
-            multisampled: false,
+            multisampled: ty.contains("multisampled"),
         },
         None if ty == "sampler" => wgpu::BindingType::Sampler(wgpu::SamplerBindingType::Filtering),
         None => wgpu::BindingType::Sampler(wgpu::SamplerBindingType::Comparison),
     }
 }
 
+/// A depth texture with four samples per texel, all alike: nothing but drawing writes to them.
+fn samples(gpu: &Gpu, format: wgpu::TextureFormat) -> wgpu::TextureView {
+    let texture = gpu.device.create_texture(&wgpu::TextureDescriptor {
+        label: None,
+        size: wgpu::Extent3d {
+            width: SIDE,
+            height: SIDE,
+            depth_or_array_layers: 1,
+        },
+        mip_level_count: 1,
+        sample_count: 4,
+        dimension: wgpu::TextureDimension::D2,
+        format,
+        usage: wgpu::TextureUsages::TEXTURE_BINDING | wgpu::TextureUsages::RENDER_ATTACHMENT,
+        view_formats: &[],
+    });
+    let view = texture.create_view(&Default::default());
+    let mut encoder = gpu.device.create_command_encoder(&Default::default());
+    drop(encoder.begin_render_pass(&wgpu::RenderPassDescriptor {
+        depth_stencil_attachment: Some(wgpu::RenderPassDepthStencilAttachment {
+            view: &view,
+            depth_ops: Some(wgpu::Operations {
+                load: wgpu::LoadOp::Clear(0.7),
+                store: wgpu::StoreOp::Store,
+            }),
+            stencil_ops: None,
+        }),
+        ..Default::default()
+    }));
+    gpu.queue.submit([encoder.finish()]);
+    view
+}
+
 /// A texture of random texels, for floats from 0.5 to 1, with three mip levels of two layers at most.
 fn texture(gpu: &Gpu, ty: &str, random: &mut impl Rng) -> Option<wgpu::TextureView> {
     let (format, _) = format(ty)?;
+    if ty.contains("multisampled") {
+        return Some(samples(gpu, format));
+    }
     let float = format == wgpu::TextureFormat::Rgba16Float;
     let descriptor = wgpu::TextureDescriptor {
         label: None,

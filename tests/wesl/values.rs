@@ -68,13 +68,14 @@ fn small_bool(state: ptr<function, u32>) -> bool {
 ";
 
 /// The resources that functions may take, by binding in group 1: the first two are those of the example.
-pub(crate) const RESOURCES: [&str; 6] = [
+pub(crate) const RESOURCES: [&str; 7] = [
     "texture_2d_array<f32>",
     "sampler",
     "texture_2d<f32>",
     "texture_2d_array<u32>",
     "texture_depth_2d_array",
     "sampler_comparison",
+    "texture_depth_multisampled_2d",
 ];
 
 /// The shader's text without imports and without what `source` defines.
@@ -144,7 +145,8 @@ impl Writer<'_> {
             TypeInner::Sampler { comparison: false } => "sampler",
             TypeInner::Sampler { comparison: true } => "sampler_comparison",
             TypeInner::Image { arrayed, class, .. } => match (arrayed, class) {
-                (_, ImageClass::Depth { .. }) => "texture_depth_2d_array",
+                (_, ImageClass::Depth { multi: true }) => "texture_depth_multisampled_2d",
+                (_, ImageClass::Depth { multi: false }) => "texture_depth_2d_array",
                 (false, _) => "texture_2d<f32>",
                 (true, ImageClass::Sampled { kind, .. }) if *kind == ScalarKind::Uint => {
                     "texture_2d_array<u32>"
