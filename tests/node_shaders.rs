@@ -32,13 +32,15 @@ fn snapshot(name: &str) -> PathBuf {
 }
 
 /// Modules that are made by Rust code; the text of the others is a file.
-const GENERATED: [&str; 6] = [
+const GENERATED: [&str; 8] = [
     "blur_texel",
     "blur_outputs",
     "map_encoding",
     "map_filtering",
     "specialization",
     "technique",
+    "technique_blockers",
+    "technique_layer",
 ];
 
 /// The name that a comment line gives to the part of a linked text that follows it.

@@ -201,6 +201,7 @@ fn air(encoded: &Value) -> String {
 /// what is shown of a map, a stencil beside the depth, and shadows at contacts.
 fn others() -> Vec<(String, String)> {
     let float16 = json!({ "storage": "float16" });
+    let layered = json!({ "technique": { "lvsm": { "layers": 4 } }, "storage": "float16" });
     let narrow = json!({ "kernel": { "radius": 2 } });
     let cascades = |samples: u32| json!({ "format": "depth32float", "size": [256, 128], "layers": 3, "regions": 4, "samples": samples });
     let all = [
@@ -249,6 +250,13 @@ fn others() -> Vec<(String, String)> {
         ("placed layers", placed_layers(cascades(1))),
         ("fitted ranges", fitted_ranges(cascades(4))),
         ("debug", debug(&float16)),
+        ("debug view", debug_shading(false, &float16, "view")),
+        ("debug texels", debug_shading(false, &float16, "texels")),
+        ("debug filter", debug_shading(false, &float16, "filter")),
+        ("debug range", debug_shading(false, &float16, "range")),
+        ("debug blockers", debug_shading(true, &float16, "blockers")),
+        ("debug penumbra", debug_shading(true, &float16, "penumbra")),
+        ("debug layer", debug_shading(false, &layered, "layer")),
         ("contact shadows", contact_shadows(&float16)),
     ];
     all.map(|(name, text)| (name.to_owned(), text)).to_vec()
@@ -313,6 +321,40 @@ fn soft_atlas() -> String {
             ("camera_depth", "shade.camera_depth"),
         ],
         "shade.shadow_intensity",
+    )
+}
+
+/// What a node that shades shows of it: of a map, or of a table.
+fn debug_shading(soft: bool, encoded: &Value, show: &str) -> String {
+    let (kind, slot) = if soft {
+        ("summed_area_table", "table")
+    } else {
+        ("blur", "blurred")
+    };
+    let properties = if soft {
+        json!({})
+    } else {
+        json!({ "kernel": { "radius": 2 } })
+    };
+    let (shade, input) = if soft {
+        ("shade_soft", "shade.table")
+    } else {
+        ("shade_hard", "shade.map")
+    };
+    graph(
+        light(1),
+        &[
+            node("resolve", "resolve", encoded.clone()),
+            node("filter", kind, properties),
+            node("shade", shade, json!({ "debug": show })),
+        ],
+        &[
+            ("light_depth", "resolve.depth"),
+            ("resolve.map", "filter.map"),
+            (&format!("filter.{slot}"), input),
+            ("camera_depth", "shade.camera_depth"),
+        ],
+        "shade.debug",
     )
 }
 

@@ -21,7 +21,13 @@ pub(super) fn binary() -> Row {
 pub(super) fn pcss(search_taps: u32, filter_taps: u32) -> Row {
     const NAME: &str = "pcss";
     let evaluation = "return percentage_closer_soft_intensity(depth_map, receiver.layer, receiver.region, plane, receiver.conversion, receiver.light, SEARCH_TAPS, FILTER_TAPS, disk_samples_angle(receiver.pixel));";
+    let blockers = "let rotation = disk_samples_rotation(disk_samples_angle(receiver.pixel));
+    let radius = area_light_disk(receiver.light, -1.0, plane.depth);
+    let blockers = percentage_closer_soft_search(depth_map, receiver.layer, receiver.region, plane, receiver.conversion, radius, SEARCH_TAPS, rotation);
+    let half_extent = area_light_disk(receiver.light, blockers.depth, plane.depth);
+    return vec3f(blockers.share, blockers.depth, max(half_extent.x, half_extent.y));";
     Row {
+        blockers: Some(blockers),
         settings: count(NAME, "search taps", search_taps, MOST_TAPS)
             .and_then(|()| count(NAME, "filter taps", filter_taps, MOST_TAPS)),
         constants: vec![

@@ -26,6 +26,9 @@ const EVALUATION: &str = "let layers = technique_layers(receiver.layer);
     let other = layered_variance_shadow_intensity_of_texel(next, receiver.fragment_depth, STORAGE, layers, choice.neighbor);
     return mix(intensity, other, choice.neighbor_share);";
 
+const LAYER: &str = "let choice = layered_variance_choice(technique_layers(receiver.layer), receiver.fragment_depth);
+    return vec3f(f32(choice.layer), f32(choice.neighbor), choice.neighbor_share);";
+
 pub(super) fn row(layers: u32, overlap: Finite, splits: &LayerSplits) -> Row {
     let storages = &[Unorm16, Float32, Float16];
     let known = splits.known(layers);
@@ -40,6 +43,7 @@ pub(super) fn row(layers: u32, overlap: Finite, splits: &LayerSplits) -> Row {
         constants,
         places_layers: known.is_none(),
         bounded_channels: true,
+        layer: Some(LAYER),
         // Every layer ends before the far end, or there.
         far: far::of_each(storages, |storage| {
             far_of_pairs(storage, layers.next_multiple_of(2))

@@ -104,6 +104,24 @@ impl Row {
         self.soft.map(|soft| intensity(self, soft))
     }
 
+    /// What blocks a fragment's light: `technique_blockers`, its share, its mean moment depth and half the width in texels of what is then filtered, the module `technique_blockers`. None where
+    /// nothing is searched for.
+    #[must_use]
+    pub fn technique_blockers(&self) -> Option<String> {
+        let what = "Share and mean depth of blockers, and half the filter's width,";
+        self.blockers
+            .map(|it| of_receiver(self, what, "technique_blockers", "vec3f", it))
+    }
+
+    /// Which layer shades a fragment: `technique_layer`, with its neighbour and the share of that, the module `technique_layer`. None
+    /// without layers.
+    #[must_use]
+    pub fn technique_layer(&self) -> Option<String> {
+        let what = "The layer, its neighbour and the share of that,";
+        self.layer
+            .map(|it| of_receiver(self, what, "technique_layer", "vec3f", it))
+    }
+
     /// Names and values of the constants that these modules import, WGSL expressions.
     pub fn constants(&self) -> impl Iterator<Item = (&'static str, &str)> {
         self.constants
@@ -119,6 +137,17 @@ fn function(what: &str, head: &str, value: &str) -> String {
 
 /// `technique_shadow_intensity` by a piece of a row.
 fn intensity(row: &Row, body: &str) -> String {
+    of_receiver(
+        row,
+        "Shadow intensity",
+        "technique_shadow_intensity",
+        "f32",
+        body,
+    )
+}
+
+/// A module with one function of a receiver.
+fn of_receiver(row: &Row, what: &str, name: &str, gives: &str, body: &str) -> String {
     let plane = if row.reads_depth() {
         "let plane = receiver_plane_through(receiver.uv, receiver.depth, receiver.gradient, receiver.steepest, \
          depth_of_light(receiver.conversion));\n    "
@@ -127,8 +156,8 @@ fn intensity(row: &Row, body: &str) -> String {
     };
     let functions = format!(
         "
-// Shadow intensity by the technique '{}'.
-fn technique_shadow_intensity(receiver: TechniqueReceiver) -> f32 {{
+// {what} by the technique '{}'.
+fn {name}(receiver: TechniqueReceiver) -> {gives} {{
     {plane}{body}
 }}
 ",

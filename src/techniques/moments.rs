@@ -16,10 +16,15 @@ pub(super) fn hamburger4() -> Row {
     let evaluation = "return hamburger4_shadow_intensity_of_texel(map_texel(receiver, 0u), receiver.fragment_depth, STORAGE);";
     let soft = "let bias = summed_area_encoding_moment_bias(TABLE_ERROR);
     return moment_soft_shadows_intensity(table_sums, soft_table(receiver), bias, soft_receiver(receiver), receiver.light);";
+    let blockers = "let bias = summed_area_encoding_moment_bias(TABLE_ERROR);
+    let blockers = moment_soft_shadows_blockers(table_sums, soft_table(receiver), bias, soft_receiver(receiver), receiver.light);
+    let half_extent = area_light_box(receiver.light, blockers.depth, receiver.depth);
+    return vec3f(blockers.share, blockers.depth, max(half_extent.x, half_extent.y));";
     let blended = "let bias = translucent_casters_four_moments_bias(four_moments_bias_of(STORAGE), BLENDS);
     return hamburger4_shadow_intensity(four_moments_from_texel(map_texel(receiver, 0u), STORAGE), receiver.fragment_depth, bias);";
     Row {
         soft: Some(soft),
+        blockers: Some(blockers),
         blended: Some(Blended {
             alpha_is_free: false,
             evaluation: blended,

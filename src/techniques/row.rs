@@ -114,6 +114,12 @@ pub struct Row {
         expect(dead_code, reason = "exports read it")
     )]
     pub(crate) functions: &'static [&'static str],
+    /// The share and the mean moment depth of what blocks a `receiver`'s light, and half the width in texels of what is then filtered, a vec3f;
+    /// `None` where nothing is searched for. By the table
+    /// where the technique has soft shadows, otherwise as `evaluation`.
+    pub(super) blockers: Option<&'static str>,
+    /// The layer that shades a `receiver`, its neighbour and the share of that, a vec3f; `None` without layers.
+    pub(super) layer: Option<&'static str>,
     /// Soft shadow intensity of a `receiver` from the summed-area table of the map, by `soft_table` and `soft_receiver`.
     pub(super) soft: Option<&'static str>,
 }
@@ -148,6 +154,8 @@ impl Row {
             blended: None,
             exported: None,
             functions: &[],
+            blockers: None,
+            layer: None,
             soft: None,
         }
     }

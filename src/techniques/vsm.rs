@@ -22,12 +22,18 @@ const BLENDED: Blended = Blended {
 const SOFT: &str = "let variance = summed_area_encoding_smallest_variance(TABLE_ERROR);
     return moment_soft_shadows_variance_intensity(table_sums, soft_table(receiver), variance, soft_receiver(receiver), receiver.light);";
 
+const BLOCKERS: &str = "let variance = summed_area_encoding_smallest_variance(TABLE_ERROR);
+    let blockers = moment_soft_shadows_variance_blockers(table_sums, soft_table(receiver), variance, soft_receiver(receiver), receiver.light);
+    let half_extent = area_light_box(receiver.light, blockers.depth, receiver.depth);
+    return vec3f(blockers.share, blockers.depth, max(half_extent.x, half_extent.y));";
+
 pub(super) fn row() -> Row {
     let storages = &[Unorm16, Float32, Float16];
     Row {
         bounded_channels: true,
         has_table: true,
         soft: Some(SOFT),
+        blockers: Some(BLOCKERS),
         blended: Some(BLENDED),
         functions: &["two_moments_from_texel", "chebyshev_upper_bound"],
         far: far::of_each(storages, |storage| far_of_pairs(storage, 1)),

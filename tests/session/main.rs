@@ -8,6 +8,7 @@
 
 mod cameras;
 mod contacts;
+mod debug;
 mod far;
 mod fitted;
 mod formats;

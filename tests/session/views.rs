@@ -100,8 +100,13 @@ fn shaded_by(
         format!(r#""texture": {{ "format": "r32float", "size": [64, 64], "regions": {count} }}"#);
     let depth = r#""texture": { "format": "depth32float", "size": [1024, 1024], "samples": 4 }"#;
     let borders = views.iter().any(|view| view.border != Border::Sharp);
+    let debug = if graph.contains("shade.debug") {
+        r#", "debug": "view""#
+    } else {
+        ""
+    };
     let shade = format!(
-        r#""type": "shade_hard", "properties": {{ "format": "r32float", "views": {count}, "borders": {borders} }}"#
+        r#""type": "shade_hard", "properties": {{ "format": "r32float", "views": {count}, "borders": {borders}{debug} }}"#
     );
     let storage = r#""storage": ["unorm16", "float16"]"#;
     let text = graph
@@ -153,7 +158,13 @@ pub(crate) fn within(view: &LightView, point: DVec3) -> f64 {
 }
 
 /// Places views of equal size in one map, and what a session shows of them.
-fn in_one_map(
+fn in_one_map(gpu: &Gpu, frame: &Frame, camera: &CameraView, views: Vec<LightView>) -> Vec<f32> {
+    in_one_map_by(HARD, gpu, frame, camera, views)
+}
+
+/// The same by a graph like that of hard shadows.
+pub(crate) fn in_one_map_by(
+    graph: &str,
     gpu: &Gpu,
     frame: &Frame,
     camera: &CameraView,
@@ -166,7 +177,7 @@ fn in_one_map(
     };
     atlas.place(&mut views).unwrap();
     atlas.check(&views).unwrap();
-    shaded(gpu, frame, camera, atlas.size, &views)
+    shaded_by(graph, gpu, frame, camera, atlas.size, &views)
 }
 
 /// Compares views in one atlas with each of them alone. Gives the largest difference with guard bands and without, and how many
@@ -279,7 +290,7 @@ fn no_border_is_seen_between_cascades() {
 }
 
 /// Three cascades with a guard band, that blend over a part of their width.
-fn cascades(camera: &CameraView, guard: u32, blend: f64) -> Vec<LightView> {
+pub(crate) fn cascades(camera: &CameraView, guard: u32, blend: f64) -> Vec<LightView> {
     let cascades = Cascades {
         direction: [0.4, -1.0, 0.3],
         splits: CascadeSplits::Given(vec![4.0, 7.0]),

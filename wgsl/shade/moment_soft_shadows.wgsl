@@ -3,7 +3,7 @@ import super::super::bounds::hamburger4::{hamburger4_lower_bound};
 import super::super::map::map_region::{MapRegion};
 import super::super::moments::four_moments::{FourMomentsBias, four_moments_apply_bias, four_moments_dequantize};
 import super::super::shade::receiver_bias::{receiver_bias_depth_of_kernel};
-import super::super::shade::soft_blockers::{soft_blockers_of_four_moments, soft_blockers_of_two_moments};
+import super::super::shade::soft_blockers::{SoftBlockers, soft_blockers_of_four_moments, soft_blockers_of_two_moments};
 import super::super::map::storage::{STORAGE_UNORM16};
 import super::super::filter::summed_area_table::{SummedAreaTableRectangle, summed_area_table_mean_interpolated, summed_area_table_mean_plain, summed_area_table_rectangle};
 import super::super::bounds::chebyshev::{chebyshev_lower_bound};
@@ -71,12 +71,24 @@ fn moment_soft_shadows_fragment_depth(receiver: MomentSoftShadowReceiver, rectan
     return clamp(receiver.depth, -1.0, 1.0) - bias;
 }
 
+// The blockers of a receiver, from a table of four moments with its bias.
+fn moment_soft_shadows_blockers(sums: texture_2d_array<u32>, table: MomentSoftShadowTable, bias: FourMomentsBias, receiver: MomentSoftShadowReceiver, light: AreaLight) -> SoftBlockers {
+    let search = moment_soft_shadows_rectangle(table, receiver, light, -1.0);
+    let searched = four_moments_dequantize(moment_soft_shadows_mean(sums, table, search, table.search_interpolated));
+    return soft_blockers_of_four_moments(four_moments_apply_bias(searched, bias), receiver.depth, bias.alpha);
+}
+
+// The same from a table of two moments with its smallest variance.
+fn moment_soft_shadows_variance_blockers(sums: texture_2d_array<u32>, table: MomentSoftShadowTable, smallest_variance: f32, receiver: MomentSoftShadowReceiver, light: AreaLight) -> SoftBlockers {
+    let search = moment_soft_shadows_rectangle(table, receiver, light, -1.0);
+    let searched = two_moments_from_texel(moment_soft_shadows_mean(sums, table, search, table.search_interpolated), STORAGE_UNORM16).xy;
+    return soft_blockers_of_two_moments(searched, receiver.depth, smallest_variance);
+}
+
 // Shadow intensity in [0, 1] (1 = shadowed) of a receiver, from a table of four moments. `bias` is the table's
 // (`summed_area_encoding_moment_bias`). 8 loads, or 16 for a query that interpolates in place of 4.
 fn moment_soft_shadows_intensity(sums: texture_2d_array<u32>, table: MomentSoftShadowTable, bias: FourMomentsBias, receiver: MomentSoftShadowReceiver, light: AreaLight) -> f32 {
-    let search = moment_soft_shadows_rectangle(table, receiver, light, -1.0);
-    let searched = four_moments_dequantize(moment_soft_shadows_mean(sums, table, search, table.search_interpolated));
-    let blockers = soft_blockers_of_four_moments(four_moments_apply_bias(searched, bias), receiver.depth, bias.alpha);
+    let blockers = moment_soft_shadows_blockers(sums, table, bias, receiver, light);
     let rectangle = moment_soft_shadows_rectangle(table, receiver, light, blockers.depth);
     let filtered = four_moments_dequantize(moment_soft_shadows_mean(sums, table, rectangle, table.filter_interpolated));
     let depth = moment_soft_shadows_fragment_depth(receiver, rectangle);
@@ -86,9 +98,7 @@ fn moment_soft_shadows_intensity(sums: texture_2d_array<u32>, table: MomentSoftS
 // Shadow intensity in [0, 1] (1 = shadowed) of a receiver, from a table of two moments. `smallest_variance` is the table's
 // (`summed_area_encoding_smallest_variance`). The loads are those of `moment_soft_shadows_intensity`.
 fn moment_soft_shadows_variance_intensity(sums: texture_2d_array<u32>, table: MomentSoftShadowTable, smallest_variance: f32, receiver: MomentSoftShadowReceiver, light: AreaLight) -> f32 {
-    let search = moment_soft_shadows_rectangle(table, receiver, light, -1.0);
-    let searched = two_moments_from_texel(moment_soft_shadows_mean(sums, table, search, table.search_interpolated), STORAGE_UNORM16).xy;
-    let blockers = soft_blockers_of_two_moments(searched, receiver.depth, smallest_variance);
+    let blockers = moment_soft_shadows_variance_blockers(sums, table, smallest_variance, receiver, light);
     let rectangle = moment_soft_shadows_rectangle(table, receiver, light, blockers.depth);
     let filtered = two_moments_from_texel(moment_soft_shadows_mean(sums, table, rectangle, table.filter_interpolated), STORAGE_UNORM16).xy;
     return chebyshev_lower_bound(filtered, moment_soft_shadows_fragment_depth(receiver, rectangle), smallest_variance);

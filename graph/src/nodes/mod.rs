@@ -29,6 +29,7 @@ pub use rectify_moments::RectifyMoments;
 pub use resolve::Resolve;
 pub use shade_hard::ShadeHard;
 pub use shade_soft::ShadeSoft;
+pub use shared::debug_view::DebugView;
 #[cfg(feature = "wgpu")]
 pub(crate) use shared::shading::BORDERS;
 pub use summed_area_table::SummedAreaTable;

@@ -3,6 +3,7 @@
 use moment_shadows::{MapEncoding, Technique, TextureFormat};
 use serde::Deserialize;
 
+use super::shared::debug_view::DebugView;
 use super::shared::lookup::moments_lookup;
 use super::shared::{
     Specialization, depth_input, map_input, range_input, shading, wrong_format, wrong_property,
@@ -40,6 +41,8 @@ pub struct ShadeHard {
     /// Whether views blend and fade out along their borders ([`moment_shadows::Border`]), for a few more instructions per view.
     /// Otherwise borders are sharp.
     pub borders: bool,
+    /// What the output `debug` shows of how pixels are shaded; without it there is no such output.
+    pub debug: Option<DebugView>,
     /// The most probes of a lookup in a map with mip levels, 1 to 16: 1 is a trilinear lookup, more follow the direction
     /// in which a pixel covers more texels.
     pub anisotropy: u16,
@@ -53,6 +56,7 @@ impl Default for ShadeHard {
             lights: 1,
             views: 1,
             borders: false,
+            debug: None,
             // What hardware commonly takes at little cost.
             anisotropy: 8,
         }
@@ -78,7 +82,14 @@ impl Node for ShadeHard {
         shading::describe(
             "shade_hard",
             upstream,
-            (self.format, self.lights, self.views, self.borders),
+            shading::Settings {
+                format: self.format,
+                lights: self.lights,
+                views: self.views,
+                borders: self.borders,
+                debug: self.debug,
+            },
+            (&evaluation.technique, false),
             core::iter::once(input).chain(splits).chain(ranges),
             (evaluation.bindings.into_iter())
                 .chain(splits_binding)

@@ -3,6 +3,7 @@
 use moment_shadows::TextureFormat;
 use serde::{Deserialize, Deserializer};
 
+use super::shared::debug_view::DebugView;
 use super::shared::{Specialization, map_input, range_input, shading, wrong_format};
 use super::techniques;
 use crate::{Binding, Connected, GraphError, Node, NodeDesc, Slot, bind};
@@ -27,6 +28,8 @@ pub struct ShadeSoft {
     pub views: u32,
     /// Whether views blend and fade out along their borders, as in [`super::ShadeHard`].
     pub borders: bool,
+    /// What the output `debug` shows of how pixels are shaded; without it there is no such output.
+    pub debug: Option<DebugView>,
     /// Whether the two queries of the table, blocker search and filter, weight texels by the part that they cover, with 16
     /// loads; otherwise they count whole texels, with 4. In a file `"both"`: no bands in penumbrae, however slowly they rise;
     /// `"filter"`, the default: the width of a penumbra changes in steps that its own slope hides; or `"neither"`: for filters
@@ -63,6 +66,7 @@ impl Default for ShadeSoft {
             lights: 1,
             views: 1,
             borders: false,
+            debug: None,
             interpolation: [false, true],
         }
     }
@@ -99,7 +103,14 @@ impl Node for ShadeSoft {
         shading::describe(
             "shade_soft",
             upstream,
-            (self.format, self.lights, self.views, self.borders),
+            shading::Settings {
+                format: self.format,
+                lights: self.lights,
+                views: self.views,
+                borders: self.borders,
+                debug: self.debug,
+            },
+            (encoding.technique(), true),
             [
                 Slot::input("table", "The light's summed-area table.", rule),
                 ranges,

@@ -8,13 +8,15 @@
 //! | `regions` | passes over the regions of a map (`regions.wgsl`), computed (`write_computed.wgsl`) or drawn (`write_drawn.wgsl`) |
 //! | `range_input` | the input `ranges`: depths of a map that are fitted to its casters (`range_of_*.wgsl`) |
 //! | `lookup` | lookups in a filterable map, by a sampler or by loads (`moments_lookup_*.wgsl`) |
-//! | `shading` | what `shade_hard` and `shade_soft` have in common (`shade.wgsl`, `views.wgsl`) |
+//! | `shading` | what `shade_hard` and `shade_soft` have in common (`shade.wgsl`, `views.wgsl`, `view_receiver.wgsl`) |
+//! | `debug_view` | what they show of how they shade (`debug/*.wgsl`) |
 //! | `tiled` | which of many views a pixel tries (`find_views.wgsl`, `view_list_*.wgsl`) |
 //! | `mip_levels` | a property that several nodes have |
 //! | `error` | what can be wrong |
 //!
 #![doc = include_str!("interfaces.md")]
 
+pub(super) mod debug_view;
 pub(super) mod depth_input;
 mod error;
 pub(super) mod lookup;

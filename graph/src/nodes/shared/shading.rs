@@ -1,6 +1,7 @@
 //! What the nodes that shade a picture have in common: their shader, their target and their slots.
 
 use moment_shadows::{
+    Technique,
     TextureFormat::{
         self, R8Unorm, R16Float, R32Float, Rg16Float, Rg16Unorm, Rg32Float, Rgb10a2Unorm,
         Rgba8Unorm, Rgba16Float, Rgba32Float,
@@ -8,12 +9,22 @@ use moment_shadows::{
     ViewParameters,
 };
 
+use super::debug_view::{self, DebugView};
 use super::tiled::Tiled;
 use super::{Specialization, depth_input, wgsl, wrong_property};
 use crate::{
     Binding, Connected, GraphError, NodeDesc, Off, ParameterBlock, Pass, ResourceDesc, Rule, Slot,
     Stage, TextureRule, bind,
 };
+
+/// Properties of both nodes.
+pub(in crate::nodes) struct Settings {
+    pub(in crate::nodes) format: Option<TextureFormat>,
+    pub(in crate::nodes) lights: u32,
+    pub(in crate::nodes) views: u32,
+    pub(in crate::nodes) borders: bool,
+    pub(in crate::nodes) debug: Option<DebugView>,
+}
 
 /// The node: fullscreen passes from a map, whose input (and what belongs to it), bindings and modules are given, and
 /// `camera_depth` to `shadow_intensity`, of a format that has a channel for each light, or four in each of several outputs
@@ -22,11 +33,19 @@ use crate::{
 pub(in crate::nodes) fn describe(
     name: &str,
     upstream: &Connected<'_>,
-    (format, lights, views, borders): (Option<TextureFormat>, u32, u32, bool),
+    settings: Settings,
+    (technique, soft): (&Technique, bool),
     inputs: impl IntoIterator<Item = Slot>,
     bindings: Vec<Binding>,
     specialization: Specialization,
 ) -> Result<NodeDesc, GraphError> {
+    let Settings {
+        format,
+        lights,
+        views,
+        borders,
+        debug,
+    } = settings;
     if !(1..=16).contains(&lights) {
         return Err(wrong_property(format!(
             "'lights' is {lights}; a node shades 1 to 16 lights, four in each of its outputs, and more nodes shade more"
@@ -48,29 +67,45 @@ pub(in crate::nodes) fn describe(
     let specialization = depth_input::of_camera(specialization, camera)
         .unsigned("VIEWS", views)
         .unsigned("LIGHTS", lights)
-        .module("views", include_str!("views.wgsl"));
+        .module("views", include_str!("views.wgsl"))
+        .module("view_receiver", include_str!("view_receiver.wgsl"));
     let tiled = Tiled::new(views, bindings.clone());
-    let wgsl = tiled
-        .list(specialization.clone())
-        .link(wgsl!("shade.wgsl"))?;
+    let listed = tiled.list(specialization.clone());
+    let wgsl = listed.link(wgsl!("shade.wgsl"))?;
+    // What both passes over the picture read.
+    let bound = |pass: Pass| {
+        let mut pass = pass
+            .bind("views", bind::parameters())
+            .bind("camera_depth", bind::layer("camera_depth"));
+        let given = bindings.clone().into_iter().chain(normals.clone());
+        pass.bindings.extend(given.chain(tiled.bindings()));
+        pass
+    };
     let shade = |first: u32| {
-        let mut pass = Pass::fullscreen(
-            numbered("shade", first),
-            &numbered("shadow_intensity", first),
-        )
-        .shader(wgsl.as_str(), "shade")
-        .bind("views", bind::parameters())
-        .bind("camera_depth", bind::layer("camera_depth"));
+        let slot = numbered("shadow_intensity", first);
+        let mut pass =
+            Pass::fullscreen(numbered("shade", first), &slot).shader(wgsl.as_str(), "shade");
         if borders {
             pass = pass.constant(BORDERS, 1);
         }
         if first > 0 {
             pass = pass.constant("FIRST_LIGHT", first);
         }
-        pass.bindings
-            .extend(bindings.clone().into_iter().chain(normals.clone()));
-        pass.bindings.extend(tiled.bindings());
-        pass
+        bound(pass)
+    };
+    let shown = match debug {
+        None => None,
+        Some(view) => {
+            let listed = view.modules(listed.clone(), technique, soft)?;
+            let wgsl = listed.link(wgsl!("debug/debug_shading.wgsl"))?;
+            let mut pass = bound(Pass::fullscreen("debug", "debug").shader(wgsl, "debug"));
+            // Most views look nothing up.
+            let wgsl = pass.wgsl.as_str();
+            let is_used = |binding: &Binding| wgsl.contains(&format!(" {}:", binding.variable));
+            let used = pass.bindings.iter().filter(|it| is_used(it)).cloned();
+            pass.bindings = used.collect();
+            Some(pass)
+        }
     };
     let block = ParameterBlock::of::<ViewParameters>("ViewParameters").elements(views);
     let firsts = (0..lights).step_by(4);
@@ -88,8 +123,10 @@ pub(in crate::nodes) fn describe(
         .input("camera_depth", "Where surfaces are.", depth_input::camera())
         .slots([normals_slot()])
         .slots(outputs)
+        .slots(shown.as_ref().map(|_| debug_view::slot()))
         .slots(tiled.slots())
         .passes(tiled.passes(&specialization)?)
+        .passes(shown.clone())
         .passes(firsts.clone().map(shade))
         .parameters(block);
     // Lit.
@@ -99,7 +136,11 @@ pub(in crate::nodes) fn describe(
             Off::Fill(vec![[0.0; 4]]),
         )
     };
-    Ok(firsts.fold(desc, lit))
+    let desc = firsts.fold(desc, lit);
+    Ok(match shown {
+        None => desc,
+        Some(_) => desc.off("debug", Off::Fill(vec![[0.0; 4]])),
+    })
 }
 
 /// As many as a uniform buffer holds in core WebGPU.
