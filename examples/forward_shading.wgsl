@@ -5,17 +5,29 @@ import moment_shadows::map::map_region::{MapRegion};
 import moment_shadows::map::minification::{minification_depth_variance, minification_footprint};
 import moment_shadows::map::storage::{STORAGE_FLOAT16};
 import moment_shadows::shade::receiver_bias::{ReceiverBias, receiver_bias_depth_minified, receiver_bias_plane, receiver_bias_step};
+import moment_shadows::shade::view_border::{view_border_depth, view_border_parts};
 
-// A forward renderer's own shader: boxes, lit by a sun whose filtered map it samples itself, with mip levels.
+// A forward renderer's own shader: boxes, lit by a sun whose filtered map it samples itself, with mip levels and cascades that blend.
 
 struct Frame {
     clip_from_world: mat4x4f,
+    // xyz: towards the light.
+    light: vec4f,
+    // From the finest to the coarsest.
+    cascades: array<Cascade, 4>,
+}
+
+struct Cascade {
     light_clip_from_world: mat4x4f,
     // Gives the moment depth of a scene position (x, y, z, 1).
     moment_depth: vec4f,
-    // xyz: towards the light.
-    light: vec4f,
     receiver_bias: ReceiverBias,
+    region: MapRegion,
+    // Texels of the guard band, and of the border within it.
+    guard: f32,
+    border: f32,
+    // 1 where shadows fade out along the border.
+    fades: u32,
 }
 
 @group(0) @binding(0) var<uniform> frame: Frame;
@@ -51,28 +63,24 @@ fn draw(@builtin(vertex_index) index: u32, @location(0) centre: vec3f, @location
     return Vertex(frame.clip_from_world * vec4f(world, 1.0), world, normal, colour);
 }
 
-// A scene position as the light sees it: x and y in its map from 0 to 1, z in moment depth.
-fn place_in_map(world: vec3f) -> vec3f {
-    let clip = frame.light_clip_from_world * vec4f(world, 1.0);
-    return vec3f(vec2f(0.5, -0.5) * clip.xy + 0.5, dot(frame.moment_depth, vec4f(world, 1.0)));
+// A scene position as the light sees it: x and y in a cascade's region from 0 to 1, z in moment depth.
+fn place_in_region(cascade: u32, world: vec3f) -> vec3f {
+    let clip = frame.cascades[cascade].light_clip_from_world * vec4f(world, 1.0);
+    return vec3f(vec2f(0.5, -0.5) * clip.xy + 0.5, dot(frame.cascades[cascade].moment_depth, vec4f(world, 1.0)));
 }
 
-// `difference_x` and `difference_y`: how the place changes to the next pixel, in texels and moment depth.
-fn shadow_intensity(place: vec3f, difference_x: vec3f, difference_y: vec3f) -> f32 {
-    if any(place.xy < vec2f(0.0)) || any(place.xy > vec2f(1.0)) {
-        return 0.0;
-    }
+// Of one cascade. `difference_x` and `difference_y`: how the place changes to the next pixel, in texels and moment depth.
+fn cascade_shadow_intensity(cascade: u32, place: vec3f, difference_x: vec3f, difference_y: vec3f) -> f32 {
     let gradient = receiver_bias_plane(difference_x, difference_y);
     let footprint = minification_footprint(difference_x.xy, difference_y.xy, ANISOTROPY);
     let variance = minification_depth_variance(footprint, gradient);
-    let step = receiver_bias_step(frame.receiver_bias, place.z);
-    let bias = step + receiver_bias_depth_minified(frame.receiver_bias, length(gradient), variance);
-    let whole = MapRegion(vec2u(0u), textureDimensions(shadow_map));
+    let receiver_bias = frame.cascades[cascade].receiver_bias;
+    let bias = receiver_bias_step(receiver_bias, place.z) + receiver_bias_depth_minified(receiver_bias, length(gradient), variance);
     let texel = map_lookup_gradient(
         shadow_map,
         shadow_sampler,
         0u,
-        whole,
+        frame.cascades[cascade].region,
         textureNumLevels(shadow_map),
         place.xy,
         difference_x.xy,
@@ -83,16 +91,38 @@ fn shadow_intensity(place: vec3f, difference_x: vec3f, difference_y: vec3f) -> f
     return leak_reduction_full_shadow(intensity, 0.98);
 }
 
+// `step_x` and `step_y`: from the scene position to that of the next pixel.
+fn shadow_intensity(world: vec3f, step_x: vec3f, step_y: vec3f) -> f32 {
+    // What the cascades before have left of a place, and what was taken of it.
+    var left = 1.0;
+    var taken = 0.0;
+    var intensity = 0.0;
+    for (var cascade = 0u; cascade < 4u && left > 0.0; cascade++) {
+        let extent = vec2f(frame.cascades[cascade].region.extent);
+        let place = place_in_region(cascade, world);
+        let inside = view_border_depth(place.xy, extent, frame.cascades[cascade].guard, false);
+        if inside < 0.0 {
+            continue;
+        }
+        let texels = vec3f(extent, 1.0);
+        let difference_x = (place_in_region(cascade, world + step_x) - place) * texels;
+        let difference_y = (place_in_region(cascade, world + step_y) - place) * texels;
+        let parts = view_border_parts(inside, frame.cascades[cascade].border, frame.cascades[cascade].fades == 1u);
+        intensity += left * parts.y * cascade_shadow_intensity(cascade, place, difference_x, difference_y);
+        taken += left * parts.x;
+        left -= left * parts.x;
+    }
+    return intensity / max(taken, 1e-30);
+}
+
 @fragment
 fn lit(vertex: Vertex) -> @location(0) vec4f {
     // Derivatives need uniform control flow, so they come first.
-    let place = place_in_map(vertex.world);
-    let texels = vec3f(vec2f(textureDimensions(shadow_map)), 1.0);
-    let difference_x = dpdx(place) * texels;
-    let difference_y = dpdy(place) * texels;
+    let step_x = dpdx(vertex.world);
+    let step_y = dpdy(vertex.world);
     let normal = normalize(vertex.normal);
     let cosine = dot(normal, frame.light.xyz);
-    let sun = max(cosine, 0.0) * (1.0 - shadow_intensity(place, difference_x, difference_y));
+    let sun = max(cosine, 0.0) * (1.0 - shadow_intensity(vertex.world, step_x, step_y));
     let sky = 0.25 + 0.1 * normal.y;
     return vec4f(vertex.colour * (sun * vec3f(1.0, 0.95, 0.85) + sky * vec3f(0.75, 0.85, 1.0)), 1.0);
 }

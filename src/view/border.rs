@@ -21,7 +21,8 @@ pub(super) const WIDEST: f64 = 4095.0;
 
 impl Border {
     /// The width in texels; 0 for a sharp one.
-    pub(super) fn width(self) -> f64 {
+    #[must_use]
+    pub fn width(self) -> f64 {
         match self {
             Border::Sharp => 0.0,
             Border::Blend(width) | Border::Fade(width) | Border::Cone(width) => width,
