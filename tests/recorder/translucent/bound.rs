@@ -61,7 +61,10 @@ fn every_source_of_opacity_makes_the_same_map() {
     let by = |opacity| stage.found(&map, opacity, &casters, &surfaces).unwrap();
     let constant = by(Opacity::Constant);
     assert!(constant.iter().any(|&it| it > 0.6));
-    for opacity in [Opacity::SecondSource, Opacity::TwoDraws] {
+    // A device has a second source or not; two draws are everywhere.
+    let all = [Opacity::TwoDraws, Opacity::SecondSource];
+    for opacity in &all[..1 + usize::from(stage.has_second_source())] {
+        let opacity = *opacity;
         let largest = constant.iter().zip(by(opacity));
         let largest = largest.map(|(one, other)| (one - other).abs());
         let largest = largest.fold(0.0, f32::max);
@@ -116,4 +119,62 @@ fn a_plume_shadows_itself_and_the_floor() {
         six.itself < four.itself && four.itself < 0.1,
         "{four:?} {six:?}"
     );
+}
+
+#[test]
+fn a_bias_that_is_too_small_is_seen() {
+    let stage = TranslucentStage::new(64).unwrap();
+    for technique in [
+        Technique::Hamburger4,
+        Technique::Hausdorff4,
+        Technique::Hamburger6,
+    ] {
+        for storage in [Storage::Unorm16, Storage::Float16] {
+            for extent in [0.0, 1e-4, 1e-3, 1e-2] {
+                for depth in [0.02_f32, 0.2, 0.5] {
+                    let count = 32;
+                    let casters: Vec<Caster> = (0..count)
+                        .map(|index| Caster {
+                            depth: depth + extent * (count - index) as f32 / count as f32,
+                            opacity: 1.0 - 0.3_f32.powf(1.0 / count as f32),
+                            texture: Texture::Hashed,
+                        })
+                        .collect();
+                    let surfaces = Surfaces {
+                        opaque: &|_| 1.0,
+                        receiver: &|[x, y]| {
+                            depth - 0.03 + 0.06 * ((x + 64 * y) as f32 + 0.5) / 4096.0
+                        },
+                        blurred: false,
+                    };
+                    let truth = stage.truth(&casters, &surfaces).unwrap();
+                    let above = |blends| {
+                        let map = MapEncoding::new(technique.clone(), storage).unwrap();
+                        let map = if blends > 0 {
+                            map.with_blends(blends).unwrap()
+                        } else {
+                            map.with_blends(1).unwrap()
+                        };
+                        let opacity = if technique == Technique::Hamburger6 {
+                            Opacity::Alpha
+                        } else {
+                            Opacity::SecondSource
+                        };
+                        let found = stage.found(&map, opacity, &casters, &surfaces).unwrap();
+                        found
+                            .iter()
+                            .zip(&truth)
+                            .map(|(a, b)| f64::from(*a) - b)
+                            .fold(f64::MIN, f64::max)
+                    };
+                    println!(
+                        "{technique:?} {storage} {extent} {depth}: {:.2e} {:.2e}",
+                        above(0),
+                        above(count as u32)
+                    );
+                }
+            }
+        }
+    }
+    panic!("look");
 }
