@@ -28,8 +28,9 @@ fn over_a_floor(heights: &[f32], changes: &str) -> Scene {
     files.document["meshes"] = json!([pane, pane]);
     files.document["meshes"][0]["primitives"][0]["material"] = json!(0);
     // Texture coordinates are the positions: (0, 0), (1, 0) and (0, 1).
-    files.document["accessors"][2] =
-        json!({ "bufferView": 0, "componentType": 5126, "count": 3, "type": "VEC2" });
+    let coordinates = json!({ "bufferView": 0, "componentType": 5126, "count": 3, "type": "VEC2" });
+    let accessors = files.document["accessors"].as_array_mut().unwrap();
+    accessors.push(coordinates);
     files.document["meshes"][0]["primitives"][0]["attributes"]["TEXCOORD_0"] = json!(2);
     // Two texels, of a quarter and of three quarters.
     let texels = [255, 255, 255, 64, 255, 255, 255, 192];

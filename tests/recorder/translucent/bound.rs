@@ -123,58 +123,59 @@ fn a_plume_shadows_itself_and_the_floor() {
 
 #[test]
 fn a_bias_that_is_too_small_is_seen() {
+    const COUNT: u32 = 32;
+    // The bias of unorm16 for twice as many.
+    const ALLOWED: f64 = 1.2e-3;
     let stage = TranslucentStage::new(64).unwrap();
-    for technique in [
-        Technique::Hamburger4,
-        Technique::Hausdorff4,
-        Technique::Hamburger6,
+    let draws = 2 - u32::from(stage.has_second_source());
+    for (technique, opacity, draws) in [
+        (Technique::Hamburger6, Opacity::Alpha, 1),
+        (Technique::Hamburger4, textured(&stage), draws),
+        (Technique::Hausdorff4, textured(&stage), draws),
     ] {
-        for storage in [Storage::Unorm16, Storage::Float16] {
-            for extent in [0.0, 1e-4, 1e-3, 1e-2] {
-                for depth in [0.02_f32, 0.2, 0.5] {
-                    let count = 32;
-                    let casters: Vec<Caster> = (0..count)
-                        .map(|index| Caster {
-                            depth: depth + extent * (count - index) as f32 / count as f32,
-                            opacity: 1.0 - 0.3_f32.powf(1.0 / count as f32),
-                            texture: Texture::Hashed,
-                        })
-                        .collect();
-                    let surfaces = Surfaces {
-                        opaque: &|_| 1.0,
-                        receiver: &|[x, y]| {
-                            depth - 0.03 + 0.06 * ((x + 64 * y) as f32 + 0.5) / 4096.0
-                        },
-                        blurred: false,
-                    };
-                    let truth = stage.truth(&casters, &surfaces).unwrap();
-                    let above = |blends| {
-                        let map = MapEncoding::new(technique.clone(), storage).unwrap();
-                        let map = if blends > 0 {
-                            map.with_blends(blends).unwrap()
-                        } else {
-                            map.with_blends(1).unwrap()
-                        };
-                        let opacity = if technique == Technique::Hamburger6 {
-                            Opacity::Alpha
-                        } else {
-                            Opacity::SecondSource
-                        };
-                        let found = stage.found(&map, opacity, &casters, &surfaces).unwrap();
-                        found
-                            .iter()
-                            .zip(&truth)
-                            .map(|(a, b)| f64::from(*a) - b)
-                            .fold(f64::MIN, f64::max)
-                    };
-                    println!(
-                        "{technique:?} {storage} {extent} {depth}: {:.2e} {:.2e}",
-                        above(0),
-                        above(count as u32)
-                    );
-                }
-            }
-        }
+        // How far the bound is above the truth with the bias for one caster, and with that for all.
+        let above = |first: f32, extent: f32| {
+            let caster = |index: u32| Caster {
+                depth: first + extent * (COUNT - index) as f32 / COUNT as f32,
+                opacity: 1.0 - 0.3_f32.powf(1.0 / COUNT as f32),
+                texture: Texture::Hashed,
+            };
+            let casters: Vec<Caster> = (0..COUNT).map(caster).collect();
+            let surfaces = Surfaces {
+                opaque: &|_| 1.0,
+                receiver: &|[x, y]| first - 0.03 + 0.06 * ((x + 64 * y) as f32 + 0.5) / 4096.0,
+                blurred: false,
+            };
+            let truth = stage.truth(&casters, &surfaces).unwrap();
+            let above = [1, draws * COUNT].map(|blends| {
+                let map = MapEncoding::new(technique.clone(), Storage::Unorm16).unwrap();
+                let map = map.with_blends(blends).unwrap();
+                let found = stage.found(&map, opacity, &casters, &surfaces).unwrap();
+                let errors = found.iter().zip(&truth);
+                let errors = errors.map(|(found, truth)| f64::from(*found) - truth);
+                errors.fold(f64::NEG_INFINITY, f64::max)
+            });
+            let [of_one, of_all] = above;
+            println!(
+                "{technique:?}, {COUNT} casters from {first} over {extent}: {of_one:.1e} {of_all:.1e}"
+            );
+            above
+        };
+        let clouds = [(0.02, 1e-3), (0.5, 1e-4), (0.5, 1e-3), (0.5, 0.01)];
+        let all = clouds.map(|(first, extent)| above(first, extent));
+        assert!(all.iter().any(|[of_one, _]| *of_one > 0.02), "{all:?}");
+        assert!(all.iter().all(|[_, of_all]| *of_all < ALLOWED), "{all:?}");
+        // In one plane at the near end, all of whose roundings are alike, more is asked for than the bias of four moments on an interval
+        // covers: printed, for the document.
+        above(0.02, 0.0);
     }
-    panic!("look");
+}
+
+/// How casters whose opacity differs from texel to texel are blended into four moments.
+fn textured(stage: &TranslucentStage) -> Opacity {
+    if stage.has_second_source() {
+        Opacity::SecondSource
+    } else {
+        Opacity::TwoDraws
+    }
 }
