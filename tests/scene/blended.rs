@@ -10,14 +10,12 @@ use super::Files;
 /// What the arithmetic of the bound in f32 adds.
 const ARITHMETIC: f64 = 2e-4;
 
-/// Triangles of glass that lie a metre or more above an opaque one.
+/// Triangles of glass that lie a metre or more above the ground, where a smaller opaque one is.
 fn over_a_floor(heights: &[f32], changes: &str) -> Scene {
     let mut files = Files::triangle(changes);
     let pane = files.document["meshes"][0].clone();
     let flat = json!([-0.707_106_78, 0.0, 0.0, 0.707_106_78]);
-    let mut nodes = vec![
-        json!({ "mesh": 1, "rotation": flat, "scale": [12, 12, 12], "translation": [-4, 0, 4] }),
-    ];
+    let mut nodes = vec![json!({ "mesh": 1, "rotation": flat, "scale": [0.5, 0.5, 0.5] })];
     nodes.extend(
         heights
             .iter()
