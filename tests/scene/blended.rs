@@ -40,21 +40,17 @@ fn over_a_floor(heights: &[f32], changes: &str) -> Scene {
 
 const HALF: &str = r#"/materials [{ "alphaMode": "BLEND", "doubleSided": true, "pbrMetallicRoughness": { "baseColorFactor": [1, 1, 1, 0.5] } }]"#;
 
-/// The mean of what passes is that of the truth: behind everything a bound is short of it by what its bias leaks, which is less than twice
-/// the root of the bias.
+/// The mean of what passes is that of the truth: behind everything a bound is off by the bias at most where it is too dark, and short by what
+/// the bias leaks, which is less than twice its root. Two moments have a smallest variance in place of a bias.
 fn agree(found: &SceneTransmittance) {
     println!("{found}");
     assert_eq!(found.rows.len(), 13);
     for row in &found.rows {
-        let leak = if row.bias.is_nan() {
-            0.05
-        } else {
-            2.0 * row.bias.sqrt()
-        };
+        let bias = if row.bias.is_nan() { 6e-4 } else { row.bias };
+        let dark = bias + ARITHMETIC;
         let off = row.transmittance - found.truth;
-        assert!((-ARITHMETIC..leak).contains(&off), "{row:?}");
         assert!(
-            row.bias.is_nan() || row.above <= row.bias + ARITHMETIC,
+            off > -dark && off < 2.0 * bias.sqrt() && row.above <= dark,
             "{row:?}"
         );
     }
