@@ -1,7 +1,6 @@
 //! The bound is never above 1 - transmittance but for the bias, however many casters are blended.
 
 use moment_shadows::{MapEncoding, Opacity, Storage, Technique};
-use moment_shadows_graph::command::adapter;
 use moment_shadows_lab::translucent::{
     Caster, Surfaces, Texture, TranslucentStage, plumes, stack, stacks,
 };
@@ -129,7 +128,6 @@ fn a_bias_that_is_too_small_is_seen() {
     const ALLOWED: f64 = 1.2e-3;
     let stage = TranslucentStage::new(64).unwrap();
     let draws = 2 - u32::from(stage.has_second_source());
-    let adapter = adapter::best().unwrap().get_info().name;
     for (technique, opacity, draws) in [
         (Technique::Hamburger6, Opacity::Alpha, 1),
         (Technique::Hamburger4, textured(&stage), draws),
@@ -165,9 +163,9 @@ fn a_bias_that_is_too_small_is_seen() {
         };
         let clouds = [(0.02, 1e-3), (0.5, 1e-4), (0.5, 1e-3), (0.5, 0.01)];
         let all = clouds.map(|(first, extent)| above(first, extent));
-        // How a driver rounds decides how much it takes: llvmpipe's roundings are alike, those of others may cancel each other.
+        // How a driver rounds decides how much it takes: six moments are off by 0.8 on llvmpipe, and by nothing on SwiftShader.
         let seen = all.iter().any(|[of_one, _]| *of_one > 0.02);
-        assert!(seen || !adapter.starts_with("llvmpipe"), "{all:?}");
+        assert!(seen || technique == Technique::Hamburger6, "{all:?}");
         assert!(all.iter().all(|[_, of_all]| *of_all < ALLOWED), "{all:?}");
         // In one plane at the near end, all of whose roundings are alike, more is asked for than the bias of four moments on an interval
         // covers: printed, for the document.
