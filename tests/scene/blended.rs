@@ -14,7 +14,8 @@ const ARITHMETIC: f64 = 2e-4;
 fn over_a_floor(heights: &[f32], changes: &str) -> Scene {
     let mut files = Files::triangle(changes);
     let pane = files.document["meshes"][0].clone();
-    let flat = json!([-0.707_106_78, 0.0, 0.0, 0.707_106_78]);
+    let half = std::f64::consts::FRAC_1_SQRT_2;
+    let flat = json!([-half, 0.0, 0.0, half]);
     let mut nodes = vec![json!({ "mesh": 1, "rotation": flat, "scale": [0.5, 0.5, 0.5] })];
     nodes.extend(
         heights
