@@ -226,10 +226,9 @@ numerics_on_swiftshader() {
       echo "the adapter should be SwiftShader" >&2
       exit 1
     fi
-    # It has no second blend source, by which casters of textured opacity are blended into four moments.
     cargo test --release --locked --workspace --test numerics --test stability --test vector_files --test export \
       --test quantisation --test light_leaking --test receiver_bias --test blur --test recorder \
-      --test percentage_closer --test summed_area_table --test soft_shadows -- --skip translucent::bound::
+      --test percentage_closer --test summed_area_table --test soft_shadows
   )
 }
 

@@ -1,6 +1,7 @@
 //! The oracle is judged: exact bounds against each other and the truth, and what rests on them.
 #![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic)]
 
+mod absorbance;
 mod bases;
 mod bias;
 mod hausdorff;

@@ -2,7 +2,10 @@
 
 use moment_shadows::{ContactShadows, LightView, MapRegion};
 
-use crate::{HARD, frame, gpu, imports, places, recorded, session};
+use moment_shadows_graph::{GraphErrorKind, Session};
+use pollster::block_on;
+
+use crate::{HARD, frame, gpu, imports, parsed, places, recorded, session};
 
 /// The example with shadows at contacts after its maps, for so many lights, and what maps say of them as a further output.
 fn contacts(lights: u32) -> String {
@@ -68,18 +71,56 @@ fn contacts_are_those_of_the_output_that_they_darken() {
     for (texel, single) in all.chunks_exact(4).zip(&single) {
         assert_eq!(texel, [0, 0, *single, 0]);
     }
-    // A node of one light does not know which of two it is.
+    // A node of fewer lights than there are views of is told so.
     let text = contacts(4)
-        .replace(r#"{ "lights": 4 }"#, r#"{ "lights": 1 }"#)
+        .replace(r#"{ "lights": 4 }"#, r#"{ "lights": 2 }"#)
         .replace(r#""samples": 4"#, r#""samples": 4, "regions": 2"#);
     let mut fewer = session(&gpu, &text, &imports(&frame));
     let half = |channel| LightView {
-        region: MapRegion::new([128 * channel, 0], [128, 256]),
+        region: MapRegion::new([64 * channel, 0], [128, 256]),
         ..view(channel)
     };
-    let found = fewer.view(&gpu.queue, 0, &camera, &[half(0), half(1)]);
+    let found = fewer.view(&gpu.queue, 0, &camera, &[half(0), half(2)]);
     let found = found.unwrap_err().to_string();
-    assert!(found.contains("1 of the lights"), "{found}");
+    assert!(found.contains("2 of the lights"), "{found}");
+}
+
+#[test]
+fn a_single_light_does_not_darken_the_channels_of_others() {
+    let gpu = gpu();
+    let frame = frame(&gpu, 0, [160, 90]);
+    let one_of_four = contacts(4).replace(r#"{ "lights": 4 }"#, r#"{ "lights": 1 }"#);
+    let refused = |text: &str| {
+        let graph = parsed(text);
+        let imports = imports(&frame);
+        let options = Default::default();
+        let session = Session::new(&gpu.adapter, &gpu.device, graph, &imports, options);
+        block_on(session).err()
+    };
+    let found = refused(&one_of_four).unwrap();
+    assert_eq!(found.kind, GraphErrorKind::Format);
+    let found = found.to_string();
+    assert!(
+        found.contains("'contact'") && found.contains("give as many as the node that shades has"),
+        "{found}"
+    );
+    // One light in all four channels is asked for.
+    let in_all = contacts(1)
+        .replace(
+            r#"{ "lights": 1 }"#,
+            r#"{ "lights": 1, "format": "rgba8unorm" }"#,
+        )
+        .replace(r#""views": 1"#, r#""views": 1, "format": "rgba8unorm""#);
+    let mut all = session(&gpu, &in_all, &imports(&frame));
+    let (camera, light) = places(&frame);
+    all.view(&gpu.queue, 0, &camera, &[light]).unwrap();
+    let mut one = session(&gpu, &contacts(1), &imports(&frame));
+    one.view(&gpu.queue, 0, &camera, &[light]).unwrap();
+    let single = recorded(&gpu, &one, 0, "shadow_intensity");
+    let all = recorded(&gpu, &all, 0, "shadow_intensity");
+    for (texel, single) in all.chunks_exact(4).zip(&single) {
+        assert_eq!(texel, [*single; 4]);
+    }
 }
 
 #[test]

@@ -4,6 +4,7 @@ use moment_shadows::{Opacity, Profile, Source, Storage, link};
 use moment_shadows_graph::record::{HostPass, blend_state};
 use moment_shadows_graph::{GraphErrorKind, Stage};
 use moment_shadows_lab::gpu::Gpu;
+use moment_shadows_lab::translucent::{begin, blending};
 
 use crate::{frame, imports, places, recorded, session};
 
@@ -52,58 +53,15 @@ fn draw_pane(
             label: Some("pane"),
             source: wgpu::ShaderSource::Wgsl(shader.into()),
         });
-    let targets = pass.targets.iter().map(|view| {
-        Some(wgpu::ColorTargetState {
-            format: view.texture().format(),
-            blend: Some(blend),
-            write_mask: wgpu::ColorWrites::ALL,
-        })
-    });
-    let targets: Vec<_> = targets.collect();
-    let pipeline = gpu
-        .device
-        .create_render_pipeline(&wgpu::RenderPipelineDescriptor {
-            label: Some("pane"),
-            layout: None,
-            vertex: wgpu::VertexState {
-                module: &module,
-                entry_point: Some("cover"),
-                compilation_options: Default::default(),
-                buffers: &[],
-            },
-            primitive: Default::default(),
-            depth_stencil: None,
-            multisample: Default::default(),
-            fragment: Some(wgpu::FragmentState {
-                module: &module,
-                entry_point: Some("pane"),
-                compilation_options: Default::default(),
-                targets: &targets,
-            }),
-            multiview_mask: None,
-            cache: None,
-        });
+    let format = pass.targets[0].texture().format();
+    let target = (format, blend, pass.targets.len());
+    let pipeline = blending(gpu, &module, ["cover", "pane"], &[], target);
     let depth = light_depth.create_view(&Default::default());
     let group = gpu.bind(
         &pipeline.get_bind_group_layout(0),
         [wgpu::BindingResource::TextureView(&depth)],
     );
-    let attachments = pass.targets.iter().map(|view| {
-        Some(wgpu::RenderPassColorAttachment {
-            view,
-            depth_slice: None,
-            resolve_target: None,
-            ops: wgpu::Operations {
-                load: wgpu::LoadOp::Load,
-                store: wgpu::StoreOp::Store,
-            },
-        })
-    });
-    let attachments: Vec<_> = attachments.collect();
-    let mut drawn = encoder.begin_render_pass(&wgpu::RenderPassDescriptor {
-        color_attachments: &attachments,
-        ..Default::default()
-    });
+    let mut drawn = begin(pass, encoder);
     drawn.set_pipeline(&pipeline);
     drawn.set_bind_group(0, &group, &[]);
     drawn.draw(0..3, 0..1);

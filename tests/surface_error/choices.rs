@@ -111,3 +111,13 @@ fn graphs_take_other_techniques() {
     let refused = parsed.and_then(|file| file.with_technique(&Technique::Vsm, None));
     assert!(refused.unwrap_err().to_string().contains("no resolve node"));
 }
+
+#[test]
+fn a_graph_with_translucent_casters_is_refused_with_what_judges_them() {
+    let text = include_str!("../../examples/translucent.json").to_owned();
+    let refused = GraphFile::parse("translucent.json", text, None).unwrap_err();
+    let refused = refused.to_string();
+    for part in ["translucent.json", "'casters'", "transmittance"] {
+        assert!(refused.contains(part), "{refused}");
+    }
+}

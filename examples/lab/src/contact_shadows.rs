@@ -4,7 +4,9 @@
 //! - **False shadow**: the share of lit pixels that the march makes darker by more than [`VISIBLE`].
 //! - **Error**: the mean absolute error over all pixels that face the light.
 //!
-//! Lit and in full shadow are what the truth says, under the kernel of the graph and with 64 samples per texel.
+//! Lit and in full shadow are what the truth says, under the kernel of the graph and with 64 samples per texel. Where a surface lies almost along
+//! the light's rays, no depth under the kernel can be told from its plane, and that truth finds no caster; so a pixel is lit only where
+//! nothing stands on the ray from its middle to the light, either.
 
 use core::fmt;
 
@@ -19,12 +21,14 @@ use crate::gpu::Gpu;
 use crate::graph_file::GraphFile;
 use crate::graph_frame::GraphFrame;
 use crate::host::SurfacePixels;
+use crate::light::LightShape;
 use crate::metric::{PENUMBRA, compare};
 use crate::scene::{CHAIRS, Foot, Scene, feet};
 use crate::scores::VISIBLE;
 use crate::trade::axes::Cell;
 use crate::trade::results::{Setting, mean};
 use crate::trade::{Drawn, Stage, TRUTH_SAMPLES, Trade, tell_of_views};
+use crate::truth::area_light::AreaLight;
 use crate::truth::kernel::even_positions;
 use crate::truth::pcf::pcf;
 
@@ -57,7 +61,7 @@ pub struct ViewContacts {
     pub in_full_shadow: usize,
     /// The mean of what is too light there.
     pub leak: Option<Both<f64>>,
-    /// Pixels without shadow that face the light.
+    /// Pixels that face the light, which nothing keeps from them.
     pub lit: usize,
     /// The share of them that the march makes visibly darker.
     pub false_shadow: Option<f64>,
@@ -99,6 +103,8 @@ struct Seen {
     facing: Vec<bool>,
     /// Pixels on the ground around legs.
     near_legs: Vec<bool>,
+    /// Pixels whose middle the light reaches.
+    reached: Vec<bool>,
     truths: Vec<Vec<f32>>,
 }
 
@@ -116,12 +122,8 @@ impl ContactTrial {
             let stage = Stage::of(&gpu, (&file, axes), &setting, &scene);
             let mut seen = Vec::new();
             for (number, setup) in (setting.views[1]..).zip(&setups) {
-                seen.push(Seen::of(
-                    &gpu,
-                    &scene,
-                    number,
-                    &stage.drawn(number, setup)?,
-                )?);
+                let drawn = stage.drawn(number, setup)?;
+                seen.push(Seen::of(&gpu, &scene, number, &drawn)?);
             }
             for cell in axes.cells() {
                 let file = axes.graph(&file, cell)?.in_single_precision()?;
@@ -182,9 +184,13 @@ impl Seen {
         } else {
             Vec::new()
         };
+        let light = desc.light;
+        let shape = LightShape::point(light.kind());
+        let hidden = AreaLight::new(scene, &light, shape, 1)?.picture(&drawn.pixels)?;
         Ok(Self {
             number,
             desc,
+            reached: hidden.iter().map(|&hidden| hidden == 0.0).collect(),
             facing: drawn.facing.clone(),
             near_legs: near_legs(&feet, &drawn.pixels),
             truths: truths?,
@@ -201,7 +207,7 @@ impl Seen {
             mean(at_feet.iter().map(too_light))
         };
         let lit: Vec<usize> = pixels()
-            .filter(|&pixel| truth[pixel] < PENUMBRA[0])
+            .filter(|&pixel| truth[pixel] < PENUMBRA[0] && self.reached[pixel])
             .collect();
         let darker = |&pixel: &usize| f64::from(u8::from(march[pixel] - maps[pixel] > VISIBLE));
         let error = |shown: &[f32]| {

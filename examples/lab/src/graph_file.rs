@@ -36,6 +36,13 @@ impl GraphFile {
     fn with_storage(file: command::GraphFile, storage: Option<Storage>) -> Result<Self, LabError> {
         let command::GraphFile { name, text, graph } = file;
         let file = Self { name, text, graph };
+        if let Some(node) = file.node_of("translucent_casters") {
+            return Err(file.unsuitable(format!(
+                "node '{}' leaves a pass to a host that draws translucent casters, and no command draws any for a graph file; take the node out, \
+                 and what is opaque is judged, or judge translucent casters by 'moment-shadows-lab transmittance'",
+                node["name"].as_str().unwrap_or_default()
+            )));
+        }
         match storage {
             None => Ok(file),
             Some(storage) => {

@@ -42,8 +42,6 @@ impl Contacts {
         contacts: &mut Vec<ContactShadowParameters>,
     ) -> Result<(), GraphError> {
         contacts.clear();
-        // A single light is in all channels, whichever is its own.
-        let mut single = None;
         let mut found = [None; 4];
         for (index, light) in told.lights.iter().enumerate() {
             let what = || format!("view {index} of a light, for node '{}'", self.node);
@@ -51,17 +49,13 @@ impl Contacts {
                 // Of another output.
                 continue;
             };
-            let channel = match self.lights {
-                1 if *single.get_or_insert(channel) == channel => 0,
-                lights if (2..=4).contains(&lights) && channel < lights => channel,
-                lights => {
-                    let reason = format!(
-                        "its channel is {}, but the node has {lights} of the lights; give it as many 'lights' as its 'intensity' has",
-                        light.channel
-                    );
-                    return Err(unsuitable(what(), reason));
-                }
-            };
+            if channel >= self.lights {
+                let reason = format!(
+                    "its channel is {}, but the node has {} of the lights; give it as many 'lights' as its 'intensity' has",
+                    light.channel, self.lights
+                );
+                return Err(unsuitable(what(), reason));
+            }
             let of_channel = &mut found[channel as usize];
             if of_channel.is_none() {
                 let made = ContactShadowParameters::new(told.camera, light, told.contact);

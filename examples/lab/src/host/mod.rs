@@ -11,6 +11,7 @@ mod surface;
 
 pub use depth_map::{DepthMap, DepthMapDesc};
 pub use model::Model;
+pub(crate) use model::{material_image, material_sampler};
 pub use read::{DepthSamples, SurfacePixels, read_depth_samples, read_gbuffer};
 pub use shade::Lighting;
 pub use surface::Surface;

@@ -163,12 +163,7 @@ impl Renderer {
             }
         }
         created(gpu, "the scene's buffers and textures", || {
-            let white = Image {
-                width: 1,
-                height: 1,
-                rgba: vec![255; 4],
-            };
-            let white = upload_image(gpu, &white);
+            let white = upload_image(gpu, &white());
             let images: Vec<_> = scene
                 .images
                 .iter()
@@ -215,15 +210,7 @@ impl Renderer {
         image: &wgpu::TextureView,
         material: &Material,
     ) -> wgpu::BindGroup {
-        let sampler = gpu.device.create_sampler(&wgpu::SamplerDescriptor {
-            label: Some("host/base colour"),
-            address_mode_u: material.wrap[0],
-            address_mode_v: material.wrap[1],
-            mag_filter: material.filter,
-            min_filter: material.filter,
-            mipmap_filter: wgpu::MipmapFilterMode::Linear,
-            ..Default::default()
-        });
+        let sampler = material_sampler(gpu, material);
         let contents = bytemuck::bytes_of(surface);
         let uniform = gpu.filled("host/material", contents, wgpu::BufferUsages::UNIFORM);
         let bound = [
@@ -252,6 +239,39 @@ impl Model {
             pass.set_index_buffer(part.indices.slice(..), wgpu::IndexFormat::Uint32);
             pass.draw_indexed(0..part.count, 0, 0..1);
         }
+    }
+}
+
+/// How a material's image is read.
+pub(crate) fn material_sampler(gpu: &Gpu, material: &Material) -> wgpu::Sampler {
+    gpu.device.create_sampler(&wgpu::SamplerDescriptor {
+        label: Some("host/base colour"),
+        address_mode_u: material.wrap[0],
+        address_mode_v: material.wrap[1],
+        mag_filter: material.filter,
+        min_filter: material.filter,
+        mipmap_filter: wgpu::MipmapFilterMode::Linear,
+        ..Default::default()
+    })
+}
+
+/// A material's image alone, or white.
+pub(crate) fn material_image(gpu: &Gpu, scene: &Scene, material: &Material) -> wgpu::TextureView {
+    let image = material
+        .texture
+        .and_then(|texture| scene.images.get(texture));
+    image.map_or_else(
+        || upload_image(gpu, &white()),
+        |image| upload_image(gpu, image),
+    )
+}
+
+/// What stands for a missing image.
+fn white() -> Image {
+    Image {
+        width: 1,
+        height: 1,
+        rgba: vec![255; 4],
     }
 }
 

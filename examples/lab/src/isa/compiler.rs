@@ -50,7 +50,9 @@ impl Compiler {
             let vertex = write(naga::ShaderStage::Vertex, VERTEX_ENTRY_POINT)?;
             let module = write(naga::ShaderStage::Fragment, &subject.entry_point)?;
             return Ok(Compiled {
-                executable: self.device.compile(&module, Some((&vertex, target)))?,
+                executable: self
+                    .device
+                    .compile(&module, Some((&vertex, target, subject.targets)))?,
                 outputs: texels,
             });
         }

@@ -2,7 +2,7 @@
 
 use std::collections::BTreeMap;
 
-use moment_shadows::{Source, TextureFormat, link};
+use moment_shadows::{Source, Storage, TextureFormat, link};
 use moment_shadows_graph::{
     Binding, BindingResource, Direction, NodeDesc, Pass, ResourceDesc, Rule, SlotResource,
     TextureRule, Work,
@@ -25,6 +25,8 @@ pub struct Subject {
     pub constants: BTreeMap<String, f64>,
     /// The format of the target that a fragment shader draws a pixel of; none for texels of a storage texture.
     pub target: Option<TextureFormat>,
+    /// How many such targets it draws to at once.
+    pub targets: usize,
     /// Texels that a workgroup makes.
     pub texels_per_workgroup: u32,
     /// Bytes of the widest texel that the shader reads or writes.
@@ -49,6 +51,7 @@ pub fn subjects() -> Result<Vec<Subject>, LabError> {
         entry_point: "shade".to_owned(),
         constants: BTreeMap::new(),
         target: Some(TextureFormat::Rgba16Float),
+        targets: 1,
         texels_per_workgroup: 1,
         texel_bytes,
         trips: Vec::new(),
@@ -74,6 +77,40 @@ pub fn subjects() -> Result<Vec<Subject>, LabError> {
     ] {
         let linked = link(Source { name, text }, &[fullscreen])?;
         subjects.push(reference(name, linked.into_wgsl(), texel_bytes));
+    }
+    // What fragments of translucent casters take, which a host draws.
+    let casters = include_str!("reference/translucent_casters.wgsl");
+    for storage in [Storage::Unorm16, Storage::Float16] {
+        let constant = format!("const STORAGE = {}u;", storage.wgsl_index());
+        let constant = Source {
+            name: "storage",
+            text: &constant,
+        };
+        let name = "translucent casters";
+        let source = Source {
+            name,
+            text: casters,
+        };
+        let linked = link(source, &[fullscreen, constant])?.into_wgsl();
+        for (moments, entry_point, targets) in [
+            ("two", "two_moments", 1),
+            ("four", "four_moments", 1),
+            ("six", "six_moments", 2),
+        ] {
+            subjects.push(Subject {
+                entry_point: entry_point.to_owned(),
+                targets,
+                target: Some(match storage {
+                    Storage::Unorm16 => TextureFormat::Rgba16Unorm,
+                    _ => TextureFormat::Rgba16Float,
+                }),
+                ..reference(
+                    &format!("{name}, {moments} moments, {storage}"),
+                    linked.clone(),
+                    8,
+                )
+            });
+        }
     }
     for (name, text, entry_point) in naive::SHADERS {
         let wgsl = naive::linked(name, text)?;
@@ -126,6 +163,7 @@ fn of_variant(variant: &Variant, row: &Row) -> Result<Vec<Subject>, LabError> {
             entry_point: pass.entry_point.clone(),
             constants: pass.constants.clone(),
             target,
+            targets: 1,
             texels_per_workgroup,
             texel_bytes: formats.widest(pass),
             trips: row.trips(&pass.label).to_vec(),

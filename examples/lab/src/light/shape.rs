@@ -44,6 +44,17 @@ impl LightShape {
         }
     }
 
+    /// No size: hard shadows.
+    #[must_use]
+    pub fn point(kind: LightKind) -> Self {
+        match kind {
+            LightKind::Directional => Self::Directional {
+                angular_diameter: 0.0,
+            },
+            LightKind::Spot => Self::Disk { diameter: 0.0 },
+        }
+    }
+
     /// Refuses sizes that are negative or no numbers, and a shape that a light of this kind cannot have.
     pub fn check(self, kind: LightKind) -> Result<(), LabError> {
         let fits = (kind == LightKind::Directional) == matches!(self, Self::Directional { .. });

@@ -10,9 +10,9 @@ use super::gltf_source::{Source, check_file, check_uri};
 use super::{Scene, extensions, gltf_instances};
 use crate::error::LabError;
 
-/// Loads a glTF or GLB file: triangles of the default scene in world space, base colour and alpha mask. The middle of its
+/// Loads a glTF or GLB file: triangles of the default scene in world space, base colour, alpha mask and blending. The middle of its
 /// lowest points is moved to zero before anything is rounded to single precision. What is left out (extensions, skins, morph
-/// targets, points and lines, blending) is said in `warnings`.
+/// targets, points and lines) is said in `warnings`.
 pub fn load_gltf(file: &Path) -> Result<Scene, LabError> {
     caught(|| load(file)).map_err(|reason| {
         LabError::refused(format!("'{}' cannot be shown: {reason}", file.display()))

@@ -18,14 +18,8 @@ impl Loader<'_> {
         }
         let name = material.name().unwrap_or("unnamed").to_owned();
         let mask = match material.alpha_mode() {
-            AlphaMode::Opaque => None,
+            AlphaMode::Opaque | AlphaMode::Blend => None,
             AlphaMode::Mask => Some(material.alpha_cutoff().unwrap_or(0.5)),
-            AlphaMode::Blend => {
-                self.warn(format!(
-                    "material '{name}': blending is ignored, it is opaque"
-                ));
-                None
-            }
         };
         let surface = material.pbr_metallic_roughness();
         let mut texture = None;
@@ -59,6 +53,7 @@ impl Loader<'_> {
             wrap,
             filter,
             mask,
+            blend: material.alpha_mode() == AlphaMode::Blend,
             double_sided: material.double_sided(),
         };
         Ok(index)

@@ -188,7 +188,7 @@ impl<'a> Loader<'a> {
         accessor.map(&mut read).transpose()
     }
 
-    /// What the vertices' colours make of a mask.
+    /// What the vertices' colours make of a mask or of blending.
     fn alphas(
         &mut self,
         primitive: &gltf::Primitive<'_>,
@@ -197,7 +197,8 @@ impl<'a> Loader<'a> {
         let semantic = Semantic::Colors(0);
         let colours = primitive.get(&semantic);
         let has_alpha = colours.is_some_and(|it| it.dimensions() == Dimensions::Vec4);
-        if self.scene.materials[material].mask.is_none() || !has_alpha {
+        let Material { mask, blend, .. } = &self.scene.materials[material];
+        if (mask.is_none() && !blend) || !has_alpha {
             return Ok(None);
         }
         let colours = self.attribute::<4>(primitive, &semantic)?;

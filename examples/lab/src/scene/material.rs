@@ -27,6 +27,9 @@ pub struct Material {
     /// The alpha below which a point is a hole; `None` for an opaque surface. A point's alpha is the product of that of
     /// `base_colour`, the vertices' and the image's at its full size: means of alpha, as mips hold, are no mask.
     pub mask: Option<f32>,
+    /// Whether alpha is how much light is kept, as glTF's `BLEND` has it. The host draws such a surface as an opaque one: what blends it
+    /// is [`translucent`](crate::translucent).
+    pub blend: bool,
     /// Whether both sides are meant to be seen. The host always draws both.
     pub double_sided: bool,
 }
@@ -41,6 +44,7 @@ impl Material {
             wrap: [wgpu::AddressMode::Repeat; 2],
             filter: wgpu::FilterMode::Linear,
             mask: None,
+            blend: false,
             double_sided: false,
         }
     }

@@ -129,7 +129,21 @@ impl Scene {
 
 /// The scene that a command line names: a file, one of [`PROCEDURAL`], [`CHAIRS`], [`SLOPES`], [`EDGE`] or [`HOLE`]. It stands on its
 /// ground plane, or hovers above it. What a file has and the scene has not is said on the standard error.
+///
+/// Blended materials are opaque to all that is done with it, which is said, too.
 pub fn load(name: &str) -> Result<Scene, LabError> {
+    let scene = load_blended(name)?;
+    for material in scene.materials.iter().filter(|material| material.blend) {
+        eprintln!(
+            "warning: {name}: material '{}' is translucent (BLEND), but opaque here; 'moment-shadows-lab transmittance --scene' blends it",
+            material.name
+        );
+    }
+    Ok(scene)
+}
+
+/// The same for what blends its translucent materials.
+pub fn load_blended(name: &str) -> Result<Scene, LabError> {
     match name {
         "fence-and-foliage" => Ok(place_on_ground(fence_and_foliage())),
         "hall" => Ok(place_on_ground(hall_with_open_roof())),

@@ -2,9 +2,10 @@
 
 use moment_shadows::{MapEncoding, Opacity, Source, Technique, link};
 use moment_shadows_graph::TextureDesc;
-use moment_shadows_graph::record::{HostPass, blend_state};
+use moment_shadows_graph::record::blend_state;
 
 use super::casters::{Caster, Texture};
+use super::host_pass::{begin_on, blending};
 use crate::error::LabError;
 use crate::gpu::Gpu;
 
@@ -18,6 +19,62 @@ fn entry_points(technique: &Technique, opacity: Opacity) -> &'static [&'static s
         _ => &["four_moments"],
     }
 }
+
+/// The shader of casters that a text describes, linked for a map.
+pub(super) fn shader(
+    encoding: &MapEncoding,
+    opacity: Opacity,
+    casters: &str,
+) -> Result<String, LabError> {
+    let storage = format!("const STORAGE = {}u;", encoding.storage().wgsl_index());
+    let mut text = include_str!("fragment.wgsl").to_owned();
+    if opacity == Opacity::SecondSource {
+        // Behind the imports.
+        text = text.replacen("\n\n", "\n\nenable dual_source_blending;\n\n", 1);
+        text += include_str!("second_source.wgsl");
+    }
+    text += casters;
+    let source = Source {
+        name: "fragment.wgsl",
+        text: &text,
+    };
+    let storage = Source {
+        name: "storage",
+        text: &storage,
+    };
+    let linked = link(source, &[storage]);
+    let linked = linked.map_err(|error| LabError::unsuitable("fragment.wgsl", error))?;
+    Ok(linked.into_wgsl())
+}
+
+/// The pipelines for the draws of a caster, whose vertices an entry point of its text places.
+pub(super) fn pipelines(
+    gpu: &Gpu,
+    encoding: &MapEncoding,
+    opacity: Opacity,
+    (casters, vertex): (&str, &str),
+    buffers: &[Option<wgpu::VertexBufferLayout<'_>>],
+) -> Result<Vec<wgpu::RenderPipeline>, LabError> {
+    let wgsl = shader(encoding, opacity, casters)?;
+    let module = gpu
+        .device
+        .create_shader_module(wgpu::ShaderModuleDescriptor {
+            label: Some("casters"),
+            source: wgpu::ShaderSource::Wgsl(wgsl.into()),
+        });
+    let format = TextureDesc::new(encoding.format(), [1; 2]).wgpu_format();
+    let states = encoding.blend_states(opacity)?;
+    let names = entry_points(encoding.technique(), opacity);
+    let planes = encoding.planes() as usize;
+    let of_draw = |(state, fragment): (_, &&str)| {
+        let target = (format, blend_state(state), planes);
+        blending(gpu, &module, [vertex, fragment], buffers, target)
+    };
+    Ok(states.iter().zip(names).map(of_draw).collect())
+}
+
+/// Casters all over a map: their text.
+pub(super) const LAYERS: &str = include_str!("layers.wgsl");
 
 /// Pipelines and uniform data of casters, drawn in this order.
 pub(super) struct Casters {
@@ -33,77 +90,12 @@ impl Casters {
         opacity: Opacity,
         casters: &[Caster],
     ) -> Result<Self, LabError> {
-        let storage = format!("const STORAGE = {}u;", encoding.storage().wgsl_index());
-        let mut text = include_str!("fragment.wgsl").to_owned();
-        if opacity == Opacity::SecondSource {
-            // Behind the imports.
-            text = text.replacen("\n\n", "\n\nenable dual_source_blending;\n\n", 1);
-            text += include_str!("second_source.wgsl");
-        }
-        let source = Source {
-            name: "fragment.wgsl",
-            text: &text,
-        };
-        let storage = Source {
-            name: "storage",
-            text: &storage,
-        };
-        let linked = link(source, &[storage])
-            .map_err(|error| LabError::unsuitable("fragment.wgsl", error))?;
-        let module = gpu
-            .device
-            .create_shader_module(wgpu::ShaderModuleDescriptor {
-                label: Some("casters"),
-                source: wgpu::ShaderSource::Wgsl(linked.wgsl().into()),
-            });
-        let format = TextureDesc::new(encoding.format(), [1; 2]);
-        let states = encoding.blend_states(opacity)?;
-        let names = entry_points(encoding.technique(), opacity);
-        let pipelines = states.iter().zip(names).map(|(state, entry_point)| {
-            let target = wgpu::ColorTargetState {
-                format: format.wgpu_format(),
-                blend: Some(blend_state(state)),
-                write_mask: wgpu::ColorWrites::ALL,
-            };
-            gpu.device
-                .create_render_pipeline(&wgpu::RenderPipelineDescriptor {
-                    label: Some(entry_point),
-                    layout: None,
-                    vertex: wgpu::VertexState {
-                        module: &module,
-                        entry_point: Some("cover"),
-                        compilation_options: Default::default(),
-                        buffers: &[],
-                    },
-                    primitive: Default::default(),
-                    depth_stencil: None,
-                    multisample: Default::default(),
-                    fragment: Some(wgpu::FragmentState {
-                        module: &module,
-                        entry_point: Some(entry_point),
-                        compilation_options: Default::default(),
-                        targets: &vec![Some(target); encoding.planes() as usize],
-                    }),
-                    multiview_mask: None,
-                    cache: None,
-                })
-        });
-        let pipelines: Vec<_> = pipelines.collect();
+        let pipelines = pipelines(gpu, encoding, opacity, (LAYERS, "cover"), &[])?;
         let draws = casters.iter().map(|caster| {
-            let (centre, inverse) = caster.shape();
-            let shape = [centre, inverse].concat();
-            let mut words: Vec<u32> = shape.iter().map(|value| value.to_bits()).collect();
-            words.extend([
-                (2.0 * caster.depth - 1.0).to_bits(),
-                caster.opacity.to_bits(),
-                u32::from(caster.texture == Texture::Hashed),
-                0,
-            ]);
-            let words = bytemuck::cast_slice(&words);
-            let buffer = gpu.filled("caster", words, wgpu::BufferUsages::UNIFORM);
+            let uniform = uniform(gpu, caster);
             let groups = pipelines.iter().map(|pipeline| {
                 let layout = pipeline.get_bind_group_layout(0);
-                gpu.bind(&layout, [buffer.as_entire_binding()])
+                gpu.bind(&layout, [uniform.as_entire_binding()])
             });
             (groups.collect(), f64::from(caster.opacity))
         });
@@ -113,14 +105,9 @@ impl Casters {
         })
     }
 
-    /// Draws them to the targets of a host's pass.
-    pub(super) fn draw(&self, pass: &HostPass<'_>, encoder: &mut wgpu::CommandEncoder) {
-        let targets: Vec<_> = pass.targets.iter().map(attachment).collect();
-        let mut drawn = encoder.begin_render_pass(&wgpu::RenderPassDescriptor {
-            label: Some(pass.name),
-            color_attachments: &targets,
-            ..Default::default()
-        });
+    /// Draws them to all planes of a layer.
+    pub(super) fn draw(&self, targets: &[wgpu::TextureView], encoder: &mut wgpu::CommandEncoder) {
+        let mut drawn = begin_on(targets, "casters", encoder);
         for (groups, opacity) in &self.draws {
             let [r, g, b, a] = [*opacity; 4];
             drawn.set_blend_constant(wgpu::Color { r, g, b, a });
@@ -133,14 +120,17 @@ impl Casters {
     }
 }
 
-fn attachment(view: &wgpu::TextureView) -> Option<wgpu::RenderPassColorAttachment<'_>> {
-    Some(wgpu::RenderPassColorAttachment {
-        view,
-        depth_slice: None,
-        resolve_target: None,
-        ops: wgpu::Operations {
-            load: wgpu::LoadOp::Load,
-            store: wgpu::StoreOp::Store,
-        },
-    })
+/// The uniform struct of a caster.
+pub(super) fn uniform(gpu: &Gpu, caster: &Caster) -> wgpu::Buffer {
+    let (centre, inverse) = caster.shape();
+    let shape = [centre, inverse].concat();
+    let mut words: Vec<u32> = shape.iter().map(|value| value.to_bits()).collect();
+    words.extend([
+        (2.0 * caster.depth - 1.0).to_bits(),
+        caster.opacity.to_bits(),
+        u32::from(caster.texture == Texture::Hashed),
+        0,
+    ]);
+    let words = bytemuck::cast_slice(&words);
+    gpu.filled("caster", words, wgpu::BufferUsages::UNIFORM)
 }

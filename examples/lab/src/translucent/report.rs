@@ -52,12 +52,19 @@ pub struct TransmittanceReport {
     pub plumes: Vec<PlumeRow>,
 }
 
-/// Every map that casters are blended into, with its moment bias; none where a smallest variance stands for it.
-fn maps(blends: u32) -> Result<Vec<(MapEncoding, Option<f64>)>, LabError> {
+/// Every map that so many casters are blended into, with its moment bias; none where a smallest variance stands for it.
+pub(super) fn maps(
+    stage: &TranslucentStage,
+    casters: u32,
+    textured: bool,
+) -> Result<Vec<(MapEncoding, Option<f64>)>, LabError> {
     let mut all = Vec::new();
     for technique in Technique::examples() {
         let row = technique.row();
         for &storage in row.storages.iter().filter(|_| row.blended.is_some()) {
+            let plain = MapEncoding::new(technique.clone(), storage)?;
+            let encoding = blended(stage, &plain, casters, textured)?;
+            let blends = encoding.blends();
             let bias = match technique {
                 Technique::Hamburger4 => Some(storage.moment_bias().with_blends(blends).alpha),
                 Technique::Hausdorff4 => {
@@ -68,19 +75,33 @@ fn maps(blends: u32) -> Result<Vec<(MapEncoding, Option<f64>)>, LabError> {
                     .map(|bias| bias.with_blends(blends).alpha),
                 _ => None,
             };
-            let encoding = MapEncoding::new(technique.clone(), storage)?.with_blends(blends)?;
             all.push((encoding, bias.map(f64::from)));
         }
     }
     Ok(all)
 }
 
-/// How a host blends into a map: by the fourth channel where that is free.
-fn opacity_of(map: &MapEncoding, textured: bool) -> Opacity {
+/// A map that so many casters are blended into, each of which counts as often as it is drawn.
+fn blended(
+    stage: &TranslucentStage,
+    map: &MapEncoding,
+    casters: u32,
+    textured: bool,
+) -> Result<MapEncoding, LabError> {
+    let draws = match opacity_of(stage, map, textured) {
+        Opacity::TwoDraws => 2,
+        _ => 1,
+    };
+    Ok(map.clone().with_blends(draws * casters)?)
+}
+
+/// How a host blends into a map: by the fourth channel where that is free, and in two draws on a device without a second source.
+pub(super) fn opacity_of(stage: &TranslucentStage, map: &MapEncoding, textured: bool) -> Opacity {
     let free = map.blend_states(Opacity::Alpha).is_ok();
     match (free, textured) {
         (true, _) => Opacity::Alpha,
-        (false, true) => Opacity::SecondSource,
+        (false, true) if stage.has_second_source() => Opacity::SecondSource,
+        (false, true) => Opacity::TwoDraws,
         (false, false) => Opacity::Constant,
     }
 }
@@ -105,8 +126,8 @@ pub fn stacks(stage: &TranslucentStage, counts: &[u32]) -> Result<Vec<StackRow>,
             };
             let drawn = stack(casters, cloud, texture);
             let truth = stage.truth(&drawn, &surfaces)?;
-            for (map, bias) in maps(casters)? {
-                let opacity = opacity_of(&map, textured);
+            for (map, bias) in maps(stage, casters, textured)? {
+                let opacity = opacity_of(stage, &map, textured);
                 let found = stage.found(&map, opacity, &drawn, &surfaces)?;
                 let (above, below) = errors(&found, &truth);
                 rows.push(StackRow {
@@ -125,7 +146,7 @@ pub fn stacks(stage: &TranslucentStage, counts: &[u32]) -> Result<Vec<StackRow>,
 }
 
 /// The greatest excess, and the mean of what is missing.
-fn errors(found: &[f32], truth: &[f64]) -> (f64, f64) {
+pub(super) fn errors(found: &[f32], truth: &[f64]) -> (f64, f64) {
     let differences = || {
         let pairs = found.iter().zip(truth);
         pairs.map(|(found, truth)| f64::from(*found) - truth)
@@ -169,7 +190,7 @@ impl View {
     }
 
     fn found(&self, stage: &TranslucentStage, map: &MapEncoding) -> Result<Vec<f32>, LabError> {
-        let opacity = opacity_of(map, true);
+        let opacity = opacity_of(stage, map, true);
         self.on(stage, |surfaces| {
             stage.found(map, opacity, &self.casters, surfaces)
         })
@@ -180,7 +201,7 @@ impl View {
 pub fn plumes(stage: &TranslucentStage) -> Result<Vec<PlumeRow>, LabError> {
     let views = View::both(stage)?;
     let mut rows = Vec::new();
-    for (map, _) in maps(views[0].casters.len() as u32)? {
+    for (map, _) in maps(stage, views[0].casters.len() as u32, true)? {
         let mut of_views = [(0.0, 0.0); 2];
         for (view, errors_of) in views.iter().zip(&mut of_views) {
             let found = view.found(stage, &map)?;
@@ -209,8 +230,9 @@ pub fn picture(stage: &TranslucentStage, path: &Path) -> Result<(), LabError> {
         let truth: Vec<f32> = view.truth.iter().map(|&truth| truth as f32).collect();
         panels.push(lit(&truth));
         for technique in [Technique::Hamburger4, Technique::Hamburger6] {
-            let map = MapEncoding::new(technique, Storage::Unorm16)?;
-            let map = map.with_blends(view.casters.len() as u32)?;
+            let wanted = MapEncoding::new(technique, Storage::Unorm16)?;
+            let casters = view.casters.len() as u32;
+            let map = blended(stage, &wanted, casters, true)?;
             let found = view.found(stage, &map)?;
             panels.push(lit(&found));
             panels.push(signed_difference(&found, &truth, 0.1));

@@ -5,6 +5,6 @@ struct Sources {
 }
 
 @fragment
-fn four_moments_and_opacity(@builtin(position) position: vec4f) -> Sources {
-    return Sources(translucent_casters_four_moments(caster.depth, STORAGE), vec4f(opacity(position)));
+fn four_moments_and_opacity(point: Point) -> Sources {
+    return Sources(translucent_casters_four_moments(depth_of(point), STORAGE), vec4f(opacity_of(point)));
 }

@@ -44,6 +44,17 @@ impl TranslucentStage {
         Ok(Self { gpu, side })
     }
 
+    pub(super) fn gpu(&self) -> &Gpu {
+        &self.gpu
+    }
+
+    /// Whether a fragment can give its opacity as a second source.
+    #[must_use]
+    pub fn has_second_source(&self) -> bool {
+        let features = self.gpu.device.features();
+        features.contains(wgpu::Features::DUAL_SOURCE_BLENDING)
+    }
+
     /// Texels per side.
     #[must_use]
     pub fn side(&self) -> u32 {
@@ -62,6 +73,19 @@ impl TranslucentStage {
         opacity: Opacity,
         casters: &[Caster],
         surfaces: &Surfaces<'_>,
+    ) -> Result<Vec<f32>, LabError> {
+        let drawn = Casters::new(&self.gpu, encoding, opacity, casters)?;
+        self.shaded(encoding, surfaces, &mut |pass, encoder| {
+            drawn.draw(pass.targets, encoder);
+        })
+    }
+
+    /// Shadow intensity by a map with what `draw` blends into it.
+    pub(super) fn shaded(
+        &self,
+        encoding: &MapEncoding,
+        surfaces: &Surfaces<'_>,
+        draw: &mut dyn FnMut(HostPass<'_>, &mut wgpu::CommandEncoder),
     ) -> Result<Vec<f32>, LabError> {
         let (gpu, size) = (&self.gpu, [self.side; 2]);
         let capabilities = Capabilities::of_device(&gpu.adapter, &gpu.device);
@@ -93,14 +117,10 @@ impl TranslucentStage {
             &imports,
             Some(&parameters),
         ))?;
-        let drawn = Casters::new(gpu, encoding, opacity, casters)?;
-        let mut draw = |pass: HostPass<'_>, encoder: &mut wgpu::CommandEncoder| {
-            drawn.draw(&pass, encoder);
-        };
         let mut encoder = gpu.device.create_command_encoder(&Default::default());
         for stage in Stage::ALL {
             let recording = Recording {
-                host_passes: Some(&mut draw),
+                host_passes: Some(&mut *draw),
                 ..Recording::default()
             };
             bindings.record(stage, &mut encoder, recording)?;

@@ -17,7 +17,7 @@ use rayon::prelude::*;
 
 use self::bvh::Bvh;
 use self::shaft::{Affine, Shade, Shaft, Target};
-use super::opacity::{MaskedCorners, Opacity};
+use super::opacity::{AlphaCorners, Opacity};
 use super::peel::{check, position};
 use super::surface::pixels;
 use crate::error::LabError;
@@ -63,7 +63,7 @@ struct Caster {
 /// A triangle of a masked material.
 struct Holes {
     material: usize,
-    corners: MaskedCorners,
+    corners: AlphaCorners,
 }
 
 /// Lists that are reused from pixel to pixel.
@@ -96,7 +96,7 @@ impl<'a> AreaLight<'a> {
         let mut casters = Vec::new();
         for (index, mesh) in scene.meshes.iter().enumerate() {
             check(scene, index, mesh)?;
-            let masked = matches!(opacity.get(mesh.material), Some(Some(_)));
+            let masked = (scene.materials.get(mesh.material)).is_some_and(|it| it.mask.is_some());
             for &indices in mesh.indices.as_chunks::<3>().0 {
                 let corners = indices.map(|corner| position(mesh, corner));
                 let [a, b, c] = corners;
@@ -105,7 +105,7 @@ impl<'a> AreaLight<'a> {
                     normal: (b - a).cross(c - a),
                     holes: masked.then(|| Holes {
                         material: mesh.material,
-                        corners: MaskedCorners::of(mesh, indices),
+                        corners: AlphaCorners::of(mesh, indices),
                     }),
                 });
             }

@@ -1,17 +1,17 @@
-//! Where alpha-masked materials have holes, in f64: what the host's fragment shader discards. Images are read at
-//! their full size, as ever finer pixels would show them.
+//! Where alpha-masked materials have holes, and how opaque blended ones are, in f64: what the host's fragment shader discards or blends.
+//! Images are read at their full size, as ever finer pixels would show them.
 
 use glam::{DVec2, DVec3};
 use wgpu::{AddressMode, FilterMode};
 
 use crate::scene::{Image, Material, Mesh};
 
-/// The holes of a masked material.
+/// The holes of a masked material, or the opacity of a blended one.
 pub(super) struct Opacity {
     /// Multiplied with the vertices' and the image's alpha.
     alpha: f64,
-    /// Alpha below this is a hole.
-    mask: f64,
+    /// Alpha below this is a hole; none in a blended material.
+    mask: Option<f64>,
     image: Option<Alphas>,
 }
 
@@ -24,10 +24,10 @@ struct Alphas {
     filter: FilterMode,
 }
 
-/// What a mask needs of the corners of a triangle: texture coordinates and alpha, each at all three.
-pub(super) struct MaskedCorners([DVec3; 3]);
+/// What alpha needs of the corners of a triangle: texture coordinates and alpha, each at all three.
+pub(super) struct AlphaCorners([DVec3; 3]);
 
-impl MaskedCorners {
+impl AlphaCorners {
     /// Those of a mesh's triangle.
     pub(super) fn of(mesh: &Mesh, corners: [u32; 3]) -> Self {
         let corners = corners.map(|corner| corner as usize);
@@ -38,12 +38,15 @@ impl MaskedCorners {
 }
 
 impl Opacity {
-    /// The opacity of a material; `None` if it has no holes.
+    /// The opacity of a material; `None` if it is opaque without holes.
     pub(super) fn of(material: &Material, images: &[Image]) -> Option<Self> {
+        if material.mask.is_none() && !material.blend {
+            return None;
+        }
         let image = material.texture.and_then(|texture| images.get(texture));
         Some(Self {
             alpha: f64::from(material.base_colour[3]),
-            mask: f64::from(material.mask?),
+            mask: material.mask.map(f64::from),
             image: image.map(|image| Alphas {
                 size: [image.width.into(), image.height.into()],
                 values: image.rgba.iter().skip(3).step_by(4).copied().collect(),
@@ -54,11 +57,22 @@ impl Opacity {
     }
 
     /// Whether there is a hole where a triangle's corners have these weights.
-    pub(super) fn is_hole(&self, corners: &MaskedCorners, weights: DVec3) -> bool {
+    pub(super) fn is_hole(&self, corners: &AlphaCorners, weights: DVec3) -> bool {
+        self.mask
+            .is_some_and(|mask| self.alpha_at(corners, weights) < mask)
+    }
+
+    /// How opaque a blended material is there; `None` for a masked one.
+    pub(super) fn blended(&self, corners: &AlphaCorners, weights: DVec3) -> Option<f64> {
+        let alpha = || self.alpha_at(corners, weights).clamp(0.0, 1.0);
+        self.mask.is_none().then(alpha)
+    }
+
+    fn alpha_at(&self, corners: &AlphaCorners, weights: DVec3) -> f64 {
         let [u, v, alpha] = corners.0.map(|values| weights.dot(values));
         let image = self.image.as_ref();
         let of_image = image.map_or(1.0, |image| image.at(DVec2::new(u, v)));
-        self.alpha * alpha * of_image < self.mask
+        self.alpha * alpha * of_image
     }
 }
 

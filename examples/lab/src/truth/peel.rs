@@ -14,7 +14,7 @@ use rayon::prelude::*;
 use triangle::{Hit, Projection, Triangle};
 
 use super::check_map;
-use super::opacity::{MaskedCorners, Opacity};
+use super::opacity::{AlphaCorners, Opacity};
 use crate::error::LabError;
 use crate::light::LightView;
 use crate::scene::{Mesh, Scene};
@@ -42,9 +42,25 @@ pub struct LightSurface {
     pub faces_light: bool,
     /// Whether it belongs to the ground, which lights are not fitted to.
     pub ground: bool,
+    /// The share of light that it keeps: 1 but where a material is blended.
+    pub opacity: f64,
+    /// How many surfaces of blended materials count as this one; 0 for an opaque one.
+    pub blended: u32,
 }
 
 impl LightSurface {
+    /// Another surface is at the same place.
+    fn merge(&mut self, opacity: Option<f64>) {
+        match opacity {
+            Some(opacity) if self.blended > 0 => {
+                self.opacity = 1.0 - (1.0 - self.opacity) * (1.0 - opacity);
+                self.blended += 1;
+            }
+            Some(_) => {}
+            None => (self.opacity, self.blended) = (1.0, 0),
+        }
+    }
+
     /// Length of the gradient of distance along the axis per texel of the map; infinite edge-on.
     #[must_use]
     pub fn distance_per_texel(&self) -> f64 {
@@ -153,13 +169,21 @@ impl<'a> Peeler<'a> {
         } in hits
         {
             let texel = [column, row];
-            let front = surfaces.last().filter(|front| front.texel == texel);
+            let triangle = &self.triangles[triangle as usize];
+            let opacity = self.blended(triangle, &hit);
+            let front = surfaces.last_mut().filter(|front| front.texel == texel);
             let layer = match front {
-                Some(front) if hit.distance - front.distance <= same => continue,
+                Some(front) if hit.distance - front.distance <= same => {
+                    front.merge(opacity);
+                    continue;
+                }
                 Some(front) => front.layer + 1,
                 None => 0,
             };
-            surfaces.push(self.surface(texel, layer, &self.triangles[triangle as usize], &hit));
+            let mut surface = self.surface(texel, layer, triangle, &hit);
+            surface.opacity = opacity.unwrap_or(1.0);
+            surface.blended = opacity.is_some().into();
+            surfaces.push(surface);
         }
         surfaces
     }
@@ -191,15 +215,27 @@ impl<'a> Peeler<'a> {
             },
             faces_light: front || material.is_some_and(|material| material.double_sided),
             ground: mesh.ground,
+            opacity: 1.0,
+            blended: 0,
         }
     }
 
     fn is_hole(&self, triangle: &SceneTriangle, hit: &Hit) -> bool {
+        self.opacity(triangle)
+            .is_some_and(|(opacity, corners)| opacity.is_hole(&corners, hit.weights))
+    }
+
+    /// The opacity of a blended material.
+    fn blended(&self, triangle: &SceneTriangle, hit: &Hit) -> Option<f64> {
+        let (opacity, corners) = self.opacity(triangle)?;
+        opacity.blended(&corners, hit.weights)
+    }
+
+    /// What a material that is not opaque says of a triangle.
+    fn opacity(&self, triangle: &SceneTriangle) -> Option<(&Opacity, AlphaCorners)> {
         let mesh = &self.scene.meshes[triangle.mesh as usize];
-        let opacity = self.opacity.get(mesh.material).and_then(Option::as_ref);
-        opacity.is_some_and(|opacity| {
-            opacity.is_hole(&MaskedCorners::of(mesh, triangle.corners), hit.weights)
-        })
+        let opacity = self.opacity.get(mesh.material)?.as_ref()?;
+        Some((opacity, AlphaCorners::of(mesh, triangle.corners)))
     }
 }
 

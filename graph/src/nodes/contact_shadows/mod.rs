@@ -13,13 +13,15 @@ use crate::{
 /// format and size: the darker one of `intensity` and of the shadow that a short march through the camera's depth towards the light finds.
 /// Without `intensity`, that march alone. A fullscreen pass: it can also be drawn into a render pass that the host has open.
 ///
-/// It marches for up to four lights, one in each channel (a single one is in all of them): those of the output that is `intensity`. Parameters: a
-/// [`moment_shadows::ContactShadowParameters`] per light, with the length of the march and the thickness of surfaces in scene units.
+/// It marches for up to four lights, one in each channel: those of the output that is `intensity`. A single one is in all channels, as the nodes
+/// that shade have it; where that output has four, `format` says so. Parameters: a [`moment_shadows::ContactShadowParameters`] per light, with
+/// the length of the march and the thickness of surfaces in scene units.
 #[derive(Clone, Debug, PartialEq, Deserialize)]
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[serde(default, deny_unknown_fields)]
 pub struct ContactShadows {
-    /// The format of the shadow intensity: that of `intensity`. Where nothing is connected there, as `shade_hard` has it.
+    /// The format of the shadow intensity: that of `intensity`. Where nothing is connected there, as `shade_hard` has it. It has to be given where
+    /// a single light is in all four channels.
     pub format: Option<TextureFormat>,
     /// The lights, 1 to 4: as many as the node has that shades.
     pub lights: u32,
@@ -59,6 +61,18 @@ impl Node for ContactShadows {
         {
             return Err(wrong_format(format!(
                 "it is {}, but 'format' is {format}; leave 'format' out, or give the node that shades the same one",
+                intensity.format
+            ))
+            .at_slot("intensity"));
+        }
+        if let Some(intensity) = intensity
+            && (lights, self.format) == (1, None)
+            && format.channels() > 1
+        {
+            // The shadow of one light would darken those of all.
+            return Err(wrong_format(format!(
+                "it is {}, with a channel for each of four lights, but 'lights' is 1; give as many as the node that shades has, or this 'format' if \
+                 that has one as well",
                 intensity.format
             ))
             .at_slot("intensity"));

@@ -17,21 +17,21 @@ const FLAGS: vk::PipelineCreateFlags = vk::PipelineCreateFlags::from_raw(
 );
 
 impl NullDevice {
-    /// Compiles a compute shader, or a fragment shader with the vertex shader and the target that it is drawn with, and gives
+    /// Compiles a compute shader, or a fragment shader with the vertex shader and the targets that it is drawn with, and gives
     /// what the driver says about it.
     pub(in crate::isa) fn compile(
         &self,
         module: &SpirvModule,
-        drawn: Option<(&SpirvModule, TextureFormat)>,
+        drawn: Option<(&SpirvModule, TextureFormat, usize)>,
     ) -> Result<Executable, LabError> {
         let layout = self.layout(&module.bindings)?;
-        let (pipelines, asked) = if let Some((vertex, target)) = drawn {
+        let (pipelines, asked) = if let Some((vertex, target, targets)) = drawn {
             let asked = vk::ShaderStageFlags::FRAGMENT;
             let stages = [
                 self.stage(vertex, vk::ShaderStageFlags::VERTEX)?,
                 self.stage(module, asked)?,
             ];
-            (self.fragment(layout, &stages, target), asked)
+            (self.fragment(layout, &stages, (target, targets)), asked)
         } else {
             let asked = vk::ShaderStageFlags::COMPUTE;
             (self.compute(layout, self.stage(module, asked)?), asked)
@@ -105,11 +105,12 @@ impl NullDevice {
         &self,
         layout: vk::PipelineLayout,
         stages: &[vk::PipelineShaderStageCreateInfo<'_>],
-        target: TextureFormat,
+        (target, targets): (TextureFormat, usize),
     ) -> Made {
-        let formats = [format(target)];
-        let blends = [vk::PipelineColorBlendAttachmentState::default()
-            .color_write_mask(vk::ColorComponentFlags::RGBA)];
+        let formats = vec![format(target); targets];
+        let blend = vk::PipelineColorBlendAttachmentState::default()
+            .color_write_mask(vk::ColorComponentFlags::RGBA);
+        let blends = vec![blend; targets];
         let vertices = vk::PipelineVertexInputStateCreateInfo::default();
         let assembly = vk::PipelineInputAssemblyStateCreateInfo::default()
             .topology(vk::PrimitiveTopology::TRIANGLE_LIST);
