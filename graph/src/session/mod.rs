@@ -6,6 +6,7 @@ mod given;
 mod kernels;
 mod part;
 mod scratch;
+mod seen;
 mod shading;
 
 use cut::{Cut, cut};
@@ -194,6 +195,7 @@ impl Session {
             medium: self.medium,
             contact: self.contact,
             depth_format: self.depth_format(),
+            light_depth: self.light_depth.as_deref(),
         };
         let view = &mut self.views[view];
         self.scratch.write(&mut self.maps, &told, true)?;
