@@ -62,6 +62,8 @@ fn draw(yours: &Renderer, texels: u32, out: &str) -> Result<(), Box<dyn Error>> 
             texels,
             filter_radius: 16.0,
         },
+        // All boxes are farther away.
+        nearest_caster: Some(1.0),
     };
     let mut faces = light.faces()?;
     atlas.place(&mut faces)?;
