@@ -2,8 +2,8 @@
 
 use glam::{DMat4, DVec2, DVec3, DVec4};
 
-use super::frustum::Frustum;
 use super::border::WIDEST;
+use super::frustum::Frustum;
 use super::rectified::axes_of;
 use super::{Border, CameraView, CascadeSplits, LightView, Tile, light_direction};
 use crate::value_error::check;

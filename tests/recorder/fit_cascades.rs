@@ -38,7 +38,11 @@ fn a_range_of_casters_that_do_not_move_stays_where_it_is() {
     for number in 0..60 {
         let t = f64::from(number);
         let eye = DVec3::new(0.31 * t, 1.7 + 0.8 * (0.2 * t).sin(), -0.17 * t);
-        let turn = DVec3::new((0.09 * t).sin(), 0.15 * (0.07 * t).sin() - 0.1, (0.09 * t).cos());
+        let turn = DVec3::new(
+            (0.09 * t).sin(),
+            0.15 * (0.07 * t).sin() - 0.1,
+            (0.09 * t).cos(),
+        );
         let clip = DMat4::perspective_infinite_reverse_rh(1.0, 1.5, 0.1)
             * DMat4::look_to_rh(eye, turn.normalize(), DVec3::Y);
         let camera = CameraView {

@@ -56,7 +56,13 @@ impl Map {
     }
 
     /// With a camera whose depth has so many samples.
-    pub(crate) fn seen(gpu: &Gpu, layers: u32, regions: u32, samples: u32, camera: Option<u32>) -> Self {
+    pub(crate) fn seen(
+        gpu: &Gpu,
+        layers: u32,
+        regions: u32,
+        samples: u32,
+        camera: Option<u32>,
+    ) -> Self {
         let desc = TextureDesc {
             layers,
             regions,

@@ -83,9 +83,7 @@ impl Shading {
             .write(&mut bytes, "shade", 0, &view)
             .unwrap();
         if fit == Fit::Seen {
-            plan.parameters
-                .write(&mut bytes, "fit", 0, &view)
-                .unwrap();
+            plan.parameters.write(&mut bytes, "fit", 0, &view).unwrap();
         }
         let format = wgpu::TextureFormat::Depth32Float;
         let [light, camera] = [0, 1].map(|_| depth_map::texture(gpu, format, MAP, 1, 1));
@@ -193,7 +191,8 @@ fn a_fitted_map_shades_like_one_with_a_tight_range() {
         };
         let tight = shaded(&gpu, storage, 1.0, Fit::Nothing);
         for times in [1.0, 10.0, 100.0] {
-            let [plain, fitted] = [Fit::Nothing, Fit::Casters].map(|fit| shaded(&gpu, storage, times, fit));
+            let [plain, fitted] =
+                [Fit::Nothing, Fit::Casters].map(|fit| shaded(&gpu, storage, times, fit));
             println!(
                 "{storage}, {times} times: leaks {:.4} as it is and {:.4} fitted, {:.4} tight; shadow where there is none {:.4}",
                 leak(&plain),

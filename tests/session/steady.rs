@@ -54,11 +54,7 @@ struct Changes {
 /// Shades the floor, seen from above by a second camera that stands still, by cascades that follow the first one.
 fn changes(blend: f64) -> Changes {
     let gpu = gpu();
-    let above = frame(
-        &gpu,
-        DVec3::new(5.0, 16.0, 3.0),
-        DVec3::new(5.0, 0.0, 4.0),
-    );
+    let above = frame(&gpu, DVec3::new(5.0, 16.0, 3.0), DVec3::new(5.0, 0.0, 4.0));
     let (still, _) = places(&above);
     let placed = |number: u32| {
         let mut views = cascades(&walking(number), GUARD, blend);
@@ -84,7 +80,8 @@ fn changes(blend: f64) -> Changes {
         let [width, height] = above.desc.picture;
         let pixels = (0..width * height) as usize;
         let all = 0..pixels;
-        all.map(|pixel| seen(&still, above.desc.picture, pixel)).collect()
+        all.map(|pixel| seen(&still, above.desc.picture, pixel))
+            .collect()
     };
     let width = blend * f64::from(views[0].region.extent[0] - 2 * GUARD);
     let mut found = Changes::default();

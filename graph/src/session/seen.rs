@@ -38,12 +38,8 @@ impl Seen {
     ) -> Result<(), GraphError> {
         views.clear();
         for (index, light) in lights {
-            let made = ViewParameters::new(
-                told.camera,
-                light,
-                ReceiverBias::NONE,
-                LeakReduction::NONE,
-            );
+            let made =
+                ViewParameters::new(told.camera, light, ReceiverBias::NONE, LeakReduction::NONE);
             views.push(made.map_err(|error| {
                 let what = format_args!("view {index} of a light, for node '{}'", self.node);
                 unsuitable(what, error)

@@ -105,7 +105,11 @@ impl Node for FitRange {
         let tiles = camera.map(|_| {
             let rule = TextureRule::new(TextureFormat::Rgba32Float);
             let rule = rule.tiles_of("camera_depth", [SEEN_TILE; 2]);
-            Slot::internal("tiles", "Between which depths the camera sees surfaces in each tile.", rule)
+            Slot::internal(
+                "tiles",
+                "Between which depths the camera sees surfaces in each tile.",
+                rule,
+            )
         });
         let camera_depth = Slot::input(
             "camera_depth",
