@@ -1,5 +1,7 @@
 //! Cascades that move with a camera, with ranges that fit themselves to casters which do not move.
 
+use glam::dcamera::rh::proj::directx::perspective_infinite_reverse;
+use glam::dcamera::rh::view::look_at_mat4;
 use glam::{DMat4, DVec3};
 use moment_shadows::{CameraView, CascadeSplits, Cascades, LightView, Tile};
 
@@ -43,8 +45,8 @@ fn a_range_of_casters_that_do_not_move_stays_where_it_is() {
             0.15 * (0.07 * t).sin() - 0.1,
             (0.09 * t).cos(),
         );
-        let clip = DMat4::perspective_infinite_reverse_rh(1.0, 1.5, 0.1)
-            * DMat4::look_to_rh(eye, turn.normalize(), DVec3::Y);
+        let clip = perspective_infinite_reverse(1.0, 1.5, 0.1)
+            * look_at_mat4(eye, eye + turn.normalize(), DVec3::Y);
         let camera = CameraView {
             clip_from_world: clip.to_cols_array_2d(),
             far_depth: 0.0,

@@ -1,5 +1,7 @@
 //! How steady cascades are: what changes at a place from frame to frame while a camera moves and turns, and nothing else does.
 
+use glam::dcamera::rh::proj::directx::perspective_infinite_reverse;
+use glam::dcamera::rh::view::look_at_mat4;
 use glam::{DMat4, DVec3};
 use moment_shadows::{Atlas, CameraView, LightView, TextureFormat};
 
@@ -17,8 +19,8 @@ fn walking(number: u32) -> CameraView {
     let t = f64::from(number);
     let eye = DVec3::new(1.0 + 0.06 * t, 3.0 + 0.2 * (0.2 * t).sin(), 0.03 * t);
     let turn = DVec3::new((0.6 + 0.015 * t).sin(), -0.55, (0.6 + 0.015 * t).cos());
-    let clip = DMat4::perspective_infinite_reverse_rh(1.0, 1.6, 0.1)
-        * DMat4::look_to_rh(eye, turn.normalize(), DVec3::Y);
+    let clip = perspective_infinite_reverse(1.0, 1.6, 0.1)
+        * look_at_mat4(eye, eye + turn.normalize(), DVec3::Y);
     CameraView {
         clip_from_world: clip.to_cols_array_2d(),
         far_depth: 0.0,
@@ -37,7 +39,7 @@ fn shading(views: &[LightView], point: DVec3, width: f64) -> (Option<usize>, boo
     let inside: Vec<f64> = views.iter().map(|view| within(view, point)).collect();
     let first = inside.iter().position(|&it| it > 0.0);
     let near = inside.iter().take(first.map_or(inside.len(), |it| it + 1));
-    let away = near.copied().all(|it| it < -0.5 || it > width + 0.5);
+    let away = near.copied().all(|it: f64| it < -0.5 || it > width + 0.5);
     (first, away)
 }
 
@@ -78,9 +80,9 @@ fn changes(blend: f64) -> Changes {
     let mut session = session(&gpu, &graph_of(HARD, &views), &imports);
     let points: Vec<Option<DVec3>> = {
         let [width, height] = above.desc.picture;
-        let pixels = (0..width * height) as usize;
-        let all = 0..pixels;
-        all.map(|pixel| seen(&still, above.desc.picture, pixel))
+        let pixels = 0..(width * height) as usize;
+        pixels
+            .map(|pixel| seen(&still, above.desc.picture, pixel))
             .collect()
     };
     let width = blend * f64::from(views[0].region.extent[0] - 2 * GUARD);
