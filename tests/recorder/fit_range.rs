@@ -18,7 +18,7 @@ pub(crate) const PICTURE: [u32; 2] = [101, 77];
 const SHORTEST: f32 = 1.0 / 256.0;
 
 /// How far it goes on behind the casters (`ROOM_BEHIND` of the shader).
-const BEHIND: f32 = 3.0 / 64.0;
+const BEHIND: f32 = 7.0 / 128.0;
 
 const GRAPH: &str = r#"{
   "version": 2,
@@ -151,7 +151,7 @@ pub(crate) fn casters([near, far]: [f32; 2]) -> impl Fn(u32, u32) -> f32 {
     }
 }
 
-/// The range goes around the casters, by 1/64 of their depth in front and 3/64 behind, and at most one step of the grid more at
+/// The range goes around the casters, by 1/64 of their depth in front and 7/128 behind, and at most one step of the grid more at
 /// either end: 1/128 of the length. It does not leave the host's.
 pub(crate) fn check([near, far]: [f32; 2], range: Range) {
     let depth = (far - near).max(SHORTEST);

@@ -43,14 +43,20 @@ fn shading(views: &[LightView], point: DVec3, width: f64) -> (Option<usize>, boo
     (first, away)
 }
 
+/// The stored depth of a place.
+fn along(view: &LightView, point: DVec3) -> f64 {
+    (DMat4::from_cols_array_2d(&view.clip_from_world) * point.extend(1.0)).z
+}
+
 /// The largest and the mean change of intensity from frame to frame: of all places that the camera sees, and of those that a cascade
-/// shades alone in both frames.
+/// shades alone in both frames, while its own range stays or moves by a sixteenth.
 #[derive(Debug, Default)]
 struct Changes {
     largest: f32,
     mean: f64,
-    largest_within: f32,
-    places_within: u64,
+    /// Of frames in which the range stays, and in which it moves.
+    within: [f32; 2],
+    places: [u64; 2],
 }
 
 /// Shades the floor, seen from above by a second camera that stands still, by cascades that follow the first one.
@@ -116,9 +122,11 @@ fn changes(blend: f64) -> Changes {
                 count += 1;
                 found.largest = found.largest.max(change);
                 let [now, then] = [&views, last_views].map(|it| shading(it, *point, width));
-                if now == then && now.1 {
-                    found.largest_within = found.largest_within.max(change);
-                    found.places_within += 1;
+                if let ((Some(view), true), true) = (now, now == then) {
+                    let [before, after] = [last_views, &views].map(|it| along(&it[view], *point));
+                    let moves = usize::from((before - after).abs() > 1e-9);
+                    found.within[moves] = found.within[moves].max(change);
+                    found.places[moves] += 1;
                 }
             }
         }
@@ -127,8 +135,8 @@ fn changes(blend: f64) -> Changes {
     found.mean = sum / count as f64;
     println!(
         "blending over {blend}: the largest change of intensity {:.4}, on average {:.6}, of {count} places; where one cascade shades alone \
-         {:.6}, of {}",
-        found.largest, found.mean, found.largest_within, found.places_within
+         {:.6} while its range stays, {:.6} where that moves, of {:?} places",
+        found.largest, found.mean, found.within[0], found.within[1], found.places
     );
     found
 }
@@ -137,11 +145,12 @@ fn changes(blend: f64) -> Changes {
 fn a_camera_that_moves_and_turns_changes_no_shadow_but_at_borders() {
     let [sharp, blended] = [0.0, 0.125].map(changes);
     for found in [&sharp, &blended] {
-        // Texels stay where they are. What is left is rounding, and what light leaks in single precision as ranges move.
-        assert!(found.largest_within <= 1.0 / 255.0, "{found:?}");
-        assert!(found.places_within > 100_000, "{found:?}");
+        // Texels stay where they are, and all that is left is rounding.
+        assert!(found.within[0] <= 1e-3, "{found:?}");
+        // The bias of moments pulls towards the middle of a range, which is another.
+        assert!(found.within[1] <= 1e-2, "{found:?}");
+        assert!(found.places.iter().all(|&it| it > 10_000), "{found:?}");
     }
-    // At a border filters are as wide as other texels are, at once or over sixteen texels.
-    assert!(sharp.largest > 0.2 && blended.largest < 0.5 * sharp.largest);
-    assert!(blended.mean < sharp.mean);
+    // At a border filters become as wide as other texels are, at once or over sixteen texels.
+    assert!(sharp.largest > 0.2 && blended.largest < 0.2 * sharp.largest);
 }

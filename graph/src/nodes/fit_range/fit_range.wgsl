@@ -23,10 +23,11 @@ const SIDE: u32 = 16u;
 const INVOCATIONS: u32 = 256u;
 
 // The parts of the casters' depth that a range goes on behind the last of them and in front of the first when it is made. A receiver
-// behind has to lie behind the last caster by more than what its bound leaks: 3/64 is 0.09 in moment depth, twice as far as
-// a single occluder leaks that is stored in 16-bit numbers. Casters may move through all of the front and half of the back before
-// the range has to grow.
-const ROOM_BEHIND: f32 = 0.046875;
+// behind has to lie behind the last caster by more than what its bound leaks: at least 3/128, 0.047 in moment depth, farther
+// than a single occluder leaks that is stored in 16-bit numbers. Casters may move through all of the front and what is left behind
+// before the range has to grow.
+const ROOM_BEHIND: f32 = 0.0546875;
+const LEAST_BEHIND: f32 = 0.0234375;
 const ROOM_IN_FRONT: f32 = 0.015625;
 
 // Steps of the grid in the range, at least.
@@ -128,14 +129,17 @@ fn on_grid(ends: vec2f) -> vec2f {
     return clamp(vec2f(floor(ends.x / step), ceil(ends.y / step)) * step, vec2f(-1.0), vec2f(1.0));
 }
 
-// The ends of the range for casters between `casters`, where it had the ends `before`. It is made anew where it is too short or
-// clearly too long: both ends, so that where the host's range has moved by steps of the grid it is what it was.
+// The ends of the range for casters between `casters`, where it had the ends `before`. It grows at once, to where a new one would
+// end, and shrinks where it is clearly too long. Where the host's range has moved, one end is too near and the other one too far away by an
+// eighth: both are made anew then, on the same grid, so that the range is what it was.
 fn fitted(casters: vec2f, before: vec2f) -> vec2f {
     let made = on_grid(range_around(casters, ROOM_IN_FRONT, ROOM_BEHIND));
-    let needed = range_around(casters, 0.0, 0.5 * ROOM_BEHIND);
-    let suffices = before.x <= needed.x && needed.y <= before.y;
-    let too_long = before.y - before.x > LONGEST * (made.y - made.x);
-    return select(made, before, suffices && !too_long);
+    let length = made.y - made.x;
+    let needed = range_around(casters, 0.0, LEAST_BEHIND);
+    let before_front = before.x > needed.x;
+    let moved = made.x - before.x > 0.0625 * length;
+    let grown = select(before, made, vec2<bool>(before_front || moved, before_front || needed.y > before.y));
+    return select(grown, made, grown.y - grown.x > LONGEST * length);
 }
 
 @compute @workgroup_size(256)
