@@ -1,7 +1,7 @@
 //! Cascades of a sun in your renderer: four views of one map, which blend into each other, with penumbrae of one width.
 //!
 //! `cargo run --release --example cascades [FOLDER]`. The small renderer in `examples/renderer` stands in for yours. A second picture
-//! has maps of four times as many texels, to compare: filters are as wide in the scene.
+//! has maps of four times as many texels: filters are as wide in the scene. A third one is the truth, by a ray to the sun from each pixel.
 
 mod renderer;
 
@@ -19,7 +19,16 @@ fn main() -> Result<(), Box<dyn Error>> {
     let folder = std::env::args().nth(1).unwrap_or("pictures".to_owned());
     let yours = Renderer::open()?;
     draw(&yours, 512, &format!("{folder}/cascades.png"))?;
-    draw(&yours, 1024, &format!("{folder}/cascades_more_texels.png"))
+    draw(&yours, 1024, &format!("{folder}/cascades_more_texels.png"))?;
+    let truth = format!("{folder}/cascades_truth.png");
+    yours.save_traced(&eye().clip_from_world, TOWARDS_SUN, SIZE, &truth)
+}
+
+fn eye() -> CameraView {
+    CameraView {
+        clip_from_world: camera([-5.5, 2.6, 6.0], [0.2, 1.2, -0.6], SIZE),
+        far_depth: 0.0, // reversed depth
+    }
 }
 
 /// Draws with so many texels per cascade and side.
@@ -45,10 +54,7 @@ fn draw(yours: &Renderer, texels: u32, out: &str) -> Result<(), Box<dyn Error>> 
     ))?;
 
     // Every frame: cascades that follow the camera, each with a place in the map.
-    let eye = CameraView {
-        clip_from_world: camera([-5.5, 2.6, 6.0], [0.2, 1.2, -0.6], SIZE),
-        far_depth: 0.0, // reversed depth
-    };
+    let eye = eye();
     let towards = [0, 1, 2].map(|axis| f64::from(TOWARDS_SUN[axis]));
     let cascades = Cascades {
         direction: towards.map(|along| -along),

@@ -1,7 +1,8 @@
 //! A point light in your renderer: the six faces around it in one map, without a seam where they meet.
 //!
 //! `cargo run --release --example point_light [FOLDER]`. The small renderer in `examples/renderer` stands in for yours. A second
-//! picture has maps of four times as many texels, to compare: filters are as wide in the scene.
+//! picture has maps of four times as many texels: filters are as wide in the scene. A third one is the truth, by a ray to the light from each
+//! pixel.
 
 mod renderer;
 
@@ -23,7 +24,16 @@ fn main() -> Result<(), Box<dyn Error>> {
         &yours,
         1024,
         &format!("{folder}/point_light_more_texels.png"),
-    )
+    )?;
+    let truth = format!("{folder}/point_light_truth.png");
+    yours.save_traced(&eye().clip_from_world, POSITION, SIZE, &truth)
+}
+
+fn eye() -> CameraView {
+    CameraView {
+        clip_from_world: camera([-5.5, 2.6, 6.0], [0.2, 1.2, -0.6], SIZE),
+        far_depth: 0.0, // reversed depth
+    }
 }
 
 /// Draws with so many texels per face and side.
@@ -62,15 +72,14 @@ fn draw(yours: &Renderer, texels: u32, out: &str) -> Result<(), Box<dyn Error>> 
             texels,
             filter_radius: 16.0,
         },
+        // All boxes are farther away.
+        nearest_caster: Some(1.0),
     };
     let mut faces = light.faces()?;
     atlas.place(&mut faces)?;
 
     // Every frame: where the camera is, and each stage after your own pass.
-    let eye = CameraView {
-        clip_from_world: camera([-5.5, 2.6, 6.0], [0.2, 1.2, -0.6], SIZE),
-        far_depth: 0.0, // reversed depth
-    };
+    let eye = eye();
     session.view(&yours.queue, 0, &eye, &faces)?;
     let mut encoder = yours.device.create_command_encoder(&Default::default());
     yours.draw_views(&mut encoder, &faces, &light_depth);

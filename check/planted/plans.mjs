@@ -181,6 +181,17 @@ export const HANDLED = {
     resized(plan, { light_depth: [1024, 1500] });
     assert.throws(() => resized(plan, { light_depth: [1023, 1500] }), /'blur.blurred' has 11 mip levels; 1023x1500 texels have 10/);
   },
+  'ranges of more regions than a depth map has tiles': async (device, plan) => {
+    const { texture } = plan.resources.find(({ name }) => name === 'blur.blurred').desc;
+    const made = (name, size, more) => {
+      return { name, home: {}, extent: null, desc: { texture: { ...texture, mips: 1, size, ...more } } };
+    };
+    const light = plan.imports.findIndex(({ name }) => name === 'light_depth');
+    const ends = { ...made('fit.ends', [32, 32]), extent: { import: light, per: [32, 32] } };
+    plan.resources.push(made('fit.ranges', [9, 1], { range: 'fit.ranges' }), ends);
+    resized(plan, { light_depth: [96, 96] });
+    assert.throws(() => resized(plan, { light_depth: [64, 128] }), /node 'fit' fits ranges of 9 regions, more than the 2x4 tiles/);
+  },
   'a pass of the host': async (device, plan) => {
     const recorder = await createRecorder(device, withHostPass(plan), makeImports(device, plan));
     assert.throws(() => recorder.record('after_main_pass', encoder(device)), /the host's pass 'shade\/shade'/);

@@ -4,6 +4,7 @@
 
 mod boxes;
 mod pass;
+mod trace;
 
 use std::error::Error;
 use std::path::Path;
@@ -92,7 +93,7 @@ impl Renderer {
             boxes: device.create_buffer_init(&wgpu::util::BufferInitDescriptor {
                 label: None,
                 contents: bytemuck::cast_slice(&boxes),
-                usage: wgpu::BufferUsages::VERTEX,
+                usage: wgpu::BufferUsages::VERTEX | wgpu::BufferUsages::STORAGE,
             }),
             adapter,
             device,

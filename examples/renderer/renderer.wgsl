@@ -48,6 +48,30 @@ fn surface(vertex: Vertex) -> Surface {
     return Surface(vec4f(sky * vertex.colour, 1.0), vec4f(sun * vertex.colour, 1.0));
 }
 
+// Centre, half size and colour of each.
+@group(0) @binding(1) var<storage, read> boxes: array<array<f32, 9>>;
+
+// Whether a box lies between a place and the light: 1, or 0.
+@fragment
+fn trace(vertex: Vertex) -> @location(0) vec4f {
+    let origin = vertex.world + 1e-3 * normalize(vertex.normal);
+    let inverse = 1.0 / (frame.light.xyz - frame.light.w * origin);
+    // A lamp is at the end of the ray, a sun never.
+    let end = select(1e30, 1.0, frame.light.w > 0.0);
+    for (var index = 0u; index < arrayLength(&boxes); index++) {
+        let box = boxes[index];
+        let centre = (vec3f(box[0], box[1], box[2]) - origin) * inverse;
+        let half_size = vec3f(box[3], box[4], box[5]) * abs(inverse);
+        let first = centre - half_size;
+        let last = centre + half_size;
+        let enters = max(max(first.x, first.y), max(first.z, 0.0));
+        if enters < min(min(last.x, last.y), min(last.z, end)) {
+            return vec4f(1.0);
+        }
+    }
+    return vec4f(0.0);
+}
+
 @group(0) @binding(0) var ambient: texture_2d<f32>;
 @group(0) @binding(1) var direct: texture_2d<f32>;
 @group(0) @binding(2) var shadow_intensity: texture_2d<f32>;

@@ -248,7 +248,11 @@ fn others() -> Vec<(String, String)> {
         ("mip levels", mip_levels(&float16)),
         ("soft atlas", soft_atlas()),
         ("placed layers", placed_layers(cascades(1))),
-        ("fitted ranges", fitted_ranges(cascades(4))),
+        ("fitted ranges", fitted_ranges(cascades(4), &[])),
+        (
+            "fitted ranges of what is seen",
+            fitted_ranges(cascades(4), &[("camera_depth", "fit.camera_depth")]),
+        ),
         ("debug", debug(&float16)),
         ("debug view", debug_shading(false, &float16, "view")),
         ("debug texels", debug_shading(false, &float16, "texels")),
@@ -387,7 +391,7 @@ fn placed_layers(light: Value) -> String {
     )
 }
 
-fn fitted_ranges(light: Value) -> String {
+fn fitted_ranges(light: Value, seen: &[(&str, &str)]) -> String {
     graph(
         light,
         &[
@@ -396,13 +400,17 @@ fn fitted_ranges(light: Value) -> String {
             node("shade", "shade_hard", json!({ "views": 4 })),
         ],
         &[
-            ("light_depth", "fit.depth"),
-            ("light_depth", "resolve.depth"),
-            ("fit.ranges", "resolve.ranges"),
-            ("fit.ranges", "shade.ranges"),
-            ("resolve.map", "shade.map"),
-            ("camera_depth", "shade.camera_depth"),
-        ],
+            seen,
+            &[
+                ("light_depth", "fit.depth"),
+                ("light_depth", "resolve.depth"),
+                ("fit.ranges", "resolve.ranges"),
+                ("fit.ranges", "shade.ranges"),
+                ("resolve.map", "shade.map"),
+                ("camera_depth", "shade.camera_depth"),
+            ],
+        ]
+        .concat(),
         "shade.shadow_intensity",
     )
 }

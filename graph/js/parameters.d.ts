@@ -87,6 +87,8 @@ export interface PointLight {
   position: Triple;
   depth: LightDepth;
   tile: Tile;
+  /** How far from the light the nearest caster is: views are refused that may begin behind it. */
+  nearestCaster?: number;
 }
 
 /** A map whose layers views of lights share. */

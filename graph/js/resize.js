@@ -16,6 +16,7 @@ export function resized(plan, sizes, most = 65535) {
     checkLevels(resource, size);
     return { ...resource, desc: { texture: { ...desc.texture, size } } };
   });
+  checkRanges(resources);
   const memory = plan.memory.map((planned, index) => {
     const resident = resources.find(({ home }) => home.memory === index);
     if (!planned.desc.texture || !resident) return planned;
@@ -75,4 +76,16 @@ function checkLevels({ name, home, desc: { texture } }, size) {
   const levels = side > 0 ? Math.floor(Math.log2(side)) + 1 : 0;
   if (texture.mips <= levels) return;
   throw new Error(`'${name}' has ${texture.mips} mip levels; ${text(size)} texels have ${levels}, so compile the graph for this size`);
+}
+
+// Of a map whose ranges fit themselves each region needs a tile of texels, which looks for its casters.
+function checkRanges(resources) {
+  for (const { name, desc } of resources) {
+    if (desc.texture?.range !== name) continue;
+    const node = name.split('.')[0];
+    const ends = resources.find((other) => other.name === `${node}.ends`)?.desc.texture.size;
+    const [regions] = desc.texture.size;
+    if (!ends || ends[0] * ends[1] >= regions) continue;
+    throw new Error(`node '${node}' fits ranges of ${regions} regions, more than the ${text(ends)} tiles of its depth map; give it more texels`);
+  }
 }

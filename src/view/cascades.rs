@@ -2,6 +2,7 @@
 
 use glam::{DMat4, DVec2, DVec3, DVec4};
 
+use super::border::WIDEST;
 use super::frustum::Frustum;
 use super::rectified::axes_of;
 use super::{Border, CameraView, CascadeSplits, LightView, Tile, light_direction};
@@ -11,13 +12,18 @@ use crate::{LightDepth, ValueError};
 /// By how much spheres grow, so that rounding in a host's f32 matrices does not change the size of texels.
 const GROWTH: f64 = 1.0 + 1.0 / 65536.0;
 
+/// Steps of a cascade's range in which it moves along the light. A power of two: what fits ranges to their casters works on such a grid, which
+/// then stays where it is in the scene.
+const STEPS: f64 = 16.0;
+
 /// Places farther from the scene's origin have less than 12 bits within a texel.
 const FARTHEST: f64 = (1_u64 << 40) as f64;
 
 /// The cascades of a sun: views of one light, each for a part of what a camera sees, a *slice* of its frustum.
 ///
 /// The same cascades for any camera with this projection. As the camera moves and turns texels keep their size and stay where
-/// they are in the scene: a cascade covers the sphere around its slice, and moves by whole texels. As the light turns they do not.
+/// they are in the scene: a cascade covers the sphere around its slice, and moves by whole texels, along the light by whole sixteenths of
+/// its range. As the light turns they do not.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Cascades {
     /// Where light travels to, of any length.
@@ -35,7 +41,7 @@ pub struct Cascades {
     /// 0 for sharp borders.
     pub blend: f64,
     /// The lowest and the highest corner of a box around all that casts. Maps and their ranges are no larger than it; without
-    /// it ranges are the spheres'.
+    /// it ranges are the spheres', and a fifteenth longer.
     pub casters: Option<[[f64; 3]; 2]>,
     /// Whether casters in front of the near plane are clamped to it (`unclipped_depth` of wgpu), so that it may lie at the
     /// slice. Without it, near planes lie in front of all casters, and light leaks in proportion.
@@ -81,9 +87,10 @@ impl Cascades {
         let range = "2 texels more than the guard bands";
         check(texels - 2 * guard > 1, "cascades", "texels", texels, range)?;
         let blend = self.blend;
-        let valid = (0.0..=0.5).contains(&blend);
-        check(valid, "cascades", "blend", blend, "0 to 0.5")?;
         let width = blend * f64::from(texels - 2 * guard);
+        let valid = (0.0..=0.5).contains(&blend) && width <= WIDEST;
+        let range = "0 to 0.5, and at most 4095 texels of a view";
+        check(valid, "cascades", "blend", blend, range)?;
         let axes = axes_of(light_direction(self.direction)?);
         let casters = self.casters(&axes)?;
         let frustum = Frustum::new(camera)?;
@@ -146,8 +153,10 @@ impl Cascades {
         let mut texel = texel_for(2.0 * radius);
         let centre = DVec3::from(axes.map(|axis| axis.dot(centre)));
         let mut middle = centre.truncate();
-        let depth = (centre.z / texel).round() * texel;
-        let [mut near, mut far] = [-0.5, 0.5].map(|half| depth + half * inner * texel);
+        // One step is lost to snapping.
+        let step = rounded_up(inner * texel / (STEPS - 1.0));
+        let depth = (centre.z / step).round();
+        let [mut near, mut far] = [-0.5, 0.5].map(|half| (depth + half * STEPS) * step);
         if let Some([low, high]) = casters {
             // A texel more, for rounding.
             let (first, last) = (near.max(low.z - texel), far.min(high.z + texel));

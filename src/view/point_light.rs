@@ -17,6 +17,8 @@ pub struct PointLight {
     pub depth: LightDepth,
     /// The region that each view gets.
     pub tile: Tile,
+    /// How far from the light the nearest caster is, where it is known: a view is refused that may begin behind it.
+    pub nearest_caster: Option<f64>,
 }
 
 impl PointLight {
@@ -76,7 +78,7 @@ impl PointLight {
             position,
             range,
         )?;
-        let (near, far, reversed) = match self.depth {
+        let (near, far, reversed, begins) = match self.depth {
             LightDepth::Perspective {
                 near,
                 far,
@@ -84,11 +86,11 @@ impl PointLight {
                 range,
             } => {
                 DepthConversion::perspective(near, far, range)?;
-                (near, far, reversed)
+                (near, far, reversed, near.max(range.near))
             }
             LightDepth::Linear { range } => {
                 DepthConversion::perspective(range.near, range.far, range)?;
-                (range.near, range.far, false)
+                (range.near, range.far, false, range.near)
             }
             LightDepth::Orthographic { .. } => {
                 let message = "rays from a point are not parallel: depth is perspective or linear";
@@ -97,6 +99,7 @@ impl PointLight {
         };
         let texels = f64::from(self.tile.texels);
         let across = f64::from(self.tile.texels - 2 * guard) / (texels * tangent);
+        self.check_nearest_caster(begins, across)?;
         let row = |axis: DVec3| axis.extend(-axis.dot(position));
         let w = row(forward);
         // (distance - near) / (1 - near / far), and what is left of the distance where depth is reversed.
@@ -115,5 +118,30 @@ impl PointLight {
             guard,
             ..LightView::orthographic(clip.to_cols_array_2d())
         })
+    }
+
+    /// Checks that a view whose planes and range begin at a distance along its axis begins in front of all casters: in its corners they
+    /// are farthest from the light at that distance.
+    fn check_nearest_caster(&self, begins: f64, across: f64) -> Result<(), ValueError> {
+        let Some(distance) = self.nearest_caster else {
+            return Ok(());
+        };
+        let valid = distance > 0.0;
+        check(
+            valid,
+            "a point light",
+            "nearest_caster",
+            distance,
+            "above 0",
+        )?;
+        let along = distance / (1.0 + 2.0 / (across * across)).sqrt();
+        if begins <= along {
+            return Ok(());
+        }
+        let message = format!(
+            "a caster {distance} from the light may lie {along} along the axis of a view, which begins at {begins} (its near plane and \
+             its range); let them begin no farther away than the caster, or move the caster"
+        );
+        Err(ValueError::new("nearest_caster", message))
     }
 }

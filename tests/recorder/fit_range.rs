@@ -6,13 +6,19 @@ use moment_shadows_graph::record::{ImportedResource, Layers};
 use moment_shadows_lab::gpu::Gpu;
 
 use crate::depth_map;
-use crate::setup::{Bound, bind, capabilities, compiled, gpu};
+use crate::setup::{Bound, aligned_view, bind, capabilities, compiled, gpu};
 
 /// Not a multiple of the shader's tiles.
-const MAP: [u32; 2] = [72, 40];
+pub(crate) const MAP: [u32; 2] = [72, 40];
+
+/// Neither a multiple of its tiles nor the map's size.
+pub(crate) const PICTURE: [u32; 2] = [101, 77];
 
 /// The shortest range in moment depth (`SHORTEST` of the shader).
 const SHORTEST: f32 = 1.0 / 256.0;
+
+/// How far it goes on behind the casters (`ROOM_BEHIND` of the shader).
+const BEHIND: f32 = 7.0 / 128.0;
 
 const GRAPH: &str = r#"{
   "version": 2,
@@ -23,17 +29,19 @@ const GRAPH: &str = r#"{
 }"#;
 
 /// The node bound to a map of several layers and regions.
-struct Map {
-    bound: Bound,
+pub(crate) struct Map {
+    pub(crate) bound: Bound,
     texture: wgpu::Texture,
+    /// The camera's depth, where it is connected.
+    seen: Option<wgpu::Texture>,
 }
 
 /// The ends of a range, and where its region begins.
 #[derive(Clone, Copy, Debug, PartialEq)]
-struct Range {
-    ends: [f32; 2],
+pub(crate) struct Range {
+    pub(crate) ends: [f32; 2],
     scale: f32,
-    origin: [f32; 2],
+    pub(crate) origin: [f32; 2],
 }
 
 impl Range {
@@ -43,24 +51,74 @@ impl Range {
 }
 
 impl Map {
-    fn new(gpu: &Gpu, layers: u32, regions: u32, samples: u32) -> Self {
+    pub(crate) fn new(gpu: &Gpu, layers: u32, regions: u32, samples: u32) -> Self {
+        Self::seen(gpu, layers, regions, samples, None)
+    }
+
+    /// With a camera whose depth has so many samples.
+    pub(crate) fn seen(
+        gpu: &Gpu,
+        layers: u32,
+        regions: u32,
+        samples: u32,
+        camera: Option<u32>,
+    ) -> Self {
         let desc = TextureDesc {
             layers,
             regions,
             samples,
             ..TextureDesc::new(TextureFormat::Depth32Float, MAP)
         };
-        let plan = compiled(GRAPH, &capabilities(gpu), &[("light_depth", desc)]);
         let format = wgpu::TextureFormat::Depth32Float;
         let texture = depth_map::texture(gpu, format, MAP, layers, samples);
-        let bytes = plan.parameters.initial();
-        let imports = [("light_depth", ImportedResource::from(&texture))];
+        let mut imports = vec![("light_depth", ImportedResource::from(&texture))];
+        let mut descs = vec![("light_depth", desc)];
+        let seen = camera.map(|samples| depth_map::texture(gpu, format, PICTURE, 1, samples));
+        let mut text = GRAPH.to_owned();
+        if let Some(seen) = &seen {
+            text = text
+                .replace(
+                    r#"[{ "name": "light_depth" }"#,
+                    r#"[{ "name": "camera_depth" }, { "name": "light_depth" }"#,
+                )
+                .replace(
+                    r#""edges": ["#,
+                    r#""edges": [{ "from": "camera_depth", "to": "fit.camera_depth" }, "#,
+                );
+            imports.push(("camera_depth", ImportedResource::from(seen)));
+            let desc = TextureDesc::new(TextureFormat::Depth32Float, PICTURE);
+            let samples = seen.sample_count();
+            descs.push(("camera_depth", TextureDesc { samples, ..desc }));
+        }
+        let plan = compiled(&text, &capabilities(gpu), &descs);
+        let mut bytes = plan.parameters.initial();
+        if seen.is_some() {
+            let view = aligned_view(0);
+            for layer in 0..layers {
+                let views = vec![view; regions as usize];
+                plan.parameters
+                    .write_all(&mut bytes, "fit", layer, &views)
+                    .unwrap();
+            }
+        }
         let bound = bind(gpu, plan, &imports, &bytes);
-        Self { bound, texture }
+        Self {
+            bound,
+            texture,
+            seen,
+        }
+    }
+
+    /// Draws what the camera sees, moment depths again; 1 is no surface.
+    pub(crate) fn look(&self, gpu: &Gpu, depth: impl Fn(u32, u32) -> f32) {
+        let seen = self.seen.as_ref().unwrap();
+        let wide = [PICTURE[0] * seen.sample_count(), PICTURE[1]];
+        let values = depth_map::values(wide, |x, y| stored(depth(x, y)));
+        depth_map::draw(gpu, seen, 0, &values);
     }
 
     /// Draws moment depths to a layer, and runs the node.
-    fn frame(&self, gpu: &Gpu, layer: u32, depth: impl Fn(u32, u32) -> f32) -> Range {
+    pub(crate) fn frame(&self, gpu: &Gpu, layer: u32, depth: impl Fn(u32, u32) -> f32) -> Range {
         let wide = [MAP[0] * self.texture.sample_count(), MAP[1]];
         let values = depth_map::values(wide, |x, y| stored(depth(x, y)));
         depth_map::draw(gpu, &self.texture, layer, &values);
@@ -68,7 +126,7 @@ impl Map {
         self.ranges(gpu, layer)[0]
     }
 
-    fn ranges(&self, gpu: &Gpu, layer: u32) -> Vec<Range> {
+    pub(crate) fn ranges(&self, gpu: &Gpu, layer: u32) -> Vec<Range> {
         let texels = self.bound.read_floats(gpu, "ranges", layer);
         let range = |texel: &[f32]| Range {
             ends: [texel[0] - 1.0 / texel[1], texel[0] + 1.0 / texel[1]],
@@ -85,7 +143,7 @@ fn stored(z: f32) -> f32 {
 }
 
 /// A caster at either end, the farther one in the last texel, and nothing anywhere else.
-fn casters([near, far]: [f32; 2]) -> impl Fn(u32, u32) -> f32 {
+pub(crate) fn casters([near, far]: [f32; 2]) -> impl Fn(u32, u32) -> f32 {
     move |x, y| match (x, y) {
         (33, 17) => near,
         (71, 39) => far,
@@ -93,9 +151,9 @@ fn casters([near, far]: [f32; 2]) -> impl Fn(u32, u32) -> f32 {
     }
 }
 
-/// The range goes around the casters, by 1/64 of their depth in front and 1/16 behind, and at most one step of the grid more at
+/// The range goes around the casters, by 1/64 of their depth in front and 7/128 behind, and at most one step of the grid more at
 /// either end: 1/128 of the length. It does not leave the host's.
-fn check([near, far]: [f32; 2], range: Range) {
+pub(crate) fn check([near, far]: [f32; 2], range: Range) {
     let depth = (far - near).max(SHORTEST);
     let [first, last] = range.ends;
     assert!(-1.0 <= first && last <= 1.0, "{range:?}");
@@ -107,11 +165,11 @@ fn check([near, far]: [f32; 2], range: Range) {
     assert!(nearest - first <= depth / 64.0 + room, "{near}: {range:?}");
     // A single depth gets the shortest range, behind it.
     assert!(
-        last - far.max(near + depth) <= depth / 16.0 + room,
+        last - far.max(near + depth) <= depth * BEHIND + room,
         "{far}: {range:?}"
     );
     assert!(
-        last == 1.0 || last - far >= depth / 16.0 - 1e-6,
+        last == 1.0 || last - far >= depth * BEHIND - 1e-6,
         "{far}: {range:?}"
     );
 }

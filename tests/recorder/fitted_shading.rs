@@ -15,17 +15,33 @@ fn stored(z: f32) -> f32 {
     0.5 + 0.5 * z
 }
 
+/// What a range is fitted to.
+#[derive(Clone, Copy, PartialEq)]
+enum Fit {
+    Nothing,
+    Casters,
+    /// No farther than the camera sees.
+    Seen,
+}
+
 /// Resolve, blur and shade, with ranges or without.
-fn shading(storage: &str, fitted: bool) -> String {
-    let (node, edges) = if fitted {
-        (
-            r#"{ "name": "fit", "type": "fit_range" },"#,
-            r#"{ "from": "light_depth", "to": "fit.depth" },
-               { "from": "fit.ranges", "to": "resolve.ranges" },
-               { "from": "fit.ranges", "to": "shade.ranges" },"#,
-        )
-    } else {
-        ("", "")
+fn shading(storage: &str, fit: Fit) -> String {
+    let node = match fit {
+        Fit::Nothing => "",
+        _ => r#"{ "name": "fit", "type": "fit_range" },"#,
+    };
+    let seen = match fit {
+        Fit::Seen => r#"{ "from": "camera_depth", "to": "fit.camera_depth" },"#,
+        _ => "",
+    };
+    let edges = match fit {
+        Fit::Nothing => String::new(),
+        _ => format!(
+            r#"{seen}
+               {{ "from": "light_depth", "to": "fit.depth" }},
+               {{ "from": "fit.ranges", "to": "resolve.ranges" }},
+               {{ "from": "fit.ranges", "to": "shade.ranges" }},"#
+        ),
     };
     format!(
         r#"{{
@@ -56,16 +72,19 @@ struct Shading {
 
 impl Shading {
     /// With the bias of a kernel for a range that is so many times as long as the map is wide.
-    fn new(gpu: &Gpu, storage: &str, times: f32, fitted: bool) -> Self {
+    fn new(gpu: &Gpu, storage: &str, times: f32, fit: Fit) -> Self {
         let desc = TextureDesc::new(TextureFormat::Depth32Float, MAP);
         let imports = [("light_depth", desc.clone()), ("camera_depth", desc)];
-        let plan = compiled(&shading(storage, fitted), &capabilities(gpu), &imports);
+        let plan = compiled(&shading(storage, fit), &capabilities(gpu), &imports);
         let mut bytes = plan.parameters.initial();
         let mut view = aligned_view(0);
         view.receiver_bias = ReceiverBias::for_kernel(1.2, 2.0 / (MAP[0] as f32 * times));
         plan.parameters
             .write(&mut bytes, "shade", 0, &view)
             .unwrap();
+        if fit == Fit::Seen {
+            plan.parameters.write(&mut bytes, "fit", 0, &view).unwrap();
+        }
         let format = wgpu::TextureFormat::Depth32Float;
         let [light, camera] = [0, 1].map(|_| depth_map::texture(gpu, format, MAP, 1, 1));
         let imports = [
@@ -98,7 +117,7 @@ impl Shading {
 
 /// A plane that rises across the map, an occluder over its left half and a floor that is not in the map, all within 1/`times` of the
 /// host's range: shadow intensities.
-fn shaded(gpu: &Gpu, storage: &str, times: f32, fitted: bool) -> Vec<f32> {
+fn shaded(gpu: &Gpu, storage: &str, times: f32, fit: Fit) -> Vec<f32> {
     let at = |z: f32| 0.25 + (z - 0.25) / times;
     let plane = |x: u32| -0.25 + 0.5 * x as f32 / MAP[0] as f32;
     let light = |x, y| match (x < MAP[0] / 2, y < 30) {
@@ -108,7 +127,48 @@ fn shaded(gpu: &Gpu, storage: &str, times: f32, fitted: bool) -> Vec<f32> {
         (false, false) => 1.0,
     };
     let camera = |x, y| if y < 30 { at(plane(x)) } else { at(0.9) };
-    Shading::new(gpu, storage, times, fitted).frame(gpu, light, camera)
+    Shading::new(gpu, storage, times, fit).frame(gpu, light, camera)
+}
+
+/// How light leaks from behind a wide occluder that the camera sees, while the map goes on far behind everything that it sees: the range
+/// ends there, and nothing gets darker.
+#[test]
+fn what_lies_behind_all_that_is_seen_makes_no_light_leak() {
+    let gpu = gpu();
+    let plane = |x: u32| -0.9 + 0.05 * x as f32 / MAP[0] as f32;
+    // An occluder over the left half, a plane, and what is only in the map: below the plane, and where the picture shows nothing.
+    let light = |x: u32, y: u32| match (x < MAP[0] / 2, y < 30, x % 3 == 0) {
+        (_, false, _) => 0.9,
+        (true, _, _) => -0.92,
+        (false, _, true) => 0.3,
+        (false, _, false) => plane(x),
+    };
+    let camera = |x, y: u32| if y < 30 { plane(x) } else { 1.0 };
+    for storage in ["unorm16", "float16"] {
+        let [casters, seen] = [Fit::Casters, Fit::Seen]
+            .map(|fit| Shading::new(&gpu, storage, 1.0, fit).frame(&gpu, light, camera));
+        let mean = |intensities: &[f32], shadowed: bool| {
+            let of = (0..MAP[1] * MAP[0]).filter(|texel| {
+                let (x, y) = (texel % MAP[0], texel / MAP[0]);
+                let half = MAP[0] / 2;
+                y < 26 && if shadowed { x < half - 4 } else { x > half + 4 }
+            });
+            let all: Vec<f32> = of.map(|texel| intensities[texel as usize]).collect();
+            let sum: f32 = all.iter().sum();
+            (
+                sum / all.len() as f32,
+                all.iter().copied().fold(0.0, f32::max),
+            )
+        };
+        let leaks = [&casters, &seen].map(|it| 1.0 - mean(it, true).0);
+        let darkest = mean(&seen, false).1;
+        println!(
+            "{storage}: leaks {:.4} fitted to casters, {:.4} to what is seen; shadow where there is none {darkest:.4}",
+            leaks[0], leaks[1]
+        );
+        assert!(leaks[0] > 5e-3 && leaks[1] < 0.3 * leaks[0], "{leaks:?}");
+        assert!(darkest <= 1e-3, "{darkest}");
+    }
 }
 
 #[test]
@@ -129,9 +189,10 @@ fn a_fitted_map_shades_like_one_with_a_tight_range() {
             lit.map(|texel| intensities[texel as usize])
                 .fold(0.0, f32::max)
         };
-        let tight = shaded(&gpu, storage, 1.0, false);
+        let tight = shaded(&gpu, storage, 1.0, Fit::Nothing);
         for times in [1.0, 10.0, 100.0] {
-            let [plain, fitted] = [false, true].map(|fitted| shaded(&gpu, storage, times, fitted));
+            let [plain, fitted] =
+                [Fit::Nothing, Fit::Casters].map(|fit| shaded(&gpu, storage, times, fit));
             println!(
                 "{storage}, {times} times: leaks {:.4} as it is and {:.4} fitted, {:.4} tight; shadow where there is none {:.4}",
                 leak(&plain),
@@ -153,7 +214,7 @@ fn a_fitted_map_shades_like_one_with_a_tight_range() {
 #[test]
 fn a_shadow_that_lies_still_hardly_changes_while_the_range_does() {
     let gpu = gpu();
-    let shading = Shading::new(&gpu, "float16", 1.0, true);
+    let shading = Shading::new(&gpu, "float16", 1.0, Fit::Casters);
     let frames: Vec<f32> = (0..60)
         .map(|frame| {
             let moving = 0.01 * frame as f32;

@@ -12,7 +12,9 @@ mod debug;
 mod depth_map;
 mod depth_tests;
 mod errors;
+mod fit_cascades;
 mod fit_range;
+mod fit_seen;
 mod fitted_shading;
 #[allow(dead_code, reason = "shared with the tests of the compiler")]
 #[path = "../support/host_node.rs"]

@@ -19,6 +19,8 @@ mod off;
 mod orders;
 mod refused;
 mod same;
+mod seen;
+mod steady;
 mod stored;
 mod translucent;
 mod views;

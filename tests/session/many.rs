@@ -51,6 +51,7 @@ fn spot(number: u32, light: u32, aside: f64) -> LightView {
             texels: TILE,
             filter_radius: 1.0,
         },
+        nearest_caster: None,
     };
     LightView {
         region: MapRegion::new([number % 16 * TILE, number / 16 * TILE], [TILE; 2]),

@@ -40,6 +40,17 @@ fn distance(origin: DVec3, along: DVec3) -> f64 {
 
 /// The depth map that a host would draw for these views.
 fn drawn(gpu: &Gpu, size: [u32; 2], views: &[LightView]) -> wgpu::Texture {
+    let texels = depths(size, views);
+    texture(
+        gpu,
+        TextureFormat::R32Float,
+        size,
+        bytemuck::cast_slice(&texels),
+    )
+}
+
+/// Its texels.
+pub(crate) fn depths(size: [u32; 2], views: &[LightView]) -> Vec<f32> {
     let mut texels = vec![f32::INFINITY; (size[0] * size[1]) as usize];
     for view in views {
         let clip = DMat4::from_cols_array_2d(&view.clip_from_world);
@@ -67,12 +78,7 @@ fn drawn(gpu: &Gpu, size: [u32; 2], views: &[LightView]) -> wgpu::Texture {
             }
         }
     }
-    texture(
-        gpu,
-        TextureFormat::R32Float,
-        size,
-        bytemuck::cast_slice(&texels),
-    )
+    texels
 }
 
 /// What a session shows of views that are placed.
@@ -86,15 +92,8 @@ fn shaded(
     shaded_by(HARD, gpu, frame, camera, size, views)
 }
 
-/// What a session of a graph like that of hard shadows shows.
-fn shaded_by(
-    graph: &str,
-    gpu: &Gpu,
-    frame: &Frame,
-    camera: &CameraView,
-    size: [u32; 2],
-    views: &[LightView],
-) -> Vec<f32> {
+/// A graph like that of hard shadows for views in a map of single precision.
+pub(crate) fn graph_of(graph: &str, views: &[LightView]) -> String {
     let count = views.len();
     let import =
         format!(r#""texture": {{ "format": "r32float", "size": [64, 64], "regions": {count} }}"#);
@@ -109,10 +108,22 @@ fn shaded_by(
         r#""type": "shade_hard", "properties": {{ "format": "r32float", "views": {count}, "borders": {borders}{debug} }}"#
     );
     let storage = r#""storage": ["unorm16", "float16"]"#;
-    let text = graph
+    graph
         .replace(depth, &import)
         .replace(storage, r#""storage": "float32""#)
-        .replace(r#""type": "shade_hard""#, &shade);
+        .replace(r#""type": "shade_hard""#, &shade)
+}
+
+/// What a session of a graph like that of hard shadows shows.
+fn shaded_by(
+    graph: &str,
+    gpu: &Gpu,
+    frame: &Frame,
+    camera: &CameraView,
+    size: [u32; 2],
+    views: &[LightView],
+) -> Vec<f32> {
+    let text = graph_of(graph, views);
     let map = drawn(gpu, size, views);
     let mut imports = imports(frame);
     imports[0].1 = (&map).into();
@@ -274,6 +285,7 @@ fn no_border_is_seen_between_the_faces_of_a_point_light() {
             position: LAMP.to_array(),
             depth: LightDepth::Linear { range },
             tile: tile(guard),
+            nearest_caster: None,
         };
         light.faces().unwrap().to_vec()
     });
@@ -426,6 +438,7 @@ fn shadows_of_a_spot_end_with_its_cone() {
         position: LAMP.to_array(),
         depth: LightDepth::Linear { range },
         tile: tile(RADIUS + 1),
+        nearest_caster: None,
     };
     let square = light.spot([0.3, -1.0, 0.3], 1.2).unwrap();
     let width = 8.0;

@@ -21,6 +21,7 @@ pub(crate) fn lamp() -> PointLight {
             range: RANGE,
         },
         tile: TILE,
+        nearest_caster: None,
     }
 }
 
@@ -88,6 +89,46 @@ fn six_faces_cover_every_direction_and_no_filter_leaves_its_face() {
         }
         // No wider than it has to be.
         assert!(closest < 1.0, "{closest}");
+    }
+}
+
+/// Casters at the refused distance and a little farther away, wherever a face shows them: the first may lie in front of where the face
+/// begins, the second does not.
+#[test]
+fn no_face_begins_behind_the_nearest_caster() {
+    let mut random = random();
+    for depth in depths() {
+        let with = |distance| PointLight {
+            depth,
+            nearest_caster: Some(distance),
+            ..lamp()
+        };
+        // Where the corner of a face, its guard band included, is that far away as the range begins.
+        let inner = f64::from(TILE.texels - 2 * TILE.guard().unwrap()) / f64::from(TILE.texels);
+        let corner = RANGE.near * (1.0 + 2.0 / (inner * inner)).sqrt();
+        let refused = with(0.999 * corner).faces().unwrap_err();
+        assert_eq!(refused.name, "nearest_caster");
+        assert!(refused.message.contains("begins at 0.5"), "{refused}");
+        let light = with(1.001 * corner);
+        let faces = light.faces().unwrap();
+        let nearest = (0..20_000).filter_map(|_| {
+            let distance = 1.001 * corner;
+            let point = DVec3::from(light.position) + distance * direction(&mut random);
+            let shown = faces.iter().filter(|face| {
+                let found = place(face, point);
+                found.is_some_and(|(texel, _)| within(face, texel) >= -f64::from(face.guard))
+            });
+            let along = shown.map(|face| {
+                let clip = DMat4::from_cols_array_2d(&face.clip_from_world);
+                clip.row(3).dot(point.extend(1.0))
+            });
+            along.reduce(f64::min)
+        });
+        let nearest = nearest.fold(f64::INFINITY, f64::min);
+        assert!((1.0..1.03).contains(&(nearest / RANGE.near)), "{nearest}");
+        // A narrow spot needs less room.
+        light.spot([1.0, 2.0, 3.0], 0.1).unwrap();
+        with(0.51).spot([1.0, 2.0, 3.0], 0.1).unwrap();
     }
 }
 

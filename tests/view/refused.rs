@@ -24,7 +24,7 @@ fn camera() -> CameraView {
 fn cascades_that_cannot_be_are_refused() {
     type Change = fn(&mut Cascades);
     let blend = |count, logarithmic| CascadeSplits::Blend { count, logarithmic };
-    let changes: [(&str, Change); 23] = [
+    let changes: [(&str, Change); 24] = [
         ("near", |it| it.near = -1.0),
         ("near", |it| it.near = f64::NAN),
         ("near", |it| it.near = 200.0),
@@ -34,6 +34,10 @@ fn cascades_that_cannot_be_are_refused() {
         ("overlap", |it| it.overlap = f64::NAN),
         ("blend", |it| it.blend = 0.6),
         ("blend", |it| it.blend = f64::NAN),
+        // More than 4095 texels.
+        ("blend", |it| {
+            (it.blend, it.tile.texels) = (0.4, 12_000);
+        }),
         ("splits", |it| {
             it.splits = CascadeSplits::Given(vec![3.0, 2.0])
         }),
@@ -153,6 +157,14 @@ fn lights_that_cannot_shine_from_a_point_are_refused() {
     assert_eq!(faces(tile(64, 31.4)), Err("guard"));
     assert_eq!(faces(tile(64, 1e300)), Err("guard"));
     assert_eq!(faces(tile(65, 31.4)), Ok(()));
+    for nearest in [0.5, 0.0, -1.0, f64::NAN] {
+        let nearest_caster = Some(nearest);
+        let light = PointLight {
+            nearest_caster,
+            ..lamp()
+        };
+        assert_eq!(faces(light), Err("nearest_caster"), "{nearest}");
+    }
     let position = [0.0, f64::NAN, 0.0];
     assert_eq!(faces(PointLight { position, ..lamp() }), Err("position"));
     let spot = |direction, angle| lamp().spot(direction, angle).unwrap_err().name;

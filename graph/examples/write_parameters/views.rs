@@ -141,10 +141,13 @@ pub(super) fn point_light(random: &mut Random, _: &Plan) -> Value {
     };
     let (depth, depth_written) = depth(random, kind);
     let (tile, tile_written) = tile(random);
+    let nearest = random.magnitude(-2.0, 2.0);
+    let nearest_caster = random.one_in(2).then(|| random.spoilt(nearest));
     let light = PointLight {
         position: triple(random, 50.0),
         depth,
         tile,
+        nearest_caster,
     };
     let (direction, angle) = (triple(random, 1.0), random.between(0.1, 3.2));
     let angle = random.spoilt(angle);
@@ -156,7 +159,10 @@ pub(super) fn point_light(random: &mut Random, _: &Plan) -> Value {
     let (made, atlas) = placed(random, views);
     let input = json!({
         "atlas": atlas, "direction": numbers(&direction), "angle": number(angle),
-        "light": { "position": numbers(&light.position), "depth": depth_written, "tile": tile_written },
+        "light": {
+            "position": numbers(&light.position), "depth": depth_written, "tile": tile_written,
+            "nearestCaster": nearest_caster.map(number),
+        },
     });
     case(
         "pointLight",

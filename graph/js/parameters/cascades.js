@@ -5,12 +5,14 @@ import { sphereOf } from './frustum.js';
 import { lightAxes } from './light_axes.js';
 import { transposed } from './matrix.js';
 import { whole } from './rounding.js';
-import { guardOf, regionOf } from './tile.js';
+import { WIDEST, guardOf, regionOf } from './tile.js';
 import { ValueError, check } from './value_error.js';
 import { dot, isFinite, scaled } from './vector.js';
 
 // By how much spheres grow, so that rounding in a host's matrices of single precision does not change the size of texels.
 const GROWTH = 1 + 1 / 65536;
+// Steps of a cascade's range in which it moves along the light: a power of two, as with the grid of ranges that fit themselves.
+const STEPS = 16;
 // Places farther from the scene's origin have less than 12 bits within a texel.
 const FARTHEST = 2 ** 40;
 const MOST = 256;
@@ -58,11 +60,11 @@ export function cascadeViews(cascades, camera) {
   const guard = guardOf(cascades.tile);
   check(texels - 2 * guard > 1, 'cascades', 'texels', texels, '2 texels more than the guard bands');
   const { blend = 0 } = cascades;
-  check(blend >= 0 && blend <= 0.5, 'cascades', 'blend', blend, '0 to 0.5');
+  const width = blend * (texels - 2 * guard);
+  check(blend >= 0 && blend <= 0.5 && width <= WIDEST, 'cascades', 'blend', blend, `0 to 0.5, and at most ${WIDEST} texels of a view`);
   const axes = lightAxes(cascades.direction);
   const casters = castersOf(cascades, axes);
   const sphere = sphereOf(camera);
-  const width = blend * (texels - 2 * guard);
   const border = (index) => (index + 1 < slices.length ? { blend: width } : { fade: width });
   return slices.map((slice, index) => ({
     ...view(cascades, axes, sphere(slice), casters, guard),
@@ -94,8 +96,10 @@ function view({ tile, pancaking = false, reversed = false }, axes, { centre, rad
   let texel = texelFor(2 * radius);
   const [first, second, third] = axes.map((axis) => dot(axis, centre));
   let middle = [first, second];
-  const depth = whole(third / texel) * texel;
-  let [near, far] = [-0.5, 0.5].map((half) => depth + half * inner * texel);
+  // One step is lost to snapping.
+  const step = roundedUp((inner * texel) / (STEPS - 1));
+  const depth = whole(third / step);
+  let [near, far] = [-0.5, 0.5].map((half) => (depth + half * STEPS) * step);
   if (casters) {
     const [low, high] = casters;
     // A texel more, for rounding.

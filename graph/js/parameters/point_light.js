@@ -1,4 +1,4 @@
-// Views of a light that shines from a point: `{ position, depth, tile }`. `depth` is perspective, or linear; the planes of projections are
+// Views of a light that shines from a point: `{ position, depth, tile, nearestCaster }`. `depth` is perspective, or linear; the planes of projections are
 // then those of the range, which has to begin in front of the light.
 
 import { depthConversion, kindOf } from './depth_conversion.js';
@@ -32,7 +32,7 @@ export function pointLightFaces(light) {
 }
 
 // A view along the last of the axes; `tangent` is that of half the angle within the guard band.
-function view({ position, depth, tile }, [right, up, forward], tangent) {
+function view({ position, depth, tile, nearestCaster }, [right, up, forward], tangent) {
   const guard = guardOf(tile);
   check(isFinite(position), 'a point light', 'position', position, 'finite');
   const [kind, settings] = kindOf(depth);
@@ -42,6 +42,7 @@ function view({ position, depth, tile }, [right, up, forward], tangent) {
   const { near, far, reversed } = kind === 'linear' ? settings.range ?? {} : settings;
   depthConversion({ perspective: { near, far, range: settings.range } });
   const across = (tile.texels - 2 * guard) / (tile.texels * tangent);
+  checkNearestCaster(nearestCaster, Math.max(near, settings.range.near), across);
   const row = (axis) => [...axis, -dot(axis, position)];
   const w = row(forward);
   // (distance - near) / (1 - near / far), and what is left of the distance where depth is reversed.
@@ -50,4 +51,17 @@ function view({ position, depth, tile }, [right, up, forward], tangent) {
   const z = scaled(sum(scaled(w, along), [0, 0, 0, constant]), 1 / (1 - ratio));
   const clipFromWorld = transposed([scaled(row(right), across), scaled(row(up), across), z, w]);
   return { clipFromWorld, depth, layer: 0, region: regionOf(tile), guard, border: 'sharp', channel: 0 };
+}
+
+// Checks that a view whose planes and range begin at a distance along its axis begins in front of all casters: in its corners they are
+// farthest from the light at that distance.
+function checkNearestCaster(distance, begins, across) {
+  if (distance === undefined || distance === null) return;
+  check(distance > 0, 'a point light', 'nearest_caster', distance, 'above 0');
+  const along = distance / Math.sqrt(1 + 2 / (across * across));
+  if (begins <= along) return;
+  const message =
+    `a caster ${distance} from the light may lie ${along} along the axis of a view, which begins at ${begins} (its near plane and its ` +
+    'range); let them begin no farther away than the caster, or move the caster';
+  throw new ValueError('nearest_caster', message);
 }

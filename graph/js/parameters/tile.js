@@ -5,7 +5,7 @@ import { ValueError, check, number } from './value_error.js';
 // What places in single precision are at most off by, in texels: shaders look up that much of the guard band.
 export const PLACE_ERROR = 1 / 16;
 // No border has more texels.
-const WIDEST = 4095;
+export const WIDEST = 4095;
 
 /**
  * The width of a tile's guard band in whole texels: how many texels its filters reach to each side, one after the other, and half a

@@ -23,6 +23,8 @@ pub use contact_shadows::ContactShadows;
 pub use debug_moments::{DebugMoments, Show};
 pub use downsample::Downsample;
 pub use fit_range::FitRange;
+#[cfg(feature = "wgpu")]
+pub(crate) use fit_range::SEES;
 pub use integrate_scattering::IntegrateScattering;
 pub use place_layers::PlaceLayers;
 pub use rectify_moments::RectifyMoments;

@@ -6,6 +6,7 @@ mod given;
 mod kernels;
 mod part;
 mod scratch;
+mod seen;
 mod shading;
 
 use cut::{Cut, cut};
@@ -24,7 +25,7 @@ use crate::{Capabilities, Graph, GraphError, GraphErrorKind, Named, ResourceDesc
 
 /// A graph at work: pipelines, textures, bindings and uniform data for one set of light maps and any number of cameras.
 ///
-/// The light maps are made once for all cameras. Each camera has textures of its own for what depends on it, of its own
+/// The light maps are made once for all cameras, unless their ranges are fitted to what a camera sees. Each camera has textures of its own for what depends on it, of its own
 /// size. The receiver bias follows from the kernel of the graph, from each light's texels and from how its depth is stored.
 ///
 /// What a session keeps are the objects of [`crate::record`], which an engine can hold itself. Per frame it creates
@@ -194,6 +195,7 @@ impl Session {
             medium: self.medium,
             contact: self.contact,
             depth_format: self.depth_format(),
+            light_depth: self.light_depth.as_deref(),
         };
         let view = &mut self.views[view];
         self.scratch.write(&mut self.maps, &told, true)?;

@@ -3,6 +3,7 @@
 use super::contacts::Contacts;
 use super::given::{Given, described};
 use super::kernels::SceneBlur;
+use super::seen::Seen;
 use super::shading::Shading;
 use crate::record::{Bindings, ImportedResource, PipelineOptions, Pipelines, Resources};
 use crate::{Capabilities, Graph, GraphError, Plan};
@@ -26,6 +27,8 @@ pub(super) struct Part {
     buffer: Option<wgpu::Buffer>,
     /// The nodes that shade.
     pub(super) shading: Vec<Shading>,
+    /// The nodes that fit ranges to what the camera sees.
+    pub(super) seen: Vec<Seen>,
     /// The nodes that find shadows at contacts.
     pub(super) contacts: Vec<Contacts>,
     /// The nodes that filter over a width in scene units.
@@ -72,6 +75,7 @@ impl Maker {
             block: plan.parameters.initial(),
             buffer,
             shading: Shading::all(graph, &plan)?,
+            seen: Seen::all(&plan),
             contacts: Contacts::all(graph, &plan),
             blurs: SceneBlur::all(&plan),
             plan,

@@ -29,16 +29,18 @@ pub(super) struct Told<'a> {
     pub(super) medium: (SingleScattering, f64),
     pub(super) contact: ContactShadows,
     pub(super) depth_format: Option<TextureFormat>,
+    /// The import that is the light's depth map, if one is.
+    pub(super) light_depth: Option<&'a str>,
 }
 
 impl Scratch {
-    /// Writes what the nodes of a part are told, and the lights' regions where they are those of its maps. An error leaves the
-    /// part's block as it was.
+    /// Writes what the nodes of a part are told, and the lights' regions where they are those of its maps: of all, or of the light's
+    /// depth map alone. An error leaves the part's block as it was.
     pub(super) fn write(
         &mut self,
         part: &mut Part,
         told: &Told<'_>,
-        with_regions: bool,
+        of_all_maps: bool,
     ) -> Result<(), GraphError> {
         self.block.clone_from(&part.block);
         let (bytes, layout) = (&mut self.block, &part.plan.parameters);
@@ -85,6 +87,14 @@ impl Scratch {
                 }
             }
         }
+        for seen in &part.seen {
+            for layer in 0..seen.layers {
+                seen.write(&mut self.views, told, told.of_layer(layer))?;
+                if !self.views.is_empty() {
+                    layout.write_all(bytes, &seen.node, layer, &self.views)?;
+                }
+            }
+        }
         for contacts in &part.contacts {
             contacts.write(told, &mut self.contacts)?;
             layout.write_all(bytes, &contacts.node, 0, &self.contacts)?;
@@ -97,7 +107,8 @@ impl Scratch {
                 }
             }
         }
-        for table in layout.regions.iter().filter(|_| with_regions) {
+        let has_regions = |map: &str| of_all_maps || told.light_depth == Some(map);
+        for table in (layout.regions.iter()).filter(|table| has_regions(&table.map)) {
             for layer in 0..table.layers {
                 let regions = told.of_layer(layer).map(|(_, light)| light.region);
                 self.regions.clear();

@@ -8,6 +8,7 @@ use moment_shadows::{
 
 use super::cut::{owner, slot};
 use super::scratch::Told;
+use super::seen::Seen;
 use super::unsuitable;
 use crate::nodes::BORDERS;
 use crate::{Graph, GraphError, Plan, TextureDesc};
@@ -33,7 +34,10 @@ impl Shading {
     /// The nodes of a plan that shade.
     pub(super) fn all(graph: &Graph, plan: &Plan) -> Result<Vec<Self>, GraphError> {
         let blocks = plan.parameters.blocks.iter();
-        let blocks = blocks.filter(|block| block.name == "ViewParameters");
+        let seen = Seen::all(plan);
+        let blocks = blocks.filter(|block| {
+            block.name == "ViewParameters" && seen.iter().all(|seen| seen.node != block.node)
+        });
         let all = blocks.map(|block| Self::of(graph, plan, &block.node));
         all.collect()
     }

@@ -172,7 +172,15 @@ pub(super) fn of_depth(any: &MapEncoding) -> Vec<Variant> {
             .samples(samples)
             .regions(regions)
             .file(format!("fit_range_{samples}"), regions == 1)
+            .without_camera()
     };
+    // Tiles of the picture per invocation, and their corners.
+    let seeing = Variant::new(FitRange {}, any)
+        .file("fit_range_seen", 4_usize)
+        .row(true, "1 samples, of what the camera sees", &[])
+        .pass("find ends", &[1, 8, 1, 4, 8])
+        .pass("fit ranges", &[1, 4, 8])
+        .pass("keep ranges", &[1]);
     vec![
         // Memory of the workgroup that is cleared; blocks of a workgroup, or workgroups per invocation; halvings of their ends.
         fit(1, 1)
@@ -182,6 +190,7 @@ pub(super) fn of_depth(any: &MapEncoding) -> Vec<Variant> {
             .pass("keep ranges", &[1]),
         fit(4, 1),
         fit(4, REGIONS),
+        seeing,
         // Splits of layers of equal depth, where there is no state yet; parts of a tile, or tiles per invocation; halvings of
         // a workgroup's sums. And for either of two splits the others that it may pass, in front and behind.
         place(1, 1)

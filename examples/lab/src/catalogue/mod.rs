@@ -34,6 +34,8 @@ pub struct Variant {
     normals: Option<TextureFormat>,
     /// What maps say of shadows, if anything.
     intensity: Option<TextureFormat>,
+    /// Whether the camera's depth is connected.
+    camera: bool,
     /// Whether the input for ranges is connected.
     fitted: bool,
     capabilities: Capabilities,
@@ -74,6 +76,7 @@ impl Variant {
             depth: TextureFormat::Depth32Float,
             normals: None,
             intensity: None,
+            camera: true,
             fitted: false,
             capabilities: Capabilities::of_profile(profile(map)),
             file: None,
@@ -108,6 +111,12 @@ impl Variant {
     fn intensity(self, format: TextureFormat) -> Self {
         let intensity = Some(format);
         Self { intensity, ..self }
+    }
+
+    /// Leaves the camera's depth out.
+    fn without_camera(self) -> Self {
+        let camera = false;
+        Self { camera, ..self }
     }
 
     /// Connects ranges, to which the depths of the map are fitted.
@@ -187,21 +196,18 @@ impl Variant {
             range: self.map.range.clone(),
             ..TextureDesc::new(TextureFormat::Rgba32Float, [self.map.regions, 1])
         });
-        let camera = TextureDesc {
+        let camera = self.camera.then(|| TextureDesc {
             samples: self.samples,
             ..TextureDesc::new(TextureFormat::Depth32Float, SIZE)
-        };
+        });
         let normals = self.normals.map(|format| TextureDesc::new(format, SIZE));
         let normals = normals.iter().map(|desc| ("normals", desc));
         let intensity = self.intensity.map(|format| TextureDesc::new(format, SIZE));
         let intensity = intensity.iter().map(|desc| ("intensity", desc));
         let map = ["map", "table", "rectified", "integrated"].map(|name| (name, &self.map));
         map.into_iter()
-            .chain([
-                ("depth", &depth),
-                ("splits", &splits),
-                ("camera_depth", &camera),
-            ])
+            .chain([("depth", &depth), ("splits", &splits)])
+            .chain(camera.iter().map(|desc| ("camera_depth", desc)))
             .chain(normals)
             .chain(intensity)
             .chain(ranges.iter().map(|desc| ("ranges", desc)))

@@ -1,0 +1,19 @@
+// What is linked of files:
+// moment_shadows/map/depth.wgsl: DepthConversion DEPTH_SMALLEST_DENOMINATOR depth_is_nan depth_to_moment_depth
+// moment_shadows/map/map_region.wgsl: MapRegion map_region_within map_region_at_level
+// regions: regions region_at
+// moment_shadows/shade/area_light.wgsl: AreaLight
+// moment_shadows/shade/leak_reduction.wgsl: LeakReduction
+// moment_shadows/shade/receiver_bias.wgsl: ReceiverBias
+// views: ViewParameters views
+// seen: tiles_map NOTHING_SEEN ROUNDING seen_conversion seen_end_of_tile seen_end
+// fit_range.wgsl: depth_map ranges_map target_map ends_map SIDE INVOCATIONS ROOM_BEHIND LEAST_BEHIND ROOM_IN_FRONT STEPS LONGEST SHORTEST NO_CASTER NO_ENDS partial_ends both_ends ends_of_workgroup ends_of_texel find_ends ends_of_region power_of_two range_around on_grid fitted fit_ranges range_of_region keep_ranges
+
+// specialization
+const GROUP = 0;
+alias DepthTexture = texture_depth_2d;
+const REGIONS = 1u;
+const SAMPLES = 1;
+const VIEWS = 1u;
+const SEEN_TILE = 8u;
+
