@@ -50,7 +50,7 @@ the textures and `regions` from the file. Files of version 1 are read, with a no
 ";
 
 /// A definition of the schema by the name that the page gives it.
-const VALUES: [(&str, &str); 10] = [
+const VALUES: [(&str, &str); 11] = [
     ("TextureDesc", "texture"),
     ("Technique", "technique"),
     ("PcfTaps", "taps of `pcf`"),
@@ -61,6 +61,7 @@ const VALUES: [(&str, &str); 10] = [
     ("MapEncoding", "encoding"),
     ("SummedAreaTable", "table"),
     ("Show", "what `debug_moments` shows"),
+    ("DebugView", "what shading shows"),
 ];
 
 fn anchor(title: &str) -> String {
