@@ -42,7 +42,7 @@ fn shade_pixel(pixel: vec2i, listed: vec2i) -> array<vec4f, TARGETS> {
         }
     }
     var list = view_list(listed);
-    for (var view = view_list_next(&list); view < VIEWS; view = view_list_next(&list)) {
+    for (var view = view_list_next(&list, 0u); view < VIEWS; view = view_list_next(&list, view + 1u)) {
         // A single light is in all channels, so that a host can blend with it or show it.
         let light = select(views[view].channel & 15u, 0u, LIGHTS == 1u);
         // Shaded by a view before.

@@ -1,17 +1,15 @@
 // The views that may contain a pixel: all.
 
 struct ViewList {
-    next: u32,
+    tile: vec2i,
 }
 
 // The views that may contain pixels of the tile that has this one.
 fn view_list(pixel: vec2i) -> ViewList {
-    return ViewList(0u);
+    return ViewList(pixel);
 }
 
-// The next of them; VIEWS or more where there is none.
-fn view_list_next(list: ptr<function, ViewList>) -> u32 {
-    let next = (*list).next;
-    (*list).next = next + 1u;
-    return next;
+// The first of them from number `least` on, which follows the one before; VIEWS or more where there is none.
+fn view_list_next(list: ptr<function, ViewList>, least: u32) -> u32 {
+    return least;
 }

@@ -16,8 +16,8 @@ fn view_list(pixel: vec2i) -> ViewList {
     return ViewList(tile, 0u, tile_words(tile, 0u).x);
 }
 
-// The next of them; VIEWS or more where there is none.
-fn view_list_next(list: ptr<function, ViewList>) -> u32 {
+// The first of them from number `least` on, which follows the one before; VIEWS or more where there is none.
+fn view_list_next(list: ptr<function, ViewList>, least: u32) -> u32 {
     while (*list).bits == 0u {
         let first = (*list).first + 32u;
         (*list).first = first;

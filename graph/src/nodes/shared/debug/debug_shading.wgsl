@@ -25,7 +25,7 @@ fn debug(covered: Covered) -> @location(0) vec4f {
     }
     let neighbours = surface_neighbours(pixel, stored_depth, views[0].far_depth, views[0].position_from_camera, views[0].scene_w_from_camera);
     var list = view_list(pixel);
-    for (var view = view_list_next(&list); view < VIEWS; view = view_list_next(&list)) {
+    for (var view = view_list_next(&list, 0u); view < VIEWS; view = view_list_next(&list, view + 1u)) {
         let region = map_region_within(views[view].region, technique_map_size());
         let receiver = receiver_at(view, pixel, stored_depth);
         if receiver.light_w > 0.0 && all(region.extent > vec2u(0u)) && border_depth(view, receiver.place.xy, region) >= 0.0 {
