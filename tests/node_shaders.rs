@@ -32,11 +32,12 @@ fn snapshot(name: &str) -> PathBuf {
 }
 
 /// Modules that are made by Rust code; the text of the others is a file.
-const GENERATED: [&str; 8] = [
+const GENERATED: [&str; 9] = [
     "blur_texel",
     "blur_outputs",
     "map_encoding",
     "map_filtering",
+    "shade_targets",
     "specialization",
     "technique",
     "technique_blockers",

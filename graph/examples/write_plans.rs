@@ -316,7 +316,7 @@ fn soft_atlas() -> String {
         &[
             node("resolve", "resolve", json!({ "storage": "float32" })),
             node("sum", "summed_area_table", json!({ "largest_kernel": 33 })),
-            node("shade", "shade_soft", json!({ "lights": 4, "views": 16 })),
+            node("shade", "shade_soft", json!({ "lights": 8, "views": 16 })),
         ],
         &[
             ("light_depth", "resolve.depth"),

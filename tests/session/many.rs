@@ -1,12 +1,11 @@
 //! Many lights through many views: a pixel tries those of its tile, and is what it is of those alone.
 
-use std::time::Instant;
-
 use glam::DVec3;
 use moment_shadows::{
-    DepthRange, LightDepth, LightView, MapRegion, PointLight, TextureFormat, Tile,
+    Border, DepthRange, LightDepth, LightView, MapRegion, PointLight, TextureFormat, Tile,
 };
 use moment_shadows_graph::{Session, Stage};
+use moment_shadows_lab::cost::clock::{Clock, ClockKind};
 use moment_shadows_lab::frame::Frame;
 use moment_shadows_lab::gpu::Gpu;
 
@@ -60,17 +59,37 @@ fn spot(number: u32, light: u32, aside: f64) -> LightView {
     }
 }
 
+/// What outputs hold, and whether views have borders.
+#[derive(Clone, Copy)]
+struct Settings {
+    one: &'static str,
+    four: &'static str,
+    channel_bytes: usize,
+    borders: bool,
+    /// Of so many lights one is looked at.
+    every: usize,
+}
+
+const FLOAT32: Settings = Settings {
+    one: "r32float",
+    four: "rgba32float",
+    channel_bytes: 4,
+    borders: false,
+    every: 1,
+};
+
 /// A map of noise, and a session for it.
-fn shading(gpu: &Gpu, frame: &Frame, lights: u32, views: u32) -> Session {
+fn shading(gpu: &Gpu, frame: &Frame, settings: Settings, lights: u32, views: u32) -> Session {
+    let borders = settings.borders;
     let import = r#""texture": { "format": "r32float", "size": [64, 64], "regions": 256 }"#;
     let depth = r#""texture": { "format": "depth32float", "size": [1024, 1024], "samples": 4 }"#;
     let format = if lights == 1 {
-        "r32float"
+        settings.one
     } else {
-        "rgba32float"
+        settings.four
     };
     let shade = format!(
-        r#""type": "shade_hard", "properties": {{ "format": "{format}", "lights": {lights}, "views": {views} }}"#
+        r#""type": "shade_hard", "properties": {{ "format": "{format}", "lights": {lights}, "views": {views}, "borders": {borders} }}"#
     );
     let outputs = (0..lights).step_by(4).map(|first| {
         let suffix = if first == 0 {
@@ -104,11 +123,9 @@ fn shading(gpu: &Gpu, frame: &Frame, lights: u32, views: u32) -> Session {
 }
 
 /// The pictures of all outputs, one after the other.
-fn pictures(gpu: &Gpu, session: &Session, lights: u32) -> Vec<Vec<f32>> {
-    let each = (0..lights).step_by(4).map(|first| {
-        let bytes = recorded(gpu, session, 0, &format!("lights{first}"));
-        bytemuck::pod_collect_to_vec(&bytes)
-    });
+fn pictures(gpu: &Gpu, session: &Session, lights: u32) -> Vec<Vec<u8>> {
+    let firsts = (0..lights).step_by(4);
+    let each = firsts.map(|first| recorded(gpu, session, 0, &format!("lights{first}")));
     each.collect()
 }
 
@@ -117,43 +134,68 @@ fn sixteen_lights_through_256_views_are_each_what_it_is_alone() {
     let gpu = gpu();
     let frame = frame(&gpu, DVec3::new(1.0, 3.0, 0.0), DVec3::new(4.0, 0.0, 4.0));
     let (camera, _) = places(&frame);
-    // Seven views of each light, which do not follow each other, among views of what nobody sees.
-    let views = (0..256).map(|number| spot(number, number % 16, 1e3));
-    let mut views: Vec<LightView> = views.collect();
-    let mut seen = vec![Vec::new(); LIGHTS as usize];
-    for index in 0..7 * LIGHTS {
-        let (number, light) = ((index * 37 + 11) % 256, index % LIGHTS);
-        views[number as usize] = spot(number, light, 0.0);
-        seen[light as usize].push(number as usize);
-    }
-    let mut all = shading(&gpu, &frame, LIGHTS, 256);
-    all.view(&gpu.queue, 0, &camera, &views).unwrap();
-    let found = pictures(&gpu, &all, LIGHTS);
-    // Few views are tried one after the other.
-    let mut alone = shading(&gpu, &frame, 1, 7);
-    let mut shaded = 0;
-    for light in 0..LIGHTS {
-        let own = &mut seen[light as usize];
-        own.sort_unstable();
-        let own = own.iter().map(|&number| LightView {
-            channel: 0,
-            ..views[number]
-        });
-        let own: Vec<LightView> = own.collect();
-        alone.view(&gpu.queue, 0, &camera, &own).unwrap();
-        let expected = &pictures(&gpu, &alone, 1)[0];
-        let target = &found[light as usize / 4];
-        for (pixel, expected) in expected.iter().enumerate() {
-            assert_eq!(
-                target[4 * pixel + light as usize % 4],
-                *expected,
-                "{light} {pixel}"
-            );
-            shaded += usize::from(*expected > 0.0);
+    // Of further ones a light of each output, in each channel.
+    let float16 = Settings {
+        one: "r16float",
+        four: "rgba16float",
+        channel_bytes: 2,
+        every: 5,
+        ..FLOAT32
+    };
+    let unorm8 = Settings {
+        one: "r8unorm",
+        four: "rgba8unorm",
+        channel_bytes: 1,
+        borders: true,
+        every: 5,
+    };
+    for settings in [FLOAT32, float16, unorm8] {
+        let view = |number: u32, light, aside| LightView {
+            border: match number % 3 {
+                _ if !settings.borders => Border::Sharp,
+                0 => Border::Sharp,
+                1 => Border::Blend(4.0),
+                _ => Border::Cone(3.0),
+            },
+            ..spot(number, light, aside)
+        };
+        // Seven views of each light, which do not follow each other, among views of what nobody sees.
+        let views = (0..256).map(|number| view(number, number % 16, 1e3));
+        let mut views: Vec<LightView> = views.collect();
+        let mut seen = vec![Vec::new(); LIGHTS as usize];
+        for index in 0..7 * LIGHTS {
+            let (number, light) = ((index * 37 + 11) % 256, index % LIGHTS);
+            views[number as usize] = view(number, light, 0.0);
+            seen[light as usize].push(number as usize);
         }
+        let mut all = shading(&gpu, &frame, settings, LIGHTS, 256);
+        all.view(&gpu.queue, 0, &camera, &views).unwrap();
+        let found = pictures(&gpu, &all, LIGHTS);
+        // Few views are tried one after the other.
+        let mut alone = shading(&gpu, &frame, settings, 1, 7);
+        let bytes = settings.channel_bytes;
+        let mut shaded = 0;
+        for light in (0..LIGHTS).step_by(settings.every) {
+            let own = &mut seen[light as usize];
+            own.sort_unstable();
+            let own = own.iter().map(|&number| LightView {
+                channel: 0,
+                ..views[number]
+            });
+            let own: Vec<LightView> = own.collect();
+            alone.view(&gpu.queue, 0, &camera, &own).unwrap();
+            let expected = &pictures(&gpu, &alone, 1)[0];
+            let texels = found[light as usize / 4].chunks_exact(4 * bytes);
+            for (pixel, (texel, expected)) in texels.zip(expected.chunks_exact(bytes)).enumerate() {
+                let found = &texel[light as usize % 4 * bytes..][..bytes];
+                let format = settings.four;
+                assert_eq!(found, expected, "light {light}, pixel {pixel}, {format}");
+                shaded += usize::from(expected.iter().any(|&byte| byte != 0));
+            }
+        }
+        println!("{shaded} intensities above 0, {}", settings.four);
+        assert!(shaded > 20_000 / settings.every);
     }
-    println!("{shaded} intensities above 0");
-    assert!(shaded > 20_000);
 }
 
 #[test]
@@ -161,7 +203,7 @@ fn a_channel_beyond_the_lights_is_refused() {
     let gpu = gpu();
     let frame = frame(&gpu, DVec3::new(1.0, 3.0, 0.0), DVec3::new(4.0, 0.0, 4.0));
     let (camera, _) = places(&frame);
-    let mut session = shading(&gpu, &frame, 5, 8);
+    let mut session = shading(&gpu, &frame, FLOAT32, 5, 8);
     let view = |channel| session.view(&gpu.queue, 0, &camera, &[spot(0, channel, 0.0)]);
     let [seventh, ninth, last] = [7, 8, 16].map(view);
     assert!(seventh.is_ok());
@@ -179,7 +221,7 @@ fn time_of_many_lights_beside_one() {
     let (camera, _) = places(&frame);
     let sizes = [(1, 1), (4, 4), (16, 16), (4, 24), (16, 96), (16, 256)];
     let mut sessions = sizes.map(|(lights, views)| {
-        let mut session = shading(&gpu, &frame, lights, views);
+        let mut session = shading(&gpu, &frame, FLOAT32, lights, views);
         let all: Vec<LightView> = (0..views)
             .map(|number| spot(number, number % lights, 0.0))
             .collect();
@@ -191,20 +233,17 @@ fn time_of_many_lights_beside_one() {
         let contained: usize = all.iter().map(contained).sum();
         (session, contained as f64 / points.len() as f64)
     });
+    let clock = Clock::new(&gpu, ClockKind::for_device(&gpu));
     let mut times = sizes.map(|_| Vec::new());
     for _ in 0..21 {
         for ((session, _), times) in sessions.iter_mut().zip(&mut times) {
-            let mut encoder = gpu.device.create_command_encoder(&Default::default());
-            for _ in 0..8 {
-                session.record(Stage::AfterMainPass, &mut encoder).unwrap();
-            }
-            let start = Instant::now();
-            gpu.queue.submit([encoder.finish()]);
-            gpu.check().unwrap();
-            gpu.device
-                .poll(wgpu::PollType::wait_indefinitely())
-                .unwrap();
-            times.push(start.elapsed().as_secs_f64());
+            let time = clock.time("many lights", |encoder| {
+                for _ in 0..8 {
+                    session.record(Stage::AfterMainPass, encoder).unwrap();
+                }
+                Ok(())
+            });
+            times.push(time.unwrap().seconds);
         }
     }
     let medians = times.map(|mut times| {
@@ -213,8 +252,9 @@ fn time_of_many_lights_beside_one() {
     });
     for (((lights, views), time), (_, contained)) in sizes.into_iter().zip(medians).zip(sessions) {
         println!(
-            "{lights} lights, {views} views, of which {contained:.2} contain a pixel: {:.2} of one",
-            time / medians[0]
+            "{lights} lights, {views} views, of which {contained:.2} contain a pixel: {:.2} of one ({:.2} ms)",
+            time / medians[0],
+            time / 8e-3
         );
     }
 }

@@ -19,12 +19,13 @@
 // technique_receiver: TechniqueReceiver
 // map_texel: map_texel
 // technique_map: technique_map_size
-// view_list: view_list_next
+// view_list: ViewList view_list view_list_next
 // moment_shadows/shade/receiver_bias.wgsl: RECEIVER_BIAS_STANDARD_DEVIATIONS RECEIVER_BIAS_EDGE_ON ReceiverBias RECEIVER_BIAS_ROUNDING receiver_bias_fitted receiver_bias_plane receiver_bias_step receiver_bias_depth receiver_bias_depth_minified
 // range_of_view: ranges_map range_of_view
 // views: ViewParameters VIEW_FADES VIEW_ROUND views Receiver receiver_at
 // view_receiver: LARGEST_DIFFERENCE receiver_difference view_receiver border_depth
-// shade.wgsl: BORDERS FIRST_LIGHT border_parts shade
+// shade_pixel: BORDERS border_parts shade_pixel
+// shade_drawn.wgsl: shade
 
 // specialization
 const GROUP = 0;
@@ -37,6 +38,7 @@ alias CameraDepth = texture_depth_2d;
 const CAMERA_SAMPLE = vec2f(0.5, 0.5);
 const VIEWS = 1u;
 const LIGHTS = 1u;
+const TARGETS = 1u;
 
 // technique
 fn technique_shadow_intensity(receiver: TechniqueReceiver) -> f32 {

@@ -1,6 +1,5 @@
 // What is linked of files:
 // camera_depth: camera_depth camera_depth_size camera_depth_at camera_depth_clip
-// fullscreen: Covered fullscreen
 // moment_shadows/shade/leak_reduction.wgsl: LeakReduction leak_reduction_full_shadow leak_reduction_apply
 // moment_shadows/map/map_region.wgsl: MapRegion map_region_within map_region_at_level map_region_place
 // moment_shadows/shade/view_border.wgsl: view_border_depth view_border_parts
@@ -20,12 +19,13 @@
 // map_texel: map_texel
 // technique_map: technique_map_size
 // tile_words: tile_views tile_words
-// view_list: view_list_next
+// view_list: ViewList view_list view_list_next
 // moment_shadows/shade/receiver_bias.wgsl: RECEIVER_BIAS_STANDARD_DEVIATIONS RECEIVER_BIAS_EDGE_ON ReceiverBias RECEIVER_BIAS_ROUNDING receiver_bias_fitted receiver_bias_plane receiver_bias_step receiver_bias_depth receiver_bias_depth_minified
 // range_of_view: range_of_view
 // views: ViewParameters VIEW_FADES VIEW_ROUND views Receiver receiver_at
 // view_receiver: LARGEST_DIFFERENCE receiver_difference view_receiver border_depth
-// shade.wgsl: BORDERS FIRST_LIGHT border_parts shade
+// shade_pixel: BORDERS border_parts shade_pixel
+// shade_computed.wgsl: shade
 
 // specialization
 const GROUP = 0;
@@ -38,10 +38,25 @@ alias CameraDepth = texture_depth_2d;
 const CAMERA_SAMPLE = vec2f(0.5, 0.5);
 const VIEWS = 16u;
 const LIGHTS = 16u;
+const TARGETS = 4u;
 const TILE = 16;
+const SHADED = 8;
 
 // technique
 fn technique_shadow_intensity(receiver: TechniqueReceiver) -> f32 {
     return hamburger4_shadow_intensity_of_texel(map_texel(receiver, 0u), receiver.fragment_depth, STORAGE);
+}
+
+// shade_targets
+@group(GROUP) @binding(11) var stored_intensity: texture_storage_2d<rgba8unorm, write>;
+@group(GROUP) @binding(12) var stored_intensity_4: texture_storage_2d<rgba8unorm, write>;
+@group(GROUP) @binding(13) var stored_intensity_8: texture_storage_2d<rgba8unorm, write>;
+@group(GROUP) @binding(14) var stored_intensity_12: texture_storage_2d<rgba8unorm, write>;
+
+fn shade_store(pixel: vec2i, intensities: array<vec4f, TARGETS>) {
+    textureStore(stored_intensity, pixel, intensities[0]);
+    textureStore(stored_intensity_4, pixel, intensities[1]);
+    textureStore(stored_intensity_8, pixel, intensities[2]);
+    textureStore(stored_intensity_12, pixel, intensities[3]);
 }
 

@@ -19,12 +19,13 @@
 // technique_map: table_sums technique_map_size
 // technique_receiver: TechniqueReceiver
 // technique_soft: soft_table soft_receiver
-// view_list: view_list_next
+// view_list: ViewList view_list view_list_next
 // moment_shadows/map/minification.wgsl: MINIFICATION_LARGEST_ANISOTROPY MINIFICATION_TEXEL_PER_WIDTH MinificationFootprint minification_footprint minification_depth_variance
 // range_of_view: range_of_view
 // views: ViewParameters VIEW_FADES VIEW_ROUND views Receiver receiver_at
 // view_receiver: LARGEST_DIFFERENCE receiver_difference view_receiver border_depth
-// shade.wgsl: BORDERS FIRST_LIGHT border_parts shade
+// shade_pixel: BORDERS border_parts shade_pixel
+// shade_drawn.wgsl: shade
 
 // specialization
 const GROUP = 0;
@@ -40,6 +41,7 @@ alias CameraDepth = texture_depth_2d;
 const CAMERA_SAMPLE = vec2f(0.5, 0.5);
 const VIEWS = 1u;
 const LIGHTS = 1u;
+const TARGETS = 1u;
 
 // technique
 fn technique_shadow_intensity(receiver: TechniqueReceiver) -> f32 {

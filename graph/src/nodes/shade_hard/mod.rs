@@ -17,7 +17,7 @@ use crate::{
 mod own_shader;
 
 /// Node `shade_hard`: `map` (a filtered map) and `camera_depth` to `shadow_intensity`, of the camera's size. A
-/// fullscreen pass: it can also be drawn into a render pass that the host has open. Techniques that read the plain depth map
+/// fullscreen pass, which can also be drawn into a render pass that the host has open; of more than four lights a compute pass. Techniques that read the plain depth map
 /// take it as the input `depth` instead of `map`; layers that are placed on the device come from the input `splits`, and what a
 /// map's depths are fitted to from the input `ranges` ([`super::FitRange`]).
 ///

@@ -10,7 +10,8 @@ use crate::{Binding, Connected, GraphError, Node, NodeDesc, Slot, bind};
 
 /// Node `shade_soft`: `table` (a summed-area table) and `camera_depth` to `shadow_intensity`, of the camera's size: penumbrae of
 /// area lights, hard at contacts and softer with distance, with a number of loads per pixel that does not depend on their
-/// width. A fullscreen pass: it can also be drawn into a render pass that the host has open.
+/// width. A fullscreen pass, which can also be drawn into a render pass that the host has open; of more than four lights a compute
+/// pass.
 ///
 /// Lights, views, parameters and the input `ranges` are those of [`super::ShadeHard`]; `light` of the parameters says how large the light is. Of the
 /// receiver bias only the constant and the steepest slope count ([`moment_shadows::ReceiverBias::for_kernel`] with a deviation

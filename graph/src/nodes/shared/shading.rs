@@ -10,6 +10,7 @@ use moment_shadows::{
 };
 
 use super::debug_view::{self, DebugView};
+use super::stored_targets::{self, STORED};
 use super::tiled::Tiled;
 use super::{Specialization, depth_input, wgsl, wrong_property};
 use crate::{
@@ -26,9 +27,9 @@ pub(in crate::nodes) struct Settings {
     pub(in crate::nodes) debug: Option<DebugView>,
 }
 
-/// The node: fullscreen passes from a map, whose input (and what belongs to it), bindings and modules are given, and
-/// `camera_depth` to `shadow_intensity`, of a format that has a channel for each light, or four in each of several outputs
-/// (`shadow_intensity_4`, `_8` and `_12`). The shader finds what a pixel's surface is
+/// The node: a fullscreen pass from a map, whose input (and what belongs to it), bindings and modules are given, and
+/// `camera_depth` to `shadow_intensity`, of a format that has a channel for each light; or, where there are more lights than channels,
+/// a compute pass to several outputs of four each (`shadow_intensity_4`, `_8` and `_12`). The shader finds what a pixel's surface is
 /// to each view of a light, and leaves the rest to the module `technique`.
 pub(in crate::nodes) fn describe(
     name: &str,
@@ -62,16 +63,18 @@ pub(in crate::nodes) fn describe(
             "'views' is {views}; a node has at most {MOST_VIEWS}, and more nodes have more"
         )));
     }
+    // The first light of each output.
+    let firsts = (0..lights).step_by(4);
     let camera = upstream.texture("camera_depth")?;
     let (specialization, normals) = surface(specialization, upstream);
     let specialization = depth_input::of_camera(specialization, camera)
         .unsigned("VIEWS", views)
         .unsigned("LIGHTS", lights)
+        .unsigned("TARGETS", firsts.len() as u32)
         .module("views", include_str!("views.wgsl"))
         .module("view_receiver", include_str!("view_receiver.wgsl"));
     let tiled = Tiled::new(views, bindings.clone());
     let listed = tiled.list(specialization.clone());
-    let wgsl = listed.link(wgsl!("shade.wgsl"))?;
     // What both passes over the picture read.
     let bound = |pass: Pass| {
         let mut pass = pass
@@ -81,17 +84,29 @@ pub(in crate::nodes) fn describe(
         pass.bindings.extend(given.chain(tiled.bindings()));
         pass
     };
-    let shade = |first: u32| {
-        let slot = numbered("shadow_intensity", first);
-        let mut pass =
-            Pass::fullscreen(numbered("shade", first), &slot).shader(wgsl.as_str(), "shade");
-        if borders {
-            pass = pass.constant(BORDERS, 1);
-        }
-        if first > 0 {
-            pass = pass.constant("FIRST_LIGHT", first);
-        }
-        bound(pass)
+    let shading = listed
+        .clone()
+        .module("shade_pixel", include_str!("shade_pixel.wgsl"));
+    let shade = if lights > 4 {
+        // One pass for all: what a pixel is, and which views contain it, is found once.
+        let stored = stored_targets::module(firsts.clone(), format);
+        let shading = shading
+            .constant("SHADED", SHADED)
+            .module("shade_targets", stored);
+        let pass = Pass::compute("shade", "shadow_intensity", [SHADED; 2])
+            .shader(shading.link(wgsl!("shade_computed.wgsl"))?, "shade");
+        firsts.clone().fold(bound(pass), |pass, first| {
+            let slot = numbered("shadow_intensity", first);
+            pass.bind(&numbered(STORED, first), bind::store(&slot))
+        })
+    } else {
+        let pass = Pass::fullscreen("shade", "shadow_intensity");
+        bound(pass.shader(shading.link(wgsl!("shade_drawn.wgsl"))?, "shade"))
+    };
+    let shade = if borders {
+        shade.constant(BORDERS, 1)
+    } else {
+        shade
     };
     let shown = match debug {
         None => None,
@@ -108,7 +123,6 @@ pub(in crate::nodes) fn describe(
         }
     };
     let block = ParameterBlock::of::<ViewParameters>("ViewParameters").elements(views);
-    let firsts = (0..lights).step_by(4);
     let outputs = firsts.clone().map(|first| {
         let last = (first + 3).min(lights - 1);
         let description = match lights {
@@ -127,7 +141,7 @@ pub(in crate::nodes) fn describe(
         .slots(tiled.slots())
         .passes(tiled.passes(&specialization)?)
         .passes(shown.clone())
-        .passes(firsts.clone().map(shade))
+        .passes([shade])
         .parameters(block);
     // Lit.
     let lit = |desc: NodeDesc, first| {
@@ -142,6 +156,9 @@ pub(in crate::nodes) fn describe(
         Some(_) => desc.off("debug", Off::Fill(vec![[0.0; 4]])),
     })
 }
+
+/// Pixels along each side that a workgroup shades: a part of a tile.
+const SHADED: u32 = 8;
 
 /// As many as a uniform buffer holds in core WebGPU.
 const MOST_VIEWS: u32 = 256;

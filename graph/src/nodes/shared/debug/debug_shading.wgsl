@@ -5,7 +5,7 @@ import moment_shadows::map::map_region::{map_region_within};
 import node::specialization::{VIEWS};
 import node::surface::{surface_neighbours};
 import node::technique_map::{technique_map_size};
-import node::view_list::{view_list_next};
+import node::view_list::{view_list, view_list_next};
 import node::view_receiver::{border_depth, view_receiver};
 import node::views::{receiver_at, views};
 
@@ -24,7 +24,8 @@ fn debug(covered: Covered) -> @location(0) vec4f {
         return NOTHING;
     }
     let neighbours = surface_neighbours(pixel, stored_depth, views[0].far_depth, views[0].position_from_camera, views[0].scene_w_from_camera);
-    for (var view = view_list_next(pixel, 0u); view < VIEWS; view = view_list_next(pixel, view + 1u)) {
+    var list = view_list(pixel);
+    for (var view = view_list_next(&list, 0u); view < VIEWS; view = view_list_next(&list, view + 1u)) {
         let region = map_region_within(views[view].region, technique_map_size());
         let receiver = receiver_at(view, pixel, stored_depth);
         if receiver.light_w > 0.0 && all(region.extent > vec2u(0u)) && border_depth(view, receiver.place.xy, region) >= 0.0 {

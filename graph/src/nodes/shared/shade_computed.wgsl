@@ -1,0 +1,15 @@
+import node::camera_depth::{camera_depth_size};
+import node::shade_pixel::{shade_pixel};
+import node::shade_targets::{shade_store};
+import node::specialization::{SHADED};
+
+// Shadow intensity of every pixel, of more lights than a target has channels: one pixel per invocation.
+
+@compute @workgroup_size(SHADED, SHADED)
+fn shade(@builtin(local_invocation_id) local: vec3u, @builtin(workgroup_id) workgroup: vec3u) {
+    let first = SHADED * vec2i(workgroup.xy);
+    let pixel = first + vec2i(local.xy);
+    if all(pixel < camera_depth_size()) {
+        shade_store(pixel, shade_pixel(pixel, first));
+    }
+}
