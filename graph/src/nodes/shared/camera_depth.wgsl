@@ -4,9 +4,35 @@ import node::specialization::{CAMERA_SAMPLE, CameraDepth, GROUP};
 
 @group(GROUP) @binding(1) var camera_depth: CameraDepth;
 
+// A pixel's surface.
+struct CameraSurface {
+    // Its place in the camera's clip space: x, y, stored depth and 1.
+    clip: vec4f,
+    // How its stored depth changes with x and y, along its plane.
+    slope: vec2f,
+    // Whether that plane is known.
+    has_plane: bool,
+}
+
+// The depth that is stored for a pixel and its neighbours.
+struct Neighbours {
+    stored: f32,
+    // To the left and above, and to the right and below; beyond the picture those of the nearest pixel.
+    before: vec2f,
+    after: vec2f,
+    // To the left and above at once, and to the right and below.
+    corners: vec2f,
+}
+
 // Width and height of the picture.
 fn camera_depth_size() -> vec2i {
     return vec2i(textureDimensions(camera_depth));
+}
+
+// The pixel at a place in the picture from 0 to 1.
+fn camera_depth_pixel(uv: vec2f) -> vec2i {
+    let size = camera_depth_size();
+    return clamp(vec2i(uv * vec2f(size)), vec2i(0), size - 1);
 }
 
 // The depth that is stored for a pixel; beyond the picture for the nearest one.

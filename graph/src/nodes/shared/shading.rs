@@ -13,8 +13,8 @@ use super::debug_view::{self, DebugView};
 use super::tiled::Tiled;
 use super::{Specialization, depth_input, wgsl, wrong_property};
 use crate::{
-    Binding, Connected, GraphError, NodeDesc, Off, ParameterBlock, Pass, ResourceDesc, Rule, Slot,
-    Stage, TextureRule, bind,
+    Binding, BindingResource, Connected, GraphError, NodeDesc, Off, ParameterBlock, Pass,
+    ResourceDesc, Rule, Slot, Stage, TextureDesc, TextureRule, bind,
 };
 
 /// Properties of both nodes.
@@ -63,7 +63,7 @@ pub(in crate::nodes) fn describe(
         )));
     }
     let camera = upstream.texture("camera_depth")?;
-    let (specialization, normals) = surface(specialization, upstream);
+    let (specialization, neighbours) = surface(specialization, upstream, camera);
     let specialization = depth_input::of_camera(specialization, camera)
         .unsigned("VIEWS", views)
         .unsigned("LIGHTS", lights)
@@ -77,7 +77,7 @@ pub(in crate::nodes) fn describe(
         let mut pass = pass
             .bind("views", bind::parameters())
             .bind("camera_depth", bind::layer("camera_depth"));
-        let given = bindings.clone().into_iter().chain(normals.clone());
+        let given = bindings.clone().into_iter().chain(neighbours.clone());
         pass.bindings.extend(given.chain(tiled.bindings()));
         pass
     };
@@ -210,15 +210,31 @@ pub(in crate::nodes) fn normals_slot() -> Slot {
     Slot::input("normals", description, rule).optional()
 }
 
-/// How a pixel's surface continues: the module `surface`, from normals where they are connected.
+/// How a pixel's surface continues: the module `surface`, from normals where they are connected, and otherwise from the camera's depth. With it
+/// what it binds beside that.
 pub(in crate::nodes) fn surface(
     specialization: Specialization,
     upstream: &Connected<'_>,
+    camera: &TextureDesc,
 ) -> (Specialization, Option<Binding>) {
     let normals = upstream.get("normals").and_then(ResourceDesc::texture);
     let Some(normals) = normals else {
-        let from_depth = include_str!("surface_from_depth.wgsl");
-        return (specialization.module("surface", from_depth), None);
+        let specialization =
+            specialization.module("surface", include_str!("surface_from_depth.wgsl"));
+        if camera.samples > 1 {
+            let loaded = include_str!("neighbours_loaded.wgsl");
+            return (specialization.module("neighbours", loaded), None);
+        }
+        let sampler = BindingResource::Sampler {
+            filtering: false,
+            anisotropy: 1,
+        };
+        let gathered = include_str!("neighbours_gathered.wgsl");
+        let specialization = specialization.module("neighbours", gathered);
+        return (
+            specialization,
+            Some(Binding::new("camera_sampler", sampler)),
+        );
     };
     let format = normals.format;
     let unsigned = [Rgba8Unorm, Rgb10a2Unorm, Rg16Unorm].contains(&format);

@@ -1,19 +1,17 @@
-import moment_shadows::shade::surface_plane::{surface_plane_normal, surface_plane_steps};
-import node::camera_depth::{camera_depth_clip, camera_depth_size};
+import moment_shadows::shade::surface_plane::{surface_plane_normal, surface_plane_slopes};
+import node::camera_depth::{CameraSurface, camera_depth_at, camera_depth_clip, camera_depth_pixel};
 import node::specialization::{GROUP, NORMALS_OCTAHEDRAL, NORMALS_UNSIGNED};
 
 // How a pixel's surface continues, from its normal.
 
 @group(GROUP) @binding(6) var normals: texture_2d<f32>;
 
-// The neighbours of a pixel along x and y: xy is the step to one and z the change of stored depth. Zero without a normal.
-fn surface_neighbours(pixel: vec2i, stored_depth: f32, far_depth: f32, position_from_camera: mat3x4f, scene_w_from_camera: vec4f) -> mat2x3f {
+// The surface of the pixel at a place in the picture from 0 to 1. Its plane is unknown without a normal.
+fn surface_at(uv: vec2f, position_from_camera: mat3x4f, scene_w_from_camera: vec4f) -> CameraSurface {
+    let pixel = camera_depth_pixel(uv);
+    let clip = camera_depth_clip(pixel, camera_depth_at(pixel));
     let stored = textureLoad(normals, pixel, 0).xyz;
     let normal = surface_plane_normal(select(stored, 2.0 * stored - 1.0, NORMALS_UNSIGNED), NORMALS_OCTAHEDRAL);
-    if all(normal == vec3f(0.0)) {
-        return mat2x3f();
-    }
-    let clip = camera_depth_clip(pixel, stored_depth);
-    let steps = surface_plane_steps(normal, clip, position_from_camera, scene_w_from_camera, vec2f(camera_depth_size()));
-    return mat2x3f(1.0, 0.0, steps.x, 0.0, 1.0, steps.y);
+    let slope = surface_plane_slopes(normal, clip, position_from_camera, scene_w_from_camera);
+    return CameraSurface(clip, slope, any(normal != vec3f(0.0)));
 }

@@ -1,0 +1,13 @@
+import node::camera_depth::{Neighbours, camera_depth};
+import node::specialization::{GROUP};
+
+// A pixel and its neighbours in two gathers, for depth with one sample per pixel.
+
+@group(GROUP) @binding(6) var camera_sampler: sampler;
+
+// Gathers are aimed at the corners of a pixel, the middle of the four that they give: half a pixel from where rounding matters.
+fn neighbours_at(uv: vec2f, per_pixel: vec2f) -> Neighbours {
+    let before = textureGather(camera_depth, camera_sampler, uv - 0.5 * per_pixel);
+    let after = textureGather(camera_depth, camera_sampler, uv + 0.5 * per_pixel);
+    return Neighbours(after.w, before.xz, after.zx, vec2f(before.w, after.y));
+}

@@ -1,0 +1,11 @@
+import node::camera_depth::{Neighbours, camera_depth_at, camera_depth_pixel};
+
+// A pixel and its neighbours, for depth with several samples per pixel, which nothing gathers.
+
+fn neighbours_at(uv: vec2f, per_pixel: vec2f) -> Neighbours {
+    let pixel = camera_depth_pixel(uv);
+    let before = vec2f(camera_depth_at(pixel - vec2i(1, 0)), camera_depth_at(pixel - vec2i(0, 1)));
+    let after = vec2f(camera_depth_at(pixel + vec2i(1, 0)), camera_depth_at(pixel + vec2i(0, 1)));
+    let corners = vec2f(camera_depth_at(pixel - vec2i(1)), camera_depth_at(pixel + vec2i(1)));
+    return Neighbours(camera_depth_at(pixel), before, after, corners);
+}
