@@ -62,6 +62,9 @@ pub(super) fn of_four_moments(four: &MapEncoding) -> Result<Vec<Variant>, LabErr
                 &[4],
             ),
             shade(1, 1)
+                .normals(Rgb10a2Unorm)
+                .row(unorm16, format!("{row}, normals"), &[]),
+            shade(1, 1)
                 .samples(4)
                 .normals(Rgb10a2Unorm)
                 .file(format!("{name}_normals"), unorm16)

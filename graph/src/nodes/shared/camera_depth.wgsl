@@ -3,6 +3,8 @@ import node::specialization::{CAMERA_SAMPLE, CameraDepth, GROUP};
 // The camera's depth: where surfaces are. Of several samples of a pixel the first one counts, at its own place.
 
 @group(GROUP) @binding(1) var camera_depth: CameraDepth;
+// Takes the nearest texel.
+@group(GROUP) @binding(11) var camera_sampler: sampler;
 
 // A pixel's surface.
 struct CameraSurface {
@@ -44,4 +46,13 @@ fn camera_depth_at(pixel: vec2i) -> f32 {
 fn camera_depth_clip(pixel: vec2i, stored_depth: f32) -> vec4f {
     let uv = (vec2f(pixel) + CAMERA_SAMPLE) / vec2f(camera_depth_size());
     return vec4f(2.0 * uv.x - 1.0, 1.0 - 2.0 * uv.y, stored_depth, 1.0);
+}
+
+// The same from a pixel's middle in the picture, from 0 to 1.
+fn camera_depth_clip_at(uv: vec2f, stored_depth: f32) -> vec4f {
+    var sample = 2.0 * uv;
+    if any(CAMERA_SAMPLE != vec2f(0.5)) {
+        sample += (2.0 * CAMERA_SAMPLE - 1.0) * vec2f(dpdx(uv.x), dpdy(uv.y));
+    }
+    return vec4f(sample.x - 1.0, 1.0 - sample.y, stored_depth, 1.0);
 }

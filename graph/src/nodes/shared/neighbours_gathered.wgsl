@@ -1,9 +1,11 @@
-import node::camera_depth::{Neighbours, camera_depth};
-import node::specialization::{GROUP};
+import node::camera_depth::{Neighbours, camera_depth, camera_sampler};
 
 // A pixel and its neighbours in two gathers, for depth with one sample per pixel.
 
-@group(GROUP) @binding(6) var camera_sampler: sampler;
+// The depth that is stored for the pixel around a place in the picture from 0 to 1.
+fn stored_at(uv: vec2f) -> f32 {
+    return textureSampleLevel(camera_depth, camera_sampler, uv, 0);
+}
 
 // Gathers are aimed at the corners of a pixel, the middle of the four that they give: half a pixel from where rounding matters.
 fn neighbours_at(uv: vec2f, per_pixel: vec2f) -> Neighbours {

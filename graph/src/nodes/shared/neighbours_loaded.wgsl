@@ -2,6 +2,11 @@ import node::camera_depth::{Neighbours, camera_depth_at, camera_depth_pixel};
 
 // A pixel and its neighbours, for depth with several samples per pixel, which nothing gathers.
 
+// The depth that is stored for the pixel around a place in the picture from 0 to 1.
+fn stored_at(uv: vec2f) -> f32 {
+    return camera_depth_at(camera_depth_pixel(uv));
+}
+
 fn neighbours_at(uv: vec2f, per_pixel: vec2f) -> Neighbours {
     let pixel = camera_depth_pixel(uv);
     let before = vec2f(camera_depth_at(pixel - vec2i(1, 0)), camera_depth_at(pixel - vec2i(0, 1)));

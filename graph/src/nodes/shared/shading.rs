@@ -216,24 +216,27 @@ pub(in crate::nodes) fn surface(
     specialization: Specialization,
     upstream: &Connected<'_>,
     camera: &TextureDesc,
-) -> (Specialization, Option<Binding>) {
+) -> (Specialization, Vec<Binding>) {
+    let has_samples = camera.samples > 1;
+    let specialization = specialization.module(
+        "neighbours",
+        match has_samples {
+            true => include_str!("neighbours_loaded.wgsl"),
+            false => include_str!("neighbours_gathered.wgsl"),
+        },
+    );
+    let nearest = BindingResource::Sampler {
+        filtering: false,
+        anisotropy: 1,
+    };
+    let sampler = Binding::new("camera_sampler", nearest);
     let normals = upstream.get("normals").and_then(ResourceDesc::texture);
     let Some(normals) = normals else {
-        let specialization =
-            specialization.module("surface", include_str!("surface_from_depth.wgsl"));
-        if camera.samples > 1 {
-            let loaded = include_str!("neighbours_loaded.wgsl");
-            return (specialization.module("neighbours", loaded), None);
-        }
-        let sampler = BindingResource::Sampler {
-            filtering: false,
-            anisotropy: 1,
-        };
-        let gathered = include_str!("neighbours_gathered.wgsl");
-        let specialization = specialization.module("neighbours", gathered);
+        let from_depth = include_str!("surface_from_depth.wgsl");
+        let sampler = (!has_samples).then_some(sampler);
         return (
-            specialization,
-            Some(Binding::new("camera_sampler", sampler)),
+            specialization.module("surface", from_depth),
+            sampler.into_iter().collect(),
         );
     };
     let format = normals.format;
@@ -242,6 +245,6 @@ pub(in crate::nodes) fn surface(
         .constant("NORMALS_OCTAHEDRAL", format.channels() == 2)
         .constant("NORMALS_UNSIGNED", unsigned)
         .module("surface", include_str!("surface_from_normals.wgsl"));
-    let binding = Binding::new("normals", bind::layer("normals"));
-    (specialization, Some(binding))
+    let normals = Binding::new("normals", bind::layer("normals"));
+    (specialization, vec![normals, sampler])
 }

@@ -1,6 +1,5 @@
-import node::camera_depth::{CameraSurface};
+import node::camera_depth::{CameraSurface, camera_depth_clip_at};
 import node::neighbours::{neighbours_at};
-import node::specialization::{CAMERA_SAMPLE};
 
 // How a pixel's surface continues, from the camera's depth alone.
 
@@ -30,6 +29,5 @@ fn surface_at(uv: vec2f, position_from_camera: mat3x4f, scene_w_from_camera: vec
     let is_nearer = vec2<bool>(abs(left) < abs(right), abs(up) < abs(down));
     let is_before = (((is_nearer & vec2<bool>(!after_is_plane)) | vec2<bool>(before_is_plane)) & !first) | last;
     let change = vec2f(select(right, left, is_before.x), select(down, up, is_before.y));
-    let sample = fma(2.0 * CAMERA_SAMPLE - 1.0, per_pixel, 2.0 * uv);
-    return CameraSurface(vec4f(sample.x - 1.0, 1.0 - sample.y, depths.stored, 1.0), 0.5 * change / per_pixel, true);
+    return CameraSurface(camera_depth_clip_at(uv, depths.stored), 0.5 * change / per_pixel, true);
 }
