@@ -1,7 +1,7 @@
-import node::camera_depth::{camera_depth_pixel};
+import node::camera_depth::{CameraSurface, camera_depth_pixel};
 import node::fullscreen::{Covered};
 import moment_shadows::shade::leak_reduction::{leak_reduction_apply};
-import moment_shadows::map::map_region::{map_region_within};
+import moment_shadows::map::map_region::{MapRegion, map_region_within};
 import moment_shadows::shade::view_border::{view_border_parts};
 import node::specialization::{LIGHTS, VIEWS};
 import node::surface::{surface_at};
@@ -9,7 +9,7 @@ import node::technique::{technique_shadow_intensity};
 import node::technique_map::{technique_map_size};
 import node::view_list::{view_list_next};
 import node::view_receiver::{border_depth, view_receiver};
-import node::views::{VIEW_FADES, receiver_at, views};
+import node::views::{Receiver, VIEW_FADES, receiver_at, views};
 
 // Shadow intensity of every pixel, from the camera's depth and a light's map, by the technique of the map. A view of a light is one region of one
 // layer: a sun's cascade, a face of a point light, a spot light. Each light has a channel of the target, or of one of several.
@@ -25,17 +25,40 @@ fn border_parts(view: u32, depth: f32) -> vec2f {
     return view_border_parts(depth, f32(channel >> 16u) / 16.0, (channel & VIEW_FADES) != 0u);
 }
 
+// Whether the region of a view contains a surface, its border aside.
+fn region_contains(view: u32, receiver: Receiver, region: MapRegion) -> bool {
+    let texels = vec2f(region.extent);
+    let place = receiver.place.xy * texels;
+    let from_edge = min(place, texels - place);
+    return (receiver.light_w > 0.0) & (min(from_edge.x, from_edge.y) >= views[view].guard) & all(region.extent > vec2u(0u));
+}
+
 // The first view that contains a surface; VIEWS where none does.
 fn first_view(pixel: vec2i, clip: vec4f) -> u32 {
     for (var view = view_list_next(pixel, 0u); view < VIEWS; view = view_list_next(pixel, view + 1u)) {
-        let region = map_region_within(views[view].region, technique_map_size());
-        let light = views[view].light_from_camera * clip;
-        let from_edge = min(light.xy, light.z - light.xy) * vec2f(region.extent);
-        if (light.z > 0.0) & (min(from_edge.x, from_edge.y) >= views[view].guard * light.z) & all(region.extent > vec2u(0u)) {
+        if region_contains(view, receiver_at(view, clip), map_region_within(views[view].region, technique_map_size())) {
             return view;
         }
     }
     return VIEWS;
+}
+
+// The shadow of a single light with sharp borders: one lookup, in the first view that contains the surface.
+fn shade_single(pixel: vec2i, surface: CameraSurface) -> f32 {
+    var view = 0u;
+    if VIEWS > 1u {
+        view = first_view(pixel, surface.clip);
+        if view >= VIEWS {
+            return 0.0;
+        }
+    }
+    let region = map_region_within(views[view].region, technique_map_size());
+    let receiver = receiver_at(view, surface.clip);
+    if VIEWS == 1u && !region_contains(view, receiver, region) {
+        return 0.0;
+    }
+    let bound = technique_shadow_intensity(view_receiver(view, pixel, receiver, surface, region));
+    return leak_reduction_apply(bound, views[view].leak_reduction);
 }
 
 @fragment
@@ -47,16 +70,9 @@ fn shade(covered: Covered) -> @location(0) vec4f {
     if surface.clip.z == views[0].far_depth {
         return intensities;
     }
-    if LIGHTS == 1u && VIEWS > 1u && !BORDERS {
-        // One lookup, in the first view that contains the surface.
-        let view = first_view(pixel, surface.clip);
-        if view < VIEWS {
-            let region = map_region_within(views[view].region, technique_map_size());
-            let receiver = receiver_at(view, surface.clip);
-            let bound = technique_shadow_intensity(view_receiver(view, pixel, receiver, surface, region));
-            return vec4f(leak_reduction_apply(bound, views[view].leak_reduction));
-        }
-        return intensities;
+    // A single light is in all channels, so that a host can blend with it or show it.
+    if LIGHTS == 1u && !BORDERS {
+        return vec4f(shade_single(pixel, surface));
     }
     // With borders, the part of each channel that no view has taken yet, and the sum of what views have taken.
     var open_channels = vec4<bool>(true);
@@ -72,9 +88,7 @@ fn shade(covered: Covered) -> @location(0) vec4f {
         let region = map_region_within(views[view].region, technique_map_size());
         let receiver = receiver_at(view, surface.clip);
         let uv = receiver.place.xy;
-        let texels = vec2f(region.extent);
-        let from_edge = min(uv * texels, texels - uv * texels);
-        var inside = (receiver.light_w > 0.0) & (min(from_edge.x, from_edge.y) >= views[view].guard) & all(region.extent > vec2u(0u));
+        var inside = region_contains(view, receiver, region);
         if BORDERS {
             inside = inside && border_depth(view, uv, region) >= 0.0;
         }

@@ -218,13 +218,12 @@ pub(in crate::nodes) fn surface(
     camera: &TextureDesc,
 ) -> (Specialization, Vec<Binding>) {
     let has_samples = camera.samples > 1;
-    let specialization = specialization.module(
-        "neighbours",
-        match has_samples {
-            true => include_str!("neighbours_loaded.wgsl"),
-            false => include_str!("neighbours_gathered.wgsl"),
-        },
-    );
+    let neighbours = if has_samples {
+        include_str!("neighbours_loaded.wgsl")
+    } else {
+        include_str!("neighbours_gathered.wgsl")
+    };
+    let specialization = specialization.module("neighbours", neighbours);
     let nearest = BindingResource::Sampler {
         filtering: false,
         anisotropy: 1,
