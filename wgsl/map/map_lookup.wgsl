@@ -1,6 +1,6 @@
 import super::super::map::map_load::{map_load_footprint};
 import super::super::map::map_region::{MapRegion, map_region_at_level, map_region_place};
-import super::super::map::minification::{minification_footprint, minification_gradients};
+import super::super::map::minification::{minification_axes, minification_axes_gradients, minification_footprint};
 
 // Lookups in a filterable map by a sampler: bilinear, and averaged over a pixel. Neither reads across the edge of a region.
 //
@@ -21,16 +21,15 @@ fn map_lookup_bilinear(map: texture_2d_array<f32>, linear: sampler, layer: u32, 
 // taken here, from loaded texels. Hardware reads most of a region if the region's edges and the size of the map are multiples
 // of a texel of the coarsest level.
 fn map_lookup_gradient(map: texture_2d_array<f32>, anisotropic: sampler, layer: u32, region: MapRegion, levels: u32, uv: vec2f, difference_x: vec2f, difference_y: vec2f, anisotropy: f32) -> vec4f {
-    let footprint = minification_footprint(difference_x, difference_y, anisotropy);
     let size = textureDimensions(map);
     let place = vec2f(region.origin) + uv * vec2f(region.extent);
     let whole = all(region.origin == vec2u(0u)) && all(region.extent == size);
     if whole || map_lookup_is_inner(region, size, levels, place, abs(difference_x) + abs(difference_y)) {
         let per_texel = 1.0 / vec2f(size);
-        let gradients = minification_gradients(footprint);
+        let gradients = minification_axes_gradients(minification_axes(difference_x, difference_y, anisotropy));
         return textureSampleGrad(map, anisotropic, place * per_texel, layer, gradients[0] * per_texel, gradients[1] * per_texel);
     }
-    return map_load_footprint(map, layer, region, levels, uv, footprint);
+    return map_load_footprint(map, layer, region, levels, uv, minification_footprint(difference_x, difference_y, anisotropy));
 }
 
 // Whether hardware that filters around `place` over a box of `reach` texels reads no texel of another region, and divides

@@ -35,5 +35,5 @@ fn map_region_last_level(region: MapRegion, levels: u32) -> u32 {
 // so that a bilinear filter there reads no other region.
 fn map_region_place(region_on_level: MapRegion, uv: vec2f) -> vec2f {
     let extent = vec2f(region_on_level.extent);
-    return vec2f(region_on_level.origin) + clamp(uv * extent, vec2f(0.5), max(extent - 0.5, vec2f(0.5)));
+    return vec2f(region_on_level.origin) + max(min(uv * extent, extent - 0.5), vec2f(0.5));
 }

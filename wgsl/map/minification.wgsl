@@ -25,55 +25,89 @@ struct MinificationFootprint {
     level: f32,
 }
 
-// The footprint of a pixel from the differences of place, in texels, to its neighbours in x and y; each component at most 1e9
+// The same as lengths, which is all that hardware has to be told.
+struct MinificationAxes {
+    // Along the major axis; zero for a circle, which has no direction.
+    direction: vec2f,
+    // The length of the line on which probes lie, and the width of their texels, at least 1, in texels of mip level 0.
+    line: f32,
+    texel: f32,
+}
+
+// The axes of a pixel from the differences of place, in texels, to its neighbours in x and y; each component at most 1e9
 // in magnitude. `anisotropy`, from 1 to 16, is the largest number of probes; where more would be needed, the minor axis
 // counts as longer than it is.
-fn minification_footprint(difference_x: vec2f, difference_y: vec2f, anisotropy: f32) -> MinificationFootprint {
+fn minification_axes(difference_x: vec2f, difference_y: vec2f, anisotropy: f32) -> MinificationAxes {
     let xx = difference_x.x * difference_x.x + difference_y.x * difference_y.x;
     let xy = difference_x.x * difference_x.y + difference_y.x * difference_y.y;
     let yy = difference_x.y * difference_x.y + difference_y.y * difference_y.y;
     // The squares of the axes are the eigenvalues of the symmetric matrix (xx xy, xy yy).
     let half_difference = 0.5 * (xx - yy);
     let root = sqrt(half_difference * half_difference + xy * xy);
-    let major_length = sqrt(0.5 * (xx + yy) + root);
+    let major_square = 0.5 * (xx + yy) + root;
+    let per_major = inverseSqrt(max(major_square, 1e-36));
+    let major_length = major_square * per_major;
     // The product of the axes is the parallelogram's area; a difference of eigenvalues would cancel.
     let area = abs(difference_x.x * difference_y.y - difference_x.y * difference_y.x);
-    let minor_length = area / max(major_length, 1e-20);
+    let minor_length = area * per_major;
     // Both rows of the matrix less its smaller eigenvalue point along the major axis; this is the one that does not cancel.
     let along = select(vec2f(xy, root - half_difference), vec2f(root + half_difference, xy), half_difference >= 0.0);
-    // A circle has no direction, and a single probe.
-    let direction = along / max(max(abs(along.x), abs(along.y)), 1e-30);
-    let unit = direction / max(length(direction), 1e-6);
+    let direction = along * inverseSqrt(max(dot(along, along), 1e-36));
     let largest = clamp(anisotropy, 1.0, MINIFICATION_LARGEST_ANISOTROPY);
     // With so many probes a texel apart the major axis is filled: w^2 = 3 major_length^2 / (largest^2 + 2).
     let filled = major_length * sqrt(3.0 / fma(largest, largest, 2.0));
     let width = max(max(minor_length, filled), 1.0);
     // A probe has the variance of the width along the major axis, too: the line of probes is shorter by that.
-    let line = sqrt(max(fma(-width, width, major_length * major_length), 0.0));
-    let texel = max(width * MINIFICATION_TEXEL_PER_WIDTH, 1.0);
-    return MinificationFootprint(unit * line, clamp(ceil(line / texel - 1e-3), 1.0, largest), log2(texel));
+    let line = sqrt(max(fma(-width, width, major_square), 0.0));
+    return MinificationAxes(direction, line, max(width * MINIFICATION_TEXEL_PER_WIDTH, 1.0));
 }
+
+// The footprint of a pixel; arguments are those of `minification_axes`.
+fn minification_footprint(difference_x: vec2f, difference_y: vec2f, anisotropy: f32) -> MinificationFootprint {
+    let axes = minification_axes(difference_x, difference_y, anisotropy);
+    let largest = clamp(anisotropy, 1.0, MINIFICATION_LARGEST_ANISOTROPY);
+    let probes = clamp(ceil(axes.line / axes.texel - MINIFICATION_SLACK), 1.0, largest);
+    return MinificationFootprint(axes.direction * axes.line, probes, log2(axes.texel));
+}
+
+// A line that is longer than a texel by less than this part of it needs no further probe.
+const MINIFICATION_SLACK: f32 = 1e-3;
 
 // Where probe `index` lies on the major axis: the offset, in texels, from the footprint's centre.
 fn minification_probe(footprint: MinificationFootprint, index: f32) -> vec2f {
     return ((index + 0.5) / footprint.probes - 0.5) * footprint.major;
 }
 
-// The two axes of a footprint as the differences of place, in texels, that make a sampler with anisotropy take exactly these
-// probes: x is the column of the line, at least as long as the other one.
-fn minification_gradients(footprint: MinificationFootprint) -> mat2x2f {
-    let texel = exp2(footprint.level);
-    let line = length(footprint.major);
-    let unit = select(vec2f(1.0, 0.0), footprint.major / max(line, 1e-6), line >= 1e-3);
-    return mat2x2f(unit * max(line, texel), vec2f(-unit.y, unit.x) * texel);
+// The axes as the differences of place, in texels, that make a sampler with anisotropy take exactly the probes of a footprint: x is
+// the column of the line, at least as long as the other one.
+fn minification_axes_gradients(axes: MinificationAxes) -> mat2x2f {
+    let direction = select(vec2f(1.0, 0.0), axes.direction, axes.line >= 1e-3);
+    return mat2x2f(direction * max(axes.line, axes.texel), vec2f(-direction.y, direction.x) * axes.texel);
 }
 
 // The variance that minification adds to the moment depths of a plane, whose moment depth changes by `gradient` per texel:
 // that of the probes' trilinear lookups, and that of the line they lie on. Between two levels the mixture of both has at
 // most 1.27 times the variance of the level between them.
+fn minification_axes_depth_variance(axes: MinificationAxes, gradient: vec2f) -> f32 {
+    let texel = select(0.0, axes.texel, axes.texel > 1.0);
+    let line = select(0.0, axes.line, axes.line > (1.0 + MINIFICATION_SLACK) * axes.texel);
+    let along = line * dot(axes.direction, gradient);
+    return fma((1.27 / 4.0) * texel * texel, dot(gradient, gradient), along * along / 12.0);
+}
+
+// The axes of a footprint.
+fn minification_footprint_axes(footprint: MinificationFootprint) -> MinificationAxes {
+    let length = length(footprint.major);
+    let line = select(0.0, length, footprint.probes > 1.0);
+    return MinificationAxes(footprint.major / max(length, 1e-6), line, exp2(footprint.level));
+}
+
+// `minification_axes_gradients` of a footprint.
+fn minification_gradients(footprint: MinificationFootprint) -> mat2x2f {
+    return minification_axes_gradients(minification_footprint_axes(footprint));
+}
+
+// `minification_axes_depth_variance` of a footprint.
 fn minification_depth_variance(footprint: MinificationFootprint, gradient: vec2f) -> f32 {
-    let texel = select(0.0, exp2(footprint.level), footprint.level > 0.0);
-    let across = texel * length(gradient);
-    let along = select(0.0, dot(footprint.major, gradient), footprint.probes > 1.0);
-    return (1.27 / 4.0) * across * across + along * along / 12.0;
+    return minification_axes_depth_variance(minification_footprint_axes(footprint), gradient);
 }

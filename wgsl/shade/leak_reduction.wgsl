@@ -21,11 +21,14 @@ fn leak_reduction_full_shadow(shadow_intensity: f32, full_shadow: f32) -> f32 {
 
 // Shadow intensity in [0, 1] after all three reductions. Each only darkens; full light stays full light.
 fn leak_reduction_apply(shadow_intensity: f32, reduction: LeakReduction) -> f32 {
-    let visibility = 1.0 - leak_reduction_full_shadow(clamp(shadow_intensity, 0.0, 1.0), reduction.full_shadow);
-    let bleed = clamp(reduction.bleed_reduction, 0.0, 0.999);
-    let remaining = saturate((visibility - bleed) / (1.0 - bleed));
-    // pow(0, e) goes through the logarithm of 0, and e = 1 is to change nothing at all.
-    let curved = pow(max(remaining, 1e-30), max(reduction.visibility_exponent, 1e-6));
-    let plain = remaining <= 0.0 || reduction.visibility_exponent == 1.0;
-    return 1.0 - select(curved, remaining, plain);
+    // What is left of the visibility v = 1 - s / f is (v - b) / (1 - b) = 1 - s / (f (1 - b)): both divide alike.
+    let full_shadow = fma(-reduction.full_shadow, reduction.bleed_reduction, reduction.full_shadow);
+    let shadow = leak_reduction_full_shadow(shadow_intensity, full_shadow);
+    // An exponent of 1 is to change nothing at all, and costs nothing: it is the same for all pixels of a view.
+    if reduction.visibility_exponent == 1.0 {
+        return shadow;
+    }
+    // A power goes through the logarithm, of 0 too.
+    let curved = exp2(max(reduction.visibility_exponent, 1e-6) * log2(max(1.0 - shadow, 1e-30)));
+    return select(1.0 - curved, 1.0, shadow >= 1.0);
 }

@@ -59,9 +59,10 @@ fn receiver_bias_plane(difference_x: vec3f, difference_y: vec3f) -> vec2f {
 // depth is off by; the other half is for the variance that steps add under a kernel. To be subtracted from the fragment depth
 // before anything else.
 fn receiver_bias_step(bias: ReceiverBias, fragment_depth: f32) -> f32 {
-    let halves = unpack2x16snorm(bias.step);
+    // As `unpack2x16snorm` has it, with one product for both.
+    let halves = vec2f(vec2i(i32(bias.step << 16u), i32(bias.step)) >> vec2u(16u));
     let half_root = fma(halves.y, clamp(fragment_depth, -1.0, 1.0), halves.x);
-    return min(4.0 * half_root * half_root, 2.0);
+    return (4.0 / (32767.0 * 32767.0)) * half_root * half_root;
 }
 
 // The receiver bias in moment depth, to be subtracted from the fragment depth.
@@ -73,11 +74,11 @@ fn receiver_bias_depth(bias: ReceiverBias, gradient: f32) -> f32 {
 // variance of the depths of a plane with that gradient (`minification_depth_variance`). Variances of filters add up.
 fn receiver_bias_depth_minified(bias: ReceiverBias, gradient: f32, variance: f32) -> f32 {
     let kernel = bias.slope_scale * gradient;
-    let added = RECEIVER_BIAS_STANDARD_DEVIATIONS * sqrt(max(variance, 0.0));
-    let deviation = length(vec2f(kernel, added));
+    let added = (RECEIVER_BIAS_STANDARD_DEVIATIONS * RECEIVER_BIAS_STANDARD_DEVIATIONS) * max(variance, 0.0);
+    let deviation = sqrt(fma(kernel, kernel, added));
     // The slope is limited, not the depth: a filter that is wider by a factor may move the receiver farther by that factor.
-    let limit = (bias.maximum - bias.constant) * deviation / max(kernel, 1e-30);
-    return max(bias.constant + min(deviation, max(limit, 0.0)), 0.0);
+    let limit = (bias.maximum - bias.constant) / max(kernel, 1e-30);
+    return max(fma(deviation, clamp(limit, 0.0, 1.0), bias.constant), 0.0);
 }
 
 // The part of the bias that grows with the slope, under a kernel with the standard deviation `deviation` in texels along x

@@ -18,16 +18,16 @@ fn surface_plane_normal(stored: vec3f, octahedral: bool) -> vec3f {
     return select(normal * inverseSqrt(max(square, 1e-6)), vec3f(0.0), square < 1e-6 || depth_is_nan(square));
 }
 
-// How stored depth changes on a surface's plane from a pixel to the pixels to its right and below, each in [-1, 1].
+// How stored depth changes with x and y of clip space on a surface's plane, each within [-1e4, 1e4].
 //
 // `clip` is the surface in the camera's clip space, (x, y, stored depth, 1); `position_from_clip`, by rows, gives its position
-// relative to the camera times a coordinate that `w_from_clip` gives; `normal` has the axes of that position. A plane
-// dot(normal, position) = d in space is a plane in clip space too, across which stored depth is linear. `size` is that of the
-// picture in pixels. A plane that the camera sees edge-on changes by 1.
-fn surface_plane_steps(normal: vec3f, clip: vec4f, position_from_clip: mat3x4f, w_from_clip: vec4f, size: vec2f) -> vec2f {
-    let w = max(dot(w_from_clip, clip), 1e-30);
-    let d = dot(normal, clip * position_from_clip / w);
-    let plane = position_from_clip * normal - d * w_from_clip;
-    let divisor = select(max(plane.z, 1e-30), min(plane.z, -1e-30), plane.z < 0.0);
-    return clamp(vec2f(-2.0, 2.0) * plane.xy / (divisor * max(size, vec2f(1.0))), vec2f(-1.0), vec2f(1.0));
+// relative to the camera times a coordinate that `w_from_clip` gives; `normal`, of any length, has the axes of that position. A
+// plane dot(normal, position) = d in space is a plane in clip space too, across which stored depth is linear. One that the camera
+// sees edge-on changes by the most.
+fn surface_plane_slopes(normal: vec3f, clip: vec4f, position_from_clip: mat3x4f, w_from_clip: vec4f) -> vec2f {
+    let across = position_from_clip * normal;
+    let d = dot(across, clip) * (1.0 / max(dot(w_from_clip, clip), 1e-30));
+    let plane = across.xyz - d * w_from_clip.xyz;
+    let divisor = select(min(-plane.z, -1e-30), max(-plane.z, 1e-30), plane.z < 0.0);
+    return clamp(plane.xy / divisor, vec2f(-1e4), vec2f(1e4));
 }

@@ -40,17 +40,20 @@ pub(super) fn of_four_moments(four: &MapEncoding) -> Result<Vec<Variant>, LabErr
         };
         let name = format!("shade_hard_{storage}{kind}");
         let row = format!("{storage}, {lookup}");
-        // Each of at most so many probes looks for the coarsest level with texels: the last one, in a large region.
+        // Each of at most so many probes looks for the coarsest level with texels: the last one, in a large region. Hardware takes those
+        // of a sampler.
         let probes = [u32::from(ShadeHard::default().anisotropy), 1];
+        let probes = if lookup == "loaded" { &probes[..] } else { &[] };
         all.extend([
             shade(1, 1).file(&name, true).row(true, &row, &[]),
             shade(2, 6).file(format!("{name}_views"), false),
             shade(1, 1)
                 .mips(4)
                 .file(format!("{name}_mips"), unorm16)
-                .row(kind.is_empty(), format!("{row}, mip levels"), &probes),
+                .row(kind.is_empty(), format!("{row}, mip levels"), probes),
             shade(2, 6)
                 .mips(4)
+                .regions(4)
                 .file(format!("{name}_mips_views"), false),
             shade(1, 4).row(unorm16, format!("{row}, 4 views"), &[4]),
             bordered(4).file(format!("{name}_borders"), unorm16).row(
@@ -58,6 +61,9 @@ pub(super) fn of_four_moments(four: &MapEncoding) -> Result<Vec<Variant>, LabErr
                 format!("{row}, 4 views with borders"),
                 &[4],
             ),
+            shade(1, 1)
+                .normals(Rgb10a2Unorm)
+                .row(unorm16, format!("{row}, normals"), &[]),
             shade(1, 1)
                 .samples(4)
                 .normals(Rgb10a2Unorm)

@@ -4,7 +4,7 @@
 //! normal along silhouettes and edges. The exact bound is evaluated at the shader's fragments, so that what lies between
 //! the two is due to how moments are stored, and to nothing else.
 
-use glam::{DVec2, DVec3, DVec4};
+use glam::{DVec2, DVec4};
 use moment_shadows::ViewParameters;
 use rayon::prelude::*;
 
@@ -91,8 +91,17 @@ impl Camera<'_> {
         if receiver.light_w <= 0.0 || outside {
             return None;
         }
-        let x = self.difference(pixel, 0, stored, &receiver);
-        let y = self.difference(pixel, 1, stored, &receiver);
+        // Changes of place, in texels, and of moment depth along x and y of the screen.
+        let change = |coordinate: DVec4| {
+            let (light, scene_w) = self.light(coordinate);
+            let across = (light.truncate().truncate() - uv * light.z) / receiver.light_w;
+            let along = (light.w - receiver.moment_depth * scene_w) / receiver.scene_w;
+            (across * self.map).extend(along)
+        };
+        let along = change(DVec4::Z);
+        let slope = self.slope(pixel);
+        let x = change(DVec4::X) + slope.x * along;
+        let y = change(DVec4::Y) - slope.y * along;
         let determinant = x.x * y.y - x.y * y.x;
         let scaled = DVec2::new(x.z * y.y - y.z * x.y, y.z * x.x - x.z * y.x);
         let gradient = if determinant.abs() < 1e-20 {
@@ -113,37 +122,37 @@ impl Camera<'_> {
         })
     }
 
-    /// Texels and moment depth to the neighbour along `axis` (0: x, 1: y) on the side that continues the surface;
-    /// zero without such a neighbour.
-    fn difference(&self, pixel: [i64; 2], axis: usize, stored: f64, receiver: &Receiver) -> DVec3 {
-        let neighbour = |side: i64, steps: i64| {
-            let mut at = pixel;
-            at[axis] += side * steps;
-            at
+    /// How stored depth changes to the right and down, over half of the picture: towards the neighbours that are nearer in depth, or those of
+    /// the corner where four pixels lie on a plane.
+    fn slope(&self, [x, y]: [i64; 2]) -> DVec2 {
+        let stored = |right: i64, down: i64| self.stored([x + right, y + down]);
+        let [middle, left, up, right, down] = [
+            stored(0, 0),
+            stored(-1, 0),
+            stored(0, -1),
+            stored(1, 0),
+            stored(0, 1),
+        ];
+        let miss_before = (stored(-1, -1) - left - up + middle).abs();
+        let miss_after = (stored(1, 1) - right - down + middle).abs();
+        let [before_is_plane, after_is_plane] = [
+            miss_before < 0.25 * miss_after,
+            miss_after < 0.25 * miss_before,
+        ];
+        let size = self.size;
+        let change = |backward: f64, forward: f64, at: i64, size: i64| {
+            let is_nearer = backward.abs() < forward.abs();
+            let is_before = (is_nearer && !after_is_plane) || before_is_plane;
+            if (is_before && at > 0) || at == size - 1 {
+                backward
+            } else {
+                forward
+            }
         };
-        let error = |side: i64| {
-            let at = neighbour(side, 1);
-            let depth = self.stored(at);
-            let usable = (0..self.size[axis]).contains(&at[axis])
-                && depth != f64::from(self.parameters.far_depth);
-            usable.then(|| (2.0 * depth - self.stored(neighbour(side, 2)) - stored).abs())
-        };
-        let side = match (error(-1), error(1)) {
-            (None, None) => return DVec3::ZERO,
-            (Some(before), Some(after)) if before < after => -1,
-            (Some(_), None) => -1,
-            _ => 1,
-        };
-        let mut step = DVec2::ZERO;
-        step[axis] = side as f64;
-        let step = DVec2::new(2.0, -2.0) * step / self.size();
-        let (light, scene_w) = self.light(
-            step.extend(self.stored(neighbour(side, 1)) - stored)
-                .extend(0.0),
+        let changes = DVec2::new(
+            change(middle - left, right - middle, x, size[0]),
+            change(middle - up, down - middle, y, size[1]),
         );
-        let across =
-            (light.truncate().truncate() - receiver.uv * light.z) / (receiver.light_w + light.z);
-        let along = (light.w - receiver.moment_depth * scene_w) / (receiver.scene_w + scene_w);
-        (across * self.map).extend(along)
+        0.5 * self.size() * changes
     }
 }

@@ -1,9 +1,9 @@
-import node::camera_depth::{camera_depth_at, camera_depth_clip, camera_depth_size};
-import node::fullscreen::{Covered};
+import node::camera_depth::{CameraPixel, camera_depth_at, camera_depth_clip, camera_depth_pixel, camera_depth_size};
+import node::fullscreen::{Covered, covered_per_pixel};
 import node::intensity::{intensity_at};
 import moment_shadows::shade::contact_shadow::{ContactShadowParameters, contact_shadow_hides, contact_shadow_intensity, contact_shadow_nearer, contact_shadow_place, contact_shadow_ray};
 import node::specialization::{CAMERA_SAMPLE, DEPTH_STEP, GROUP, LIGHTS, STEPS};
-import node::surface::{surface_neighbours};
+import node::surface::{surface_at};
 
 // The shadow of every pixel at contacts, from the camera's depth, where it is darker than what maps say.
 
@@ -31,23 +31,20 @@ fn march(light: u32, surface: vec4f, slope: vec2f) -> f32 {
 
 @fragment
 fn contact(covered: Covered) -> @location(0) vec4f {
-    let size = camera_depth_size();
-    let pixel = clamp(vec2i(covered.uv * vec2f(size)), vec2i(0), size - 1);
-    let stored_depth = camera_depth_at(pixel);
+    let pixel = camera_depth_pixel(covered.uv);
+    let surface = surface_at(CameraPixel(covered.uv, covered_per_pixel(covered)), lights[0].position_from_camera, lights[0].scene_w_from_camera);
     var intensities = intensity_at(pixel);
-    if stored_depth == lights[0].far_depth {
+    if surface.clip.z == lights[0].far_depth {
         return intensities;
     }
-    let neighbours = surface_neighbours(pixel, stored_depth, lights[0].far_depth, lights[0].position_from_camera, lights[0].scene_w_from_camera);
-    // Steps to neighbours are forwards or backwards.
-    let slope = vec2f(neighbours[0].x * neighbours[0].z, neighbours[1].y * neighbours[1].z);
-    let clip = camera_depth_clip(pixel, stored_depth);
+    // From pixel to pixel.
+    let slope = surface.slope * vec2f(2.0, -2.0) / vec2f(camera_depth_size());
     for (var light = 0u; light < LIGHTS; light++) {
         // A single light is in all channels, as the nodes that shade have it.
         let channel = vec4<bool>(LIGHTS == 1u) | (vec4u(light) == vec4u(0u, 1u, 2u, 3u));
         // Full shadow does not become darker.
         if any(channel & (intensities < vec4f(1.0))) {
-            intensities = select(intensities, max(intensities, vec4f(march(light, clip, slope))), channel);
+            intensities = select(intensities, max(intensities, vec4f(march(light, surface.clip, slope))), channel);
         }
     }
     return intensities;

@@ -86,7 +86,7 @@ impl Node for ContactShadows {
             None => (include_str!("intensity_alone.wgsl"), None),
         };
         let specialization = Specialization::new(upstream.capabilities());
-        let (specialization, normals) = shading::surface(specialization, upstream);
+        let (specialization, neighbours) = shading::surface(specialization, upstream, camera);
         let wgsl = depth_input::of_camera(specialization, camera)
             .constant(
                 "DEPTH_STEP",
@@ -100,7 +100,7 @@ impl Node for ContactShadows {
             .shader(wgsl, "contact")
             .bind("lights", bind::parameters())
             .bind("camera_depth", bind::layer("camera_depth"));
-        pass.bindings.extend(bound.into_iter().chain(normals));
+        pass.bindings.extend(bound.into_iter().chain(neighbours));
         let size = || Rule::same_as("camera_depth");
         let block = ParameterBlock::of::<ContactShadowParameters>("ContactShadowParameters");
         let darker = "How much of each light is shadowed, a light per channel.";

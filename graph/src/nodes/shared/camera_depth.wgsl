@@ -3,10 +3,44 @@ import node::specialization::{CAMERA_SAMPLE, CameraDepth, GROUP};
 // The camera's depth: where surfaces are. Of several samples of a pixel the first one counts, at its own place.
 
 @group(GROUP) @binding(1) var camera_depth: CameraDepth;
+// Takes the nearest texel.
+@group(GROUP) @binding(11) var camera_sampler: sampler;
+
+// A pixel: its middle in the picture, from 0 to 1, and how far it is to those beside and below.
+struct CameraPixel {
+    uv: vec2f,
+    per_pixel: vec2f,
+}
+
+// A pixel's surface.
+struct CameraSurface {
+    // Its place in the camera's clip space: x, y, stored depth and 1.
+    clip: vec4f,
+    // How its stored depth changes with x and y, along its plane.
+    slope: vec2f,
+    // Whether that plane is known.
+    has_plane: bool,
+}
+
+// The depth that is stored for a pixel and its neighbours.
+struct Neighbours {
+    stored: f32,
+    // To the left and above, and to the right and below; beyond the picture those of the nearest pixel.
+    before: vec2f,
+    after: vec2f,
+    // To the left and above at once, and to the right and below.
+    corners: vec2f,
+}
 
 // Width and height of the picture.
 fn camera_depth_size() -> vec2i {
     return vec2i(textureDimensions(camera_depth));
+}
+
+// The pixel at a place in the picture from 0 to 1.
+fn camera_depth_pixel(uv: vec2f) -> vec2i {
+    let size = camera_depth_size();
+    return clamp(vec2i(uv * vec2f(size)), vec2i(0), size - 1);
 }
 
 // The depth that is stored for a pixel; beyond the picture for the nearest one.
@@ -18,4 +52,13 @@ fn camera_depth_at(pixel: vec2i) -> f32 {
 fn camera_depth_clip(pixel: vec2i, stored_depth: f32) -> vec4f {
     let uv = (vec2f(pixel) + CAMERA_SAMPLE) / vec2f(camera_depth_size());
     return vec4f(2.0 * uv.x - 1.0, 1.0 - 2.0 * uv.y, stored_depth, 1.0);
+}
+
+// The same without asking for the picture's size.
+fn camera_depth_clip_at(at: CameraPixel, stored_depth: f32) -> vec4f {
+    var sample = 2.0 * at.uv;
+    if any(CAMERA_SAMPLE != vec2f(0.5)) {
+        sample += (2.0 * CAMERA_SAMPLE - 1.0) * at.per_pixel;
+    }
+    return vec4f(sample.x - 1.0, 1.0 - sample.y, stored_depth, 1.0);
 }

@@ -1,14 +1,14 @@
-import node::camera_depth::{camera_depth_at, camera_depth_size};
+import node::camera_depth::{CameraPixel, CameraSurface, camera_depth_pixel};
 import moment_shadows::shade::leak_reduction::{leak_reduction_apply};
-import moment_shadows::map::map_region::{map_region_within};
+import moment_shadows::map::map_region::{MapRegion, map_region_within};
 import moment_shadows::shade::view_border::{view_border_parts};
 import node::specialization::{LIGHTS, TARGETS, VIEWS};
-import node::surface::{surface_neighbours};
+import node::surface::{surface_at};
 import node::technique::{technique_shadow_intensity};
 import node::technique_map::{technique_map_size};
 import node::view_list::{view_list, view_list_next};
 import node::view_receiver::{border_depth, view_receiver};
-import node::views::{VIEW_FADES, receiver_at, views};
+import node::views::{Receiver, VIEW_FADES, receiver_at, views};
 
 // Shadow intensity of a pixel, from the camera's depth and a light's map, by the technique of the map. A view of a light is one region of one
 // layer: a sun's cascade, a face of a point light, a spot light. Each light has a channel of the target, or of one of several.
@@ -22,15 +22,57 @@ fn border_parts(view: u32, depth: f32) -> vec2f {
     return view_border_parts(depth, f32(channel >> 16u) / 16.0, (channel & VIEW_FADES) != 0u);
 }
 
+// Whether the region of a view contains a surface, its border aside.
+fn region_contains(view: u32, receiver: Receiver, region: MapRegion) -> bool {
+    let texels = vec2f(region.extent);
+    let place = receiver.place.xy * texels;
+    let from_edge = min(place, texels - place);
+    return (receiver.light_w > 0.0) & (min(from_edge.x, from_edge.y) >= views[view].guard) & all(region.extent > vec2u(0u));
+}
+
+// The first view that contains a surface; VIEWS where none does.
+fn first_view(listed: vec2i, clip: vec4f) -> u32 {
+    var list = view_list(listed);
+    for (var view = view_list_next(&list, 0u); view < VIEWS; view = view_list_next(&list, view + 1u)) {
+        if region_contains(view, receiver_at(view, clip), map_region_within(views[view].region, technique_map_size())) {
+            return view;
+        }
+    }
+    return VIEWS;
+}
+
+// The shadow of a single light with sharp borders: one lookup, in the first view that contains the surface.
+fn shade_single(pixel: vec2i, listed: vec2i, surface: CameraSurface) -> f32 {
+    var view = 0u;
+    if VIEWS > 1u {
+        view = first_view(listed, surface.clip);
+        if view >= VIEWS {
+            return 0.0;
+        }
+    }
+    let region = map_region_within(views[view].region, technique_map_size());
+    let receiver = receiver_at(view, surface.clip);
+    if VIEWS == 1u && !region_contains(view, receiver, region) {
+        return 0.0;
+    }
+    let bound = technique_shadow_intensity(view_receiver(view, pixel, receiver, surface, region));
+    return leak_reduction_apply(bound, views[view].leak_reduction);
+}
+
 // The shadow intensity in each target. `listed` is a pixel of the same tile: where a workgroup has one, all its invocations go through the same views.
-fn shade_pixel(pixel: vec2i, listed: vec2i) -> array<vec4f, TARGETS> {
-    let stored_depth = camera_depth_at(pixel);
+fn shade_pixel(at: CameraPixel, listed: vec2i) -> array<vec4f, TARGETS> {
+    let pixel = camera_depth_pixel(at.uv);
+    let surface = surface_at(at, views[0].position_from_camera, views[0].scene_w_from_camera);
     // A light casts no shadow outside its map, nor where the camera sees no surface.
     var intensities: array<vec4f, TARGETS>;
-    if stored_depth == views[0].far_depth {
+    if surface.clip.z == views[0].far_depth {
         return intensities;
     }
-    let neighbours = surface_neighbours(pixel, stored_depth, views[0].far_depth, views[0].position_from_camera, views[0].scene_w_from_camera);
+    // A single light is in all channels, so that a host can blend with it or show it.
+    if LIGHTS == 1u && !BORDERS {
+        intensities[0] = vec4f(shade_single(pixel, listed, surface));
+        return intensities;
+    }
     // The lights that some view may still shade, a bit for each. With borders, the part of each channel that no view has taken yet, and
     // the sum of what views have taken.
     var open_lights = 0xffffu;
@@ -50,15 +92,14 @@ fn shade_pixel(pixel: vec2i, listed: vec2i) -> array<vec4f, TARGETS> {
             continue;
         }
         let region = map_region_within(views[view].region, technique_map_size());
-        let receiver = receiver_at(view, pixel, stored_depth);
+        let receiver = receiver_at(view, surface.clip);
         let uv = receiver.place.xy;
-        let from_edge = min(uv, 1.0 - uv) * vec2f(region.extent);
-        var inside = receiver.light_w > 0.0 && all(from_edge >= vec2f(views[view].guard));
+        var inside = region_contains(view, receiver, region);
         if BORDERS {
             inside = inside && border_depth(view, uv, region) >= 0.0;
         }
-        if inside && all(region.extent > vec2u(0u)) {
-            let bound = technique_shadow_intensity(view_receiver(view, pixel, receiver, neighbours, region));
+        if inside {
+            let bound = technique_shadow_intensity(view_receiver(view, pixel, receiver, surface, region));
             let intensity = leak_reduction_apply(bound, views[view].leak_reduction);
             var is_open = false;
             var part = vec2f(1.0);

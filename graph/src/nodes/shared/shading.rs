@@ -14,8 +14,8 @@ use super::stored_targets::{self, STORED};
 use super::tiled::Tiled;
 use super::{Specialization, depth_input, wgsl, wrong_property};
 use crate::{
-    Binding, Connected, GraphError, NodeDesc, Off, ParameterBlock, Pass, ResourceDesc, Rule, Slot,
-    Stage, TextureRule, bind,
+    Binding, BindingResource, Connected, GraphError, NodeDesc, Off, ParameterBlock, Pass,
+    ResourceDesc, Rule, Slot, Stage, TextureDesc, TextureRule, bind,
 };
 
 /// Properties of both nodes.
@@ -66,7 +66,7 @@ pub(in crate::nodes) fn describe(
     // The first light of each output.
     let firsts = (0..lights).step_by(4);
     let camera = upstream.texture("camera_depth")?;
-    let (specialization, normals) = surface(specialization, upstream);
+    let (specialization, neighbours) = surface(specialization, upstream, camera);
     let specialization = depth_input::of_camera(specialization, camera)
         .unsigned("VIEWS", views)
         .unsigned("LIGHTS", lights)
@@ -80,7 +80,7 @@ pub(in crate::nodes) fn describe(
         let mut pass = pass
             .bind("views", bind::parameters())
             .bind("camera_depth", bind::layer("camera_depth"));
-        let given = bindings.clone().into_iter().chain(normals.clone());
+        let given = bindings.clone().into_iter().chain(neighbours.clone());
         pass.bindings.extend(given.chain(tiled.bindings()));
         pass
     };
@@ -227,15 +227,33 @@ pub(in crate::nodes) fn normals_slot() -> Slot {
     Slot::input("normals", description, rule).optional()
 }
 
-/// How a pixel's surface continues: the module `surface`, from normals where they are connected.
+/// How a pixel's surface continues: the module `surface`, from normals where they are connected, and otherwise from the camera's depth. With it
+/// what it binds beside that.
 pub(in crate::nodes) fn surface(
     specialization: Specialization,
     upstream: &Connected<'_>,
-) -> (Specialization, Option<Binding>) {
+    camera: &TextureDesc,
+) -> (Specialization, Vec<Binding>) {
+    let has_samples = camera.samples > 1;
+    let neighbours = if has_samples {
+        include_str!("neighbours_loaded.wgsl")
+    } else {
+        include_str!("neighbours_gathered.wgsl")
+    };
+    let specialization = specialization.module("neighbours", neighbours);
+    let nearest = BindingResource::Sampler {
+        filtering: false,
+        anisotropy: 1,
+    };
+    let sampler = Binding::new("camera_sampler", nearest);
     let normals = upstream.get("normals").and_then(ResourceDesc::texture);
     let Some(normals) = normals else {
         let from_depth = include_str!("surface_from_depth.wgsl");
-        return (specialization.module("surface", from_depth), None);
+        let sampler = (!has_samples).then_some(sampler);
+        return (
+            specialization.module("surface", from_depth),
+            sampler.into_iter().collect(),
+        );
     };
     let format = normals.format;
     let unsigned = [Rgba8Unorm, Rgb10a2Unorm, Rg16Unorm].contains(&format);
@@ -243,6 +261,6 @@ pub(in crate::nodes) fn surface(
         .constant("NORMALS_OCTAHEDRAL", format.channels() == 2)
         .constant("NORMALS_UNSIGNED", unsigned)
         .module("surface", include_str!("surface_from_normals.wgsl"));
-    let binding = Binding::new("normals", bind::layer("normals"));
-    (specialization, Some(binding))
+    let normals = Binding::new("normals", bind::layer("normals"));
+    (specialization, vec![normals, sampler])
 }

@@ -12,7 +12,7 @@ pub(super) fn module(firsts: impl Iterator<Item = u32> + Clone, format: TextureF
     let variable = |first: u32| {
         format!(
             "@group(GROUP) @binding({}) var {}: texture_storage_2d<{format}, write>;\n",
-            11 + first / 4,
+            12 + first / 4,
             numbered(STORED, first)
         )
     };

@@ -1,37 +1,31 @@
-import node::camera_depth::{camera_depth_at, camera_depth_size};
+import node::camera_depth::{CameraPixel, CameraSurface, camera_depth_clip_at};
+import node::neighbours::{neighbours_at};
 
 // How a pixel's surface continues, from the camera's depth alone.
 
-// By how much the two pixels next to `pixel` along `step`, extrapolated, miss its stored depth; huge if the first one
-// shows no surface or lies outside of the picture.
-fn surface_extrapolation_error(pixel: vec2i, step: vec2i, stored_depth: f32, far_depth: f32) -> f32 {
-    let neighbour = pixel + step;
-    let outside = any(neighbour < vec2i(0)) || any(neighbour >= camera_depth_size());
-    let depth = camera_depth_at(neighbour);
-    let error = abs(2.0 * depth - camera_depth_at(neighbour + step) - stored_depth);
-    return select(error, SURFACE_UNUSABLE, outside || depth == far_depth);
-}
+// Clearly better is a quarter of the other.
+const CLEARLY: f32 = 0.25;
 
-// Above every difference of stored depths.
-const SURFACE_UNUSABLE: f32 = 1e30;
-
-// The neighbour of a pixel along `axis` on the side that continues its surface: xy is the step to it and z the change of
-// stored depth. Stored depth is linear on the screen where a surface is plane, so that is the side which extrapolates to
-// the pixel best; the other one may lie beyond a silhouette or an edge. Zero without a neighbour.
-fn surface_neighbour(pixel: vec2i, axis: vec2i, stored_depth: f32, far_depth: f32) -> vec3f {
-    let error_before = surface_extrapolation_error(pixel, -axis, stored_depth, far_depth);
-    let error_after = surface_extrapolation_error(pixel, axis, stored_depth, far_depth);
-    if min(error_before, error_after) == SURFACE_UNUSABLE {
-        return vec3f(0.0);
-    }
-    let direction = select(axis, -axis, error_before < error_after);
-    return vec3f(vec2f(direction), camera_depth_at(pixel + direction) - stored_depth);
-}
-
-// The neighbours of a pixel along x and y.
-fn surface_neighbours(pixel: vec2i, stored_depth: f32, far_depth: f32, position_from_camera: mat3x4f, scene_w_from_camera: vec4f) -> mat2x3f {
-    return mat2x3f(
-        surface_neighbour(pixel, vec2i(1, 0), stored_depth, far_depth),
-        surface_neighbour(pixel, vec2i(0, 1), stored_depth, far_depth),
-    );
+// The surface of a pixel. Stored depth is linear on the screen where a surface is plane. Along
+// each axis the neighbour counts that is nearer in depth, since the other one may lie beyond a silhouette or an edge, unless the corners say
+// on which side the surface is plane.
+fn surface_at(at: CameraPixel, position_from_camera: mat3x4f, scene_w_from_camera: vec4f) -> CameraSurface {
+    let depths = neighbours_at(at);
+    // To the right and up, as clip space has it.
+    let left = depths.stored - depths.before.x;
+    let right = depths.after.x - depths.stored;
+    let up = depths.before.y - depths.stored;
+    let down = depths.stored - depths.after.y;
+    // Four pixels of one plane miss it by nothing. Where one corner does so far better than the other, its pixels count.
+    let miss_before = abs(depths.corners.x - depths.before.x - up);
+    let miss_after = abs(depths.corners.y - depths.after.x + down);
+    let before_is_plane = miss_before < CLEARLY * miss_after;
+    let after_is_plane = miss_after < CLEARLY * miss_before;
+    // Beyond the picture the pixel itself is its neighbour, and says nothing.
+    let first = at.uv < at.per_pixel;
+    let last = at.uv + at.per_pixel > vec2f(1.0);
+    let is_nearer = vec2<bool>(abs(left) < abs(right), abs(up) < abs(down));
+    let is_before = (((is_nearer & vec2<bool>(!after_is_plane)) | vec2<bool>(before_is_plane)) & !first) | last;
+    let change = vec2f(select(right, left, is_before.x), select(down, up, is_before.y));
+    return CameraSurface(camera_depth_clip_at(at, depths.stored), 0.5 * change / at.per_pixel, true);
 }

@@ -1,4 +1,3 @@
-import node::camera_depth::{camera_depth_clip};
 import moment_shadows::map::depth::{DepthConversion};
 import moment_shadows::map::map_region::{MapRegion};
 import moment_shadows::shade::area_light::{AreaLight};
@@ -48,14 +47,16 @@ struct Receiver {
     place: vec3f,
     // What x and y were divided by; positive in front of the light.
     light_w: f32,
-    // What z was divided by; positive in front of the camera.
-    scene_w: f32,
+    // One over it, and over what z was divided by; positive in front of the camera.
+    per_light_w: f32,
+    per_scene_w: f32,
 }
 
-fn receiver_at(view: u32, pixel: vec2i, stored_depth: f32) -> Receiver {
-    let clip = camera_depth_clip(pixel, stored_depth);
+// The surface at a place in the camera's clip space.
+fn receiver_at(view: u32, clip: vec4f) -> Receiver {
     let light = views[view].light_from_camera * clip;
     // Results behind the camera or the light are not used.
-    let scene_w = max(dot(views[view].scene_w_from_camera, clip), 1e-30);
-    return Receiver(vec3f(light.xy / max(light.z, 1e-30), light.w / scene_w), light.z, scene_w);
+    let per_light_w = 1.0 / light.z;
+    let per_scene_w = 1.0 / max(dot(views[view].scene_w_from_camera, clip), 1e-30);
+    return Receiver(vec3f(light.xy * per_light_w, light.w * per_scene_w), light.z, per_light_w, per_scene_w);
 }

@@ -1,9 +1,9 @@
-import node::camera_depth::{camera_depth_at, camera_depth_size};
+import node::camera_depth::{CameraPixel, camera_depth_pixel};
 import node::debug_colour::{debug_colour};
-import node::fullscreen::{Covered};
+import node::fullscreen::{Covered, covered_per_pixel};
 import moment_shadows::map::map_region::{map_region_within};
 import node::specialization::{VIEWS};
-import node::surface::{surface_neighbours};
+import node::surface::{surface_at};
 import node::technique_map::{technique_map_size};
 import node::view_list::{view_list, view_list_next};
 import node::view_receiver::{border_depth, view_receiver};
@@ -17,19 +17,17 @@ const NO_VIEW = vec4f(0.2, 0.2, 0.2, 1.0);
 
 @fragment
 fn debug(covered: Covered) -> @location(0) vec4f {
-    let size = camera_depth_size();
-    let pixel = clamp(vec2i(covered.uv * vec2f(size)), vec2i(0), size - 1);
-    let stored_depth = camera_depth_at(pixel);
-    if stored_depth == views[0].far_depth {
+    let pixel = camera_depth_pixel(covered.uv);
+    let surface = surface_at(CameraPixel(covered.uv, covered_per_pixel(covered)), views[0].position_from_camera, views[0].scene_w_from_camera);
+    if surface.clip.z == views[0].far_depth {
         return NOTHING;
     }
-    let neighbours = surface_neighbours(pixel, stored_depth, views[0].far_depth, views[0].position_from_camera, views[0].scene_w_from_camera);
     var list = view_list(pixel);
     for (var view = view_list_next(&list, 0u); view < VIEWS; view = view_list_next(&list, view + 1u)) {
         let region = map_region_within(views[view].region, technique_map_size());
-        let receiver = receiver_at(view, pixel, stored_depth);
+        let receiver = receiver_at(view, surface.clip);
         if receiver.light_w > 0.0 && all(region.extent > vec2u(0u)) && border_depth(view, receiver.place.xy, region) >= 0.0 {
-            return vec4f(debug_colour(view, view_receiver(view, pixel, receiver, neighbours, region)), 1.0);
+            return vec4f(debug_colour(view, view_receiver(view, pixel, receiver, surface, region)), 1.0);
         }
     }
     return NO_VIEW;
