@@ -178,6 +178,7 @@ pub(super) fn of_depth(any: &MapEncoding) -> Vec<Variant> {
     let seeing = Variant::new(FitRange {}, any)
         .file("fit_range_seen", 4_usize)
         .row(true, "1 samples, of what the camera sees", &[])
+        .pass("see tiles", &[1])
         .pass("find ends", &[1, 8, 1, 4, 8])
         .pass("fit ranges", &[1, 4, 8])
         .pass("keep ranges", &[1]);
