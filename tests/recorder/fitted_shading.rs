@@ -137,7 +137,7 @@ fn what_lies_behind_all_that_is_seen_makes_no_light_leak() {
     let gpu = gpu();
     let plane = |x: u32| -0.9 + 0.05 * x as f32 / MAP[0] as f32;
     // An occluder over the left half, a plane, and what is only in the map: below the plane, and where the picture shows nothing.
-    let light = |x: u32, y: u32| match (x < MAP[0] / 2, y < 30, x % 3 == 0) {
+    let light = |x: u32, y: u32| match (x < MAP[0] / 2, y < 30, x.is_multiple_of(3)) {
         (_, false, _) => 0.9,
         (true, _, _) => -0.92,
         (false, _, true) => 0.3,
