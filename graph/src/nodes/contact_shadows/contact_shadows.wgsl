@@ -32,13 +32,13 @@ fn march(light: u32, surface: vec4f, slope: vec2f) -> f32 {
 @fragment
 fn contact(covered: Covered) -> @location(0) vec4f {
     let pixel = camera_depth_pixel(covered.uv);
-    let surface = surface_at(covered.uv, lights[0].position_from_camera, lights[0].scene_w_from_camera);
+    let surface = surface_at(covered.uv, lights[0].far_depth, lights[0].position_from_camera, lights[0].scene_w_from_camera);
     var intensities = intensity_at(pixel);
     if surface.clip.z == lights[0].far_depth {
         return intensities;
     }
     // From pixel to pixel.
-    let slope = surface.slope * vec2f(2.0, -2.0) / vec2f(camera_depth_size());
+    let slope = select(vec2f(0.0), surface.slope * vec2f(2.0, -2.0) / vec2f(camera_depth_size()), surface.has_plane);
     for (var light = 0u; light < LIGHTS; light++) {
         // A single light is in all channels, as the nodes that shade have it.
         let channel = vec4<bool>(LIGHTS == 1u) | (vec4u(light) == vec4u(0u, 1u, 2u, 3u));

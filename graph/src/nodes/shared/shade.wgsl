@@ -64,7 +64,7 @@ fn shade_single(pixel: vec2i, surface: CameraSurface) -> f32 {
 @fragment
 fn shade(covered: Covered) -> @location(0) vec4f {
     let pixel = camera_depth_pixel(covered.uv);
-    let surface = surface_at(covered.uv, views[0].position_from_camera, views[0].scene_w_from_camera);
+    let surface = surface_at(covered.uv, views[0].far_depth, views[0].position_from_camera, views[0].scene_w_from_camera);
     // A light casts no shadow outside its map, nor where the camera sees no surface.
     var intensities = vec4f(0.0);
     if surface.clip.z == views[0].far_depth {

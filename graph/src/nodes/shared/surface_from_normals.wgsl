@@ -8,7 +8,7 @@ import node::specialization::{GROUP, NORMALS_OCTAHEDRAL, NORMALS_UNSIGNED};
 @group(GROUP) @binding(6) var normals: texture_2d<f32>;
 
 // The surface of a pixel, from its middle in the picture, from 0 to 1. Its plane is unknown without a normal.
-fn surface_at(uv: vec2f, position_from_camera: mat3x4f, scene_w_from_camera: vec4f) -> CameraSurface {
+fn surface_at(uv: vec2f, far_depth: f32, position_from_camera: mat3x4f, scene_w_from_camera: vec4f) -> CameraSurface {
     let clip = camera_depth_clip_at(uv, stored_at(uv));
     let stored = textureSampleLevel(normals, camera_sampler, uv, 0.0).xyz;
     var normal = select(stored, 2.0 * stored - 1.0, NORMALS_UNSIGNED);
