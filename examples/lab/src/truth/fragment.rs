@@ -99,12 +99,13 @@ impl Camera<'_> {
             (across * self.map).extend(along)
         };
         let along = change(DVec4::Z);
-        let slope = self.slope(pixel);
+        let known = self.slope(pixel);
+        let slope = known.unwrap_or_default();
         let x = change(DVec4::X) + slope.x * along;
         let y = change(DVec4::Y) - slope.y * along;
         let determinant = x.x * y.y - x.y * y.x;
         let scaled = DVec2::new(x.z * y.y - y.z * x.y, y.z * x.x - x.z * y.x);
-        let gradient = if determinant.abs() < 1e-20 {
+        let gradient = if known.is_none() || determinant.abs() < 1e-20 {
             f64::INFINITY
         } else {
             scaled.length() / determinant.abs()
@@ -124,7 +125,7 @@ impl Camera<'_> {
 
     /// How stored depth changes to the right and down, over half of the picture: towards the neighbours that are nearer in depth, or those of
     /// the corner where four pixels lie on a plane.
-    fn slope(&self, [x, y]: [i64; 2]) -> DVec2 {
+    fn slope(&self, [x, y]: [i64; 2]) -> Option<DVec2> {
         let stored = |right: i64, down: i64| self.stored([x + right, y + down]);
         let [middle, left, up, right, down] = [
             stored(0, 0),
@@ -133,13 +134,13 @@ impl Camera<'_> {
             stored(1, 0),
             stored(0, 1),
         ];
+        let size = self.size;
         let miss_before = (stored(-1, -1) - left - up + middle).abs();
         let miss_after = (stored(1, 1) - right - down + middle).abs();
         let [before_is_plane, after_is_plane] = [
-            miss_before < 0.25 * miss_after,
-            miss_after < 0.25 * miss_before,
+            miss_before < 0.25 * miss_after && x > 0 && y > 0,
+            miss_after < 0.25 * miss_before && x < size[0] - 1 && y < size[1] - 1,
         ];
-        let size = self.size;
         let change = |backward: f64, forward: f64, at: i64, size: i64| {
             let is_nearer = backward.abs() < forward.abs();
             let is_before = (is_nearer && !after_is_plane) || before_is_plane;
@@ -149,10 +150,17 @@ impl Camera<'_> {
                 forward
             }
         };
-        let changes = DVec2::new(
-            change(middle - left, right - middle, x, size[0]),
-            change(middle - up, down - middle, y, size[1]),
-        );
-        0.5 * self.size() * changes
+        let far = f64::from(self.parameters.far_depth);
+        let across = change(middle - left, right - middle, x, size[0]);
+        let along = change(middle - up, down - middle, y, size[1]);
+        // Nothing is known where the neighbour that is left shows no surface.
+        let shows_nothing = |changed: f64, [before, after]: [f64; 2]| {
+            (before == far && changed == middle - before)
+                || (after == far && changed == after - middle)
+        };
+        if shows_nothing(across, [left, right]) || shows_nothing(along, [up, down]) {
+            return None;
+        }
+        Some(0.5 * self.size() * DVec2::new(across, along))
     }
 }

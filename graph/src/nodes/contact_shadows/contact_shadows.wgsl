@@ -32,7 +32,7 @@ fn march(light: u32, surface: vec4f, slope: vec2f) -> f32 {
 @fragment
 fn contact(covered: Covered) -> @location(0) vec4f {
     let pixel = camera_depth_pixel(covered.uv);
-    let surface = surface_at(CameraPixel(covered.uv, covered_per_pixel(covered)), lights[0].position_from_camera, lights[0].scene_w_from_camera);
+    let surface = surface_at(CameraPixel(covered.uv, covered_per_pixel(covered)), lights[0].far_depth, lights[0].position_from_camera, lights[0].scene_w_from_camera);
     var intensities = intensity_at(pixel);
     if surface.clip.z == lights[0].far_depth {
         return intensities;

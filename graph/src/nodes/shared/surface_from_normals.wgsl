@@ -8,7 +8,7 @@ import node::specialization::{GROUP, NORMALS_OCTAHEDRAL, NORMALS_UNSIGNED};
 @group(GROUP) @binding(6) var normals: texture_2d<f32>;
 
 // The surface of a pixel. Its plane is unknown without a normal.
-fn surface_at(at: CameraPixel, position_from_camera: mat3x4f, scene_w_from_camera: vec4f) -> CameraSurface {
+fn surface_at(at: CameraPixel, far_depth: f32, position_from_camera: mat3x4f, scene_w_from_camera: vec4f) -> CameraSurface {
     let clip = camera_depth_clip_at(at, stored_at(at.uv));
     let stored = textureSampleLevel(normals, camera_sampler, at.uv, 0.0).xyz;
     var normal = select(stored, 2.0 * stored - 1.0, NORMALS_UNSIGNED);

@@ -32,15 +32,14 @@ struct ReceiverSlope {
 
 // From the changes along x and y of the screen. Where the surface's plane is edge-on to the light, or unknown, it is huge, and what is made of it is limited.
 fn receiver_slope(x: vec3f, y: vec3f, receiver: Receiver, texels: vec2f, has_plane: bool) -> ReceiverSlope {
-    if !has_plane {
-        return ReceiverSlope(vec2f(RECEIVER_BIAS_EDGE_ON, 0.0), RECEIVER_BIAS_EDGE_ON);
-    }
     let normal = cross(x, y);
     let across = normal.xy * texels.yx;
     let facing = normal.z * (texels.x * texels.y);
     let scale = receiver.light_w * receiver.per_scene_w / max(abs(facing), SMALLEST_FACING);
     let gradient = select(across, -across, facing >= 0.0) * scale;
-    return ReceiverSlope(clamp(gradient, vec2f(-RECEIVER_BIAS_EDGE_ON), vec2f(RECEIVER_BIAS_EDGE_ON)), min(length(across) * scale, RECEIVER_BIAS_EDGE_ON));
+    let limited = clamp(gradient, vec2f(-RECEIVER_BIAS_EDGE_ON), vec2f(RECEIVER_BIAS_EDGE_ON));
+    let steepness = min(length(across) * scale, RECEIVER_BIAS_EDGE_ON);
+    return ReceiverSlope(select(vec2f(RECEIVER_BIAS_EDGE_ON, 0.0), limited, has_plane), select(RECEIVER_BIAS_EDGE_ON, steepness, has_plane));
 }
 
 // Of a normal that is edge-on to the light nothing but rounding is left along its rays.

@@ -56,7 +56,7 @@ struct Receiver {
 fn receiver_at(view: u32, clip: vec4f) -> Receiver {
     let light = views[view].light_from_camera * clip;
     // Results behind the camera or the light are not used.
-    let per_light_w = 1.0 / light.z;
+    let per_light_w = 1.0 / max(light.z, 1e-30);
     let per_scene_w = 1.0 / max(dot(views[view].scene_w_from_camera, clip), 1e-30);
     return Receiver(vec3f(light.xy * per_light_w, light.w * per_scene_w), light.z, per_light_w, per_scene_w);
 }

@@ -18,7 +18,7 @@ const NO_VIEW = vec4f(0.2, 0.2, 0.2, 1.0);
 @fragment
 fn debug(covered: Covered) -> @location(0) vec4f {
     let pixel = camera_depth_pixel(covered.uv);
-    let surface = surface_at(CameraPixel(covered.uv, covered_per_pixel(covered)), views[0].position_from_camera, views[0].scene_w_from_camera);
+    let surface = surface_at(CameraPixel(covered.uv, covered_per_pixel(covered)), views[0].far_depth, views[0].position_from_camera, views[0].scene_w_from_camera);
     if surface.clip.z == views[0].far_depth {
         return NOTHING;
     }
