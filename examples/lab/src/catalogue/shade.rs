@@ -40,20 +40,17 @@ pub(super) fn of_four_moments(four: &MapEncoding) -> Result<Vec<Variant>, LabErr
         };
         let name = format!("shade_hard_{storage}{kind}");
         let row = format!("{storage}, {lookup}");
-        // Each of at most so many probes looks for the coarsest level with texels: the last one, in a large region. Hardware takes those
-        // of a sampler.
+        // Each of at most so many probes looks for the coarsest level with texels: the last one, in a large region.
         let probes = [u32::from(ShadeHard::default().anisotropy), 1];
-        let probes = if lookup == "loaded" { &probes[..] } else { &[] };
         all.extend([
             shade(1, 1).file(&name, true).row(true, &row, &[]),
             shade(2, 6).file(format!("{name}_views"), false),
             shade(1, 1)
                 .mips(4)
                 .file(format!("{name}_mips"), unorm16)
-                .row(kind.is_empty(), format!("{row}, mip levels"), probes),
+                .row(kind.is_empty(), format!("{row}, mip levels"), &probes),
             shade(2, 6)
                 .mips(4)
-                .regions(4)
                 .file(format!("{name}_mips_views"), false),
             shade(1, 4).row(unorm16, format!("{row}, 4 views"), &[4]),
             bordered(4).file(format!("{name}_borders"), unorm16).row(

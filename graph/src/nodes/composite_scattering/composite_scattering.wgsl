@@ -1,4 +1,4 @@
-import node::camera_depth::{camera_depth_at, camera_depth_clip, camera_depth_size};
+import node::camera_depth::{camera_depth_at, camera_depth_clip, camera_depth_pixel, camera_depth_size};
 import node::fullscreen::{Covered};
 import moment_shadows::map::map_region::{MapRegion};
 import node::moments_lookup::{moments_map};
@@ -21,7 +21,7 @@ struct CompositeScatteringParameters {
 fn composite(covered: Covered) -> @location(0) vec4f {
     let picture = camera_depth_size();
     let pixel = clamp(vec2i(covered.uv * vec2f(picture)), vec2i(0), picture - 1);
-    let clip = camera_depth_clip(pixel, camera_depth_at(pixel));
+    let clip = camera_depth_clip(camera_depth_pixel(pixel), camera_depth_at(pixel));
     let surface = rectified_frame_surface(parameters.frame, clip.xy, clip.z);
     let coordinates = rectified_frame_coordinates(surface);
     let distance = length(surface);

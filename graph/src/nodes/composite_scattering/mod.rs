@@ -115,7 +115,7 @@ impl Node for CompositeScattering {
             )
             .module("scattering_bounds", bounds);
         let (specialization, sampler) =
-            moments_lookup(specialization, capabilities, &encoding, (1, 1), 1);
+            moments_lookup(specialization, capabilities, &encoding, 1, 1);
         let camera = upstream.texture("camera_depth")?;
         let wgsl = depth_input::of_camera(specialization, camera)
             .link(wgsl!("composite_scattering.wgsl"))?;

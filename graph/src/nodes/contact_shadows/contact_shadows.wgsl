@@ -1,5 +1,5 @@
-import node::camera_depth::{CameraPixel, camera_depth_at, camera_depth_clip, camera_depth_pixel, camera_depth_size};
-import node::fullscreen::{Covered, covered_per_pixel};
+import node::camera_depth::{camera_depth_at, camera_depth_clip, camera_depth_pixel, camera_depth_pixel_around, camera_depth_size};
+import node::fullscreen::{Covered};
 import node::intensity::{intensity_at};
 import moment_shadows::shade::contact_shadow::{ContactShadowParameters, contact_shadow_hides, contact_shadow_intensity, contact_shadow_nearer, contact_shadow_place, contact_shadow_ray};
 import node::specialization::{CAMERA_SAMPLE, DEPTH_STEP, GROUP, LIGHTS, STEPS};
@@ -21,7 +21,7 @@ fn march(light: u32, surface: vec4f, slope: vec2f) -> f32 {
         // any angle; but not away from the camera, into a wall that stands on the plane half a pixel farther on.
         let moved = place.z + dot(slope, vec2f(pixel) + CAMERA_SAMPLE - place.xy);
         let nearer = contact_shadow_nearer(lights[light], vec2f(place.z, moved));
-        let clip = camera_depth_clip(pixel, nearer);
+        let clip = camera_depth_clip(camera_depth_pixel(pixel), nearer);
         if contact_shadow_hides(lights[light], clip, camera_depth_at(pixel), DEPTH_STEP) {
             return contact_shadow_intensity(ray, along);
         }
@@ -31,8 +31,9 @@ fn march(light: u32, surface: vec4f, slope: vec2f) -> f32 {
 
 @fragment
 fn contact(covered: Covered) -> @location(0) vec4f {
-    let pixel = camera_depth_pixel(covered.uv);
-    let surface = surface_at(CameraPixel(covered.uv, covered_per_pixel(covered)), lights[0].far_depth, lights[0].position_from_camera, lights[0].scene_w_from_camera);
+    let at = camera_depth_pixel_around(covered.uv);
+    let pixel = at.pixel;
+    let surface = surface_at(at, lights[0].far_depth, lights[0].position_from_camera, lights[0].scene_w_from_camera);
     var intensities = intensity_at(pixel);
     if surface.clip.z == lights[0].far_depth {
         return intensities;

@@ -64,13 +64,8 @@ impl Node for RectifyMoments {
         let specialization = techniques::of_map(capabilities, &encoding)
             .unsigned("SOURCE_STORAGE", source.storage().wgsl_index())
             .module("rectified_texel", texel);
-        let (specialization, sampler) = moments_lookup(
-            specialization,
-            capabilities,
-            &source,
-            (map.mips, map.regions),
-            ANISOTROPY,
-        );
+        let (specialization, sampler) =
+            moments_lookup(specialization, capabilities, &source, map.mips, ANISOTROPY);
         let wgsl = specialization.link(wgsl!("rectify_moments.wgsl"))?;
         let mut pass = Pass::compute("rectify", "rectified", [8, 8])
             .shader(wgsl, "rectify")

@@ -158,13 +158,8 @@ impl ShadeHard {
         }
         let specialization = specialization.unsigned("STORAGE", encoding.storage().wgsl_index());
         let specialization = techniques::evaluation(specialization, &technique, encoding.blends());
-        let (specialization, sampler) = moments_lookup(
-            specialization,
-            capabilities,
-            &encoding,
-            (map.mips, map.regions),
-            probes,
-        );
+        let (specialization, sampler) =
+            moments_lookup(specialization, capabilities, &encoding, map.mips, probes);
         let map = Binding::new("moments_map", bind::layers("map"));
         Ok(Evaluation {
             technique,

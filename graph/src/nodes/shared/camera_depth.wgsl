@@ -6,8 +6,9 @@ import node::specialization::{CAMERA_SAMPLE, CameraDepth, GROUP};
 // Takes the nearest texel.
 @group(GROUP) @binding(11) var camera_sampler: sampler;
 
-// A pixel: its middle in the picture, from 0 to 1, and how far it is to those beside and below.
+// A pixel: its number, its middle in the picture from 0 to 1, and how far it is to those beside and below.
 struct CameraPixel {
+    pixel: vec2i,
     uv: vec2f,
     per_pixel: vec2f,
 }
@@ -37,10 +38,16 @@ fn camera_depth_size() -> vec2i {
     return vec2i(textureDimensions(camera_depth));
 }
 
-// The pixel at a place in the picture from 0 to 1.
-fn camera_depth_pixel(uv: vec2f) -> vec2i {
+// A pixel by its number.
+fn camera_depth_pixel(pixel: vec2i) -> CameraPixel {
+    let per_pixel = 1.0 / vec2f(camera_depth_size());
+    return CameraPixel(pixel, (vec2f(pixel) + 0.5) * per_pixel, per_pixel);
+}
+
+// The pixel at a place in the picture from 0 to 1. A host may show the picture in a viewport of another size.
+fn camera_depth_pixel_around(uv: vec2f) -> CameraPixel {
     let size = camera_depth_size();
-    return clamp(vec2i(uv * vec2f(size)), vec2i(0), size - 1);
+    return camera_depth_pixel(clamp(vec2i(uv * vec2f(size)), vec2i(0), size - 1));
 }
 
 // The depth that is stored for a pixel; beyond the picture for the nearest one.
@@ -49,13 +56,7 @@ fn camera_depth_at(pixel: vec2i) -> f32 {
 }
 
 // A pixel's surface in the camera's clip space: x, y, stored depth and 1.
-fn camera_depth_clip(pixel: vec2i, stored_depth: f32) -> vec4f {
-    let uv = (vec2f(pixel) + CAMERA_SAMPLE) / vec2f(camera_depth_size());
-    return vec4f(2.0 * uv.x - 1.0, 1.0 - 2.0 * uv.y, stored_depth, 1.0);
-}
-
-// The same without asking for the picture's size.
-fn camera_depth_clip_at(at: CameraPixel, stored_depth: f32) -> vec4f {
+fn camera_depth_clip(at: CameraPixel, stored_depth: f32) -> vec4f {
     var sample = 2.0 * at.uv;
     if any(CAMERA_SAMPLE != vec2f(0.5)) {
         sample += (2.0 * CAMERA_SAMPLE - 1.0) * at.per_pixel;

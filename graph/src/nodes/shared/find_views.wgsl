@@ -1,4 +1,4 @@
-import node::camera_depth::{camera_depth_at, camera_depth_clip, camera_depth_size};
+import node::camera_depth::{camera_depth_at, camera_depth_clip, camera_depth_pixel, camera_depth_size};
 import moment_shadows::map::map_region::{map_region_within};
 import node::specialization::{GROUP, TILE, VIEWS};
 import node::technique_map::{technique_map_size};
@@ -32,7 +32,7 @@ fn may_contain(view: u32, first: vec2i, last: vec2i, nearest: f32, farthest: f32
         let pixel = select(first, last, vec2<bool>((corner & 1u) != 0u, (corner & 2u) != 0u));
         // Of the pixels at the ends whole ones.
         let beyond = vec2f(select(-1.0, 1.0, (corner & 1u) != 0u), select(1.0, -1.0, (corner & 2u) != 0u)) / vec2f(camera_depth_size());
-        let clip = camera_depth_clip(pixel, select(nearest, farthest, (corner & 4u) != 0u)) + vec4f(beyond, 0.0, 0.0);
+        let clip = camera_depth_clip(camera_depth_pixel(pixel), select(nearest, farthest, (corner & 4u) != 0u)) + vec4f(beyond, 0.0, 0.0);
         let matrix = views[view].light_from_camera;
         let light = matrix * clip;
         let terms = mat4x4f(abs(matrix[0]), abs(matrix[1]), abs(matrix[2]), abs(matrix[3])) * abs(clip);

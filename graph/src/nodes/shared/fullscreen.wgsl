@@ -7,11 +7,6 @@ struct Covered {
     @location(0) uv: vec2f,
 }
 
-// How far it is to the pixels beside and below, from 0 to 1: to a part in a thousand, without asking for the picture's size.
-fn covered_per_pixel(covered: Covered) -> vec2f {
-    return vec2f(dpdx(covered.uv.x), dpdy(covered.uv.y));
-}
-
 @vertex
 fn fullscreen(@builtin(vertex_index) index: u32) -> Covered {
     // One triangle that covers the viewport: (-1, -1), (3, -1), (-1, 3).

@@ -5,12 +5,12 @@ use moment_shadows::MapEncoding;
 use super::Specialization;
 use crate::{Binding, BindingResource, Capabilities};
 
-/// Adds the module `moments_lookup` for a map with `levels` mip levels and `regions` in each layer, and gives the sampler that it binds, if it has one.
+/// Adds the module `moments_lookup` for a map with `levels` mip levels, and gives the sampler that it binds, if it has one.
 pub(in crate::nodes) fn moments_lookup(
     specialization: Specialization,
     capabilities: &Capabilities,
     encoding: &MapEncoding,
-    (levels, regions): (u32, u32),
+    levels: u32,
     anisotropy: u16,
 ) -> (Specialization, Option<Binding>) {
     // Logarithms are averaged by no sampler, and have no mip levels.
@@ -26,11 +26,7 @@ pub(in crate::nodes) fn moments_lookup(
     {
         (include_str!("moments_lookup_loaded.wgsl"), None)
     } else if minified {
-        let text = if regions == 1 {
-            include_str!("moments_lookup_whole.wgsl")
-        } else {
-            include_str!("moments_lookup_minified.wgsl")
-        };
+        let text = include_str!("moments_lookup_minified.wgsl");
         (text, Some(("anisotropic_sampler", anisotropy)))
     } else {
         let text = include_str!("moments_lookup_sampled.wgsl");

@@ -2,9 +2,9 @@ import node::camera_depth::{CameraPixel, Neighbours, camera_depth, camera_sample
 
 // A pixel and its neighbours in two gathers, for depth with one sample per pixel.
 
-// The depth that is stored for the pixel around a place in the picture from 0 to 1.
-fn stored_at(uv: vec2f) -> f32 {
-    return textureSampleLevel(camera_depth, camera_sampler, uv, 0);
+// The depth that is stored for a pixel.
+fn stored_at(at: CameraPixel) -> f32 {
+    return textureSampleLevel(camera_depth, camera_sampler, at.uv, 0);
 }
 
 // Gathers are aimed at the corners of a pixel, the middle of the four that they give: half a pixel from where rounding matters.

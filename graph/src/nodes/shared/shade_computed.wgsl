@@ -1,4 +1,4 @@
-import node::camera_depth::{CameraPixel, camera_depth_size};
+import node::camera_depth::{camera_depth_pixel, camera_depth_size};
 import node::shade_pixel::{shade_pixel};
 import node::shade_targets::{shade_store};
 import node::specialization::{SHADED};
@@ -9,9 +9,7 @@ import node::specialization::{SHADED};
 fn shade(@builtin(local_invocation_id) local: vec3u, @builtin(workgroup_id) workgroup: vec3u) {
     let first = SHADED * vec2i(workgroup.xy);
     let pixel = first + vec2i(local.xy);
-    let size = camera_depth_size();
-    if all(pixel < size) {
-        let per_pixel = 1.0 / vec2f(size);
-        shade_store(pixel, shade_pixel(CameraPixel((vec2f(pixel) + 0.5) * per_pixel, per_pixel), first));
+    if all(pixel < camera_depth_size()) {
+        shade_store(pixel, shade_pixel(camera_depth_pixel(pixel), first));
     }
 }

@@ -1,4 +1,4 @@
-import node::camera_depth::{CameraPixel, CameraSurface, camera_depth_pixel};
+import node::camera_depth::{CameraPixel, CameraSurface};
 import moment_shadows::shade::leak_reduction::{leak_reduction_apply};
 import moment_shadows::map::map_region::{MapRegion, map_region_within};
 import moment_shadows::shade::view_border::{view_border_parts};
@@ -61,7 +61,7 @@ fn shade_single(pixel: vec2i, listed: vec2i, surface: CameraSurface) -> f32 {
 
 // The shadow intensity in each target. `listed` is a pixel of the same tile: where a workgroup has one, all its invocations go through the same views.
 fn shade_pixel(at: CameraPixel, listed: vec2i) -> array<vec4f, TARGETS> {
-    let pixel = camera_depth_pixel(at.uv);
+    let pixel = at.pixel;
     let surface = surface_at(at, views[0].far_depth, views[0].position_from_camera, views[0].scene_w_from_camera);
     // A light casts no shadow outside its map, nor where the camera sees no surface.
     var intensities: array<vec4f, TARGETS>;

@@ -1,4 +1,4 @@
-import node::camera_depth::{CameraPixel, CameraSurface, camera_depth_clip_at};
+import node::camera_depth::{CameraPixel, CameraSurface, camera_depth_clip};
 import node::neighbours::{neighbours_at};
 
 // How a pixel's surface continues, from the camera's depth alone.
@@ -29,5 +29,5 @@ fn surface_at(at: CameraPixel, far_depth: f32, position_from_camera: mat3x4f, sc
     let change = vec2f(select(right, left, is_before.x), select(down, up, is_before.y));
     // Nothing is known where the neighbour that is left shows no surface.
     let has_plane = all(select(depths.after, depths.before, is_before) != vec2f(far_depth));
-    return CameraSurface(camera_depth_clip_at(at, depths.stored), 0.5 * change / at.per_pixel, has_plane);
+    return CameraSurface(camera_depth_clip(at, depths.stored), 0.5 * change / at.per_pixel, has_plane);
 }

@@ -1,5 +1,5 @@
 import moment_shadows::shade::surface_plane::{surface_plane_normal, surface_plane_slopes};
-import node::camera_depth::{CameraPixel, CameraSurface, camera_depth_clip_at, camera_sampler};
+import node::camera_depth::{CameraPixel, CameraSurface, camera_depth_clip, camera_sampler};
 import node::neighbours::{stored_at};
 import node::specialization::{GROUP, NORMALS_OCTAHEDRAL, NORMALS_UNSIGNED};
 
@@ -9,7 +9,7 @@ import node::specialization::{GROUP, NORMALS_OCTAHEDRAL, NORMALS_UNSIGNED};
 
 // The surface of a pixel. Its plane is unknown without a normal.
 fn surface_at(at: CameraPixel, far_depth: f32, position_from_camera: mat3x4f, scene_w_from_camera: vec4f) -> CameraSurface {
-    let clip = camera_depth_clip_at(at, stored_at(at.uv));
+    let clip = camera_depth_clip(at, stored_at(at));
     let stored = textureSampleLevel(normals, camera_sampler, at.uv, 0.0).xyz;
     var normal = select(stored, 2.0 * stored - 1.0, NORMALS_UNSIGNED);
     // What has no sign is no larger than 1 and no NaN, and planes ask for no length.

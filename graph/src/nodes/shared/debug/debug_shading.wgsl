@@ -1,6 +1,6 @@
-import node::camera_depth::{CameraPixel, camera_depth_pixel};
+import node::camera_depth::{camera_depth_pixel_around};
 import node::debug_colour::{debug_colour};
-import node::fullscreen::{Covered, covered_per_pixel};
+import node::fullscreen::{Covered};
 import moment_shadows::map::map_region::{map_region_within};
 import node::specialization::{VIEWS};
 import node::surface::{surface_at};
@@ -17,8 +17,9 @@ const NO_VIEW = vec4f(0.2, 0.2, 0.2, 1.0);
 
 @fragment
 fn debug(covered: Covered) -> @location(0) vec4f {
-    let pixel = camera_depth_pixel(covered.uv);
-    let surface = surface_at(CameraPixel(covered.uv, covered_per_pixel(covered)), views[0].far_depth, views[0].position_from_camera, views[0].scene_w_from_camera);
+    let at = camera_depth_pixel_around(covered.uv);
+    let pixel = at.pixel;
+    let surface = surface_at(at, views[0].far_depth, views[0].position_from_camera, views[0].scene_w_from_camera);
     if surface.clip.z == views[0].far_depth {
         return NOTHING;
     }
