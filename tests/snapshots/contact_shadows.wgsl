@@ -1,10 +1,10 @@
 // What is linked of files:
-// camera_depth: camera_depth camera_sampler CameraSurface Neighbours camera_depth_size camera_depth_pixel camera_depth_at camera_depth_clip camera_depth_clip_at
+// camera_depth: camera_depth camera_sampler CameraPixel CameraSurface Neighbours camera_depth_size camera_depth_pixel camera_depth_pixel_around camera_depth_at camera_depth_clip
 // fullscreen: Covered fullscreen
 // intensity: intensity intensity_at
 // moment_shadows/shade/contact_shadow.wgsl: ContactShadowParameters ContactShadowRay CONTACT_SHADOW_NEAREST CONTACT_SHADOW_FADE CONTACT_SHADOW_DEPTH_STEPS CONTACT_SHADOW_BIAS contact_shadow_ray contact_shadow_place contact_shadow_nearer contact_shadow_hides contact_shadow_intensity
-// neighbours: neighbours_at
-// surface: CLEARLY surface_at
+// neighbours: stored_at gathered neighbours_at
+// surface: UNUSABLE surface_at
 // contact_shadows.wgsl: lights march contact
 
 // specialization

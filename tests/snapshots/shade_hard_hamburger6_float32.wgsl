@@ -1,17 +1,18 @@
 // What is linked of files:
-// camera_depth: camera_depth camera_depth_size camera_depth_at camera_depth_clip
+// camera_depth: camera_depth camera_sampler CameraPixel CameraSurface Neighbours camera_depth_size camera_depth_pixel_around camera_depth_clip
 // fullscreen: Covered fullscreen
 // moment_shadows/shade/leak_reduction.wgsl: LeakReduction leak_reduction_full_shadow leak_reduction_apply
 // moment_shadows/map/map_region.wgsl: MapRegion map_region_within map_region_at_level map_region_last_level map_region_place
 // moment_shadows/shade/view_border.wgsl: view_border_depth view_border_parts
-// surface: surface_extrapolation_error SURFACE_UNUSABLE surface_neighbour surface_neighbours
+// neighbours: stored_at gathered neighbours_at
+// surface: UNUSABLE surface_at
 // moment_shadows/maths/hankel.wgsl: HankelFactor HANKEL_SMALLEST_VARIANCE HANKEL_SMALLEST_RESIDUE hankel_factor hankel_second_polynomial
 // moment_shadows/map/storage.wgsl: STORAGE_FLOAT16 STORAGE_FLOAT32 STORAGE_UNORM10 storage_is_float
 // moment_shadows/moments/six_moments.wgsl: SixMoments SixMomentsBias SIX_MOMENTS_BIAS_TARGET SIX_MOMENTS_BIAS_UNORM16 SIX_MOMENTS_BIAS_FLOAT16 SIX_MOMENTS_BIAS_FLOAT32 SIX_MOMENTS_BIAS_UNORM10 SIX_MOMENTS_ODD_OFFSET SIX_MOMENTS_EVEN_OFFSET SIX_MOMENTS_ODD_INVERSE SIX_MOMENTS_EVEN_INVERSE six_moments_affine six_moments_middle
 // clamped.: six_moments_from_texels six_moments_bias_of six_moments_apply_bias
 // moment_shadows/bounds/hamburger6.wgsl: Hamburger6Factor Hamburger6Polynomials HAMBURGER6_SMALLEST_PIVOT HAMBURGER6_LARGEST_SHIFT HAMBURGER6_LARGEST_RATIO HAMBURGER6_FARTHEST_SUPPORT HAMBURGER6_STEPS HAMBURGER6_LARGE_ALPHA HAMBURGER6_STEPS_OF_LARGE_ALPHA hamburger6_factor hamburger6_polynomials hamburger6_nodes_below hamburger6_lone_weight hamburger6_bounds hamburger6_lower_bound hamburger6_shadow_intensity
 // storage.: hamburger6_shadow_intensity_of_texels
-// moment_shadows/map/minification.wgsl: MINIFICATION_LARGEST_ANISOTROPY MINIFICATION_TEXEL_PER_WIDTH MinificationFootprint minification_footprint minification_probe minification_depth_variance
+// moment_shadows/map/minification.wgsl: MINIFICATION_LARGEST_ANISOTROPY MINIFICATION_TEXEL_PER_WIDTH MinificationFootprint MinificationAxes minification_axes minification_footprint MINIFICATION_SLACK minification_probe minification_axes_depth_variance
 // moment_shadows/map/map_load.wgsl: map_load_bilinear map_load_trilinear map_load_footprint
 // moments_lookup: moments_map moments_lookup
 // moment_shadows/map/depth.wgsl: DepthConversion
@@ -21,11 +22,11 @@
 // map_texel: map_texel
 // technique_map: technique_map_size
 // view_list: ViewList view_list view_list_next
-// moment_shadows/shade/receiver_bias.wgsl: RECEIVER_BIAS_STANDARD_DEVIATIONS RECEIVER_BIAS_EDGE_ON ReceiverBias RECEIVER_BIAS_ROUNDING receiver_bias_fitted receiver_bias_plane receiver_bias_step receiver_bias_depth receiver_bias_depth_minified
+// moment_shadows/shade/receiver_bias.wgsl: RECEIVER_BIAS_STANDARD_DEVIATIONS RECEIVER_BIAS_EDGE_ON ReceiverBias RECEIVER_BIAS_ROUNDING receiver_bias_fitted receiver_bias_step receiver_bias_depth receiver_bias_depth_minified
 // range_of_view: range_of_view
 // views: ViewParameters VIEW_FADES VIEW_ROUND views Receiver receiver_at
-// view_receiver: LARGEST_DIFFERENCE receiver_difference view_receiver border_depth
-// shade_pixel: BORDERS border_parts shade_pixel
+// view_receiver: LARGEST_DIFFERENCE receiver_change ReceiverSlope receiver_slope SMALLEST_FACING receiver_difference view_receiver border_depth
+// shade_pixel: BORDERS border_parts region_contains first_view shade_single shade_pixel
 // shade_drawn.wgsl: shade
 
 // specialization

@@ -1,10 +1,11 @@
 // What is linked of files:
-// camera_depth: camera_depth camera_depth_size camera_depth_at camera_depth_clip
+// camera_depth: camera_depth camera_sampler CameraPixel CameraSurface Neighbours camera_depth_size camera_depth_pixel_around camera_depth_clip
 // fullscreen: Covered fullscreen
 // moment_shadows/shade/leak_reduction.wgsl: LeakReduction leak_reduction_full_shadow leak_reduction_apply
 // moment_shadows/map/map_region.wgsl: MapRegion map_region_within
 // moment_shadows/shade/view_border.wgsl: view_border_depth view_border_parts
-// surface: surface_extrapolation_error SURFACE_UNUSABLE surface_neighbour surface_neighbours
+// neighbours: stored_at gathered neighbours_at
+// surface: UNUSABLE surface_at
 // moment_shadows/map/depth.wgsl: DepthConversion DEPTH_SMALLEST_DENOMINATOR DEPTH_INFINITELY_FAR depth_is_nan depth_to_moment_depth depth_of_light
 // moment_shadows/maths/disk_samples.wgsl: DISK_SAMPLES_TURN DISK_SAMPLES_GOLDEN_ANGLE disk_samples_angle disk_samples_rotation disk_samples_rotate disk_samples_vogel
 // moment_shadows/shade/receiver_plane.wgsl: ReceiverPlane RECEIVER_PLANE_LARGEST receiver_plane_through receiver_plane_depth
@@ -15,12 +16,12 @@
 // technique_map: depth_map technique_map_size
 // technique_receiver: TechniqueReceiver
 // view_list: ViewList view_list view_list_next
-// moment_shadows/map/minification.wgsl: MINIFICATION_LARGEST_ANISOTROPY MINIFICATION_TEXEL_PER_WIDTH MinificationFootprint minification_footprint minification_depth_variance
-// moment_shadows/shade/receiver_bias.wgsl: RECEIVER_BIAS_STANDARD_DEVIATIONS RECEIVER_BIAS_EDGE_ON ReceiverBias RECEIVER_BIAS_ROUNDING receiver_bias_fitted receiver_bias_plane receiver_bias_step receiver_bias_depth receiver_bias_depth_minified
+// moment_shadows/map/minification.wgsl: MINIFICATION_LARGEST_ANISOTROPY MINIFICATION_TEXEL_PER_WIDTH MinificationAxes minification_axes MINIFICATION_SLACK minification_axes_depth_variance
+// moment_shadows/shade/receiver_bias.wgsl: RECEIVER_BIAS_STANDARD_DEVIATIONS RECEIVER_BIAS_EDGE_ON ReceiverBias RECEIVER_BIAS_ROUNDING receiver_bias_fitted receiver_bias_step receiver_bias_depth receiver_bias_depth_minified
 // range_of_view: range_of_view
 // views: ViewParameters VIEW_FADES VIEW_ROUND views Receiver receiver_at
-// view_receiver: LARGEST_DIFFERENCE receiver_difference view_receiver border_depth
-// shade_pixel: BORDERS border_parts shade_pixel
+// view_receiver: LARGEST_DIFFERENCE receiver_change ReceiverSlope receiver_slope SMALLEST_FACING receiver_difference view_receiver border_depth
+// shade_pixel: BORDERS border_parts region_contains first_view shade_single shade_pixel
 // shade_drawn.wgsl: shade
 
 // specialization

@@ -1,5 +1,5 @@
 // What is linked of files:
-// camera_depth: camera_depth camera_depth_size camera_depth_at camera_depth_clip
+// camera_depth: camera_depth CameraPixel camera_depth_size camera_depth_pixel camera_depth_at camera_depth_clip
 // moment_shadows/map/map_region.wgsl: MapRegion map_region_within
 // moments_lookup: moments_map
 // technique_map: technique_map_size

@@ -1,17 +1,18 @@
 // What is linked of files:
-// camera_depth: camera_depth camera_depth_size camera_depth_at camera_depth_clip
+// camera_depth: camera_depth camera_sampler CameraPixel CameraSurface Neighbours camera_depth_size camera_depth_pixel_around camera_depth_clip
 // fullscreen: Covered fullscreen
 // moment_shadows/shade/leak_reduction.wgsl: LeakReduction leak_reduction_full_shadow leak_reduction_apply
 // moment_shadows/map/map_region.wgsl: MapRegion map_region_within
 // moment_shadows/shade/view_border.wgsl: view_border_depth view_border_parts
-// surface: surface_extrapolation_error SURFACE_UNUSABLE surface_neighbour surface_neighbours
+// neighbours: stored_at gathered neighbours_at
+// surface: UNUSABLE surface_at
 // moment_shadows/moments/four_moments.wgsl: FourMomentsBias FOUR_MOMENTS_SQRT_3 four_moments_dequantize four_moments_apply_bias
 // moment_shadows/filter/summed_area_encoding.wgsl: SUMMED_AREA_ENCODING_BIAS_PER_ERROR SUMMED_AREA_ENCODING_BIAS_OF_F32 SUMMED_AREA_ENCODING_SMALLEST_BIAS summed_area_encoding_moment_bias
 // moment_shadows/map/range_fit.wgsl: RangeFit range_fit_none range_fit_depth
 // moment_shadows/shade/area_light.wgsl: AreaLight AREA_LIGHT_LARGEST_RADIUS AREA_LIGHT_BOX_OF_DISK area_light_fitted area_light_half_extent area_light_limited area_light_box
 // moment_shadows/maths/hankel.wgsl: HankelFactor HANKEL_SMALLEST_VARIANCE HANKEL_SMALLEST_RESIDUE hankel_factor hankel_second_polynomial hankel_christoffel_number
 // moment_shadows/bounds/hamburger4.wgsl: HAMBURGER4_FARTHEST_SUPPORT HAMBURGER4_SMALLEST_LEADING_COEFFICIENT Hamburger4Support hamburger4_support hamburger4_lower_bound_at hamburger4_lower_bound
-// moment_shadows/shade/receiver_bias.wgsl: RECEIVER_BIAS_STANDARD_DEVIATIONS RECEIVER_BIAS_EDGE_ON ReceiverBias RECEIVER_BIAS_ROUNDING receiver_bias_fitted receiver_bias_plane receiver_bias_step receiver_bias_depth receiver_bias_depth_minified receiver_bias_depth_of_kernel
+// moment_shadows/shade/receiver_bias.wgsl: RECEIVER_BIAS_STANDARD_DEVIATIONS RECEIVER_BIAS_EDGE_ON ReceiverBias RECEIVER_BIAS_ROUNDING receiver_bias_fitted receiver_bias_step receiver_bias_depth receiver_bias_depth_minified receiver_bias_depth_of_kernel
 // moment_shadows/shade/soft_blockers.wgsl: SoftBlockers SOFT_BLOCKERS_SMALLEST_SHARE soft_blockers_from soft_blockers_of_four_moments
 // moment_shadows/filter/summed_area_table.wgsl: SummedAreaTableRectangle summed_area_table_rectangle SummedAreaTableOrigin summed_area_table_origin SummedAreaTableStrips summed_area_table_strips summed_area_table_row summed_area_table_mean_interpolated summed_area_table_mean_plain
 // moment_shadows/map/depth.wgsl: DepthConversion
@@ -20,11 +21,11 @@
 // technique_receiver: TechniqueReceiver
 // technique_soft: soft_table soft_receiver
 // view_list: ViewList view_list view_list_next
-// moment_shadows/map/minification.wgsl: MINIFICATION_LARGEST_ANISOTROPY MINIFICATION_TEXEL_PER_WIDTH MinificationFootprint minification_footprint minification_depth_variance
+// moment_shadows/map/minification.wgsl: MINIFICATION_LARGEST_ANISOTROPY MINIFICATION_TEXEL_PER_WIDTH MinificationAxes minification_axes MINIFICATION_SLACK minification_axes_depth_variance
 // range_of_view: range_of_view
 // views: ViewParameters VIEW_FADES VIEW_ROUND views Receiver receiver_at
-// view_receiver: LARGEST_DIFFERENCE receiver_difference view_receiver border_depth
-// shade_pixel: BORDERS border_parts shade_pixel
+// view_receiver: LARGEST_DIFFERENCE receiver_change ReceiverSlope receiver_slope SMALLEST_FACING receiver_difference view_receiver border_depth
+// shade_pixel: BORDERS border_parts region_contains first_view shade_single shade_pixel
 // shade_drawn.wgsl: shade
 
 // specialization

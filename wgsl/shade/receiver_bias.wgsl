@@ -59,10 +59,9 @@ fn receiver_bias_plane(difference_x: vec3f, difference_y: vec3f) -> vec2f {
 // depth is off by; the other half is for the variance that steps add under a kernel. To be subtracted from the fragment depth
 // before anything else.
 fn receiver_bias_step(bias: ReceiverBias, fragment_depth: f32) -> f32 {
-    // As `unpack2x16snorm` has it, with one product for both.
-    let halves = vec2f(vec2i(i32(bias.step << 16u), i32(bias.step)) >> vec2u(16u));
+    let halves = unpack2x16snorm(bias.step);
     let half_root = fma(halves.y, clamp(fragment_depth, -1.0, 1.0), halves.x);
-    return (4.0 / (32767.0 * 32767.0)) * half_root * half_root;
+    return min(4.0 * half_root * half_root, 2.0);
 }
 
 // The receiver bias in moment depth, to be subtracted from the fragment depth.

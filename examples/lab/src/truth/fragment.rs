@@ -123,44 +123,29 @@ impl Camera<'_> {
         })
     }
 
-    /// How stored depth changes to the right and down, over half of the picture: towards the neighbours that are nearer in depth, or those of
-    /// the corner where four pixels lie on a plane.
-    fn slope(&self, [x, y]: [i64; 2]) -> Option<DVec2> {
-        let stored = |right: i64, down: i64| self.stored([x + right, y + down]);
-        let [middle, left, up, right, down] = [
-            stored(0, 0),
-            stored(-1, 0),
-            stored(0, -1),
-            stored(1, 0),
-            stored(0, 1),
-        ];
-        let size = self.size;
-        let miss_before = (stored(-1, -1) - left - up + middle).abs();
-        let miss_after = (stored(1, 1) - right - down + middle).abs();
-        let [before_is_plane, after_is_plane] = [
-            miss_before < 0.25 * miss_after && x > 0 && y > 0,
-            miss_after < 0.25 * miss_before && x < size[0] - 1 && y < size[1] - 1,
-        ];
-        let change = |backward: f64, forward: f64, at: i64, size: i64| {
-            let is_nearer = backward.abs() < forward.abs();
-            let is_before = (is_nearer && !after_is_plane) || before_is_plane;
-            if (is_before && at > 0) || at == size - 1 {
-                backward
-            } else {
-                forward
+    /// How stored depth changes to the right and down, over half of the picture: on each axis towards the side whose pixels extrapolate to
+    /// this one best. `None` where an axis has no neighbour that shows a surface.
+    fn slope(&self, pixel: [i64; 2]) -> Option<DVec2> {
+        let stored = self.stored(pixel);
+        let change = |axis: usize| {
+            let at = |steps: i64| {
+                let mut at = pixel;
+                at[axis] += steps;
+                at
+            };
+            let miss = |side: i64| {
+                let depth = self.stored(at(side));
+                let usable = (0..self.size[axis]).contains(&at(side)[axis])
+                    && depth != f64::from(self.parameters.far_depth);
+                usable.then(|| (2.0 * depth - self.stored(at(2 * side)) - stored).abs())
+            };
+            match (miss(-1), miss(1)) {
+                (None, None) => None,
+                (Some(before), Some(after)) if before < after => Some(stored - self.stored(at(-1))),
+                (Some(_), None) => Some(stored - self.stored(at(-1))),
+                _ => Some(self.stored(at(1)) - stored),
             }
         };
-        let far = f64::from(self.parameters.far_depth);
-        let across = change(middle - left, right - middle, x, size[0]);
-        let along = change(middle - up, down - middle, y, size[1]);
-        // Nothing is known where the neighbour that is left shows no surface.
-        let shows_nothing = |changed: f64, [before, after]: [f64; 2]| {
-            (before == far && changed == middle - before)
-                || (after == far && changed == after - middle)
-        };
-        if shows_nothing(across, [left, right]) || shows_nothing(along, [up, down]) {
-            return None;
-        }
-        Some(0.5 * self.size() * DVec2::new(across, along))
+        Some(0.5 * self.size() * DVec2::new(change(0)?, change(1)?))
     }
 }

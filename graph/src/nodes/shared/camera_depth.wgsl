@@ -23,14 +23,15 @@ struct CameraSurface {
     has_plane: bool,
 }
 
-// The depth that is stored for a pixel and its neighbours.
+// The depth that is stored for a pixel and its neighbours; beyond the picture that of the nearest pixel.
 struct Neighbours {
     stored: f32,
-    // To the left and above, and to the right and below; beyond the picture those of the nearest pixel.
+    // To the left and above, and to the right and below.
     before: vec2f,
     after: vec2f,
-    // To the left and above at once, and to the right and below.
-    corners: vec2f,
+    // Two pixels that way.
+    before_two: vec2f,
+    after_two: vec2f,
 }
 
 // Width and height of the picture.
@@ -44,10 +45,12 @@ fn camera_depth_pixel(pixel: vec2i) -> CameraPixel {
     return CameraPixel(pixel, (vec2f(pixel) + 0.5) * per_pixel, per_pixel);
 }
 
-// The pixel at a place in the picture from 0 to 1. A host may show the picture in a viewport of another size.
+// The pixel around a place in the picture, from 0 to below 1. A host may show the picture in a viewport of another size.
 fn camera_depth_pixel_around(uv: vec2f) -> CameraPixel {
-    let size = camera_depth_size();
-    return camera_depth_pixel(clamp(vec2i(uv * vec2f(size)), vec2i(0), size - 1));
+    let size = vec2f(camera_depth_size());
+    let middle = floor(uv * size) + 0.5;
+    let per_pixel = 1.0 / size;
+    return CameraPixel(vec2i(middle), middle * per_pixel, per_pixel);
 }
 
 // The depth that is stored for a pixel; beyond the picture for the nearest one.

@@ -8,9 +8,11 @@ fn stored_at(at: CameraPixel) -> f32 {
 }
 
 fn neighbours_at(at: CameraPixel) -> Neighbours {
-    let pixel = at.pixel;
-    let before = vec2f(camera_depth_at(pixel - vec2i(1, 0)), camera_depth_at(pixel - vec2i(0, 1)));
-    let after = vec2f(camera_depth_at(pixel + vec2i(1, 0)), camera_depth_at(pixel + vec2i(0, 1)));
-    let corners = vec2f(camera_depth_at(pixel - vec2i(1)), camera_depth_at(pixel + vec2i(1)));
-    return Neighbours(camera_depth_at(pixel), before, after, corners);
+    return Neighbours(
+        stored_at(at),
+        vec2f(camera_depth_at(at.pixel - vec2i(1, 0)), camera_depth_at(at.pixel - vec2i(0, 1))),
+        vec2f(camera_depth_at(at.pixel + vec2i(1, 0)), camera_depth_at(at.pixel + vec2i(0, 1))),
+        vec2f(camera_depth_at(at.pixel - vec2i(2, 0)), camera_depth_at(at.pixel - vec2i(0, 2))),
+        vec2f(camera_depth_at(at.pixel + vec2i(2, 0)), camera_depth_at(at.pixel + vec2i(0, 2))),
+    );
 }
