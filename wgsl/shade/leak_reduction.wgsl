@@ -29,6 +29,6 @@ fn leak_reduction_apply(shadow_intensity: f32, reduction: LeakReduction) -> f32 
         return shadow;
     }
     // A power goes through the logarithm, of 0 too.
-    let curved = exp2(max(reduction.visibility_exponent, 1e-6) * log2(max(1.0 - shadow, 1e-30)));
+    let curved = pow(max(1.0 - shadow, 1e-30), max(reduction.visibility_exponent, 1e-6));
     return select(1.0 - curved, 1.0, shadow >= 1.0);
 }
