@@ -62,7 +62,8 @@ fn camera_depth_at(pixel: vec2i) -> f32 {
 fn camera_depth_clip(at: CameraPixel, stored_depth: f32) -> vec4f {
     var sample = 2.0 * at.uv;
     if any(CAMERA_SAMPLE != vec2f(0.5)) {
-        sample += (2.0 * CAMERA_SAMPLE - 1.0) * at.per_pixel;
+        // Rounded once: bilinear weights jump where a place lies between two of them.
+        sample = 2.0 * (vec2f(at.pixel) + CAMERA_SAMPLE) / vec2f(camera_depth_size());
     }
     return vec4f(sample.x - 1.0, 1.0 - sample.y, stored_depth, 1.0);
 }
