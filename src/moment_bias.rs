@@ -82,6 +82,7 @@ impl Storage {
             Storage::Unorm16 => UNORM16,
             Storage::Float16 => of_four(FOUR_MOMENTS_BIAS_FLOAT16),
             Storage::Float32 => of_four(FOUR_MOMENTS_BIAS_FLOAT32),
+            Storage::Packed64 | Storage::Packed32 => of_four(FOUR_MOMENTS_BIAS_PACKED),
             Storage::Fixed32 => SummedAreaTable::COARSEST.moment_bias(),
         }
     }
@@ -99,6 +100,8 @@ impl Storage {
             Storage::Float16 => of_four(HAUSDORFF4_BIAS_FLOAT16),
             Storage::Float32 => of_four(HAUSDORFF4_BIAS_FLOAT32),
             Storage::Fixed32 => SummedAreaTable::COARSEST.hausdorff_moment_bias(),
+            // Valid on the real line alone: as float32, whose rounding stands for theirs.
+            Storage::Packed64 | Storage::Packed32 => of_four(HAUSDORFF4_BIAS_FLOAT32),
         }
     }
 
@@ -113,7 +116,9 @@ impl Storage {
             Storage::Float16 => SIX_MOMENTS_BIAS_FLOAT16,
             Storage::Float32 => SIX_MOMENTS_BIAS_FLOAT32,
             Storage::Unorm10 => SIX_MOMENTS_BIAS_UNORM10,
-            Storage::Unorm8 | Storage::Fixed32 => return None,
+            Storage::Unorm8 | Storage::Fixed32 | Storage::Packed64 | Storage::Packed32 => {
+                return None;
+            }
         };
         let even = SIX_MOMENTS_BIAS_TARGET;
         Some(SixMomentsBias { even, alpha })

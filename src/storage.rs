@@ -5,8 +5,8 @@ use core::fmt;
 use serde::{Deserialize, Serialize};
 
 use crate::constants::{
-    STORAGE_FIXED32, STORAGE_FLOAT16, STORAGE_FLOAT32, STORAGE_UNORM8, STORAGE_UNORM10,
-    STORAGE_UNORM16,
+    STORAGE_FIXED32, STORAGE_FLOAT16, STORAGE_FLOAT32, STORAGE_PACKED32, STORAGE_PACKED64,
+    STORAGE_UNORM8, STORAGE_UNORM10, STORAGE_UNORM16,
 };
 use crate::{Profile, TextureFormat, ValueError};
 
@@ -17,6 +17,8 @@ use crate::{Profile, TextureFormat, ValueError};
 /// | [`Unorm16`](Storage::Unorm16) | rgba16unorm | 64 | 6e-5 | optimised basis; native only |
 /// | [`Float16`](Storage::Float16) | rgba16float | 64 | 1e-3 | optimised basis less one half; everywhere, leaks four times as far |
 /// | [`Float32`](Storage::Float32) | rgba32float | 128 | 1.5e-6 | raw moments; filtered in the shader where the device cannot |
+/// | [`Packed64`](Storage::Packed64) | rg32uint | 64 | 6e-7 | non-linear; everywhere, filtered in the shader |
+/// | [`Packed32`](Storage::Packed32) | r32uint | 32 | 6e-7 | non-linear; everywhere, filtered in the shader |
 ///
 /// Six moments take two such texels, all with the optimised basis, or the smallest of all:
 ///
@@ -45,17 +47,24 @@ pub enum Storage {
     Unorm10 = STORAGE_UNORM10 as isize,
     /// Sums of 32-bit integers: a summed-area table, see [`SummedAreaTable`](crate::SummedAreaTable).
     Fixed32 = STORAGE_FIXED32 as isize,
+    /// Four moments in 64 bits, non-linearly (WGSL module `packed_four_moments`): about as exact as `Float32`, on every device. Shaders
+    /// load and unpack four texels where a sampler would filter.
+    Packed64 = STORAGE_PACKED64 as isize,
+    /// The same in 32 bits: depths of 10 bits between which the mean is kept.
+    Packed32 = STORAGE_PACKED32 as isize,
 }
 
 impl Storage {
     /// Every storage.
-    pub const ALL: [Storage; 6] = [
+    pub const ALL: [Storage; 8] = [
         Storage::Unorm16,
         Storage::Float16,
         Storage::Float32,
         Storage::Unorm8,
         Storage::Unorm10,
         Storage::Fixed32,
+        Storage::Packed64,
+        Storage::Packed32,
     ];
 
     /// The storages of four moments.
@@ -72,6 +81,8 @@ impl Storage {
             Storage::Unorm8 => "unorm8",
             Storage::Unorm10 => "unorm10",
             Storage::Fixed32 => "fixed32",
+            Storage::Packed64 => "packed64",
+            Storage::Packed32 => "packed32",
         }
     }
 
@@ -85,6 +96,8 @@ impl Storage {
             Storage::Unorm8 => (None, None, F::Rgba8Unorm),
             Storage::Unorm10 => (None, None, F::Rgb10a2Unorm),
             Storage::Fixed32 => (None, Some(F::Rg32Uint), F::Rgba32Uint),
+            Storage::Packed64 => (None, None, F::Rg32Uint),
+            Storage::Packed32 => (None, None, F::R32Uint),
         }
     }
 
@@ -124,6 +137,12 @@ impl Storage {
     #[must_use]
     pub fn is_drawn(self) -> bool {
         self == Storage::Unorm10
+    }
+
+    /// Whether several channels are packed into integers, which shaders load and unpack and no sampler filters.
+    #[must_use]
+    pub fn is_packed(self) -> bool {
+        matches!(self, Storage::Packed64 | Storage::Packed32)
     }
 
     /// Whether every device of the profile can make a map of this storage in a texture of this format.

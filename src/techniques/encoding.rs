@@ -84,11 +84,16 @@ impl MapEncoding {
     pub fn with_blends(self, blends: u32) -> Result<Self, ValueError> {
         let refused = |message| Err(ValueError::new("blends", message));
         let technique = &self.technique;
-        if blends > 0 && (self.table.is_some() || technique.row().blended.is_none()) {
+        if blends > 0
+            && (self.table.is_some()
+                || self.storage.is_packed()
+                || technique.row().blended.is_none())
+        {
             let all = Technique::examples();
             let others = all.iter().filter(|other| other.row().blended.is_some());
             let what = match self.table {
                 Some(_) => "a summed-area table".to_owned(),
+                None if self.storage.is_packed() => format!("packed texels ('{}')", self.storage),
                 None => format!("a map for '{technique}'"),
             };
             return refused(format!(
@@ -206,6 +211,12 @@ impl MapEncoding {
     #[must_use]
     pub fn has_split_sums(&self) -> bool {
         self.technique.row().bounded_channels && self.storage == Storage::Float32
+    }
+
+    /// Whether samplers and mip levels can average its texels.
+    #[must_use]
+    pub fn averaged_by_samplers(&self) -> bool {
+        self.technique.row().averaged_by_samplers && !self.storage.is_packed()
     }
 
     /// Texture layers that a layer of the map consists of.

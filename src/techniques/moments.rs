@@ -2,14 +2,20 @@
 
 use super::far;
 use super::row::{Blended, Encoding, LINEAR, Row};
-use crate::Storage::{self, Float16, Float32, Unorm10, Unorm16};
-use crate::constants::{SIX_MOMENTS_EVEN_BASIS, SIX_MOMENTS_EVEN_OFFSET};
+use crate::Storage::{self, Float16, Float32, Packed32, Packed64, Unorm10, Unorm16};
+use crate::constants::{
+    SIX_MOMENTS_EVEN_BASIS, SIX_MOMENTS_EVEN_OFFSET, STORAGE_STEPS_PACKED32, STORAGE_STEPS_PACKED64,
+};
 
 const FOUR: Encoding = Encoding {
     channels: "four_moments_from_depth(z)",
     texel: "four_moments_to_texel(mean, STORAGE)",
-    ..LINEAR
+    filter_value: "four_moments_filter_value(texel, STORAGE)",
+    filter_texel: "four_moments_filter_texel(value, STORAGE)",
 };
+
+/// Packed texels are valid on the real line alone, and make up for it: other storages come first, since samplers filter them.
+const OF_THE_LINE: [Storage; 5] = [Unorm16, Float16, Float32, Packed64, Packed32];
 
 /// The sharp lower bound from four moments on the real line (Peters & Klein, i3D 2015).
 pub(super) fn hamburger4() -> Row {
@@ -35,16 +41,16 @@ pub(super) fn hamburger4() -> Row {
             "hamburger4_bounds",
             "hamburger4_shadow_intensity",
         ],
-        ..of_four("hamburger4", evaluation)
+        ..of_four("hamburger4", &OF_THE_LINE, evaluation)
     }
 }
 
-fn of_four(name: &'static str, evaluation: &'static str) -> Row {
+fn of_four(name: &'static str, storages: &'static [Storage], evaluation: &'static str) -> Row {
     Row {
         bounded_channels: true,
         has_table: true,
-        far: far::of_each(&Storage::OF_FOUR_MOMENTS, far_of_four),
-        ..Row::of_map(name, &Storage::OF_FOUR_MOMENTS, 4, FOUR, evaluation)
+        far: far::of_each(storages, far_of_four),
+        ..Row::of_map(name, storages, 4, FOUR, evaluation)
     }
 }
 
@@ -60,7 +66,7 @@ pub(super) fn hausdorff4() -> Row {
             evaluation: blended,
         }),
         functions: &["four_moments_from_texel", "hausdorff4_bounds"],
-        ..of_four("hausdorff4", evaluation)
+        ..of_four("hausdorff4", &Storage::OF_FOUR_MOMENTS, evaluation)
     }
 }
 
@@ -108,6 +114,15 @@ fn far_of_six(storage: Storage) -> Vec<[f64; 4]> {
 fn far_of_four(storage: Storage) -> Vec<[f64; 4]> {
     if storage == Float32 {
         return vec![[1.0; 4]];
+    }
+    if storage.is_packed() {
+        // The upper depth has all the weight; the lower is one step below.
+        let steps = f64::from(if storage == Packed64 {
+            STORAGE_STEPS_PACKED64[0]
+        } else {
+            STORAGE_STEPS_PACKED32[0]
+        });
+        return vec![[1.0 - 1.0 / steps, 1.0, 1.0, 0.0]];
     }
     let third = 0.5 + 3_f64.sqrt() * (0.5 - 2.0 / 9.0);
     far::centred(&[[0.0, 0.0, third, 1.0]], storage)

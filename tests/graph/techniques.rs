@@ -6,12 +6,14 @@ use moment_shadows_lab::techniques;
 
 use crate::example::{TEXT, compiled, edited, native};
 
-pub(crate) const STORAGES: [Storage; 5] = [
+pub(crate) const STORAGES: [Storage; 7] = [
     Storage::Unorm8,
     Storage::Unorm10,
     Storage::Unorm16,
     Storage::Float16,
     Storage::Float32,
+    Storage::Packed64,
+    Storage::Packed32,
 ];
 
 /// The example made for a technique, in JSON, and a storage.
@@ -25,12 +27,14 @@ pub(crate) fn example(technique: &str, storage: &str) -> String {
 /// What each technique can be stored as, and under which profile at least.
 fn expected(name: &str, storage: Storage) -> Option<Profile> {
     use Profile::{Native, NativeAdapter, WebgpuCore};
-    use Storage::{Float16, Float32, Unorm8, Unorm10, Unorm16};
+    use Storage::{Float16, Float32, Packed32, Packed64, Unorm8, Unorm10, Unorm16};
     match (name, storage) {
         ("hamburger4" | "hausdorff4" | "hamburger6" | "lvsm", Unorm16) => Some(Native),
         ("hamburger4" | "hausdorff4" | "hamburger6" | "lvsm", Float16 | Float32) => {
             Some(WebgpuCore)
         }
+        // Packed into integers that every device writes.
+        ("hamburger4", Packed64 | Packed32) => Some(WebgpuCore),
         // Drawn, which takes nothing that core WebGPU lacks.
         ("hamburger6", Unorm10) => Some(WebgpuCore),
         ("vsm" | "esm", Unorm16) => Some(Native),

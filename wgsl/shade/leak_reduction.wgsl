@@ -19,6 +19,9 @@ fn leak_reduction_full_shadow(shadow_intensity: f32, full_shadow: f32) -> f32 {
     return saturate(shadow_intensity / max(full_shadow, 1e-6));
 }
 
+// An intensity below this is what rounding leaves of 0: half a unit in the last place of full light.
+const LEAK_REDUCTION_LEAST_SHADOW: f32 = 5.9604645e-8;
+
 // Shadow intensity in [0, 1] after all three reductions. Each only darkens; full light stays full light.
 fn leak_reduction_apply(shadow_intensity: f32, reduction: LeakReduction) -> f32 {
     // What is left of the visibility v = 1 - s / f is (v - b) / (1 - b) = 1 - s / (f (1 - b)): both divide alike.
@@ -26,7 +29,7 @@ fn leak_reduction_apply(shadow_intensity: f32, reduction: LeakReduction) -> f32 
     let shadow = leak_reduction_full_shadow(shadow_intensity, full_shadow);
     // An exponent of 1 is to change nothing at all, and costs nothing: it is the same for all pixels of a view.
     if reduction.visibility_exponent == 1.0 {
-        return shadow;
+        return select(shadow, 0.0, shadow < LEAK_REDUCTION_LEAST_SHADOW);
     }
     // A power goes through the logarithm, of 0 too.
     let curved = pow(max(1.0 - shadow, 1e-30), max(reduction.visibility_exponent, 1e-6));

@@ -95,11 +95,23 @@ pub(super) fn splits(technique: &Technique, one_layer: bool) -> (Option<Slot>, O
     (Some(slot), Some(binding))
 }
 
-/// Storage texture (of maps that are not drawn), storage, and the modules `map_encoding` and `map_filtering`: what the shaders of a
+/// How texels lie in textures: the module `map_texture`.
+pub(super) fn map_texture(encoding: &MapEncoding) -> &'static str {
+    if encoding.storage().is_packed() {
+        include_str!("techniques/map_texture_packed.wgsl")
+    } else {
+        include_str!("techniques/map_texture_channels.wgsl")
+    }
+}
+
+/// The type of textures of the map, storage texture (of maps that are not drawn), storage, and the modules `map_texture`, `map_encoding` and `map_filtering`: what the shaders of a
 /// map's filters import.
 pub(super) fn of_map(capabilities: &Capabilities, encoding: &MapEncoding) -> Specialization {
     let (storage, technique) = (encoding.storage(), encoding.technique());
-    let mut specialization = Specialization::new(capabilities);
+    let texel = if storage.is_packed() { "u32" } else { "f32" };
+    let mut specialization = Specialization::new(capabilities)
+        .alias("MapTexture", &format!("texture_2d<{texel}>"))
+        .module("map_texture", map_texture(encoding));
     if !storage.is_drawn() {
         let texture = format!("texture_storage_2d<{}, write>", encoding.format());
         specialization = specialization.alias("MomentsStorage", &texture);

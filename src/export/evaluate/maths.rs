@@ -66,6 +66,7 @@ fn of_one(function: Function, x: f32, rounding: &mut Rounding) -> Option<f32> {
         Function::Abs => x.abs(),
         Function::Saturate => x.clamp(0.0, 1.0),
         Function::Floor => x.floor(),
+        Function::Ceil => x.ceil(),
         Function::Round => x.round_ties_even(),
         // One over the inverse square root.
         Function::Sqrt => rounding.within(exact.sqrt(), 4.5),

@@ -253,7 +253,9 @@ pub fn variants() -> Result<Vec<Variant>, LabError> {
     all.extend(map::of_depth(&any));
     all.extend(shade::contacts(&any));
     let mut encodings = techniques::filterable();
-    encodings.retain(|encoding| *encoding.technique() != Technique::Hamburger4);
+    let is_done =
+        |it: &MapEncoding| *it.technique() == Technique::Hamburger4 && !it.storage().is_packed();
+    encodings.retain(|encoding| !is_done(encoding));
     let lloyd = Technique::Lvsm {
         layers: 4,
         overlap: Default::default(),

@@ -3,7 +3,7 @@
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 
-use moment_shadows::Storage;
+use moment_shadows::Technique;
 
 use super::CommandResult;
 use super::error::storage_name;
@@ -53,7 +53,12 @@ fn rows(
 ) -> Result<Vec<Vec<Cell<'static>>>, LabError> {
     let storages = match (&options.technique, options.storage) {
         (_, Some(storage)) => vec![Some(storage)],
-        (None, None) => Storage::OF_FOUR_MOMENTS.map(Some).to_vec(),
+        (None, None) => Technique::Hamburger4
+            .row()
+            .storages
+            .iter()
+            .map(|&it| Some(it))
+            .collect(),
         (Some(technique), None) => technique
             .candidates()
             .iter()

@@ -1,9 +1,10 @@
 import node::map_filtering::{filtering_value};
-import node::specialization::{AXIS, GROUP, KERNELS};
+import node::map_texture::{texel_of_texture};
+import node::specialization::{AXIS, GROUP, KERNELS, MapTexture};
 
 // What a direction of the blur reads.
 
-@group(GROUP) @binding(0) var moments_map: texture_2d<f32>;
+@group(GROUP) @binding(0) var moments_map: MapTexture;
 
 // Weights that a host can change per frame.
 struct BlurParameters {
@@ -27,5 +28,5 @@ fn blur_kernel(region: u32) -> u32 {
 
 // A texel as it is averaged. Beyond `low` and `last`, the corners of the region, its texels repeat.
 fn blur_source(texel: vec2i, low: vec2i, last: vec2i) -> vec4f {
-    return filtering_value(textureLoad(moments_map, clamp(texel, low, last), 0));
+    return filtering_value(texel_of_texture(textureLoad(moments_map, clamp(texel, low, last), 0)));
 }

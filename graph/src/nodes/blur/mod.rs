@@ -131,7 +131,7 @@ impl Node for Blur {
             .mips(mips)
             .filtered(deviation)
             .filtered_in_scene(width.unwrap_or_default());
-        let rule = map_input::rule(map_input::formats());
+        let rule = map_input::rule(map_input::all_formats());
         let desc = NodeDesc::new("blur", Stage::AfterShadowMaps)
             .input("map", "The map to filter.", rule)
             .slots(halves)

@@ -39,6 +39,7 @@ impl Node for DebugMoments {
     fn describe(&self, upstream: &Connected<'_>) -> Result<NodeDesc, GraphError> {
         let (map, encoding) = map_input::of_four_moments(upstream, "shows")?;
         map_input::refuse_blended(&encoding)?;
+        map_input::refuse_packed(&encoding)?;
         if self.level >= map.mips {
             return Err(wrong_property(format!(
                 "'level' is {}, but the map has {} mip levels, counted from 0",

@@ -21,9 +21,9 @@ impl Node for Downsample {
                            number or \"all\"";
             return Err(wrong_size(message).at_slot("map"));
         }
-        if !encoding.technique().row().averaged_by_samplers {
-            let message = "a map that is filtered logarithmically has no mip levels, since no lookup could average them; use the \
-                           filtering 'linear'";
+        if !encoding.averaged_by_samplers() {
+            let message = "a map that is filtered logarithmically or stored as packed texels has no mip levels, since no lookup could \
+                           average them; use the filtering 'linear' and a storage whose channels are not packed";
             return Err(wrong_property(message).at_slot("map"));
         }
         let wgsl = techniques::of_map(upstream.capabilities(), &encoding)

@@ -40,6 +40,7 @@ impl Node for RectifyMoments {
     fn describe(&self, upstream: &Connected<'_>) -> Result<NodeDesc, GraphError> {
         let (map, source) = map_input::of_four_moments(upstream, "resamples")?;
         map_input::refuse_blended(&source)?;
+        map_input::refuse_packed(&source)?;
         range_input::refuse(map, "resamples depths")?;
         let technique = &self.technique;
         let texel = techniques::of_both_bounds(

@@ -149,9 +149,10 @@ impl ShadeHard {
         let (map, encoding) = moments()?;
         let made_for = encoding.technique();
         let technique = given.map_or(made_for.clone(), |it| it.clone().on_map_of(made_for));
-        if !technique.row().shares_map_with(&made_for.row()) {
+        let is_read = MapEncoding::new(technique.clone(), encoding.storage()).is_ok();
+        if !is_read || !technique.row().shares_map_with(&made_for.row()) {
             let message = format!(
-                "the map was made for '{made_for}', with its settings; '{technique}' cannot read it: give the node that makes it \
+                "the map was made for {encoding}, with its settings; '{technique}' cannot read it: give the node that makes it \
                  the same 'technique', or leave it out here"
             );
             return Err(wrong_format(message).at_slot("map"));
@@ -165,7 +166,7 @@ impl ShadeHard {
             technique,
             specialization,
             slot: "map",
-            formats: map_input::formats(),
+            formats: map_input::all_formats(),
             bindings: [Some(map), sampler].into_iter().flatten().collect(),
         })
     }

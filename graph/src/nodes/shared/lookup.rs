@@ -13,14 +13,16 @@ pub(in crate::nodes) fn moments_lookup(
     levels: u32,
     anisotropy: u16,
 ) -> (Specialization, Option<Binding>) {
-    // Logarithms are averaged by no sampler, and have no mip levels.
-    let averaged = encoding.technique().row().averaged_by_samplers;
+    // Logarithms and packed texels are averaged by no sampler, and have no mip levels.
+    let averaged = encoding.averaged_by_samplers();
     let levels = if averaged { levels } else { 1 };
     let specialization = specialization
         .unsigned("LEVELS", levels)
         .constant("ANISOTROPY", format_args!("{anisotropy}.0"));
     let minified = levels > 1;
-    let (text, sampler) = if !averaged
+    let (text, sampler) = if encoding.storage().is_packed() {
+        (include_str!("moments_lookup_packed.wgsl"), None)
+    } else if !averaged
         || !capabilities.support(encoding.format()).filterable
         || (minified && !capabilities.anisotropic_sampling)
     {

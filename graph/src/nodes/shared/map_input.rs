@@ -5,7 +5,8 @@ use moment_shadows::{MapEncoding, Storage, Technique, TextureFormat};
 use super::wrong_format;
 use crate::{Connected, GraphError, Rule, TextureDesc, TextureRule};
 
-/// The formats that a filterable map can have: those of all storages but that of tables.
+/// The formats that a filterable map can have whose channels lie in textures as they are: those of all storages but packed ones and
+/// that of tables.
 pub(in crate::nodes) fn formats() -> Vec<TextureFormat> {
     let storages = Storage::ALL.into_iter();
     storages
@@ -13,6 +14,27 @@ pub(in crate::nodes) fn formats() -> Vec<TextureFormat> {
         .flatten()
         .filter(|format| !format.is_integer())
         .collect()
+}
+
+/// The formats that a filterable map can have, packed ones included.
+pub(in crate::nodes) fn all_formats() -> Vec<TextureFormat> {
+    let packed = Storage::ALL.into_iter().filter(|it| it.is_packed());
+    let mut formats = formats();
+    formats.extend(packed.map(Storage::format));
+    formats
+}
+
+/// Refuses a map of packed texels, for a node that reads channels as they are.
+pub(in crate::nodes) fn refuse_packed(encoding: &MapEncoding) -> Result<(), GraphError> {
+    let storage = encoding.storage();
+    if !storage.is_packed() {
+        return Ok(());
+    }
+    Err(wrong_format(format!(
+        "the map is stored as '{storage}', in packed texels, which the nodes 'blur' and 'shade_hard' read; use 'float16', 'unorm16' or \
+         'float32' here"
+    ))
+    .at_slot("map"))
 }
 
 /// A map of these formats, with any number of layers and mip levels.
@@ -64,7 +86,11 @@ pub(in crate::nodes) fn refuse_blended(encoding: &MapEncoding) -> Result<(), Gra
 
 /// The encoding of a filterable map other than a table: four moments, unless the map says otherwise.
 pub(in crate::nodes) fn encoding_of(map: &TextureDesc) -> Result<MapEncoding, GraphError> {
-    if map.format.is_integer() {
+    let is_packed = map
+        .encoding
+        .as_ref()
+        .is_some_and(|it| it.storage().is_packed());
+    if map.format.is_integer() && !is_packed {
         return Err(wrong_format(format!(
             "{} holds a summed-area table, which only nodes for soft shadows read; connect the map that it is made of",
             map.format

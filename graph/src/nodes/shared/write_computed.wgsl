@@ -1,3 +1,4 @@
+import node::map_texture::{texel_to_texture};
 import node::regions::{region_tile};
 import node::specialization::{GROUP, MomentsStorage};
 import node::written_texel::{LEVEL, written_size, written_texel};
@@ -14,5 +15,5 @@ fn write_map(@builtin(local_invocation_id) local: vec3u, @builtin(workgroup_id) 
         return;
     }
     let texel = tile.region.origin + place;
-    textureStore(written_map, texel, written_texel(texel, tile.region, tile.number));
+    textureStore(written_map, texel, texel_to_texture(written_texel(texel, tile.region, tile.number)));
 }

@@ -63,6 +63,7 @@ impl Node for SummedAreaTable {
     fn describe(&self, upstream: &Connected<'_>) -> Result<NodeDesc, GraphError> {
         let (map, source) = map_input::connected(upstream, "map")?;
         map_input::refuse_blended(&source)?;
+        map_input::refuse_packed(&source)?;
         let table =
             TableEncoding::new(source.storage(), self.largest_kernel).map_err(wrong_property)?;
         let encoding = MapEncoding::of_table(source.technique().clone(), table)

@@ -1,0 +1,52 @@
+import moment_shadows::bounds::hamburger4::{hamburger4_shadow_intensity};
+import moment_shadows::map::storage::{storage_pack, storage_unpack};
+import moment_shadows::moments::four_moments::{four_moments_bias_of, four_moments_filter_texel, four_moments_filter_value};
+
+// Four texels of a packed storage as textures hold them, and what a lookup between them gives.
+
+struct BatchInput {
+    // Moments to store in each texel.
+    moments: array<vec4f, 4>,
+    weights: vec4f,
+    // Integers to read instead, where `as_given` is not 0.
+    texels: array<vec4u, 4>,
+    fragment_depth: f32,
+    stored_as: u32,
+    as_given: u32,
+    padding: u32,
+}
+
+struct BatchOutput {
+    // The moments that the first texel gives.
+    first: vec4f,
+    // The average of all.
+    mean: vec4f,
+    intensity: f32,
+    // Whether the first texel is the same when it is unpacked and packed again.
+    is_kept: u32,
+    padding: vec2u,
+}
+
+fn batch(input: BatchInput) -> BatchOutput {
+    var moments = input.moments;
+    var texels = input.texels;
+    var weights = input.weights;
+    var output: BatchOutput;
+    var mean = vec4f(0.0);
+    for (var index = 0u; index < 4u; index++) {
+        var stored = texels[index];
+        if input.as_given == 0u {
+            stored = storage_pack(four_moments_filter_texel(moments[index], input.stored_as), input.stored_as);
+        }
+        let channels = storage_unpack(stored, input.stored_as);
+        let value = four_moments_filter_value(channels, input.stored_as);
+        if index == 0u {
+            output.first = value;
+            output.is_kept = u32(all(storage_pack(channels, input.stored_as) == stored));
+        }
+        mean = fma(vec4f(weights[index]), value, mean);
+    }
+    output.mean = mean;
+    output.intensity = hamburger4_shadow_intensity(mean, input.fragment_depth, four_moments_bias_of(input.stored_as));
+    return output;
+}

@@ -1,0 +1,46 @@
+import super::super::map::storage::{storage_packed_steps};
+
+// Four moments in few bits, non-linearly: what their shortest distribution consists of.
+//
+// Four moments are those of one distribution of two depths g1 < g2, the Gauss nodes, of which g2 has the weight w, but for the fourth
+// moment, which is greater by d >= 0: the last pivot of the Hankel matrix. A texel holds the two depths, the weight and the fourth
+// root of d. Whatever a texel holds, its moments are valid, so no bias has to cover rounding (the idea is that of Peters,
+// "Non-linearly Quantized Moment Shadow Maps", HPG 2017; these quantities are not). Texels are not linear in the moments: filters
+// average the moments of texels.
+
+// Variances below this are what rounding leaves of 0.
+const PACKED_FOUR_MOMENTS_LEAST_VARIANCE: f32 = 1e-10;
+
+// The channels in [0, 1] of a packed texel for finite moments b. Depths are rounded outwards, so that the mean lies between them and
+// the weight, found for the rounded depths, keeps it far more exactly than they are; d is rounded up. Both only widen a distribution.
+fn packed_four_moments_channels(b: vec4f, stored_as: u32) -> vec4f {
+    let steps = storage_packed_steps(stored_as);
+    let mean = clamp(b.x, -1.0, 1.0);
+    let variance = max(fma(-mean, mean, b.y), 0.0);
+    let skew = fma(-mean, b.y, b.z);
+    let ratio = skew / max(variance, PACKED_FOUR_MOMENTS_LEAST_VARIANCE);
+    let pivot = clamp(fma(-skew, ratio, fma(-b.y, b.y, b.w)), 0.0, 1.0);
+    // The nodes relative to the mean have the product -variance and the sum s. The one farther out is found without cancellation.
+    let s = clamp(ratio - 2.0 * mean, -1e6, 1e6);
+    let root = sqrt(fma(0.25 * s, s, variance));
+    let farther = 0.5 * abs(s) + root;
+    let nearer = variance / max(farther, 1e-20);
+    let above = s >= 0.0;
+    let nodes = mean + vec2f(-select(farther, nearer, above), select(nearer, farther, above));
+    let places = fma(clamp(nodes, vec2f(-1.0), vec2f(1.0)), vec2f(0.5), vec2f(0.5)) * steps.xy;
+    let lower = min(floor(places.x), steps.x - 1.0);
+    let upper = max(ceil(places.y), lower + 1.0);
+    let weight = saturate((fma(mean, 0.5, 0.5) * steps.x - lower) / (upper - lower));
+    let widened = ceil(sqrt(sqrt(pivot)) * steps.w);
+    return vec4f(vec2f(lower, upper) / steps.xy, weight, widened / steps.w);
+}
+
+// The moments of a packed texel with channels in [0, 1].
+fn packed_four_moments_from_channels(channels: vec4f) -> vec4f {
+    let nodes = fma(channels.xy, vec2f(2.0), vec2f(-1.0));
+    let squares = nodes * nodes;
+    let lower = vec4f(nodes.x, squares.x, squares.x * nodes.x, squares.x * squares.x);
+    let upper = vec4f(nodes.y, squares.y, squares.y * nodes.y, squares.y * squares.y);
+    let root = channels.w * channels.w;
+    return fma(vec4f(channels.z), upper - lower, lower) + vec4f(0.0, 0.0, 0.0, root * root);
+}
