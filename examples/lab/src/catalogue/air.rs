@@ -15,8 +15,6 @@ pub(super) fn of_storage(four: &MapEncoding) -> Result<Vec<Variant>, ValueError>
     for technique in [Technique::Hamburger4, Technique::Hamburger6] {
         let map = MapEncoding::new(technique.clone(), storage)?;
         let label = techniques::label(&technique);
-        // Sums know nothing of moments: their text is the same for both.
-        let repeats = technique == Technique::Hamburger6;
         let rectify = RectifyMoments {
             technique,
             storage,
@@ -44,11 +42,7 @@ pub(super) fn of_storage(four: &MapEncoding) -> Result<Vec<Variant>, ValueError>
         ];
         let rectify = Variant::new(rectify, four);
         all.push(variant(rectify, "rectify_moments", "", &[]));
-        if !repeats {
-            all.extend(sums);
-        } else if portable {
-            all.extend(sums.map(|sum| Variant { file: None, ..sum }));
-        }
+        all.extend(sums);
         all.push(variant(composite, "composite_scattering", "", &[]));
     }
     Ok(all)
