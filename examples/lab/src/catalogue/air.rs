@@ -21,8 +21,12 @@ pub(super) fn of_storage(four: &MapEncoding) -> Result<Vec<Variant>, ValueError>
             extent: SIZE,
         };
         let sum = || Variant::new(IntegrateScattering {}, &map);
-        // Shared memory that is cleared; 512 columns at a time, with six steps of the scan.
-        let parallel = [64, SIZE[0] / 512, 6];
+        // Shared memory that is cleared; 512 columns at a time, with six steps of the scan; for two planes the compiler keeps the loop
+        // over the eight texels that are stored.
+        let parallel: &[u32] = match map.planes() {
+            1 => &[64, SIZE[0] / 512, 6],
+            _ => &[64, SIZE[0] / 512, 6, 8],
+        };
         // Four columns at a time.
         let row_by_row = [SIZE[0] / 4];
         let composite = Variant::new(CompositeScattering::default(), &map);
@@ -32,7 +36,7 @@ pub(super) fn of_storage(four: &MapEncoding) -> Result<Vec<Variant>, ValueError>
                 .row(portable, format!("{label}, {storage}{kind}"), trips)
         };
         let sums = [
-            variant(sum(), "integrate_scattering", "", &parallel),
+            variant(sum(), "integrate_scattering", "", parallel),
             variant(
                 sum().on(|capabilities| capabilities.software_adapter = true),
                 "integrate_scattering_software",
