@@ -125,3 +125,43 @@ fn degenerate_angles_are_defined() {
         );
     }
 }
+
+#[test]
+fn view_rays_have_the_angles_of_their_directions() {
+    const SHADER: &str = "
+import moment_shadows::air::rectified_frame::{rectified_frame_view_ray};
+alias BatchInput = vec4f;
+alias BatchOutput = vec4f;
+fn batch(input: BatchInput) -> BatchOutput {
+    let ray = rectified_frame_view_ray(input.xyz);
+    return vec4f(ray.coordinates, ray.length);
+}
+";
+    let mut random = ChaCha8Rng::seed_from_u64(8);
+    let mut component = || {
+        let exponent = random.random_range(-6.0..1.0_f64);
+        let sign = if random.random() { 1.0 } else { -1.0 };
+        (sign * 10.0_f64.powf(exponent)) as f32
+    };
+    let mut directions: Vec<[f32; 4]> = (0..200_000)
+        .map(|_| [component(), component(), component(), 0.0])
+        .collect();
+    directions.extend([[0.0, 0.0, 1.0, 0.0], [0.0, 0.0, -1.0, 0.0]]);
+    directions.extend([[-1.0, 0.0, 0.0, 0.0], [0.0, -1.0, 0.0, 0.0]]);
+    let gpu = Gpu::open(Profile::WebgpuCore).unwrap();
+    let batch = Batch::<[f32; 4], [f32; 4]>::new(&gpu, "rays.wgsl", SHADER).unwrap();
+    for (direction, found) in directions.iter().zip(batch.run(&directions).unwrap()) {
+        let [x, y, z, _] = direction.map(f64::from);
+        let radius = x.hypot(y);
+        let exact = [radius, y.atan2(x), radius.atan2(z), radius.hypot(z)];
+        for (found, exact) in found.iter().zip(exact) {
+            let error = (f64::from(*found) - exact).abs() / ulp(exact);
+            assert!(
+                error <= ULPS,
+                "{direction:?}: {found} for {exact}, {error} ulp"
+            );
+        }
+    }
+    // No direction at all has angles, too.
+    assert_eq!(batch.run(&[[0.0; 4]]).unwrap(), [[0.0; 4]]);
+}

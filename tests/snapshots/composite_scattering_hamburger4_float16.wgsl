@@ -1,20 +1,17 @@
 // What is linked of files:
-// camera_depth: camera_depth CameraPixel camera_depth_size camera_depth_pixel camera_depth_at camera_depth_clip
+// camera_depth: camera_depth CameraPixel camera_depth_size camera_depth_pixel_around camera_depth_at camera_depth_clip
 // fullscreen: Covered fullscreen
-// moment_shadows/map/map_region.wgsl: MapRegion map_region_at_level map_region_place
-// moment_shadows/map/map_lookup.wgsl: map_lookup_bilinear
-// moments_lookup: moments_map moments_sampler moments_lookup
-// moment_shadows/maths/angle.wgsl: ANGLE_PI ANGLE_PI_REST ANGLE_HALF_PI ANGLE_HALF_PI_REST ANGLE_QUARTER_PI ANGLE_QUARTER_PI_REST ANGLE_TAN_EIGHTH_PI angle_finite angle_atan2
-// moment_shadows/air/rectified_frame.wgsl: RectifiedFrame rectified_frame_component
-// 0.: rectified_frame_coordinates rectified_frame_place rectified_frame_depth
-// coordinates.: rectified_frame_surface rectified_frame_row rectified_frame_prefix
+// moments_lookup: moments_map moments_sampler
+// moment_shadows/maths/angle.wgsl: ANGLE_PI angle_of_small_tangent
+// moment_shadows/air/rectified_frame.wgsl: RectifiedFrame RectifiedFrameRay rectified_frame_view_ray rectified_frame_place rectified_frame_depth rectified_frame_direction rectified_frame_w rectified_frame_row rectified_frame_prefix
 // moment_shadows/maths/hankel.wgsl: HankelFactor HANKEL_SMALLEST_VARIANCE HANKEL_SMALLEST_RESIDUE hankel_factor hankel_second_polynomial hankel_christoffel_number
 // moment_shadows/map/storage.wgsl: STORAGE_FLOAT16 STORAGE_FLOAT32
 // moment_shadows/moments/four_moments.wgsl: FourMomentsBias FOUR_MOMENTS_BIAS_UNORM16 FOUR_MOMENTS_BIAS_FLOAT16 FOUR_MOMENTS_BIAS_FLOAT32 FOUR_MOMENTS_SQRT_3 four_moments_clamp four_moments_bias_of four_moments_apply_bias four_moments_biased_from_texel
 // moment_shadows/bounds/hamburger4.wgsl: HAMBURGER4_FARTHEST_SUPPORT HAMBURGER4_SMALLEST_LEADING_COEFFICIENT Hamburger4Support hamburger4_support hamburger4_bounds_at hamburger4_bounds
+// scattering_lookup: scattering_lookup
 // scattering_bounds: scattering_bounds
 // moment_shadows/air/phase_function.wgsl: PHASE_FUNCTION_ISOTROPIC PHASE_FUNCTION_LARGEST_ANISOTROPY phase_function_henyey_greenstein
-// moment_shadows/air/single_scattering.wgsl: SingleScattering single_scattering_mean_transmittance SINGLE_SCATTERING_LARGEST single_scattering_transmittance single_scattering_radiance single_scattering_pixel
+// moment_shadows/air/single_scattering.wgsl: SINGLE_SCATTERING_LOG2_E SingleScattering single_scattering_mean_of_halves SINGLE_SCATTERING_LARGEST SingleScatteringRay single_scattering_ray single_scattering_pixel
 // occluders.: SINGLE_SCATTERING_DEPTH_BIAS single_scattering_fragment_depth single_scattering_shadow
 // composite_scattering.wgsl: CompositeScatteringParameters parameters composite
 

@@ -8,10 +8,10 @@
 // moment_shadows/air/rectified_frame.wgsl: RectifiedFrame rectified_frame_ray rectified_frame_depth
 // moment_shadows/moments/six_moments.wgsl: SixMoments SIX_MOMENTS_ODD_BASIS SIX_MOMENTS_EVEN_BASIS SIX_MOMENTS_ODD_OFFSET SIX_MOMENTS_EVEN_OFFSET six_moments_affine six_moments_from_depth six_moments_middle
 // moment_shadows/moments/enclosed_moments.wgsl: EnclosedMoments enclosed_moments_of_occluder enclosed_moments_sum enclosed_moments_texel enclosed_moments_to_odd_texel enclosed_moments_to_even_texel
-// rectified_texel: PLANE rectified_texel
+// rectified_texel: rectified_map rectified_even rectified_store
 // moment_shadows/maths/two_diracs.wgsl: TwoDiracs
 // much.: TWO_DIRACS_SMALLEST_VARIANCE two_diracs_of_moments
-// rectify_moments.wgsl: RectifyMomentsParameters parameters rectified_map FAR_END rectified rectify
+// rectify_moments.wgsl: RectifyMomentsParameters parameters FAR_END rectified rectify
 
 // specialization
 const GROUP = 0;

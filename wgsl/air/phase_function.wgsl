@@ -13,9 +13,8 @@ const PHASE_FUNCTION_LARGEST_ANISOTROPY: f32 = 0.99;
 // backwards below, and isotropic to the bit at 0. `cosine` is in [-1, 1].
 fn phase_function_henyey_greenstein(cosine: f32, anisotropy: f32) -> f32 {
     let g = clamp(anisotropy, -PHASE_FUNCTION_LARGEST_ANISOTROPY, PHASE_FUNCTION_LARGEST_ANISOTROPY);
-    // (1 - g)^2 + 2 g (1 - cosine), each term as far from cancellation as the sign of g allows.
-    let away = select(1.0 + cosine, 1.0 - cosine, g >= 0.0);
+    // (1 - |g|)^2 + 2 (|g| - g cosine): the last difference is rounded once, so nothing cancels.
     let nearest = 1.0 - abs(g);
-    let square = fma(2.0 * abs(g), max(away, 0.0), nearest * nearest);
+    let square = fma(2.0, max(fma(-g, cosine, abs(g)), 0.0), nearest * nearest);
     return PHASE_FUNCTION_ISOTROPIC * (1.0 - g * g) / (square * sqrt(square));
 }

@@ -1,4 +1,4 @@
-import super::super::maths::angle::{ANGLE_PI, angle_atan2, angle_finite};
+import super::super::maths::angle::{ANGLE_PI, angle_atan2, angle_finite, angle_of_small_tangent};
 
 // Rectified coordinates of a camera and a directional light, in which both view rays and light rays are lines along axes.
 //
@@ -48,16 +48,31 @@ fn rectified_frame_coordinates(position: vec3f) -> vec3f {
     return vec3f(radius, angle_atan2(y, x), angle_atan2(radius, z));
 }
 
+// The direction of a camera's view ray.
+struct RectifiedFrameRay {
+    // Radius, azimuth in [-pi, pi] and inclination in [0, pi] of the direction.
+    coordinates: vec3f,
+    length: f32,
+}
+
+// The view ray of a direction, with components below 1e18; below 1e-18 they count as 0. Angles are those of
+// `rectified_frame_coordinates`, by the tangents of their halves: no sum cancels, and no range has to be reduced.
+fn rectified_frame_view_ray(direction: vec3f) -> RectifiedFrameRay {
+    let square = dot(direction.xy, direction.xy);
+    let radius = sqrt(square);
+    let length = sqrt(fma(direction.z, direction.z, square));
+    let sums = vec2f(radius, length) + abs(direction.xz);
+    let angles = 2.0 * angle_of_small_tangent(vec2f(abs(direction.y), radius) / max(sums, vec2f(1e-30)));
+    let turned = select(angles, ANGLE_PI - angles, direction.xz < vec2f(0.0));
+    return RectifiedFrameRay(vec3f(radius, select(turned.x, -turned.x, direction.y < 0.0), turned.y), length);
+}
+
 // The place of coordinates across the map's columns and rows, from 0 to 1. Azimuths outside the frame take its nearer end.
 fn rectified_frame_place(frame: RectifiedFrame, coordinates: vec3f) -> vec2f {
     let turn = 2.0 * ANGLE_PI;
-    let turned = coordinates.y - frame.first_azimuth;
-    let offset = turned - turn * floor(turned / turn);
-    let beyond = offset - frame.azimuth_extent;
-    // Outside the frame, the second half of the rest of a turn is nearer to the frame's beginning.
-    let before = beyond > 0.5 * (turn - frame.azimuth_extent);
-    let row = select(offset / frame.azimuth_extent, 0.0, before);
-    return saturate(vec2f(coordinates.x / frame.largest_radius, row));
+    let turned = coordinates.y - fma(0.5, frame.azimuth_extent, frame.first_azimuth);
+    let from_middle = fma(-turn, round(turned * (1.0 / turn)), turned);
+    return saturate(vec2f(coordinates.x / frame.largest_radius, from_middle / frame.azimuth_extent + 0.5));
 }
 
 // Radius and azimuth at a place.
@@ -71,12 +86,21 @@ fn rectified_frame_depth(frame: RectifiedFrame, inclination: f32) -> f32 {
     return clamp(fma(2.0 / extent, frame.largest_inclination - inclination, -1.0), -1.0, 1.0);
 }
 
-// The position of a pixel's surface, or of the point where its view ray reaches the far end. `device` is in normalised device
-// coordinates.
+// The direction of a pixel at a place in normalised device coordinates.
+fn rectified_frame_direction(frame: RectifiedFrame, device: vec2f) -> vec3f {
+    return fma(vec3f(device.x), frame.along_x, fma(vec3f(device.y), frame.along_y, frame.along_middle));
+}
+
+// What a pixel's direction is divided by: the homogeneous coordinate of its surface, or of the point where its view ray
+// reaches the far end.
+fn rectified_frame_w(frame: RectifiedFrame, device: vec2f, stored_depth: f32) -> f32 {
+    return max(dot(frame.scene_w, vec4f(device, stored_depth, 1.0)), frame.farthest_w);
+}
+
+// The position of a pixel's surface, or of the point where its view ray reaches the far end.
 fn rectified_frame_surface(frame: RectifiedFrame, device: vec2f, stored_depth: f32) -> vec3f {
-    let direction = fma(vec3f(device.x), frame.along_x, fma(vec3f(device.y), frame.along_y, frame.along_middle));
-    let scene_w = angle_finite(dot(frame.scene_w, vec4f(device, stored_depth, 1.0)));
-    return direction / max(scene_w, frame.farthest_w);
+    let w = max(angle_finite(rectified_frame_w(frame, device, stored_depth)), frame.farthest_w);
+    return rectified_frame_direction(frame, device) / w;
 }
 
 // The place of a row in a map of `rows` rows, from 0 to 1: the first and last rows are the ends of the frame.

@@ -6,6 +6,8 @@ import super::super::air::phase_function::{phase_function_henyey_greenstein};
 // the ray's transmittance-weighted length that is shadowed, which prefix sums of moments in rectified coordinates bound for
 // one lookup per pixel (Peters et al., JCGT 6(1) 2017, section 7).
 
+const SINGLE_SCATTERING_LOG2_E: f32 = 1.4426950408889634;
+
 // Filled by the host-side `SingleScattering`. All values are finite and at least 0, except the anisotropy, which is in [-1,
 // 1].
 struct SingleScattering {
@@ -22,47 +24,56 @@ struct SingleScattering {
     padding: f32,
 }
 
+// (1 - exp2(-x)) / x for x >= 0; log(2) at 0.
+fn single_scattering_mean_of_halves(x: vec3f) -> vec3f {
+    // Where the difference would cancel: a polynomial, off by less than 2^-24.
+    var series = fma(x, vec3f(0.00113401694), vec3f(-0.00952348722));
+    series = fma(x, series, vec3f(0.0554860587));
+    series = fma(x, series, vec3f(-0.240225424));
+    series = fma(x, series, vec3f(0.6931471805599453));
+    let direct = (1.0 - exp2(-x)) / max(x, vec3f(0.25));
+    return select(direct, series, x < vec3f(0.577));
+}
+
 // (1 - exp(-x)) / x for x >= 0; 1 at 0. The mean transmittance of a stretch of optical thickness x.
 fn single_scattering_mean_transmittance(x: vec3f) -> vec3f {
-    // Where the difference would cancel: its power series, with a remainder below 2^-23.
-    var series = fma(x, vec3f(1.0 / 5040.0), vec3f(-1.0 / 720.0));
-    series = fma(x, series, vec3f(1.0 / 120.0));
-    series = fma(x, series, vec3f(-1.0 / 24.0));
-    series = fma(x, series, vec3f(1.0 / 6.0));
-    series = fma(x, series, vec3f(-0.5));
-    series = fma(x, series, vec3f(1.0));
-    let direct = (1.0 - exp(-x)) / max(x, vec3f(0.25));
-    return select(direct, series, x < vec3f(0.5));
+    return SINGLE_SCATTERING_LOG2_E * single_scattering_mean_of_halves(SINGLE_SCATTERING_LOG2_E * x);
 }
 
 // The largest radiance of a pixel: what float16 holds.
 const SINGLE_SCATTERING_LARGEST: f32 = 65504.0;
 
-// Transmittance of a stretch of the medium, by colour: the share that is left of the light behind it. 1 to the bit where
-// nothing is extinguished.
-fn single_scattering_transmittance(medium: SingleScattering, distance: f32) -> vec3f {
-    let thickness = medium.extinction * distance;
-    return select(exp(-thickness), vec3f(1.0), thickness <= vec3f(0.0));
+// What a view ray of some length takes from its medium.
+struct SingleScatteringRay {
+    // Radiance that is scattered into it.
+    radiance: vec3f,
+    // The share that is left of the light behind it, by colour: 1 to the bit where nothing is extinguished.
+    transmittance: vec3f,
 }
 
-// Radiance scattered into a view ray of some length of which a part is shadowed. `cosine` is the cosine of the angle between
-// the directions of the light and the view ray, which lead away from light and camera.
-fn single_scattering_radiance(medium: SingleScattering, distance: f32, cosine: f32, shadow: f32) -> vec3f {
+// A view ray of which a part is shadowed. `cosine` is the cosine of the angle between the directions of the light and the
+// view ray, which lead away from light and camera.
+fn single_scattering_ray(medium: SingleScattering, distance: f32, cosine: f32, shadow: f32) -> SingleScatteringRay {
     // Light that reaches the camera has turned from the light's direction to the reverse of the view ray's.
     let phase = phase_function_henyey_greenstein(-cosine, medium.anisotropy);
-    let lit = phase * (1.0 - shadow) * distance;
-    let thickness = max(medium.extinction * distance, vec3f(0.0));
-    return lit * medium.irradiance * medium.scattering * single_scattering_mean_transmittance(thickness);
+    // By how many factors of one half light is attenuated.
+    let length = SINGLE_SCATTERING_LOG2_E * distance;
+    let halves = medium.extinction * length;
+    let mean = single_scattering_mean_of_halves(max(halves, vec3f(0.0)));
+    let lit = phase * (1.0 - shadow) * length;
+    // A medium of no number has no transmittance either, whatever the maximum is.
+    return SingleScatteringRay(lit * medium.irradiance * medium.scattering * mean, fma(-halves, mean, vec3f(1.0)));
 }
 
 // The output of a pixel: radiance, and the mean of the colours' transmittance, which is 1 to the bit where all of them are.
 // If one of them is non-finite because a parameter is invalid, there is no medium. Negative light counts as 0.
-fn single_scattering_pixel(radiance: vec3f, transmittance: vec3f) -> vec4f {
+fn single_scattering_pixel(ray: SingleScatteringRay) -> vec4f {
+    let transmittance = ray.transmittance;
     let others = (transmittance.y - transmittance.x) + (transmittance.z - transmittance.x);
-    let pixel = vec4f(radiance, fma(others, 1.0 / 3.0, transmittance.x));
-    // By their bits: a compiler may assume that neither NaN nor infinity occurs.
-    let exponent = bitcast<vec4u>(pixel) & vec4u(0x7f800000u);
-    let impossible = any(exponent == vec4u(0x7f800000u));
+    let pixel = vec4f(ray.radiance, fma(others, 1.0 / 3.0, transmittance.x));
+    // By the bits of a sum that does not overflow: a compiler may assume that neither NaN nor infinity occurs.
+    let sum = dot(pixel, vec4f(0.25));
+    let impossible = (bitcast<u32>(sum) & 0x7f800000u) == 0x7f800000u;
     let lit = clamp(pixel.xyz, vec3f(0.0), vec3f(SINGLE_SCATTERING_LARGEST));
     return select(vec4f(lit, saturate(pixel.w)), vec4f(0.0, 0.0, 0.0, 1.0), impossible);
 }
@@ -76,7 +87,7 @@ const SINGLE_SCATTERING_DEPTH_BIAS: f32 = 0.05;
 // lit ground would be too dark. Occluders at -1 stay in front of all view rays. The bias is fitted: with a larger one light
 // leaks behind casters near the ray; without any, 16 steps of marching are better where little of what is seen is in shadow.
 fn single_scattering_fragment_depth(depth: f32) -> f32 {
-    return fma(-SINGLE_SCATTERING_DEPTH_BIAS, depth + 1.0, depth);
+    return fma(1.0 - SINGLE_SCATTERING_DEPTH_BIAS, depth, -SINGLE_SCATTERING_DEPTH_BIAS);
 }
 
 // The shadow to show, between its bounds (x <= y): overestimation that adapts to the direction. Where a view ray runs with

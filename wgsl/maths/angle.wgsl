@@ -57,6 +57,20 @@ fn angle_atan2(y: f32, x: f32) -> f32 {
     return select(angle, -angle, finite.y < 0.0);
 }
 
+// Arc tangents of tangents in [0, 1].
+fn angle_of_small_tangent(tangents: vec2f) -> vec2f {
+    // Abramowitz & Stegun, Handbook of Mathematical Functions, 4.4.49: off by at most 2e-8.
+    let square = tangents * tangents;
+    var series = fma(square, vec2f(0.0028662257), vec2f(-0.0161657367));
+    series = fma(series, square, vec2f(0.0429096138));
+    series = fma(series, square, vec2f(-0.0752896400));
+    series = fma(series, square, vec2f(0.1065626393));
+    series = fma(series, square, vec2f(-0.1420889944));
+    series = fma(series, square, vec2f(0.1999355085));
+    series = fma(series, square, vec2f(-0.3333314528));
+    return fma(series * square, tangents, tangents);
+}
+
 // Sine and cosine of an angle in radians, |angle| <= 1e4. Near their zeros the error is 2^-24 times that of an angle of the
 // same size, not times the angle.
 fn angle_sin_cos(angle: f32) -> vec2f {

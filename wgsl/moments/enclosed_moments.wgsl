@@ -1,6 +1,6 @@
-import super::super::bounds::hamburger6::{hamburger6_bounds};
-import super::super::moments::six_moments::{SIX_MOMENTS_EVEN_BASIS, SIX_MOMENTS_EVEN_INVERSE, SIX_MOMENTS_EVEN_OFFSET, SIX_MOMENTS_ODD_BASIS, SIX_MOMENTS_ODD_INVERSE, SIX_MOMENTS_ODD_OFFSET, SixMoments, SixMomentsBias, six_moments_affine, six_moments_apply_bias, six_moments_bias_of, six_moments_from_depth, six_moments_middle};
-import super::super::map::storage::{STORAGE_FLOAT16, storage_finite_texel, storage_is_float, storage_round_to_float16};
+import super::super::bounds::hamburger6::{hamburger6_bounds_at, hamburger6_factor};
+import super::super::moments::six_moments::{SIX_MOMENTS_EVEN_BASIS, SIX_MOMENTS_EVEN_OFFSET, SIX_MOMENTS_ODD_BASIS, SIX_MOMENTS_ODD_OFFSET, SixMoments, SixMomentsBias, six_moments_affine, six_moments_apply_bias, six_moments_bias_of, six_moments_biased_from_channels, six_moments_from_channels, six_moments_from_depth, six_moments_middle};
+import super::super::map::storage::{STORAGE_FLOAT16, STORAGE_FLOAT32, storage_is_float, storage_round_to_float16};
 
 // Six moments of the occluders between the ends of a range, with the weights of what lies before and behind it kept apart.
 //
@@ -69,19 +69,6 @@ fn enclosed_moments_to_even_texel(sums: EnclosedMoments, stored_as: u32) -> vec4
     return enclosed_moments_texel(channels, sums.weight, sums.weight, stored_as);
 }
 
-// The moments of a filtered texel's occluders between the ends, as means over them alone. Weights below
-// `ENCLOSED_MOMENTS_SMALLEST_WEIGHT` count as that.
-fn enclosed_moments_means(texels: array<vec4f, 2>, weight: f32, stored_as: u32) -> SixMoments {
-    let middle = six_moments_middle(stored_as);
-    let scale = 1.0 / max(weight, ENCLOSED_MOMENTS_SMALLEST_WEIGHT);
-    let odd = clamp(scale * texels[0].xyz, vec3f(-middle), vec3f(1.0 - middle));
-    let even = clamp(scale * texels[1].xyz, vec3f(-middle), vec3f(1.0 - middle));
-    return SixMoments(
-        six_moments_affine(SIX_MOMENTS_ODD_INVERSE, odd - (SIX_MOMENTS_ODD_OFFSET - middle), vec3f(0.0)),
-        six_moments_affine(SIX_MOMENTS_EVEN_INVERSE, even - (SIX_MOMENTS_EVEN_OFFSET - middle), vec3f(0.0)),
-    );
-}
-
 // The moment bias of means. Floats keep that of the storage whatever the weight is, as they are finest around zero; the step
 // of other storages does not shrink for small weights.
 fn enclosed_moments_bias(weight: f32, stored_as: u32) -> SixMomentsBias {
@@ -90,15 +77,42 @@ fn enclosed_moments_bias(weight: f32, stored_as: u32) -> SixMomentsBias {
     return SixMomentsBias(bias.even, min(bias.alpha * scale, ENCLOSED_MOMENTS_LARGEST_ALPHA));
 }
 
+// The biased moments of a filtered texel's occluders between the ends, as means over them alone. Weights below
+// `ENCLOSED_MOMENTS_SMALLEST_WEIGHT` count as that.
+fn enclosed_moments_biased(texels: array<vec4f, 2>, weight: f32, stored_as: u32) -> SixMoments {
+    let scale = 1.0 / max(weight, ENCLOSED_MOMENTS_SMALLEST_WEIGHT);
+    // From 0 to 1 for all storages: clamping is free there, and only float32 has more digits around one half less.
+    let middle = select(six_moments_middle(stored_as), 0.0, stored_as == STORAGE_FLOAT32);
+    var odd = saturate(fma(vec3f(scale), texels[0].xyz, vec3f(middle)));
+    var even = saturate(fma(vec3f(scale), texels[1].xyz, vec3f(middle)));
+    if stored_as == STORAGE_FLOAT32 {
+        odd = clamp(scale * texels[0].xyz, vec3f(-0.5), vec3f(0.5));
+        even = clamp(scale * texels[1].xyz, vec3f(-0.5), vec3f(0.5));
+    }
+    if stored_as == STORAGE_FLOAT16 {
+        return six_moments_biased_from_channels(odd, even, 0.0, six_moments_bias_of(stored_as));
+    }
+    let moments = six_moments_from_channels(odd, even, six_moments_middle(stored_as));
+    return six_moments_apply_bias(moments, enclosed_moments_bias(weight, stored_as));
+}
+
+// Whether all channels of a pair of texels are finite. NaN and infinities are found by their bits: a compiler may assume that
+// neither occurs.
+fn enclosed_moments_are_finite(texels: array<vec4f, 2>, stored_as: u32) -> bool {
+    // A sum of numbers near 1, unless something is broken.
+    let sum = dot(texels[0] + texels[1], vec4f(1.0));
+    return !storage_is_float(stored_as) || (bitcast<u32>(sum) & 0x7f800000u) != 0x7f800000u;
+}
+
 // Bounds of the shadow at a depth: x = how much of the weight is certainly before it, y = how much may be. Both in [0, 1] for all
-// texels, filtered or broken; depths in [-1, 1].
-fn enclosed_moments_bounds(filtered: array<vec4f, 2>, depth: f32, stored_as: u32) -> vec2f {
-    let texels = array<vec4f, 2>(storage_finite_texel(filtered[0], stored_as), storage_finite_texel(filtered[1], stored_as));
+// texels, filtered or broken, of which those with NaN or infinities cast no shadow; depths in [-1, 1].
+fn enclosed_moments_bounds(texels: array<vec4f, 2>, depth: f32, stored_as: u32) -> vec2f {
     let weight = saturate(texels[1].w);
-    let front = clamp(1.0 - texels[0].w, 0.0, 1.0 - weight);
-    let bias = enclosed_moments_bias(weight, stored_as);
-    let means = enclosed_moments_means(texels, weight, stored_as);
-    let bounds = hamburger6_bounds(six_moments_apply_bias(means, bias), depth, bias.alpha);
+    let front = min(saturate(1.0 - texels[0].w), 1.0 - weight);
+    let alpha = enclosed_moments_bias(weight, stored_as).alpha;
+    let biased = enclosed_moments_biased(texels, weight, stored_as);
+    let bounds = hamburger6_bounds_at(hamburger6_factor(biased, alpha), depth - biased.odd.x, alpha);
     let known = weight >= ENCLOSED_MOMENTS_SMALLEST_WEIGHT;
-    return fma(select(vec2f(0.0, 1.0), bounds, known), vec2f(weight), vec2f(front));
+    let shadow = fma(select(vec2f(0.0, 1.0), bounds, known), vec2f(weight), vec2f(front));
+    return select(vec2f(0.0), shadow, enclosed_moments_are_finite(texels, stored_as));
 }

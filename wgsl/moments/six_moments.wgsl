@@ -108,22 +108,28 @@ fn six_moments_to_texel(mean: vec4f, plane: u32, stored_as: u32) -> vec4f {
     return six_moments_to_even_texel(mean.xyz, stored_as);
 }
 
-// The moments in the two (filtered) texels of the storage, |b| < 1.05. Float storage can hold anything: channels beyond their
-// range count as its ends. Channels are clamped rather than moments, since the bias covers errors of channels; moments at the
-// ends of their ranges, one of which rounding has moved inwards, would need a bias ten times as large if the others were
-// clamped.
-fn six_moments_from_texels(texels: array<vec4f, 2>, stored_as: u32) -> SixMoments {
-    let middle = six_moments_middle(stored_as);
-    var odd = texels[0].xyz;
-    var even = texels[1].xyz;
+// The three channels of a (filtered) texel of the storage. Float storage can hold anything: channels beyond their range count
+// as its ends. Channels are clamped rather than moments, since the bias covers errors of channels; moments at the ends of
+// their ranges, one of which rounding has moved inwards, would need a bias ten times as large if the others were clamped.
+fn six_moments_channels_of(texel: vec4f, stored_as: u32) -> vec3f {
     if storage_is_float(stored_as) {
-        odd = clamp(odd, vec3f(-0.5), vec3f(0.5));
-        even = clamp(even, vec3f(-0.5), vec3f(0.5));
+        return clamp(texel.xyz, vec3f(-0.5), vec3f(0.5));
     }
+    return texel.xyz;
+}
+
+// The moments of channels in their ranges, from which `middle` was subtracted. |b| < 1.05.
+fn six_moments_from_channels(odd: vec3f, even: vec3f, middle: f32) -> SixMoments {
     return SixMoments(
         six_moments_affine(SIX_MOMENTS_ODD_INVERSE, odd - (SIX_MOMENTS_ODD_OFFSET - middle), vec3f(0.0)),
         six_moments_affine(SIX_MOMENTS_EVEN_INVERSE, even - (SIX_MOMENTS_EVEN_OFFSET - middle), vec3f(0.0)),
     );
+}
+
+// The moments in the two (filtered) texels of the storage, |b| < 1.05.
+fn six_moments_from_texels(texels: array<vec4f, 2>, stored_as: u32) -> SixMoments {
+    let odd = six_moments_channels_of(texels[0], stored_as);
+    return six_moments_from_channels(odd, six_moments_channels_of(texels[1], stored_as), six_moments_middle(stored_as));
 }
 
 // The moment bias of a storage.
@@ -145,4 +151,28 @@ fn six_moments_bias_of(stored_as: u32) -> SixMomentsBias {
 fn six_moments_apply_bias(b: SixMoments, bias: SixMomentsBias) -> SixMoments {
     let alpha = vec3f(bias.alpha);
     return SixMoments(fma(-alpha, b.odd, b.odd), fma(alpha, bias.even - b.even, b.even));
+}
+
+// The biased moments of channels in their ranges, from which `middle` was subtracted. |b| < 1.05. The inverse of the basis and
+// the bias are both affine, and so one step; the bias is a constant, large enough for 1 - alpha.
+fn six_moments_biased_from_channels(odd: vec3f, even: vec3f, middle: f32, bias: SixMomentsBias) -> SixMoments {
+    let odd_inverse = (1.0 - bias.alpha) * SIX_MOMENTS_ODD_INVERSE;
+    let even_inverse = (1.0 - bias.alpha) * SIX_MOMENTS_EVEN_INVERSE;
+    let odd_shift = odd_inverse * (middle - SIX_MOMENTS_ODD_OFFSET);
+    let even_shift = even_inverse * (middle - SIX_MOMENTS_EVEN_OFFSET) + bias.alpha * bias.even;
+    return SixMoments(
+        six_moments_affine(odd_inverse, odd, odd_shift),
+        six_moments_affine(even_inverse, even, even_shift),
+    );
+}
+
+// The biased moments in the two (filtered) texels of the storage, |b| < 1.05.
+fn six_moments_biased_from_texels(texels: array<vec4f, 2>, stored_as: u32) -> SixMoments {
+    let bias = six_moments_bias_of(stored_as);
+    if stored_as == STORAGE_FLOAT32 {
+        return six_moments_apply_bias(six_moments_from_texels(texels, stored_as), bias);
+    }
+    let odd = six_moments_channels_of(texels[0], stored_as);
+    let even = six_moments_channels_of(texels[1], stored_as);
+    return six_moments_biased_from_channels(odd, even, six_moments_middle(stored_as), bias);
 }

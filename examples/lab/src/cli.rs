@@ -7,9 +7,9 @@ use clap::{CommandFactory, FromArgMatches, Parser, Subcommand};
 
 use crate::command::cost::CostOptions;
 use crate::command::{
-    CommandResult, best, bias, choose, claims, contact_shadows, error, error_table, inspect, isa,
-    measure, ports, probe, render, scattering_error, scattering_flicker, scores, shaders,
-    soft_error, stability, sweep, technique_pictures, trade, transmittance,
+    CommandResult, best, bias, choose, claims, contact_shadows, error, error_table, first_frame,
+    inspect, isa, measure, ports, probe, render, scattering_error, scattering_flicker, scores,
+    shaders, soft_error, stability, sweep, technique_pictures, trade, transmittance,
     troubleshooting_pictures, vectors,
 };
 use crate::isa::child;
@@ -63,6 +63,8 @@ enum Command {
     Best(best::Options),
     /// Prints what a scene asks of its shadows: surfaces under the filter, the part of the light's range that is used, texels per pixel.
     Probe(probe::Options),
+    /// Times what passes before the first frame of a graph: its compilation and its pipelines.
+    FirstFrame(first_frame::Options),
     /// Looks at one pixel: the depths under its filter, and what each technique makes of them, step by step from the truth to what is shown.
     Inspect(inspect::Options),
     /// Prints how far soft shadows are from those of an area light that is sampled at many places: hard moment shadows,
@@ -133,6 +135,7 @@ fn run(command: Command) -> CommandResult {
         Command::Claims(options) => options.run(),
         Command::Best(options) => options.run(),
         Command::Probe(options) => options.run(),
+        Command::FirstFrame(options) => options.run(),
         Command::Inspect(options) => options.run(),
         Command::SoftError(options) => print_all(&soft_error::run(&options)?),
         Command::ScatteringError(options) => print_all(&scattering_error::run(&options)?),

@@ -76,6 +76,10 @@ const RUN: [(&str, &[&str]); 14] = [
         ],
     ),
     (
+        "first-frame",
+        &["examples/hard_shadows.json", "--rounds", "1"],
+    ),
+    (
         "probe",
         &["hall", "--quick", "--map", "128", "--views", "1"],
     ),

@@ -125,7 +125,9 @@ impl Planner<'_> {
     ) -> Result<(BindingLayout, PlannedBindingResource), GraphError> {
         let loaded = |slot: &str, one_layer: bool, level: u32| {
             let (known, texture) = self.texture(slot, level)?;
-            let plane = one_layer.then(|| self.plane(slot, texture)).transpose()?;
+            let plane = one_layer
+                .then(|| self.plane(slot, texture, None))
+                .transpose()?;
             let layout = BindingLayout::Texture {
                 sample_type: self.sample(texture),
                 view_dimension: if one_layer {
@@ -169,7 +171,7 @@ impl Planner<'_> {
             }
             BindingResource::Level { slot, level } => loaded(slot, true, *level),
             BindingResource::Layers(slot) => loaded(slot, false, 0),
-            BindingResource::StorageLevel { slot, level } => {
+            BindingResource::StorageLevel { slot, level, plane } => {
                 let (known, texture) = self.texture(slot, *level)?;
                 let layout = BindingLayout::StorageTexture {
                     access: StorageAccess::WriteOnly,
@@ -178,7 +180,7 @@ impl Planner<'_> {
                 };
                 let part = PlannedPart {
                     level: *level,
-                    plane: self.plane(slot, texture)?,
+                    plane: self.plane(slot, texture, *plane)?,
                 };
                 let resource = self.indices[&known];
                 let resource = PlannedBindingResource::StorageTexture { resource, part };
@@ -276,7 +278,7 @@ impl Planner<'_> {
                     target: self.indices[&known],
                     part: PlannedPart {
                         level: *level,
-                        plane: self.plane(target, texture)?,
+                        plane: self.plane(target, texture, None)?,
                     },
                     keeps: *regions,
                 };
@@ -347,11 +349,16 @@ impl Planner<'_> {
         }
     }
 
-    /// The plane that the pass means of a slot's texture.
-    fn plane(&self, slot: &str, texture: &TextureDesc) -> Result<u32, GraphError> {
-        let plane = self.pass.plane;
+    /// The plane of a slot's texture that is named, or else the one that the pass means.
+    fn plane(
+        &self,
+        slot: &str,
+        texture: &TextureDesc,
+        named: Option<u32>,
+    ) -> Result<u32, GraphError> {
+        let plane = named.unwrap_or(self.pass.plane);
         match texture.planes {
-            1 => Ok(0),
+            1 if named.is_none() => Ok(0),
             planes if plane < planes => Ok(plane),
             planes => {
                 let what = format!("uses plane {plane} of '{slot}', which has {planes}");

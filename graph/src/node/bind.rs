@@ -43,6 +43,16 @@ pub fn store_level(slot: &str, level: u32) -> BindingResource {
     BindingResource::StorageLevel {
         slot: slot.to_owned(),
         level,
+        plane: None,
+    }
+}
+
+/// One plane of one layer, mip level 0, written, whatever the pass's plane is.
+pub fn store_plane(slot: &str, plane: u32) -> BindingResource {
+    BindingResource::StorageLevel {
+        slot: slot.to_owned(),
+        level: 0,
+        plane: Some(plane),
     }
 }
 

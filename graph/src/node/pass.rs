@@ -72,6 +72,8 @@ pub enum BindingResource {
         slot: String,
         /// The mip level.
         level: u32,
+        /// The plane, where it is not the pass's.
+        plane: Option<u32>,
     },
     /// A storage buffer.
     Buffer(String),

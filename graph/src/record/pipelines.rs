@@ -152,6 +152,8 @@ impl Pipelines {
         plan.check()?;
         check_alive(device)?;
         let mut made = 0;
+        // Directions of a blur, mip levels and the like are constants of one text.
+        let mut modules = HashMap::new();
         for pass in &plan.passes {
             if matches!(pass.work, PlannedWork::Host { .. }) {
                 continue;
@@ -170,7 +172,11 @@ impl Pipelines {
             }
             for key in keys {
                 if let Entry::Vacant(place) = self.pipelines.entry(key) {
-                    let create = || place.key().create(device, &label, options.cache.as_ref());
+                    let create = || {
+                        place
+                            .key()
+                            .create(device, &label, options.cache.as_ref(), &mut modules)
+                    };
                     let pipeline = scoped(device, &label, create).await?;
                     check_alive(device)?;
                     place.insert(pipeline);
@@ -252,11 +258,19 @@ impl PipelineKey {
         device: &wgpu::Device,
         label: &str,
         cache: Option<&wgpu::PipelineCache>,
+        modules: &mut HashMap<String, wgpu::ShaderModule>,
     ) -> (Pipeline, wgpu::BindGroupLayout) {
-        let shader = device.create_shader_module(wgpu::ShaderModuleDescriptor {
-            label: Some(label),
-            source: wgpu::ShaderSource::Wgsl(self.wgsl.as_str().into()),
-        });
+        let shader = match modules.get(&self.wgsl) {
+            Some(made) => made.clone(),
+            None => {
+                let made = device.create_shader_module(wgpu::ShaderModuleDescriptor {
+                    label: Some(label),
+                    source: wgpu::ShaderSource::Wgsl(self.wgsl.as_str().into()),
+                });
+                modules.insert(self.wgsl.clone(), made.clone());
+                made
+            }
+        };
         let group = device.create_bind_group_layout(&wgpu::BindGroupLayoutDescriptor {
             label: Some(label),
             entries: &self.layout,

@@ -10,6 +10,7 @@ pub mod cost;
 pub mod drawn;
 pub mod error;
 pub mod error_table;
+pub mod first_frame;
 pub mod inspect;
 pub mod isa;
 pub mod measure;

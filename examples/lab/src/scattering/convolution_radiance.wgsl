@@ -1,7 +1,7 @@
 import moment_shadows::techniques::convolution::{CONVOLUTION_DAMPING, convolution_plane, convolution_receiver, convolution_shadow_intensity};
 import moment_shadows::air::rectified_frame::{rectified_frame_coordinates, rectified_frame_depth, rectified_frame_place, rectified_frame_prefix, rectified_frame_row};
 import node::scattering_view::{view, view_cosine, view_dimming, view_surface};
-import moment_shadows::air::single_scattering::{single_scattering_radiance, single_scattering_transmittance};
+import moment_shadows::air::single_scattering::{single_scattering_ray};
 import moment_shadows::map::storage::{STORAGE_FLOAT16};
 
 // In-scattered radiance from the rows of a convolution shadow map: four fetches per pixel.
@@ -27,6 +27,6 @@ fn composite(@builtin(position) position: vec4f) -> @location(0) vec4f {
     }
     let shadow = convolution_shadow_intensity(sum, terms, false);
     let distance = length(surface);
-    let radiance = single_scattering_radiance(view.medium, distance, view_cosine(surface), shadow);
-    return vec4f(radiance, view_dimming(single_scattering_transmittance(view.medium, distance)));
+    let ray = single_scattering_ray(view.medium, distance, view_cosine(surface), shadow);
+    return vec4f(ray.radiance, view_dimming(ray.transmittance));
 }

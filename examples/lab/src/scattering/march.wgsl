@@ -1,5 +1,5 @@
 import node::scattering_view::{view, view_cosine, view_dimming, view_surface};
-import moment_shadows::air::single_scattering::{single_scattering_radiance, single_scattering_transmittance};
+import moment_shadows::air::single_scattering::{single_scattering_ray};
 
 // In-scattered radiance by marching: a load of the plain depth map at the middle of each step, everything else in closed form. Pixels of the
 // target are every so many pixels of the picture.
@@ -44,6 +44,7 @@ fn march(@builtin(position) position: vec4f) -> @location(0) vec4f {
         lit = fma(vec3f(1.0 - shadow), before, lit);
         before *= through;
     }
-    let radiance = single_scattering_radiance(view.medium, step, view_cosine(surface), 0.0) * lit;
-    return vec4f(radiance, view_dimming(single_scattering_transmittance(view.medium, distance)));
+    let cosine = view_cosine(surface);
+    let radiance = single_scattering_ray(view.medium, step, cosine, 0.0).radiance * lit;
+    return vec4f(radiance, view_dimming(single_scattering_ray(view.medium, distance, cosine, 0.0).transmittance));
 }

@@ -17,13 +17,11 @@ const BOUNDS: &str = "return enclosed_moments_bounds(array<vec4f, 2>(odd, even),
 
 /// What takes its place. An occluder at the near end has odd channels of 0, one at the far end of 1; even ones are the same at both.
 const ROUNDED: &str = "let ends = (1.0 - even.w) * vec3f(0.0, 1.0, 0.98111829);
-    let whole = array<vec4f, 2>(
-        vec4f(round(1023.0 * (odd.xyz + odd.w - even.w)) / 1023.0, 1.0),
-        vec4f(round(1023.0 * (even.xyz + ends)) / 1023.0, 1.0),
-    );
+    let whole_odd = round(1023.0 * (odd.xyz + odd.w - even.w)) / 1023.0;
+    let whole_even = round(1023.0 * (even.xyz + ends)) / 1023.0;
     let bias = SixMomentsBias(vec3f(EVEN), ALPHA);
-    let moments = six_moments_apply_bias(enclosed_moments_means(whole, 1.0, STORAGE), bias);
-    return hamburger6_bounds(moments, depth, bias.alpha);";
+    let biased = six_moments_apply_bias(six_moments_from_channels(whole_odd, whole_even, 0.0), bias);
+    return hamburger6_bounds_at(hamburger6_factor(biased, bias.alpha), depth - biased.odd.x, bias.alpha);";
 
 impl Node for CompositeTenBits {
     fn describe(&self, upstream: &Connected<'_>) -> Result<NodeDesc, GraphError> {

@@ -116,6 +116,14 @@ impl Node for CompositeScattering {
             .module("scattering_bounds", bounds);
         let (specialization, sampler) =
             moments_lookup(specialization, capabilities, &encoding, 1, 1);
+        let specialization = specialization.module(
+            "scattering_lookup",
+            if sampler.is_some() {
+                include_str!("lookup_sampled.wgsl")
+            } else {
+                include_str!("lookup_loaded.wgsl")
+            },
+        );
         let camera = upstream.texture("camera_depth")?;
         let wgsl = depth_input::of_camera(specialization, camera)
             .link(wgsl!("composite_scattering.wgsl"))?;

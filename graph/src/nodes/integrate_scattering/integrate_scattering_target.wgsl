@@ -1,6 +1,7 @@
 import moment_shadows::air::rectified_frame::{RectifiedFrame, rectified_frame_ray};
 import moment_shadows::air::scattering_weights::{scattering_weights_thickness};
-import node::specialization::{GROUP, MomentsStorage};
+import node::planes::{rectified_map};
+import node::specialization::{GROUP};
 
 // What both ways to sum up rows share.
 
@@ -11,8 +12,6 @@ struct IntegrateScatteringParameters {
 }
 
 @group(GROUP) @binding(0) var<uniform> parameters: IntegrateScatteringParameters;
-@group(GROUP) @binding(1) var rectified_map: texture_2d<f32>;
-@group(GROUP) @binding(2) var integrated_map: MomentsStorage;
 
 // The optical thickness of a column of a row.
 fn row_thickness(row: u32) -> f32 {

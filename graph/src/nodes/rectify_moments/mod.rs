@@ -73,6 +73,9 @@ impl Node for RectifyMoments {
             .bind("parameters", bind::parameters())
             .bind("rectified_map", bind::store("rectified"))
             .bind("moments_map", bind::layers("map"));
+        if encoding.planes() > 1 {
+            pass = pass.bind("rectified_even", bind::store_plane("rectified", 1));
+        }
         pass.bindings.extend(sampler);
         let rule = map_input::rule(map_input::formats());
         let rectified = TextureRule::of_map(encoding.clone()).extent(self.extent);
@@ -82,7 +85,7 @@ impl Node for RectifyMoments {
         Ok(NodeDesc::new("rectify_moments", Stage::AfterShadowMaps)
             .input("map", "The light's filtered map of four moments.", rule)
             .output("rectified", description, rectified)
-            .passes(techniques::of_each_plane(&encoding, pass))
+            .pass(pass)
             .parameters(block)
             .off("rectified", techniques::no_shadow(&encoding)))
     }

@@ -3,8 +3,8 @@ import moment_shadows::map::map_region::{MapRegion, map_region_within};
 import moment_shadows::moments::four_moments::{four_moments_from_texel};
 import node::moments_lookup::{moments_lookup, moments_map};
 import moment_shadows::air::rectified_frame::{RectifiedFrame, rectified_frame_depth, rectified_frame_ray};
-import node::rectified_texel::{rectified_texel};
-import node::specialization::{GROUP, MomentsStorage, SOURCE_STORAGE};
+import node::rectified_texel::{rectified_map, rectified_store};
+import node::specialization::{GROUP, SOURCE_STORAGE};
 import moment_shadows::map::storage::{storage_finite_texel};
 import moment_shadows::maths::two_diracs::{two_diracs_of_moments};
 
@@ -30,7 +30,6 @@ struct RectifyMomentsParameters {
 }
 
 @group(GROUP) @binding(0) var<uniform> parameters: RectifyMomentsParameters;
-@group(GROUP) @binding(1) var rectified_map: MomentsStorage;
 
 // From here on depths of the light's map are its far end, where there are no casters: those of filtered texels spread by
 // what a storage's rounding leaves of them.
@@ -58,7 +57,7 @@ fn rectify(@builtin(global_invocation_id) id: vec3u) {
     let uv = parameters.map_at_camera + ray.x * outwards;
     if any(uv < vec2f(0.0)) || any(uv > vec2f(1.0)) {
         // What the light's map does not know casts no shadow.
-        textureStore(rectified_map, id.xy, rectified_texel(vec2f(1.0), vec2f(0.5)));
+        rectified_store(id.xy, vec2f(1.0), vec2f(0.5));
         return;
     }
     let region = map_region_within(parameters.region, textureDimensions(moments_map));
@@ -71,5 +70,5 @@ fn rectify(@builtin(global_invocation_id) id: vec3u) {
     // View rays that end within the first column run along the light: whatever is before the camera shadows all of them.
     let radius = select(ray.x, 0.0, id.x == 0u);
     let depths = vec2f(rectified(occluders.depths.x, radius), rectified(occluders.depths.y, radius));
-    textureStore(rectified_map, id.xy, rectified_texel(depths, occluders.weights));
+    rectified_store(id.xy, depths, occluders.weights);
 }
