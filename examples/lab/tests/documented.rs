@@ -14,7 +14,7 @@ use moment_shadows_graph::command::Cli;
 use moment_shadows_lab::cli::parser;
 
 /// Sub-commands that are run here, with arguments that make them short; `OUT` is a folder or a file in it.
-const RUN: [(&str, &[&str]); 14] = [
+const RUN: [(&str, &[&str]); 15] = [
     ("adapter", &[]),
     (
         "export",

@@ -1,5 +1,5 @@
-import node::integrate_target::{row_thickness};
-import node::planes::{Planes, planes_divide, planes_fma, planes_if, planes_load, planes_store, rectified_map};
+import node::integrate_target::{integrated_map, rectified_map, row_thickness};
+import node::map_filtering::{filtering_texel};
 import moment_shadows::air::scattering_weights::{scattering_weights_of_column};
 
 // Normalised prefix sums along rows, on a GPU: a workgroup per row, 8 texels per invocation, the sums of invocations by the
@@ -8,7 +8,7 @@ import moment_shadows::air::scattering_weights::{scattering_weights_of_column};
 const THREADS = 64u;
 const TEXELS = 8u;
 
-var<workgroup> sums: array<Planes, THREADS>;
+var<workgroup> sums: array<vec4f, THREADS>;
 var<workgroup> weights: array<f32, THREADS>;
 
 @compute @workgroup_size(THREADS)
@@ -17,18 +17,19 @@ fn integrate(@builtin(local_invocation_id) local: vec3u, @builtin(workgroup_id) 
     let row = workgroup_id.y;
     let thickness = row_thickness(row);
     let thread = local.x;
-    var before = Planes();
+    var before = vec4f(0.0);
     var weight_before = 0.0;
     for (var start = 0u; start < columns; start += THREADS * TEXELS) {
         let first = start + thread * TEXELS;
-        var sum = Planes();
+        var sum = vec4f(0.0);
         var weight = 0.0;
-        var prefixes: array<Planes, TEXELS>;
+        var prefixes: array<vec4f, TEXELS>;
         var prefix_weights: array<f32, TEXELS>;
         for (var index = 0u; index < TEXELS; index++) {
             let column = first + index;
             let of_column = scattering_weights_of_column(thickness, f32(column));
-            sum = planes_fma(of_column, planes_load(min(column, columns - 1u), row), sum);
+            let texel = textureLoad(rectified_map, vec2u(min(column, columns - 1u), row), 0);
+            sum = fma(vec4f(of_column), texel, sum);
             weight += of_column;
             prefixes[index] = sum;
             prefix_weights[index] = weight;
@@ -38,7 +39,7 @@ fn integrate(@builtin(local_invocation_id) local: vec3u, @builtin(workgroup_id) 
         workgroupBarrier();
         for (var step = 1u; step < THREADS; step *= 2u) {
             let other = max(thread, step) - step;
-            let added = planes_if(sums[other], thread >= step);
+            let added = select(vec4f(0.0), sums[other], thread >= step);
             let added_weight = select(0.0, weights[other], thread >= step);
             workgroupBarrier();
             sums[thread] += added;
@@ -46,14 +47,14 @@ fn integrate(@builtin(local_invocation_id) local: vec3u, @builtin(workgroup_id) 
             workgroupBarrier();
         }
         let previous = max(thread, 1u) - 1u;
-        let inner = before + planes_if(sums[previous], thread > 0u);
+        let inner = before + select(vec4f(0.0), sums[previous], thread > 0u);
         let inner_weight = weight_before + select(0.0, weights[previous], thread > 0u);
         for (var index = 0u; index < TEXELS; index++) {
             let column = first + index;
             if column < columns {
                 // The first weight is 1.
-                let mean = planes_divide(inner + prefixes[index], inner_weight + prefix_weights[index]);
-                planes_store(column, row, mean);
+                let mean = (inner + prefixes[index]) / (inner_weight + prefix_weights[index]);
+                textureStore(integrated_map, vec2u(column, row), filtering_texel(mean));
             }
         }
         before += sums[THREADS - 1u];

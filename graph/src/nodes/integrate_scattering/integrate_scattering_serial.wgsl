@@ -1,5 +1,5 @@
-import node::integrate_target::{row_thickness};
-import node::planes::{Planes, planes_fma, planes_load, planes_store, rectified_map};
+import node::integrate_target::{integrated_map, rectified_map, row_thickness};
+import node::map_filtering::{filtering_texel};
 import moment_shadows::air::scattering_weights::{scattering_weights_of_column};
 
 // Normalised prefix sums along rows, on a software adapter: a row per invocation, without shared memory. Means are f32 and are
@@ -7,9 +7,9 @@ import moment_shadows::air::scattering_weights::{scattering_weights_of_column};
 
 const LINES = 64u;
 
-// The means of the texels up to a column, and the sum of their weights.
+// The mean of the texels up to a column, and the sum of their weights.
 struct IntegrateSum {
-    mean: Planes,
+    mean: vec4f,
     weight: f32,
 }
 
@@ -17,8 +17,9 @@ struct IntegrateSum {
 fn integrate_column(before: IntegrateSum, column: u32, row: u32, thickness: f32) -> IntegrateSum {
     let of_column = scattering_weights_of_column(thickness, f32(column));
     let weight = before.weight + of_column;
-    let mean = planes_fma(of_column / weight, planes_load(column, row) - before.mean, before.mean);
-    planes_store(column, row, mean);
+    let texel = textureLoad(rectified_map, vec2u(column, row), 0);
+    let mean = fma(vec4f(of_column / weight), texel - before.mean, before.mean);
+    textureStore(integrated_map, vec2u(column, row), filtering_texel(mean));
     return IntegrateSum(mean, weight);
 }
 
@@ -30,7 +31,7 @@ fn integrate(@builtin(local_invocation_id) local: vec3u, @builtin(workgroup_id) 
         return;
     }
     let thickness = row_thickness(row);
-    var sum = IntegrateSum(Planes(), 0.0);
+    var sum = IntegrateSum(vec4f(0.0), 0.0);
     // Four by four: what a loop costs is much of what a column does.
     for (var column = 0u; column < size.x; column += 4u) {
         sum = integrate_column(sum, column, row, thickness);

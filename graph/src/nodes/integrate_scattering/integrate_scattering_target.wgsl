@@ -1,7 +1,6 @@
 import moment_shadows::air::rectified_frame::{RectifiedFrame, rectified_frame_ray};
 import moment_shadows::air::scattering_weights::{scattering_weights_thickness};
-import node::planes::{rectified_map};
-import node::specialization::{GROUP};
+import node::specialization::{GROUP, MomentsStorage};
 
 // What both ways to sum up rows share.
 
@@ -12,6 +11,8 @@ struct IntegrateScatteringParameters {
 }
 
 @group(GROUP) @binding(0) var<uniform> parameters: IntegrateScatteringParameters;
+@group(GROUP) @binding(1) var rectified_map: texture_2d<f32>;
+@group(GROUP) @binding(2) var integrated_map: MomentsStorage;
 
 // The optical thickness of a column of a row.
 fn row_thickness(row: u32) -> f32 {

@@ -32,26 +32,14 @@ impl Node for IntegrateScattering {
             (wgsl!("integrate_scattering_parallel.wgsl"), 1)
         };
         let target = include_str!("integrate_scattering_target.wgsl");
-        let one_plane = rectified.planes == 1;
-        let planes = if one_plane {
-            include_str!("planes_one.wgsl")
-        } else {
-            include_str!("planes_two.wgsl")
-        };
         let wgsl = techniques::of_map(capabilities, &encoding)
             .module("integrate_target", target)
-            .module("planes", planes)
             .link(shader)?;
         let pass = Pass::compute("integrate", "integrated", [regions::ENDLESS, rows])
             .shader(wgsl, "integrate")
             .bind("parameters", bind::parameters())
+            .bind("rectified_map", bind::layer("rectified"))
             .bind("integrated_map", bind::store("integrated"));
-        let pass = if one_plane {
-            pass.bind("rectified_map", bind::layer("rectified"))
-        } else {
-            pass.bind("rectified_map", bind::layers("rectified"))
-                .bind("integrated_second", bind::store_plane("integrated", 1))
-        };
         let rule = TextureRule::new(map_input::formats());
         let means = TextureRule::new(Rule::same_as("rectified")).extent(Rule::same_as("rectified"));
         let description = "Its weighted means from the camera to each texel.";
@@ -65,7 +53,7 @@ impl Node for IntegrateScattering {
                     rule,
                 )
                 .output("integrated", description, means)
-                .pass(pass)
+                .passes(regions::of_each_plane(rectified.planes, vec![pass]))
                 .parameters(block),
         )
     }
