@@ -103,11 +103,13 @@ fn compiling_and_describing_are_repeatable() {
         Box::new(Blur {
             kernel: moment_shadows::Kernel::gaussian(3, 1.5).map(Into::into),
             per_frame: false,
+            resolve: None,
             mip_levels: Some(1),
         }),
         Box::new(Blur {
             kernel: moment_shadows::Kernel::gaussian(30, 12.0).map(Into::into),
             per_frame: true,
+            resolve: None,
             mip_levels: Some(1),
         }),
         Box::new(ShadeHard::default()),

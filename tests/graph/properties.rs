@@ -43,6 +43,45 @@ fn kernels_say_what_is_wrong_with_them() {
 }
 
 #[test]
+fn what_a_blur_cannot_resolve_is_refused_with_what_to_do() {
+    let cases = [
+        (r#""resolve": { "blends": 2 }"#, "4", "has 'blends'"),
+        (r#""resolve": { "mip_levels": 2 }"#, "4", "has 'mip_levels'"),
+        (
+            r#""resolve": {}, "per_frame": true"#,
+            "4",
+            "at most radius 12",
+        ),
+        (r#""resolve": {}"#, "13", "at most radius 12"),
+        (r#""resolve": {}"#, "4, \"width\": 0.1", "at most radius 12"),
+        (
+            r#""resolve": { "technique": "hamburger6", "storage": "unorm10" }"#,
+            "4",
+            "as 'unorm10', which is drawn",
+        ),
+        (
+            r#""resolve": { "bits": 64 }"#,
+            "4",
+            "64 beside the technique",
+        ),
+    ];
+    for (properties, radius, says) in cases {
+        let text = edited(
+            "\"kernel\": { \"radius\": 4, \"sigma\": 2.4 }",
+            &format!("{properties}, \"kernel\": {{ \"radius\": {radius} }}"),
+        )
+        .replace("\"to\": \"resolve.depth\"", "\"to\": \"blur.depth\"")
+        .replace(
+            "    { \"from\": \"resolve.map\", \"to\": \"blur.map\" },\n",
+            "",
+        );
+        let error = refused(&text);
+        assert_eq!(error.kind, Property, "{error}");
+        assert!(error.message.contains(says), "{error}");
+    }
+}
+
+#[test]
 fn moment_scale_is_refused_with_the_reason() {
     let text = edited(
         "\"type\": \"shade_hard\"",

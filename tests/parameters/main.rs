@@ -252,6 +252,7 @@ fn per_frame_blur() -> NodeDesc {
     described(&Blur {
         kernel: Kernel::gaussian(4, 2.4).map(Into::into),
         per_frame: true,
+        resolve: None,
         mip_levels: Some(1),
     })
 }

@@ -34,6 +34,7 @@ mod receiver_plane;
 mod recording;
 mod regions;
 mod resolve;
+mod resolved_blur;
 mod setup;
 mod shade;
 mod shade_regions;

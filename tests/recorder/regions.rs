@@ -37,6 +37,26 @@ fn graph(storage: &str, radius: u32, mip_levels: &str) -> String {
     )
 }
 
+/// The same with a blur that resolves; it is named `resolve`.
+fn resolved_graph(storage: &str, radius: u32) -> String {
+    format!(
+        r#"{{
+  "version": 2,
+  "imports": [{{ "name": "light_depth" }}],
+  "nodes": [
+    {{ "name": "resolve", "type": "blur",
+       "properties": {{ "resolve": {{ "storage": "{storage}" }}, "kernel": {{ "radius": {radius} }}, "mip_levels": "all" }} }},
+    {{ "name": "downsample", "type": "downsample" }}
+  ],
+  "edges": [
+    {{ "from": "light_depth", "to": "resolve.depth" }},
+    {{ "from": "resolve.blurred", "to": "downsample.map" }}
+  ],
+  "outputs": [{{ "name": "map", "from": "downsample.map" }}]
+}}"#
+    )
+}
+
 fn depth(size: [u32; 2], regions: u32) -> TextureDesc {
     TextureDesc {
         regions,
@@ -185,14 +205,20 @@ fn regions_that_touch_leave_each_other_untouched_to_the_bit() {
         DepthConversion::orthographic(),
         DepthConversion::orthographic().reversed(),
     ];
-    for (storage, radius) in [
-        ("unorm16", 32),
-        ("float16", 12),
-        ("float32", 32),
-        ("unorm10", 32),
-        ("unorm10", 12),
+    for (storage, radius, resolved) in [
+        ("unorm16", 32, false),
+        ("float16", 12, false),
+        ("float32", 32, false),
+        ("unorm10", 32, false),
+        ("unorm10", 12, false),
+        ("unorm16", 4, true),
+        ("float32", 12, true),
     ] {
-        let atlas = Atlas::new(&gpu, &graph(storage, radius, "\"all\""), size, 2);
+        let text = match resolved {
+            true => resolved_graph(storage, radius),
+            false => graph(storage, radius, "\"all\""),
+        };
+        let atlas = Atlas::new(&gpu, &text, size, 2);
         assert_eq!(atlas.levels(), 7);
         let texels = |region: usize| -> Vec<Vec<u8>> {
             (0..atlas.levels())
@@ -217,12 +243,7 @@ fn regions_that_touch_leave_each_other_untouched_to_the_bit() {
         );
         assert_ne!(after[0], texels(0));
         // On its own, in a map of its own, the left region is the same.
-        let alone = Atlas::new(
-            &gpu,
-            &graph(storage, radius, "\"all\""),
-            regions[0].extent,
-            1,
-        );
+        let alone = Atlas::new(&gpu, &text, regions[0].extent, 1);
         let whole = MapRegion::new([0, 0], regions[0].extent);
         let own = depths_of(whole.extent, &[whole], &[0]);
         alone.run(&gpu, &[MapRegion::WHOLE], &conversions[..1], &own);

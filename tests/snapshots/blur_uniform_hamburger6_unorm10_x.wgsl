@@ -3,7 +3,7 @@
 // fullscreen: Covered fullscreen
 // regions: regions region_at
 // moment_shadows/map/storage.wgsl: STORAGE_FLOAT16 STORAGE_UNORM10 storage_round_to_float16 storage_round_to_unorm10 storage_round_texel
-// blur_source: moments_map BlurParameters parameters blur_kernel blur_source
+// blur_source: moments_map BlurParameters parameters blur_kernel blur_size blur_source blur_stored
 // moment_shadows/filter/separable.wgsl: separable_add
 // written_texel: LEVEL written_size written_texel
 // write_drawn.wgsl: RegionPixel region_of write_map
@@ -35,7 +35,7 @@ fn blur_texel(texel: vec2i, low: vec2i, last: vec2i, region: u32) -> vec4f {
         // 15 zeros come first.
         let place = tap + 15u;
         let weight = parameters[kernel].weights[place / 4u][place % 4u];
-        let source = blur_source(texel + (i32(tap) - i32(radius)) * AXIS, low, last);
+        let source = blur_source(texel + (i32(tap) - i32(radius)) * AXIS, low, last, region);
         sum = separable_add(sum, weight, source, false);
     }
     return sum;

@@ -2,11 +2,12 @@
 // moment_shadows/map/map_region.wgsl: MapRegion map_region_within map_region_at_level
 // regions: regions region_at RegionTile region_tile
 // moment_shadows/map/depth.wgsl: DepthConversion DEPTH_SMALLEST_DENOMINATOR depth_is_nan depth_to_moment_depth
-// moment_shadows/map/range_fit.wgsl: RangeFit range_fit_none range_fit_depth range_fit_map_depth
 // moment_shadows/map/storage.wgsl: STORAGE_FLOAT16 STORAGE_FLOAT32 storage_is_float storage_round_to_float16
 // moment_shadows/techniques/convolution.wgsl: CONVOLUTION_LARGEST_TERMS CONVOLUTION_BOUNDS convolution_terms convolution_bound convolution_place convolution_waves convolution_channels convolution_to_texel
+// moment_shadows/map/range_fit.wgsl: RangeFit range_fit_none range_fit_depth range_fit_map_depth
 // range_of_region: range_of_region
-// written_texel: conversions depth_map LEVEL written_size written_texel
+// resolved: conversions depth_map resolved_size resolved_channels
+// written_texel: LEVEL written_size written_texel
 // write_computed.wgsl: written_map write_map
 
 // specialization

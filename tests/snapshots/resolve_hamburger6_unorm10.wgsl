@@ -2,12 +2,13 @@
 // moment_shadows/map/map_region.wgsl: MapRegion map_region_within map_region_at_level
 // fullscreen: Covered fullscreen
 // regions: regions region_at
-// moment_shadows/map/depth.wgsl: DepthConversion DEPTH_SMALLEST_DENOMINATOR depth_is_nan depth_to_moment_depth
-// moment_shadows/map/range_fit.wgsl: RangeFit range_fit_none range_fit_depth range_fit_map_depth
 // moment_shadows/map/storage.wgsl: STORAGE_FLOAT16 STORAGE_FLOAT32 STORAGE_UNORM10 storage_is_float storage_round_to_float16 storage_round_to_unorm10 storage_round_texel
 // moment_shadows/moments/six_moments.wgsl: SixMoments SIX_MOMENTS_ODD_BASIS SIX_MOMENTS_EVEN_BASIS SIX_MOMENTS_ODD_OFFSET SIX_MOMENTS_EVEN_OFFSET six_moments_affine six_moments_from_depth six_moments_middle six_moments_texel six_moments_to_odd_texel six_moments_to_even_texel six_moments_channels six_moments_to_texel
+// moment_shadows/map/depth.wgsl: DepthConversion DEPTH_SMALLEST_DENOMINATOR depth_is_nan depth_to_moment_depth
+// moment_shadows/map/range_fit.wgsl: RangeFit range_fit_none range_fit_depth range_fit_map_depth
 // range_of_region: range_of_region
-// written_texel: conversions depth_map LEVEL written_size written_texel
+// resolved: conversions depth_map resolved_size resolved_channels
+// written_texel: LEVEL written_size written_texel
 // write_drawn.wgsl: RegionPixel region_of write_map
 
 // specialization

@@ -1,14 +1,15 @@
 // What is linked of files:
 // moment_shadows/map/map_region.wgsl: MapRegion map_region_within map_region_at_level
 // regions: regions region_at RegionTile region_tile
-// moment_shadows/map/depth.wgsl: DepthConversion DEPTH_SMALLEST_DENOMINATOR depth_is_nan depth_to_moment_depth
-// moment_shadows/map/range_fit.wgsl: RangeFit range_fit_none range_fit_depth range_fit_map_depth
 // moment_shadows/map/storage.wgsl: STORAGE_FLOAT16 STORAGE_FLOAT32 storage_round_to_float16
 // moment_shadows/moments/two_moments.wgsl: two_moments_to_texel
+// moment_shadows/map/depth.wgsl: DepthConversion DEPTH_SMALLEST_DENOMINATOR depth_is_nan depth_to_moment_depth
 // moment_shadows/techniques/layered_variance.wgsl: LAYERED_VARIANCE_LARGEST_COUNT LAYERED_VARIANCE_SMALLEST_HALF_WIDTH LayeredVarianceLayers layered_variance_split layered_variance_count layered_variance_interval layered_variance_warp layered_variance_channels
 // technique_layers: splits_map technique_layers
+// moment_shadows/map/range_fit.wgsl: RangeFit range_fit_none range_fit_depth range_fit_map_depth
 // range_of_region: range_of_region
-// written_texel: conversions depth_map LEVEL written_size written_texel
+// resolved: conversions depth_map resolved_size resolved_channels
+// written_texel: LEVEL written_size written_texel
 // write_computed.wgsl: written_map write_map
 
 // specialization

@@ -23,7 +23,7 @@ pub struct GraphFile {
 }
 
 impl GraphFile {
-    /// Reads a file. With a storage, every `resolve` node uses that instead of its own.
+    /// Reads a file. With a storage, every node that resolves uses that instead of its own.
     pub fn read(path: &Path, storage: Option<Storage>) -> Result<Self, LabError> {
         Self::with_storage(command::GraphFile::read(path)?, storage)
     }
@@ -47,7 +47,9 @@ impl GraphFile {
             None => Ok(file),
             Some(storage) => {
                 let Self { text, graph, .. } = file.edited(|file| {
-                    set_property(file, "resolve", "storage", storage.name().into());
+                    for node in items(file, "nodes").filter(|node| technique::resolves(node)) {
+                        technique::told_how_to_resolve(node)["storage"] = storage.name().into();
+                    }
                 })?;
                 // Edges and outputs keep their places in the file.
                 let nodes = graph.nodes;

@@ -42,6 +42,25 @@ pub(super) fn three_roundings<const M: usize>(
                 store(channels)
             })
     };
+    filtered(form, weights, texel)
+}
+
+/// The filtered moments after every row and the column have been rounded, as a blur gives them that resolves.
+pub(super) fn two_roundings<const M: usize>(
+    form: &Form<M>,
+    patch: &Patch,
+    weights: &[f32; SIDE],
+) -> [f64; M] {
+    filtered(form, weights, |index| form.texel(patch[index]))
+}
+
+/// The moments of filtered texels: every row and the column are rounded.
+fn filtered<const M: usize>(
+    form: &Form<M>,
+    weights: &[f32; SIDE],
+    texel: impl Fn(usize) -> [f32; M],
+) -> [f64; M] {
+    let store = |texel: [f32; M]| texel.map(|channel| rounded(form.storage, channel));
     let mut column = [[0.0; M]; SIDE];
     for (row, filtered) in column.iter_mut().enumerate() {
         let texels: [[f32; M]; SIDE] = core::array::from_fn(|tap| texel(SIDE * row + tap));

@@ -27,9 +27,27 @@ fn blur(map: &MapEncoding, radius: u32, per_frame: bool) -> Variant {
     let node = Blur {
         kernel: Kernel::gaussian(radius, 0.6 * radius as f32).map(Into::into),
         per_frame,
+        resolve: None,
         mip_levels: Some(1),
     };
     Variant::new(node, map)
+}
+
+/// A blur of four samples per texel that resolves by itself.
+fn resolved_blur(map: &MapEncoding, radius: u32) -> Variant {
+    let node = Blur {
+        kernel: Kernel::gaussian(radius, 0.6 * radius as f32).map(Into::into),
+        per_frame: false,
+        resolve: Some(Resolve {
+            technique: Some(map.technique().clone()),
+            storage: vec![map.storage()],
+            blends: 0,
+            bits: None,
+            mip_levels: Some(1),
+        }),
+        mip_levels: Some(1),
+    };
+    Variant::new(node, map).samples(4)
 }
 
 /// A kernel of radius 12 at most for each region.
@@ -38,6 +56,7 @@ fn in_scene(map: &MapEncoding) -> Variant {
     let node = Blur {
         kernel: Ok(BlurKernel::Scene { width, radius: 12 }),
         per_frame: false,
+        resolve: None,
         mip_levels: Some(1),
     };
     Variant::new(node, map)
@@ -93,6 +112,10 @@ pub(super) fn of_four_moments(four: &MapEncoding) -> Result<Vec<Variant>, ValueE
         blur(four, 4, false)
             .regions(4)
             .row(unorm16, row(4) + ", 4 regions", &[4]),
+        resolved_blur(four, 4)
+            .file(format!("blur_resolved_{storage}"), usize::from(unorm16))
+            .row(unorm16, format!("{storage}, radius 4, 4 samples"), &[]),
+        resolved_blur(four, 12).row(unorm16, format!("{storage}, radius 12, 4 samples"), &[]),
         // The weights are parameters: one text for every radius.
         blurred("uniform", 1, true, 1, unorm16),
         blurred("uniform", 1, true, REGIONS, false),

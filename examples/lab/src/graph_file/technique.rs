@@ -20,7 +20,10 @@ impl GraphFile {
         technique: &Technique,
         storage: Option<Storage>,
     ) -> Result<Self, LabError> {
-        let resolve = self.name_of("resolve")?;
+        let resolve = match self.blur_that_resolves() {
+            Some(blur) => name(&blur),
+            None => self.name_of("resolve")?,
+        };
         // Only hard shadows can do without a filterable map.
         let shade = match self.name_of("shade_soft") {
             Ok(shade) if !technique.reads_depth() => shade,
@@ -48,10 +51,13 @@ impl GraphFile {
                     // It follows the map.
                     remove_property(node, "technique");
                 } else if node["name"] == resolve.as_str() && !technique.reads_depth() {
-                    node["properties"]["technique"] = json!(technique);
-                    remove_property(node, "bits");
+                    let properties = told_how_to_resolve(node);
+                    properties["technique"] = json!(technique);
+                    if let Some(properties) = properties.as_object_mut() {
+                        properties.remove("bits");
+                    }
                     if let Some(storage) = storage {
-                        node["properties"]["storage"] = json!(storage);
+                        properties["storage"] = json!(storage);
                     }
                 }
             }
@@ -84,10 +90,12 @@ impl GraphFile {
     /// How the graph's map is encoded; none where no node makes one.
     #[must_use]
     pub fn encoding(&self) -> Option<MapEncoding> {
-        let node = self.node_of("resolve")?;
-        let properties = match node["properties"].clone() {
-            Value::Null => json!({}),
-            given => given,
+        let properties = match self.node_of("resolve") {
+            Some(node) => match node["properties"].clone() {
+                Value::Null => json!({}),
+                given => given,
+            },
+            None => self.blur_that_resolves()?["properties"]["resolve"].clone(),
         };
         let resolve: Resolve = serde_json::from_value(properties).ok()?;
         resolve
@@ -152,16 +160,41 @@ impl GraphFile {
         self.find("nodes", "type", node_type)
     }
 
+    /// The blur that resolves by itself, if one does.
+    pub(super) fn blur_that_resolves(&self) -> Option<Value> {
+        let blur = self.node_of("blur")?;
+        resolves(&blur).then_some(blur)
+    }
+
     fn name_of(&self, node_type: &str) -> Result<String, LabError> {
         let node = self.node_of(node_type).ok_or_else(|| {
             self.unsuitable(format!(
                 "it has no {node_type} node whose technique could be another; add one"
             ))
         })?;
-        Ok(node["name"].as_str().unwrap_or_default().to_owned())
+        Ok(name(&node))
     }
 
     pub(crate) fn unsuitable(&self, reason: impl ToString) -> LabError {
         LabError::unsuitable(&self.name, reason)
+    }
+}
+
+fn name(node: &Value) -> String {
+    node["name"].as_str().unwrap_or_default().to_owned()
+}
+
+/// Whether a node resolves a depth map: a node `resolve`, or a blur that does so by itself.
+pub(super) fn resolves(node: &Value) -> bool {
+    node["type"] == "resolve" || !node["properties"]["resolve"].is_null()
+}
+
+/// What a node is told that resolves.
+pub(super) fn told_how_to_resolve(node: &mut Value) -> &mut Value {
+    let properties = &mut node["properties"];
+    if properties["resolve"].is_null() {
+        properties
+    } else {
+        &mut properties["resolve"]
     }
 }

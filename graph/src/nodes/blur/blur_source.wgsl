@@ -1,4 +1,4 @@
-import node::map_filtering::{filtering_value};
+import node::map_filtering::{filtering_texel, filtering_value};
 import node::map_texture::{texel_of_texture};
 import node::specialization::{AXIS, GROUP, KERNELS, MapTexture};
 
@@ -26,7 +26,16 @@ fn blur_kernel(region: u32) -> u32 {
     return select(2u * region + u32(AXIS.y), 0u, KERNELS == 1u);
 }
 
+fn blur_size() -> vec2u {
+    return textureDimensions(moments_map);
+}
+
 // A texel as it is averaged. Beyond `low` and `last`, the corners of the region, its texels repeat.
-fn blur_source(texel: vec2i, low: vec2i, last: vec2i) -> vec4f {
+fn blur_source(texel: vec2i, low: vec2i, last: vec2i, region: u32) -> vec4f {
     return filtering_value(texel_of_texture(textureLoad(moments_map, clamp(texel, low, last), 0)));
+}
+
+// What is stored of an average.
+fn blur_stored(average: vec4f) -> vec4f {
+    return filtering_texel(average);
 }

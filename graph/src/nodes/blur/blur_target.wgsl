@@ -1,5 +1,5 @@
 import moment_shadows::filter::separable::{SeparableEight, separable_outputs};
-import node::map_filtering::{filtering_texel};
+import node::blur_source::{blur_stored};
 import node::map_texture::{texel_to_texture};
 import node::specialization::{AXIS, GROUP, MomentsStorage};
 
@@ -10,7 +10,7 @@ import node::specialization::{AXIS, GROUP, MomentsStorage};
 // Stores a filtered texel unless it lies beyond `last`, the last texel of the region.
 fn blur_store_one(texel: vec2i, last: vec2i, value: vec4f) {
     if all(texel <= last) {
-        textureStore(written_map, texel, texel_to_texture(filtering_texel(value)));
+        textureStore(written_map, texel, texel_to_texture(blur_stored(value)));
     }
 }
 

@@ -12,7 +12,7 @@ fn blur_texel(texel: vec2i, low: vec2i, last: vec2i, region: u32) -> vec4f {
         // 15 zeros come first.
         let place = tap + 15u;
         let weight = parameters[kernel].weights[place / 4u][place % 4u];
-        let source = blur_source(texel + (i32(tap) - i32(radius)) * AXIS, low, last);
+        let source = blur_source(texel + (i32(tap) - i32(radius)) * AXIS, low, last, region);
         sum = separable_add(sum, weight, source, false);
     }
     return sum;

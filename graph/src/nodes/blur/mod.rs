@@ -1,21 +1,28 @@
 //! Filters a map of moments with a separable kernel.
 
 mod kernel;
+mod source;
 mod unrolled;
 
 pub use kernel::BlurKernel;
-use moment_shadows::{Finite, Kernel, MapEncoding, ValueError};
+use moment_shadows::{Finite, Kernel, ValueError};
 use serde::Deserialize;
 
-use super::shared::{map_input, mip_levels, regions, wgsl, wrong_property, wrong_size};
-use super::techniques;
+use source::Source;
+
+use super::shared::{mip_levels, regions, wgsl, wrong_property, wrong_size};
+use super::{Resolve, techniques};
 use crate::{
-    Connected, GraphError, Node, NodeDesc, Off, ParameterBlock, Pass, Rule, Slot, Stage,
-    TextureDesc, TextureRule, bind,
+    Connected, GraphError, Node, NodeDesc, ParameterBlock, Pass, Slot, Stage, TextureDesc,
+    TextureRule, bind,
 };
 
 /// Outputs per invocation where weights are literals.
 const OUTPUTS_LITERAL: u32 = 8;
+
+/// Outputs per invocation along x and along y where a depth map is resolved: along x each texel that is encoded serves as many as
+/// possible, and invocations remain enough.
+const OUTPUTS_RESOLVED: [u32; 2] = [32, 16];
 
 /// Outputs per invocation where weights are uniform.
 const OUTPUTS_UNIFORM: u32 = 16;
@@ -33,7 +40,8 @@ const WORKGROUP_UNROLLED_Y: [u32; 2] = [64, 1];
 
 /// Node `blur`: `map` to `blurred`, of the same format, size, layers and regions. Two passes, along x and along
 /// y, for each plane; beyond the edge of a region its last texel repeats. Maps stored as `unorm10` are drawn, others are written by
-/// compute shaders.
+/// compute shaders. With `resolve` it takes a depth map in place of `map`, with the inputs and parameters of [`Resolve`], and the pass along x
+/// resolves it: one pass and one rounding less than both nodes.
 #[derive(Clone, Debug, PartialEq, Deserialize)]
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[serde(deny_unknown_fields)]
@@ -49,6 +57,11 @@ pub struct Blur {
     /// along x and along y ([`Kernel::of_width`]), which begin as the widest. `Session` writes them.
     #[serde(default)]
     pub per_frame: bool,
+    /// What the node [`Resolve`] would be told that comes before, in its place: `technique`, `storage` and `bits`. Its `blends` and
+    /// `mip_levels` are refused, since translucent casters are blended in between, and this node's own `mip_levels` count; as are maps that
+    /// are drawn, and kernels whose weights are parameters.
+    #[serde(default)]
+    pub resolve: Option<Resolve>,
     /// Room for mip levels, which [`super::Downsample`] fills: a number, the map itself included, or `None` (in a file `"all"`)
     /// for as many as the shorter side of the map allows.
     #[serde(default = "mip_levels::one", deserialize_with = "mip_levels::read")]
@@ -80,7 +93,6 @@ impl Blur {
 
 impl Node for Blur {
     fn describe(&self, upstream: &Connected<'_>) -> Result<NodeDesc, GraphError> {
-        let (map, encoding) = map_input::connected(upstream, "map")?;
         let kernel = self.kernel.as_ref().map_err(wrong_property)?;
         let (kernel, width) = match kernel {
             BlurKernel::Texels(kernel) => (kernel.clone(), None),
@@ -96,55 +108,54 @@ impl Node for Blur {
             }
         };
         let kernel = &kernel;
-        check_fits(kernel, map)?;
+        let is_literal =
+            !self.per_frame && width.is_none() && kernel.radius() <= LARGEST_UNROLLED_RADIUS;
+        let source = match &self.resolve {
+            None => Source::map(upstream)?,
+            Some(resolve) => Source::resolved(resolve, upstream, is_literal)?,
+        };
+        let (map, encoding) = (source.desc, &source.encoding);
+        check_fits(kernel, map).map_err(|error| error.at_slot(source.slot))?;
         let deviation = match width {
             None => Finite::new(kernel.standard_deviation()).map_err(wrong_property)?,
             Some(_) => Finite::ZERO,
         };
         let mips = mip_levels::count(self.mip_levels, map.size)?;
-        let is_literal =
-            !self.per_frame && width.is_none() && kernel.radius() <= LARGEST_UNROLLED_RADIUS;
         let kernels = width.map_or(1, |_| 2 * map.regions);
-        let along = |axis| {
-            pass(
-                axis,
-                upstream,
-                (map, &encoding),
-                (kernel, kernels),
-                is_literal,
-            )
-        };
+        let along = |axis| pass(axis, upstream, &source, (kernel, kernels), is_literal);
         // Each plane has an intermediate map of its own, so that no pass overwrites what another still has to read, whatever
         // the order. In the plan's order all of them share memory.
-        let names = (0..map.planes).map(|plane| half_blurred(plane, map.planes));
+        let planes = encoding.planes();
+        let names = (0..planes).map(|plane| half_blurred(plane, planes));
         let halves = names.map(|name| {
-            let half = TextureRule::new(encoding.format()).like("map");
+            let half = TextureRule::new(encoding.format()).like(source.slot);
             Slot::internal(&name, "A plane, filtered along x.", half)
         });
-        let passes = regions::of_each_plane(map.planes, vec![along(0)?, along(1)?]);
+        let passes = regions::of_each_plane(planes, vec![along(0)?, along(1)?]);
         let passes = passes.map(|pass| {
-            let name = half_blurred(pass.plane, map.planes);
-            pass.with_slot(HALF_BLURRED, &name)
+            let name = half_blurred(pass.plane, planes);
+            source.of_plane(pass.with_slot(HALF_BLURRED, &name))
         });
-        let blurred = TextureRule::new(Rule::same_as("map"))
-            .like("map")
+        let blurred = source
+            .made
+            .clone()
             .mips(mips)
             .filtered(deviation)
             .filtered_in_scene(width.unwrap_or_default());
-        let rule = map_input::rule(map_input::all_formats());
         let desc = NodeDesc::new("blur", Stage::AfterShadowMaps)
-            .input("map", "The map to filter.", rule)
+            .slots(source.inputs.clone())
             .slots(halves)
             .output("blurred", "The map, filtered along x and y.", blurred)
             .passes(passes);
-        // A map without the mip levels that this one has room for is no stand-in.
-        let desc = if mips == map.mips {
-            desc.off("blurred", Off::Bypass("map".to_owned()))
-        } else {
-            desc
+        let desc = match source.off(mips) {
+            Some(off) => desc.off("blurred", off),
+            None => desc,
         };
         if is_literal {
-            return Ok(desc);
+            return Ok(match source.conversions() {
+                Some(block) => desc.parameters(block),
+                None => desc,
+            });
         }
         let mut initial = Self::parameters(kernel);
         initial[2] = width.unwrap_or_default().get().to_bits();
@@ -172,42 +183,62 @@ fn half_blurred(plane: u32, planes: u32) -> String {
 fn pass(
     axis: usize,
     upstream: &Connected<'_>,
-    (map, encoding): (&TextureDesc, &MapEncoding),
+    source: &Source<'_>,
     (kernel, kernels): (&Kernel, u32),
     is_literal: bool,
 ) -> Result<Pass, GraphError> {
     let (label, step, from, to) = [
-        ("blur along x", "vec2i(1, 0)", "map", HALF_BLURRED),
+        ("blur along x", "vec2i(1, 0)", source.slot, HALF_BLURRED),
         ("blur along y", "vec2i(0, 1)", HALF_BLURRED, "blurred"),
     ][axis];
+    let encoding = &source.encoding;
+    let resolved = source.depth().filter(|_| axis == 0);
+    let label = resolved.map_or(label, |_| "resolve and blur along x");
     let workgroup = if is_literal && axis == 1 {
         WORKGROUP_UNROLLED_Y
     } else {
         WORKGROUP
     };
     let weights = kernel.weights();
-    let (outputs, many, one) = if is_literal {
-        let (many, one) = (unrolled::outputs(weights), unrolled::texel(weights));
-        (OUTPUTS_LITERAL, many, one)
-    } else {
-        let many = include_str!("blur_outputs_uniform.wgsl").to_owned();
-        let one = include_str!("blur_texel_uniform.wgsl").to_owned();
-        (OUTPUTS_UNIFORM, many, one)
+    let (outputs, many, one) = match source.depth() {
+        _ if !is_literal => {
+            let many = include_str!("blur_outputs_uniform.wgsl").to_owned();
+            let one = include_str!("blur_texel_uniform.wgsl").to_owned();
+            (OUTPUTS_UNIFORM, many, one)
+        }
+        depth => {
+            let outputs = match depth {
+                Some(_) => OUTPUTS_RESOLVED[axis],
+                None => OUTPUTS_LITERAL,
+            };
+            let many = unrolled::outputs(weights, outputs / 8);
+            (outputs, many, unrolled::texel(weights))
+        }
     };
     let shader = if encoding.storage().is_drawn() {
         regions::shader(encoding)
     } else {
         wgsl!("blur.wgsl")
     };
-    let wgsl = techniques::of_map(upstream.capabilities(), encoding)
-        .unsigned("REGIONS", map.regions)
+    let (specialization, blur_source) = match resolved {
+        Some(resolved) => (
+            resolved.specialization.clone(),
+            include_str!("blur_source_resolved.wgsl"),
+        ),
+        None => (
+            techniques::of_map(upstream.capabilities(), encoding)
+                .unsigned("REGIONS", source.desc.regions),
+            include_str!("blur_source.wgsl"),
+        ),
+    };
+    let wgsl = specialization
         .unsigned("KERNELS", kernels)
         .unsigned("WORKGROUP_X", workgroup[0])
         .unsigned("WORKGROUP_Y", workgroup[1])
         .constant("AXIS", step)
         .constant("OUTPUTS", outputs)
         .constant("SPLIT_SUMS", encoding.has_split_sums())
-        .module("blur_source", include_str!("blur_source.wgsl"))
+        .module("blur_source", blur_source)
         .module("blur_target", include_str!("blur_target.wgsl"))
         .module("blur_outputs", many)
         .module("blur_texel", one)
@@ -217,8 +248,11 @@ fn pass(
     texels[axis] *= outputs;
     // A region holds at least a kernel, so that no texel is repeated at two edges.
     let smallest = 2 * kernel.radius() + 1;
-    let pass = regions::write(label, &wgsl, encoding, (to, 0), texels, smallest)
-        .bind("moments_map", bind::layer(from));
+    let mut pass = regions::write(label, &wgsl, encoding, (to, 0), texels, smallest);
+    match resolved {
+        Some(resolved) => pass.bindings.extend(resolved.bindings()),
+        None => pass = pass.bind("moments_map", bind::layer(from)),
+    }
     Ok(if is_literal {
         pass
     } else {
@@ -237,5 +271,5 @@ fn check_fits(kernel: &Kernel, map: &TextureDesc) -> Result<(), GraphError> {
         "a kernel of radius {} is wider than the map of {width}x{height} texels; the largest radius for it is {largest}",
         kernel.radius()
     );
-    Err(wrong_size(message).at_slot("map"))
+    Err(wrong_size(message))
 }

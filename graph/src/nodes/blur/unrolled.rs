@@ -1,17 +1,43 @@
 //! Kernels whose weights are known: a call of the module `separable` for each texel, with its weights as literals.
 
-/// `blur_outputs`: the eight outputs at `first`, `first + AXIS`, ..
-pub(super) fn outputs(weights: &[f32]) -> String {
+/// `blur_outputs`: so many times eight outputs at `first`, `first + AXIS`, .. Each eight are stored as soon as their last texel is in, so
+/// that sums are as many as the kernel spans, whatever the number of outputs.
+pub(super) fn outputs(weights: &[f32], eights: u32) -> String {
     let zeros = [0.0; 7];
     let padded = [&zeros, weights, &zeros].concat();
-    let tap = |(offset, window): (i64, &[f32])| {
-        format!(
-            "    sums = separable_add_to_eight(sums, blur_source(first + {offset} * AXIS, low, last), {}, {}, SPLIT_SUMS, true);\n",
-            vector(&window[..4]),
-            vector(&window[4..])
-        )
-    };
-    let taps: String = offsets(weights).zip(padded.windows(8)).map(tap).collect();
+    let windows: Vec<&[f32]> = padded.windows(8).collect();
+    let eights = eights as usize;
+    let mut body: String = (0..eights)
+        .map(|eight| format!("    var {}: SeparableEight;\n", sums(eight)))
+        .collect();
+    for (tap, offset) in (0..windows.len() + 8 * (eights - 1)).zip(offsets(weights)) {
+        let source = format!("blur_source(first + {offset} * AXIS, low, last, region)");
+        // The eights that the texel reaches, with its weights there.
+        let reached: Vec<_> = (0..eights)
+            .filter_map(|eight| Some((eight, windows.get(tap.checked_sub(8 * eight)?)?)))
+            .collect();
+        let texel = if reached.len() == 1 {
+            source
+        } else {
+            body += &format!("    let t{tap} = {source};\n");
+            format!("t{tap}")
+        };
+        for (eight, window) in reached {
+            let sums = sums(eight);
+            body += &format!(
+                "    {sums} = separable_add_to_eight({sums}, {texel}, {}, {}, SPLIT_SUMS, true);\n",
+                vector(&window[..4]),
+                vector(&window[4..])
+            );
+            if tap == windows.len() - 1 + 8 * eight {
+                let place = match eight {
+                    0 => "first".to_owned(),
+                    _ => format!("first + {} * AXIS", 8 * eight),
+                };
+                body += &format!("    blur_store({place}, last, {sums});\n");
+            }
+        }
+    }
     "\
 import moment_shadows::filter::separable::{SeparableEight, separable_add_to_eight};
 import node::blur_source::{blur_source};
@@ -19,18 +45,25 @@ import node::blur_target::{blur_store};
 import node::specialization::{AXIS, SPLIT_SUMS};
 
 fn blur_outputs(first: vec2i, low: vec2i, last: vec2i, region: u32) {
-    var sums: SeparableEight;
 "
     .to_owned()
-        + &taps
-        + "    blur_store(first, last, sums);\n}\n"
+        + &body
+        + "}\n"
+}
+
+/// The variable for the sums of an eight.
+fn sums(eight: usize) -> String {
+    match eight {
+        0 => "sums".to_owned(),
+        _ => format!("sums{eight}"),
+    }
 }
 
 /// `blur_texel`: one output, whose sum is not split.
 pub(super) fn texel(weights: &[f32]) -> String {
     let tap = |(offset, weight): (i64, &f32)| {
         format!(
-            "    sum = separable_add(sum, {weight:?}, blur_source(texel + {offset} * AXIS, low, last), true);\n"
+            "    sum = separable_add(sum, {weight:?}, blur_source(texel + {offset} * AXIS, low, last, region), true);\n"
         )
     };
     let taps: String = offsets(weights).zip(weights).map(tap).collect();

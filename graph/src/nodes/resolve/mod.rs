@@ -1,13 +1,16 @@
 //! Turns a light's depth map into a map of moments.
 
 mod best;
+mod resolved;
 
 use moment_shadows::{MapEncoding, Storage, Technique, ValueError};
 use serde::Deserialize;
 
-use super::shared::{depth_input, mip_levels, range_input, regions, wrong_property};
+pub(super) use resolved::Resolved;
+
+use super::shared::{mip_levels, regions};
 use super::techniques;
-use crate::{Capabilities, Connected, GraphError, Node, NodeDesc, Stage, TextureRule, bind};
+use crate::{Capabilities, Connected, GraphError, Node, NodeDesc, Stage};
 
 /// Node `resolve`: `depth` (of any number of layers and samples) to
 /// `map`, a filterable map of the same size, layers and regions, encoded for a technique. The *moments* (or what else the
@@ -86,43 +89,25 @@ impl Resolve {
 
 impl Node for Resolve {
     fn describe(&self, upstream: &Connected<'_>) -> Result<NodeDesc, GraphError> {
-        let depth = upstream.texture("depth")?;
-        let mips = mip_levels::count(self.mip_levels, depth.size)?;
-        let encoding = self
-            .encoding(upstream.capabilities())
-            .map_err(wrong_property)?;
-        let technique = encoding.technique();
-        let specialization = techniques::of_map(upstream.capabilities(), &encoding);
-        let (specialization, ranges, ranges_binding) =
-            range_input::of_maker(specialization, upstream, depth)?;
-        if ranges_binding.is_some() && technique.row().places_layers {
-            let message = "the layers of the technique are placed in the host's range; give the splits, or leave this input open";
-            return Err(wrong_property(message).at_slot("ranges"));
-        }
-        let wgsl = specialization
-            .alias("DepthTexture", depth_input::texture_type(depth))
-            .unsigned("REGIONS", depth.regions)
-            .constant("SAMPLES", depth.samples)
-            .module("technique_layers", techniques::layers(technique, true))
+        let resolved = self.resolved(upstream)?;
+        let mips = mip_levels::count(self.mip_levels, resolved.depth.size)?;
+        let encoding = &resolved.encoding;
+        let wgsl = resolved
+            .specialization
+            .clone()
             .module("written_texel", include_str!("resolve_texel.wgsl"))
-            .link(regions::shader(&encoding))?;
-        let (splits, splits_binding) = techniques::splits(technique, true);
-        let mut pass = regions::write("resolve", &wgsl, &encoding, ("map", 0), [8, 8], 1)
-            .bind("conversions", bind::parameters())
-            .bind("depth_map", bind::layer("depth"));
-        pass.bindings
-            .extend(splits_binding.into_iter().chain(ranges_binding));
-        let map = TextureRule::of_map(encoding.clone())
-            .like("depth")
-            .fitted_to("ranges")
-            .mips(mips);
+            .link(regions::shader(encoding))?;
+        let mut pass = regions::write("resolve", &wgsl, encoding, ("map", 0), [8, 8], 1);
+        pass.bindings.extend(resolved.bindings());
         let description = "The filterable map, of the depth map's size, layers and regions.";
+        // The splits and ranges come after the output.
+        let mut inputs = resolved.inputs();
         Ok(NodeDesc::new("resolve", Stage::AfterShadowMaps)
-            .input("depth", "The light's depth map.", depth_input::light())
-            .output("map", description, map)
-            .slots(splits.into_iter().chain([ranges]))
-            .passes(techniques::of_each_plane(&encoding, pass))
-            .parameters(depth_input::conversions(depth))
-            .off("map", techniques::no_shadow(&encoding)))
+            .slots(inputs.next())
+            .output("map", description, resolved.map().mips(mips))
+            .slots(inputs)
+            .passes(techniques::of_each_plane(encoding, pass))
+            .parameters(resolved.conversions())
+            .off("map", techniques::no_shadow(encoding)))
     }
 }

@@ -1,0 +1,116 @@
+//! What a blur filters: a map, or a depth map that it resolves.
+
+use moment_shadows::MapEncoding;
+
+use super::LARGEST_UNROLLED_RADIUS;
+use crate::nodes::resolve::Resolved;
+use crate::nodes::shared::{map_input, wrong_property};
+use crate::nodes::{Resolve, techniques};
+use crate::{
+    Connected, GraphError, Off, ParameterBlock, Pass, Rule, Slot, TextureDesc, TextureRule,
+};
+
+/// What is connected, and what is made of it.
+pub(super) struct Source<'a> {
+    /// The input that the passes cover.
+    pub(super) slot: &'static str,
+    /// What is connected to it.
+    pub(super) desc: &'a TextureDesc,
+    /// How the map is encoded.
+    pub(super) encoding: MapEncoding,
+    /// All inputs.
+    pub(super) inputs: Vec<Slot>,
+    /// The map that is made.
+    pub(super) made: TextureRule,
+    resolved: Option<Resolved<'a>>,
+}
+
+impl<'a> Source<'a> {
+    /// A map.
+    pub(super) fn map(upstream: &Connected<'a>) -> Result<Self, GraphError> {
+        let (desc, encoding) = map_input::connected(upstream, "map")?;
+        let rule = map_input::rule(map_input::all_formats());
+        Ok(Self {
+            slot: "map",
+            desc,
+            encoding,
+            inputs: vec![Slot::input("map", "The map to filter.", rule)],
+            made: TextureRule::new(Rule::same_as("map")).like("map"),
+            resolved: None,
+        })
+    }
+
+    /// A depth map, by a kernel whose weights are literals.
+    pub(super) fn resolved(
+        resolve: &Resolve,
+        upstream: &Connected<'a>,
+        is_literal: bool,
+    ) -> Result<Self, GraphError> {
+        let refused = |message: &str| {
+            Err(wrong_property(format!(
+                "'resolve' {message} take a node 'resolve' and a blur of its map"
+            )))
+        };
+        if resolve.blends > 0 {
+            return refused(
+                "has 'blends', but no translucent caster can be blended into a map between resolving and filtering in one pass;",
+            );
+        }
+        if resolve.mip_levels != Some(1) {
+            return refused(
+                "has 'mip_levels', but the map is this node's, whose own 'mip_levels' count; give them there, or",
+            );
+        }
+        if !is_literal {
+            return refused(&format!(
+                "goes with a kernel of at most radius {LARGEST_UNROLLED_RADIUS} that stays as it is, and this one's weights are \
+                 parameters;"
+            ));
+        }
+        let resolved = resolve.resolved(upstream)?;
+        let encoding = resolved.encoding.clone();
+        if encoding.storage().is_drawn() {
+            return refused(&format!(
+                "makes a map as '{}', which is drawn: each pixel would encode all texels under the kernel anew;",
+                encoding.storage()
+            ));
+        }
+        Ok(Self {
+            slot: "depth",
+            desc: resolved.depth,
+            encoding,
+            inputs: resolved.inputs().collect(),
+            made: resolved.map(),
+            resolved: Some(resolved),
+        })
+    }
+
+    /// The depth map that the first direction resolves, if it does.
+    pub(super) fn depth(&self) -> Option<&Resolved<'a>> {
+        self.resolved.as_ref()
+    }
+
+    /// A pass that is told which plane it encodes, where it resolves and the encoding asks.
+    pub(super) fn of_plane(&self, pass: Pass) -> Pass {
+        let encodes = pass.bindings.iter().any(|it| it.variable == "conversions");
+        if encodes && self.encoding.technique().row().encodes_planes() {
+            let plane = pass.plane;
+            return pass.constant("PLANE", plane);
+        }
+        pass
+    }
+
+    /// What stands in for a blurred map of so many mip levels where the node is left out. A map without the levels that this one has
+    /// room for is no stand-in.
+    pub(super) fn off(&self, mips: u32) -> Option<Off> {
+        match &self.resolved {
+            Some(_) => Some(techniques::no_shadow(&self.encoding)),
+            None => (mips == self.desc.mips).then(|| Off::Bypass(self.slot.to_owned())),
+        }
+    }
+
+    /// How depths are stored, where they are resolved.
+    pub(super) fn conversions(&self) -> Option<ParameterBlock> {
+        self.resolved.as_ref().map(Resolved::conversions)
+    }
+}
