@@ -82,7 +82,7 @@ impl Storage {
             Storage::Unorm16 => UNORM16,
             Storage::Float16 => of_four(FOUR_MOMENTS_BIAS_FLOAT16),
             Storage::Float32 => of_four(FOUR_MOMENTS_BIAS_FLOAT32),
-            Storage::Packed64 | Storage::Packed32 => of_four(FOUR_MOMENTS_BIAS_PACKED),
+            Storage::Packed64 => of_four(FOUR_MOMENTS_BIAS_PACKED64),
             Storage::Fixed32 => SummedAreaTable::COARSEST.moment_bias(),
         }
     }
@@ -100,8 +100,8 @@ impl Storage {
             Storage::Float16 => of_four(HAUSDORFF4_BIAS_FLOAT16),
             Storage::Float32 => of_four(HAUSDORFF4_BIAS_FLOAT32),
             Storage::Fixed32 => SummedAreaTable::COARSEST.hausdorff_moment_bias(),
-            // Valid on the real line alone: as float32, whose rounding stands for theirs.
-            Storage::Packed64 | Storage::Packed32 => of_four(HAUSDORFF4_BIAS_FLOAT32),
+            // No technique on the interval reads it, since texels are valid on the real line alone: as float32.
+            Storage::Packed64 => of_four(HAUSDORFF4_BIAS_FLOAT32),
         }
     }
 
@@ -116,7 +116,7 @@ impl Storage {
             Storage::Float16 => SIX_MOMENTS_BIAS_FLOAT16,
             Storage::Float32 => SIX_MOMENTS_BIAS_FLOAT32,
             Storage::Unorm10 => SIX_MOMENTS_BIAS_UNORM10,
-            Storage::Unorm8 | Storage::Fixed32 | Storage::Packed64 | Storage::Packed32 => {
+            Storage::Unorm8 | Storage::Fixed32 | Storage::Packed64 => {
                 return None;
             }
         };

@@ -5,8 +5,8 @@ use core::fmt;
 use serde::{Deserialize, Serialize};
 
 use crate::constants::{
-    STORAGE_FIXED32, STORAGE_FLOAT16, STORAGE_FLOAT32, STORAGE_PACKED32, STORAGE_PACKED64,
-    STORAGE_UNORM8, STORAGE_UNORM10, STORAGE_UNORM16,
+    STORAGE_FIXED32, STORAGE_FLOAT16, STORAGE_FLOAT32, STORAGE_PACKED64, STORAGE_UNORM8,
+    STORAGE_UNORM10, STORAGE_UNORM16,
 };
 use crate::{Profile, TextureFormat, ValueError};
 
@@ -17,8 +17,7 @@ use crate::{Profile, TextureFormat, ValueError};
 /// | [`Unorm16`](Storage::Unorm16) | rgba16unorm | 64 | 6e-5 | optimised basis; native only |
 /// | [`Float16`](Storage::Float16) | rgba16float | 64 | 1e-3 | optimised basis less one half; everywhere, leaks four times as far |
 /// | [`Float32`](Storage::Float32) | rgba32float | 128 | 1.5e-6 | raw moments; filtered in the shader where the device cannot |
-/// | [`Packed64`](Storage::Packed64) | rg32uint | 64 | 6e-7 | non-linear; everywhere, filtered in the shader |
-/// | [`Packed32`](Storage::Packed32) | r32uint | 32 | 6e-7 | non-linear; everywhere, filtered in the shader |
+/// | [`Packed64`](Storage::Packed64) | rg32uint | 64 | 1e-6 | non-linear; everywhere, filtered in the shader |
 ///
 /// Six moments take two such texels, all with the optimised basis, or the smallest of all:
 ///
@@ -50,13 +49,11 @@ pub enum Storage {
     /// Four moments in 64 bits, non-linearly (WGSL module `packed_four_moments`): about as exact as `Float32`, on every device. Shaders
     /// load and unpack four texels where a sampler would filter.
     Packed64 = STORAGE_PACKED64 as isize,
-    /// The same in 32 bits: depths of 10 bits between which the mean is kept.
-    Packed32 = STORAGE_PACKED32 as isize,
 }
 
 impl Storage {
     /// Every storage.
-    pub const ALL: [Storage; 8] = [
+    pub const ALL: [Storage; 7] = [
         Storage::Unorm16,
         Storage::Float16,
         Storage::Float32,
@@ -64,7 +61,6 @@ impl Storage {
         Storage::Unorm10,
         Storage::Fixed32,
         Storage::Packed64,
-        Storage::Packed32,
     ];
 
     /// The storages of four moments.
@@ -82,7 +78,6 @@ impl Storage {
             Storage::Unorm10 => "unorm10",
             Storage::Fixed32 => "fixed32",
             Storage::Packed64 => "packed64",
-            Storage::Packed32 => "packed32",
         }
     }
 
@@ -97,7 +92,6 @@ impl Storage {
             Storage::Unorm10 => (None, None, F::Rgb10a2Unorm),
             Storage::Fixed32 => (None, Some(F::Rg32Uint), F::Rgba32Uint),
             Storage::Packed64 => (None, None, F::Rg32Uint),
-            Storage::Packed32 => (None, None, F::R32Uint),
         }
     }
 
@@ -142,7 +136,7 @@ impl Storage {
     /// Whether several channels are packed into integers, which shaders load and unpack and no sampler filters.
     #[must_use]
     pub fn is_packed(self) -> bool {
-        matches!(self, Storage::Packed64 | Storage::Packed32)
+        self == Storage::Packed64
     }
 
     /// Whether every device of the profile can make a map of this storage in a texture of this format.

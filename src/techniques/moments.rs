@@ -2,10 +2,8 @@
 
 use super::far;
 use super::row::{Blended, Encoding, LINEAR, Row};
-use crate::Storage::{self, Float16, Float32, Packed32, Packed64, Unorm10, Unorm16};
-use crate::constants::{
-    SIX_MOMENTS_EVEN_BASIS, SIX_MOMENTS_EVEN_OFFSET, STORAGE_STEPS_PACKED32, STORAGE_STEPS_PACKED64,
-};
+use crate::Storage::{self, Float16, Float32, Packed64, Unorm10, Unorm16};
+use crate::constants::{SIX_MOMENTS_EVEN_BASIS, SIX_MOMENTS_EVEN_OFFSET};
 
 const FOUR: Encoding = Encoding {
     channels: "four_moments_from_depth(z)",
@@ -15,7 +13,7 @@ const FOUR: Encoding = Encoding {
 };
 
 /// Packed texels are valid on the real line alone, and make up for it: other storages come first, since samplers filter them.
-const OF_THE_LINE: [Storage; 5] = [Unorm16, Float16, Float32, Packed64, Packed32];
+const OF_THE_LINE: [Storage; 4] = [Unorm16, Float16, Float32, Packed64];
 
 /// The sharp lower bound from four moments on the real line (Peters & Klein, i3D 2015).
 pub(super) fn hamburger4() -> Row {
@@ -115,14 +113,9 @@ fn far_of_four(storage: Storage) -> Vec<[f64; 4]> {
     if storage == Float32 {
         return vec![[1.0; 4]];
     }
-    if storage.is_packed() {
-        // The upper depth has all the weight; the lower is one step below.
-        let steps = f64::from(if storage == Packed64 {
-            STORAGE_STEPS_PACKED64[0]
-        } else {
-            STORAGE_STEPS_PACKED32[0]
-        });
-        return vec![[1.0 - 1.0 / steps, 1.0, 1.0, 0.0]];
+    if storage == Packed64 {
+        // The upper depth has all the weight, and the lower one is a step below.
+        return vec![[65534.0 / 65535.0, 1.0, 1.0, 0.0]];
     }
     let third = 0.5 + 3_f64.sqrt() * (0.5 - 2.0 / 9.0);
     far::centred(&[[0.0, 0.0, third, 1.0]], storage)

@@ -148,7 +148,8 @@ fn solve(rows: [[f64; 3]; 3], right: [f64; 3]) -> [f64; 3] {
 
 /// Four moments from the published basis (JCGT 6(1) 2017, equation 5).
 fn four(values: &[f64], storage: Storage) -> Vec<f64> {
-    if storage == Storage::Float32 {
+    // What a filter averages of packed texels are moments.
+    if storage == Storage::Float32 || storage.is_packed() {
         return values.to_vec();
     }
     let channel = |index: usize| values[index] + middle(storage);

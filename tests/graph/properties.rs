@@ -74,6 +74,10 @@ fn what_a_blur_cannot_resolve_is_refused_with_what_to_do() {
         .replace(
             "    { \"from\": \"resolve.map\", \"to\": \"blur.map\" },\n",
             "",
+        )
+        .replace(
+            "    { \"name\": \"resolve\", \"type\": \"resolve\", \"properties\": { \"storage\": \"unorm16\" } },\n",
+            "",
         );
         let error = refused(&text);
         assert_eq!(error.kind, Property, "{error}");

@@ -36,13 +36,13 @@ fn batch(input: BatchInput) -> BatchOutput {
     for (var index = 0u; index < 4u; index++) {
         var stored = texels[index];
         if input.as_given == 0u {
-            stored = storage_pack(four_moments_filter_texel(moments[index], input.stored_as), input.stored_as);
+            stored = storage_pack(four_moments_filter_texel(moments[index], input.stored_as));
         }
-        let channels = storage_unpack(stored, input.stored_as);
+        let channels = storage_unpack(stored);
         let value = four_moments_filter_value(channels, input.stored_as);
         if index == 0u {
             output.first = value;
-            output.is_kept = u32(all(storage_pack(channels, input.stored_as) == stored));
+            output.is_kept = u32(all(storage_pack(channels) == stored));
         }
         mean = fma(vec4f(weights[index]), value, mean);
     }

@@ -33,6 +33,9 @@ fn texel(format: TextureFormat, values: [f64; 4]) -> Vec<u8> {
         F::R32Float | F::Rg32Float | F::Rgba32Float => channels
             .flat_map(|&value| (value as f32).to_le_bytes())
             .collect(),
+        F::Rg32Uint => channels
+            .flat_map(|&value| (value as u32).to_le_bytes())
+            .collect(),
         F::Rgb10a2Unorm => {
             let [r, g, b] = [0, 1, 2].map(|channel| whole(values[channel], 1023.0));
             let word = r | g << 10 | b << 20 | whole(values[3], 3.0) << 30;

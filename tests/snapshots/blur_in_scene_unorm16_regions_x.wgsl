@@ -1,7 +1,10 @@
 // What is linked of files:
 // moment_shadows/maths/split_sum.wgsl: split_sum_coarse
 // moment_shadows/filter/separable.wgsl: separable_add SeparableSums separable_add_to_sums SeparableEight separable_add_to_eight separable_outputs SeparableSixteen separable_add_to_sixteen
-// moment_shadows/map/storage.wgsl: STORAGE_FLOAT16 STORAGE_UNORM10 storage_round_to_float16 storage_round_to_unorm10 storage_round_texel
+// moment_shadows/map/storage.wgsl: STORAGE_FLOAT16 STORAGE_UNORM10 STORAGE_PACKED64 storage_round_to_float16 storage_round_to_unorm10 storage_round_texel
+// moment_shadows/moments/packed_four_moments.wgsl: PACKED_FOUR_MOMENTS_STEPS PACKED_FOUR_MOMENTS_LEAST_VARIANCE packed_four_moments_channels packed_four_moments_from_channels
+// moment_shadows/moments/four_moments.wgsl: four_moments_filter_value four_moments_filter_texel
+// map_texture: texel_of_texture texel_to_texture
 // blur_source: moments_map BlurParameters parameters blur_kernel blur_source blur_stored
 // blur_target: written_map blur_store_one blur_store
 // moment_shadows/map/map_region.wgsl: MapRegion map_region_within map_region_at_level
@@ -10,6 +13,7 @@
 
 // specialization
 const GROUP = 0;
+alias MapTexture = texture_2d<f32>;
 alias MomentsStorage = texture_storage_2d<rgba16unorm, write>;
 const STORAGE = 0u;
 const REGIONS = 4u;
@@ -22,12 +26,12 @@ const SPLIT_SUMS = false;
 
 // map_filtering
 fn filtering_value(texel: vec4f) -> vec4f {
-    return texel;
+    return four_moments_filter_value(texel, STORAGE);
 }
 
 // The texel for such an average.
 fn filtering_texel(value: vec4f) -> vec4f {
-    return storage_round_texel(value, STORAGE);
+    return four_moments_filter_texel(value, STORAGE);
 }
 
 // blur_outputs

@@ -3,6 +3,7 @@
 // fullscreen: Covered fullscreen
 // regions: regions region_at
 // moment_shadows/map/storage.wgsl: STORAGE_FLOAT16 STORAGE_UNORM10 storage_round_to_float16 storage_round_to_unorm10 storage_round_texel
+// map_texture: texel_of_texture
 // blur_source: moments_map blur_size blur_source blur_stored
 // moment_shadows/filter/separable.wgsl: separable_add
 // written_texel: LEVEL written_size written_texel
@@ -10,6 +11,7 @@
 
 // specialization
 const GROUP = 0;
+alias MapTexture = texture_2d<f32>;
 const STORAGE = 5u;
 const REGIONS = 1u;
 const AXIS = vec2i(1, 0);

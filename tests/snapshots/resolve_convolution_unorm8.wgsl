@@ -1,4 +1,5 @@
 // What is linked of files:
+// map_texture: texel_to_texture
 // moment_shadows/map/map_region.wgsl: MapRegion map_region_within map_region_at_level
 // regions: regions region_at RegionTile region_tile
 // moment_shadows/map/depth.wgsl: DepthConversion DEPTH_SMALLEST_DENOMINATOR depth_is_nan depth_to_moment_depth

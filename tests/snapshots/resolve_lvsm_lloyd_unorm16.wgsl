@@ -1,4 +1,5 @@
 // What is linked of files:
+// map_texture: texel_to_texture
 // moment_shadows/map/map_region.wgsl: MapRegion map_region_within map_region_at_level
 // regions: regions region_at RegionTile region_tile
 // moment_shadows/map/storage.wgsl: STORAGE_FLOAT16 STORAGE_FLOAT32 storage_round_to_float16

@@ -1,7 +1,7 @@
 // What is linked of files:
 // camera_depth: camera_depth camera_sampler CameraPixel CameraSurface Neighbours camera_depth_size camera_depth_pixel_around camera_depth_clip
 // fullscreen: Covered fullscreen
-// moment_shadows/shade/leak_reduction.wgsl: LeakReduction leak_reduction_full_shadow leak_reduction_apply
+// moment_shadows/shade/leak_reduction.wgsl: LeakReduction leak_reduction_full_shadow LEAK_REDUCTION_LEAST_SHADOW leak_reduction_apply
 // moment_shadows/map/map_region.wgsl: MapRegion map_region_within map_region_at_level map_region_place
 // moment_shadows/shade/view_border.wgsl: view_border_depth view_border_parts
 // neighbours: stored_at gathered neighbours_at

@@ -1,14 +1,14 @@
 // What is linked of files:
 // camera_depth: camera_depth camera_sampler CameraPixel CameraSurface Neighbours camera_depth_size camera_depth_pixel_around camera_depth_clip
 // fullscreen: Covered fullscreen
-// moment_shadows/shade/leak_reduction.wgsl: LeakReduction leak_reduction_full_shadow leak_reduction_apply
+// moment_shadows/shade/leak_reduction.wgsl: LeakReduction leak_reduction_full_shadow LEAK_REDUCTION_LEAST_SHADOW leak_reduction_apply
 // moment_shadows/map/map_region.wgsl: MapRegion map_region_within map_region_at_level map_region_place
 // moment_shadows/shade/view_border.wgsl: view_border_depth view_border_parts
 // neighbours: stored_at gathered neighbours_at
 // surface: UNUSABLE surface_at
 // moment_shadows/maths/hankel.wgsl: HankelFactor HANKEL_SMALLEST_VARIANCE HANKEL_SMALLEST_RESIDUE hankel_factor hankel_second_polynomial hankel_christoffel_number
-// moment_shadows/map/storage.wgsl: STORAGE_FLOAT16 STORAGE_FLOAT32
-// moment_shadows/moments/four_moments.wgsl: FourMomentsBias FOUR_MOMENTS_BIAS_UNORM16 FOUR_MOMENTS_BIAS_FLOAT16 FOUR_MOMENTS_BIAS_FLOAT32 FOUR_MOMENTS_SQRT_3 four_moments_clamp four_moments_bias_of four_moments_apply_bias four_moments_biased_from_texel
+// moment_shadows/map/storage.wgsl: STORAGE_FLOAT16 STORAGE_FLOAT32 STORAGE_PACKED64
+// moment_shadows/moments/four_moments.wgsl: FourMomentsBias FOUR_MOMENTS_BIAS_UNORM16 FOUR_MOMENTS_BIAS_FLOAT16 FOUR_MOMENTS_BIAS_FLOAT32 FOUR_MOMENTS_BIAS_PACKED64 FOUR_MOMENTS_SQRT_3 four_moments_clamp four_moments_bias_of four_moments_apply_bias four_moments_biased_from_texel
 // moment_shadows/bounds/hamburger4.wgsl: HAMBURGER4_FARTHEST_SUPPORT HAMBURGER4_SMALLEST_LEADING_COEFFICIENT Hamburger4Support hamburger4_support hamburger4_lower_bound_at hamburger4_lower_bound
 // clamping.: hamburger4_shadow_intensity_of_texel
 // moment_shadows/map/minification.wgsl: MINIFICATION_LARGEST_ANISOTROPY MINIFICATION_TEXEL_PER_WIDTH MinificationAxes minification_axes MINIFICATION_SLACK minification_axes_depth_variance

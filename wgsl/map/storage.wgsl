@@ -13,13 +13,8 @@ const STORAGE_UNORM8: u32 = 3u;
 const STORAGE_FIXED32: u32 = 4u;
 // Three channels to a texel, in maps that are drawn.
 const STORAGE_UNORM10: u32 = 5u;
-// Four channels in [0, 1] in one or two 32-bit integers; see `packed_four_moments` for what they mean.
+// Four channels in [0, 1] in two 32-bit integers; see `packed_four_moments` for what they mean.
 const STORAGE_PACKED64: u32 = 6u;
-const STORAGE_PACKED32: u32 = 7u;
-
-// The greatest numbers that the channels of a packed texel hold.
-const STORAGE_STEPS_PACKED64: vec4f = vec4f(65535.0);
-const STORAGE_STEPS_PACKED32: vec4f = vec4f(1023.0, 1023.0, 63.0, 63.0);
 
 // The largest finite float16.
 const STORAGE_LARGEST_FLOAT16: f32 = 65504.0;
@@ -29,35 +24,15 @@ fn storage_is_float(stored_as: u32) -> bool {
     return stored_as == STORAGE_FLOAT16 || stored_as == STORAGE_FLOAT32;
 }
 
-// Whether texels are integers that several channels are packed into: shaders load and unpack them, and no sampler filters them.
-fn storage_is_packed(stored_as: u32) -> bool {
-    return stored_as == STORAGE_PACKED64 || stored_as == STORAGE_PACKED32;
-}
-
-// The greatest numbers that the channels of a texel of a packed storage hold.
-fn storage_packed_steps(stored_as: u32) -> vec4f {
-    if stored_as == STORAGE_PACKED32 {
-        return STORAGE_STEPS_PACKED32;
-    }
-    return STORAGE_STEPS_PACKED64;
-}
-
 // The integers of a packed texel with the number nearest to each channel; channels beyond [0, 1] count as its ends.
-fn storage_pack(channels: vec4f, stored_as: u32) -> vec4u {
-    let codes = vec4u(round(saturate(channels) * storage_packed_steps(stored_as)));
-    if stored_as == STORAGE_PACKED32 {
-        return vec4u(codes.x | (codes.y << 10u) | (codes.z << 20u) | (codes.w << 26u), 0u, 0u, 0u);
-    }
+fn storage_pack(channels: vec4f) -> vec4u {
+    let codes = vec4u(round(saturate(channels) * 65535.0));
     return vec4u(codes.x | (codes.y << 16u), codes.z | (codes.w << 16u), 0u, 0u);
 }
 
 // The channels of a packed texel, each in [0, 1] whatever the integers are.
-fn storage_unpack(texel: vec4u, stored_as: u32) -> vec4f {
-    var codes = vec4u(texel.x & 0xffffu, texel.x >> 16u, texel.y & 0xffffu, texel.y >> 16u);
-    if stored_as == STORAGE_PACKED32 {
-        codes = vec4u(texel.x & 1023u, (texel.x >> 10u) & 1023u, (texel.x >> 20u) & 63u, texel.x >> 26u);
-    }
-    return vec4f(codes) / storage_packed_steps(stored_as);
+fn storage_unpack(texel: vec4u) -> vec4f {
+    return vec4f(vec4u(texel.x & 0xffffu, texel.x >> 16u, texel.y & 0xffffu, texel.y >> 16u)) / 65535.0;
 }
 
 // The nearest float16 of each component, ties to even, for |value| <= 65504. A driver may truncate when it stores to a

@@ -1,4 +1,4 @@
-import super::super::map::storage::{STORAGE_FLOAT16, STORAGE_FLOAT32, storage_is_packed, storage_round_texel, storage_round_to_float16};
+import super::super::map::storage::{STORAGE_FLOAT16, STORAGE_FLOAT32, STORAGE_PACKED64, storage_round_texel, storage_round_to_float16};
 import super::super::moments::packed_four_moments::{packed_four_moments_channels, packed_four_moments_from_channels};
 
 // Four moments of depth: encoding, storage, bias.
@@ -25,7 +25,7 @@ const FOUR_MOMENTS_BIAS_UNORM16: FourMomentsBias = FourMomentsBias(6e-5, 0.628, 
 const FOUR_MOMENTS_BIAS_FLOAT16: FourMomentsBias = FourMomentsBias(1e-3, 0.628, 0.628);
 const FOUR_MOMENTS_BIAS_FLOAT32: FourMomentsBias = FourMomentsBias(1.5e-6, 0.375, 0.375);
 // Packed texels hold valid moments, whatever was rounded. This covers sums of four texels' moments and the evaluation, in f32.
-const FOUR_MOMENTS_BIAS_PACKED: FourMomentsBias = FourMomentsBias(6e-7, 0.375, 0.375);
+const FOUR_MOMENTS_BIAS_PACKED64: FourMomentsBias = FourMomentsBias(1e-6, 0.375, 0.375);
 
 // sqrt(3), a factor in the optimised basis and its inverse.
 const FOUR_MOMENTS_SQRT_3: f32 = 1.7320508075688772;
@@ -68,8 +68,8 @@ fn four_moments_to_texel(b: vec4f, stored_as: u32) -> vec4f {
     if stored_as == STORAGE_FLOAT32 {
         return b;
     }
-    if storage_is_packed(stored_as) {
-        return packed_four_moments_channels(b, stored_as);
+    if stored_as == STORAGE_PACKED64 {
+        return packed_four_moments_channels(b);
     }
     let channels = saturate(four_moments_quantize(b));
     if stored_as == STORAGE_FLOAT16 {
@@ -81,7 +81,7 @@ fn four_moments_to_texel(b: vec4f, stored_as: u32) -> vec4f {
 
 // What a filter averages of a texel: the texel, or the moments of a packed one.
 fn four_moments_filter_value(texel: vec4f, stored_as: u32) -> vec4f {
-    if storage_is_packed(stored_as) {
+    if stored_as == STORAGE_PACKED64 {
         return packed_four_moments_from_channels(texel);
     }
     return texel;
@@ -89,8 +89,8 @@ fn four_moments_filter_value(texel: vec4f, stored_as: u32) -> vec4f {
 
 // The texel to write for an average of such values.
 fn four_moments_filter_texel(value: vec4f, stored_as: u32) -> vec4f {
-    if storage_is_packed(stored_as) {
-        return packed_four_moments_channels(value, stored_as);
+    if stored_as == STORAGE_PACKED64 {
+        return packed_four_moments_channels(value);
     }
     return storage_round_texel(value, stored_as);
 }
@@ -98,7 +98,7 @@ fn four_moments_filter_texel(value: vec4f, stored_as: u32) -> vec4f {
 // The moments in a (filtered) texel of the storage, or of `four_moments_filter_value` where it is packed. Float storage can hold anything; `four_moments_clamp` comes before any
 // arithmetic that relies on ranges.
 fn four_moments_from_texel(texel: vec4f, stored_as: u32) -> vec4f {
-    if stored_as == STORAGE_FLOAT32 || storage_is_packed(stored_as) {
+    if stored_as == STORAGE_FLOAT32 || stored_as == STORAGE_PACKED64 {
         return texel;
     }
     if stored_as == STORAGE_FLOAT16 {
@@ -112,8 +112,8 @@ fn four_moments_bias_of(stored_as: u32) -> FourMomentsBias {
     if stored_as == STORAGE_FLOAT32 {
         return FOUR_MOMENTS_BIAS_FLOAT32;
     }
-    if storage_is_packed(stored_as) {
-        return FOUR_MOMENTS_BIAS_PACKED;
+    if stored_as == STORAGE_PACKED64 {
+        return FOUR_MOMENTS_BIAS_PACKED64;
     }
     if stored_as == STORAGE_FLOAT16 {
         return FOUR_MOMENTS_BIAS_FLOAT16;
@@ -130,7 +130,7 @@ fn four_moments_apply_bias(b: vec4f, bias: FourMomentsBias) -> vec4f {
 // The biased moments in a (filtered) texel of the storage, or of `four_moments_filter_value` where it is packed, within [-2.1, 2.1]: for unorm storage if the channels are in [0,
 // 1], as those of every texture are, and for float storage whatever finite numbers it holds.
 fn four_moments_biased_from_texel(texel: vec4f, stored_as: u32, bias: FourMomentsBias) -> vec4f {
-    if stored_as == STORAGE_FLOAT32 || storage_is_packed(stored_as) {
+    if stored_as == STORAGE_FLOAT32 || stored_as == STORAGE_PACKED64 {
         return four_moments_apply_bias(four_moments_clamp(texel), bias);
     }
     // The inverse of the basis and the bias are both affine, and so one step. These biases are large enough for 1 - alpha.

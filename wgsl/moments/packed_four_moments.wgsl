@@ -1,5 +1,3 @@
-import super::super::map::storage::{storage_packed_steps};
-
 // Four moments in few bits, non-linearly: what their shortest distribution consists of.
 //
 // Four moments are those of one distribution of two depths g1 < g2, the Gauss nodes, of which g2 has the weight w, but for the fourth
@@ -8,31 +6,31 @@ import super::super::map::storage::{storage_packed_steps};
 // "Non-linearly Quantized Moment Shadow Maps", HPG 2017; these quantities are not). Texels are not linear in the moments: filters
 // average the moments of texels.
 
-// Variances below this are what rounding leaves of 0.
-const PACKED_FOUR_MOMENTS_LEAST_VARIANCE: f32 = 1e-10;
+// The greatest number that a channel holds.
+const PACKED_FOUR_MOMENTS_STEPS: f32 = 65535.0;
+
+// Skewness is divided by no variance below this, so that what rounding in f32 leaves of 0 places no node far out.
+const PACKED_FOUR_MOMENTS_LEAST_VARIANCE: f32 = 1e-5;
 
 // The channels in [0, 1] of a packed texel for finite moments b. Depths are rounded outwards, so that the mean lies between them and
-// the weight, found for the rounded depths, keeps it far more exactly than they are; d is rounded up. Both only widen a distribution.
-fn packed_four_moments_channels(b: vec4f, stored_as: u32) -> vec4f {
-    let steps = storage_packed_steps(stored_as);
+// the weight, found for the rounded depths, keeps it far more exactly than they are. That only widens a distribution.
+fn packed_four_moments_channels(b: vec4f) -> vec4f {
     let mean = clamp(b.x, -1.0, 1.0);
     let variance = max(fma(-mean, mean, b.y), 0.0);
-    let skew = fma(-mean, b.y, b.z);
-    let ratio = skew / max(variance, PACKED_FOUR_MOMENTS_LEAST_VARIANCE);
-    let pivot = clamp(fma(-skew, ratio, fma(-b.y, b.y, b.w)), 0.0, 1.0);
+    let covariance = fma(-mean, b.y, b.z);
+    let divisor = max(variance, PACKED_FOUR_MOMENTS_LEAST_VARIANCE);
+    let pivot = saturate(fma(-covariance, covariance / divisor, fma(-b.y, b.y, b.w)));
     // The nodes relative to the mean have the product -variance and the sum s. The one farther out is found without cancellation.
-    let s = clamp(ratio - 2.0 * mean, -1e6, 1e6);
-    let root = sqrt(fma(0.25 * s, s, variance));
-    let farther = 0.5 * abs(s) + root;
+    let s = clamp(fma(-2.0 * mean, variance, covariance) / divisor, -2.0, 2.0);
+    let farther = 0.5 * abs(s) + sqrt(fma(0.25 * s, s, variance));
     let nearer = variance / max(farther, 1e-20);
     let above = s >= 0.0;
     let nodes = mean + vec2f(-select(farther, nearer, above), select(nearer, farther, above));
-    let places = fma(clamp(nodes, vec2f(-1.0), vec2f(1.0)), vec2f(0.5), vec2f(0.5)) * steps.xy;
-    let lower = min(floor(places.x), steps.x - 1.0);
+    let places = saturate(fma(nodes, vec2f(0.5), vec2f(0.5))) * PACKED_FOUR_MOMENTS_STEPS;
+    let lower = min(floor(places.x), PACKED_FOUR_MOMENTS_STEPS - 1.0);
     let upper = max(ceil(places.y), lower + 1.0);
-    let weight = saturate((fma(mean, 0.5, 0.5) * steps.x - lower) / (upper - lower));
-    let widened = ceil(sqrt(sqrt(pivot)) * steps.w);
-    return vec4f(vec2f(lower, upper) / steps.xy, weight, widened / steps.w);
+    let weight = saturate((fma(mean, 0.5, 0.5) * PACKED_FOUR_MOMENTS_STEPS - lower) / (upper - lower));
+    return vec4f(vec2f(lower, upper) / PACKED_FOUR_MOMENTS_STEPS, weight, sqrt(sqrt(pivot)));
 }
 
 // The moments of a packed texel with channels in [0, 1].

@@ -158,8 +158,8 @@ fn six_moments_apply_bias(b: SixMoments, bias: SixMomentsBias) -> SixMoments {
 fn six_moments_biased_from_channels(odd: vec3f, even: vec3f, middle: f32, bias: SixMomentsBias) -> SixMoments {
     let odd_inverse = (1.0 - bias.alpha) * SIX_MOMENTS_ODD_INVERSE;
     let even_inverse = (1.0 - bias.alpha) * SIX_MOMENTS_EVEN_INVERSE;
-    let odd_shift = odd_inverse * (middle - SIX_MOMENTS_ODD_OFFSET);
-    let even_shift = even_inverse * (middle - SIX_MOMENTS_EVEN_OFFSET) + bias.alpha * bias.even;
+    let odd_shift = six_moments_affine(odd_inverse, middle - SIX_MOMENTS_ODD_OFFSET, vec3f(0.0));
+    let even_shift = six_moments_affine(even_inverse, middle - SIX_MOMENTS_EVEN_OFFSET, bias.alpha * bias.even);
     return SixMoments(
         six_moments_affine(odd_inverse, odd, odd_shift),
         six_moments_affine(even_inverse, even, even_shift),

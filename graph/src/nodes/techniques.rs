@@ -18,7 +18,19 @@ pub(super) fn of_both_bounds<T>(technique: &Technique, four: T, six: T) -> Optio
 pub(super) fn no_shadow(encoding: &MapEncoding) -> Off {
     let row = encoding.technique().row();
     let texels = row.far_texels(encoding.storage()).unwrap_or_default();
-    Off::Fill(texels.to_vec())
+    if !encoding.storage().is_packed() {
+        return Off::Fill(texels.to_vec());
+    }
+    let code = |channel: f64| (channel * 65535.0).round();
+    let packed = texels.iter().map(|[x, y, z, w]| {
+        [
+            code(*x) + 65536.0 * code(*y),
+            code(*z) + 65536.0 * code(*w),
+            0.0,
+            0.0,
+        ]
+    });
+    Off::Fill(packed.collect())
 }
 
 /// The constants of a technique.

@@ -49,7 +49,8 @@ impl BiasTechnique {
     #[must_use]
     pub fn storages(self) -> &'static [Storage] {
         match self {
-            BiasTechnique::Hamburger4 => Technique::Hamburger4.row().storages,
+            // Packed texels round no moments: they are valid by themselves.
+            BiasTechnique::Hamburger4 => &Storage::OF_FOUR_MOMENTS,
             BiasTechnique::Hausdorff4 => Technique::Hausdorff4.row().storages,
             BiasTechnique::Hamburger6 => Technique::Hamburger6.row().storages,
         }
@@ -113,6 +114,12 @@ pub fn search(
     (blends, samples, seed): (u32, usize, u64),
     step: impl Fn() + Sync,
 ) -> Result<BiasTable, LabError> {
+    if let Some(storage) = storage.filter(|it| it.is_packed()) {
+        return Err(LabError::refused(format!(
+            "texels as {storage} are valid moments by themselves, so that there is nothing to search; choose one of unorm16, float16 and \
+             float32"
+        )));
+    }
     let storages = storage.map_or(technique.storages().to_vec(), |storage| vec![storage]);
     let mut rows = Vec::new();
     for storage in storages {

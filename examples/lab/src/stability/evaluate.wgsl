@@ -4,7 +4,7 @@ import node::map_filtering::{filtering_texel, filtering_value};
 import node::map_texel::{filtered_texels};
 import node::specialization::{PLANES, SPLIT_SUMS, STORAGE};
 import moment_shadows::maths::split_sum::{split_sum_coarse};
-import moment_shadows::map::storage::{STORAGE_FLOAT16, STORAGE_FLOAT32, STORAGE_PACKED32, STORAGE_PACKED64, STORAGE_UNORM10, STORAGE_UNORM16, storage_is_packed, storage_pack, storage_unpack};
+import moment_shadows::map::storage::{STORAGE_FLOAT16, STORAGE_FLOAT32, STORAGE_PACKED64, STORAGE_UNORM10, STORAGE_UNORM16, storage_pack, storage_unpack};
 import node::technique::{technique_shadow_intensity};
 import node::technique_receiver::{TechniqueReceiver};
 
@@ -50,8 +50,8 @@ fn stored(texel: vec4f) -> vec4f {
             // The fourth channel is 1, for which its two bits suffice.
             return vec4f(min(vec4u(saturate(texel) * 1023.0 + 0.5), vec4u(1023u))) / 1023.0;
         }
-        case STORAGE_PACKED64, STORAGE_PACKED32: {
-            return storage_unpack(storage_pack(texel, STORAGE), STORAGE);
+        case STORAGE_PACKED64: {
+            return storage_unpack(storage_pack(texel));
         }
         default: {
             return unpack4x8unorm(pack4x8unorm(texel));
@@ -151,7 +151,7 @@ fn batch(input: BatchInput) -> BatchOutput {
             filtered_texels[plane] = stored(input.weights[0]);
         }
         // Lookups average moments where texels are packed.
-        if storage_is_packed(STORAGE) {
+        if STORAGE == STORAGE_PACKED64 {
             filtered_texels[plane] = filtering_value(filtered_texels[plane]);
         }
     }

@@ -61,7 +61,11 @@ pub(super) fn maps(
     let mut all = Vec::new();
     for technique in Technique::examples() {
         let row = technique.row();
-        for &storage in row.storages.iter().filter(|_| row.blended.is_some()) {
+        for &storage in row
+            .storages
+            .iter()
+            .filter(|it| row.blended.is_some() && !it.is_packed())
+        {
             let plain = MapEncoding::new(technique.clone(), storage)?;
             let encoding = blended(stage, &plain, casters, textured)?;
             let blends = encoding.blends();

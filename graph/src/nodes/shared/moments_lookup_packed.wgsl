@@ -8,7 +8,7 @@ import node::specialization::{GROUP, STORAGE};
 @group(GROUP) @binding(2) var moments_map: texture_2d_array<u32>;
 
 fn moments_of_texel(texel: vec2i, layer: u32) -> vec4f {
-    return four_moments_filter_value(storage_unpack(textureLoad(moments_map, texel, layer, 0), STORAGE), STORAGE);
+    return four_moments_filter_value(storage_unpack(textureLoad(moments_map, texel, layer, 0)), STORAGE);
 }
 
 // The bilinearly filtered moments at `uv` in [0, 1] across a region. How far apart pixels lie does not matter.
