@@ -76,7 +76,7 @@ export const PLANTED = [
   },
   {
     name: 'syntax of a shader',
-    words: 'fnn map_region',
+    words: 'fnn ',
     change: (plan) => {
       plan.shaders[0] = plan.shaders[0].replace('fn ', 'fnn ');
     },

@@ -146,10 +146,12 @@ fn techniques() -> Vec<(String, String)> {
             let blur = json!({ "kernel": { "radius": 2 } });
             let text = filtered(light(4), encoded.clone(), blur);
             all.push((format!("{technique} {index} {storage}"), text));
-            if technique.row().soft_technique().is_some() {
+            // Packed texels are read by the nodes that filter and shade alone.
+            if technique.row().soft_technique().is_some() && !storage.is_packed() {
                 all.push((format!("soft {technique} {storage}"), soft(&encoded)));
             }
-            if technique.row().both_bounds && storage != Storage::Unorm10 {
+            let summed = storage != Storage::Unorm10 && !storage.is_packed();
+            if technique.row().both_bounds && summed {
                 all.push((format!("air {technique} {storage}"), air(&encoded)));
             }
         }

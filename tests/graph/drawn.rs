@@ -204,3 +204,40 @@ fn ten_bits_without_an_encoding_are_no_moments() {
             .contains("say in its description how it is encoded")
     );
 }
+
+#[test]
+fn nodes_that_read_channels_as_they_are_refuse_packed_texels_by_name() {
+    let packed = || map(Technique::Hamburger4, Storage::Packed64);
+    let table = SummedAreaTable {
+        largest_kernel: [9; 2],
+    };
+    let rectify = RectifyMoments {
+        technique: Technique::Hamburger6,
+        storage: Storage::Float16,
+        extent: [64, 64],
+    };
+    let refused = [
+        described(&table, "map", packed()),
+        described(&rectify, "map", packed()),
+        described(&DebugMoments::default(), "map", packed()),
+    ];
+    for error in refused.map(Result::unwrap_err) {
+        assert_eq!(error.kind, GraphErrorKind::Format, "{error}");
+        assert!(
+            error.to_string().contains("'packed64', in packed texels"),
+            "{error}"
+        );
+    }
+    let into_packed = RectifyMoments {
+        technique: Technique::Hamburger4,
+        storage: Storage::Packed64,
+        extent: [64, 64],
+    };
+    let four = map(Technique::Hamburger4, Storage::Float16);
+    let error = described(&into_packed, "map", four).unwrap_err();
+    assert_eq!(error.kind, GraphErrorKind::Property, "{error}");
+    assert!(
+        error.to_string().contains("those of 'packed64' are none"),
+        "{error}"
+    );
+}

@@ -53,7 +53,7 @@ pub struct NodeDesc {
 pub enum Off {
     /// This input: readers of the output take that. Both are the same kind of texture.
     Bypass(String),
-    /// A texture that holds this texel everywhere, one for each plane.
+    /// A texture that holds this texel everywhere, one for each plane: channels, or whole numbers where the format has integers.
     Fill(Vec<[f64; 4]>),
 }
 

@@ -53,9 +53,15 @@ pub(in crate::nodes) fn of_each_plane(
     })
 }
 
-/// The refusal of drawn maps by nodes of single scattering, whose maps are prefix sums and no pixel's own business.
+/// The refusal of drawn maps by nodes of single scattering, whose maps are prefix sums and no pixel's own business, and of packed texels,
+/// which are no sums.
 pub(in crate::nodes) fn refuse_prefix_sums(encoding: &MapEncoding) -> Result<(), String> {
     let storage = encoding.storage();
+    if storage.is_packed() {
+        return Err(format!(
+            "prefix sums of a row are averages of channels, and those of '{storage}' are none; use 'float16', 'unorm16' or 'float32'"
+        ));
+    }
     if !storage.is_drawn() {
         return Ok(());
     }
