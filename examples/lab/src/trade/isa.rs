@@ -29,7 +29,9 @@ impl Kept {
         let label = label(technique);
         let settings = match storage {
             None => label,
-            Some(storage) if *technique == Technique::Hamburger4 => format!("{storage}, sampled"),
+            Some(storage) if *technique == Technique::Hamburger4 && !storage.is_packed() => {
+                format!("{storage}, sampled")
+            }
             Some(storage) => format!("{label}, {storage}"),
         };
         let name = format!("shade_hard, {settings}: shade");
