@@ -47,7 +47,7 @@ pub enum Storage {
     /// Sums of 32-bit integers: a summed-area table, see [`SummedAreaTable`](crate::SummedAreaTable).
     Fixed32 = STORAGE_FIXED32 as isize,
     /// Four moments in 64 bits, non-linearly (WGSL module `packed_four_moments`): about as exact as `Float32`, on every device. Shaders
-    /// load and unpack four texels where a sampler would filter.
+    /// gather and unpack four texels where a sampler would filter.
     Packed64 = STORAGE_PACKED64 as isize,
 }
 
@@ -133,7 +133,7 @@ impl Storage {
         self == Storage::Unorm10
     }
 
-    /// Whether several channels are packed into integers, which shaders load and unpack and no sampler filters.
+    /// Whether several channels are packed into integers, which shaders unpack and no sampler filters.
     #[must_use]
     pub fn is_packed(self) -> bool {
         self == Storage::Packed64

@@ -115,7 +115,7 @@ fn far_of_four(storage: Storage) -> Vec<[f64; 4]> {
     }
     if storage == Packed64 {
         // The upper depth has all the weight, and the lower one is a step below.
-        return vec![[65534.0 / 65535.0, 1.0, 1.0, 0.0]];
+        return vec![[32766.0 / 32767.0, 1.0, 1.0, 0.0]];
     }
     let third = 0.5 + 3_f64.sqrt() * (0.5 - 2.0 / 9.0);
     far::centred(&[[0.0, 0.0, third, 1.0]], storage)

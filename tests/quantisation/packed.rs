@@ -25,6 +25,7 @@ struct Input {
 #[derive(Clone, Copy, Debug, Pod, Zeroable)]
 struct Output {
     first: [f32; 4],
+    average: [f32; 4],
     mean: [f32; 4],
     intensity: f32,
     is_kept: u32,
@@ -76,7 +77,8 @@ fn packed_texels_keep_the_mean_and_move_no_depth_by_more_than_a_step() {
             ..Input::default()
         })
         .collect();
-    let [depths, weights, roots] = [65535.0; 3];
+    // Steps from -1 to 1, and from 0 to 1.
+    let [depths, weights, roots] = [65534.0, 65535.0, 65535.0];
     let (mut mean, mut largest) = (0.0_f64, [0.0_f64; 3]);
     for (output, atoms) in run(&inputs).iter().zip(&distributions) {
         assert_eq!(output.is_kept, 1, "{atoms:?}");
@@ -138,6 +140,13 @@ fn any_packed_texels_give_valid_moments_and_intensities() {
         })
         .collect();
     let outputs = run(&inputs);
+    let apart = outputs.iter().flat_map(|output| {
+        let pairs = output.mean.into_iter().zip(output.average);
+        pairs.map(|(mean, average)| f64::from(mean - average).abs())
+    });
+    let apart = apart.fold(0.0, f64::max);
+    println!("{storage}: the mean of a gather is within {apart:.1e} of the average");
+    assert!(apart <= 16.0 * HALF_ULP, "{apart:e}");
     let failures = |alpha: f64| {
         let [second, fourth] = [bias.second, bias.fourth].map(f64::from);
         outputs

@@ -1,6 +1,7 @@
 import moment_shadows::bounds::hamburger4::{hamburger4_shadow_intensity};
 import moment_shadows::map::storage::{storage_pack, storage_unpack};
 import moment_shadows::moments::four_moments::{four_moments_bias_of, four_moments_filter_texel, four_moments_filter_value};
+import moment_shadows::moments::packed_four_moments::{packed_four_moments_mean};
 
 // Four texels of a packed storage as textures hold them, and what a lookup between them gives.
 
@@ -19,7 +20,9 @@ struct BatchInput {
 struct BatchOutput {
     // The moments that the first texel gives.
     first: vec4f,
-    // The average of all.
+    // The average of all, one by one.
+    average: vec4f,
+    // The same from a gather of all.
     mean: vec4f,
     intensity: f32,
     // Whether the first texel is the same when it is unpacked and packed again.
@@ -32,7 +35,7 @@ fn batch(input: BatchInput) -> BatchOutput {
     var texels = input.texels;
     var weights = input.weights;
     var output: BatchOutput;
-    var mean = vec4f(0.0);
+    var words = array<vec4u, 2>();
     for (var index = 0u; index < 4u; index++) {
         var stored = texels[index];
         if input.as_given == 0u {
@@ -44,9 +47,11 @@ fn batch(input: BatchInput) -> BatchOutput {
             output.first = value;
             output.is_kept = u32(all(storage_pack(channels) == stored));
         }
-        mean = fma(vec4f(weights[index]), value, mean);
+        output.average = fma(vec4f(weights[index]), value, output.average);
+        words[0][index] = stored.x;
+        words[1][index] = stored.y;
     }
-    output.mean = mean;
-    output.intensity = hamburger4_shadow_intensity(mean, input.fragment_depth, four_moments_bias_of(input.stored_as));
+    output.mean = packed_four_moments_mean(words[0], words[1], weights);
+    output.intensity = hamburger4_shadow_intensity(output.mean, input.fragment_depth, four_moments_bias_of(input.stored_as));
     return output;
 }

@@ -13,7 +13,7 @@ const STORAGE_UNORM8: u32 = 3u;
 const STORAGE_FIXED32: u32 = 4u;
 // Three channels to a texel, in maps that are drawn.
 const STORAGE_UNORM10: u32 = 5u;
-// Four channels in [0, 1] in two 32-bit integers; see `packed_four_moments` for what they mean.
+// Four channels, two in [-1, 1] and two in [0, 1], in two 32-bit integers; see `packed_four_moments` for what they mean.
 const STORAGE_PACKED64: u32 = 6u;
 
 // The largest finite float16.
@@ -24,15 +24,19 @@ fn storage_is_float(stored_as: u32) -> bool {
     return stored_as == STORAGE_FLOAT16 || stored_as == STORAGE_FLOAT32;
 }
 
-// The integers of a packed texel with the number nearest to each channel; channels beyond [0, 1] count as its ends.
+// The integers of a packed texel with the numbers nearest to its channels, of which two are in [-1, 1] and two in [0, 1]; channels beyond
+// count as the ends.
 fn storage_pack(channels: vec4f) -> vec4u {
-    let codes = vec4u(round(saturate(channels) * 65535.0));
-    return vec4u(codes.x | (codes.y << 16u), codes.z | (codes.w << 16u), 0u, 0u);
+    let depths = bitcast<vec2u>(vec2i(round(clamp(channels.xy, vec2f(-1.0), vec2f(1.0)) * 32767.0)));
+    let others = vec2u(round(saturate(channels.zw) * 65535.0));
+    return vec4u((depths.x & 0xffffu) | (depths.y << 16u), others.x | (others.y << 16u), 0u, 0u);
 }
 
-// The channels of a packed texel, each in [0, 1] whatever the integers are.
+// The channels of a packed texel, each in its range, or a step below -1 where an integer is one that is never written.
 fn storage_unpack(texel: vec4u) -> vec4f {
-    return vec4f(vec4u(texel.x & 0xffffu, texel.x >> 16u, texel.y & 0xffffu, texel.y >> 16u)) / 65535.0;
+    let depths = vec2f(bitcast<vec2i>(vec2u(texel.x << 16u, texel.x)) >> vec2u(16u));
+    let others = vec2f(vec2u(texel.y & 0xffffu, texel.y >> 16u));
+    return vec4f(depths / 32767.0, others / 65535.0);
 }
 
 // The nearest float16 of each component, ties to even, for |value| <= 65504. A driver may truncate when it stores to a

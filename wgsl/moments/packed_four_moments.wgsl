@@ -6,13 +6,16 @@
 // "Non-linearly Quantized Moment Shadow Maps", HPG 2017; these quantities are not). Texels are not linear in the moments: filters
 // average the moments of texels.
 
-// The greatest number that a channel holds.
+// The greatest number that the weight or the root has in a texel.
 const PACKED_FOUR_MOMENTS_STEPS: f32 = 65535.0;
+
+// The greatest number that a depth has there; the least is as much below 0.
+const PACKED_FOUR_MOMENTS_LARGEST_DEPTH: f32 = 32767.0;
 
 // Skewness is divided by no variance below this, so that what rounding in f32 leaves of 0 places no node far out.
 const PACKED_FOUR_MOMENTS_LEAST_VARIANCE: f32 = 1e-5;
 
-// The channels in [0, 1] of a packed texel for finite moments b. Depths are rounded outwards, so that the mean lies between them and
+// The channels of a packed texel for finite moments b: two depths in [-1, 1], then the weight and the root in [0, 1]. Depths are rounded outwards, so that the mean lies between them and
 // the weight, found for the rounded depths, keeps it far more exactly than they are. That only widens a distribution.
 fn packed_four_moments_channels(b: vec4f) -> vec4f {
     let mean = clamp(b.x, -1.0, 1.0);
@@ -26,19 +29,45 @@ fn packed_four_moments_channels(b: vec4f) -> vec4f {
     let nearer = variance / max(farther, 1e-20);
     let above = s >= 0.0;
     let nodes = mean + vec2f(-select(farther, nearer, above), select(nearer, farther, above));
-    let places = saturate(fma(nodes, vec2f(0.5), vec2f(0.5))) * PACKED_FOUR_MOMENTS_STEPS;
-    let lower = min(floor(places.x), PACKED_FOUR_MOMENTS_STEPS - 1.0);
+    let places = clamp(nodes, vec2f(-1.0), vec2f(1.0)) * PACKED_FOUR_MOMENTS_LARGEST_DEPTH;
+    let lower = min(floor(places.x), PACKED_FOUR_MOMENTS_LARGEST_DEPTH - 1.0);
     let upper = max(ceil(places.y), lower + 1.0);
-    let weight = saturate((fma(mean, 0.5, 0.5) * PACKED_FOUR_MOMENTS_STEPS - lower) / (upper - lower));
-    return vec4f(vec2f(lower, upper) / PACKED_FOUR_MOMENTS_STEPS, weight, sqrt(sqrt(pivot)));
+    let weight = saturate(fma(mean, PACKED_FOUR_MOMENTS_LARGEST_DEPTH, -lower) / (upper - lower));
+    return vec4f(vec2f(lower, upper) / PACKED_FOUR_MOMENTS_LARGEST_DEPTH, weight, sqrt(sqrt(pivot)));
 }
 
-// The moments of a packed texel with channels in [0, 1].
+// The moments of a packed texel with such channels.
 fn packed_four_moments_from_channels(channels: vec4f) -> vec4f {
-    let nodes = fma(channels.xy, vec2f(2.0), vec2f(-1.0));
+    let nodes = channels.xy;
     let squares = nodes * nodes;
     let lower = vec4f(nodes.x, squares.x, squares.x * nodes.x, squares.x * squares.x);
     let upper = vec4f(nodes.y, squares.y, squares.y * nodes.y, squares.y * squares.y);
     let root = channels.w * channels.w;
     return fma(vec4f(channels.z), upper - lower, lower) + vec4f(0.0, 0.0, 0.0, root * root);
+}
+
+// The mean of four texels' moments with weights of sum 1, from the first and second integers of the texels (as `storage_pack` has them).
+// The moments are those of eight depths, and sums are scaled once at their end.
+fn packed_four_moments_mean(depths: vec4u, others: vec4u, weights: vec4f) -> vec4f {
+    let lower = vec4f(bitcast<vec4i>(depths << vec4u(16u)) >> vec4u(16u));
+    let upper = vec4f(bitcast<vec4i>(depths) >> vec4u(16u));
+    let of_upper = weights * (1.0 / PACKED_FOUR_MOMENTS_STEPS) * vec4f(others & vec4u(0xffffu));
+    let of_lower = weights - of_upper;
+    let lower_square = lower * lower;
+    let upper_square = upper * upper;
+    let lower_second = of_lower * lower_square;
+    let upper_second = of_upper * upper_square;
+    let root = vec4f(others >> vec4u(16u));
+    let root_square = root * root;
+    // By the largest depth to the power of the moment, and for the pivot by the largest root to the power of four.
+    let one = 1.0 / PACKED_FOUR_MOMENTS_LARGEST_DEPTH;
+    let two = one * one;
+    let of_root = 1.0 / (PACKED_FOUR_MOMENTS_STEPS * PACKED_FOUR_MOMENTS_STEPS);
+    let fourth = (dot(lower_second, lower_square) + dot(upper_second, upper_square)) * (two * two);
+    return vec4f(
+        (dot(of_lower, lower) + dot(of_upper, upper)) * one,
+        dot(lower_second + upper_second, vec4f(1.0)) * two,
+        (dot(lower_second, lower) + dot(upper_second, upper)) * (one * two),
+        fma(dot(weights * root_square, root_square), of_root * of_root, fourth),
+    );
 }

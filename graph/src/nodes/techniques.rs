@@ -21,15 +21,13 @@ pub(super) fn no_shadow(encoding: &MapEncoding) -> Off {
     if !encoding.storage().is_packed() {
         return Off::Fill(texels.to_vec());
     }
-    let code = |channel: f64| (channel * 65535.0).round();
-    let packed = texels.iter().map(|[x, y, z, w]| {
-        [
-            code(*x) + 65536.0 * code(*y),
-            code(*z) + 65536.0 * code(*w),
-            0.0,
-            0.0,
-        ]
-    });
+    let word = |[low, high]: [f64; 2], largest: f64| {
+        let [low, high] = [low, high].map(|it| (it * largest).round().rem_euclid(65536.0));
+        low + 65536.0 * high
+    };
+    let packed = texels
+        .iter()
+        .map(|&[x, y, z, w]| [word([x, y], 32767.0), word([z, w], 65535.0), 0.0, 0.0]);
     Off::Fill(packed.collect())
 }
 

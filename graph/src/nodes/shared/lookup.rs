@@ -21,7 +21,8 @@ pub(in crate::nodes) fn moments_lookup(
         .constant("ANISOTROPY", format_args!("{anisotropy}.0"));
     let minified = levels > 1;
     let (text, sampler) = if encoding.storage().is_packed() {
-        (include_str!("moments_lookup_packed.wgsl"), None)
+        let text = include_str!("moments_lookup_packed.wgsl");
+        (text, Some(("moments_sampler", false, 1)))
     } else if !averaged
         || !capabilities.support(encoding.format()).filterable
         || (minified && !capabilities.anisotropic_sampling)
@@ -29,13 +30,12 @@ pub(in crate::nodes) fn moments_lookup(
         (include_str!("moments_lookup_loaded.wgsl"), None)
     } else if minified {
         let text = include_str!("moments_lookup_minified.wgsl");
-        (text, Some(("anisotropic_sampler", anisotropy)))
+        (text, Some(("anisotropic_sampler", true, anisotropy)))
     } else {
         let text = include_str!("moments_lookup_sampled.wgsl");
-        (text, Some(("moments_sampler", 1)))
+        (text, Some(("moments_sampler", true, 1)))
     };
-    let binding = sampler.map(|(variable, anisotropy)| {
-        let filtering = true;
+    let binding = sampler.map(|(variable, filtering, anisotropy)| {
         let sampler = BindingResource::Sampler {
             filtering,
             anisotropy,
