@@ -13,7 +13,8 @@ use super::HALF_ULP;
 #[derive(Clone, Copy, Debug, Default, Pod, Zeroable)]
 struct Input {
     moments: [[f32; 4]; 4],
-    weights: [f32; 4],
+    place: [f32; 2],
+    unused: [f32; 2],
     texels: [[u32; 4]; 4],
     fragment_depth: f32,
     storage: u32,
@@ -72,7 +73,6 @@ fn packed_texels_keep_the_mean_and_move_no_depth_by_more_than_a_step() {
         .iter()
         .map(|atoms| Input {
             moments: [moments(atoms).map(|moment| moment as f32); 4],
-            weights: [1.0, 0.0, 0.0, 0.0],
             storage: storage.wgsl_index(),
             ..Input::default()
         })
@@ -99,11 +99,11 @@ fn packed_texels_keep_the_mean_and_move_no_depth_by_more_than_a_step() {
     // Some roundings of numbers up to 1, in f32, and those of a place among 65535.
     assert!(mean <= 16.0 * HALF_ULP, "{storage}: {mean:e}");
     // A node moved by a step of 2 / n changes its k-th power by up to k of them, and the weight's error that by up to 2 / n; the
-    // fourth moment has the pivot as well, whose root moves by a step.
+    // fourth moment has the pivot as well, whose root moves by half a step.
     let of_power = |power: f64| power * 2.0 / depths + 1.0 / weights;
     for (index, largest) in largest.into_iter().enumerate() {
         let power = index as f64 + 2.0;
-        let pivot = if index == 2 { 4.0 / roots } else { 0.0 };
+        let pivot = if index == 2 { 1.0 / roots } else { 0.0 };
         assert!(
             largest <= of_power(power) + pivot + 16.0 * HALF_ULP,
             "{storage}: {largest:e}"
@@ -128,10 +128,9 @@ fn any_packed_texels_give_valid_moments_and_intensities() {
                 }),
                 false => core::array::from_fn(|_| random.random()),
             });
-            let [a, b]: [f32; 2] = [random.random(), random.random()];
             Input {
                 texels,
-                weights: [(1.0 - a) * (1.0 - b), a * (1.0 - b), (1.0 - a) * b, a * b],
+                place: [random.random(), random.random()],
                 fragment_depth: random.random_range(-1.2..=1.2),
                 storage: storage.wgsl_index(),
                 as_given: 1,
@@ -184,7 +183,7 @@ fn a_packed_surface_is_lit_in_front_and_shadowed_behind() {
         for offset in [-in_front, behind] {
             inputs.push(Input {
                 moments: [moments(&[[depth, 1.0]]).map(|moment| moment as f32); 4],
-                weights: [0.25; 4],
+                place: [0.5; 2],
                 fragment_depth: (depth + offset) as f32,
                 storage: storage.wgsl_index(),
                 ..Input::default()

@@ -130,8 +130,11 @@ fn four_moments_apply_bias(b: vec4f, bias: FourMomentsBias) -> vec4f {
 // The biased moments in a (filtered) texel of the storage, or of `four_moments_filter_value` where it is packed, within [-2.1, 2.1]: for unorm storage if the channels are in [0,
 // 1], as those of every texture are, and for float storage whatever finite numbers it holds.
 fn four_moments_biased_from_texel(texel: vec4f, stored_as: u32, bias: FourMomentsBias) -> vec4f {
-    if stored_as == STORAGE_FLOAT32 || stored_as == STORAGE_PACKED64 {
+    if stored_as == STORAGE_FLOAT32 {
         return four_moments_apply_bias(four_moments_clamp(texel), bias);
+    }
+    if stored_as == STORAGE_PACKED64 {
+        return fma(vec4f(1.0 - bias.alpha), texel, bias.alpha * vec4f(0.0, bias.second, 0.0, bias.fourth));
     }
     // The inverse of the basis and the bias are both affine, and so one step. These biases are large enough for 1 - alpha.
     let keep = 1.0 - bias.alpha;

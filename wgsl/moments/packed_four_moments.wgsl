@@ -1,7 +1,7 @@
 // Four moments in few bits, non-linearly: what their shortest distribution consists of.
 //
 // Four moments are those of one distribution of two depths g1 < g2, the Gauss nodes, of which g2 has the weight w, but for the fourth
-// moment, which is greater by d >= 0: the last pivot of the Hankel matrix. A texel holds the two depths, the weight and the fourth
+// moment, which is greater by d >= 0: the last pivot of the Hankel matrix. A texel holds the two depths, the weight and the square
 // root of d. Whatever a texel holds, its moments are valid, so no bias has to cover rounding (the idea is that of Peters,
 // "Non-linearly Quantized Moment Shadow Maps", HPG 2017; these quantities are not). Texels are not linear in the moments: filters
 // average the moments of texels.
@@ -33,7 +33,7 @@ fn packed_four_moments_channels(b: vec4f) -> vec4f {
     let lower = min(floor(places.x), PACKED_FOUR_MOMENTS_LARGEST_DEPTH - 1.0);
     let upper = max(ceil(places.y), lower + 1.0);
     let weight = saturate(fma(mean, PACKED_FOUR_MOMENTS_LARGEST_DEPTH, -lower) / (upper - lower));
-    return vec4f(vec2f(lower, upper) / PACKED_FOUR_MOMENTS_LARGEST_DEPTH, weight, sqrt(sqrt(pivot)));
+    return vec4f(vec2f(lower, upper) / PACKED_FOUR_MOMENTS_LARGEST_DEPTH, weight, sqrt(pivot));
 }
 
 // The moments of a packed texel with such channels.
@@ -42,32 +42,40 @@ fn packed_four_moments_from_channels(channels: vec4f) -> vec4f {
     let squares = nodes * nodes;
     let lower = vec4f(nodes.x, squares.x, squares.x * nodes.x, squares.x * squares.x);
     let upper = vec4f(nodes.y, squares.y, squares.y * nodes.y, squares.y * squares.y);
-    let root = channels.w * channels.w;
-    return fma(vec4f(channels.z), upper - lower, lower) + vec4f(0.0, 0.0, 0.0, root * root);
+    return fma(vec4f(channels.z), upper - lower, lower) + vec4f(0.0, 0.0, 0.0, channels.w * channels.w);
 }
 
-// The mean of four texels' moments with weights of sum 1, from the first and second integers of the texels (as `storage_pack` has them).
-// The moments are those of eight depths, and sums are scaled once at their end.
-fn packed_four_moments_mean(depths: vec4u, others: vec4u, weights: vec4f) -> vec4f {
+// Adds the moments of two depths with weights.
+fn packed_four_moments_sums(before: vec4f, depths: vec2f, weights: vec2f) -> vec4f {
+    let squares = depths * depths;
+    let second = weights * squares;
+    return vec4f(
+        fma(weights.x, depths.x, fma(weights.y, depths.y, before.x)),
+        before.y + (second.x + second.y),
+        fma(second.x, depths.x, fma(second.y, depths.y, before.z)),
+        fma(second.x, squares.x, fma(second.y, squares.y, before.w)),
+    );
+}
+
+// The bilinearly filtered moments at a place in [0, 1] between four texels, from their first and second integers (as `storage_pack` has
+// them) in the order of a gather. These are sums over eight depths, scaled once at the end.
+fn packed_four_moments_bilinear(depths: vec4u, others: vec4u, place: vec2f) -> vec4f {
     let lower = vec4f(bitcast<vec4i>(depths << vec4u(16u)) >> vec4u(16u));
     let upper = vec4f(bitcast<vec4i>(depths) >> vec4u(16u));
-    let of_upper = weights * (1.0 / PACKED_FOUR_MOMENTS_STEPS) * vec4f(others & vec4u(0xffffu));
-    let of_lower = weights - of_upper;
-    let lower_square = lower * lower;
-    let upper_square = upper * upper;
-    let lower_second = of_lower * lower_square;
-    let upper_second = of_upper * upper_square;
     let root = vec4f(others >> vec4u(16u));
-    let root_square = root * root;
-    // By the largest depth to the power of the moment, and for the pivot by the largest root to the power of four.
+    // The weights of texels have the sum 1 / PACKED_FOUR_MOMENTS_STEPS, so that those of depths have the sum 1.
+    let high_row = place.y * (1.0 / PACKED_FOUR_MOMENTS_STEPS);
+    let low_row = 1.0 / PACKED_FOUR_MOMENTS_STEPS - high_row;
+    let high_column = place.x * vec2f(high_row, low_row);
+    let weights = vec4f(high_row - high_column.x, high_column, low_row - high_column.y);
+    let of_upper = weights * vec4f(others & vec4u(0xffffu));
+    let of_lower = fma(weights, vec4f(PACKED_FOUR_MOMENTS_STEPS), -of_upper);
+    var sums = packed_four_moments_sums(vec4f(0.0), vec2f(lower.x, upper.x), vec2f(of_lower.x, of_upper.x));
+    sums = packed_four_moments_sums(sums, vec2f(lower.y, upper.y), vec2f(of_lower.y, of_upper.y));
+    sums = packed_four_moments_sums(sums, vec2f(lower.z, upper.z), vec2f(of_lower.z, of_upper.z));
+    sums = packed_four_moments_sums(sums, vec2f(lower.w, upper.w), vec2f(of_lower.w, of_upper.w));
     let one = 1.0 / PACKED_FOUR_MOMENTS_LARGEST_DEPTH;
     let two = one * one;
-    let of_root = 1.0 / (PACKED_FOUR_MOMENTS_STEPS * PACKED_FOUR_MOMENTS_STEPS);
-    let fourth = (dot(lower_second, lower_square) + dot(upper_second, upper_square)) * (two * two);
-    return vec4f(
-        (dot(of_lower, lower) + dot(of_upper, upper)) * one,
-        dot(lower_second + upper_second, vec4f(1.0)) * two,
-        (dot(lower_second, lower) + dot(upper_second, upper)) * (one * two),
-        fma(dot(weights * root_square, root_square), of_root * of_root, fourth),
-    );
+    let pivot = dot(weights * root, root) * (1.0 / PACKED_FOUR_MOMENTS_STEPS);
+    return fma(sums, vec4f(one, two, one * two, two * two), vec4f(0.0, 0.0, 0.0, pivot));
 }
