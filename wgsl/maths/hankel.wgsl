@@ -26,8 +26,9 @@ struct HankelFactor {
 const HANKEL_SMALLEST_VARIANCE: f32 = 0.03;
 const HANKEL_SMALLEST_RESIDUE: f32 = 0.02;
 
-// Factorises the Hankel matrix of moments biased by `alpha` >= 1e-7. Moments must lie within [-2.1, 2.1].
-// The differences of products lose almost all digits near a single surface; `fma` keeps them where it is fused.
+// Factorises the Hankel matrix of moments biased by `alpha` >= 3e-7. Moments must lie within [-2.1, 2.1].
+// The differences of products lose almost all digits near a single surface: with this alpha enough are left where `fma` is not fused,
+// and more where it is.
 fn hankel_factor(biased: vec4f, alpha: f32) -> HankelFactor {
     let variance = max(fma(-biased.x, biased.x, biased.y), HANKEL_SMALLEST_VARIANCE * alpha);
     // One division for all quotients.

@@ -30,7 +30,7 @@ fn soft_blockers_from(z: f32, share: f32, distance: f32) -> SoftBlockers {
     return SoftBlockers(weight, clamp(mean, -1.0, 1.0));
 }
 
-// Blockers from four moments that are already biased by `alpha` >= 1e-7 and lie within [-2.1, 2.1].
+// Blockers from four moments that are already biased by `alpha` >= 3e-7 and lie within [-2.1, 2.1].
 fn soft_blockers_of_four_moments(biased: vec4f, fragment_depth: f32, alpha: f32) -> SoftBlockers {
     let z = clamp(fragment_depth, -1.0, 1.0);
     let factor = hankel_factor(biased, alpha);

@@ -4,6 +4,7 @@
 //! [`Resources`] per size, [`Bindings`] per set of imports); [`Bindings::record`] then only records. Creation is async
 //! because it waits for the device's verdict: what fails to be created is an error, not a panic or a callback.
 
+mod at_once;
 mod bindings;
 mod blend;
 mod format;

@@ -1,10 +1,10 @@
 //! Pipelines, one per distinct shader text, constants and formats.
 
-use std::collections::HashMap;
-use std::collections::hash_map::Entry;
+use std::collections::{BTreeSet, HashMap};
 
 use wgpu::BlendFactor;
 
+use super::at_once::at_once;
 use super::layout;
 use super::scope::{check_alive, scoped};
 use crate::error::unknown;
@@ -151,14 +151,11 @@ impl Pipelines {
     ) -> Result<usize, GraphError> {
         plan.check()?;
         check_alive(device)?;
-        let mut made = 0;
-        // Directions of a blur, mip levels and the like are constants of one text.
-        let mut modules = HashMap::new();
+        let mut wanted: Vec<(PipelineKey, String)> = Vec::new();
         for pass in &plan.passes {
             if matches!(pass.work, PlannedWork::Host { .. }) {
                 continue;
             }
-            let label = label(pass);
             let key = PipelineKey::of(plan, pass);
             let mut keys = vec![key];
             let mut hosts = options.host_targets.iter();
@@ -171,19 +168,27 @@ impl Pipelines {
                 keys.push(drawn);
             }
             for key in keys {
-                if let Entry::Vacant(place) = self.pipelines.entry(key) {
-                    let create = || {
-                        place
-                            .key()
-                            .create(device, &label, options.cache.as_ref(), &mut modules)
-                    };
-                    let pipeline = scoped(device, &label, create).await?;
-                    check_alive(device)?;
-                    place.insert(pipeline);
-                    made += 1;
+                let is_known = self.pipelines.contains_key(&key);
+                if !is_known && wanted.iter().all(|(other, _)| *other != key) {
+                    wanted.push((key, label(pass)));
                 }
             }
         }
+        let cache = options.cache.as_ref();
+        let modules = modules(device, &wanted).await?;
+        let made = at_once(&wanted, |(key, label)| {
+            let module = &modules[key.wgsl.as_str()];
+            scoped(device, label, || key.create(device, label, cache, module))
+        });
+        let mut pipelines = Vec::with_capacity(wanted.len());
+        for verdict in made {
+            pipelines.push(verdict.await?);
+        }
+        drop(modules);
+        check_alive(device)?;
+        let made = pipelines.len();
+        let keys = wanted.into_iter().map(|(key, _)| key);
+        self.pipelines.extend(keys.zip(pipelines));
         Ok(made)
     }
 
@@ -210,6 +215,31 @@ impl Pipelines {
             drawn: drawn.map_or(pipeline, |(drawn, _)| drawn),
         })
     }
+}
+
+/// The module of each text: directions of a blur, mip levels and the like are constants of one.
+async fn modules<'a>(
+    device: &wgpu::Device,
+    wanted: &'a [(PipelineKey, String)],
+) -> Result<HashMap<&'a str, wgpu::ShaderModule>, GraphError> {
+    let mut seen = BTreeSet::new();
+    let texts = wanted
+        .iter()
+        .map(|(key, label)| (key.wgsl.as_str(), label.as_str()));
+    let texts: Vec<_> = texts.filter(|(text, _)| seen.insert(*text)).collect();
+    let made = at_once(&texts, |&(text, label)| {
+        let source = wgpu::ShaderSource::Wgsl(text.into());
+        let desc = wgpu::ShaderModuleDescriptor {
+            label: Some(label),
+            source,
+        };
+        scoped(device, label, || device.create_shader_module(desc))
+    });
+    let mut modules = HashMap::new();
+    for (verdict, (text, _)) in made.into_iter().zip(&texts) {
+        modules.insert(*text, verdict.await?);
+    }
+    Ok(modules)
 }
 
 /// The error about a pass of another plan.
@@ -258,19 +288,8 @@ impl PipelineKey {
         device: &wgpu::Device,
         label: &str,
         cache: Option<&wgpu::PipelineCache>,
-        modules: &mut HashMap<String, wgpu::ShaderModule>,
+        module: &wgpu::ShaderModule,
     ) -> (Pipeline, wgpu::BindGroupLayout) {
-        let shader = match modules.get(&self.wgsl) {
-            Some(made) => made.clone(),
-            None => {
-                let made = device.create_shader_module(wgpu::ShaderModuleDescriptor {
-                    label: Some(label),
-                    source: wgpu::ShaderSource::Wgsl(self.wgsl.as_str().into()),
-                });
-                modules.insert(self.wgsl.clone(), made.clone());
-                made
-            }
-        };
         let group = device.create_bind_group_layout(&wgpu::BindGroupLayoutDescriptor {
             label: Some(label),
             entries: &self.layout,
@@ -296,7 +315,7 @@ impl PipelineKey {
                 &wgpu::ComputePipelineDescriptor {
                     label: Some(label),
                     layout: Some(&layout),
-                    module: &shader,
+                    module,
                     entry_point: Some(&self.entry_point),
                     compilation_options,
                     cache,
@@ -307,7 +326,7 @@ impl PipelineKey {
                     label: Some(label),
                     layout: Some(&layout),
                     vertex: wgpu::VertexState {
-                        module: &shader,
+                        module,
                         entry_point: self.vertex_entry_point.as_deref(),
                         compilation_options: wgpu::PipelineCompilationOptions::default(),
                         buffers: &[],
@@ -325,7 +344,7 @@ impl PipelineKey {
                         ..Default::default()
                     },
                     fragment: Some(wgpu::FragmentState {
-                        module: &shader,
+                        module,
                         entry_point: Some(&self.entry_point),
                         compilation_options,
                         targets: &[Some(wgpu::ColorTargetState {

@@ -2,12 +2,12 @@
 
 use crate::{GraphError, GraphErrorKind};
 
-/// Runs `create` and waits for the device's verdict on it.
-pub(super) async fn scoped<T>(
+/// Runs `create` at once; the device's verdict on it can be awaited on any thread.
+pub(super) fn scoped<T>(
     device: &wgpu::Device,
     what: &str,
     create: impl FnOnce() -> T,
-) -> Result<T, GraphError> {
+) -> impl Future<Output = Result<T, GraphError>> {
     let memory = device.push_error_scope(wgpu::ErrorFilter::OutOfMemory);
     let internal = device.push_error_scope(wgpu::ErrorFilter::Internal);
     let validation = device.push_error_scope(wgpu::ErrorFilter::Validation);
@@ -15,6 +15,16 @@ pub(super) async fn scoped<T>(
     // Scopes are a stack per thread. All are popped before the first wait: another task that creates something meanwhile
     // would find the stack out of order.
     let (validation, internal, memory) = (validation.pop(), internal.pop(), memory.pop());
+    verdict(created, what, [validation, internal], memory)
+}
+
+/// What was created, or what the device has against it.
+async fn verdict<T, E: Future<Output = Option<wgpu::Error>>>(
+    created: T,
+    what: &str,
+    [validation, internal]: [E; 2],
+    memory: E,
+) -> Result<T, GraphError> {
     let errors = [validation.await, internal.await];
     if memory.await.is_some() {
         let message = format!(
