@@ -76,7 +76,7 @@ export const PLANTED = [
   },
   {
     name: 'syntax of a shader',
-    words: 'fnn ',
+    words: 'fnn texel_to_texture',
     change: (plan) => {
       plan.shaders[0] = plan.shaders[0].replace('fn ', 'fnn ');
     },
