@@ -1,9 +1,9 @@
 //! Layers of variance beside variance alone, on procedural scenes: what they are for.
 
-use moment_shadows::Storage;
+use moment_shadows::{Profile, Storage};
 use moment_shadows_lab::candidate::TechniqueChoice;
 use moment_shadows_lab::command::drawn::Drawn;
-use moment_shadows_lab::command::render::{RenderOptions, profile_for};
+use moment_shadows_lab::command::render::RenderOptions;
 use moment_shadows_lab::gpu::Gpu;
 use moment_shadows_lab::graph_frame::GraphFrame;
 use moment_shadows_lab::judgement::Truth;
@@ -22,17 +22,20 @@ fn check(name: &str) {
         map: [512; 2],
         ..Drawn::default()
     };
-    let mut truth = None;
-    for storage in Storage::OF_FOUR_MOMENTS {
-        let gpu = Gpu::open(profile_for(Some(storage), drawn.samples)).unwrap();
-        let frame = options.frame(&gpu, &scene, &drawn, 4).unwrap();
-        let own = StageDesc {
+    // Two channels of half precision can be stored to.
+    let gpu = Gpu::open(Profile::NativeAdapter).unwrap();
+    let frame = options.frame(&gpu, &scene, &drawn, 4).unwrap();
+    let graph_in = |storage| {
+        let desc = StageDesc {
             picture: drawn.picture,
             map: drawn.map[0],
             ..StageDesc::new(storage)
-        }
-        .graph();
-        let truth = &*truth.get_or_insert_with(|| Truth::of(&gpu, &frame, &own).unwrap());
+        };
+        desc.graph()
+    };
+    let truth = Truth::of(&gpu, &frame, &graph_in(Storage::Float32)).unwrap();
+    for storage in Storage::OF_FOUR_MOMENTS {
+        let own = graph_in(storage);
         let [alone, layers, placed] = TECHNIQUES.map(|technique| {
             let technique: TechniqueChoice = technique.parse().unwrap();
             let file = technique.graph(&own, Some(storage)).unwrap();

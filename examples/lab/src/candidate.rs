@@ -33,7 +33,7 @@ pub struct TechniqueChoice {
 }
 
 /// What percentage-closer filtering with the graph's kernel is called.
-pub(crate) const PCF: &str = "pcf";
+const PCF: &str = "pcf";
 
 impl Candidate {
     /// Both references on the plain depth map, the binary test and percentage-closer filtering with the graph's kernel, and

@@ -4,10 +4,10 @@ use clap::{CommandFactory, FromArgMatches, Parser, Subcommand};
 
 use crate::command::cost::CostOptions;
 use crate::command::{
-    CommandResult, best, bias, choose, claims, contact_shadows, cost_chart, error, error_table, first_frame,
-    inspect, isa, measure, ports, print_all, probe, render, scattering_error, scattering_flicker,
-    scores, shaders, soft_error, stability, sweep, technique_pictures, trade, transmittance,
-    troubleshooting_pictures, vectors,
+    CommandResult, best, bias, choose, claims, contact_shadows, cost_chart, error, error_table,
+    first_frame, inspect, isa, measure, ports, print_all, probe, render, scattering_error,
+    scattering_flicker, scores, shaders, soft_error, stability, sweep, technique_pictures, trade,
+    transmittance, troubleshooting_pictures, vectors,
 };
 use crate::isa::child;
 

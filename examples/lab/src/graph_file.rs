@@ -121,7 +121,9 @@ impl GraphFile {
     /// This graph with an import of another width and height.
     pub fn with_import_size(&self, name: &str, size: [u32; 2]) -> Result<Self, LabError> {
         if self.import(name).is_none() {
-            return Err(self.unsuitable(format!("it says nothing of a texture '{name}' that could be of another size")));
+            return Err(self.unsuitable(format!(
+                "it says nothing of a texture '{name}' that could be of another size"
+            )));
         }
         self.edited(|file| {
             for import in items(file, "imports").filter(|import| import["name"] == name) {

@@ -1,5 +1,7 @@
 //! `moment-shadows-lab cost-chart`: what a graph costs over the size of its map, the size of the picture and the radius of its kernel.
 
+mod panels;
+
 use std::path::{Path, PathBuf};
 use std::process::{Command, ExitCode, Stdio};
 
@@ -12,7 +14,6 @@ use crate::cost::table::{Cell, Columns};
 use crate::error::LabError;
 use crate::graph_file::GraphFile;
 use crate::picture::{create_folder, save_atomically};
-use crate::plot::{Axis, Chart, Panel, Series};
 use crate::progress;
 
 /// What is charted.
@@ -91,7 +92,7 @@ impl Options {
             serde_json::to_writer_pretty(&mut *file, &points)?;
             file.write_all(b"\n")
         })?;
-        chart(&points, &subjects).save(&self.out, "cost")?;
+        panels::chart(&points, &subjects).save(&self.out, "cost")?;
         Ok(ExitCode::SUCCESS)
     }
 
@@ -104,12 +105,18 @@ impl Options {
         let count: usize = over.iter().map(|(_, values)| values.len()).sum();
         let bar = progress::bar(u64::from(self.runs) * count as u64, "timing");
         let mut points = Vec::new();
-        for (over, value) in over.iter().flat_map(|(over, values)| values.iter().map(|it| (*over, *it))) {
+        for (over, value) in over
+            .iter()
+            .flat_map(|(over, values)| values.iter().map(|it| (*over, *it)))
+        {
             let mut times = vec![[Vec::new(), Vec::new()]; subjects.len()];
             for _ in 0..self.runs {
                 for (subject, times) in subjects.iter().zip(&mut times) {
                     let found = self.time(subject, over, value)?;
-                    times.iter_mut().zip(found).for_each(|(times, time)| times.push(time));
+                    times
+                        .iter_mut()
+                        .zip(found)
+                        .for_each(|(times, time)| times.push(time));
                 }
                 bar.inc(1);
             }
@@ -132,13 +139,18 @@ impl Options {
     fn time(&self, subject: &Subject<'_>, over: &str, value: u32) -> Result<[f64; 2], LabError> {
         let file = match over.split(' ').next() {
             Some("texels") => subject.file.with_import_size("light_depth", [value; 2])?,
-            Some("width") => subject.file.with_import_size("camera_depth", [value, value * 9 / 16])?,
+            Some("width") => subject
+                .file
+                .with_import_size("camera_depth", [value, value * 9 / 16])?,
             _ => subject.file.with_radius(value)?,
         };
         let path = self.out.join("timed.json");
         save_atomically(&path, |out| out.write_all(file.text.as_bytes()))?;
         let refused = |reason: String| {
-            LabError::unsuitable(subject.program.display(), format!("{reason}; give a build that has 'cost FILE --json'"))
+            LabError::unsuitable(
+                subject.program.display(),
+                format!("{reason}; give a build that has 'cost FILE --json'"),
+            )
         };
         let rounds = self.rounds.to_string();
         let output = Command::new(subject.program)
@@ -149,13 +161,18 @@ impl Options {
             .output()
             .map_err(|error| refused(error.to_string()))?;
         std::fs::remove_file(&path).map_err(|error| LabError::refused(error.to_string()))?;
-        let report: Value = serde_json::from_slice(&output.stdout)
-            .map_err(|error| refused(format!("its report on {over} {value} cannot be read: {error}")))?;
+        let report: Value = serde_json::from_slice(&output.stdout).map_err(|error| {
+            refused(format!(
+                "its report on {over} {value} cannot be read: {error}"
+            ))
+        })?;
         let shade = file.node_of("shade_hard").unwrap_or_default();
         let shade = format!("{}/", shade["name"].as_str().unwrap_or_default());
         let mut seconds = [0.0; 2];
         for pass in report["passes"].as_array().into_iter().flatten() {
-            let is_shading = pass["pass"].as_str().is_some_and(|name| name.starts_with(&shade));
+            let is_shading = pass["pass"]
+                .as_str()
+                .is_some_and(|name| name.starts_with(&shade));
             let median = pass["time"]["seconds"]["median"].as_f64();
             seconds[usize::from(is_shading)] += median.unwrap_or(f64::NAN);
         }
@@ -176,47 +193,39 @@ fn rows(points: &[Point]) -> Vec<Vec<Cell<'_>>> {
     points.iter().map(row).collect()
 }
 
-/// A panel for each of what varies; a line for the map and for the pixels of each subject.
-fn chart(points: &[Point], subjects: &[Subject<'_>]) -> Chart {
-    let panels = points.chunk_by(|a, b| a.over == b.over).map(|of_panel| {
-        let along = |figure: fn(&Point) -> f64, marker| {
-            subjects.iter().map(move |subject| {
-                let own = of_panel.iter().filter(|point| point.subject == subject.label);
-                Series {
-                    name: subject.label.to_owned(),
-                    points: own.map(|point| (f64::from(point.value), figure(point), marker)).collect(),
-                }
-            })
+#[cfg(test)]
+mod tests {
+    #![allow(clippy::unwrap_used)]
+
+    use super::*;
+
+    #[test]
+    fn a_program_that_is_no_lab_is_refused_by_name() {
+        let file = GraphFile::parse(
+            "graph",
+            include_str!("../../../hard_shadows.json").to_owned(),
+            None,
+        )
+        .unwrap();
+        let options = Options {
+            graph: PathBuf::new(),
+            out: std::env::temp_dir(),
+            before: None,
+            runs: 1,
+            rounds: 9,
         };
-        let figures = of_panel.iter().flat_map(|point| [point.map, point.pixels]);
-        let most = figures.fold(0.0, f64::max);
-        let ends = [of_panel.first(), of_panel.last()];
-        let [first, last] = ends.map(|point| point.map_or(0.0, |point| f64::from(point.value)));
-        let over = of_panel.first().map_or("", |point| point.over);
-        Panel {
-            title: over.to_owned(),
-            axes: [
-                Axis {
-                    name: over,
-                    range: first - 0.05 * (last - first)..last + 0.05 * (last - first),
-                    labels: 5,
-                    label: Box::new(|value| format!("{value:.0}")),
-                },
-                Axis {
-                    name: "milliseconds",
-                    range: 0.0..1.05 * most,
-                    labels: 8,
-                    label: Box::new(|value| format!("{value:.0}")),
-                },
-            ],
-            label_width: 56,
-            series: along(|point| point.map, 0).chain(along(|point| point.pixels, 1)).collect(),
-        }
-    });
-    Chart {
-        title: "Hard shadows: what the map and the pixels cost".to_owned(),
-        setting: "median of processor time; other sizes as the graph file has them".to_owned(),
-        panels: panels.collect(),
-        markers: vec!["map", "pixels"],
+        let subject = Subject {
+            label: "before",
+            program: Path::new("/bin/echo"),
+            file: &file,
+        };
+        let refused = options
+            .time(&subject, "radius of the kernel", 2)
+            .unwrap_err()
+            .to_string();
+        assert!(
+            refused.contains("/bin/echo") && refused.contains("cost FILE --json"),
+            "{refused}"
+        );
     }
 }

@@ -1,8 +1,8 @@
 //! What is compared: graphs with names.
 
-use moment_shadows::{PcfTaps, Storage, Technique};
+use moment_shadows::Storage;
 
-use crate::candidate::{PCF, TechniqueChoice};
+use crate::candidate::TechniqueChoice;
 use crate::error::LabError;
 use crate::graph_file::GraphFile;
 
@@ -16,11 +16,11 @@ const MAPS: [(&str, Storage); 3] = [
     ("evsm4", Storage::Float16),
 ];
 
-/// 5 x 5 taps of a comparison sampler.
-const TAPS: PcfTaps = PcfTaps::Hardware {
-    radius: 2,
-    reversed: false,
-};
+/// What compares the plain depth map: the kernel of the graph, and a box of 5 x 5 taps.
+const TESTS: [(&str, &str); 2] = [
+    ("pcf_gaussian", "9x9 comparisons in the shader"),
+    ("pcf_hardware", "25 taps of a comparison sampler"),
+];
 
 /// A graph from the imports `light_depth` and `camera_depth` to the output `shadow_intensity`.
 #[derive(Debug)]
@@ -51,10 +51,10 @@ pub fn candidates() -> Result<Vec<HardCandidate>, LabError> {
             all.push((name, choice.graph(file, Some(storage))?));
         }
     }
-    let kernel = chosen(PCF)?.graph(&apart, None)?;
-    all.push(("9x9 comparisons in the shader".to_owned(), kernel));
-    let taps = apart.with_technique(&Technique::Pcf(TAPS), None)?;
-    all.push(("25 taps of a comparison sampler".to_owned(), taps));
+    for (technique, name) in TESTS {
+        let graph = chosen(technique)?.graph(&apart, None)?;
+        all.push((name.to_owned(), graph));
+    }
     let candidates = all.into_iter().map(|(name, file)| {
         let file = file.in_single_precision()?;
         Ok(HardCandidate { name, file })
