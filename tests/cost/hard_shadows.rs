@@ -55,8 +55,9 @@ fn errors_and_bytes_stand_beside_times() {
     assert!(error(6) < 0.05, "{}", error(6));
     for pair in [0, 2, 4] {
         let [apart, joined] = [pair, pair + 1].map(|row| rows[row].errors.bytes_moved);
-        // A map of 256 x 256 texels of 8 bytes is neither written nor read in between.
-        assert_eq!(apart - joined, 2 * 8 * 256 * 256);
+        // A map of 256 x 256 texels of 8 bytes is neither written nor read in between, and a block of parameters is read once less.
+        let map = 2 * 8 * 256 * 256;
+        assert!((map..map + 256).contains(&(apart - joined)));
         assert!((error(pair) - error(pair + 1)).abs() < 1e-3);
     }
     for row in rows {
