@@ -16,18 +16,15 @@ const ENCODING: Encoding = Encoding {
 };
 
 const EVALUATION: &str = "let layers = technique_layers(receiver.layer);
-    let choice = layered_variance_choice(layers, receiver.fragment_depth);
-    let texel = map_texel(receiver, choice.layer / 2u);
-    let intensity = layered_variance_shadow_intensity_of_texel(texel, receiver.fragment_depth, STORAGE, layers, choice.layer);
-    if choice.neighbor_share <= 0.0 {
-        return intensity;
+    let last = layered_variance_last_layer(layers, receiver.fragment_depth);
+    var intensity = 0.0;
+    for (var plane = 0u; plane <= last / 2u; plane++) {
+        let texel = map_texel(receiver, plane);
+        intensity = max(intensity, layered_variance_shadow_intensity_of_plane(texel, receiver.fragment_depth, STORAGE, layers, plane));
     }
-    let next = map_texel(receiver, choice.neighbor / 2u);
-    let other = layered_variance_shadow_intensity_of_texel(next, receiver.fragment_depth, STORAGE, layers, choice.neighbor);
-    return mix(intensity, other, choice.neighbor_share);";
+    return intensity;";
 
-const LAYER: &str = "let choice = layered_variance_choice(technique_layers(receiver.layer), receiver.fragment_depth);
-    return vec3f(f32(choice.layer), f32(choice.neighbor), choice.neighbor_share);";
+const LAYER: &str = "return layered_variance_last_layer(technique_layers(receiver.layer), receiver.fragment_depth);";
 
 pub(super) fn row(layers: u32, overlap: Finite, splits: &LayerSplits) -> Row {
     let storages = &[Unorm16, Float32, Float16];

@@ -81,7 +81,7 @@ pub enum Technique {
     Lvsm {
         /// Layers, 1 to 8.
         layers: u32,
-        /// Both layers at a split reach this far beyond it, in moment depth, and blend there.
+        /// Both layers at a split reach this far beyond it, in moment depth.
         #[serde(default)]
         overlap: Finite,
         /// Where one layer ends and the next begins.

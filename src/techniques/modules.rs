@@ -113,13 +113,12 @@ impl Row {
             .map(|it| of_receiver(self, what, "technique_blockers", "vec3f", it))
     }
 
-    /// Which layer shades a fragment: `technique_layer`, with its neighbour and the share of that, the module `technique_layer`. None
-    /// without layers.
+    /// The last layer that shades a fragment: `technique_layer`, the module `technique_layer`. None without layers.
     #[must_use]
     pub fn technique_layer(&self) -> Option<String> {
-        let what = "The layer, its neighbour and the share of that,";
+        let what = "The last layer that shades a fragment,";
         self.layer
-            .map(|it| of_receiver(self, what, "technique_layer", "vec3f", it))
+            .map(|it| of_receiver(self, what, "technique_layer", "u32", it))
     }
 
     /// Names and values of the constants that these modules import, WGSL expressions.

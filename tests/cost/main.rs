@@ -3,6 +3,7 @@
 #![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic)]
 
 mod graph;
+mod hard_shadows;
 mod table;
 
 use moment_shadows::{DepthConversion, Profile, Storage};

@@ -243,13 +243,7 @@ fn layered(values: &[f64], z: f64, storage: Storage) -> f64 {
             smallest_variance(storage),
         )
     };
-    let layer = (0..3).filter(|&layer| ends[layer + 1] < z).count();
-    let beside = (1..4)
-        .min_by(|a, b| (ends[*a] - z).abs().total_cmp(&(ends[*b] - z).abs()))
-        .unwrap();
-    let share = 0.5 - 0.5 * ((ends[beside] - z).abs() / OVERLAP).min(1.0);
-    let other = if beside > layer { beside } else { beside - 1 };
-    bound(layer) * (1.0 - share) + bound(other) * share
+    (0..4).map(bound).fold(0.0, f64::max)
 }
 
 /// The damped Fourier series of eight terms.

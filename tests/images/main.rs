@@ -4,6 +4,7 @@
 mod contact;
 mod conventions;
 mod depth_maps;
+mod layers;
 mod planes;
 mod stage;
 mod truths;

@@ -10,7 +10,7 @@
 // moment_shadows/map/storage.wgsl: STORAGE_FLOAT16 STORAGE_FLOAT32 storage_is_float storage_finite_texel
 // moment_shadows/moments/two_moments.wgsl: TWO_MOMENTS_SMALLEST_VARIANCE_UNORM16 TWO_MOMENTS_SMALLEST_VARIANCE_FLOAT16 TWO_MOMENTS_SMALLEST_VARIANCE_FLOAT32 two_moments_from_texel two_moments_smallest_variance_of
 // moment_shadows/bounds/chebyshev.wgsl: chebyshev_lower_bound
-// moment_shadows/techniques/layered_variance.wgsl: LAYERED_VARIANCE_LARGEST_COUNT LAYERED_VARIANCE_SMALLEST_HALF_WIDTH LayeredVarianceLayers LayeredVarianceChoice layered_variance_split layered_variance_count layered_variance_interval layered_variance_warp layered_variance_choice layered_variance_shadow_intensity_of_texel
+// moment_shadows/techniques/layered_variance.wgsl: LAYERED_VARIANCE_LARGEST_COUNT LAYERED_VARIANCE_SMALLEST_HALF_WIDTH LayeredVarianceLayers layered_variance_split layered_variance_count layered_variance_interval layered_variance_warp layered_variance_last_layer layered_variance_shadow_intensity_of_texel layered_variance_shadow_intensity_of_plane
 // moment_shadows/map/minification.wgsl: MINIFICATION_LARGEST_ANISOTROPY MINIFICATION_TEXEL_PER_WIDTH MinificationFootprint MinificationAxes minification_axes minification_footprint MINIFICATION_SLACK minification_probe minification_axes_depth_variance
 // moment_shadows/map/map_load.wgsl: map_load_bilinear map_load_trilinear map_load_footprint
 // moments_lookup: moments_map moments_lookup
@@ -48,14 +48,12 @@ const TARGETS = 1u;
 // technique
 fn technique_shadow_intensity(receiver: TechniqueReceiver) -> f32 {
     let layers = technique_layers(receiver.layer);
-    let choice = layered_variance_choice(layers, receiver.fragment_depth);
-    let texel = map_texel(receiver, choice.layer / 2u);
-    let intensity = layered_variance_shadow_intensity_of_texel(texel, receiver.fragment_depth, STORAGE, layers, choice.layer);
-    if choice.neighbor_share <= 0.0 {
-        return intensity;
+    let last = layered_variance_last_layer(layers, receiver.fragment_depth);
+    var intensity = 0.0;
+    for (var plane = 0u; plane <= last / 2u; plane++) {
+        let texel = map_texel(receiver, plane);
+        intensity = max(intensity, layered_variance_shadow_intensity_of_plane(texel, receiver.fragment_depth, STORAGE, layers, plane));
     }
-    let next = map_texel(receiver, choice.neighbor / 2u);
-    let other = layered_variance_shadow_intensity_of_texel(next, receiver.fragment_depth, STORAGE, layers, choice.neighbor);
-    return mix(intensity, other, choice.neighbor_share);
+    return intensity;
 }
 

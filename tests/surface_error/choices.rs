@@ -121,3 +121,28 @@ fn a_graph_with_translucent_casters_is_refused_with_what_judges_them() {
         assert!(refused.contains(part), "{refused}");
     }
 }
+
+#[test]
+fn graphs_resolve_in_the_blur_and_take_other_sizes() {
+    let own = graph(Storage::Float16, 3);
+    let joined = own.resolved_by_the_blur().unwrap();
+    assert!(!joined.has_node("resolve"));
+    assert_eq!(joined.encoding(), own.encoding());
+    assert_eq!(joined.kernel().unwrap(), own.kernel().unwrap());
+    assert!(
+        joined.text.contains(r#""to":"blur.depth""#),
+        "{}",
+        joined.text
+    );
+    assert!(!joined.text.contains("blur.map"), "{}", joined.text);
+    let refused = joined.resolved_by_the_blur().unwrap_err().to_string();
+    assert!(refused.contains("no resolve node"), "{refused}");
+    let small = own.with_import_size("light_depth", [64, 32]).unwrap();
+    assert_eq!(small.import("light_depth").unwrap().size, [64, 32]);
+    assert_eq!(small.import("camera_depth"), own.import("camera_depth"));
+    let refused = own
+        .with_import_size("sun", [64; 2])
+        .unwrap_err()
+        .to_string();
+    assert!(refused.contains("'sun'"), "{refused}");
+}

@@ -2,7 +2,7 @@ import moment_shadows::techniques::convolution::{convolution_plane, convolution_
 import moment_shadows::techniques::exponential::{exponential_shadow_intensity_of_texel};
 import moment_shadows::techniques::exponential_variance::{exponential_variance_shadow_intensity_of_texel};
 import moment_shadows::bounds::hausdorff4::{hausdorff4_shadow_intensity_of_texel};
-import moment_shadows::techniques::layered_variance::{LayeredVarianceLayers, layered_variance_choice, layered_variance_shadow_intensity_of_texel};
+import moment_shadows::techniques::layered_variance::{LayeredVarianceLayers, layered_variance_last_layer, layered_variance_shadow_intensity_of_plane};
 import moment_shadows::map::storage::{storage_is_float};
 import moment_shadows::bounds::chebyshev::{chebyshev_shadow_intensity_of_texel, chebyshev_upper_bound};
 import moment_shadows::moments::two_moments::{two_moments_from_texel, two_moments_smallest_variance_of};
@@ -34,7 +34,7 @@ fn batch(input: BatchInput) -> BatchOutput {
     }
     let exponents = input.exponents;
     let layers = LayeredVarianceLayers(array<vec4f, 2>(input.splits, vec4f(1.0)), input.layers, input.overlap, vec2f(0.0));
-    let choice = layered_variance_choice(layers, depth);
+    let last = layered_variance_last_layer(layers, depth);
     var sums = vec2f(0.0);
     for (var plane = 0u; plane < 8u; plane++) {
         let lower = convolution_receiver(depth, input.terms, true);
@@ -49,11 +49,11 @@ fn batch(input: BatchInput) -> BatchOutput {
         vec4f(
             chebyshev_shadow_intensity_of_texel(texel, depth, stored_as),
             chebyshev_upper_bound(moments, clamp(depth, -1.0, 1.0), two_moments_smallest_variance_of(stored_as)),
-            layered_variance_shadow_intensity_of_texel(texel, depth, stored_as, layers, choice.layer),
-            layered_variance_shadow_intensity_of_texel(texel, depth, stored_as, layers, choice.neighbor),
+            layered_variance_shadow_intensity_of_plane(texel, depth, stored_as, layers, 0u),
+            layered_variance_shadow_intensity_of_plane(texel, depth, stored_as, layers, last / 2u),
         ),
         vec4f(
-            choice.neighbor_share,
+            f32(last) / 8.0,
             exponential_shadow_intensity_of_texel(texel, depth, stored_as, exponents.x, false),
             exponential_shadow_intensity_of_texel(texel, depth, stored_as, exponents.x, true),
             exponential_variance_shadow_intensity_of_texel(texel, depth, stored_as, exponents, false),

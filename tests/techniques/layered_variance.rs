@@ -61,7 +61,7 @@ fn a_split_between_occluders_and_receiver_makes_the_receiver_exact() {
 }
 
 #[test]
-fn layers_bound_the_truth_from_below_and_blend_over_the_overlap() {
+fn the_darkest_layer_bounds_the_truth_from_below() {
     for storage in Storage::OF_FOUR_MOMENTS {
         let mut random = ChaCha8Rng::seed_from_u64(47);
         let inputs: Vec<Input> = (0..50_000)
@@ -84,7 +84,7 @@ fn layers_bound_the_truth_from_below_and_blend_over_the_overlap() {
         for (input, output) in inputs.iter().zip(mixture::run(&inputs)) {
             let expected = Expected::new(input);
             let mut interval = [0.0; 2];
-            for &(layer, share) in &expected.shares {
+            for layer in 0..=expected.splits.len() {
                 let [p, q] = expected.interval(layer);
                 // The warp multiplies an error of depth, 2^-24 for its difference from the middle, by the inverse half width.
                 let half = (0.5 * (q - p)).max(1e-4);
@@ -98,11 +98,10 @@ fn layers_bound_the_truth_from_below_and_blend_over_the_overlap() {
                 let lower = chebyshev((variance + loss).max(floor), distance - 2.0 * first);
                 let upper = chebyshev((variance - loss).max(floor), distance + 2.0 * first);
                 assert!(lower <= input.truth() + 8.0 * HALF_ULP, "{input:?}");
-                interval[0] += share * lower;
-                interval[1] += share * upper;
+                interval[0] = f64::max(interval[0], lower);
+                interval[1] = f64::max(interval[1], upper);
             }
-            // Shares are differences of depths over an overlap.
-            let slack = (8.0 + 8.0 / expected.overlap.max(1e-3)) * HALF_ULP;
+            let slack = 8.0 * HALF_ULP;
             let found = f64::from(output.layered);
             assert!(
                 interval[0] - slack <= found && found <= interval[1] + slack,
@@ -112,11 +111,10 @@ fn layers_bound_the_truth_from_below_and_blend_over_the_overlap() {
     }
 }
 
-/// Layers and shares as the definition has them.
+/// Layers as the definition has them.
 struct Expected {
     splits: Vec<f64>,
     overlap: f64,
-    shares: Vec<(usize, f64)>,
 }
 
 impl Expected {
@@ -127,29 +125,7 @@ impl Expected {
             .map(|&split| f64::from(split))
             .collect();
         let overlap = f64::from(input.layers.overlap);
-        let fragment = f64::from(input.fragment_depth);
-        let layer = splits.iter().filter(|&&split| split < fragment).count();
-        // The nearest split within the overlap, and the layer at its other side.
-        let neighbor = [
-            (layer > 0).then(|| (layer - 1, fragment - splits[layer - 1])),
-            (layer < count).then(|| (layer + 1, splits[layer] - fragment)),
-        ]
-        .into_iter()
-        .flatten()
-        .filter(|neighbor| neighbor.1 < overlap)
-        .min_by(|a, b| a.1.total_cmp(&b.1));
-        let shares = match neighbor {
-            Some((neighbor, distance)) => {
-                let share = 0.5 - 0.5 * distance / overlap;
-                vec![(layer, 1.0 - share), (neighbor, share)]
-            }
-            None => vec![(layer, 1.0)],
-        };
-        Self {
-            splits,
-            overlap,
-            shares,
-        }
+        Self { splits, overlap }
     }
 
     fn interval(&self, layer: usize) -> [f64; 2] {

@@ -3,7 +3,7 @@ import moment_shadows::techniques::exponential::{exponential_channels, exponenti
 import moment_shadows::techniques::exponential_variance::{exponential_variance_channels, exponential_variance_shadow_intensity_of_texel, exponential_variance_to_texel};
 import moment_shadows::bounds::hamburger4::{hamburger4_shadow_intensity_of_texel};
 import moment_shadows::bounds::hausdorff4::{hausdorff4_shadow_intensity_of_texel};
-import moment_shadows::techniques::layered_variance::{LayeredVarianceLayers, layered_variance_channels, layered_variance_choice, layered_variance_shadow_intensity_of_texel};
+import moment_shadows::techniques::layered_variance::{LayeredVarianceLayers, layered_variance_channels, layered_variance_last_layer, layered_variance_shadow_intensity_of_texel};
 import moment_shadows::moments::four_moments::{four_moments_from_depth, four_moments_to_texel};
 import moment_shadows::map::storage::{STORAGE_FLOAT16, STORAGE_FLOAT32, STORAGE_UNORM16};
 import moment_shadows::bounds::chebyshev::{chebyshev_shadow_intensity_of_texel, chebyshev_upper_bound};
@@ -99,10 +99,9 @@ fn batch(input: BatchInput) -> BatchOutput {
     let decoded = two_moments_from_texel(variance_texel, stored_as).xy;
     output.variance_upper = chebyshev_upper_bound(decoded, depth, two_moments_smallest_variance_of(stored_as));
 
-    let choice = layered_variance_choice(input.layers, depth);
-    output.layered = layer_intensity(input, choice.layer);
-    if choice.neighbor_share > 0.0 {
-        output.layered = mix(output.layered, layer_intensity(input, choice.neighbor), choice.neighbor_share);
+    let last = layered_variance_last_layer(input.layers, depth);
+    for (var layer = 0u; layer <= last; layer++) {
+        output.layered = max(output.layered, layer_intensity(input, layer));
     }
 
     let plain_texel = stored(exponential_to_texel(plain, stored_as, input.exponents.x, false), stored_as);

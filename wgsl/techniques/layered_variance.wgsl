@@ -23,18 +23,9 @@ struct LayeredVarianceLayers {
     splits: array<vec4f, 2>,
     // From 1 to 8.
     count: u32,
-    // Both layers at a split reach this far beyond it, and fragments that close to it blend both.
+    // Both layers at a split reach this far beyond it.
     overlap: f32,
     padding: vec2f,
-}
-
-// The layers in which a fragment is looked up.
-struct LayeredVarianceChoice {
-    // The layer that contains the fragment.
-    layer: u32,
-    // The layer at the other side of the nearest split, and its share in [0, 0.5]; where that is 0 it need not be read.
-    neighbor: u32,
-    neighbor_share: f32,
 }
 
 // The split behind a layer.
@@ -78,27 +69,15 @@ fn layered_variance_channels(z: f32, layers: LayeredVarianceLayers, plane: u32) 
     return vec4f(near, near * near, far, far * far);
 }
 
-// The layer of a fragment and how it blends with a neighbour: linearly over the overlap, half of each at the split.
-fn layered_variance_choice(layers: LayeredVarianceLayers, fragment_depth: f32) -> LayeredVarianceChoice {
+// The last layer that begins in front of a fragment. Each layer gives a lower bound, and those behind it the bound 0.
+fn layered_variance_last_layer(layers: LayeredVarianceLayers, fragment_depth: f32) -> u32 {
     let depth = depth_of_fragment(fragment_depth);
     let last = layered_variance_count(layers) - 1u;
     var layer = 0u;
-    while layer < last && layered_variance_split(layers, layer) < depth {
+    while layer < last && layered_variance_split(layers, layer) - layers.overlap < depth {
         layer++;
     }
-    let overlap = max(layers.overlap, 1e-30);
-    var choice = LayeredVarianceChoice(layer, layer, 0.0);
-    if layer > 0u {
-        let share = 0.5 - 0.5 * min((depth - layered_variance_split(layers, layer - 1u)) / overlap, 1.0);
-        choice = LayeredVarianceChoice(layer, layer - 1u, share);
-    }
-    if layer < last {
-        let share = 0.5 - 0.5 * min((layered_variance_split(layers, layer) - depth) / overlap, 1.0);
-        if share > choice.neighbor_share {
-            choice = LayeredVarianceChoice(layer, layer + 1u, share);
-        }
-    }
-    return choice;
+    return layer;
 }
 
 // Shadow intensity in [0, 1] (1 = shadowed) of a fragment by one layer, for the filtered texel of the plane `layer / 2`: a
@@ -114,4 +93,20 @@ fn layered_variance_shadow_intensity_of_texel(
     let moments = select(pairs.xy, pairs.zw, layer % 2u == 1u);
     let warped = layered_variance_warp(depth_of_fragment(fragment_depth), layered_variance_interval(layers, layer));
     return chebyshev_lower_bound(moments, warped, two_moments_smallest_variance_of(stored_as));
+}
+
+// The same by the darker of the two layers of a plane. The darkest of all planes up to that of `layered_variance_last_layer` is
+// the bound to show. Just behind a split the layer that contains a fragment hardly tells it from what is in front, of which the
+// layer before knows that all of it lies in front; that one in turn knows nothing of occluders before itself.
+fn layered_variance_shadow_intensity_of_plane(
+    texel: vec4f,
+    fragment_depth: f32,
+    stored_as: u32,
+    layers: LayeredVarianceLayers,
+    plane: u32,
+) -> f32 {
+    return max(
+        layered_variance_shadow_intensity_of_texel(texel, fragment_depth, stored_as, layers, 2u * plane),
+        layered_variance_shadow_intensity_of_texel(texel, fragment_depth, stored_as, layers, 2u * plane + 1u),
+    );
 }

@@ -5,10 +5,12 @@ import super::super::techniques::layered_variance::{LayeredVarianceLayers, layer
 // Behind an edge between two surfaces light bleeds onto receivers behind the second one, and a split at that second occluder
 // prevents it. In a small footprint of the map with mean mu and standard deviation sigma the second occluder is at mu + sigma
 // where each covers half, and the bleeding grows with sigma^2 (Lauritzen & McCool, "Layered Variance Shadow Maps", GI 2008,
-// section 5; Lauritzen, thesis 2008, section 4.1.3). A third moment gives it for any coverage. So the second occluders of all
-// 2x2 footprints, weighted by their variance, are clustered: the cell of a split reaches halfway to the splits beside it, and
-// a split moves to the mean of its cell. Two splits per frame suffice, so their sums fit one texel. A split whose cell is
-// empty is of no use: its two layers merge, and the layer beside the split of greatest weight is split instead.
+// section 5; Lauritzen, thesis 2008, section 4.1.3). A third moment gives it for any coverage. But the second occluder is itself
+// a receiver, and slopes on both sides of such a split: here splits are wanted a sixth of the gap in front of it, where pictures
+// err less. So these places of all 2x2 footprints, weighted by their variance, are clustered: the cell of a split reaches halfway
+// to the splits beside it, and a split moves to the mean of its cell. Two splits per frame suffice, so their sums fit one texel.
+// A split whose cell is empty is of no use: its two layers merge, and the layer beside the split of greatest weight is split
+// instead.
 
 // The layers, and the weight that the cell of each split had when it was last summed. Zeroed weights are a valid start.
 struct LloydState {
@@ -16,19 +18,20 @@ struct LloydState {
     weights: array<vec4f, 2>,
 }
 
-// The second occluder of the four depths of a footprint and its weight, the variance. The farther depth of a distribution on
-// two depths is mu + (h + sqrt(h^2 + 4 sigma^2)) / 2, where h is the third central moment over the variance: two depths have
-// the first three moments of any distribution (the sparse representation of Peters et al., JCGT 6(1) 2017). It is mu + sigma
-// where h is 0; on a diagonal edge, of which footprints see one or three quarters, mu + sigma alone is 7 % of the gap too
-// near.
-fn lloyd_second_occluder(depths: vec4f) -> vec2f {
+// Where the four depths of a footprint want a split, and its weight, the variance. A distribution on two depths has them at
+// mu + (h -+ gap) / 2 with gap = sqrt(h^2 + 4 sigma^2), where h is the third central moment over the variance: two depths have
+// the first three moments of any distribution (the sparse representation of Peters et al., JCGT 6(1) 2017). The farther one is
+// mu + sigma where h is 0; on a diagonal edge, of which footprints see one or three quarters, mu + sigma alone is 7 % of the gap
+// too near. The split is 5 / 6 of the gap behind the nearer one.
+fn lloyd_wanted_split(depths: vec4f) -> vec2f {
     let mean = dot(depths, vec4f(0.25));
     let deviations = depths - mean;
     let squares = deviations * deviations;
     let variance = dot(squares, vec4f(0.25));
     // At most the largest deviation, if not zero.
     let skew = 0.25 * dot(squares, deviations) / max(variance, 1e-30);
-    return vec2f(mean + 0.5 * (skew + sqrt(fma(skew, skew, 4.0 * variance))), variance);
+    let gap = sqrt(fma(skew, skew, 4.0 * variance));
+    return vec2f(mean + 0.5 * skew + gap / 3.0, variance);
 }
 
 // The split that is moved together with split `first`; `first` itself if there is no other.
@@ -49,19 +52,19 @@ fn lloyd_cell(layers: LayeredVarianceLayers, split: u32) -> vec2f {
     return cell;
 }
 
-// What an occluder (depth, weight) adds to the sums of a split: (weight * depth, weight) if it is in its cell.
-fn lloyd_share(layers: LayeredVarianceLayers, split: u32, occluder: vec2f) -> vec2f {
+// What a wanted split (depth, weight) adds to the sums of a split: (weight * depth, weight) if it is in its cell.
+fn lloyd_share(layers: LayeredVarianceLayers, split: u32, wanted: vec2f) -> vec2f {
     let cell = lloyd_cell(layers, split);
     // Cells are closed in front; the last one is closed behind as well.
-    let inside = occluder.x >= cell.x && (occluder.x < cell.y || cell.y >= 1.0);
-    return select(vec2f(0.0), vec2f(occluder.x * occluder.y, occluder.y), inside);
+    let inside = wanted.x >= cell.x && (wanted.x < cell.y || cell.y >= 1.0);
+    return select(vec2f(0.0), vec2f(wanted.x * wanted.y, wanted.y), inside);
 }
 
 // What a footprint adds to the sums of the splits `first` (xy) and `lloyd_second_split` (zw). Depths are in [-1, 1].
 fn lloyd_contribution(layers: LayeredVarianceLayers, first: u32, depths: vec4f) -> vec4f {
-    let occluder = lloyd_second_occluder(depths);
+    let wanted = lloyd_wanted_split(depths);
     let second = lloyd_second_split(layers, first);
-    return vec4f(lloyd_share(layers, first, occluder), lloyd_share(layers, second, occluder));
+    return vec4f(lloyd_share(layers, first, wanted), lloyd_share(layers, second, wanted));
 }
 
 // Moves a split to the mean of its sums (weight * depth, weight), unless its cell is empty.

@@ -1,16 +1,13 @@
 //! The command line: every sub-command with what it takes.
 
-use std::fmt::Display;
-use std::process::ExitCode;
-
 use clap::{CommandFactory, FromArgMatches, Parser, Subcommand};
 
 use crate::command::cost::CostOptions;
 use crate::command::{
-    CommandResult, best, bias, choose, claims, contact_shadows, error, error_table, first_frame,
-    inspect, isa, measure, ports, probe, render, scattering_error, scattering_flicker, scores,
-    shaders, soft_error, stability, sweep, technique_pictures, trade, transmittance,
-    troubleshooting_pictures, vectors,
+    CommandResult, best, bias, choose, claims, contact_shadows, cost_chart, error, error_table,
+    first_frame, inspect, isa, measure, ports, print_all, probe, render, scattering_error,
+    scattering_flicker, scores, shaders, soft_error, stability, sweep, technique_pictures, trade,
+    transmittance, troubleshooting_pictures, vectors,
 };
 use crate::isa::child;
 
@@ -78,6 +75,8 @@ enum Command {
     /// Times the passes of a graph, blurs of several radii, summed-area tables or single scattering, as ratios to copies, and counts
     /// their bytes.
     Cost(CostOptions),
+    /// Draws what a graph costs over the sizes of map and picture and over the kernel's radius, by this build and another one.
+    CostChart(cost_chart::Options),
     /// Finds the smallest safe moment bias of each storage by search over filtered patches of depth.
     Bias(bias::Options),
     /// Blends translucent casters into every map, and prints how far its bound is from the exact transmittance.
@@ -137,10 +136,11 @@ fn run(command: Command) -> CommandResult {
         Command::Probe(options) => options.run(),
         Command::FirstFrame(options) => options.run(),
         Command::Inspect(options) => options.run(),
-        Command::SoftError(options) => print_all(&soft_error::run(&options)?),
-        Command::ScatteringError(options) => print_all(&scattering_error::run(&options)?),
+        Command::SoftError(options) => print_all(&soft_error::run(&options)?, false),
+        Command::ScatteringError(options) => print_all(&scattering_error::run(&options)?, false),
         Command::ScatteringFlicker(options) => options.run(),
         Command::Cost(options) => options.run(),
+        Command::CostChart(options) => options.run(),
         Command::Bias(options) => options.run(),
         Command::Transmittance(options) => options.run(),
         Command::Stability(options) => options.run(),
@@ -148,11 +148,4 @@ fn run(command: Command) -> CommandResult {
         Command::Ports(options) => options.run(),
         Command::IsaChip(options) => options.run(),
     }
-}
-
-fn print_all(reports: &[impl Display]) -> CommandResult {
-    for report in reports {
-        println!("{report}");
-    }
-    Ok(ExitCode::SUCCESS)
 }

@@ -118,6 +118,20 @@ impl GraphFile {
         import.value.as_ref()?.texture()
     }
 
+    /// This graph with an import of another width and height.
+    pub fn with_import_size(&self, name: &str, size: [u32; 2]) -> Result<Self, LabError> {
+        if self.import(name).is_none() {
+            return Err(self.unsuitable(format!(
+                "it says nothing of a texture '{name}' that could be of another size"
+            )));
+        }
+        self.edited(|file| {
+            for import in items(file, "imports").filter(|import| import["name"] == name) {
+                import["texture"]["size"] = json!(size);
+            }
+        })
+    }
+
     /// Whether a node of this type is in the graph.
     #[must_use]
     pub fn has_node(&self, node_type: &str) -> bool {

@@ -21,6 +21,7 @@ pub mod frame;
 pub mod gpu;
 pub mod graph_file;
 pub mod graph_frame;
+pub mod hard;
 pub mod host;
 pub mod isa;
 pub mod judgement;

@@ -105,7 +105,7 @@ const RUN: [(&str, &[&str]); 15] = [
 ];
 
 /// Sub-commands that are not run here, and why.
-const LONG: [(&str, &str); 17] = [
+const LONG: [(&str, &str); 18] = [
     ("error-table", "peels whole scenes, for a minute each"),
     ("soft-error", "traces 256 rays per pixel"),
     ("scattering-error", "marches 1,024 steps per pixel"),
@@ -115,6 +115,7 @@ const LONG: [(&str, &str); 17] = [
         "draws every technique in single precision with its truth",
     ),
     ("cost", "times work that should have the machine for itself"),
+    ("cost-chart", "times two dozen graphs"),
     ("trade", "judges and times hundreds of combinations"),
     ("choose", "trades first"),
     ("scores", "draws every technique a dozen times"),

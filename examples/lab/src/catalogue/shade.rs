@@ -214,8 +214,8 @@ pub(super) fn of_technique(map: &MapEncoding) -> Vec<Variant> {
         return vec![file];
     }
     let trips = match technique {
-        // The split in front of the fragment is searched for, at most through all of them.
-        Technique::Lvsm { layers, .. } => &[layers - 1][..],
+        // The last split in front of the fragment is searched for, at most through all of them; then planes are read up to there.
+        Technique::Lvsm { layers, .. } => &[layers - 1, layers.div_ceil(2)][..],
         _ => &[],
     };
     let settings = format!("{label}, {storage}");

@@ -7,8 +7,9 @@ use moment_shadows::Storage;
 
 use super::drawn::Drawn;
 use super::render::RenderOptions;
-use super::{CommandResult, argument, print};
+use super::{CommandResult, argument, print, print_all};
 use crate::candidate::TechniqueChoice;
+use crate::compare::{self, Report, compare};
 use crate::cost::SubjectList;
 use crate::cost::bandwidth::Memory;
 use crate::cost::blur::{BLURS, PROFILE};
@@ -22,6 +23,7 @@ use crate::cost::summed_area::TABLES;
 use crate::cost::table::CostTable;
 use crate::error::LabError;
 use crate::gpu::Gpu;
+use crate::hard::{HardErrors, HardStage, candidates};
 use crate::progress;
 use crate::scene;
 
@@ -32,14 +34,14 @@ pub struct CostOptions {
     #[command(flatten)]
     pub subject: CostSubject,
     /// A technique in place of the graph's own: a name with usual settings (vsm, evsm4, pcf, ...), or an object as in graph files.
-    #[arg(long, value_name = "NAME|JSON", conflicts_with_all = ["blur", "summed_area_table", "scattering"])]
+    #[arg(long, value_name = "NAME|JSON", conflicts_with_all = ["blur", "summed_area_table", "scattering", "hard_shadows"])]
     pub technique: Option<TechniqueChoice>,
     /// A storage in place of the graph's own.
-    #[arg(long, value_parser = argument::storage(), conflicts_with_all = ["blur", "summed_area_table", "scattering"])]
+    #[arg(long, value_parser = argument::storage(), conflicts_with_all = ["blur", "summed_area_table", "scattering", "hard_shadows"])]
     pub storage: Option<Storage>,
     /// A memory to bound the time by, in 10^9 bytes per second, with a name if you like: 224:GTX 970. Several may be
     /// given; by default three cards.
-    #[arg(long, value_name = "GB/S[:NAME]", conflicts_with_all = ["blur", "summed_area_table", "scattering"])]
+    #[arg(long, value_name = "GB/S[:NAME]", conflicts_with_all = ["blur", "summed_area_table", "scattering", "hard_shadows"])]
     pub bandwidth: Vec<Memory>,
     /// Texels per side of the light's map, and the largest of lists. Where it is left out, the size that a graph's import
     /// 'light_depth' has, or 1024.
@@ -70,6 +72,10 @@ pub struct CostSubject {
     /// where they cost more than they may on a software adapter.
     #[arg(long)]
     pub scattering: bool,
+    /// Hard shadows from end to end at 1920x1080: moments and exponential variance in 64 bits per texel beside comparisons in the shader,
+    /// with their errors.
+    #[arg(long)]
+    pub hard_shadows: bool,
 }
 
 impl CostOptions {
@@ -87,6 +93,10 @@ impl CostOptions {
         }
         let [usual, _] = Drawn::default().map;
         let largest = self.size.unwrap_or(usual);
+        if self.subject.hard_shadows {
+            let reports = hard_shadows(largest, self.rounds)?;
+            return print_all(&reports, self.json);
+        }
         let cost = table(&self.subject.list(), largest, self.rounds)?;
         print(&cost, self.json)?;
         Ok(match cost.passed() {
@@ -134,6 +144,28 @@ pub fn graph(
     };
     let conditions = Conditions::of(&clock, rounds);
     Ok(GraphCost::new(conditions, measured, bytes, memories))
+}
+
+/// The size of the picture that hard shadows are timed in.
+const PICTURE: [u32; 2] = [1920, 1080];
+
+/// Times hard shadows in turn and judges them, with a map of `size` texels per side.
+pub fn hard_shadows(size: u32, rounds: u32) -> Result<Vec<Report<HardErrors>>, LabError> {
+    let candidates = candidates()?;
+    let gpu = Gpu::open_with(PROFILE, FEATURES)?;
+    let drawn = Drawn {
+        map: [size; 2],
+        picture: PICTURE,
+        ..Drawn::default()
+    };
+    let options = compare::Options {
+        scene: scene::PROCEDURAL.map(str::to_owned).to_vec(),
+        cost: Some(rounds),
+        ..compare::Options::default()
+    };
+    compare(&gpu, &options, candidates, |scene| {
+        HardStage::new(&gpu, scene, drawn)
+    })
 }
 
 /// Checks and times a list of subjects, at its sizes up to the `largest`.

@@ -7,6 +7,7 @@ pub mod choose;
 pub mod claims;
 pub mod contact_shadows;
 pub mod cost;
+pub mod cost_chart;
 pub mod drawn;
 pub mod error;
 pub mod error_table;
@@ -45,6 +46,18 @@ pub fn print(report: &(impl Serialize + Display), json: bool) -> CommandResult {
         println!("{}", serde_json::to_string_pretty(report)?);
     } else {
         print!("{report}");
+    }
+    Ok(ExitCode::SUCCESS)
+}
+
+/// Prints several, one below the other.
+pub fn print_all(reports: &[impl Serialize + Display], json: bool) -> CommandResult {
+    if json {
+        println!("{}", serde_json::to_string_pretty(reports)?);
+        return Ok(ExitCode::SUCCESS);
+    }
+    for report in reports {
+        println!("{report}");
     }
     Ok(ExitCode::SUCCESS)
 }

@@ -87,6 +87,29 @@ impl GraphFile {
         })
     }
 
+    /// This graph with its blur in place of the node that resolves before it.
+    pub fn resolved_by_the_blur(&self) -> Result<Self, LabError> {
+        let [resolve, blur] = [self.name_of("resolve")?, self.name_of("blur")?];
+        let properties = self.node_entry(&resolve, "properties");
+        self.edited(|file| {
+            for node in items(file, "nodes").filter(|node| node["name"] == blur.as_str()) {
+                node["properties"]["resolve"] = properties.clone();
+            }
+            if let Some(nodes) = file["nodes"].as_array_mut() {
+                nodes.retain(|node| node["name"] != resolve.as_str());
+            }
+            if let Some(edges) = file["edges"].as_array_mut() {
+                edges.retain(|edge| edge["to"] != format!("{blur}.map"));
+            }
+            for edge in items(file, "edges") {
+                let to = edge["to"].as_str().unwrap_or_default();
+                if let Some(slot) = to.strip_prefix(&format!("{resolve}.")) {
+                    edge["to"] = format!("{blur}.{slot}").into();
+                }
+            }
+        })
+    }
+
     /// How the graph's map is encoded; none where no node makes one.
     #[must_use]
     pub fn encoding(&self) -> Option<MapEncoding> {

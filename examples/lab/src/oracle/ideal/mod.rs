@@ -31,7 +31,7 @@ enum Bound {
         exponents: Vec<f64>,
         smallest: [f64; 2],
     },
-    /// Cantelli's inequality within layers of depth, of which the one counts that the fragment is in.
+    /// Cantelli's inequality within layers of depth, of which the darkest counts.
     Layered {
         /// Where layers end, but for the last.
         splits: Vec<f64>,
@@ -185,7 +185,7 @@ fn splits_of(layers: u32, splits: &LayerSplits) -> Option<Vec<f64>> {
     }
 }
 
-/// Layers are blended linearly over their overlap, half and half at the split.
+/// Every layer gives a bound; the darkest one is shown.
 fn of_layers(
     surfaces: &Surfaces<'_>,
     fragment_depth: f64,
@@ -206,21 +206,7 @@ fn of_layers(
         let smallest = smallest * (0.5 * (last - first)).powi(2);
         surfaces.cantelli(|z| z.clamp(first, last) - receiver, |_| smallest)
     };
-    let layer = splits.partition_point(|&split| split < fragment_depth);
-    let own = of_layer(layer);
-    let near = |split: Option<&f64>| {
-        let distance = split.map_or(f64::INFINITY, |split| (split - fragment_depth).abs());
-        0.5 - 0.5 * (distance / overlap.max(1e-30)).min(1.0)
-    };
-    let before = near(layer.checked_sub(1).and_then(|at| splits.get(at)));
-    let behind = near(splits.get(layer));
-    match (before, behind) {
-        (share, other) if share > 0.0 && share >= other => {
-            own + share * (of_layer(layer - 1) - own)
-        }
-        (_, share) if share > 0.0 => own + share * (of_layer(layer + 1) - own),
-        _ => own,
-    }
+    (0..=splits.len()).map(of_layer).fold(0.0, f64::max)
 }
 
 /// Three surfaces with the second and fourth moment of a bias's target, weighted by its step.
