@@ -2,11 +2,12 @@
 
 use super::{MapEncoding, Technique};
 use crate::Profile;
-use crate::Storage::{self, Float16, Float32, Unorm8, Unorm10, Unorm16};
+use crate::Storage::{self, Float16, Float32, Packed64, Unorm8, Unorm10, Unorm16};
 
 /// Techniques with usual settings and their storages, the least error first. Recorded in `examples/lab/best.json`; a test holds both.
-const RECORDED: [(&str, Storage); 26] = [
+const RECORDED: [(&str, Storage); 27] = [
     ("hamburger6", Float32),
+    ("hamburger4", Packed64),
     ("hamburger4", Float32),
     ("hausdorff4", Float32),
     ("hamburger6", Unorm16),
@@ -14,15 +15,15 @@ const RECORDED: [(&str, Storage); 26] = [
     ("hamburger4", Unorm16),
     ("evsm4", Float16),
     ("evsm4", Float32),
+    ("lvsm", Unorm16),
+    ("lvsm", Float32),
     ("hamburger6", Float16),
+    ("lvsm", Float16),
     ("hausdorff4", Float16),
     ("hamburger4", Float16),
     ("vsm", Float32),
     ("vsm", Unorm16),
-    ("lvsm", Float32),
-    ("lvsm", Unorm16),
     ("hamburger6", Unorm10),
-    ("lvsm", Float16),
     ("vsm", Float16),
     ("evsm2", Float16),
     ("esm", Float16),
@@ -42,8 +43,14 @@ impl Technique {
     /// of scenes of many fine casters and contacts; `moment-shadows-lab choose` measures yours. `None` where no map has so few bits.
     #[must_use]
     pub fn best(profile: Profile, bits: u32) -> Option<MapEncoding> {
+        Self::by_error(profile, bits).next()
+    }
+
+    /// All that [`best`](Self::best) chooses among, the least error first: for a map with mip levels the first one that is
+    /// [averaged by samplers](MapEncoding::averaged_by_samplers).
+    pub fn by_error(profile: Profile, bits: u32) -> impl Iterator<Item = MapEncoding> {
         let all = Self::examples();
-        RECORDED.into_iter().find_map(|(name, storage)| {
+        RECORDED.into_iter().filter_map(move |(name, storage)| {
             let technique = all.iter().find(|technique| technique.name() == name)?;
             let encoding = MapEncoding::new(technique.clone(), storage).ok()?;
             let is_offered = encoding.bits_per_texel() <= bits && encoding.check(profile).is_ok();

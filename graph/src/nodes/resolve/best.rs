@@ -10,18 +10,24 @@ use serde::{Deserialize, Deserializer};
 use super::Resolve;
 
 impl Resolve {
-    /// What the library takes on a device of the profile.
+    /// What the library takes on a device of the profile, for a map with the mip levels that it has.
     pub(super) fn best(&self, profile: Profile) -> Result<MapEncoding, ValueError> {
-        if !self.storage.is_empty() {
-            return Err(ValueError::new(
-                "'storage'",
-                "the technique \"best\" brings its own; leave it out, or name the technique",
-            ));
-        }
         let bits = self.bits.unwrap_or(64);
-        Technique::best(profile, bits).ok_or_else(|| {
-            let message =
-                format!("{bits}; no technique has a map of so few per texel under {profile}");
+        let suits = |it: &MapEncoding| {
+            let is_asked_for = self.storage.is_empty() || self.storage.contains(&it.storage());
+            // Packed texels have no mip levels.
+            is_asked_for && (self.mip_levels == Some(1) || it.averaged_by_samplers())
+        };
+        let found = Technique::by_error(profile, bits).find(suits);
+        found.ok_or_else(|| {
+            let storages: Vec<String> = self.storage.iter().map(|it| format!("'{it}'")).collect();
+            let stored = match storages.as_slice() {
+                [] => String::new(),
+                some => format!(", stored as {},", some.join(" or ")),
+            };
+            let message = format!(
+                "{bits}; no technique has a map of so few per texel{stored} under {profile}"
+            );
             ValueError::new("'bits'", message)
         })
     }

@@ -22,7 +22,8 @@ use crate::{Capabilities, Connected, GraphError, Node, NodeDesc, Stage};
 #[serde(deny_unknown_fields)]
 pub struct Resolve {
     /// What the map is made for; nodes that read it need not be told. None, or `"best"` in a file, where it is left to the
-    /// library with its storage: those with the least error for the bits on devices of the profile, as recorded.
+    /// library with its storage: those with the least error for the bits on devices of the profile, as recorded, and beside `mip_levels` those
+    /// that samplers average.
     #[serde(default = "best::usual", deserialize_with = "best::technique")]
     #[cfg_attr(feature = "schema", schemars(schema_with = "best::technique_schema", extend("default" = "hamburger4")))]
     pub technique: Option<Technique>,
@@ -30,7 +31,7 @@ pub struct Resolve {
     #[serde(default)]
     pub bits: Option<u32>,
     /// How the moments are stored: the first of these that the device can write. Empty, or `"best"` in a file, where it is
-    /// left to the library: that with the least error per bit.
+    /// left to the library: that with the least error per bit. Beside the technique `"best"`: one of these, whichever errs least.
     #[serde(default, deserialize_with = "best::storages")]
     #[cfg_attr(feature = "schema", schemars(schema_with = "best::storages_schema", extend("default" = "best")))]
     pub storage: Vec<Storage>,
