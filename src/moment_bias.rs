@@ -105,6 +105,21 @@ impl Storage {
         }
     }
 
+    /// [`moment_bias`](Self::moment_bias) of a map whose texels are rounded inwards ([`crate::MapEncoding::rounded_inwards`]). Smaller for
+    /// `unorm16` and `float16`; no others are made so.
+    #[must_use]
+    pub fn moment_bias_rounded_inwards(self) -> FourMomentsBias {
+        match self {
+            Storage::Unorm16 => of_four(FOUR_MOMENTS_BIAS_ROUNDED_INWARDS_UNORM16),
+            Storage::Float16 => of_four(FOUR_MOMENTS_BIAS_ROUNDED_INWARDS_FLOAT16),
+            Storage::Float32
+            | Storage::Unorm8
+            | Storage::Unorm10
+            | Storage::Fixed32
+            | Storage::Packed64 => self.moment_bias(),
+        }
+    }
+
     /// The smallest bias of six moments that covers a resolve and a two-pass blur, every stage rounded to the storage; `None`
     /// for storages that cannot hold six moments. All hold the optimised basis, floats less one half in every channel. The
     /// bias of float32 is what the evaluation in f32 needs rather than the storage, and the bias of unorm10 covers the worst

@@ -6,7 +6,9 @@
     reason = "a test that fails says where"
 )]
 
-use moment_shadows::Profile;
+use std::path::Path;
+
+use moment_shadows::{Profile, Storage};
 use moment_shadows_lab::candidate::{TechniqueChoice, candidates};
 use moment_shadows_lab::scene::{CHAIRS, SLOPES};
 use moment_shadows_lab::scores::{NAMES, Report, STEP, Scored, Scores};
@@ -19,6 +21,7 @@ fn scores(scene: &str, names: &[&str], constant: f64) -> Scores {
     let mut candidates = candidates(&choices, None).unwrap();
     candidates.retain(|candidate| Axes::offers(Profile::Native, candidate));
     Scores {
+        graph: None,
         trade: Trade {
             scenes: vec![scene.to_owned()],
             axes: Axes {
@@ -53,6 +56,31 @@ fn biases(row: &Scored) -> [[f64; 2]; 2] {
     let acne = [constant, ours].map(|acne| acne.as_ref().unwrap().mean);
     let panning = view.peter_panning;
     [acne, [panning.constant, panning.ours].map(Option::unwrap)]
+}
+
+/// No more of it where texels are rounded inwards, whose bias is a quarter, and less shadow is lost.
+#[test]
+fn texels_that_are_rounded_inwards_cast_no_shadow_on_their_surface() {
+    let usual = scores(SLOPES, &["hamburger4"], 0.0);
+    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("examples/resolved_blur.json");
+    let inwards = Scores {
+        graph: Some(path),
+        ..usual.clone()
+    };
+    let of = |scores: &Scores, storage: Storage| {
+        let rows = run(scores).rows;
+        let row = rows
+            .iter()
+            .find(|row| row.storage == Some(storage))
+            .unwrap();
+        biases(row).map(|of| of[1])
+    };
+    for storage in [Storage::Unorm16, Storage::Float16] {
+        let ([acne, lost], [_, before]) = (of(&inwards, storage), of(&usual, storage));
+        println!("{storage}: acne {acne}, lost {lost} in place of {before}");
+        assert!(acne < 5e-4, "{storage}: {acne}");
+        assert!(lost < 0.8 * before, "{storage}: {lost}, {before}");
+    }
 }
 
 #[test]

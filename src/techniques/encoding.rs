@@ -24,6 +24,13 @@ pub struct MapEncoding {
     table: Option<SummedAreaTable>,
     #[serde(skip_serializing_if = "is_zero")]
     blends: u32,
+    #[serde(skip_serializing_if = "is_false")]
+    rounded_inwards: bool,
+}
+
+#[expect(clippy::trivially_copy_pass_by_ref, reason = "as serde calls it")]
+fn is_false(flag: &bool) -> bool {
+    !flag
 }
 
 #[expect(clippy::trivially_copy_pass_by_ref, reason = "as serde calls it")]
@@ -42,6 +49,8 @@ struct Pair {
     table: Option<SummedAreaTable>,
     #[serde(default)]
     blends: u32,
+    #[serde(default)]
+    rounded_inwards: bool,
 }
 
 impl MapEncoding {
@@ -75,7 +84,47 @@ impl MapEncoding {
             format,
             table: None,
             blends: 0,
+            rounded_inwards: false,
         })
+    }
+
+    /// The same for a map whose texels are rounded inwards, to valid moments, as those are of the node `blur` that resolves (WGSL module
+    /// `inward_rounding`): the bias of the bound is smaller. Refused for other techniques than `hamburger4` and other storages.
+    pub fn rounded_inwards(self) -> Result<Self, ValueError> {
+        let has_bias = self.technique.row().rounded_inwards.is_some();
+        let is_coarse = matches!(self.storage, Storage::Unorm16 | Storage::Float16);
+        if self.blends > 0 || !has_bias || !is_coarse {
+            let message = format!(
+                "{self}{}; texels are rounded inwards of maps for 'hamburger4' as unorm16 or float16, without 'blends'",
+                if self.blends > 0 {
+                    " with 'blends'"
+                } else {
+                    ""
+                }
+            );
+            return Err(ValueError::new("rounded_inwards", message));
+        }
+        let rounded_inwards = true;
+        Ok(Self {
+            rounded_inwards,
+            ..self
+        })
+    }
+
+    /// The same for a map that is made of such texels, and rounded to all sides.
+    #[must_use]
+    pub fn rounded_again(self) -> Self {
+        let rounded_inwards = false;
+        Self {
+            rounded_inwards,
+            ..self
+        }
+    }
+
+    /// Whether texels are rounded inwards.
+    #[must_use]
+    pub fn is_rounded_inwards(&self) -> bool {
+        self.rounded_inwards
     }
 
     /// The same for a map that up to so many translucent casters are blended into, one after the other at any texel, far to near from the
@@ -107,7 +156,13 @@ impl MapEncoding {
                 Self::MOST_BLENDS
             ));
         }
-        Ok(Self { blends, ..self })
+        // Each blend rounds to all sides.
+        let rounded_inwards = self.rounded_inwards && blends == 0;
+        Ok(Self {
+            blends,
+            rounded_inwards,
+            ..self
+        })
     }
 
     /// How many translucent casters are blended into the map over each other, at most.
@@ -172,6 +227,7 @@ impl MapEncoding {
             format,
             table: Some(table),
             blends: 0,
+            rounded_inwards: false,
         })
     }
 
@@ -275,7 +331,11 @@ impl TryFrom<Pair> for MapEncoding {
                 Err(ValueError::new("storage", message))
             }
         };
-        encoding?.with_blends(pair.blends)
+        let encoding = encoding?.with_blends(pair.blends)?;
+        match pair.rounded_inwards {
+            true => encoding.rounded_inwards(),
+            false => Ok(encoding),
+        }
     }
 }
 

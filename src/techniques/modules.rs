@@ -97,6 +97,12 @@ impl Row {
         self.blended.map(|it| intensity(self, it.evaluation))
     }
 
+    /// The same from a map whose texels are rounded inwards: another module `technique`. None where none are.
+    #[must_use]
+    pub fn rounded_inwards_technique(&self) -> Option<String> {
+        self.rounded_inwards.map(|it| intensity(self, it))
+    }
+
     /// How a fragment is shaded softly from the summed-area table of the map: another module `technique`. None where the technique has no
     /// soft shadows.
     #[must_use]

@@ -26,7 +26,11 @@ pub(super) fn hamburger4() -> Row {
     return vec3f(blockers.share, blockers.depth, max(half_extent.x, half_extent.y));";
     let blended = "let bias = translucent_casters_four_moments_bias(four_moments_bias_of(STORAGE), BLENDS);
     return hamburger4_shadow_intensity(four_moments_from_texel(map_texel(receiver, 0u), STORAGE), receiver.fragment_depth, bias);";
+    let rounded_inwards = "let bias = four_moments_bias_rounded_inwards_of(STORAGE);
+    let biased = four_moments_biased_from_texel(map_texel(receiver, 0u), STORAGE, bias);
+    return hamburger4_lower_bound(biased, receiver.fragment_depth, bias.alpha);";
     Row {
+        rounded_inwards: Some(rounded_inwards),
         soft: Some(soft),
         blockers: Some(blockers),
         blended: Some(Blended {

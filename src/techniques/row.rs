@@ -102,6 +102,8 @@ pub struct Row {
     pub(crate) evaluation: &'static str,
     /// The same for maps that translucent casters are blended into; `None` where none can be, or nothing is known of the bias.
     pub blended: Option<Blended>,
+    /// The same for maps whose texels are rounded inwards; `None` where none are.
+    pub(crate) rounded_inwards: Option<&'static str>,
     /// The same without a map, where `evaluation` filters its texels by itself.
     #[cfg_attr(
         not(feature = "validate"),
@@ -152,6 +154,7 @@ impl Row {
             places_layers: false,
             evaluation,
             blended: None,
+            rounded_inwards: None,
             exported: None,
             functions: &[],
             blockers: None,

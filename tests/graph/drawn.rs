@@ -2,7 +2,8 @@
 
 use moment_shadows::{MapEncoding, Profile, Storage, Technique, TextureFormat};
 use moment_shadows_graph::nodes::{
-    CompositeScattering, DebugMoments, IntegrateScattering, RectifyMoments, SummedAreaTable,
+    CompositeScattering, DebugMoments, IntegrateScattering, RectifyMoments, ShadeHard,
+    SummedAreaTable,
 };
 use moment_shadows_graph::{
     Capabilities, Connected, GraphError, GraphErrorKind, Node, NodeDesc, Plan,
@@ -203,6 +204,45 @@ fn ten_bits_without_an_encoding_are_no_moments() {
             .message
             .contains("say in its description how it is encoded")
     );
+}
+
+/// Texels that are rounded inwards are valid on the real line alone, and no others are known to be.
+#[test]
+fn texels_that_are_rounded_inwards_are_those_of_one_technique() {
+    let encoding = |technique: Technique, storage| {
+        let encoding = MapEncoding::new(technique, storage).unwrap();
+        encoding.rounded_inwards()
+    };
+    let inwards = encoding(Technique::Hamburger4, Storage::Unorm16).unwrap();
+    let hausdorff = ShadeHard {
+        technique: Some(Technique::Hausdorff4),
+        ..ShadeHard::default()
+    };
+    let map = TextureDesc::of_map(inwards.clone(), [64, 64]);
+    let error = described(&hausdorff, "map", map).unwrap_err();
+    assert_eq!(error.kind, GraphErrorKind::Format, "{error}");
+    assert!(
+        error
+            .to_string()
+            .contains("give that blur the technique 'hausdorff4'"),
+        "{error}"
+    );
+    for (technique, storage) in [
+        (Technique::Hamburger4, Storage::Float32),
+        (Technique::Hausdorff4, Storage::Unorm16),
+        (Technique::Hamburger6, Storage::Unorm16),
+    ] {
+        let error = encoding(technique, storage).unwrap_err();
+        assert!(
+            error.to_string().contains("maps for 'hamburger4'"),
+            "{error}"
+        );
+    }
+    // Each blend rounds to all sides.
+    let blended = inwards.clone().with_blends(1).unwrap();
+    assert!(inwards.is_rounded_inwards() && !blended.is_rounded_inwards());
+    let text = serde_json::to_string(&inwards).unwrap();
+    assert_eq!(serde_json::from_str::<MapEncoding>(&text).unwrap(), inwards);
 }
 
 #[test]

@@ -208,8 +208,8 @@ fn check(desc: StageDesc, tilts: &[f64]) {
         let setups = DEPTH_PER_TEXEL.map(|depth| light(desc.map, depth));
         let (intensity, case) = worst(&stage, &setups, tilts);
         println!(
-            "{} radius {}: {intensity:.4} {case}",
-            desc.storage, desc.radius
+            "{} radius {}, the blur resolves {}: {intensity:.4} {case}",
+            desc.storage, desc.radius, desc.blur_resolves
         );
         assert!(intensity <= LARGEST, "{desc:?}: {intensity} at {case}");
     }
@@ -223,6 +223,17 @@ fn planes_are_lit_in_unorm16() {
 #[test]
 fn planes_are_lit_in_float16() {
     check(StageDesc::new(Storage::Float16), &TILTS);
+}
+
+#[test]
+fn planes_are_lit_where_texels_are_rounded_inwards() {
+    for storage in [Storage::Unorm16, Storage::Float16] {
+        let desc = StageDesc {
+            blur_resolves: true,
+            ..StageDesc::new(storage)
+        };
+        check(desc, &[0.0, 40.0, 80.0]);
+    }
 }
 
 #[test]

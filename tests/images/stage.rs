@@ -30,6 +30,8 @@ pub(crate) struct StageDesc {
     pub(crate) samples: u32,
     pub(crate) format: wgpu::TextureFormat,
     pub(crate) reversed: bool,
+    /// Whether the blur resolves by itself.
+    pub(crate) blur_resolves: bool,
 }
 
 impl StageDesc {
@@ -44,6 +46,7 @@ impl StageDesc {
             samples: 4,
             format: wgpu::TextureFormat::Depth32Float,
             reversed: false,
+            blur_resolves: false,
         }
     }
 
@@ -83,8 +86,24 @@ impl StageDesc {
   "outputs": [ {{ "name": "shadow_intensity", "from": "shade.shadow_intensity" }} ]
 }}"#
         );
+        let text = if self.blur_resolves {
+            resolved_by_the_blur(&text)
+        } else {
+            text
+        };
         GraphFile::parse("stage.json", text, None).unwrap()
     }
+}
+
+/// The graph without its node `resolve`, whose blur does that.
+fn resolved_by_the_blur(text: &str) -> String {
+    let mut file: serde_json::Value = serde_json::from_str(text).unwrap();
+    let resolve = file["nodes"].as_array_mut().unwrap().remove(0);
+    file["nodes"][0]["properties"]["resolve"] = resolve["properties"].clone();
+    let edges = file["edges"].as_array_mut().unwrap();
+    edges.remove(1);
+    edges[0]["to"] = "blur.depth".into();
+    file.to_string()
 }
 
 pub(crate) struct Stage {

@@ -74,6 +74,20 @@ fn the_search_confirms_the_library_and_stays_within_the_bound() {
         assert!(row.recommended <= 1.6 * row.three_roundings.most);
         assert_eq!(row.three_roundings.beyond_repair, 0.0);
     }
+    // Texels that are rounded inwards need a third of their bias, all of them, and that is far less than one rounding to the nearest needs.
+    for row in &table.rows[..2] {
+        let inwards = row.inwards.unwrap();
+        let library = row.library_inwards.unwrap();
+        assert!(inwards.all <= 0.334 * library, "{}: {inwards:?}", row.form);
+        assert!(inwards.most > 0.3 * library, "{}: {inwards:?}", row.form);
+        assert!(3.0 * inwards.all < row.one_rounding.most, "{}", row.form);
+    }
+    assert!(
+        table.rows[2..]
+            .iter()
+            .chain(&interval.rows)
+            .all(|row| row.inwards.is_none())
+    );
     // No bias towards (1/2, 1/2, 1/2, 1/2) repairs depths that were clamped to the ends of [0, 1].
     for row in table.rows.iter().filter(|row| row.form.ends_with("1/2")) {
         assert_eq!(row.three_roundings.all, f64::INFINITY);

@@ -22,6 +22,16 @@ fn storages_have_the_numbers_and_biases_of_the_module() {
             [expected.alpha, expected.second, expected.fourth].map(f64::from),
             "{bias}"
         );
+        if storage != Storage::Float32 {
+            let bias = format!("FOUR_MOMENTS_BIAS_ROUNDED_INWARDS_{name}");
+            let found = constant(&module("four_moments", &bias), &bias);
+            let expected = storage.moment_bias_rounded_inwards();
+            assert_eq!(
+                found,
+                [expected.alpha, expected.second, expected.fourth].map(f64::from),
+                "{bias}"
+            );
+        }
         let bias = format!("HAUSDORFF4_BIAS_{name}");
         let found = constant(&module("hausdorff4", &bias), &bias);
         let expected = storage.hausdorff_moment_bias();

@@ -42,7 +42,7 @@ fn run(inputs: &[Input]) -> Vec<Output> {
 }
 
 /// Atoms and their weights: apart, close together, on a slope, at the ends.
-fn distribution(random: &mut ChaCha8Rng) -> Vec<[f64; 2]> {
+pub(super) fn distribution(random: &mut ChaCha8Rng) -> Vec<[f64; 2]> {
     let count = random.random_range(1..=5);
     let spread = 10_f64.powf(random.random_range(-6.0..=0.3));
     let middle: f64 = random.random_range(-1.0..=1.0);
@@ -57,7 +57,7 @@ fn distribution(random: &mut ChaCha8Rng) -> Vec<[f64; 2]> {
     atoms
 }
 
-fn moments(atoms: &[[f64; 2]]) -> [f64; 4] {
+pub(super) fn moments(atoms: &[[f64; 2]]) -> [f64; 4] {
     core::array::from_fn(|index| {
         let of = |&[depth, weight]: &[f64; 2]| weight * depth.powi(index as i32 + 1);
         atoms.iter().map(of).sum()

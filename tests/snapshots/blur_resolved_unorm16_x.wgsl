@@ -1,8 +1,8 @@
 // What is linked of files:
 // moment_shadows/maths/split_sum.wgsl: split_sum_coarse
 // moment_shadows/filter/separable.wgsl: separable_add SeparableSums separable_add_to_sums SeparableEight separable_add_to_eight separable_outputs
-// moment_shadows/map/storage.wgsl: STORAGE_FLOAT16 STORAGE_FLOAT32 STORAGE_PACKED64 storage_round_to_float16
-// moment_shadows/moments/packed_four_moments.wgsl: PACKED_FOUR_MOMENTS_LARGEST_DEPTH PACKED_FOUR_MOMENTS_LEAST_VARIANCE packed_four_moments_channels
+// moment_shadows/map/storage.wgsl: STORAGE_FLOAT16 STORAGE_FLOAT32 STORAGE_PACKED64 storage_pack storage_round_to_float16
+// moment_shadows/moments/packed_four_moments.wgsl: PACKED_FOUR_MOMENTS_STEPS PACKED_FOUR_MOMENTS_LEAST_VARIANCE packed_four_moments_channels
 // moment_shadows/moments/four_moments.wgsl: FOUR_MOMENTS_SQRT_3 four_moments_from_depth four_moments_quantize four_moments_to_texel
 // moment_shadows/map/depth.wgsl: DepthConversion DEPTH_SMALLEST_DENOMINATOR depth_is_nan depth_to_moment_depth
 // moment_shadows/map/range_fit.wgsl: RangeFit range_fit_none range_fit_depth range_fit_map_depth
@@ -17,8 +17,8 @@
 
 // specialization
 const GROUP = 0;
-alias MomentsStorage = texture_storage_2d<rgba16unorm, write>;
-const STORAGE = 0u;
+alias MomentsStorage = texture_storage_2d<rg32uint, write>;
+const STORAGE = 6u;
 const FITTED = false;
 alias DepthTexture = texture_depth_multisampled_2d;
 const REGIONS = 1u;
@@ -26,7 +26,7 @@ const SAMPLES = 4;
 const WORKGROUP_X = 8u;
 const WORKGROUP_Y = 8u;
 const AXIS = vec2i(1, 0);
-const OUTPUTS = 32;
+const OUTPUTS = 16;
 const SPLIT_SUMS = false;
 
 // map_encoding
@@ -43,8 +43,6 @@ fn encoding_texel(mean: vec4f) -> vec4f {
 fn blur_outputs(first: vec2i, low: vec2i, last: vec2i, region: u32) {
     var sums: SeparableEight;
     var sums1: SeparableEight;
-    var sums2: SeparableEight;
-    var sums3: SeparableEight;
     sums = separable_add_to_eight(sums, blur_source(first + -4 * AXIS, low, last, region), vec4f(0.0, 0.0, 0.0, 0.0), vec4f(0.0, 0.0, 0.0, 0.044044495), SPLIT_SUMS, true);
     sums = separable_add_to_eight(sums, blur_source(first + -3 * AXIS, low, last, region), vec4f(0.0, 0.0, 0.0, 0.0), vec4f(0.0, 0.0, 0.044044495, 0.08086777), SPLIT_SUMS, true);
     sums = separable_add_to_eight(sums, blur_source(first + -2 * AXIS, low, last, region), vec4f(0.0, 0.0, 0.0, 0.0), vec4f(0.0, 0.044044495, 0.08086777, 0.12482071), SPLIT_SUMS, true);
@@ -78,64 +76,14 @@ fn blur_outputs(first: vec2i, low: vec2i, last: vec2i, region: u32) {
     sums = separable_add_to_eight(sums, t15, vec4f(0.044044495, 0.0, 0.0, 0.0), vec4f(0.0, 0.0, 0.0, 0.0), SPLIT_SUMS, true);
     blur_store(first, last, sums);
     sums1 = separable_add_to_eight(sums1, t15, vec4f(0.044044495, 0.08086777, 0.12482071, 0.16194916), vec4f(0.17663574, 0.16194916, 0.12482071, 0.08086777), SPLIT_SUMS, true);
-    let t16 = blur_source(first + 12 * AXIS, low, last, region);
-    sums1 = separable_add_to_eight(sums1, t16, vec4f(0.08086777, 0.12482071, 0.16194916, 0.17663574), vec4f(0.16194916, 0.12482071, 0.08086777, 0.044044495), SPLIT_SUMS, true);
-    sums2 = separable_add_to_eight(sums2, t16, vec4f(0.0, 0.0, 0.0, 0.0), vec4f(0.0, 0.0, 0.0, 0.044044495), SPLIT_SUMS, true);
-    let t17 = blur_source(first + 13 * AXIS, low, last, region);
-    sums1 = separable_add_to_eight(sums1, t17, vec4f(0.12482071, 0.16194916, 0.17663574, 0.16194916), vec4f(0.12482071, 0.08086777, 0.044044495, 0.0), SPLIT_SUMS, true);
-    sums2 = separable_add_to_eight(sums2, t17, vec4f(0.0, 0.0, 0.0, 0.0), vec4f(0.0, 0.0, 0.044044495, 0.08086777), SPLIT_SUMS, true);
-    let t18 = blur_source(first + 14 * AXIS, low, last, region);
-    sums1 = separable_add_to_eight(sums1, t18, vec4f(0.16194916, 0.17663574, 0.16194916, 0.12482071), vec4f(0.08086777, 0.044044495, 0.0, 0.0), SPLIT_SUMS, true);
-    sums2 = separable_add_to_eight(sums2, t18, vec4f(0.0, 0.0, 0.0, 0.0), vec4f(0.0, 0.044044495, 0.08086777, 0.12482071), SPLIT_SUMS, true);
-    let t19 = blur_source(first + 15 * AXIS, low, last, region);
-    sums1 = separable_add_to_eight(sums1, t19, vec4f(0.17663574, 0.16194916, 0.12482071, 0.08086777), vec4f(0.044044495, 0.0, 0.0, 0.0), SPLIT_SUMS, true);
-    sums2 = separable_add_to_eight(sums2, t19, vec4f(0.0, 0.0, 0.0, 0.0), vec4f(0.044044495, 0.08086777, 0.12482071, 0.16194916), SPLIT_SUMS, true);
-    let t20 = blur_source(first + 16 * AXIS, low, last, region);
-    sums1 = separable_add_to_eight(sums1, t20, vec4f(0.16194916, 0.12482071, 0.08086777, 0.044044495), vec4f(0.0, 0.0, 0.0, 0.0), SPLIT_SUMS, true);
-    sums2 = separable_add_to_eight(sums2, t20, vec4f(0.0, 0.0, 0.0, 0.044044495), vec4f(0.08086777, 0.12482071, 0.16194916, 0.17663574), SPLIT_SUMS, true);
-    let t21 = blur_source(first + 17 * AXIS, low, last, region);
-    sums1 = separable_add_to_eight(sums1, t21, vec4f(0.12482071, 0.08086777, 0.044044495, 0.0), vec4f(0.0, 0.0, 0.0, 0.0), SPLIT_SUMS, true);
-    sums2 = separable_add_to_eight(sums2, t21, vec4f(0.0, 0.0, 0.044044495, 0.08086777), vec4f(0.12482071, 0.16194916, 0.17663574, 0.16194916), SPLIT_SUMS, true);
-    let t22 = blur_source(first + 18 * AXIS, low, last, region);
-    sums1 = separable_add_to_eight(sums1, t22, vec4f(0.08086777, 0.044044495, 0.0, 0.0), vec4f(0.0, 0.0, 0.0, 0.0), SPLIT_SUMS, true);
-    sums2 = separable_add_to_eight(sums2, t22, vec4f(0.0, 0.044044495, 0.08086777, 0.12482071), vec4f(0.16194916, 0.17663574, 0.16194916, 0.12482071), SPLIT_SUMS, true);
-    let t23 = blur_source(first + 19 * AXIS, low, last, region);
-    sums1 = separable_add_to_eight(sums1, t23, vec4f(0.044044495, 0.0, 0.0, 0.0), vec4f(0.0, 0.0, 0.0, 0.0), SPLIT_SUMS, true);
+    sums1 = separable_add_to_eight(sums1, blur_source(first + 12 * AXIS, low, last, region), vec4f(0.08086777, 0.12482071, 0.16194916, 0.17663574), vec4f(0.16194916, 0.12482071, 0.08086777, 0.044044495), SPLIT_SUMS, true);
+    sums1 = separable_add_to_eight(sums1, blur_source(first + 13 * AXIS, low, last, region), vec4f(0.12482071, 0.16194916, 0.17663574, 0.16194916), vec4f(0.12482071, 0.08086777, 0.044044495, 0.0), SPLIT_SUMS, true);
+    sums1 = separable_add_to_eight(sums1, blur_source(first + 14 * AXIS, low, last, region), vec4f(0.16194916, 0.17663574, 0.16194916, 0.12482071), vec4f(0.08086777, 0.044044495, 0.0, 0.0), SPLIT_SUMS, true);
+    sums1 = separable_add_to_eight(sums1, blur_source(first + 15 * AXIS, low, last, region), vec4f(0.17663574, 0.16194916, 0.12482071, 0.08086777), vec4f(0.044044495, 0.0, 0.0, 0.0), SPLIT_SUMS, true);
+    sums1 = separable_add_to_eight(sums1, blur_source(first + 16 * AXIS, low, last, region), vec4f(0.16194916, 0.12482071, 0.08086777, 0.044044495), vec4f(0.0, 0.0, 0.0, 0.0), SPLIT_SUMS, true);
+    sums1 = separable_add_to_eight(sums1, blur_source(first + 17 * AXIS, low, last, region), vec4f(0.12482071, 0.08086777, 0.044044495, 0.0), vec4f(0.0, 0.0, 0.0, 0.0), SPLIT_SUMS, true);
+    sums1 = separable_add_to_eight(sums1, blur_source(first + 18 * AXIS, low, last, region), vec4f(0.08086777, 0.044044495, 0.0, 0.0), vec4f(0.0, 0.0, 0.0, 0.0), SPLIT_SUMS, true);
+    sums1 = separable_add_to_eight(sums1, blur_source(first + 19 * AXIS, low, last, region), vec4f(0.044044495, 0.0, 0.0, 0.0), vec4f(0.0, 0.0, 0.0, 0.0), SPLIT_SUMS, true);
     blur_store(first + 8 * AXIS, last, sums1);
-    sums2 = separable_add_to_eight(sums2, t23, vec4f(0.044044495, 0.08086777, 0.12482071, 0.16194916), vec4f(0.17663574, 0.16194916, 0.12482071, 0.08086777), SPLIT_SUMS, true);
-    let t24 = blur_source(first + 20 * AXIS, low, last, region);
-    sums2 = separable_add_to_eight(sums2, t24, vec4f(0.08086777, 0.12482071, 0.16194916, 0.17663574), vec4f(0.16194916, 0.12482071, 0.08086777, 0.044044495), SPLIT_SUMS, true);
-    sums3 = separable_add_to_eight(sums3, t24, vec4f(0.0, 0.0, 0.0, 0.0), vec4f(0.0, 0.0, 0.0, 0.044044495), SPLIT_SUMS, true);
-    let t25 = blur_source(first + 21 * AXIS, low, last, region);
-    sums2 = separable_add_to_eight(sums2, t25, vec4f(0.12482071, 0.16194916, 0.17663574, 0.16194916), vec4f(0.12482071, 0.08086777, 0.044044495, 0.0), SPLIT_SUMS, true);
-    sums3 = separable_add_to_eight(sums3, t25, vec4f(0.0, 0.0, 0.0, 0.0), vec4f(0.0, 0.0, 0.044044495, 0.08086777), SPLIT_SUMS, true);
-    let t26 = blur_source(first + 22 * AXIS, low, last, region);
-    sums2 = separable_add_to_eight(sums2, t26, vec4f(0.16194916, 0.17663574, 0.16194916, 0.12482071), vec4f(0.08086777, 0.044044495, 0.0, 0.0), SPLIT_SUMS, true);
-    sums3 = separable_add_to_eight(sums3, t26, vec4f(0.0, 0.0, 0.0, 0.0), vec4f(0.0, 0.044044495, 0.08086777, 0.12482071), SPLIT_SUMS, true);
-    let t27 = blur_source(first + 23 * AXIS, low, last, region);
-    sums2 = separable_add_to_eight(sums2, t27, vec4f(0.17663574, 0.16194916, 0.12482071, 0.08086777), vec4f(0.044044495, 0.0, 0.0, 0.0), SPLIT_SUMS, true);
-    sums3 = separable_add_to_eight(sums3, t27, vec4f(0.0, 0.0, 0.0, 0.0), vec4f(0.044044495, 0.08086777, 0.12482071, 0.16194916), SPLIT_SUMS, true);
-    let t28 = blur_source(first + 24 * AXIS, low, last, region);
-    sums2 = separable_add_to_eight(sums2, t28, vec4f(0.16194916, 0.12482071, 0.08086777, 0.044044495), vec4f(0.0, 0.0, 0.0, 0.0), SPLIT_SUMS, true);
-    sums3 = separable_add_to_eight(sums3, t28, vec4f(0.0, 0.0, 0.0, 0.044044495), vec4f(0.08086777, 0.12482071, 0.16194916, 0.17663574), SPLIT_SUMS, true);
-    let t29 = blur_source(first + 25 * AXIS, low, last, region);
-    sums2 = separable_add_to_eight(sums2, t29, vec4f(0.12482071, 0.08086777, 0.044044495, 0.0), vec4f(0.0, 0.0, 0.0, 0.0), SPLIT_SUMS, true);
-    sums3 = separable_add_to_eight(sums3, t29, vec4f(0.0, 0.0, 0.044044495, 0.08086777), vec4f(0.12482071, 0.16194916, 0.17663574, 0.16194916), SPLIT_SUMS, true);
-    let t30 = blur_source(first + 26 * AXIS, low, last, region);
-    sums2 = separable_add_to_eight(sums2, t30, vec4f(0.08086777, 0.044044495, 0.0, 0.0), vec4f(0.0, 0.0, 0.0, 0.0), SPLIT_SUMS, true);
-    sums3 = separable_add_to_eight(sums3, t30, vec4f(0.0, 0.044044495, 0.08086777, 0.12482071), vec4f(0.16194916, 0.17663574, 0.16194916, 0.12482071), SPLIT_SUMS, true);
-    let t31 = blur_source(first + 27 * AXIS, low, last, region);
-    sums2 = separable_add_to_eight(sums2, t31, vec4f(0.044044495, 0.0, 0.0, 0.0), vec4f(0.0, 0.0, 0.0, 0.0), SPLIT_SUMS, true);
-    blur_store(first + 16 * AXIS, last, sums2);
-    sums3 = separable_add_to_eight(sums3, t31, vec4f(0.044044495, 0.08086777, 0.12482071, 0.16194916), vec4f(0.17663574, 0.16194916, 0.12482071, 0.08086777), SPLIT_SUMS, true);
-    sums3 = separable_add_to_eight(sums3, blur_source(first + 28 * AXIS, low, last, region), vec4f(0.08086777, 0.12482071, 0.16194916, 0.17663574), vec4f(0.16194916, 0.12482071, 0.08086777, 0.044044495), SPLIT_SUMS, true);
-    sums3 = separable_add_to_eight(sums3, blur_source(first + 29 * AXIS, low, last, region), vec4f(0.12482071, 0.16194916, 0.17663574, 0.16194916), vec4f(0.12482071, 0.08086777, 0.044044495, 0.0), SPLIT_SUMS, true);
-    sums3 = separable_add_to_eight(sums3, blur_source(first + 30 * AXIS, low, last, region), vec4f(0.16194916, 0.17663574, 0.16194916, 0.12482071), vec4f(0.08086777, 0.044044495, 0.0, 0.0), SPLIT_SUMS, true);
-    sums3 = separable_add_to_eight(sums3, blur_source(first + 31 * AXIS, low, last, region), vec4f(0.17663574, 0.16194916, 0.12482071, 0.08086777), vec4f(0.044044495, 0.0, 0.0, 0.0), SPLIT_SUMS, true);
-    sums3 = separable_add_to_eight(sums3, blur_source(first + 32 * AXIS, low, last, region), vec4f(0.16194916, 0.12482071, 0.08086777, 0.044044495), vec4f(0.0, 0.0, 0.0, 0.0), SPLIT_SUMS, true);
-    sums3 = separable_add_to_eight(sums3, blur_source(first + 33 * AXIS, low, last, region), vec4f(0.12482071, 0.08086777, 0.044044495, 0.0), vec4f(0.0, 0.0, 0.0, 0.0), SPLIT_SUMS, true);
-    sums3 = separable_add_to_eight(sums3, blur_source(first + 34 * AXIS, low, last, region), vec4f(0.08086777, 0.044044495, 0.0, 0.0), vec4f(0.0, 0.0, 0.0, 0.0), SPLIT_SUMS, true);
-    sums3 = separable_add_to_eight(sums3, blur_source(first + 35 * AXIS, low, last, region), vec4f(0.044044495, 0.0, 0.0, 0.0), vec4f(0.0, 0.0, 0.0, 0.0), SPLIT_SUMS, true);
-    blur_store(first + 24 * AXIS, last, sums3);
 }
 

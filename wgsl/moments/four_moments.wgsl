@@ -24,6 +24,9 @@ struct FourMomentsBias {
 const FOUR_MOMENTS_BIAS_UNORM16: FourMomentsBias = FourMomentsBias(6e-5, 0.628, 0.628);
 const FOUR_MOMENTS_BIAS_FLOAT16: FourMomentsBias = FourMomentsBias(1e-3, 0.628, 0.628);
 const FOUR_MOMENTS_BIAS_FLOAT32: FourMomentsBias = FourMomentsBias(1.5e-6, 0.375, 0.375);
+// Of maps whose texels are valid, since they were rounded so (`inward_rounding`): three times what texels need by themselves.
+const FOUR_MOMENTS_BIAS_ROUNDED_INWARDS_UNORM16: FourMomentsBias = FourMomentsBias(1.5e-5, 0.628, 0.628);
+const FOUR_MOMENTS_BIAS_ROUNDED_INWARDS_FLOAT16: FourMomentsBias = FourMomentsBias(1.5e-4, 0.628, 0.628);
 // Packed texels hold valid moments, whatever was rounded. This covers sums of four texels' moments and the evaluation, in f32.
 const FOUR_MOMENTS_BIAS_PACKED64: FourMomentsBias = FourMomentsBias(1e-6, 0.375, 0.375);
 
@@ -119,6 +122,14 @@ fn four_moments_bias_of(stored_as: u32) -> FourMomentsBias {
         return FOUR_MOMENTS_BIAS_FLOAT16;
     }
     return FOUR_MOMENTS_BIAS_UNORM16;
+}
+
+// The moment bias of a map whose texels are rounded inwards.
+fn four_moments_bias_rounded_inwards_of(stored_as: u32) -> FourMomentsBias {
+    if stored_as == STORAGE_FLOAT16 {
+        return FOUR_MOMENTS_BIAS_ROUNDED_INWARDS_FLOAT16;
+    }
+    return FOUR_MOMENTS_BIAS_ROUNDED_INWARDS_UNORM16;
 }
 
 // Applies the moment bias (i3D 2015, section 3.3). Written as a step towards the target: 1 - alpha would keep only a

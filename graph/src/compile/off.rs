@@ -2,7 +2,7 @@
 
 use std::collections::BTreeMap;
 
-use moment_shadows::Finite;
+use moment_shadows::{Finite, MapEncoding};
 
 use super::{Described, Known, declaration};
 use crate::error::ensure;
@@ -33,7 +33,7 @@ pub(super) fn of(
         let instead = match off {
             Off::Bypass(input) => {
                 let input = find(input)?;
-                let same = alike(&known[made].desc) == alike(&known[input].desc);
+                let same = alike(&known[made].desc) == rounded_again(alike(&known[input].desc));
                 ensure(same, GraphErrorKind::Declaration, || {
                     format!(
                         "{} stands in for {}, which is something else",
@@ -63,6 +63,14 @@ pub(super) fn of(
         });
     }
     Ok(planned)
+}
+
+/// The same for who does not know that texels are rounded inwards: a larger bias does for them, too.
+fn rounded_again(mut desc: ResourceDesc) -> ResourceDesc {
+    if let ResourceDesc::Texture(texture) = &mut desc {
+        texture.encoding = texture.encoding.take().map(MapEncoding::rounded_again);
+    }
+    desc
 }
 
 /// A resource, whatever filter it has been through.

@@ -2,7 +2,7 @@
 
 use std::collections::{BTreeMap, BTreeSet};
 
-use moment_shadows::{Finite, TextureFormat};
+use moment_shadows::{Finite, MapEncoding, TextureFormat};
 
 use super::declaration;
 use super::limits::{limits, usable};
@@ -108,7 +108,8 @@ fn make(
         let other = texture_of(other, resolved)?;
         texture.range = other.range.clone();
         texture.planes = other.planes;
-        texture.encoding = other.encoding.clone();
+        // Texels that are made of another map's are rounded to all sides.
+        texture.encoding = other.encoding.clone().map(MapEncoding::rounded_again);
         texture.deviation = added(other.deviation, rule.deviation);
         texture.width = added(other.width, rule.width);
     }

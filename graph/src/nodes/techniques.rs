@@ -41,15 +41,19 @@ fn constants(specialization: Specialization, technique: &Technique) -> Specializ
 
 /// How a fragment is shaded: the constants and the module `technique`, and what that imports.
 ///
-/// `blends` translucent casters were blended into the map over each other; a map that can have some is evaluated for them.
+/// `map` is how the map is encoded, none for the plain depth map: one that translucent casters were blended into, or whose texels
+/// are rounded inwards, is evaluated with the bias for that.
 pub(super) fn evaluation(
     specialization: Specialization,
     technique: &Technique,
-    blends: u32,
+    map: Option<&MapEncoding>,
 ) -> Specialization {
     let row = technique.row();
+    let blends = map.map_or(0, MapEncoding::blends);
+    let inwards = map.is_some_and(MapEncoding::is_rounded_inwards);
     let blended = row.blended_technique().filter(|_| blends > 0);
-    let map = if row.reads_depth() {
+    let rounded_inwards = row.rounded_inwards_technique().filter(|_| inwards);
+    let technique_map = if row.reads_depth() {
         include_str!("techniques/map_depth.wgsl")
     } else {
         include_str!("techniques/map_filterable.wgsl")
@@ -60,8 +64,13 @@ pub(super) fn evaluation(
         None => specialization,
     };
     specialization
-        .module("technique", blended.unwrap_or_else(|| row.technique()))
-        .module("technique_map", map)
+        .module(
+            "technique",
+            blended
+                .or(rounded_inwards)
+                .unwrap_or_else(|| row.technique()),
+        )
+        .module("technique_map", technique_map)
         .module("technique_layers", layers(technique, false))
 }
 

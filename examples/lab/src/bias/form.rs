@@ -44,6 +44,21 @@ pub struct Form<const M: usize = 4> {
 }
 
 impl<const M: usize> Form<M> {
+    /// The step of the bias for texels that a blur that resolves rounds inwards; none for other forms.
+    pub(super) fn inward_bias(&self) -> Option<f64> {
+        let is_rounded_inwards = matches!(self.storage, Storage::Unorm16 | Storage::Float16)
+            && self.condition == Condition::Line
+            && self.name == self.storage.name()
+            && M == 4;
+        let bias = self.storage.moment_bias_rounded_inwards();
+        is_rounded_inwards.then(|| f64::from(bias.alpha))
+    }
+
+    /// Moments that are moved towards the target by a step.
+    pub(super) fn biased(&self, b: &[f64; M], step: f64) -> [f64; M] {
+        core::array::from_fn(|index| b[index] + step * (self.target[index] - b[index]))
+    }
+
     /// The largest error of one rounding of a channel: a float is within one half in a basis, and within 1 otherwise, but
     /// for half precision.
     pub(super) fn error(&self) -> f64 {

@@ -8,6 +8,8 @@
 mod casters;
 mod definite;
 mod form;
+mod inwards;
+mod packed;
 mod patch;
 mod pipeline;
 mod scaling;

@@ -3,6 +3,8 @@
 
 use super::casters::Caster;
 use super::form::{Form, rounded};
+use super::inwards::rounded_inwards;
+use super::packed::packed;
 use super::patch::{Patch, SIDE};
 use crate::basis::powers;
 
@@ -52,6 +54,27 @@ pub(super) fn two_roundings<const M: usize>(
     weights: &[f32; SIDE],
 ) -> [f64; M] {
     filtered(form, weights, |index| form.texel(patch[index]))
+}
+
+/// The filtered moments, rounded inwards, after rows were stored as packed texels of four moments: as a blur gives them that resolves.
+/// None for a form without a basis.
+pub(super) fn inwards<const M: usize>(
+    form: &Form<M>,
+    patch: &Patch,
+    weights: &[f32; SIDE],
+    alpha: f64,
+) -> Option<[f64; M]> {
+    let texel = |index: usize| {
+        let z = patch[index];
+        [z, z * z, z * z * z, z * z * (z * z)]
+    };
+    let column: [[f32; 4]; SIDE] = core::array::from_fn(|row| {
+        let texels = core::array::from_fn(|tap| texel(SIDE * row + tap));
+        packed(blend(&texels, weights))
+    });
+    let mean = blend(&column, weights);
+    let moments = core::array::from_fn(|index| f64::from(mean[index]));
+    rounded_inwards(form, alpha, &moments)
 }
 
 /// The moments of filtered texels: every row and the column are rounded.

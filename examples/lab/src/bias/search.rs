@@ -79,6 +79,8 @@ pub struct BiasRow {
     pub one_rounding: Quantiles,
     /// Both passes of a blur that resolves, each rounded; without translucent casters, which it cannot have.
     pub two_roundings: Quantiles,
+    /// Rounded inwards after both passes of a blur that resolves and packs texels in between; none for forms that are not rounded so.
+    pub inwards: Option<Quantiles>,
     /// Resolve, every blend and both passes of a blur, each rounded.
     pub three_roundings: Quantiles,
     /// K: alpha per error of a channel, to first order, for the worst moments and the worst errors.
@@ -89,6 +91,8 @@ pub struct BiasRow {
     pub recommended: f64,
     /// What the library applies.
     pub library: Option<f64>,
+    /// What the library applies to maps that are rounded inwards: three times what all texels need, since filters and evaluation round, too.
+    pub library_inwards: Option<f64>,
 }
 
 /// All rows of a search.
@@ -179,43 +183,50 @@ pub fn measure<const M: usize>(
         ));
     }
     let weights = pipeline::weights();
+    let inward_bias = form.inward_bias();
     let repair = Repair::new(form.interval, form.condition, form.target);
-    let alphas: Vec<[f64; 3]> = (0..samples.div_ceil(PER_STREAM))
+    let alphas: Vec<[f64; 4]> = (0..samples.div_ceil(PER_STREAM))
         .into_par_iter()
         .flat_map_iter(|stream| {
             let mut random = ChaCha8Rng::seed_from_u64(seed);
             random.set_stream(stream as u64);
             let count = PER_STREAM.min(samples - stream * PER_STREAM);
-            let alphas: Vec<[f64; 3]> = (0..count)
+            let alphas: Vec<[f64; 4]> = (0..count)
                 .map(|_| {
                     let patch = patch::patch(&mut random);
                     // Without casters no random number is drawn, and patches are those of every search.
                     let casters = casters(&mut random, blends as usize);
+                    let inwards =
+                        inward_bias.map(|alpha| pipeline::inwards(form, &patch, &weights, alpha));
+                    let alpha = |moments| repair.smallest_alpha(moments);
                     [
-                        pipeline::one_rounding(form, &patch, &weights),
-                        pipeline::two_roundings(form, &patch, &weights),
-                        pipeline::three_roundings(form, &patch, &casters, &weights),
+                        alpha(pipeline::one_rounding(form, &patch, &weights)),
+                        alpha(pipeline::two_roundings(form, &patch, &weights)),
+                        alpha(pipeline::three_roundings(form, &patch, &casters, &weights)),
+                        inwards.map_or(0.0, |moments| moments.map_or(f64::INFINITY, alpha)),
                     ]
-                    .map(|moments| repair.smallest_alpha(moments))
                 })
                 .collect();
             step();
             alphas
         })
         .collect();
-    let [one_rounding, two_roundings, three_roundings] =
-        [0, 1, 2].map(|stage| quantiles(alphas.iter().map(|alpha| alpha[stage]).collect()));
+    let [one_rounding, two_roundings, three_roundings, inwards] =
+        [0, 1, 2, 3].map(|stage| quantiles(alphas.iter().map(|alpha| alpha[stage]).collect()));
+    let inwards = inward_bias.map(|_| inwards);
     let error_factor = scaling::error_factor(form);
     Ok(BiasRow {
         form: form.name.clone(),
         target: form.target.to_vec(),
         one_rounding,
         two_roundings,
+        inwards,
         three_roundings,
         error_factor,
         bound: error_factor * form.error(),
         recommended: round_up(three_roundings.most),
         library: None,
+        library_inwards: inward_bias,
     })
 }
 
@@ -254,7 +265,7 @@ impl fmt::Display for BiasTable {
         writeln!(
             f,
             "Smallest moment bias alpha for {technique}: {} patches of 9 x 9 texels, seed {}\n\
-             one: exact filtered moments rounded once; two: a two-pass Gaussian that resolves, each pass rounded; three: resolve{} and a two-pass Gaussian of deviation 2.4, each rounded\n",
+             one: exact filtered moments rounded once; inwards: a two-pass Gaussian that resolves, packed texels in between, rounded inwards; two: a two-pass Gaussian that resolves, each pass rounded; three: resolve{} and a two-pass Gaussian of deviation 2.4, each rounded\n",
             self.samples,
             self.seed,
             match self.blends {
@@ -264,9 +275,12 @@ impl fmt::Display for BiasTable {
         )?;
         writeln!(
             f,
-            "| form | b* | one 99.999 % | one 100 % | two 99.999 % | two 100 % | three 99.999 % | three 100 % | K | K error | recommended | library |"
+            "| form | b* | one 99.999 % | one 100 % | inwards 99.999 % | inwards 100 % | two 99.999 % | two 100 % | three 99.999 % | three 100 % | K | K error | recommended | library | inwards: library |"
         )?;
-        writeln!(f, "|---|---|---|---|---|---|---|---|---|---|---|---|")?;
+        writeln!(
+            f,
+            "|---|---|---|---|---|---|---|---|---|---|---|---|---|---|---|"
+        )?;
         for row in &self.rows {
             let target: Vec<String> = row
                 .target
@@ -274,7 +288,17 @@ impl fmt::Display for BiasTable {
                 .map(|moment| format!("{moment:.4}"))
                 .collect();
             write!(f, "| {} | {} |", row.form, target.join(" "))?;
-            for quantiles in [row.one_rounding, row.two_roundings, row.three_roundings] {
+            let all = [
+                Some(row.one_rounding),
+                row.inwards,
+                Some(row.two_roundings),
+                Some(row.three_roundings),
+            ];
+            for quantiles in all {
+                let Some(quantiles) = quantiles else {
+                    write!(f, " - | - |")?;
+                    continue;
+                };
                 for alpha in [quantiles.most, quantiles.all] {
                     if alpha.is_finite() {
                         write!(f, " {alpha:.3e} |")?;
@@ -289,10 +313,13 @@ impl fmt::Display for BiasTable {
                 " {:.3} | {:.3e} | {:.1e} |",
                 row.error_factor, row.bound, row.recommended
             )?;
-            match row.library {
-                Some(alpha) => writeln!(f, " {alpha:.1e} |")?,
-                None => writeln!(f, " - |")?,
+            for alpha in [row.library, row.library_inwards] {
+                match alpha {
+                    Some(alpha) => write!(f, " {alpha:.1e} |")?,
+                    None => write!(f, " - |")?,
+                }
             }
+            writeln!(f)?;
         }
         Ok(())
     }

@@ -113,7 +113,7 @@ pub(super) fn of_four_moments(four: &MapEncoding) -> Result<Vec<Variant>, ValueE
             .regions(4)
             .row(unorm16, row(4) + ", 4 regions", &[4]),
         resolved_blur(four, 4)
-            .file(format!("blur_resolved_{storage}"), usize::from(unorm16))
+            .file(format!("blur_resolved_{storage}"), 2 * usize::from(unorm16))
             .row(unorm16, format!("{storage}, radius 4, 4 samples"), &[]),
         resolved_blur(four, 12).row(unorm16, format!("{storage}, radius 12, 4 samples"), &[]),
         // The weights are parameters: one text for every radius.

@@ -89,6 +89,11 @@ pub(super) fn of_four_moments(four: &MapEncoding) -> Result<Vec<Variant>, LabErr
     let blended = four.clone().with_blends(16)?;
     let name = format!("shade_hard_{storage}_blended");
     all.push(Variant::new(ShadeHard::default(), &blended).file(name, unorm16));
+    // A map whose texels are rounded inwards.
+    if let Ok(inwards) = four.clone().rounded_inwards() {
+        let name = format!("shade_hard_{storage}_rounded_inwards");
+        all.push(Variant::new(ShadeHard::default(), &inwards).file(name, unorm16));
+    }
     all.extend(soft(four)?);
     Ok(all)
 }

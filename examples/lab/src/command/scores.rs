@@ -26,6 +26,9 @@ pub struct Options {
     /// The constant receiver bias that ours is compared with, in widths of a texel. By default what ours is on a slope of 45 degrees.
     #[arg(long, value_name = "TEXELS", value_parser = not_negative)]
     constant_bias: Option<f64>,
+    /// A graph of hard shadows in place of `examples/hard_shadows.json`, of which technique, storage and radius are varied.
+    #[arg(long, value_name = "FILE")]
+    graph: Option<PathBuf>,
     /// What else is varied.
     #[command(flatten)]
     varied: Varied,
@@ -53,6 +56,7 @@ impl Options {
         let bar = progress::bar(steps as u64, "scoring");
         let scores = Scores {
             trade,
+            graph: self.graph,
             constant: self.constant_bias,
             step: STEP,
         };

@@ -1,6 +1,6 @@
 //! A graph whose every connection is an output, so that what each node takes and gives can be read and compared.
 
-use moment_shadows::{DepthConversion, MapEncoding, Storage, Technique};
+use moment_shadows::{DepthConversion, Kernel, MapEncoding, Storage, Technique};
 use moment_shadows_graph::Named;
 use moment_shadows_graph::nodes::{Blur, BlurKernel};
 
@@ -66,6 +66,9 @@ impl OpenedGraph {
     pub(super) fn difference(&self, gpu: &Gpu, frame: &Frame, node: &str) -> Checked {
         match self.file.node_entry(node, "type").as_str() {
             Some("resolve") => self.of_resolve(gpu, frame, node),
+            Some("blur") if self.source(node, "map").is_empty() => {
+                self.of_resolved_blur(gpu, frame, node)
+            }
             Some("blur") => self.of_blur(gpu, node),
             Some("downsample") => self.of_downsample(gpu, node),
             Some("shade_hard") => self.of_shade(gpu, frame, node),
@@ -96,12 +99,7 @@ impl OpenedGraph {
         let (Some(source), Some(found)) = (source, found) else {
             return Ok(None);
         };
-        let properties = self.file.node_entry(node, "properties");
-        let Ok(Blur {
-            kernel: Ok(BlurKernel::Texels(kernel)),
-            ..
-        }) = serde_json::from_value(properties)
-        else {
+        let Some(kernel) = self.kernel(node) else {
             return Ok(None);
         };
         let reference = reference::blur(&source.channels, source.size, &kernel);
@@ -109,6 +107,31 @@ impl OpenedGraph {
             &reference,
             reference::blur_tolerance(found.storage, &kernel),
         )
+    }
+
+    /// A blur that resolves the light's depth by itself.
+    fn of_resolved_blur(&self, gpu: &Gpu, frame: &Frame, node: &str) -> Checked {
+        let found = self.level(gpu, &self.held(node, "blurred"), 0)?;
+        let found = found.filter(|_| self.source(node, "depth") == LIGHT_DEPTH);
+        let (Some(kernel), Some(found)) = (self.kernel(node), found) else {
+            return Ok(None);
+        };
+        let depth = read_depth_samples(gpu, &frame.light_map.texture)?;
+        let conversion = DepthConversion::orthographic();
+        let resolved = reference::resolve(&depth, &conversion, found.storage);
+        let reference = reference::blur(&resolved, found.size, &kernel);
+        let tolerance = reference::resolved_blur_tolerance(found.storage, &kernel, depth.samples);
+        found.difference(&reference, tolerance)
+    }
+
+    /// The kernel of a blur, if it has one in texels.
+    fn kernel(&self, node: &str) -> Option<Kernel> {
+        let properties = self.file.node_entry(node, "properties");
+        let blur: Blur = serde_json::from_value(properties).ok()?;
+        match blur.kernel {
+            Ok(BlurKernel::Texels(kernel)) => Some(kernel),
+            _ => None,
+        }
     }
 
     /// Each mip level against the one before it, as that is stored.
@@ -151,7 +174,8 @@ impl OpenedGraph {
         shading::difference(gpu, frame, &self.file, intensity, encoding)
     }
 
-    /// A mip level of an output that holds four moments; the other techniques are judged by what is shaded with them.
+    /// A mip level of an output that holds four moments channel by channel; the other techniques, and packed texels, are judged by what is
+    /// shaded with them.
     fn level(&self, gpu: &Gpu, output: &str, level: u32) -> Result<Option<Level>, LabError> {
         let Self { frame, .. } = self;
         let desc = frame.plan.output_texture(output);
@@ -161,7 +185,7 @@ impl OpenedGraph {
         let four = desc
             .encoding
             .as_ref()
-            .filter(|encoding| encoding.table().is_none());
+            .filter(|encoding| encoding.table().is_none() && !encoding.storage().is_packed());
         let Some(storage) = four.filter(holds_four_moments).map(MapEncoding::storage) else {
             return Ok(None);
         };

@@ -62,6 +62,22 @@ pub fn resolve_tolerance(storage: Storage, samples: u32) -> f64 {
     tolerance(storage, 1, samples as usize + 32)
 }
 
+/// The largest error of a blur that resolves. Where texels are rounded inwards, rows have been packed: their depths are off by up to 2 / 65535, and
+/// channels of a depth change by up to 8 times as much; the fourth moment by what half a step does to a root below 0.71, which is four times in a
+/// channel. Moments may then be moved by less than four times the bias, which a channel has at most once, and be rounded by a step.
+#[must_use]
+pub fn resolved_blur_tolerance(storage: Storage, kernel: &Kernel, samples: u32) -> f64 {
+    let inwards = match storage {
+        Storage::Unorm16 | Storage::Float16 => {
+            let packed = 8.0 * 2.0 / 65535.0 + 4.0 * 4.0 * 0.71_f64.powi(3) * 0.5 / 65535.0;
+            packed + 4.0 * f64::from(storage.moment_bias_rounded_inwards().alpha)
+        }
+        _ => 0.0,
+    };
+    let operations = kernel.weights().len() + samples as usize + 32;
+    tolerance(storage, 2, operations) + inwards
+}
+
 /// How far channels are from those of the reference.
 #[must_use]
 pub fn difference(output: &[[f64; 4]], reference: &[[f64; 4]], tolerance: f64) -> Difference {

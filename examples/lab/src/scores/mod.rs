@@ -15,7 +15,7 @@ mod judge;
 mod report;
 mod sheet;
 
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
 use moment_shadows::{Storage, Technique};
 use serde::Serialize;
@@ -57,6 +57,8 @@ pub struct Biases<T> {
 pub struct Scores {
     /// Scenes, views and combinations.
     pub trade: Trade,
+    /// The graph file; none for that of the trade.
+    pub graph: Option<PathBuf>,
     /// The constant bias in widths of a texel; none for what ours is on a slope of 45 degrees.
     pub constant: Option<f64>,
     /// By how many texels a light's map slides from frame to frame.
@@ -81,7 +83,10 @@ impl Scores {
     /// Scores everything; with a folder, writes `scores.json` and a picture for each score into it. `done` is called after each
     /// combination on a scene.
     pub fn run(&self, folder: Option<&Path>, mut done: impl FnMut()) -> Result<Report, LabError> {
-        let file = Trade::graph()?;
+        let file = match &self.graph {
+            Some(path) => GraphFile::read(path, None)?,
+            None => Trade::graph()?,
+        };
         let axes = &self.trade.axes;
         let gpu = Gpu::open(self.trade.profile)?;
         let setting = self.trade.setting(&gpu)?;

@@ -20,9 +20,11 @@ use crate::{
 /// Outputs per invocation where weights are literals.
 const OUTPUTS_LITERAL: u32 = 8;
 
-/// Outputs per invocation along x and along y where a depth map is resolved: along x each texel that is encoded serves as many as
-/// possible, and invocations remain enough.
-const OUTPUTS_RESOLVED: [u32; 2] = [32, 16];
+/// Outputs per invocation along x where a depth map is resolved: each texel that is encoded serves many, but code has to stay in an
+/// instruction cache, and registers few. On navi21 (`moment-shadows-lab isa`, radius 4, then 12) 8, 16 and 32 keep its arithmetic busy for 306, 258
+/// and 234 cycles (558, 416, 345), with 64, 88 and 96 registers (64, 104, 168) in 13, 21 and 38 KB of code (23, 33, 54). Along y, where 8, 16
+/// and 32 take 269, 257 and 252 (380, 344, 327) in 15, 28 and 55 KB, they are those of literals.
+const OUTPUTS_RESOLVED: u32 = 16;
 
 /// Outputs per invocation where weights are uniform.
 const OUTPUTS_UNIFORM: u32 = 16;
@@ -41,7 +43,9 @@ const WORKGROUP_UNROLLED_Y: [u32; 2] = [64, 1];
 /// Node `blur`: `map` to `blurred`, of the same format, size, layers and regions. Two passes, along x and along
 /// y, for each plane; beyond the edge of a region its last texel repeats. Maps stored as `unorm10` are drawn, others are written by
 /// compute shaders. With `resolve` it takes a depth map in place of `map`, with the inputs and parameters of [`Resolve`], and the pass along x
-/// resolves it: one pass and one rounding less than both nodes.
+/// resolves it: one pass and one rounding less than both nodes. A map for `hamburger4` as `unorm16` or `float16` is then filtered without
+/// rounding in between (as packed texels, in as many bits), and its texels are rounded inwards, to valid moments, so that the bias is a
+/// quarter or less: nodes that read it know. Not so with room for mip levels, whose texels are averages that are rounded again.
 #[derive(Clone, Debug, PartialEq, Deserialize)]
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[serde(deny_unknown_fields)]
@@ -112,7 +116,9 @@ impl Node for Blur {
             !self.per_frame && width.is_none() && kernel.radius() <= LARGEST_UNROLLED_RADIUS;
         let source = match &self.resolve {
             None => Source::map(upstream)?,
-            Some(resolve) => Source::resolved(resolve, upstream, is_literal)?,
+            Some(resolve) => {
+                Source::resolved(resolve, upstream, is_literal, self.mip_levels != Some(1))?
+            }
         };
         let (map, encoding) = (source.desc, &source.encoding);
         check_fits(kernel, map).map_err(|error| error.at_slot(source.slot))?;
@@ -128,7 +134,7 @@ impl Node for Blur {
         let planes = encoding.planes();
         let names = (0..planes).map(|plane| half_blurred(plane, planes));
         let halves = names.map(|name| {
-            let half = TextureRule::new(encoding.format()).like(source.slot);
+            let half = TextureRule::new(source.half.format()).like(source.slot);
             Slot::internal(&name, "A plane, filtered along x.", half)
         });
         let passes = regions::of_each_plane(planes, vec![along(0)?, along(1)?]);
@@ -191,7 +197,7 @@ fn pass(
         ("blur along x", "vec2i(1, 0)", source.slot, HALF_BLURRED),
         ("blur along y", "vec2i(0, 1)", HALF_BLURRED, "blurred"),
     ][axis];
-    let encoding = &source.encoding;
+    let encoding = [&source.half, &source.encoding][axis];
     let resolved = source.depth().filter(|_| axis == 0);
     let label = resolved.map_or(label, |_| "resolve and blur along x");
     let workgroup = if is_literal && axis == 1 {
@@ -200,20 +206,14 @@ fn pass(
         WORKGROUP
     };
     let weights = kernel.weights();
-    let (outputs, many, one) = match source.depth() {
-        _ if !is_literal => {
-            let many = include_str!("blur_outputs_uniform.wgsl").to_owned();
-            let one = include_str!("blur_texel_uniform.wgsl").to_owned();
-            (OUTPUTS_UNIFORM, many, one)
-        }
-        depth => {
-            let outputs = match depth {
-                Some(_) => OUTPUTS_RESOLVED[axis],
-                None => OUTPUTS_LITERAL,
-            };
-            let many = unrolled::outputs(weights, outputs / 8);
-            (outputs, many, unrolled::texel(weights))
-        }
+    let (outputs, many, one) = if is_literal {
+        let outputs = resolved.map_or(OUTPUTS_LITERAL, |_| OUTPUTS_RESOLVED);
+        let many = unrolled::outputs(weights, outputs / 8);
+        (outputs, many, unrolled::texel(weights))
+    } else {
+        let many = include_str!("blur_outputs_uniform.wgsl").to_owned();
+        let one = include_str!("blur_texel_uniform.wgsl").to_owned();
+        (OUTPUTS_UNIFORM, many, one)
     };
     let shader = if encoding.storage().is_drawn() {
         regions::shader(encoding)
@@ -228,7 +228,11 @@ fn pass(
         None => (
             techniques::of_map(upstream.capabilities(), encoding)
                 .unsigned("REGIONS", source.desc.regions),
-            include_str!("blur_source.wgsl"),
+            if source.repacks() {
+                include_str!("blur_source_packed.wgsl")
+            } else {
+                include_str!("blur_source.wgsl")
+            },
         ),
     };
     let wgsl = specialization

@@ -1,6 +1,6 @@
 //! What a blur filters: a map, or a depth map that it resolves.
 
-use moment_shadows::MapEncoding;
+use moment_shadows::{MapEncoding, Storage, Technique};
 
 use super::LARGEST_UNROLLED_RADIUS;
 use crate::nodes::resolve::Resolved;
@@ -18,6 +18,8 @@ pub(super) struct Source<'a> {
     pub(super) desc: &'a TextureDesc,
     /// How the map is encoded.
     pub(super) encoding: MapEncoding,
+    /// How the map between the passes is encoded.
+    pub(super) half: MapEncoding,
     /// All inputs.
     pub(super) inputs: Vec<Slot>,
     /// The map that is made.
@@ -29,10 +31,12 @@ impl<'a> Source<'a> {
     /// A map.
     pub(super) fn map(upstream: &Connected<'a>) -> Result<Self, GraphError> {
         let (desc, encoding) = map_input::connected(upstream, "map")?;
+        let encoding = encoding.rounded_again();
         let rule = map_input::rule(map_input::all_formats());
         Ok(Self {
             slot: "map",
             desc,
+            half: encoding.clone(),
             encoding,
             inputs: vec![Slot::input("map", "The map to filter.", rule)],
             made: TextureRule::new(Rule::same_as("map")).like("map"),
@@ -40,11 +44,12 @@ impl<'a> Source<'a> {
         })
     }
 
-    /// A depth map, by a kernel whose weights are literals.
+    /// A depth map, by a kernel whose weights are literals, with mip levels or without.
     pub(super) fn resolved(
         resolve: &Resolve,
         upstream: &Connected<'a>,
         is_literal: bool,
+        has_mip_levels: bool,
     ) -> Result<Self, GraphError> {
         let refused = |message: &str| {
             Err(wrong_property(format!(
@@ -67,7 +72,11 @@ impl<'a> Source<'a> {
                  parameters;"
             ));
         }
-        let resolved = resolve.resolved(upstream)?;
+        let mut resolved = resolve.resolved(upstream, |encoding| half(encoding, has_mip_levels))?;
+        if resolved.written != resolved.encoding {
+            let inwards = resolved.encoding.rounded_inwards();
+            resolved.encoding = inwards.map_err(wrong_property)?;
+        }
         let encoding = resolved.encoding.clone();
         if encoding.storage().is_drawn() {
             return refused(&format!(
@@ -78,6 +87,7 @@ impl<'a> Source<'a> {
         Ok(Self {
             slot: "depth",
             desc: resolved.depth,
+            half: resolved.written.clone(),
             encoding,
             inputs: resolved.inputs().collect(),
             made: resolved.map(),
@@ -88,6 +98,11 @@ impl<'a> Source<'a> {
     /// The depth map that the first direction resolves, if it does.
     pub(super) fn depth(&self) -> Option<&Resolved<'a>> {
         self.resolved.as_ref()
+    }
+
+    /// Whether the second direction reads packed texels and writes others.
+    pub(super) fn repacks(&self) -> bool {
+        self.half.storage() != self.encoding.storage()
     }
 
     /// A pass that is told which plane it encodes, where it resolves and the encoding asks.
@@ -113,4 +128,13 @@ impl<'a> Source<'a> {
     pub(super) fn conversions(&self) -> Option<ParameterBlock> {
         self.resolved.as_ref().map(Resolved::conversions)
     }
+}
+
+/// How the map between the passes is encoded: as packed texels, where these are almost exact in as many bits, so that those of the map can be
+/// rounded inwards; otherwise as the map. Texels of further mip levels would be rounded to all sides again.
+fn half(encoding: &MapEncoding, has_mip_levels: bool) -> MapEncoding {
+    let inwards = encoding.clone().rounded_inwards().ok();
+    let packed = MapEncoding::new(Technique::Hamburger4, Storage::Packed64).ok();
+    let packed = packed.filter(|_| inwards.is_some() && !has_mip_levels);
+    packed.unwrap_or_else(|| encoding.clone())
 }

@@ -1,6 +1,6 @@
 import node::fullscreen::{Covered};
-import moment_shadows::moments::four_moments::{four_moments_apply_bias, four_moments_bias_of, four_moments_from_texel};
-import node::specialization::{GROUP, SHOW, STORAGE};
+import moment_shadows::moments::four_moments::{FourMomentsBias, four_moments_apply_bias, four_moments_bias_of, four_moments_bias_rounded_inwards_of, four_moments_from_texel};
+import node::specialization::{GROUP, ROUNDED_INWARDS, SHOW, STORAGE};
 
 // A map of moments as a picture, for the day on which a shadow is black or missing.
 
@@ -31,6 +31,13 @@ fn possible(b: vec4f) -> bool {
     return variance >= 0.0 && variance * (b.w - b.y * b.y) >= covariance * covariance;
 }
 
+fn moment_bias() -> FourMomentsBias {
+    if ROUNDED_INWARDS {
+        return four_moments_bias_rounded_inwards_of(STORAGE);
+    }
+    return four_moments_bias_of(STORAGE);
+}
+
 fn validity(b: vec4f) -> vec4f {
     // The far end alone: nothing was drawn here, or nothing was resolved.
     if all(abs(b - 1.0) < vec4f(2e-3)) {
@@ -40,7 +47,7 @@ fn validity(b: vec4f) -> vec4f {
         return POSSIBLE;
     }
     // Rounding to the storage makes moments of few surfaces impossible; that is what the moment bias is for.
-    return select(IMPOSSIBLE, REPAIRED, possible(four_moments_apply_bias(b, four_moments_bias_of(STORAGE))));
+    return select(IMPOSSIBLE, REPAIRED, possible(four_moments_apply_bias(b, moment_bias())));
 }
 
 @fragment

@@ -48,6 +48,7 @@ impl Node for DebugMoments {
         }
         let wgsl = Specialization::new(upstream.capabilities())
             .unsigned("STORAGE", encoding.storage().wgsl_index())
+            .constant("ROUNDED_INWARDS", encoding.is_rounded_inwards())
             .unsigned("SHOW", self.show as u32)
             .link(wgsl!("debug_moments.wgsl"))?;
         let pass = Pass::fullscreen("debug", "picture")

@@ -90,7 +90,7 @@ impl Resolve {
 
 impl Node for Resolve {
     fn describe(&self, upstream: &Connected<'_>) -> Result<NodeDesc, GraphError> {
-        let resolved = self.resolved(upstream)?;
+        let resolved = self.resolved(upstream, MapEncoding::clone)?;
         let mips = mip_levels::count(self.mip_levels, resolved.depth.size)?;
         let encoding = &resolved.encoding;
         let wgsl = resolved

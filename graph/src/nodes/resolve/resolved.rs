@@ -11,6 +11,8 @@ use crate::{Binding, Connected, GraphError, ParameterBlock, Slot, TextureDesc, T
 pub(in crate::nodes) struct Resolved<'a> {
     pub(in crate::nodes) depth: &'a TextureDesc,
     pub(in crate::nodes) encoding: MapEncoding,
+    /// How what the shader writes is encoded.
+    pub(in crate::nodes) written: MapEncoding,
     /// The module `resolved` and what it imports.
     pub(in crate::nodes) specialization: Specialization,
     inputs: Vec<Slot>,
@@ -18,17 +20,19 @@ pub(in crate::nodes) struct Resolved<'a> {
 }
 
 impl Resolve {
-    /// The depth map that is connected to the node, as this says.
+    /// The depth map that is connected to the node, as this says, for a shader that writes texels as `written` gives it for a map.
     pub(in crate::nodes) fn resolved<'a>(
         &self,
         upstream: &Connected<'a>,
+        written: impl FnOnce(&MapEncoding) -> MapEncoding,
     ) -> Result<Resolved<'a>, GraphError> {
         let depth = upstream.texture("depth")?;
         let encoding = self
             .encoding(upstream.capabilities())
             .map_err(wrong_property)?;
         let technique = encoding.technique();
-        let specialization = techniques::of_map(upstream.capabilities(), &encoding);
+        let written = written(&encoding);
+        let specialization = techniques::of_map(upstream.capabilities(), &written);
         let (specialization, ranges, ranges_binding) =
             range_input::of_maker(specialization, upstream, depth)?;
         if ranges_binding.is_some() && technique.row().places_layers {
@@ -49,6 +53,7 @@ impl Resolve {
         Ok(Resolved {
             depth,
             encoding,
+            written,
             specialization,
             inputs: splits.into_iter().chain([ranges]).collect(),
             bindings: own

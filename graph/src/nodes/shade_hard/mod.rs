@@ -140,7 +140,7 @@ impl ShadeHard {
             let map = Binding::new("depth_map", bind::layers("depth"));
             return Ok(Evaluation {
                 technique: technique.clone(),
-                specialization: techniques::evaluation(specialization, technique, 0),
+                specialization: techniques::evaluation(specialization, technique, None),
                 slot: "depth",
                 formats: depth_input::FORMATS.to_vec(),
                 bindings: [Some(map), sampler].into_iter().flatten().collect(),
@@ -157,8 +157,15 @@ impl ShadeHard {
             );
             return Err(wrong_format(message).at_slot("map"));
         }
+        if encoding.is_rounded_inwards() && technique.row().rounded_inwards_technique().is_none() {
+            let message = format!(
+                "the blur that resolves makes the map for '{made_for}', whose moments are then valid for that alone; '{technique}' cannot read it: \
+                 give that blur the technique '{technique}', or put a node 'resolve' and a blur of its map in its place"
+            );
+            return Err(wrong_format(message).at_slot("map"));
+        }
         let specialization = specialization.unsigned("STORAGE", encoding.storage().wgsl_index());
-        let specialization = techniques::evaluation(specialization, &technique, encoding.blends());
+        let specialization = techniques::evaluation(specialization, &technique, Some(&encoding));
         let (specialization, sampler) =
             moments_lookup(specialization, capabilities, &encoding, map.mips, probes);
         let map = Binding::new("moments_map", bind::layers("map"));

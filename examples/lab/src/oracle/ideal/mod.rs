@@ -7,7 +7,7 @@ mod moments;
 mod series;
 mod surfaces;
 
-use moment_shadows::{LayerSplits, Storage, Technique};
+use moment_shadows::{LayerSplits, MapEncoding, Storage, Technique};
 use series::FourierSeries;
 use surfaces::Surfaces;
 
@@ -127,6 +127,18 @@ impl Ideal {
             }
         };
         Some(Self { bound, added })
+    }
+
+    /// The same with the bias of a map that is encoded so.
+    #[must_use]
+    pub fn of_map(technique: &Technique, encoding: &MapEncoding) -> Option<Self> {
+        let ideal = Self::of(technique, Some(encoding.storage()))?;
+        if !encoding.is_rounded_inwards() {
+            return Some(ideal);
+        }
+        let bias = encoding.storage().moment_bias_rounded_inwards();
+        let added = target(bias.alpha.into(), [bias.second, bias.fourth].map(f64::from));
+        Some(Self { added, ..ideal })
     }
 
     /// The shadow intensity at a fragment for surfaces at `depths` with `weights`.
