@@ -178,15 +178,15 @@ fn a_storage_beyond_the_core_is_refused_there() {
 }
 
 /// A variant's name without what its text does not depend on: row and column prefixes are sums of `u32` whatever the map
-/// stores, and so is what the first pass of a blur packs that resolves for both storages whose texels are rounded inwards.
+/// stores, and so is what the first pass of a blur packs that rounds inwards.
 fn distinct(name: &str) -> String {
     // Along y a blur that resolves reads a map as others do, unless that is packed.
-    let name = name.replace(
-        "blur_resolved_float32_y",
-        "blur_unrolled_radius_4_float32_y",
-    );
+    let name = match name.strip_prefix("blur_resolved_") {
+        Some(rest) if rest.ends_with("_y") => format!("blur_unrolled_radius_4_{rest}"),
+        _ => name.to_owned(),
+    };
     let prefixes = name.ends_with("_rows") || name.ends_with("_columns");
-    let packs = name.starts_with("blur_resolved") && name.ends_with("16_x");
+    let packs = name.starts_with("blur_inwards") && name.ends_with("_x");
     if !(name.starts_with("summed_area_table") && prefixes || packs) {
         return name;
     }

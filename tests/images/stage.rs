@@ -30,7 +30,7 @@ pub(crate) struct StageDesc {
     pub(crate) samples: u32,
     pub(crate) format: wgpu::TextureFormat,
     pub(crate) reversed: bool,
-    /// Whether the blur resolves by itself.
+    /// Whether the blur resolves by itself and rounds inwards.
     pub(crate) blur_resolves: bool,
 }
 
@@ -100,6 +100,7 @@ fn resolved_by_the_blur(text: &str) -> String {
     let mut file: serde_json::Value = serde_json::from_str(text).unwrap();
     let resolve = file["nodes"].as_array_mut().unwrap().remove(0);
     file["nodes"][0]["properties"]["resolve"] = resolve["properties"].clone();
+    file["nodes"][0]["properties"]["rounded_inwards"] = true.into();
     let edges = file["edges"].as_array_mut().unwrap();
     edges.remove(1);
     edges[0]["to"] = "blur.depth".into();

@@ -253,6 +253,7 @@ fn per_frame_blur() -> NodeDesc {
         kernel: Kernel::gaussian(4, 2.4).map(Into::into),
         per_frame: true,
         resolve: None,
+        rounded_inwards: false,
         mip_levels: Some(1),
     })
 }

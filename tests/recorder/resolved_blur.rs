@@ -3,8 +3,8 @@
 use moment_shadows::{
     DepthConversion, Kernel, MapEncoding, Profile, Storage, Technique, TextureFormat,
 };
-use moment_shadows_graph::TextureDesc;
 use moment_shadows_graph::record::ImportedResource;
+use moment_shadows_graph::{Graph, ResourceDesc, TextureDesc};
 use moment_shadows_lab::gpu::Gpu;
 use moment_shadows_lab::techniques;
 use serde_json::{Value, json};
@@ -25,11 +25,21 @@ fn weights(radius: u32) -> Vec<f64> {
     raw.iter().map(|weight| weight / sum).collect()
 }
 
-/// The filtered map of a depth map, by a blur that resolves or by both nodes; the node that resolves is named `resolve`.
-fn graph(resolve: &Value, radius: u32, fused: bool) -> String {
+/// What makes a filtered map of a depth map.
+#[derive(Clone, Copy, PartialEq)]
+enum By {
+    BothNodes,
+    Blur,
+    /// A blur that resolves and rounds inwards.
+    BlurInwards,
+}
+
+/// The filtered map of a depth map; the node that resolves is named `resolve`.
+fn graph(resolve: &Value, radius: u32, by: By) -> String {
     let kernel = json!({ "weights": weights(radius) });
-    let (nodes, edges, from) = if fused {
-        let blur = json!({ "kernel": kernel, "resolve": resolve });
+    let (nodes, edges, from) = if by != By::BothNodes {
+        let inwards = by == By::BlurInwards;
+        let blur = json!({ "kernel": kernel, "resolve": resolve, "rounded_inwards": inwards });
         let nodes = json!([{ "name": "resolve", "type": "blur", "properties": blur }]);
         (nodes, vec![], "resolve.blurred")
     } else {
@@ -128,8 +138,8 @@ fn it_gives_what_both_nodes_give() {
         .filter(|it| !it.storage().is_packed());
     for (encoding, radius) in computed.zip([4, 12, 1, 5].into_iter().cycle()) {
         let resolve = json!({ "technique": encoding.technique(), "storage": encoding.storage() });
-        let made = [true, false].map(|fused| {
-            let bound = bound(&gpu, &graph(&resolve, radius, fused));
+        let made = [By::Blur, By::BothNodes].map(|by| {
+            let bound = bound(&gpu, &graph(&resolve, radius, by));
             channels(&gpu, &bound, &encoding)
         });
         let largest = made[1].iter().fold(0.0, |all: f64, it| all.max(it.abs()));
@@ -145,17 +155,9 @@ fn it_gives_what_both_nodes_give() {
             .zip(&made[1])
             .map(|(one, other)| (one - other).abs());
         let difference = difference.fold(0.0, f64::max);
-        // Where texels are rounded inwards, rows are packed in between (see below), and moments moved by up to four times the bias.
-        let inwards = match encoding.clone().rounded_inwards() {
-            Ok(_) => {
-                let bias = encoding.storage().moment_bias_rounded_inwards();
-                8.0 * 2.0 / 65535.0 + 4.0 * f64::from(bias.alpha)
-            }
-            Err(_) => 0.0,
-        };
         assert!(
-            difference <= 5.0 * rounding * (1.0 + 1e-6) + inwards,
-            "{encoding}, radius {radius}: {difference} is more than 5 roundings of {rounding} and {inwards}"
+            difference <= 5.0 * rounding * (1.0 + 1e-6),
+            "{encoding}, radius {radius}: {difference} is more than 5 roundings of {rounding}"
         );
         assert!(largest > 0.0, "{encoding}: nothing was made");
     }
@@ -167,15 +169,15 @@ fn it_gives_what_both_nodes_give() {
 fn moments_are_those_of_a_filter_in_f64() {
     let gpu = gpu();
     let packed = 8.0 * 2.0 / 65535.0 + 1.6e-5;
-    for (technique, storage, tolerance) in [
-        (Technique::Hamburger4, Storage::Float32, 2e-6),
-        (Technique::Hausdorff4, Storage::Unorm16, 1.6e-5),
-        (Technique::Hamburger4, Storage::Unorm16, packed),
+    for (by, storage, tolerance) in [
+        (By::Blur, Storage::Float32, 2e-6),
+        (By::Blur, Storage::Unorm16, 1.6e-5),
+        (By::BlurInwards, Storage::Unorm16, packed),
     ] {
         for radius in [1_u32, 4, 12] {
-            let resolve = json!({ "technique": technique, "storage": storage });
-            let bound = bound(&gpu, &graph(&resolve, radius, true));
-            let encoding = MapEncoding::new(technique.clone(), storage).unwrap();
+            let resolve = json!({ "storage": storage });
+            let bound = bound(&gpu, &graph(&resolve, radius, by));
+            let encoding = MapEncoding::new(Technique::default(), storage).unwrap();
             let found = channels(&gpu, &bound, &encoding);
             let expected = filtered(radius, storage);
             for (index, (found, expected)) in found.iter().zip(&expected).enumerate() {
@@ -274,8 +276,8 @@ fn texels_are_possible_moments() {
     let alpha = 0.5 * f64::from(storage.moment_bias_rounded_inwards().alpha);
     for radius in [1_u32, 4, 12] {
         let resolve = json!({ "storage": storage });
-        let impossible = [true, false].map(|fused| {
-            let bound = bound_of(&gpu, &graph(&resolve, radius, fused), &still_depths());
+        let impossible = [By::BlurInwards, By::BothNodes].map(|by| {
+            let bound = bound_of(&gpu, &graph(&resolve, radius, by), &still_depths());
             let map = channels(&gpu, &bound, &encoding);
             let texels = map.chunks_exact(4);
             texels.filter(|texel| !is_possible(texel, alpha)).count()
@@ -286,7 +288,7 @@ fn texels_are_possible_moments() {
     }
 }
 
-/// What reads the map knows that its bias is smaller; a blur of it, mip levels, and another technique do not.
+/// What reads the map knows that its bias is smaller; a blur of it does not leave it so.
 #[test]
 fn the_plan_says_how_texels_were_rounded() {
     let gpu = gpu();
@@ -300,28 +302,52 @@ fn the_plan_says_how_texels_were_rounded() {
         map.encoding.as_ref().unwrap().is_rounded_inwards()
     };
     let unorm16 = json!({ "storage": "unorm16" });
-    assert!(inwards(&graph(&unorm16, 4, true)));
-    assert!(inwards(&graph(&json!({ "storage": "float16" }), 4, true)));
-    assert!(!inwards(&graph(&unorm16, 4, false)));
-    assert!(!inwards(&graph(&json!({ "storage": "float32" }), 4, true)));
-    let hausdorff = json!({ "technique": "hausdorff4", "storage": "unorm16" });
-    assert!(!inwards(&graph(&hausdorff, 4, true)));
-    let edit = |change: &dyn Fn(&mut Value)| {
-        let mut file: Value = serde_json::from_str(&graph(&unorm16, 4, true)).unwrap();
-        change(&mut file);
-        file.to_string()
+    let float16 = json!({ "storage": "float16" });
+    assert!(inwards(&graph(&unorm16, 4, By::BlurInwards)));
+    assert!(inwards(&graph(&float16, 4, By::BlurInwards)));
+    assert!(!inwards(&graph(&unorm16, 4, By::Blur)));
+    assert!(!inwards(&graph(&unorm16, 4, By::BothNodes)));
+    let text = graph(&unorm16, 4, By::BlurInwards);
+    let mut file: Value = serde_json::from_str(&text).unwrap();
+    let blur =
+        json!({ "name": "again", "type": "blur", "properties": { "kernel": { "radius": 1 } } });
+    file["nodes"].as_array_mut().unwrap().push(blur);
+    let edge = json!({ "from": "resolve.blurred", "to": "again.map" });
+    file["edges"].as_array_mut().unwrap().push(edge);
+    file["outputs"][0]["from"] = json!("again.blurred");
+    assert!(!inwards(&file.to_string()));
+}
+
+#[test]
+fn rounding_inwards_where_it_cannot_be_is_refused() {
+    let gpu = gpu();
+    let refused = |text: &str| {
+        let graph: Graph = text.parse().unwrap();
+        let desc = TextureDesc {
+            samples: SAMPLES,
+            ..TextureDesc::new(TextureFormat::Depth32Float, SIZE)
+        };
+        let error = graph.compile(
+            &capabilities(&gpu),
+            &[("depth", ResourceDesc::Texture(desc))],
+        );
+        error.unwrap_err().to_string()
     };
-    assert!(!inwards(&edit(&|file| {
-        file["nodes"][0]["properties"]["mip_levels"] = json!(2);
-    })));
-    assert!(!inwards(&edit(&|file| {
-        let blur =
-            json!({ "name": "again", "type": "blur", "properties": { "kernel": { "radius": 1 } } });
-        file["nodes"].as_array_mut().unwrap().push(blur);
-        let edge = json!({ "from": "resolve.blurred", "to": "again.map" });
-        file["edges"].as_array_mut().unwrap().push(edge);
-        file["outputs"][0]["from"] = json!("again.blurred");
-    })));
+    let hausdorff = json!({ "technique": "hausdorff4", "storage": "unorm16" });
+    for resolve in [hausdorff, json!({ "storage": "float32" })] {
+        let says = refused(&graph(&resolve, 4, By::BlurInwards));
+        assert!(says.contains("maps for 'hamburger4'"), "{says}");
+    }
+    let text = graph(&json!({ "storage": "unorm16" }), 4, By::BlurInwards);
+    let mut file: Value = serde_json::from_str(&text).unwrap();
+    file["nodes"][0]["properties"]["mip_levels"] = json!(2);
+    let says = refused(&file.to_string());
+    assert!(says.contains("leaves no room for 'mip_levels'"), "{says}");
+    let text = graph(&json!({ "storage": "unorm16" }), 4, By::BothNodes);
+    let mut file: Value = serde_json::from_str(&text).unwrap();
+    file["nodes"][1]["properties"]["rounded_inwards"] = json!(true);
+    let says = refused(&file.to_string());
+    assert!(says.contains("is for a blur with 'resolve'"), "{says}");
 }
 
 /// 16 bytes of samples, and 8 written, read and written again.
@@ -329,12 +355,14 @@ fn the_plan_says_how_texels_were_rounded() {
 fn it_moves_40_bytes_per_texel() {
     let gpu = gpu();
     let resolve = json!({ "storage": "unorm16" });
-    let plan = bound(&gpu, &graph(&resolve, 4, true)).plan;
-    let bytes: Vec<u64> = plan
-        .passes
-        .iter()
-        // Some more are conversions and regions.
-        .map(|pass| (pass.bytes_read + pass.bytes_written) / u64::from(SIZE[0] * SIZE[1]))
-        .collect();
-    assert_eq!(bytes, [24, 16]);
+    for by in [By::Blur, By::BlurInwards] {
+        let plan = bound(&gpu, &graph(&resolve, 4, by)).plan;
+        let bytes: Vec<u64> = plan
+            .passes
+            .iter()
+            // Some more are conversions and regions.
+            .map(|pass| (pass.bytes_read + pass.bytes_written) / u64::from(SIZE[0] * SIZE[1]))
+            .collect();
+        assert_eq!(bytes, [24, 16]);
+    }
 }

@@ -174,6 +174,7 @@ fn parameters_that_only_the_host_knows_are_refused() {
         kernel: Kernel::gaussian(4, 2.4).map(Into::into),
         per_frame: false,
         resolve: None,
+        rounded_inwards: false,
         mip_levels: Some(1),
     }));
     let (adapter, device) = (&gpu.adapter, &gpu.device);

@@ -49,6 +49,7 @@ impl GraphFile {
                 let Self { text, graph, .. } = file.edited(|file| {
                     for node in items(file, "nodes").filter(|node| technique::resolves(node)) {
                         technique::told_how_to_resolve(node)["storage"] = storage.name().into();
+                        technique::round_as_can_be(node);
                     }
                 })?;
                 // Edges and outputs keep their places in the file.

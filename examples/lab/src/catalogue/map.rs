@@ -28,13 +28,14 @@ fn blur(map: &MapEncoding, radius: u32, per_frame: bool) -> Variant {
         kernel: Kernel::gaussian(radius, 0.6 * radius as f32).map(Into::into),
         per_frame,
         resolve: None,
+        rounded_inwards: false,
         mip_levels: Some(1),
     };
     Variant::new(node, map)
 }
 
 /// A blur of four samples per texel that resolves by itself.
-fn resolved_blur(map: &MapEncoding, radius: u32) -> Variant {
+fn resolved_blur(map: &MapEncoding, radius: u32, rounded_inwards: bool) -> Variant {
     let node = Blur {
         kernel: Kernel::gaussian(radius, 0.6 * radius as f32).map(Into::into),
         per_frame: false,
@@ -45,6 +46,7 @@ fn resolved_blur(map: &MapEncoding, radius: u32) -> Variant {
             bits: None,
             mip_levels: Some(1),
         }),
+        rounded_inwards,
         mip_levels: Some(1),
     };
     Variant::new(node, map).samples(4)
@@ -57,6 +59,7 @@ fn in_scene(map: &MapEncoding) -> Variant {
         kernel: Ok(BlurKernel::Scene { width, radius: 12 }),
         per_frame: false,
         resolve: None,
+        rounded_inwards: false,
         mip_levels: Some(1),
     };
     Variant::new(node, map)
@@ -112,10 +115,14 @@ pub(super) fn of_four_moments(four: &MapEncoding) -> Result<Vec<Variant>, ValueE
         blur(four, 4, false)
             .regions(4)
             .row(unorm16, row(4) + ", 4 regions", &[4]),
-        resolved_blur(four, 4)
-            .file(format!("blur_resolved_{storage}"), 2 * usize::from(unorm16))
+        resolved_blur(four, 4, false)
+            .file(format!("blur_resolved_{storage}"), unorm16)
             .row(unorm16, format!("{storage}, radius 4, 4 samples"), &[]),
-        resolved_blur(four, 12).row(unorm16, format!("{storage}, radius 12, 4 samples"), &[]),
+        resolved_blur(four, 12, false).row(
+            unorm16,
+            format!("{storage}, radius 12, 4 samples"),
+            &[],
+        ),
         // The weights are parameters: one text for every radius.
         blurred("uniform", 1, true, 1, unorm16),
         blurred("uniform", 1, true, REGIONS, false),
@@ -132,6 +139,18 @@ pub(super) fn of_four_moments(four: &MapEncoding) -> Result<Vec<Variant>, ValueE
                 &[4, 3],
             ),
     ]);
+    // No other storages are rounded inwards.
+    if four.clone().rounded_inwards().is_ok() {
+        let name = format!("blur_inwards_{storage}");
+        let row = |radius| format!("{storage}, radius {radius}, 4 samples, inwards");
+        let kept = 2 * usize::from(unorm16);
+        all.extend([
+            resolved_blur(four, 4, true)
+                .file(name, kept)
+                .row(unorm16, row(4), &[]),
+            resolved_blur(four, 12, true).row(unorm16, row(12), &[]),
+        ]);
+    }
     let name = format!("downsample_{storage}");
     let smaller = downsample(four).file(&name, unorm16);
     all.push(smaller.row(true, storage.to_string(), &[]));

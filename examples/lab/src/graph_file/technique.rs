@@ -59,6 +59,7 @@ impl GraphFile {
                     if let Some(storage) = storage {
                         properties["storage"] = json!(storage);
                     }
+                    round_as_can_be(node);
                 }
             }
             let mut added = Vec::new();
@@ -210,6 +211,23 @@ fn name(node: &Value) -> String {
 /// Whether a node resolves a depth map: a node `resolve`, or a blur that does so by itself.
 pub(super) fn resolves(node: &Value) -> bool {
     node["type"] == "resolve" || !node["properties"]["resolve"].is_null()
+}
+
+/// Leaves out that a blur rounds texels inwards, where it cannot for what it is told to resolve for.
+pub(super) fn round_as_can_be(node: &mut Value) {
+    let resolve: Option<Resolve> =
+        serde_json::from_value(node["properties"]["resolve"].clone()).ok();
+    let can = resolve.is_some_and(|resolve| {
+        let technique = resolve.technique.unwrap_or_default();
+        let mut storages = resolve.storage.into_iter();
+        storages.all(|storage| {
+            let encoding = MapEncoding::new(technique.clone(), storage);
+            encoding.and_then(MapEncoding::rounded_inwards).is_ok()
+        })
+    });
+    if !can {
+        remove_property(node, "rounded_inwards");
+    }
 }
 
 /// What a node is told that resolves.

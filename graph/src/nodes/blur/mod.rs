@@ -43,9 +43,7 @@ const WORKGROUP_UNROLLED_Y: [u32; 2] = [64, 1];
 /// Node `blur`: `map` to `blurred`, of the same format, size, layers and regions. Two passes, along x and along
 /// y, for each plane; beyond the edge of a region its last texel repeats. Maps stored as `unorm10` are drawn, others are written by
 /// compute shaders. With `resolve` it takes a depth map in place of `map`, with the inputs and parameters of [`Resolve`], and the pass along x
-/// resolves it: one pass and one rounding less than both nodes. A map for `hamburger4` as `unorm16` or `float16` is then filtered without
-/// rounding in between (as packed texels, in as many bits), and its texels are rounded inwards, to valid moments, so that the bias is a
-/// quarter or less: nodes that read it know. Not so with room for mip levels, whose texels are averages that are rounded again.
+/// resolves it: one pass and one rounding less than both nodes.
 #[derive(Clone, Debug, PartialEq, Deserialize)]
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[serde(deny_unknown_fields)]
@@ -66,6 +64,11 @@ pub struct Blur {
     /// are drawn, and kernels whose weights are parameters.
     #[serde(default)]
     pub resolve: Option<Resolve>,
+    /// With `resolve`, for `hamburger4` as `unorm16` or `float16`: whether the map is filtered without rounding in between (as packed texels, in as
+    /// many bits), and its texels are rounded inwards, to valid moments, so that the bias is a quarter or less. Nodes that read it know. It
+    /// takes nearly three times the arithmetic, and leaves no room for mip levels, whose texels are averages that are rounded again.
+    #[serde(default)]
+    pub rounded_inwards: bool,
     /// Room for mip levels, which [`super::Downsample`] fills: a number, the map itself included, or `None` (in a file `"all"`)
     /// for as many as the shorter side of the map allows.
     #[serde(default = "mip_levels::one", deserialize_with = "mip_levels::read")]
@@ -115,10 +118,20 @@ impl Node for Blur {
         let is_literal =
             !self.per_frame && width.is_none() && kernel.radius() <= LARGEST_UNROLLED_RADIUS;
         let source = match &self.resolve {
-            None => Source::map(upstream)?,
-            Some(resolve) => {
-                Source::resolved(resolve, upstream, is_literal, self.mip_levels != Some(1))?
+            None if self.rounded_inwards => {
+                return Err(wrong_property(
+                    "'rounded_inwards' is for a blur with 'resolve': a map that is connected was rounded to all sides before; give this node \
+                     'resolve' in place of the node before it, or leave 'rounded_inwards' out",
+                ));
             }
+            None => Source::map(upstream)?,
+            Some(_) if self.rounded_inwards && self.mip_levels != Some(1) => {
+                return Err(wrong_property(
+                    "'rounded_inwards' leaves no room for 'mip_levels', whose texels are averages that are rounded to all sides; leave one of \
+                     them out",
+                ));
+            }
+            Some(resolve) => Source::resolved(resolve, upstream, is_literal, self.rounded_inwards)?,
         };
         let (map, encoding) = (source.desc, &source.encoding);
         check_fits(kernel, map).map_err(|error| error.at_slot(source.slot))?;

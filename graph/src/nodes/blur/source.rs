@@ -44,12 +44,12 @@ impl<'a> Source<'a> {
         })
     }
 
-    /// A depth map, by a kernel whose weights are literals, with mip levels or without.
+    /// A depth map, by a kernel whose weights are literals; texels are rounded inwards or to the nearest.
     pub(super) fn resolved(
         resolve: &Resolve,
         upstream: &Connected<'a>,
         is_literal: bool,
-        has_mip_levels: bool,
+        rounded_inwards: bool,
     ) -> Result<Self, GraphError> {
         let refused = |message: &str| {
             Err(wrong_property(format!(
@@ -72,8 +72,9 @@ impl<'a> Source<'a> {
                  parameters;"
             ));
         }
-        let mut resolved = resolve.resolved(upstream, |encoding| half(encoding, has_mip_levels))?;
-        if resolved.written != resolved.encoding {
+        let mut resolved =
+            resolve.resolved(upstream, |encoding| half(encoding, rounded_inwards))?;
+        if rounded_inwards {
             let inwards = resolved.encoding.rounded_inwards();
             resolved.encoding = inwards.map_err(wrong_property)?;
         }
@@ -130,11 +131,10 @@ impl<'a> Source<'a> {
     }
 }
 
-/// How the map between the passes is encoded: as packed texels, where these are almost exact in as many bits, so that those of the map can be
-/// rounded inwards; otherwise as the map. Texels of further mip levels would be rounded to all sides again.
-fn half(encoding: &MapEncoding, has_mip_levels: bool) -> MapEncoding {
-    let inwards = encoding.clone().rounded_inwards().ok();
+/// How the map between the passes is encoded: as packed texels, which are almost exact in as many bits, where those of the map are rounded
+/// inwards; otherwise as the map.
+fn half(encoding: &MapEncoding, rounded_inwards: bool) -> MapEncoding {
     let packed = MapEncoding::new(Technique::Hamburger4, Storage::Packed64).ok();
-    let packed = packed.filter(|_| inwards.is_some() && !has_mip_levels);
+    let packed = packed.filter(|_| rounded_inwards);
     packed.unwrap_or_else(|| encoding.clone())
 }
