@@ -113,7 +113,8 @@ pub(super) struct Made<'a> {
 }
 
 impl Pipelines {
-    /// The pipelines of a plan. May be called long before the first frame.
+    /// The pipelines of a plan. May be called long before the first frame. They are made on as many threads as there are processors, this one
+    /// included, but for browsers.
     pub async fn create(
         device: &wgpu::Device,
         plan: &Plan,
