@@ -158,9 +158,10 @@ impl Options {
             .arg(&path)
             .args(["--json", "--rounds", &rounds])
             .stderr(Stdio::null())
-            .output()
-            .map_err(|error| refused(error.to_string()))?;
+            .output();
+        // Whether it ran or not, nothing is left of what it was given.
         std::fs::remove_file(&path).map_err(|error| LabError::refused(error.to_string()))?;
+        let output = output.map_err(|error| refused(error.to_string()))?;
         let report: Value = serde_json::from_slice(&output.stdout).map_err(|error| {
             refused(format!(
                 "its report on {over} {value} cannot be read: {error}"
@@ -200,32 +201,34 @@ mod tests {
     use super::*;
 
     #[test]
-    fn a_program_that_is_no_lab_is_refused_by_name() {
+    fn a_program_that_is_no_lab_is_refused_by_name_and_leaves_nothing() {
         let file = GraphFile::parse(
             "graph",
             include_str!("../../../hard_shadows.json").to_owned(),
             None,
         )
         .unwrap();
+        let folder = tempfile::tempdir().unwrap();
         let options = Options {
             graph: PathBuf::new(),
-            out: std::env::temp_dir(),
+            out: folder.path().to_owned(),
             before: None,
             runs: 1,
             rounds: 9,
         };
-        let subject = Subject {
-            label: "before",
-            program: Path::new("/bin/echo"),
-            file: &file,
-        };
-        let refused = options
-            .time(&subject, "radius of the kernel", 2)
-            .unwrap_err()
-            .to_string();
-        assert!(
-            refused.contains("/bin/echo") && refused.contains("cost FILE --json"),
-            "{refused}"
-        );
+        for program in ["/bin/echo", "no/such/lab"] {
+            let subject = Subject {
+                label: "before",
+                program: Path::new(program),
+                file: &file,
+            };
+            let refused = options.time(&subject, "radius of the kernel", 2);
+            let refused = refused.unwrap_err().to_string();
+            assert!(
+                refused.contains(program) && refused.contains("cost FILE --json"),
+                "{refused}"
+            );
+            assert_eq!(std::fs::read_dir(folder.path()).unwrap().count(), 0);
+        }
     }
 }

@@ -21,7 +21,7 @@ use crate::{
 const OUTPUTS_LITERAL: u32 = 8;
 
 /// Outputs per invocation along x where a depth map is resolved: each texel that is encoded serves many, but code has to stay in an
-/// instruction cache, and registers few. On navi21 (`moment-shadows-lab isa`, radius 4, then 12) 8, 16 and 32 keep its arithmetic busy for 306, 258
+/// instruction cache, and registers few. On navi21 (`moment-shadows-lab isa`, inwards, radius 4, then 12) 8, 16 and 32 keep its arithmetic busy for 306, 258
 /// and 234 cycles (558, 416, 345), with 64, 88 and 96 registers (64, 104, 168) in 13, 21 and 38 KB of code (23, 33, 54). Along y, where 8, 16
 /// and 32 take 269, 257 and 252 (380, 344, 327) in 15, 28 and 55 KB, they are those of literals.
 const OUTPUTS_RESOLVED: u32 = 16;
