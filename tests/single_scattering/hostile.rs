@@ -6,7 +6,7 @@ use moment_shadows::{
 };
 use moment_shadows_graph::Capabilities;
 
-use crate::pictures::{PICTURE, Scene, graph_of};
+use crate::pictures::{PICTURE, Scene, graph_of, seen};
 use crate::stage::{Bound, bind, capabilities, gpu};
 
 /// Floats of a rectified frame.
@@ -25,6 +25,7 @@ const NUMBERS: [f32; 9] = [
     1e-40,
 ];
 
+/// On a software adapter without the view rays of the camera's depth, elsewhere with them.
 fn bound(gpu: &moment_shadows_lab::gpu::Gpu, scene: &Scene, software_adapter: bool) -> Bound {
     let capabilities = Capabilities {
         software_adapter,
@@ -32,10 +33,14 @@ fn bound(gpu: &moment_shadows_lab::gpu::Gpu, scene: &Scene, software_adapter: bo
     };
     let imports = scene.imports(gpu);
     let [map, camera_depth] = &imports;
+    let mut graph = graph_of([32, 24], "\"hamburger6\"", "float16");
+    if !software_adapter {
+        graph = seen(&graph);
+    }
     bind(
         gpu,
         &capabilities,
-        &graph_of([32, 24], "\"hamburger6\"", "float16"),
+        &graph,
         &[("map", map), ("camera_depth", camera_depth)],
         &[],
         &[],

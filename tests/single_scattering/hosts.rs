@@ -17,18 +17,18 @@ fn a_hosts_open_pass_is_dimmed_and_lit() {
     let sun = Sun::new(DVec3::new(0.5, -1.0, 0.3));
     let moments = sun.moments();
     let pair = camera(DVec3::new(1.0, 0.2, 0.1));
-    let kind = ["\"hamburger6\"", "float16"];
+    let graph = graph("\"hamburger6\"", "float16");
     let behind = [0.5, 0.25, 0.125, 0.75];
     for density in [0.0, 1.0] {
         let medium = medium(density);
-        let apart = picture(&gpu, &pair, &sun, medium, &moments, kind);
+        let apart = picture(&gpu, &pair, &sun, medium, &moments, &graph);
         let encoding = MapEncoding::new(Technique::Hamburger4, Storage::Float32).unwrap();
         let map = upload(&gpu, &encoding, [MAP; 2], &moments);
         let parameters =
             ScatteringParameters::new(&camera_view(&pair), FAR, &sun.view(), medium).unwrap();
         let blended = draw_over(
             &gpu,
-            &graph(kind[0], kind[1]),
+            &graph,
             &[("map", &map), ("camera_depth", &sky(&gpu, PICTURE))],
             &[
                 ("rectify", bytes_of(&parameters.rectify)),
@@ -78,8 +78,8 @@ fn a_map_without_casters_and_a_camera_outside_of_it_are_lit() {
                 far: None,
             };
             let pair = pair(eye, looking(forward, 0.2), lens, FAR, DVec3::NEG_Y);
-            let kind = ["\"hamburger6\"", "float32"];
-            let found = picture(&gpu, &pair, &sun, medium, moments, kind);
+            let graph = graph("\"hamburger6\"", "float32");
+            let found = picture(&gpu, &pair, &sun, medium, moments, &graph);
             let truth = truth(&pair, &sun, &medium);
             for (found, truth) in found.iter().zip(&truth) {
                 for colour in 0..3 {

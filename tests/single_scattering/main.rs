@@ -18,4 +18,5 @@ mod pictures;
 mod stage;
 mod sums;
 mod two_diracs;
+mod view_rays;
 mod weights;

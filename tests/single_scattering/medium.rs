@@ -134,25 +134,25 @@ fn batch(input: vec4f) -> f32 {
 }
 
 #[test]
-fn view_rays_are_compared_a_little_nearer_to_the_light() {
+fn occluders_are_moved_a_little_away_from_the_light() {
     const SHADER: &str = "
-import moment_shadows::air::single_scattering::{SINGLE_SCATTERING_DEPTH_BIAS, single_scattering_fragment_depth};
+import moment_shadows::air::single_scattering::{SINGLE_SCATTERING_DEPTH_BIAS, single_scattering_occluder_depth};
 alias BatchInput = f32;
 alias BatchOutput = vec2f;
 fn batch(depth: f32) -> vec2f {
-    return vec2f(single_scattering_fragment_depth(depth), SINGLE_SCATTERING_DEPTH_BIAS);
+    return vec2f(single_scattering_occluder_depth(depth), SINGLE_SCATTERING_DEPTH_BIAS);
 }
 ";
     let gpu = Gpu::open(Profile::WebgpuCore).unwrap();
-    let batch = Batch::<f32, [f32; 2]>::new(&gpu, "fragment_depth.wgsl", SHADER).unwrap();
+    let batch = Batch::<f32, [f32; 2]>::new(&gpu, "occluder_depth.wgsl", SHADER).unwrap();
     let depths: Vec<f32> = (0..=64).map(|step| step as f32 / 32.0 - 1.0).collect();
     let found = batch.run(&depths).unwrap();
-    // Occluders in front of all view rays stay there.
-    assert_eq!(found[0][0], -1.0);
+    // Occluders in front of all view rays stay there, and those that shadow none, too.
+    assert_eq!([found[0][0], found[64][0]], [-1.0, 1.0]);
     for (depth, [moved, bias]) in depths.iter().zip(&found) {
         assert!((0.01..0.1).contains(bias));
-        let expected = depth - bias * (depth + 1.0);
-        assert!((moved - expected).abs() <= 1.2e-7, "{depth}: {moved}");
+        // In front of a view ray that is as much nearer to the light.
+        let expected = ((depth + bias) / (1.0 - bias)).min(1.0);
+        assert!((moved - expected).abs() <= 3e-7, "{depth}: {moved}");
     }
-    assert!(found.windows(2).all(|pair| pair[0][0] < pair[1][0]));
 }

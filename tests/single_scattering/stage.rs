@@ -107,6 +107,49 @@ pub(crate) fn sky(gpu: &Gpu, size: [u32; 2]) -> (TextureDesc, wgpu::Texture) {
     (desc, texture)
 }
 
+/// A camera's depth of 16 bits.
+pub(crate) fn depths(gpu: &Gpu, size: [u32; 2], stored: &[u16]) -> (TextureDesc, wgpu::Texture) {
+    let desc = TextureDesc::new(moment_shadows::TextureFormat::Depth16Unorm, size);
+    let format = wgpu::TextureFormat::Depth16Unorm;
+    let texture = upload_bytes(gpu, format, size, bytemuck::cast_slice(stored));
+    (desc, texture)
+}
+
+/// A texture of pairs of whole numbers.
+pub(crate) fn upload_words(
+    gpu: &Gpu,
+    size: [u32; 2],
+    bytes: &[u8],
+) -> (TextureDesc, wgpu::Texture) {
+    let desc = TextureDesc::new(moment_shadows::TextureFormat::Rg32Uint, size);
+    let texture = upload_bytes(gpu, wgpu::TextureFormat::Rg32Uint, size, bytes);
+    (desc, texture)
+}
+
+fn upload_bytes(
+    gpu: &Gpu,
+    format: wgpu::TextureFormat,
+    [width, height]: [u32; 2],
+    bytes: &[u8],
+) -> wgpu::Texture {
+    let descriptor = wgpu::TextureDescriptor {
+        label: Some("upload"),
+        size: wgpu::Extent3d {
+            width,
+            height,
+            depth_or_array_layers: 1,
+        },
+        mip_level_count: 1,
+        sample_count: 1,
+        dimension: wgpu::TextureDimension::D2,
+        format,
+        usage: wgpu::TextureUsages::TEXTURE_BINDING,
+        view_formats: &[],
+    };
+    let order = wgpu::util::TextureDataOrder::LayerMajor;
+    (gpu.device).create_texture_with_data(&gpu.queue, &descriptor, order, bytes)
+}
+
 /// A plan with all that recording it needs.
 pub(crate) struct Bound {
     plan: Plan,

@@ -11,13 +11,25 @@ use rand::{RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
 
 use crate::cameras::{Lens, looking, pair};
-use crate::stage::{capabilities, gpu, run, upload};
+use crate::stage::{capabilities, gpu, run, upload, upload_words};
 
 const GRAPH: &str = r#"{
   "version": 2,
   "imports": [{ "name": "map" }],
   "nodes": [{ "name": "integrate", "type": "integrate_scattering" }],
   "edges": [{ "from": "map", "to": "integrate.rectified" }],
+  "outputs": [{ "name": "integrated", "from": "integrate.integrated" }]
+}"#;
+
+/// With the view rays that end in each texel.
+const SEEN: &str = r#"{
+  "version": 2,
+  "imports": [{ "name": "map" }, { "name": "view_rays" }],
+  "nodes": [{ "name": "integrate", "type": "integrate_scattering" }],
+  "edges": [
+    { "from": "map", "to": "integrate.rectified" },
+    { "from": "view_rays", "to": "integrate.view_rays" }
+  ],
   "outputs": [{ "name": "integrated", "from": "integrate.integrated" }]
 }"#;
 
@@ -170,6 +182,89 @@ fn prefix_sums_are_exact_within_the_rounding_of_their_storage() {
                     "{encoding} {extinction} {software_adapter}: {largest}"
                 );
             }
+        }
+    }
+}
+
+#[test]
+fn sums_have_the_weights_of_the_view_rays_that_end_there() {
+    let gpu = gpu();
+    let frame = frame();
+    let mut random = ChaCha8Rng::seed_from_u64(65);
+    let native = capabilities(&gpu);
+    let encoding = MapEncoding::new(Technique::Hamburger4, Storage::Float32).unwrap();
+    let texels = (SIZE[0] * SIZE[1]) as usize;
+    let channels: Vec<[f32; 4]> = (0..texels)
+        .map(|_| [0; 4].map(|_| random.random_range(-0.5..0.5)))
+        .collect();
+    let map = upload(&gpu, &encoding, SIZE, &channels);
+    // Of one in five nothing is known.
+    let sines: Vec<f32> = (0..texels)
+        .map(|_| random.random_range(-0.25_f32..1.0).max(0.0))
+        .collect();
+    let words: Vec<u8> = (sines.iter())
+        .flat_map(|sine| [0xffff_0000, sine.to_bits()])
+        .flat_map(u32::to_le_bytes)
+        .collect();
+    let rays = upload_words(&gpu, SIZE, &words);
+    for extinction in [0.0, 0.003, 0.03, 30.0] {
+        let parameters = IntegrateScatteringParameters {
+            frame,
+            extinction,
+            padding: [0.0; 3],
+        };
+        let thicknesses = thicknesses(frame, extinction);
+        for software_adapter in [true, false] {
+            let capabilities = Capabilities {
+                software_adapter,
+                ..native.clone()
+            };
+            let layers = run(
+                &gpu,
+                &capabilities,
+                SEEN,
+                &[("map", &map), ("view_rays", &rays)],
+                &[("integrate", bytes_of(&parameters))],
+                "integrated",
+            );
+            let found = values(&layers[0], &encoding);
+            let mut largest = 0.0_f64;
+            let columns = SIZE[0] as usize;
+            for (row, texels) in channels.chunks(columns).enumerate() {
+                let thickness = thicknesses[row];
+                // Some columns: each is a sum of its own.
+                for column in (0..columns).step_by(37) {
+                    let sine = f64::from(sines[row * columns + column]);
+                    let end = column as f64 + 1.5;
+                    let own = f64::from(extinction) * f64::from(frame.largest_radius)
+                        / f64::from(SIZE[0])
+                        / sine;
+                    let tilt = if sine > 0.0 {
+                        ((own - thickness) * end).clamp(-2.0, 2.0)
+                    } else {
+                        0.0
+                    };
+                    let (mut sum, mut weight) = ([0.0; 4], 0.0);
+                    for (before, texel) in texels[..=column].iter().enumerate() {
+                        let line = 1.0 + tilt * (0.5 - (before as f64 + 0.5) / end);
+                        let of_column = line * (-thickness * before as f64).exp();
+                        weight += of_column;
+                        for channel in 0..4 {
+                            sum[channel] += of_column * f64::from(texel[channel]);
+                        }
+                    }
+                    for channel in 0..4 {
+                        let place = (row * columns + column) * 4 + channel;
+                        largest = largest.max((found[place] - sum[channel] / weight).abs());
+                    }
+                }
+            }
+            println!("extinction {extinction}, serial {software_adapter}: {largest:.1e}");
+            // The roundings of a thousand sums in f32, twice.
+            assert!(
+                largest <= 8e-6,
+                "{extinction} {software_adapter}: {largest}"
+            );
         }
     }
 }

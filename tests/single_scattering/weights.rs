@@ -134,3 +134,74 @@ fn the_mean_sine_has_the_stated_error_and_no_choice_is_much_better() {
         }
     }
 }
+
+/// What the module says of weights with a tilt, for the same thicknesses.
+const TILTED: [(f64, [f64; 4]); 4] = [
+    (1.2, [0.000, 0.000, 0.001, 0.004]),
+    (1.5, [0.000, 0.001, 0.003, 0.026]),
+    (2.0, [0.000, 0.001, 0.009, 0.118]),
+    (4.0, [0.000, 0.006, 0.036, 0.244]),
+];
+
+const TILT: &str = "
+import moment_shadows::air::rectified_frame::{RectifiedFrame};
+import moment_shadows::air::scattering_weights::{scattering_weights_tilt};
+struct BatchInput { thickness: f32, of_row: f32 }
+alias BatchOutput = f32;
+fn batch(input: BatchInput) -> BatchOutput {
+    var frame: RectifiedFrame;
+    frame.largest_radius = 3.0;
+    // The extinction that gives view rays of the sine 1/4 that thickness where they end, in the column after 5 of 12.
+    let extinction = input.thickness * 0.25 / (3.0 * 6.5 / 12.0);
+    return scattering_weights_tilt(frame, extinction, input.of_row / 6.5, 0.25, 5.0, 12.0);
+}
+";
+
+#[test]
+fn a_tilt_gives_view_rays_nearly_their_own_weights() {
+    let gpu = Gpu::open(Profile::WebgpuCore).unwrap();
+    let batch = Batch::<[f32; 2], f32>::new(&gpu, "tilt.wgsl", TILT).unwrap();
+    for (spread, stated) in TILTED {
+        for (thickness, stated) in [0.1, 1.0, 2.0, 5.0].into_iter().zip(stated) {
+            let reference = 0.5 * (1.0 + 1.0 / spread);
+            let of_row = (0..=20)
+                .map(|step| 1.0 / spread + (1.0 - 1.0 / spread) * f64::from(step) / 20.0)
+                .map(|sine| thickness * sine / reference);
+            let inputs: Vec<[f32; 2]> = of_row.map(|row| [thickness as f32, row as f32]).collect();
+            let mut worst = 0.0_f64;
+            for (input, tilt) in inputs.iter().zip(batch.run(&inputs).unwrap()) {
+                // Both cumulative, in steps of the way to the end.
+                const STEPS: usize = 4000;
+                let (mut own, mut tilted) = (vec![0.0], vec![0.0]);
+                for step in 0..STEPS {
+                    let at = (step as f64 + 0.5) / STEPS as f64;
+                    let line = 1.0 + f64::from(tilt) * (0.5 - at);
+                    own.push(own[step] + (-thickness * at).exp());
+                    tilted.push(tilted[step] + line * (-f64::from(input[1]) * at).exp());
+                }
+                let shares = own.iter().zip(&tilted);
+                let apart = shares.map(|(a, b)| (a / own[STEPS] - b / tilted[STEPS]).abs());
+                worst = apart.fold(worst, f64::max);
+            }
+            println!("sines 1:{spread}, thickness {thickness}: {worst:.4}");
+            assert!((worst - stated).abs() <= 6e-4, "{worst}, not {stated}");
+        }
+    }
+}
+
+#[test]
+fn a_tilt_is_a_number_within_its_limits() {
+    let gpu = Gpu::open(Profile::WebgpuCore).unwrap();
+    let batch = Batch::<[f32; 2], f32>::new(&gpu, "tilt.wgsl", TILT).unwrap();
+    let inputs = [
+        [1e38, 0.0],
+        [0.0, 1e38],
+        [1e38, 1e38],
+        [-1.0, 0.0],
+        [0.0, 0.0],
+    ];
+    let found = batch.run(&inputs).unwrap();
+    assert_eq!(found[..2], [2.0, -2.0]);
+    assert!((-2.0..=2.0).contains(&found[2]), "{found:?}");
+    assert_eq!(found[3..], [0.0, 0.0]);
+}

@@ -86,6 +86,12 @@ fn rectified_frame_depth(frame: RectifiedFrame, inclination: f32) -> f32 {
     return clamp(fma(2.0 / extent, frame.largest_inclination - inclination, -1.0), -1.0, 1.0);
 }
 
+// The inclination of a depth along the light in [-1, 1].
+fn rectified_frame_inclination(frame: RectifiedFrame, depth: f32) -> f32 {
+    let extent = frame.largest_inclination - frame.smallest_inclination;
+    return fma(-0.5 * extent, depth + 1.0, frame.largest_inclination);
+}
+
 // The direction of a pixel at a place in normalised device coordinates.
 fn rectified_frame_direction(frame: RectifiedFrame, device: vec2f) -> vec3f {
     return fma(vec3f(device.x), frame.along_x, fma(vec3f(device.y), frame.along_y, frame.along_middle));

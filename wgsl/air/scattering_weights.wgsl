@@ -72,3 +72,24 @@ fn scattering_weights_thickness(frame: RectifiedFrame, azimuth: f32, extinction:
 fn scattering_weights_of_column(thickness: f32, column: f32) -> f32 {
     return exp(-min(thickness * column, 1e4));
 }
+
+// A view ray's own weights differ from those of its row by the factor exp(-tilt u), where u grows from 0 at the camera to 1 at its
+// end. A line stands for that factor: 1 + tilt (1/2 - u), whose integral and first moment are the same up to the tilt's
+// square. For tilts in [-2, 2] it is nowhere negative, so that sums with it are moments still; larger ones count as those. With
+// it rows need the sums of texels and of texels times their columns, and every place of a row has the weights of the view rays that
+// end there. The largest errors of the table above become
+//
+//              thickness 0.1     1       2       5
+//   sines 1:1.2     0.000   0.000   0.001   0.004
+//         1:1.5     0.000   0.001   0.003   0.026
+//         1:2       0.000   0.001   0.009   0.118
+//         1:4       0.000   0.006   0.036   0.244
+
+// The tilt of view rays that end in the column after `column`, and whose inclination has this sine; 0 if it is not known, which a
+// sine of 0 says. In [-2, 2]. `thickness` is that of the row's columns.
+fn scattering_weights_tilt(frame: RectifiedFrame, extinction: f32, thickness: f32, sine: f32, column: f32, columns: f32) -> f32 {
+    let own = max(extinction, 0.0) * (frame.largest_radius / columns) / max(sine, 1e-6);
+    // Finite, so that the difference is a number.
+    let tilt = (min(own, 1e30) - min(thickness, 1e30)) * (column + 1.5);
+    return select(clamp(tilt, -2.0, 2.0), 0.0, sine <= 0.0);
+}

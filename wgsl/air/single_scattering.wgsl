@@ -78,16 +78,16 @@ fn single_scattering_pixel(ray: SingleScatteringRay) -> vec4f {
     return select(vec4f(lit, saturate(pixel.w)), vec4f(0.0, 0.0, 0.0, 1.0), impossible);
 }
 
-// The part of its distance from the near end of the range by which a view ray is moved there before it is compared with
-// occluders.
+// How far occluders are moved away from the light before view rays are compared with them, as a part of what then lies in front.
 const SINGLE_SCATTERING_DEPTH_BIAS: f32 = 0.05;
 
-// The rectified depth in [-1, 1] at which a view ray is compared. A lit surface at which the ray ends is an occluder just
-// behind it, ever nearer towards the ray's end. Moments cannot tell it from an occluder just before the ray, so the air above
-// lit ground would be too dark. Occluders at -1 stay in front of all view rays. The bias is fitted: with a larger one light
-// leaks behind casters near the ray; without any, 16 steps of marching are better where little of what is seen is in shadow.
-fn single_scattering_fragment_depth(depth: f32) -> f32 {
-    return fma(1.0 - SINGLE_SCATTERING_DEPTH_BIAS, depth, -SINGLE_SCATTERING_DEPTH_BIAS);
+// The rectified depth in [-1, 1] of an occluder where it is not known which view rays pass it. A lit surface at which a view ray ends is
+// an occluder just behind it, ever nearer towards the ray's end. Moments cannot tell it from an occluder just before the ray, so
+// the air above lit ground would be too dark. Occluders at -1 stay in front of all view rays. The bias is fitted: with a larger one
+// light leaks behind casters near the ray; without any, 16 steps of marching are better where little of what is seen is in
+// shadow. The module `view_rays` needs none.
+fn single_scattering_occluder_depth(depth: f32) -> f32 {
+    return min(fma(1.0 / (1.0 - SINGLE_SCATTERING_DEPTH_BIAS), depth + 1.0, -1.0), 1.0);
 }
 
 // The shadow to show, between its bounds (x <= y): overestimation that adapts to the direction. Where a view ray runs with

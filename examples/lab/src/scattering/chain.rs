@@ -54,6 +54,13 @@ fn graph(links: &[(&str, Value, [&str; 2])]) -> Result<GraphFile, LabError> {
     let mut nodes = Vec::new();
     let last = links.last().map_or("", |(node, ..)| *node);
     let mut edges = vec![json!({ "from": "camera_depth", "to": format!("{last}.camera_depth") })];
+    let of_view_rays = [
+        json!({ "from": "camera_depth", "to": "rectify_moments.camera_depth" }),
+        json!({ "from": "rectify_moments.view_rays", "to": "integrate_scattering.view_rays" }),
+    ];
+    if links.iter().any(|(node, ..)| *node == "rectify_moments") {
+        edges.extend(of_view_rays);
+    }
     let mut from = "light_depth".to_owned();
     for (node, properties, [input, output]) in links {
         nodes.push(json!({ "name": node, "type": node, "properties": properties }));

@@ -113,6 +113,10 @@ impl Node for CompositeScattering {
                 "OVERESTIMATION",
                 format_args!("vec2f({towards:?}, {away:?})"),
             )
+            .module(
+                "scattering_ray",
+                include_str!("../shared/scattering_ray.wgsl"),
+            )
             .module("scattering_bounds", bounds);
         let (specialization, sampler) =
             moments_lookup(specialization, capabilities, &encoding, 1, 1);

@@ -1,26 +1,18 @@
 import node::integrate_target::{integrated_map, rectified_map, row_thickness};
 import node::map_filtering::{filtering_texel};
-import moment_shadows::air::scattering_weights::{scattering_weights_of_column};
+import node::row_sums::{RowSums, row_sums_join, row_sums_mean, row_sums_texel};
 
-// Normalised prefix sums along rows, on a software adapter: a row per invocation, without shared memory. Means are f32 and are
+// Normalised prefix sums along rows, on a software adapter: a row per invocation, without shared memory. Sums are f32 and are
 // rounded once, to the storage.
 
 const LINES = 64u;
 
-// The mean of the texels up to a column, and the sum of their weights.
-struct IntegrateSum {
-    mean: vec4f,
-    weight: f32,
-}
-
 // Goes on by a column. Beyond the end of the row nothing is stored.
-fn integrate_column(before: IntegrateSum, column: u32, row: u32, thickness: f32) -> IntegrateSum {
-    let of_column = scattering_weights_of_column(thickness, f32(column));
-    let weight = before.weight + of_column;
-    let texel = textureLoad(rectified_map, vec2u(column, row), 0);
-    let mean = fma(vec4f(of_column / weight), texel - before.mean, before.mean);
-    textureStore(integrated_map, vec2u(column, row), filtering_texel(mean));
-    return IntegrateSum(mean, weight);
+fn integrate_column(before: RowSums, column: u32, row: u32, thickness: f32) -> RowSums {
+    let place = vec2u(column, row);
+    let sums = row_sums_join(before, row_sums_texel(textureLoad(rectified_map, place, 0), f32(column), thickness));
+    textureStore(integrated_map, place, filtering_texel(row_sums_mean(sums, place, thickness)));
+    return sums;
 }
 
 @compute @workgroup_size(LINES)
@@ -31,12 +23,12 @@ fn integrate(@builtin(local_invocation_id) local: vec3u, @builtin(workgroup_id) 
         return;
     }
     let thickness = row_thickness(row);
-    var sum = IntegrateSum(vec4f(0.0), 0.0);
+    var sums = RowSums();
     // Four by four: what a loop costs is much of what a column does.
     for (var column = 0u; column < size.x; column += 4u) {
-        sum = integrate_column(sum, column, row, thickness);
-        sum = integrate_column(sum, column + 1u, row, thickness);
-        sum = integrate_column(sum, column + 2u, row, thickness);
-        sum = integrate_column(sum, column + 3u, row, thickness);
+        sums = integrate_column(sums, column, row, thickness);
+        sums = integrate_column(sums, column + 1u, row, thickness);
+        sums = integrate_column(sums, column + 2u, row, thickness);
+        sums = integrate_column(sums, column + 3u, row, thickness);
     }
 }

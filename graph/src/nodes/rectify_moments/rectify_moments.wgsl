@@ -1,10 +1,12 @@
 import moment_shadows::maths::angle::{angle_atan2, angle_sin_cos};
-import moment_shadows::map::map_region::{MapRegion, map_region_within};
+import moment_shadows::map::map_region::{map_region_within};
 import moment_shadows::moments::four_moments::{four_moments_from_texel};
 import node::moments_lookup::{moments_lookup, moments_map};
-import moment_shadows::air::rectified_frame::{RectifiedFrame, rectified_frame_depth, rectified_frame_ray};
+import moment_shadows::air::rectified_frame::{rectified_frame_depth, rectified_frame_ray};
+import node::occluders::{occluders_of};
 import node::rectified_texel::{rectified_map, rectified_store};
-import node::specialization::{GROUP, SOURCE_STORAGE};
+import node::rectify_parameters::{parameters};
+import node::specialization::{SOURCE_STORAGE};
 import moment_shadows::map::storage::{storage_finite_texel};
 import moment_shadows::maths::two_diracs::{two_diracs_of_moments};
 
@@ -13,23 +15,6 @@ import moment_shadows::maths::two_diracs::{two_diracs_of_moments};
 // Depth along the light is not linear in the depth of the light's map, so moments cannot be converted; the two depths that stand
 // for a texel can (Peters et al., JCGT 6(1) 2017, section 7). Every texel is looked up in the light's map, so there are no
 // holes, whatever the directions of camera and light.
-
-struct RectifyMomentsParameters {
-    frame: RectifiedFrame,
-    // Where the light ray through the camera meets the light's map, from 0 to 1 across the region, and by how much that
-    // changes along the frame's first and second axis per scene unit.
-    map_at_camera: vec2f,
-    map_along_first: vec2f,
-    map_along_second: vec2f,
-    // The light's moment depth at the camera, and by how much it grows along the light per scene unit.
-    depth_at_camera: f32,
-    depth_per_length: f32,
-    // Where the light's view lies in its map.
-    region: MapRegion,
-    layer: u32,
-}
-
-@group(GROUP) @binding(0) var<uniform> parameters: RectifyMomentsParameters;
 
 // From here on depths of the light's map are its far end, where there are no casters: those of filtered texels spread by
 // what a storage's rounding leaves of them.
@@ -70,5 +55,5 @@ fn rectify(@builtin(global_invocation_id) id: vec3u) {
     // View rays that end within the first column run along the light: whatever is before the camera shadows all of them.
     let radius = select(ray.x, 0.0, id.x == 0u);
     let depths = vec2f(rectified(occluders.depths.x, radius), rectified(occluders.depths.y, radius));
-    rectified_store(id.xy, depths, occluders.weights);
+    rectified_store(id.xy, occluders_of(id.xy, depths), occluders.weights);
 }
