@@ -191,7 +191,9 @@ fn air(encoded: &Value) -> String {
         &[
             ("light_depth", "resolve.depth"),
             ("resolve.map", "rectify.map"),
+            ("camera_depth", "rectify.camera_depth"),
             ("rectify.rectified", "integrate.rectified"),
+            ("rectify.view_rays", "integrate.view_rays"),
             ("integrate.integrated", "composite.integrated"),
             ("camera_depth", "composite.camera_depth"),
         ],

@@ -123,12 +123,7 @@ fn six_moments_are_rectified_in_one_pass_and_take_two_lookups() {
     let labels = rectified.passes.iter().map(|pass| pass.label.as_str());
     assert_eq!(
         labels.collect::<Vec<_>>(),
-        [
-            "clear view rays",
-            "find view rays",
-            "bound view rays",
-            "rectify"
-        ]
+        ["clear codes", "find ends", "bound rays", "rectify"]
     );
     let integrated = describe(&IntegrateScattering {}, "rectified", six()).unwrap();
     assert_eq!(integrated.passes.len(), 2);

@@ -42,7 +42,22 @@ pub(super) fn of_storage(four: &MapEncoding) -> Result<Vec<Variant>, ValueError>
                 &row_by_row,
             ),
         ];
-        let rectify = Variant::new(rectify, four);
+        if repeats && portable {
+            // What is known of view rays depends on neither moments nor storage.
+            let settings = format!("{label}, {storage}, of what the camera sees");
+            let seen = Variant::new(rectify.clone(), four)
+                .file("rectify_moments_seen", 4_usize)
+                .row(true, settings.as_str(), &[])
+                .pass("find ends", &[2])
+                .pass("bound rays", &[1, SIZE[0] / 64, 6, SIZE[0] / 64]);
+            all.push(seen);
+            let seen = sum()
+                .view_rays()
+                .file("integrate_scattering_seen", 1_usize)
+                .row(true, settings, &parallel);
+            all.push(seen);
+        }
+        let rectify = Variant::new(rectify, four).without_camera();
         all.push(variant(rectify, "rectify_moments", "", &[]));
         if !repeats {
             all.extend(sums);

@@ -38,6 +38,8 @@ pub struct Variant {
     camera: bool,
     /// Whether the input for ranges is connected.
     fitted: bool,
+    /// Whether the input for view rays is connected.
+    view_rays: bool,
     capabilities: Capabilities,
     /// The beginning of the names of its files, if it has any.
     pub file: Option<String>,
@@ -78,6 +80,7 @@ impl Variant {
             intensity: None,
             camera: true,
             fitted: false,
+            view_rays: false,
             capabilities: Capabilities::of_profile(profile(map)),
             file: None,
             kept: 0,
@@ -124,6 +127,12 @@ impl Variant {
         self.map.range = Some(RANGES.to_owned());
         self.fitted = true;
         self
+    }
+
+    /// Connects what is known of the picture's view rays.
+    fn view_rays(self) -> Self {
+        let view_rays = true;
+        Self { view_rays, ..self }
     }
 
     fn mips(mut self, mips: u32) -> Self {
@@ -196,6 +205,7 @@ impl Variant {
             range: self.map.range.clone(),
             ..TextureDesc::new(TextureFormat::Rgba32Float, [self.map.regions, 1])
         });
+        let view_rays = (self.view_rays).then(|| TextureDesc::new(TextureFormat::Rg32Uint, SIZE));
         let camera = self.camera.then(|| TextureDesc {
             samples: self.samples,
             ..TextureDesc::new(TextureFormat::Depth32Float, SIZE)
@@ -211,6 +221,7 @@ impl Variant {
             .chain(normals)
             .chain(intensity)
             .chain(ranges.iter().map(|desc| ("ranges", desc)))
+            .chain(view_rays.iter().map(|desc| ("view_rays", desc)))
             .map(|(name, desc)| (name.to_owned(), ResourceDesc::Texture(desc.clone())))
             .collect()
     }

@@ -162,9 +162,9 @@ impl RectifyMoments {
                 .shader(wgsl, &label.replace(' ', "_"))
                 .bind("view_ray_codes", bind::buffer("codes"))
         };
-        let clear = link(wgsl!("clear_view_rays.wgsl"))?;
-        let find = link(wgsl!("find_view_rays.wgsl"))?;
-        let bound = link(wgsl!("bound_view_rays.wgsl"))?;
+        let clear = link(wgsl!("clear_codes.wgsl"))?;
+        let find = link(wgsl!("find_ends.wgsl"))?;
+        let bound = link(wgsl!("bound_rays.wgsl"))?;
         let rays = TextureRule::new(TextureFormat::Rg32Uint).extent(self.extent);
         let codes = SlotResource::Buffer {
             access: Access::READ.union(Access::STORAGE_WRITE),
@@ -184,11 +184,11 @@ impl RectifyMoments {
                 ),
             ],
             [
-                pass("clear view rays", "view_rays", [8, 8], clear),
-                pass("find view rays", "camera_depth", [8, 8], find)
+                pass("clear codes", "view_rays", [8, 8], clear),
+                pass("find ends", "camera_depth", [8, 8], find)
                     .bind("parameters", bind::parameters())
                     .bind("camera_depth", bind::layer("camera_depth")),
-                pass("bound view rays", "view_rays", [regions::ENDLESS, 1], bound)
+                pass("bound rays", "view_rays", [regions::ENDLESS, 1], bound)
                     .bind("parameters", bind::parameters())
                     .bind("view_rays_map", bind::store("view_rays")),
             ],

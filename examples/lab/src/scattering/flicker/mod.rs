@@ -23,7 +23,7 @@ use crate::scene::Scene;
 
 /// A pixel is static while its true radiance, with shadows and without, changes by at most this from frame to frame, in parts of
 /// the mean radiance without shadows. What an edge or a shaft passes changes by ten times that and more.
-pub const STILL: f32 = 5e-3;
+pub const STILL: f32 = 3e-3;
 
 /// A pixel has to be static for this many frames before and after, too.
 pub const WINDOW: usize = 1;

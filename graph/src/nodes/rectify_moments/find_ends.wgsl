@@ -9,7 +9,7 @@ import moment_shadows::air::view_rays::{view_rays_codes, view_rays_column};
 @group(GROUP) @binding(7) var<storage, read_write> view_ray_codes: array<atomic<u32>>;
 
 @compute @workgroup_size(8, 8)
-fn find_view_rays(@builtin(global_invocation_id) id: vec3u) {
+fn find_ends(@builtin(global_invocation_id) id: vec3u) {
     if any(vec2i(id.xy) >= camera_depth_size()) {
         return;
     }

@@ -17,7 +17,7 @@ fn codes_at(column: u32, row: u32) -> vec2u {
 }
 
 @compute @workgroup_size(THREADS)
-fn bound_view_rays(@builtin(local_invocation_index) thread: u32, @builtin(workgroup_id) workgroup_id: vec3u) {
+fn bound_rays(@builtin(local_invocation_index) thread: u32, @builtin(workgroup_id) workgroup_id: vec3u) {
     let row = workgroup_id.y;
     let each = (EXTENT.x + THREADS - 1u) / THREADS;
     let first = min(thread * each, EXTENT.x);
