@@ -15,9 +15,18 @@ const PACKED_FOUR_MOMENTS_LARGEST_DEPTH: f32 = 32767.0;
 // Skewness is divided by no variance below this, so that what rounding in f32 leaves of 0 places no node far out.
 const PACKED_FOUR_MOMENTS_LEAST_VARIANCE: f32 = 1e-5;
 
-// The channels of a packed texel for finite moments b: two depths in [-1, 1], then the weight and the root in [0, 1]. Depths are rounded outwards, so that the mean lies between them and
-// the weight, found for the rounded depths, keeps it far more exactly than they are. That only widens a distribution.
-fn packed_four_moments_channels(b: vec4f) -> vec4f {
+// What the shortest distribution with some moments consists of.
+struct PackedFourMomentsNodes {
+    mean: f32,
+    // The two depths, not clamped.
+    lower: f32,
+    upper: f32,
+    // How far the fourth moment exceeds theirs, in [0, 1].
+    pivot: f32,
+}
+
+// The same for finite moments b.
+fn packed_four_moments_nodes(b: vec4f) -> PackedFourMomentsNodes {
     let mean = clamp(b.x, -1.0, 1.0);
     let variance = max(fma(-mean, mean, b.y), 0.0);
     let covariance = fma(-mean, b.y, b.z);
@@ -28,12 +37,20 @@ fn packed_four_moments_channels(b: vec4f) -> vec4f {
     let farther = 0.5 * abs(s) + sqrt(fma(0.25 * s, s, variance));
     let nearer = variance / max(farther, 1e-20);
     let above = s >= 0.0;
-    let nodes = mean + vec2f(-select(farther, nearer, above), select(nearer, farther, above));
-    let places = clamp(nodes, vec2f(-1.0), vec2f(1.0)) * PACKED_FOUR_MOMENTS_LARGEST_DEPTH;
+    let lower = mean - select(farther, nearer, above);
+    let upper = mean + select(nearer, farther, above);
+    return PackedFourMomentsNodes(mean, lower, upper, pivot);
+}
+
+// The channels of a packed texel for finite moments b: two depths in [-1, 1], then the weight and the root in [0, 1]. Depths are rounded outwards, so that the mean lies between them and
+// the weight, found for the rounded depths, keeps it far more exactly than they are. That only widens a distribution.
+fn packed_four_moments_channels(b: vec4f) -> vec4f {
+    let nodes = packed_four_moments_nodes(b);
+    let places = clamp(vec2f(nodes.lower, nodes.upper), vec2f(-1.0), vec2f(1.0)) * PACKED_FOUR_MOMENTS_LARGEST_DEPTH;
     let lower = min(floor(places.x), PACKED_FOUR_MOMENTS_LARGEST_DEPTH - 1.0);
     let upper = max(ceil(places.y), lower + 1.0);
-    let weight = saturate(fma(mean, PACKED_FOUR_MOMENTS_LARGEST_DEPTH, -lower) / (upper - lower));
-    return vec4f(vec2f(lower, upper) / PACKED_FOUR_MOMENTS_LARGEST_DEPTH, weight, sqrt(pivot));
+    let weight = saturate(fma(nodes.mean, PACKED_FOUR_MOMENTS_LARGEST_DEPTH, -lower) / (upper - lower));
+    return vec4f(vec2f(lower, upper) / PACKED_FOUR_MOMENTS_LARGEST_DEPTH, weight, sqrt(nodes.pivot));
 }
 
 // The moments of a packed texel with such channels.

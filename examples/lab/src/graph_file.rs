@@ -46,6 +46,7 @@ impl GraphFile {
         match storage {
             None => Ok(file),
             Some(storage) => {
+                let file = file.written_once(storage)?.unwrap_or(file);
                 let Self { text, graph, .. } = file.edited(|file| {
                     for node in items(file, "nodes").filter(|node| technique::resolves(node)) {
                         technique::told_how_to_resolve(node)["storage"] = storage.name().into();

@@ -20,6 +20,9 @@ impl GraphFile {
         technique: &Technique,
         storage: Option<Storage>,
     ) -> Result<Self, LabError> {
+        if let Some(file) = storage.map_or(Ok(None), |it| self.written_once(it))? {
+            return file.with_technique(technique, storage);
+        }
         let resolve = match self.blur_that_resolves() {
             Some(blur) => name(&blur),
             None => self.name_of("resolve")?,
@@ -88,10 +91,22 @@ impl GraphFile {
         })
     }
 
+    /// This graph with its blur in place of the node that resolves before it, where only that makes a map in the storage.
+    pub(super) fn written_once(&self, storage: Storage) -> Result<Option<Self>, LabError> {
+        let is_told = !storage.is_written_once() || self.blur_that_resolves().is_some();
+        match is_told {
+            true => Ok(None),
+            false => self.resolved_by_the_blur().map(Some),
+        }
+    }
+
     /// This graph with its blur in place of the node that resolves before it.
     pub fn resolved_by_the_blur(&self) -> Result<Self, LabError> {
         let [resolve, blur] = [self.name_of("resolve")?, self.name_of("blur")?];
-        let properties = self.node_entry(&resolve, "properties");
+        let properties = match self.node_entry(&resolve, "properties") {
+            Value::Null => json!({}),
+            given => given,
+        };
         self.edited(|file| {
             for node in items(file, "nodes").filter(|node| node["name"] == blur.as_str()) {
                 node["properties"]["resolve"] = properties.clone();
