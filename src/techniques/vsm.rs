@@ -2,7 +2,9 @@
 
 use super::far;
 use super::row::{Blended, Encoding, LINEAR, Row};
-use crate::Storage::{self, Fixed32, Float16, Float32, Packed32, Packed64, Unorm8, Unorm10, Unorm16};
+use crate::Storage::{
+    self, Fixed32, Float16, Float32, Packed32, Packed64, Unorm8, Unorm10, Unorm16,
+};
 
 const ENCODING: Encoding = Encoding {
     channels: "two_moments_from_depth(z)",

@@ -4,9 +4,10 @@ import super::super::moments::packed_four_moments::{packed_four_moments_nodes, p
 //
 // Where the receiver is the farther surface, its shadow is the weight of the nearer one, whatever the depths are, as long as the upper
 // node is not in front of it. So nodes move away from the light alone, which never darkens: the upper one to the next of 4096 depths,
-// the lower one by rounding the distance between both down, and that is as coarse as the square root of the distance. The weight has its
-// finest steps at its ends, where little of a second surface is under the filter, and is never 0 or 1: what is known of the spread of one
-// surface would be lost with the other one. The pivot is relative to the distance, so that a shape is rounded alike at all sizes.
+// the lower one by rounding the distance between both down, in steps as coarse as the square root of the distance. The weight, by the nearest of
+// 128 steps, has the finest ones at its ends, where little of a second surface is under the filter, and is never 0 or 1: what is known of the
+// spread of one surface would be lost with the other one. The pivot is relative to the distance, so that a shape is rounded alike at all sizes,
+// and is rounded up.
 //
 // Texels are written once: a second rounding would move surfaces again.
 
@@ -17,10 +18,11 @@ const COARSE_FOUR_MOMENTS_WEIGHTS: f32 = 128.0;
 const COARSE_FOUR_MOMENTS_PIVOTS: f32 = 31.0;
 
 // The greatest root of a pivot relative to the square of the distance between the nodes.
-const COARSE_FOUR_MOMENTS_LARGEST_ROOT: f32 = 2.0;
+const COARSE_FOUR_MOMENTS_LARGEST_ROOT: f32 = 1.0;
 
-// What counts as a rounding error rather than as a further step, in steps of the depth and of the distance.
+// What counts as a rounding error rather than as a further step, in steps of the depth and of the distance, and of the pivot.
 const COARSE_FOUR_MOMENTS_SLACK: f32 = 0.002;
+const COARSE_FOUR_MOMENTS_PIVOT_SLACK: f32 = 0.05;
 
 // The texel for finite moments b.
 fn coarse_four_moments_pack(b: vec4f) -> u32 {
@@ -39,7 +41,9 @@ fn coarse_four_moments_pack(b: vec4f) -> u32 {
     let rounded = 2.0 * pow(distance / COARSE_FOUR_MOMENTS_DISTANCES, 2.0);
     let root = sqrt(nodes.pivot) / (exact * max(rounded, 1e-6));
     let third = pow(clamp(root / COARSE_FOUR_MOMENTS_LARGEST_ROOT, 1e-9, 1.0), 1.0 / 3.0);
-    let codes = vec4u(vec4f(depth, distance, share, round(third * COARSE_FOUR_MOMENTS_PIVOTS)));
+    // A greater one only makes a lower bound lower.
+    let pivot = ceil(fma(third, COARSE_FOUR_MOMENTS_PIVOTS, -COARSE_FOUR_MOMENTS_PIVOT_SLACK));
+    let codes = vec4u(vec4f(depth, distance, share, pivot));
     return codes.x | (codes.y << 12u) | (codes.z << 20u) | (codes.w << 27u);
 }
 

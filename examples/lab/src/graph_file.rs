@@ -11,6 +11,8 @@ use serde_json::{Value, json};
 
 use crate::error::LabError;
 
+pub(crate) use technique::LARGEST_RESOLVED_RADIUS;
+
 /// A graph file.
 #[derive(Debug)]
 pub struct GraphFile {

@@ -11,6 +11,9 @@ use crate::error::LabError;
 /// The node that places layers, where a technique needs one.
 const PLACE: &str = "lab_place_layers";
 
+/// The largest radius of a blur that resolves.
+pub(crate) const LARGEST_RESOLVED_RADIUS: u32 = 12;
+
 impl GraphFile {
     /// This graph with a technique in place of its own. A filterable one makes its map in `storage`, or in that of the
     /// graph. One that reads the plain depth map is connected to it; what made the filterable map has no reader then and is
@@ -89,6 +92,21 @@ impl GraphFile {
                 edges.extend(added);
             }
         })
+    }
+
+    /// Whether this graph makes a map in a storage: one that is written once needs a blur that can resolve.
+    #[must_use]
+    pub fn makes(&self, storage: Option<Storage>) -> bool {
+        if !storage.is_some_and(Storage::is_written_once) {
+            return true;
+        }
+        let Some(blur) = self.node_of("blur") else {
+            return false;
+        };
+        let is_literal = !matches!(blur["properties"]["per_frame"], Value::Bool(true));
+        let kernel = self.kernel().ok().flatten();
+        let is_narrow = kernel.is_some_and(|it| it.radius() <= LARGEST_RESOLVED_RADIUS);
+        is_literal && is_narrow && self.node_of("downsample").is_none()
     }
 
     /// This graph with its blur in place of the node that resolves before it, where only that makes a map in the storage.
