@@ -146,6 +146,15 @@ impl Storage {
         matches!(self, Storage::Packed64 | Storage::Packed32)
     }
 
+    /// The functions of WGSL between texels and what textures hold of them, where that is something else.
+    pub(crate) fn packing(self) -> &'static [&'static str] {
+        match self {
+            Storage::Packed64 => &["storage_pack", "storage_unpack"],
+            Storage::Packed32 => &["coarse_four_moments_pack", "coarse_four_moments_unpack"],
+            _ => &[],
+        }
+    }
+
     /// Whether texels are rounded too coarsely to be filtered and rounded again: the node `blur` with `resolve` alone makes such maps.
     #[must_use]
     pub fn is_written_once(self) -> bool {

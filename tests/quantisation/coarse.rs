@@ -74,9 +74,9 @@ impl Held {
     }
 }
 
-/// Two surfaces without any spread, at least 0.03 apart.
+/// Two surfaces without any spread, at least 0.1 apart.
 fn two_surfaces(random: &mut ChaCha8Rng) -> [[f64; 2]; 2] {
-    let gap = 10_f64.powf(random.random_range(-1.5..=0.25));
+    let gap = 10_f64.powf(random.random_range(-1.0..=0.25));
     let near = random.random_range(-1.0..=(1.0 - gap));
     let weight = random.random_range(0.0..=1.0);
     [[near, 1.0 - weight], [near + gap, weight]]
@@ -105,25 +105,26 @@ fn surfaces_move_away_from_the_light_and_not_far() {
         }
         largest[0] = largest[0].max((held.weight - far[1]).abs());
         // Of a surface that is hardly there moments in f32 hardly say where it is.
-        if !(0.02..=0.98).contains(&far[1]) {
+        if !(0.1..=0.9).contains(&far[1]) {
             continue;
         }
-        let noise = 3e-5;
+        // Skewness is a third central moment with the noise of f32 over the variance.
+        let noise = 2.0 * HALF_ULP / (near[1] * far[1] * (far[0] - near[0]).powi(2)) + 2e-6;
         let (lower, upper) = (held.lower - near[0], held.upper - far[0]);
         assert!(
             lower >= -noise && upper >= -noise,
             "{held:?} {near:?} {far:?}"
         );
-        largest[1] = largest[1].max(upper);
+        largest[1] = largest[1].max(upper - noise);
         // A step of the distance d is 2 sqrt(2 d) / 255 and a bit.
         let step = 2.0 * (2.0 * (far[0] - near[0] + 1e-3)).sqrt() / 255.0;
-        largest[2] = largest[2].max(lower / (step + 2e-4));
+        largest[2] = largest[2].max((lower - noise) / (step + 2e-4));
         largest[3] = largest[3].max(held.pivot.sqrt());
     }
     println!("weight, upper depth, lower depth in its steps, root of the pivot: {largest:?}");
     // Half of 128 steps, which are 3 / 2 times as wide in the middle.
     assert!(largest[0] <= 1.5 / 256.0 + 1e-3, "{largest:?}");
-    assert!(largest[1] <= 2.0 / 4095.0 + 3e-5, "{largest:?}");
+    assert!(largest[1] <= 2.0 / 4095.0, "{largest:?}");
     assert!(largest[2] <= 1.0, "{largest:?}");
     assert!(largest[3] <= 2e-3, "{largest:?}");
 }
@@ -264,8 +265,8 @@ fn penumbrae_are_as_smooth_as_those_of_float32() {
     assert!(step <= 1.0, "{step}");
     let [near, step] = penumbrae(-1.5..=-0.5);
     println!("0.03 to 0.3 apart: {near:.2}/255, {step:.2}/255 from pixel to pixel");
-    assert!(near <= 8.0, "{near}");
-    assert!(step <= 4.0, "{step}");
+    assert!(near <= 6.0, "{near}");
+    assert!(step <= 3.0, "{step}");
 }
 
 /// A surface is lit by its own depth: it casts no shadow on itself half a step in front of it, and a full one well behind.
@@ -292,6 +293,6 @@ fn a_surface_is_lit_in_front_and_shadowed_behind() {
     let lightest = outputs.iter().skip(1).step_by(2).map(|it| it.intensity);
     let lightest = lightest.fold(1.0, f32::min);
     println!("at most {darkest:.5} in front, at least {lightest:.4} behind");
-    assert!(darkest <= 0.01, "{darkest}");
+    assert!(darkest <= 1e-4, "{darkest}");
     assert!(lightest >= 0.98, "{lightest}");
 }
