@@ -57,7 +57,7 @@ impl Held {
         let upper = 2.0 * bits(0, 12) / 4095.0 - 1.0;
         let distance = 2.0 * (bits(12, 8) / 255.0).powi(2);
         let u = (bits(20, 7) + 0.5) / 128.0;
-        let root = (bits(27, 5) / 31.0).powi(3) * distance * distance;
+        let root = (bits(27, 5) / 31.0).powi(2) * distance * distance;
         Self {
             lower: (upper - distance).max(-1.0),
             upper,
@@ -109,7 +109,7 @@ fn surfaces_move_away_from_the_light_and_not_far() {
             continue;
         }
         // Skewness is a third central moment with the noise of f32 over the variance.
-        let noise = 2.0 * HALF_ULP / (near[1] * far[1] * (far[0] - near[0]).powi(2)) + 2e-6;
+        let noise = 2.0 * HALF_ULP / (near[1] * far[1] * (far[0] - near[0]).powi(2)) + 1e-5;
         let (lower, upper) = (held.lower - near[0], held.upper - far[0]);
         assert!(
             lower >= -noise && upper >= -noise,
@@ -156,8 +156,11 @@ fn any_integers_give_valid_moments_and_intensities() {
         })
         .collect();
     let outputs = run(&inputs);
-    let apart = outputs.iter().flat_map(|output| {
-        let pairs = output.mean.into_iter().zip(output.average);
+    let apart = outputs.iter().zip(&inputs).flat_map(|(output, input)| {
+        // Pivots that no distribution has are cut off after they are summed.
+        let is_possible = |texel: &u32| Held::of(*texel).pivot < 1.0;
+        let count = 3 + usize::from(input.texels.iter().all(is_possible));
+        let pairs = output.mean.into_iter().zip(output.average).take(count);
         pairs.map(|(mean, average)| f64::from(mean - average).abs())
     });
     let apart = apart.fold(0.0, f64::max);

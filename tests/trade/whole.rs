@@ -59,7 +59,7 @@ fn page(results: &Results, page: &str) {
     let body = page.matches("<tr>").count() - page.matches("<thead><tr>").count();
     assert_eq!(body, rows(results).len());
     // Pictures of the largest map with the most samples.
-    assert_eq!(page.matches("data:image/png;base64,").count(), 6);
+    assert_eq!(page.matches("data:image/png;base64,").count(), 7);
 }
 
 /// What the figures have to say whatever the device: more samples and a larger map err less, and so do more moments.

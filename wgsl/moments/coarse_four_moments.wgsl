@@ -1,4 +1,4 @@
-import super::super::moments::packed_four_moments::{packed_four_moments_nodes, packed_four_moments_sums};
+import super::super::moments::packed_four_moments::{packed_four_moments_nodes, packed_four_moments_sums_of_texels};
 
 // Four moments in 32 bits: the Gauss nodes of `packed_four_moments`, each quantity rounded where shadows do not see it.
 //
@@ -17,11 +17,20 @@ const COARSE_FOUR_MOMENTS_DISTANCES: f32 = 255.0;
 const COARSE_FOUR_MOMENTS_WEIGHTS: f32 = 128.0;
 const COARSE_FOUR_MOMENTS_PIVOTS: f32 = 31.0;
 
-// The greatest root of a pivot relative to the square of the distance between the nodes.
-const COARSE_FOUR_MOMENTS_LARGEST_ROOT: f32 = 1.0;
+// The greatest depth from the middle of the range, in its steps.
+const COARSE_FOUR_MOMENTS_LARGEST_DEPTH: f32 = 2047.5;
+
+// Depths per square of a distance's number: 4095 / 255^2.
+const COARSE_FOUR_MOMENTS_DEPTHS_PER_SQUARE: f32 = 0.06297578;
+
+// The third power of the number of a weight's steps.
+const COARSE_FOUR_MOMENTS_WHOLE: f32 = 2097152.0;
+
+// The root of a pivot is at most the square of the distance between the nodes: as it is for the number 31, 4 / (31^2 255^4).
+const COARSE_FOUR_MOMENTS_ROOT_PER_SHARE: f32 = 9.844097e-13;
 
 // What counts as a rounding error rather than as a further step, in steps of the depth and of the distance, and of the pivot.
-const COARSE_FOUR_MOMENTS_SLACK: f32 = 0.002;
+const COARSE_FOUR_MOMENTS_SLACK: f32 = 0.0005;
 const COARSE_FOUR_MOMENTS_PIVOT_SLACK: f32 = 0.05;
 
 // The texel for finite moments b.
@@ -38,48 +47,40 @@ fn coarse_four_moments_pack(b: vec4f) -> u32 {
     let u = 0.5 - sin(asin(clamp(fma(-2.0, weight, 1.0), -1.0, 1.0)) / 3.0);
     let share = clamp(floor(u * COARSE_FOUR_MOMENTS_WEIGHTS), 0.0, COARSE_FOUR_MOMENTS_WEIGHTS - 1.0);
     // The spread of a surface is the root divided by the distance, and does not change with the latter.
-    let rounded = 2.0 * pow(distance / COARSE_FOUR_MOMENTS_DISTANCES, 2.0);
-    let root = sqrt(nodes.pivot) / (exact * max(rounded, 1e-6));
-    let third = pow(clamp(root / COARSE_FOUR_MOMENTS_LARGEST_ROOT, 1e-9, 1.0), 1.0 / 3.0);
+    let place = distance / COARSE_FOUR_MOMENTS_DISTANCES;
+    let root = sqrt(nodes.pivot) / max(exact * 2.0 * place * place, 1e-6);
     // A greater one only makes a lower bound lower.
-    let pivot = ceil(fma(third, COARSE_FOUR_MOMENTS_PIVOTS, -COARSE_FOUR_MOMENTS_PIVOT_SLACK));
+    let pivot = ceil(fma(sqrt(min(root, 1.0)), COARSE_FOUR_MOMENTS_PIVOTS, -COARSE_FOUR_MOMENTS_PIVOT_SLACK));
     let codes = vec4u(vec4f(depth, distance, share, pivot));
     return codes.x | (codes.y << 12u) | (codes.z << 20u) | (codes.w << 27u);
 }
 
-// What four texels hold.
-struct CoarseFourMoments {
-    lower: vec4f,
-    upper: vec4f,
-    // Of the upper depth, in (0, 1).
-    weight: vec4f,
-    pivot: vec4f,
-}
-
-fn coarse_four_moments_of_texels(texels: vec4u) -> CoarseFourMoments {
-    let upper = fma(vec4f(texels & vec4u(0xfffu)), vec4f(2.0 / COARSE_FOUR_MOMENTS_DEPTHS), vec4f(-1.0));
-    let place = vec4f((texels >> vec4u(12u)) & vec4u(0xffu)) * (1.0 / COARSE_FOUR_MOMENTS_DISTANCES);
-    let distance = 2.0 * place * place;
-    let u = (vec4f((texels >> vec4u(20u)) & vec4u(0x7fu)) + 0.5) * (1.0 / COARSE_FOUR_MOMENTS_WEIGHTS);
-    let third = vec4f(texels >> vec4u(27u)) * (1.0 / COARSE_FOUR_MOMENTS_PIVOTS);
-    let root = COARSE_FOUR_MOMENTS_LARGEST_ROOT * third * third * third * distance * distance;
-    let weight = u * u * fma(vec4f(-2.0), u, vec4f(3.0));
-    return CoarseFourMoments(max(upper - distance, vec4f(-1.0)), upper, weight, min(root * root, vec4f(1.0)));
-}
-
 // The bilinearly filtered moments at a place in [0, 1] between four texels, in the order of a gather. Whatever the integers are, they are
-// possible, and within [-1, 1] but for the fourth, which is at most 2.
+// possible, and within [-1, 1] but for the fourth, which is at most 2. These are sums over eight depths, scaled once at the end.
 fn coarse_four_moments_bilinear(texels: vec4u, place: vec2f) -> vec4f {
-    let held = coarse_four_moments_of_texels(texels);
-    let high_column = place.x * vec2f(place.y, 1.0 - place.y);
-    let weights = vec4f(place.y - high_column.x, high_column, 1.0 - place.y - high_column.y);
-    let of_upper = weights * held.weight;
-    let of_lower = weights - of_upper;
-    var sums = packed_four_moments_sums(vec4f(0.0), vec2f(held.lower.x, held.upper.x), vec2f(of_lower.x, of_upper.x));
-    sums = packed_four_moments_sums(sums, vec2f(held.lower.y, held.upper.y), vec2f(of_lower.y, of_upper.y));
-    sums = packed_four_moments_sums(sums, vec2f(held.lower.z, held.upper.z), vec2f(of_lower.z, of_upper.z));
-    sums = packed_four_moments_sums(sums, vec2f(held.lower.w, held.upper.w), vec2f(of_lower.w, of_upper.w));
-    return sums + vec4f(0.0, 0.0, 0.0, dot(weights, held.pivot));
+    // In steps of the depth, from the middle of the range.
+    let upper = vec4f(texels & vec4u(0xfffu)) - COARSE_FOUR_MOMENTS_LARGEST_DEPTH;
+    let distance = vec4f((texels >> vec4u(12u)) & vec4u(0xffu));
+    let square = distance * distance;
+    let lower = max(fma(vec4f(-COARSE_FOUR_MOMENTS_DEPTHS_PER_SQUARE), square, upper), vec4f(-COARSE_FOUR_MOMENTS_LARGEST_DEPTH));
+    // 3 u^2 - 2 u^3 of the middle of the step, times the third power of the number of steps.
+    let u = vec4f((texels >> vec4u(20u)) & vec4u(0x7fu)) + 0.5;
+    let weight = u * u * fma(vec4f(-2.0), u, vec4f(3.0 * COARSE_FOUR_MOMENTS_WEIGHTS));
+    let share = vec4f(texels >> vec4u(27u)) * square;
+    let root = share * share;
+    // The weights of texels have the sum 1 / COARSE_FOUR_MOMENTS_WHOLE, so that those of depths have the sum 1.
+    let high_row = place.y * (1.0 / COARSE_FOUR_MOMENTS_WHOLE);
+    let low_row = 1.0 / COARSE_FOUR_MOMENTS_WHOLE - high_row;
+    let high_column = place.x * vec2f(high_row, low_row);
+    let weights = vec4f(high_row - high_column.x, high_column, low_row - high_column.y);
+    let of_upper = weights * weight;
+    let of_lower = fma(weights, vec4f(COARSE_FOUR_MOMENTS_WHOLE), -of_upper);
+    let sums = packed_four_moments_sums_of_texels(lower, upper, of_lower, of_upper);
+    let one = 1.0 / COARSE_FOUR_MOMENTS_LARGEST_DEPTH;
+    let two = one * one;
+    let scale = COARSE_FOUR_MOMENTS_WHOLE * COARSE_FOUR_MOMENTS_ROOT_PER_SHARE * COARSE_FOUR_MOMENTS_ROOT_PER_SHARE;
+    let pivot = min(dot(weights * root, root) * scale, 1.0);
+    return fma(sums, vec4f(one, two, one * two, two * two), vec4f(0.0, 0.0, 0.0, pivot));
 }
 
 // The moments of a texel.

@@ -74,6 +74,14 @@ fn packed_four_moments_sums(before: vec4f, depths: vec2f, weights: vec2f) -> vec
     );
 }
 
+// The sum of the moments of the depths of four texels with weights.
+fn packed_four_moments_sums_of_texels(lower: vec4f, upper: vec4f, of_lower: vec4f, of_upper: vec4f) -> vec4f {
+    var sums = packed_four_moments_sums(vec4f(0.0), vec2f(lower.x, upper.x), vec2f(of_lower.x, of_upper.x));
+    sums = packed_four_moments_sums(sums, vec2f(lower.y, upper.y), vec2f(of_lower.y, of_upper.y));
+    sums = packed_four_moments_sums(sums, vec2f(lower.z, upper.z), vec2f(of_lower.z, of_upper.z));
+    return packed_four_moments_sums(sums, vec2f(lower.w, upper.w), vec2f(of_lower.w, of_upper.w));
+}
+
 // The bilinearly filtered moments at a place in [0, 1] between four texels, from their first and second integers (as `storage_pack` has
 // them) in the order of a gather. These are sums over eight depths, scaled once at the end.
 fn packed_four_moments_bilinear(depths: vec4u, others: vec4u, place: vec2f) -> vec4f {
@@ -87,10 +95,7 @@ fn packed_four_moments_bilinear(depths: vec4u, others: vec4u, place: vec2f) -> v
     let weights = vec4f(high_row - high_column.x, high_column, low_row - high_column.y);
     let of_upper = weights * vec4f(others & vec4u(0xffffu));
     let of_lower = fma(weights, vec4f(PACKED_FOUR_MOMENTS_STEPS), -of_upper);
-    var sums = packed_four_moments_sums(vec4f(0.0), vec2f(lower.x, upper.x), vec2f(of_lower.x, of_upper.x));
-    sums = packed_four_moments_sums(sums, vec2f(lower.y, upper.y), vec2f(of_lower.y, of_upper.y));
-    sums = packed_four_moments_sums(sums, vec2f(lower.z, upper.z), vec2f(of_lower.z, of_upper.z));
-    sums = packed_four_moments_sums(sums, vec2f(lower.w, upper.w), vec2f(of_lower.w, of_upper.w));
+    let sums = packed_four_moments_sums_of_texels(lower, upper, of_lower, of_upper);
     let one = 1.0 / PACKED_FOUR_MOMENTS_LARGEST_DEPTH;
     let two = one * one;
     let pivot = dot(weights * root, root) * (1.0 / PACKED_FOUR_MOMENTS_STEPS);

@@ -52,13 +52,10 @@ impl<'a> Source<'a> {
         is_literal: bool,
         rounded_inwards: bool,
     ) -> Result<Self, GraphError> {
-        let encoding = resolve.encoding_of_blur(upstream.capabilities());
-        let encoding = encoding.map_err(wrong_property)?;
-        let storage = encoding.storage();
-        let instead = match storage.is_written_once() {
-            true => format!(" with another storage than '{storage}', which is written once"),
-            false => String::new(),
-        };
+        let once = resolve.storage.iter().find(|it| it.is_written_once());
+        let instead = once.map_or(String::new(), |storage| {
+            format!(" with another storage than '{storage}', which is written once")
+        });
         let refused = |message: &str| {
             Err(wrong_property(format!(
                 "'resolve' {message} take a node 'resolve' and a blur of its map{instead}"
@@ -80,6 +77,8 @@ impl<'a> Source<'a> {
                  parameters;"
             ));
         }
+        let encoding = resolve.encoding_of_blur(upstream.capabilities());
+        let encoding = encoding.map_err(wrong_property)?;
         let mut resolved = resolve.resolved(upstream, encoding, |encoding| {
             half(encoding, rounded_inwards)
         })?;

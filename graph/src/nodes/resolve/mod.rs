@@ -87,8 +87,11 @@ impl Resolve {
             [] => technique.row().storages,
             given => given,
         };
+        // Where none is asked for, those that the casters are blended into.
+        let suits = |it: &&Storage| !self.storage.is_empty() || self.blends == 0 || !it.is_packed();
         let encodings = storages
             .iter()
+            .filter(suits)
             .map(|&storage| MapEncoding::new(technique.clone(), storage)?.with_blends(self.blends))
             .collect::<Result<Vec<_>, _>>()?;
         let blended =
