@@ -35,6 +35,8 @@ pub enum TextureFormat {
     Rgba16Float,
     /// Four single-precision channels.
     Rgba32Float,
+    /// One channel of 32-bit integers.
+    R32Uint,
     /// Two channels of 32-bit integers.
     Rg32Uint,
     /// Four channels of 32-bit integers.
@@ -68,7 +70,7 @@ pub struct FormatSupport {
 
 impl TextureFormat {
     /// Every format.
-    pub const ALL: [TextureFormat; 19] = [
+    pub const ALL: [TextureFormat; 20] = [
         TextureFormat::R8Unorm,
         TextureFormat::Rgba8Unorm,
         TextureFormat::R16Unorm,
@@ -81,6 +83,7 @@ impl TextureFormat {
         TextureFormat::Rgba16Unorm,
         TextureFormat::Rgba16Float,
         TextureFormat::Rgba32Float,
+        TextureFormat::R32Uint,
         TextureFormat::Rg32Uint,
         TextureFormat::Rgba32Uint,
         TextureFormat::Depth16Unorm,
@@ -105,6 +108,7 @@ impl TextureFormat {
             TextureFormat::Rgba16Unorm => ("rgba16unorm", 4, 8),
             TextureFormat::Rgba16Float => ("rgba16float", 4, 8),
             TextureFormat::Rgba32Float => ("rgba32float", 4, 16),
+            TextureFormat::R32Uint => ("r32uint", 1, 4),
             TextureFormat::Rg32Uint => ("rg32uint", 2, 8),
             TextureFormat::Rgba32Uint => ("rgba32uint", 4, 16),
             TextureFormat::Depth16Unorm => ("depth16unorm", 1, 2),
@@ -152,7 +156,7 @@ impl TextureFormat {
             }
             F::R8Unorm | F::Rgba8Unorm | F::R16Unorm | F::Rg16Unorm | F::Rgba16Unorm => None,
             F::R16Float | F::Rg16Float | F::Rgba16Float | F::Rg32Float | F::Rgba32Float => None,
-            F::Rgb10a2Unorm | F::Rg32Uint | F::Rgba32Uint => None,
+            F::Rgb10a2Unorm | F::R32Uint | F::Rg32Uint | F::Rgba32Uint => None,
         }
     }
 
@@ -169,7 +173,7 @@ impl TextureFormat {
     #[must_use]
     pub fn is_integer(self) -> bool {
         use TextureFormat as F;
-        matches!(self, F::Rg32Uint | F::Rgba32Uint)
+        matches!(self, F::R32Uint | F::Rg32Uint | F::Rgba32Uint)
     }
 
     /// The feature of WebGPU that the format exists by, in browsers; `None` where every device has it.
@@ -182,7 +186,7 @@ impl TextureFormat {
             F::R8Unorm | F::Rgba8Unorm | F::Rgb10a2Unorm => None,
             F::R16Float | F::Rg16Float | F::Rgba16Float => None,
             F::R32Float | F::Rg32Float | F::Rgba32Float => None,
-            F::Rg32Uint | F::Rgba32Uint => None,
+            F::R32Uint | F::Rg32Uint | F::Rgba32Uint => None,
             F::Depth16Unorm | F::Depth32Float | F::Depth24Plus | F::Depth24PlusStencil8 => None,
         }
     }
@@ -224,7 +228,7 @@ impl TextureFormat {
             F::R8Unorm | F::Rgba8Unorm | F::R16Float | F::Rg16Float | F::Rgba16Float => {
                 return None;
             }
-            F::Rgb10a2Unorm | F::Rg32Uint | F::Rgba32Uint => return None,
+            F::Rgb10a2Unorm | F::R32Uint | F::Rg32Uint | F::Rgba32Uint => return None,
             F::Depth16Unorm | F::Depth32Float | F::Depth24Plus | F::Depth24PlusStencil8 => {
                 return None;
             }
@@ -247,7 +251,7 @@ impl TextureFormat {
             F::Rgba8Unorm | F::Rgba16Float => (true, true, true, true),
             // Filtering and blending of single precision are optional features everywhere.
             F::R32Float | F::Rg32Float | F::Rgba32Float => (false, true, true, false),
-            F::Rg32Uint | F::Rgba32Uint => (false, true, true, false),
+            F::R32Uint | F::Rg32Uint | F::Rgba32Uint => (false, true, true, false),
             F::R16Unorm | F::Rg16Unorm | F::Rgba16Unorm => match profile {
                 Profile::WebgpuCore => (false, false, false, false),
                 Profile::Native | Profile::NativeAdapter => (true, true, false, false),

@@ -83,6 +83,7 @@ impl Storage {
             Storage::Float16 => of_four(FOUR_MOMENTS_BIAS_FLOAT16),
             Storage::Float32 => of_four(FOUR_MOMENTS_BIAS_FLOAT32),
             Storage::Packed64 => of_four(FOUR_MOMENTS_BIAS_PACKED64),
+            Storage::Packed32 => of_four(FOUR_MOMENTS_BIAS_PACKED32),
             Storage::Fixed32 => SummedAreaTable::COARSEST.moment_bias(),
         }
     }
@@ -100,8 +101,8 @@ impl Storage {
             Storage::Float16 => of_four(HAUSDORFF4_BIAS_FLOAT16),
             Storage::Float32 => of_four(HAUSDORFF4_BIAS_FLOAT32),
             Storage::Fixed32 => SummedAreaTable::COARSEST.hausdorff_moment_bias(),
-            // No technique on the interval reads it, since texels are valid on the real line alone: as float32.
-            Storage::Packed64 => of_four(HAUSDORFF4_BIAS_FLOAT32),
+            // No technique on the interval reads these, since texels are valid on the real line alone: as float32.
+            Storage::Packed64 | Storage::Packed32 => of_four(HAUSDORFF4_BIAS_FLOAT32),
         }
     }
 
@@ -116,7 +117,8 @@ impl Storage {
             | Storage::Unorm8
             | Storage::Unorm10
             | Storage::Fixed32
-            | Storage::Packed64 => self.moment_bias(),
+            | Storage::Packed64
+            | Storage::Packed32 => self.moment_bias(),
         }
     }
 
@@ -131,7 +133,7 @@ impl Storage {
             Storage::Float16 => SIX_MOMENTS_BIAS_FLOAT16,
             Storage::Float32 => SIX_MOMENTS_BIAS_FLOAT32,
             Storage::Unorm10 => SIX_MOMENTS_BIAS_UNORM10,
-            Storage::Unorm8 | Storage::Fixed32 | Storage::Packed64 => {
+            Storage::Unorm8 | Storage::Fixed32 | Storage::Packed64 | Storage::Packed32 => {
                 return None;
             }
         };

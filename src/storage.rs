@@ -5,8 +5,8 @@ use core::fmt;
 use serde::{Deserialize, Serialize};
 
 use crate::constants::{
-    STORAGE_FIXED32, STORAGE_FLOAT16, STORAGE_FLOAT32, STORAGE_PACKED64, STORAGE_UNORM8,
-    STORAGE_UNORM10, STORAGE_UNORM16,
+    STORAGE_FIXED32, STORAGE_FLOAT16, STORAGE_FLOAT32, STORAGE_PACKED32, STORAGE_PACKED64,
+    STORAGE_UNORM8, STORAGE_UNORM10, STORAGE_UNORM16,
 };
 use crate::{Profile, TextureFormat, ValueError};
 
@@ -18,6 +18,7 @@ use crate::{Profile, TextureFormat, ValueError};
 /// | [`Float16`](Storage::Float16) | rgba16float | 64 | 1e-3 | optimised basis less one half; everywhere, leaks four times as far |
 /// | [`Float32`](Storage::Float32) | rgba32float | 128 | 1.5e-6 | raw moments; filtered in the shader where the device cannot |
 /// | [`Packed64`](Storage::Packed64) | rg32uint | 64 | 1e-6 | non-linear; everywhere, filtered in the shader |
+/// | [`Packed32`](Storage::Packed32) | r32uint | 32 | 1e-6 | the same, coarser; written once, by a blur that resolves |
 ///
 /// Six moments take two such texels, all with the optimised basis, or the smallest of all:
 ///
@@ -49,11 +50,14 @@ pub enum Storage {
     /// Four moments in 64 bits, non-linearly (WGSL module `packed_four_moments`): about as exact as `Float32`, on every device. Shaders
     /// gather and unpack four texels where a sampler would filter.
     Packed64 = STORAGE_PACKED64 as isize,
+    /// The same in 32 bits (WGSL module `coarse_four_moments`): less exact, and rounded once alone, so that only the node `blur` with `resolve`
+    /// writes it, and `shade_hard` reads it.
+    Packed32 = STORAGE_PACKED32 as isize,
 }
 
 impl Storage {
     /// Every storage.
-    pub const ALL: [Storage; 7] = [
+    pub const ALL: [Storage; 8] = [
         Storage::Unorm16,
         Storage::Float16,
         Storage::Float32,
@@ -61,6 +65,7 @@ impl Storage {
         Storage::Unorm10,
         Storage::Fixed32,
         Storage::Packed64,
+        Storage::Packed32,
     ];
 
     /// The storages of four moments.
@@ -78,6 +83,7 @@ impl Storage {
             Storage::Unorm10 => "unorm10",
             Storage::Fixed32 => "fixed32",
             Storage::Packed64 => "packed64",
+            Storage::Packed32 => "packed32",
         }
     }
 
@@ -92,6 +98,7 @@ impl Storage {
             Storage::Unorm10 => (None, None, F::Rgb10a2Unorm),
             Storage::Fixed32 => (None, Some(F::Rg32Uint), F::Rgba32Uint),
             Storage::Packed64 => (None, None, F::Rg32Uint),
+            Storage::Packed32 => (None, None, F::R32Uint),
         }
     }
 
@@ -136,7 +143,22 @@ impl Storage {
     /// Whether several channels are packed into integers, which shaders unpack and no sampler filters.
     #[must_use]
     pub fn is_packed(self) -> bool {
-        self == Storage::Packed64
+        matches!(self, Storage::Packed64 | Storage::Packed32)
+    }
+
+    /// The functions of WGSL between texels and what textures hold of them, where that is something else.
+    pub(crate) fn packing(self) -> &'static [&'static str] {
+        match self {
+            Storage::Packed64 => &["storage_pack", "storage_unpack"],
+            Storage::Packed32 => &["coarse_four_moments_pack", "coarse_four_moments_unpack"],
+            _ => &[],
+        }
+    }
+
+    /// Whether texels are rounded too coarsely to be filtered and rounded again: the node `blur` with `resolve` alone makes such maps.
+    #[must_use]
+    pub fn is_written_once(self) -> bool {
+        self == Storage::Packed32
     }
 
     /// Whether every device of the profile can make a map of this storage in a texture of this format.

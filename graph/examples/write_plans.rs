@@ -124,6 +124,23 @@ fn filtered(light: Value, resolve: Value, blur: Value) -> String {
     )
 }
 
+/// The same where the filter resolves.
+fn resolved(light: Value, blur: Value) -> String {
+    graph(
+        light,
+        &[
+            node("blur", "blur", blur),
+            node("shade", "shade_hard", json!({})),
+        ],
+        &[
+            ("light_depth", "blur.depth"),
+            ("blur.blurred", "shade.map"),
+            ("camera_depth", "shade.camera_depth"),
+        ],
+        "shade.shadow_intensity",
+    )
+}
+
 /// Every technique with every storage that can hold it.
 fn techniques() -> Vec<(String, String)> {
     let mut all = Vec::new();
@@ -143,8 +160,13 @@ fn techniques() -> Vec<(String, String)> {
                 continue;
             }
             let encoded = json!({ "technique": technique, "storage": storage });
-            let blur = json!({ "kernel": { "radius": 2 } });
-            let text = filtered(light(4), encoded.clone(), blur);
+            let mut blur = json!({ "kernel": { "radius": 2 } });
+            let text = if storage.is_written_once() {
+                blur["resolve"] = encoded.clone();
+                resolved(light(4), blur)
+            } else {
+                filtered(light(4), encoded.clone(), blur)
+            };
             all.push((format!("{technique} {index} {storage}"), text));
             // Packed texels are read by the nodes that filter and shade alone.
             if technique.row().soft_technique().is_some() && !storage.is_packed() {

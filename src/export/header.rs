@@ -81,6 +81,13 @@ fn map(encoding: &MapEncoding) -> Vec<String> {
     };
     let texture = encoding.format().name();
     let mut lines = vec![format!("The map's texture is {texture}, {used}{planes}.")];
+    let mut packed = "";
+    if let [pack, unpack] = encoding.storage().packing() {
+        lines = vec![format!(
+            "The map's texture is {texture}: it holds `{pack}(texel)`, which `{unpack}` makes a texel again."
+        )];
+        packed = ", packed";
+    }
     let far = row.far_texels(encoding.storage()).unwrap_or_default();
     for (plane, texel) in far.iter().enumerate() {
         let texel: Vec<_> = texel.iter().map(|it| format!("{:?}", *it as f32)).collect();
@@ -89,7 +96,7 @@ fn map(encoding: &MapEncoding) -> Vec<String> {
             _ => format!(" of plane {plane}"),
         };
         lines.push(format!(
-            "A texel{of} that casts no shadow holds ({}); clear to it, not to zeros.",
+            "A texel{of} that casts no shadow holds ({}){packed}; clear to it, not to zeros.",
             texel.join(", ")
         ));
     }
@@ -114,7 +121,7 @@ fn use_of(encoding: &MapEncoding) -> String {
         ""
     };
     let values = if row.planes == 1 { "value" } else { "values" };
-    let lookup = if row.averaged_by_samplers {
+    let lookup = if encoding.averaged_by_samplers() {
         "a bilinear sample of the map, with mip levels if you like, is such an average already"
     } else {
         "samplers cannot average these texels; load four and average their values yourself"
@@ -124,11 +131,17 @@ fn use_of(encoding: &MapEncoding) -> String {
     } else {
         ""
     };
+    let filter = if encoding.storage().is_written_once() {
+        "Average values, the texels of the step before as they are or in more bits, and write `filtering_texel(value)` at the end alone: these texels are \
+         rounded too coarsely to be filtered again."
+    } else {
+        "Filter it, a separable blur say: average `filtering_value(texel)`, write `filtering_texel(value)`."
+    };
     format!(
         "\
 How to use it, with moment depths z:
 1. Make the map{each}: average `encoding_channels(z{channel_plane})` over the samples of a texel, write `encoding_texel(mean{texel_plane})`.{storage}
-2. Filter it, a separable blur say: average `filtering_value(texel)`, write `filtering_texel(value)`.
+2. {filter}
 3. Shade: subtract a receiver bias from the fragment's moment depth, look the map up and ask for
    `technique_shadow_intensity({values}, fragment_depth)`; {lookup}.
 4. `leak_reduction_apply(intensity, reduction)` darkens what leaks, if you like."

@@ -109,8 +109,9 @@ pub fn export(encoding: &MapEncoding, target: Target) -> Result<Exported, ValueE
              is made of";
         return Err(ValueError::new("storage", message));
     }
-    let functions = root::COMMON.iter().chain(row.functions).copied();
-    let functions: Vec<&'static str> = functions.collect();
+    let packing = encoding.storage().packing();
+    let functions = root::COMMON.iter().chain(row.functions).chain(packing);
+    let functions: Vec<&'static str> = functions.copied().collect();
     let wgsl = wgsl(encoding, &functions)?;
     let file = parsed(&wgsl)?;
     let comments = comments::comments(&wgsl, &file);

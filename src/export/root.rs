@@ -38,7 +38,7 @@ pub(super) fn linked(encoding: &MapEncoding) -> Result<String, ValueError> {
 }
 
 fn text(encoding: &MapEncoding, row: &Row) -> String {
-    let code = constants(encoding, row) + &functions(row) + &kept(row);
+    let code = constants(encoding, row) + &functions(row) + &kept(encoding, row);
     let words = code.split(|c: char| !c.is_alphanumeric() && c != '_');
     let words: BTreeSet<&str> = words.collect();
     let mut text = String::new();
@@ -174,8 +174,9 @@ fn technique_shadow_intensity({argument}, fragment_depth: f32) -> f32 {{
 }
 
 /// A function that names what is kept besides; nothing reaches it, so it goes.
-fn kept(row: &Row) -> String {
-    let names = COMMON.iter().skip(5).chain(row.functions);
+fn kept(encoding: &MapEncoding, row: &Row) -> String {
+    let packing = encoding.storage().packing();
+    let names = COMMON.iter().skip(5).chain(row.functions).chain(packing);
     let names: Vec<_> = names.map(|name| format!("    {name};\n")).collect();
     format!("\nfn keeps() {{\n{}}}\n", names.concat())
 }

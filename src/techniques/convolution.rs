@@ -4,7 +4,9 @@ use core::f64::consts::PI;
 
 use super::row::{Constant, Encoding, LINEAR, Row};
 use super::{count, far};
-use crate::Storage::{self, Fixed32, Float16, Float32, Packed64, Unorm8, Unorm10, Unorm16};
+use crate::Storage::{
+    self, Fixed32, Float16, Float32, Packed32, Packed64, Unorm8, Unorm10, Unorm16,
+};
 use crate::constants::{CONVOLUTION_BOUNDS, CONVOLUTION_LARGEST_TERMS};
 
 const NAME: &str = "convolution";
@@ -46,7 +48,7 @@ fn far(storage: Storage, terms: u32) -> Vec<[f64; 4]> {
         let waves = [first.sin(), first.cos(), second.sin(), second.cos()];
         match storage {
             Float16 => waves,
-            Unorm8 | Unorm10 | Unorm16 | Float32 | Fixed32 | Packed64 => {
+            Unorm8 | Unorm10 | Unorm16 | Float32 | Fixed32 | Packed64 | Packed32 => {
                 waves.map(|wave| 0.5 + 0.5 * wave)
             }
         }

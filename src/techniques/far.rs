@@ -7,7 +7,7 @@ pub(super) fn centred(planes: &[[f64; 4]], storage: Storage) -> Vec<[f64; 4]> {
     let middle = match storage {
         Storage::Float16 | Storage::Float32 => 0.5,
         Storage::Unorm8 | Storage::Unorm10 | Storage::Unorm16 | Storage::Fixed32 => 0.0,
-        Storage::Packed64 => 0.0,
+        Storage::Packed64 | Storage::Packed32 => 0.0,
     };
     let planes = planes.iter();
     planes.map(|plane| plane.map(|it| it - middle)).collect()

@@ -2,7 +2,7 @@
 
 use super::far;
 use super::row::{Blended, Encoding, LINEAR, Row};
-use crate::Storage::{self, Float16, Float32, Packed64, Unorm10, Unorm16};
+use crate::Storage::{self, Float16, Float32, Packed32, Packed64, Unorm10, Unorm16};
 use crate::constants::{SIX_MOMENTS_EVEN_BASIS, SIX_MOMENTS_EVEN_OFFSET};
 
 const FOUR: Encoding = Encoding {
@@ -13,7 +13,7 @@ const FOUR: Encoding = Encoding {
 };
 
 /// Packed texels are valid on the real line alone, and make up for it: other storages come first, since samplers filter them.
-const OF_THE_LINE: [Storage; 4] = [Unorm16, Float16, Float32, Packed64];
+const OF_THE_LINE: [Storage; 5] = [Unorm16, Float16, Float32, Packed64, Packed32];
 
 /// The sharp lower bound from four moments on the real line (Peters & Klein, i3D 2015).
 pub(super) fn hamburger4() -> Row {
@@ -114,7 +114,7 @@ fn far_of_six(storage: Storage) -> Vec<[f64; 4]> {
 
 /// All moments are 1: 1/2 + sqrt(3) (1/2 - 2/9) in the third channel of the optimised basis.
 fn far_of_four(storage: Storage) -> Vec<[f64; 4]> {
-    if storage == Float32 {
+    if storage == Float32 || storage == Packed32 {
         return vec![[1.0; 4]];
     }
     if storage == Packed64 {

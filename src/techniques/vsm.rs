@@ -2,7 +2,9 @@
 
 use super::far;
 use super::row::{Blended, Encoding, LINEAR, Row};
-use crate::Storage::{self, Fixed32, Float16, Float32, Packed64, Unorm8, Unorm10, Unorm16};
+use crate::Storage::{
+    self, Fixed32, Float16, Float32, Packed32, Packed64, Unorm8, Unorm10, Unorm16,
+};
 
 const ENCODING: Encoding = Encoding {
     channels: "two_moments_from_depth(z)",
@@ -46,7 +48,7 @@ pub(super) fn far_of_pairs(storage: Storage, pairs: u32) -> Vec<[f64; 4]> {
     let pair = match storage {
         Float32 => [1.0, 1.0],
         Float16 => [0.5, -0.5],
-        Unorm8 | Unorm10 | Unorm16 | Fixed32 | Packed64 => [1.0, 0.0],
+        Unorm8 | Unorm10 | Unorm16 | Fixed32 | Packed64 | Packed32 => [1.0, 0.0],
     };
     let second = if pairs > 1 { pair } else { [0.0; 2] };
     let texel = [pair[0], pair[1], second[0], second[1]];

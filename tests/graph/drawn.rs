@@ -247,7 +247,13 @@ fn texels_that_are_rounded_inwards_are_those_of_one_technique() {
 
 #[test]
 fn nodes_that_read_channels_as_they_are_refuse_packed_texels_by_name() {
-    let packed = || map(Technique::Hamburger4, Storage::Packed64);
+    for storage in [Storage::Packed64, Storage::Packed32] {
+        refuse_packed(storage);
+    }
+}
+
+fn refuse_packed(storage: Storage) {
+    let packed = || map(Technique::Hamburger4, storage);
     let table = SummedAreaTable {
         largest_kernel: [9; 2],
     };
@@ -264,20 +270,24 @@ fn nodes_that_read_channels_as_they_are_refuse_packed_texels_by_name() {
     for error in refused.map(Result::unwrap_err) {
         assert_eq!(error.kind, GraphErrorKind::Format, "{error}");
         assert!(
-            error.to_string().contains("'packed64', in packed texels"),
+            error
+                .to_string()
+                .contains(&format!("'{storage}', in packed texels")),
             "{error}"
         );
     }
     let into_packed = RectifyMoments {
         technique: Technique::Hamburger4,
-        storage: Storage::Packed64,
+        storage,
         extent: [64, 64],
     };
     let four = map(Technique::Hamburger4, Storage::Float16);
     let error = described(&into_packed, "map", four).unwrap_err();
     assert_eq!(error.kind, GraphErrorKind::Property, "{error}");
     assert!(
-        error.to_string().contains("those of 'packed64' are none"),
+        error
+            .to_string()
+            .contains(&format!("those of '{storage}' are none")),
         "{error}"
     );
 }

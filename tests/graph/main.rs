@@ -34,3 +34,4 @@ mod stages;
 mod targets;
 mod techniques;
 mod wiring;
+mod written_once;

@@ -115,6 +115,13 @@ fn the_whole_matrix_is_accepted_or_refused_as_the_table_says() {
     assert_eq!(legal, 74 + 30);
 }
 
+/// Packed texels come last, and are none that anything is blended into.
+#[test]
+fn a_map_that_casters_are_blended_into_has_a_storage_that_is_blended() {
+    let text = edited("\"storage\": \"unorm16\"", "\"blends\": 4");
+    compiled(&text, &native()).unwrap();
+}
+
 #[test]
 fn the_best_storage_is_legal_and_writable() {
     for encoding in techniques::filterable() {

@@ -1,6 +1,7 @@
 //! What the storages do to moments: the optimised basis, rounding, and whether the moment bias covers it.
 #![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic)]
 
+mod coarse;
 mod inwards;
 mod packed;
 mod patches;

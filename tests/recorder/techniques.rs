@@ -7,6 +7,7 @@ use moment_shadows::{
 use moment_shadows_graph::record::ImportedResource;
 use moment_shadows_graph::{Capabilities, TextureDesc};
 use moment_shadows_lab::gpu::Gpu;
+use moment_shadows_lab::graph_file::GraphFile;
 use moment_shadows_lab::techniques;
 
 use crate::depth_map;
@@ -177,6 +178,8 @@ fn every_filterable_technique_shades_a_caster_and_spares_what_is_beside_it() {
         }
         let json = serde_json::to_string(encoding.technique()).unwrap();
         let text = graph(&json, encoding.storage().name());
+        let file = GraphFile::parse("graph", text, Some(encoding.storage()));
+        let text = file.unwrap().text;
         // Planes of a second layer lie behind those of the first.
         for layer in [0, 1] {
             let intensities = shade(&gpu, &capabilities, &text, layer);

@@ -1,8 +1,8 @@
 // What is linked of files:
 // moment_shadows/maths/split_sum.wgsl: split_sum_coarse
 // moment_shadows/filter/separable.wgsl: separable_add SeparableSums separable_add_to_sums SeparableEight separable_add_to_eight separable_outputs
-// moment_shadows/map/storage.wgsl: STORAGE_FLOAT16 STORAGE_FLOAT32 STORAGE_PACKED64 storage_unpack storage_round_to_float16
-// moment_shadows/moments/packed_four_moments.wgsl: PACKED_FOUR_MOMENTS_LARGEST_DEPTH PACKED_FOUR_MOMENTS_LEAST_VARIANCE packed_four_moments_channels packed_four_moments_from_channels
+// moment_shadows/map/storage.wgsl: STORAGE_FLOAT16 STORAGE_FLOAT32 STORAGE_PACKED64 STORAGE_PACKED32 storage_unpack storage_round_to_float16
+// moment_shadows/moments/packed_four_moments.wgsl: PACKED_FOUR_MOMENTS_LARGEST_DEPTH PACKED_FOUR_MOMENTS_LEAST_VARIANCE PackedFourMomentsNodes packed_four_moments_nodes packed_four_moments_channels packed_four_moments_from_channels
 // moment_shadows/moments/four_moments.wgsl: FourMomentsBias FOUR_MOMENTS_BIAS_ROUNDED_INWARDS_UNORM16 FOUR_MOMENTS_BIAS_ROUNDED_INWARDS_FLOAT16 FOUR_MOMENTS_SQRT_3 four_moments_quantize four_moments_clamp four_moments_to_texel four_moments_apply_bias four_moments_biased_from_texel
 // moment_shadows/moments/inward_rounding.wgsl: INWARD_ROUNDING_SHARE INWARD_ROUNDING_MOVE INWARD_ROUNDING_INVALID inward_rounding_least_key inward_rounding_best inward_rounding_texel
 // blur_source: moments_map blur_source blur_stored
@@ -17,11 +17,18 @@ const GROUP = 0;
 alias MomentsStorage = texture_storage_2d<rgba16unorm, write>;
 const STORAGE = 0u;
 const REGIONS = 1u;
+const ROUNDED_INWARDS = true;
 const WORKGROUP_X = 64u;
 const WORKGROUP_Y = 1u;
 const AXIS = vec2i(0, 1);
 const OUTPUTS = 8;
 const SPLIT_SUMS = false;
+
+// map_encoding
+// The texel for the mean.
+fn encoding_texel(mean: vec4f) -> vec4f {
+    return four_moments_to_texel(mean, STORAGE);
+}
 
 // blur_outputs
 fn blur_outputs(first: vec2i, low: vec2i, last: vec2i, region: u32) {

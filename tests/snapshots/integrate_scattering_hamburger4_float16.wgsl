@@ -4,7 +4,7 @@
 // moment_shadows/air/scattering_weights.wgsl: scattering_weights_clip scattering_weights_inclinations scattering_weights_reference_sine scattering_weights_thickness scattering_weights_of_column
 // integrate_target: IntegrateScatteringParameters parameters rectified_map integrated_map row_thickness
 // moment_shadows/map/storage.wgsl: STORAGE_FLOAT16 STORAGE_UNORM10 STORAGE_PACKED64 storage_round_to_float16 storage_round_to_unorm10 storage_round_texel
-// moment_shadows/moments/packed_four_moments.wgsl: PACKED_FOUR_MOMENTS_LARGEST_DEPTH PACKED_FOUR_MOMENTS_LEAST_VARIANCE packed_four_moments_channels
+// moment_shadows/moments/packed_four_moments.wgsl: PACKED_FOUR_MOMENTS_LARGEST_DEPTH PACKED_FOUR_MOMENTS_LEAST_VARIANCE PackedFourMomentsNodes packed_four_moments_nodes packed_four_moments_channels
 // moment_shadows/moments/four_moments.wgsl: four_moments_filter_texel
 // integrate_scattering_parallel.wgsl: THREADS TEXELS sums weights integrate
 

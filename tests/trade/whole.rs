@@ -16,8 +16,8 @@ fn a_trade_goes_on_where_it_stopped_with_the_same_errors() {
     let trade = small(&["vsm", "hamburger4"]);
     let whole = tempfile::tempdir().unwrap();
     let results = trade.run(whole.path()).unwrap();
-    // Two techniques with two and four storages, two maps, one and four samples.
-    assert_eq!(rows(&results).len(), 24);
+    // Two techniques with two and five storages, two maps, one and four samples.
+    assert_eq!(rows(&results).len(), 28);
     assert!(!whole.path().join("unfinished.jsonl").exists());
     // A journal that ends in the middle of a line.
     let stopped = tempfile::tempdir().unwrap();
@@ -47,7 +47,7 @@ fn a_trade_goes_on_where_it_stopped_with_the_same_errors() {
     );
     let svg = "front-fence-and-foliage-4-time.svg";
     let svg = fs::read_to_string(whole.path().join(svg)).unwrap();
-    assert_eq!(svg.matches("<circle").count(), 24);
+    assert_eq!(svg.matches("<circle").count(), 28);
     figures(&results);
 }
 
@@ -59,7 +59,7 @@ fn page(results: &Results, page: &str) {
     let body = page.matches("<tr>").count() - page.matches("<thead><tr>").count();
     assert_eq!(body, rows(results).len());
     // Pictures of the largest map with the most samples.
-    assert_eq!(page.matches("data:image/png;base64,").count(), 6);
+    assert_eq!(page.matches("data:image/png;base64,").count(), 7);
 }
 
 /// What the figures have to say whatever the device: more samples and a larger map err less, and so do more moments.

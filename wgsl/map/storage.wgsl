@@ -15,6 +15,8 @@ const STORAGE_FIXED32: u32 = 4u;
 const STORAGE_UNORM10: u32 = 5u;
 // Four channels, two in [-1, 1] and two in [0, 1], in two 32-bit integers; see `packed_four_moments` for what they mean.
 const STORAGE_PACKED64: u32 = 6u;
+// Four moments in one 32-bit integer; see `coarse_four_moments`.
+const STORAGE_PACKED32: u32 = 7u;
 
 // The largest finite float16.
 const STORAGE_LARGEST_FLOAT16: f32 = 65504.0;

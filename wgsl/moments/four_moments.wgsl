@@ -1,4 +1,4 @@
-import super::super::map::storage::{STORAGE_FLOAT16, STORAGE_FLOAT32, STORAGE_PACKED64, storage_round_texel, storage_round_to_float16};
+import super::super::map::storage::{STORAGE_FLOAT16, STORAGE_FLOAT32, STORAGE_PACKED32, STORAGE_PACKED64, storage_round_texel, storage_round_to_float16};
 import super::super::moments::packed_four_moments::{packed_four_moments_channels, packed_four_moments_from_channels};
 
 // Four moments of depth: encoding, storage, bias.
@@ -29,6 +29,7 @@ const FOUR_MOMENTS_BIAS_ROUNDED_INWARDS_UNORM16: FourMomentsBias = FourMomentsBi
 const FOUR_MOMENTS_BIAS_ROUNDED_INWARDS_FLOAT16: FourMomentsBias = FourMomentsBias(1.5e-4, 0.628, 0.628);
 // Packed texels hold valid moments, whatever was rounded. This covers sums of four texels' moments and the evaluation, in f32.
 const FOUR_MOMENTS_BIAS_PACKED64: FourMomentsBias = FourMomentsBias(1e-6, 0.375, 0.375);
+const FOUR_MOMENTS_BIAS_PACKED32: FourMomentsBias = FourMomentsBias(1e-6, 0.375, 0.375);
 
 // sqrt(3), a factor in the optimised basis and its inverse.
 const FOUR_MOMENTS_SQRT_3: f32 = 1.7320508075688772;
@@ -66,9 +67,9 @@ fn four_moments_clamp(b: vec4f) -> vec4f {
     return clamp(b, vec4f(-1.0, 0.0, -1.0, 0.0), vec4f(1.0));
 }
 
-// The texel to write in the storage.
+// The texel to write in the storage; as packed32 the moments themselves, which `coarse_four_moments_pack` stores.
 fn four_moments_to_texel(b: vec4f, stored_as: u32) -> vec4f {
-    if stored_as == STORAGE_FLOAT32 {
+    if stored_as == STORAGE_FLOAT32 || stored_as == STORAGE_PACKED32 {
         return b;
     }
     if stored_as == STORAGE_PACKED64 {
@@ -101,7 +102,7 @@ fn four_moments_filter_texel(value: vec4f, stored_as: u32) -> vec4f {
 // The moments in a (filtered) texel of the storage, or of `four_moments_filter_value` where it is packed. Float storage can hold anything; `four_moments_clamp` comes before any
 // arithmetic that relies on ranges.
 fn four_moments_from_texel(texel: vec4f, stored_as: u32) -> vec4f {
-    if stored_as == STORAGE_FLOAT32 || stored_as == STORAGE_PACKED64 {
+    if stored_as == STORAGE_FLOAT32 || stored_as == STORAGE_PACKED64 || stored_as == STORAGE_PACKED32 {
         return texel;
     }
     if stored_as == STORAGE_FLOAT16 {
@@ -117,6 +118,9 @@ fn four_moments_bias_of(stored_as: u32) -> FourMomentsBias {
     }
     if stored_as == STORAGE_PACKED64 {
         return FOUR_MOMENTS_BIAS_PACKED64;
+    }
+    if stored_as == STORAGE_PACKED32 {
+        return FOUR_MOMENTS_BIAS_PACKED32;
     }
     if stored_as == STORAGE_FLOAT16 {
         return FOUR_MOMENTS_BIAS_FLOAT16;
@@ -144,7 +148,7 @@ fn four_moments_biased_from_texel(texel: vec4f, stored_as: u32, bias: FourMoment
     if stored_as == STORAGE_FLOAT32 {
         return four_moments_apply_bias(four_moments_clamp(texel), bias);
     }
-    if stored_as == STORAGE_PACKED64 {
+    if stored_as == STORAGE_PACKED64 || stored_as == STORAGE_PACKED32 {
         return fma(vec4f(1.0 - bias.alpha), texel, bias.alpha * vec4f(0.0, bias.second, 0.0, bias.fourth));
     }
     // The inverse of the basis and the bias are both affine, and so one step. These biases are large enough for 1 - alpha.

@@ -15,9 +15,18 @@ const PACKED_FOUR_MOMENTS_LARGEST_DEPTH: f32 = 32767.0;
 // Skewness is divided by no variance below this, so that what rounding in f32 leaves of 0 places no node far out.
 const PACKED_FOUR_MOMENTS_LEAST_VARIANCE: f32 = 1e-5;
 
-// The channels of a packed texel for finite moments b: two depths in [-1, 1], then the weight and the root in [0, 1]. Depths are rounded outwards, so that the mean lies between them and
-// the weight, found for the rounded depths, keeps it far more exactly than they are. That only widens a distribution.
-fn packed_four_moments_channels(b: vec4f) -> vec4f {
+// What the shortest distribution with some moments consists of.
+struct PackedFourMomentsNodes {
+    mean: f32,
+    // The two depths, not clamped.
+    lower: f32,
+    upper: f32,
+    // How far the fourth moment exceeds theirs, in [0, 1].
+    pivot: f32,
+}
+
+// The same for finite moments b.
+fn packed_four_moments_nodes(b: vec4f) -> PackedFourMomentsNodes {
     let mean = clamp(b.x, -1.0, 1.0);
     let variance = max(fma(-mean, mean, b.y), 0.0);
     let covariance = fma(-mean, b.y, b.z);
@@ -28,12 +37,20 @@ fn packed_four_moments_channels(b: vec4f) -> vec4f {
     let farther = 0.5 * abs(s) + sqrt(fma(0.25 * s, s, variance));
     let nearer = variance / max(farther, 1e-20);
     let above = s >= 0.0;
-    let nodes = mean + vec2f(-select(farther, nearer, above), select(nearer, farther, above));
-    let places = clamp(nodes, vec2f(-1.0), vec2f(1.0)) * PACKED_FOUR_MOMENTS_LARGEST_DEPTH;
+    let lower = mean - select(farther, nearer, above);
+    let upper = mean + select(nearer, farther, above);
+    return PackedFourMomentsNodes(mean, lower, upper, pivot);
+}
+
+// The channels of a packed texel for finite moments b: two depths in [-1, 1], then the weight and the root in [0, 1]. Depths are rounded outwards, so that the mean lies between them and
+// the weight, found for the rounded depths, keeps it far more exactly than they are. That only widens a distribution.
+fn packed_four_moments_channels(b: vec4f) -> vec4f {
+    let nodes = packed_four_moments_nodes(b);
+    let places = clamp(vec2f(nodes.lower, nodes.upper), vec2f(-1.0), vec2f(1.0)) * PACKED_FOUR_MOMENTS_LARGEST_DEPTH;
     let lower = min(floor(places.x), PACKED_FOUR_MOMENTS_LARGEST_DEPTH - 1.0);
     let upper = max(ceil(places.y), lower + 1.0);
-    let weight = saturate(fma(mean, PACKED_FOUR_MOMENTS_LARGEST_DEPTH, -lower) / (upper - lower));
-    return vec4f(vec2f(lower, upper) / PACKED_FOUR_MOMENTS_LARGEST_DEPTH, weight, sqrt(pivot));
+    let weight = saturate(fma(nodes.mean, PACKED_FOUR_MOMENTS_LARGEST_DEPTH, -lower) / (upper - lower));
+    return vec4f(vec2f(lower, upper) / PACKED_FOUR_MOMENTS_LARGEST_DEPTH, weight, sqrt(nodes.pivot));
 }
 
 // The moments of a packed texel with such channels.
@@ -57,6 +74,14 @@ fn packed_four_moments_sums(before: vec4f, depths: vec2f, weights: vec2f) -> vec
     );
 }
 
+// The sum of the moments of the depths of four texels with weights.
+fn packed_four_moments_sums_of_texels(lower: vec4f, upper: vec4f, of_lower: vec4f, of_upper: vec4f) -> vec4f {
+    var sums = packed_four_moments_sums(vec4f(0.0), vec2f(lower.x, upper.x), vec2f(of_lower.x, of_upper.x));
+    sums = packed_four_moments_sums(sums, vec2f(lower.y, upper.y), vec2f(of_lower.y, of_upper.y));
+    sums = packed_four_moments_sums(sums, vec2f(lower.z, upper.z), vec2f(of_lower.z, of_upper.z));
+    return packed_four_moments_sums(sums, vec2f(lower.w, upper.w), vec2f(of_lower.w, of_upper.w));
+}
+
 // The bilinearly filtered moments at a place in [0, 1] between four texels, from their first and second integers (as `storage_pack` has
 // them) in the order of a gather. These are sums over eight depths, scaled once at the end.
 fn packed_four_moments_bilinear(depths: vec4u, others: vec4u, place: vec2f) -> vec4f {
@@ -70,10 +95,7 @@ fn packed_four_moments_bilinear(depths: vec4u, others: vec4u, place: vec2f) -> v
     let weights = vec4f(high_row - high_column.x, high_column, low_row - high_column.y);
     let of_upper = weights * vec4f(others & vec4u(0xffffu));
     let of_lower = fma(weights, vec4f(PACKED_FOUR_MOMENTS_STEPS), -of_upper);
-    var sums = packed_four_moments_sums(vec4f(0.0), vec2f(lower.x, upper.x), vec2f(of_lower.x, of_upper.x));
-    sums = packed_four_moments_sums(sums, vec2f(lower.y, upper.y), vec2f(of_lower.y, of_upper.y));
-    sums = packed_four_moments_sums(sums, vec2f(lower.z, upper.z), vec2f(of_lower.z, of_upper.z));
-    sums = packed_four_moments_sums(sums, vec2f(lower.w, upper.w), vec2f(of_lower.w, of_upper.w));
+    let sums = packed_four_moments_sums_of_texels(lower, upper, of_lower, of_upper);
     let one = 1.0 / PACKED_FOUR_MOMENTS_LARGEST_DEPTH;
     let two = one * one;
     let pivot = dot(weights * root, root) * (1.0 / PACKED_FOUR_MOMENTS_STEPS);

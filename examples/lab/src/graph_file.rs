@@ -11,6 +11,8 @@ use serde_json::{Value, json};
 
 use crate::error::LabError;
 
+pub(crate) use technique::LARGEST_RESOLVED_RADIUS;
+
 /// A graph file.
 #[derive(Debug)]
 pub struct GraphFile {
@@ -46,6 +48,7 @@ impl GraphFile {
         match storage {
             None => Ok(file),
             Some(storage) => {
+                let file = file.written_once(storage)?.unwrap_or(file);
                 let Self { text, graph, .. } = file.edited(|file| {
                     for node in items(file, "nodes").filter(|node| technique::resolves(node)) {
                         technique::told_how_to_resolve(node)["storage"] = storage.name().into();

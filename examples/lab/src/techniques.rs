@@ -3,13 +3,14 @@
 use moment_shadows::{EsmFiltering, LayerSplits, MapEncoding, PcfTaps, Storage, Technique};
 
 /// The storages of maps that are made by drawing a light's depth.
-pub const STORAGES: [Storage; 6] = [
+pub const STORAGES: [Storage; 7] = [
     Storage::Unorm8,
     Storage::Unorm10,
     Storage::Unorm16,
     Storage::Float16,
     Storage::Float32,
     Storage::Packed64,
+    Storage::Packed32,
 ];
 
 /// The filterable techniques with settings that suit a storage, and their encodings.

@@ -2,7 +2,7 @@
 //!
 //! All of it comes from the technique's row ([`moment_shadows::Row`]).
 
-use moment_shadows::{MapEncoding, Technique, TextureFormat};
+use moment_shadows::{MapEncoding, Storage, Technique, TextureFormat};
 
 use super::shared::{Specialization, regions, wrong_format};
 use crate::{Binding, Capabilities, GraphError, Off, Pass, Rule, Slot, TextureRule, bind};
@@ -18,6 +18,10 @@ pub(super) fn of_both_bounds<T>(technique: &Technique, four: T, six: T) -> Optio
 pub(super) fn no_shadow(encoding: &MapEncoding) -> Off {
     let row = encoding.technique().row();
     let texels = row.far_texels(encoding.storage()).unwrap_or_default();
+    if encoding.storage() == Storage::Packed32 {
+        // The greatest depth in the lowest bits, and no distance to a second one.
+        return Off::Fill(vec![[4095.0, 0.0, 0.0, 0.0]]);
+    }
     if !encoding.storage().is_packed() {
         return Off::Fill(texels.to_vec());
     }
@@ -116,10 +120,10 @@ pub(super) fn splits(technique: &Technique, one_layer: bool) -> (Option<Slot>, O
 
 /// How texels lie in textures: the module `map_texture`.
 pub(super) fn map_texture(encoding: &MapEncoding) -> &'static str {
-    if encoding.storage().is_packed() {
-        include_str!("techniques/map_texture_packed.wgsl")
-    } else {
-        include_str!("techniques/map_texture_channels.wgsl")
+    match encoding.storage() {
+        Storage::Packed32 => include_str!("techniques/map_texture_coarse.wgsl"),
+        Storage::Packed64 => include_str!("techniques/map_texture_packed.wgsl"),
+        _ => include_str!("techniques/map_texture_channels.wgsl"),
     }
 }
 

@@ -27,6 +27,7 @@ pub(super) fn wgpu_format(format: TextureFormat) -> wgpu::TextureFormat {
         TextureFormat::Rgba16Unorm => wgpu::TextureFormat::Rgba16Unorm,
         TextureFormat::Rgba16Float => wgpu::TextureFormat::Rgba16Float,
         TextureFormat::Rgba32Float => wgpu::TextureFormat::Rgba32Float,
+        TextureFormat::R32Uint => wgpu::TextureFormat::R32Uint,
         TextureFormat::Rg32Uint => wgpu::TextureFormat::Rg32Uint,
         TextureFormat::Rgba32Uint => wgpu::TextureFormat::Rgba32Uint,
         TextureFormat::Depth16Unorm => wgpu::TextureFormat::Depth16Unorm,

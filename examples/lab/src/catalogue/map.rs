@@ -250,6 +250,16 @@ pub(super) fn of_technique(map: &MapEncoding) -> Vec<Variant> {
     let drawn = map.storage().is_drawn();
     let suffix = format!("{}_{}", techniques::label(map.technique()), map.storage());
     let mut all = Vec::new();
+    if map.storage().is_written_once() {
+        let storage = map.storage();
+        let row = |radius| format!("{storage}, radius {radius}, 4 samples");
+        return vec![
+            resolved_blur(map, 4, false)
+                .file(format!("blur_resolved_{storage}"), 2_usize)
+                .row(true, row(4), &[]),
+            resolved_blur(map, 12, false).row(true, row(12), &[]),
+        ];
+    }
     // A map that several techniques read is made and filtered alike for all of them.
     let reads = |other: &Technique| other.row().shares_map_with(&map.technique().row());
     let first = Technique::examples().into_iter().find(reads);

@@ -133,6 +133,10 @@ impl Options {
                 })?;
             for ((subject, file), &radius) in subjects.iter().zip(&files).zip(&self.radius) {
                 for candidate in candidates {
+                    if !file.makes(candidate.storage()) {
+                        bar.inc(1);
+                        continue;
+                    }
                     let errors = subject.judge(&gpu, &candidate.graph(file)?, None)?;
                     rows.push(ErrorRow {
                         scene: scene.name.clone(),

@@ -12,6 +12,7 @@ use crate::candidate::{Candidate, TechniqueChoice};
 use crate::cost::table::{Cell, Columns};
 use crate::error::LabError;
 use crate::gpu::Gpu;
+use crate::graph_file::GraphFile;
 use crate::graph_frame::GraphFrame;
 use crate::judgement::{Judgement, Truth};
 use crate::metric::{NO_PIXEL, percent};
@@ -51,7 +52,7 @@ fn rows(
     graph: &Path,
     options: &RenderOptions,
 ) -> Result<Vec<Vec<Cell<'static>>>, LabError> {
-    let storages = match (&options.technique, options.storage) {
+    let mut storages = match (&options.technique, options.storage) {
         (_, Some(storage)) => vec![Some(storage)],
         (None, None) => Technique::Hamburger4
             .row()
@@ -65,6 +66,10 @@ fn rows(
             .map(Candidate::storage)
             .collect(),
     };
+    if options.storage.is_none() {
+        let file = GraphFile::read(graph, None)?;
+        storages.retain(|&storage| file.makes(storage));
+    }
     let bar = progress::bar((scenes.len() * storages.len()) as u64, "measuring");
     let mut rows = Vec::new();
     for name in scenes {

@@ -11,6 +11,9 @@ use crate::error::LabError;
 /// The node that places layers, where a technique needs one.
 const PLACE: &str = "lab_place_layers";
 
+/// The largest radius of a blur that resolves.
+pub(crate) const LARGEST_RESOLVED_RADIUS: u32 = 12;
+
 impl GraphFile {
     /// This graph with a technique in place of its own. A filterable one makes its map in `storage`, or in that of the
     /// graph. One that reads the plain depth map is connected to it; what made the filterable map has no reader then and is
@@ -20,6 +23,9 @@ impl GraphFile {
         technique: &Technique,
         storage: Option<Storage>,
     ) -> Result<Self, LabError> {
+        if let Some(file) = storage.map_or(Ok(None), |it| self.written_once(it))? {
+            return file.with_technique(technique, storage);
+        }
         let resolve = match self.blur_that_resolves() {
             Some(blur) => name(&blur),
             None => self.name_of("resolve")?,
@@ -88,10 +94,37 @@ impl GraphFile {
         })
     }
 
+    /// Whether this graph makes a map in a storage: one that is written once needs a blur that can resolve.
+    #[must_use]
+    pub fn makes(&self, storage: Option<Storage>) -> bool {
+        if !storage.is_some_and(Storage::is_written_once) {
+            return true;
+        }
+        let Some(blur) = self.node_of("blur") else {
+            return false;
+        };
+        let is_literal = !matches!(blur["properties"]["per_frame"], Value::Bool(true));
+        let kernel = self.kernel().ok().flatten();
+        let is_narrow = kernel.is_some_and(|it| it.radius() <= LARGEST_RESOLVED_RADIUS);
+        is_literal && is_narrow && self.node_of("downsample").is_none()
+    }
+
+    /// This graph with its blur in place of the node that resolves before it, where only that makes a map in the storage.
+    pub(super) fn written_once(&self, storage: Storage) -> Result<Option<Self>, LabError> {
+        let is_told = !storage.is_written_once() || self.blur_that_resolves().is_some();
+        match is_told {
+            true => Ok(None),
+            false => self.resolved_by_the_blur().map(Some),
+        }
+    }
+
     /// This graph with its blur in place of the node that resolves before it.
     pub fn resolved_by_the_blur(&self) -> Result<Self, LabError> {
         let [resolve, blur] = [self.name_of("resolve")?, self.name_of("blur")?];
-        let properties = self.node_entry(&resolve, "properties");
+        let properties = match self.node_entry(&resolve, "properties") {
+            Value::Null => json!({}),
+            given => given,
+        };
         self.edited(|file| {
             for node in items(file, "nodes").filter(|node| node["name"] == blur.as_str()) {
                 node["properties"]["resolve"] = properties.clone();

@@ -4,7 +4,9 @@ import node::map_filtering::{filtering_texel, filtering_value};
 import node::map_texel::{filtered_texels};
 import node::specialization::{PLANES, SPLIT_SUMS, STORAGE};
 import moment_shadows::maths::split_sum::{split_sum_coarse};
-import moment_shadows::map::storage::{STORAGE_FLOAT16, STORAGE_FLOAT32, STORAGE_PACKED64, STORAGE_UNORM10, STORAGE_UNORM16, storage_pack, storage_unpack};
+import moment_shadows::map::storage::{STORAGE_FLOAT16, STORAGE_FLOAT32, STORAGE_PACKED32, STORAGE_PACKED64, STORAGE_UNORM10, STORAGE_UNORM16, storage_pack, storage_unpack};
+import moment_shadows::moments::coarse_four_moments::{coarse_four_moments_pack, coarse_four_moments_unpack};
+import moment_shadows::moments::packed_four_moments::{packed_four_moments_channels, packed_four_moments_from_channels};
 import node::technique::{technique_shadow_intensity};
 import node::technique_receiver::{TechniqueReceiver};
 
@@ -53,10 +55,21 @@ fn stored(texel: vec4f) -> vec4f {
         case STORAGE_PACKED64: {
             return storage_unpack(storage_pack(texel));
         }
+        case STORAGE_PACKED32: {
+            return coarse_four_moments_unpack(coarse_four_moments_pack(texel));
+        }
         default: {
             return unpack4x8unorm(pack4x8unorm(texel));
         }
     }
+}
+
+// The texel of a map that is filtered again: that of a storage that is written once has another one.
+fn stored_before(texel: vec4f) -> vec4f {
+    if STORAGE == STORAGE_PACKED32 {
+        return packed_four_moments_from_channels(storage_unpack(storage_pack(packed_four_moments_channels(texel))));
+    }
+    return stored(texel);
 }
 
 // PCG hash (Jarzynski & Olano, JCGT 9(3) 2020) of a place in a pattern.
@@ -94,7 +107,7 @@ fn added(sum: PatchSum, weight: f32, value: vec4f) -> PatchSum {
 }
 
 fn filtered(sum: PatchSum) -> vec4f {
-    return stored(filtering_texel(sum.texels + sum.rest));
+    return filtering_texel(sum.texels + sum.rest);
 }
 
 // A resolve of four samples and a blur in two passes, which sums its taps in order as the node does.
@@ -105,7 +118,7 @@ fn patch_texel(depths: array<f32, 8>, input: BatchInput) -> vec4f {
     for (var index = 0u; index < input.count; index++) {
         let share = f32(input.coverage);
         let sum = (4.0 - share) * encoding_channels(z[index]) + share * encoding_channels(z[(index + 1u) % input.count]);
-        values[index] = filtering_value(stored(encoding_texel(sum / 4.0)));
+        values[index] = filtering_value(stored_before(encoding_texel(sum / 4.0)));
     }
     // The table holds where the weights of each kernel begin and how many there are, then the weights.
     let first = u32(batch_table[2u * input.kernel]);
@@ -118,14 +131,14 @@ fn patch_texel(depths: array<f32, 8>, input: BatchInput) -> vec4f {
         sums[0] = added(sums[0], weight, values[pattern(rows[0], place) % input.count]);
         sums[1] = added(sums[1], weight, values[pattern(rows[1], place) % input.count]);
     }
-    let one = filtering_value(filtered(sums[0]));
-    let other = filtering_value(filtered(sums[1]));
+    let one = filtering_value(stored_before(filtered(sums[0])));
+    let other = filtering_value(stored_before(filtered(sums[1])));
     var sum: PatchSum;
     for (var tap = 0u; tap < taps; tap++) {
         let is_other = (pattern(input.column, tap / input.column_run) & 1u) == 1u;
         sum = added(sum, batch_table[first + tap], select(one, other, is_other));
     }
-    return filtered(sum);
+    return stored(filtered(sum));
 }
 
 fn moment_depth(depth: f32, input: BatchInput) -> f32 {

@@ -1,13 +1,13 @@
 //! What is varied: maps, softness, samples, techniques with their storages.
 
-use moment_shadows::Profile;
+use moment_shadows::{Profile, Storage};
 use serde::{Deserialize, Serialize};
 use serde_json::json;
 
 use super::results::AxesSetting;
 use crate::candidate::Candidate;
 use crate::error::LabError;
-use crate::graph_file::GraphFile;
+use crate::graph_file::{GraphFile, LARGEST_RESOLVED_RADIUS};
 
 /// The axes of a trade. Every value of each is combined with all others.
 #[derive(Clone, Debug)]
@@ -52,7 +52,7 @@ impl Axes {
         f64::from(widest) + 2.0 * f64::from(self.largest_map()) / f64::from(smallest.max(1))
     }
 
-    /// Every combination, map by map and softness by softness.
+    /// Every combination, map by map and softness by softness, but for filters that are wider than a map written once can have.
     #[must_use]
     pub fn cells(&self) -> Vec<Cell> {
         let mut cells = Vec::new();
@@ -60,6 +60,10 @@ impl Axes {
             for &samples in &self.samples {
                 for &radius in &self.radii {
                     for (candidate, of) in self.candidates.iter().enumerate() {
+                        let is_once = of.storage().is_some_and(Storage::is_written_once);
+                        if is_once && self.width(map, radius) > f64::from(LARGEST_RESOLVED_RADIUS) {
+                            continue;
+                        }
                         let samples = if of.reads_depth() { 1 } else { samples };
                         let cell = Cell {
                             map,
@@ -92,9 +96,14 @@ impl Axes {
         self.candidates[cell.candidate].graph(&blurred)
     }
 
+    /// The radius in texels of a map of `map` texels that is `radius` in the largest.
+    fn width(&self, map: u32, radius: u32) -> f64 {
+        f64::from(radius) * f64::from(map) / f64::from(self.largest_map())
+    }
+
     /// A graph whose filter is as wide in a map of `map` texels as a radius in the largest.
     pub fn blurred(&self, file: &GraphFile, map: u32, radius: u32) -> Result<GraphFile, LabError> {
-        let width = f64::from(radius) * f64::from(map) / f64::from(self.largest_map());
+        let width = self.width(map, radius);
         let kernel = json!({ "radius": width.ceil().max(1.0) as u32, "sigma": 0.6 * width });
         file.with_kernel(&kernel)
     }

@@ -240,7 +240,8 @@ fn pass(
         ),
         None => (
             techniques::of_map(upstream.capabilities(), encoding)
-                .unsigned("REGIONS", source.desc.regions),
+                .unsigned("REGIONS", source.desc.regions)
+                .constant("ROUNDED_INWARDS", encoding.is_rounded_inwards()),
             if source.repacks() {
                 include_str!("blur_source_packed.wgsl")
             } else {

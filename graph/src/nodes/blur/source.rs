@@ -31,6 +31,7 @@ impl<'a> Source<'a> {
     /// A map.
     pub(super) fn map(upstream: &Connected<'a>) -> Result<Self, GraphError> {
         let (desc, encoding) = map_input::connected(upstream, "map")?;
+        map_input::refuse_written_once(&encoding)?;
         let encoding = encoding.rounded_again();
         let rule = map_input::rule(map_input::all_formats());
         Ok(Self {
@@ -51,9 +52,13 @@ impl<'a> Source<'a> {
         is_literal: bool,
         rounded_inwards: bool,
     ) -> Result<Self, GraphError> {
+        let once = resolve.storage.iter().find(|it| it.is_written_once());
+        let instead = once.map_or(String::new(), |storage| {
+            format!(" with another storage than '{storage}', which is written once")
+        });
         let refused = |message: &str| {
             Err(wrong_property(format!(
-                "'resolve' {message} take a node 'resolve' and a blur of its map"
+                "'resolve' {message} take a node 'resolve' and a blur of its map{instead}"
             )))
         };
         if resolve.blends > 0 {
@@ -72,8 +77,11 @@ impl<'a> Source<'a> {
                  parameters;"
             ));
         }
-        let mut resolved =
-            resolve.resolved(upstream, |encoding| half(encoding, rounded_inwards))?;
+        let encoding = resolve.encoding_of_blur(upstream.capabilities());
+        let encoding = encoding.map_err(wrong_property)?;
+        let mut resolved = resolve.resolved(upstream, encoding, |encoding| {
+            half(encoding, rounded_inwards)
+        })?;
         if rounded_inwards {
             let inwards = resolved.encoding.rounded_inwards();
             resolved.encoding = inwards.map_err(wrong_property)?;
@@ -131,10 +139,10 @@ impl<'a> Source<'a> {
     }
 }
 
-/// How the map between the passes is encoded: as packed texels, which are almost exact in as many bits, where those of the map are rounded
-/// inwards; otherwise as the map.
+/// How the map between the passes is encoded: as packed texels, which are almost exact, where those of the map are rounded inwards or once
+/// alone; otherwise as the map.
 fn half(encoding: &MapEncoding, rounded_inwards: bool) -> MapEncoding {
     let packed = MapEncoding::new(Technique::Hamburger4, Storage::Packed64).ok();
-    let packed = packed.filter(|_| rounded_inwards);
+    let packed = packed.filter(|_| rounded_inwards || encoding.storage().is_written_once());
     packed.unwrap_or_else(|| encoding.clone())
 }

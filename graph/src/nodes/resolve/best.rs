@@ -10,13 +10,15 @@ use serde::{Deserialize, Deserializer};
 use super::Resolve;
 
 impl Resolve {
-    /// What the library takes on a device of the profile, for a map with the mip levels that it has.
-    pub(super) fn best(&self, profile: Profile) -> Result<MapEncoding, ValueError> {
+    /// What the library takes on a device of the profile, for a map with the mip levels that it has, which is filtered afterwards or written
+    /// once.
+    pub(super) fn best(&self, profile: Profile, once: bool) -> Result<MapEncoding, ValueError> {
         let bits = self.bits.unwrap_or(64);
         let suits = |it: &MapEncoding| {
             let is_asked_for = self.storage.is_empty() || self.storage.contains(&it.storage());
             // Packed texels have no mip levels.
-            is_asked_for && (self.mip_levels == Some(1) || it.averaged_by_samplers())
+            let is_written = once || !it.storage().is_written_once();
+            is_asked_for && is_written && (self.mip_levels == Some(1) || it.averaged_by_samplers())
         };
         let found = Technique::by_error(profile, bits).find(suits);
         found.ok_or_else(|| {

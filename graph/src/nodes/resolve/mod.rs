@@ -8,7 +8,7 @@ use serde::Deserialize;
 
 pub(super) use resolved::Resolved;
 
-use super::shared::{mip_levels, regions};
+use super::shared::{mip_levels, regions, wrong_property};
 use super::techniques;
 use crate::{Capabilities, Connected, GraphError, Node, NodeDesc, Stage};
 
@@ -52,13 +52,29 @@ impl Resolve {
     /// [`ValueError`], if the technique has not one of the storages, its settings are out of range, no map has so few
     /// bits, or no translucent casters are blended into it.
     pub fn encoding(&self, capabilities: &Capabilities) -> Result<MapEncoding, ValueError> {
+        self.encoding_written(capabilities, false)
+    }
+
+    /// The same for a blur that resolves, to which `"best"` is also a map that is written once.
+    pub(super) fn encoding_of_blur(
+        &self,
+        capabilities: &Capabilities,
+    ) -> Result<MapEncoding, ValueError> {
+        self.encoding_written(capabilities, true)
+    }
+
+    fn encoding_written(
+        &self,
+        capabilities: &Capabilities,
+        once: bool,
+    ) -> Result<MapEncoding, ValueError> {
         let profile = capabilities.profile;
         let Some(technique) = &self.technique else {
             if self.blends > 0 {
                 let message = "beside \"best\", which is known for opaque casters; name a technique, 'hamburger6' for most scenes";
                 return Err(ValueError::new("'blends'", message));
             }
-            return self.best(profile);
+            return self.best(profile, once);
         };
         if let Some(bits) = self.bits {
             let message = format!(
@@ -71,8 +87,11 @@ impl Resolve {
             [] => technique.row().storages,
             given => given,
         };
+        // Where none is asked for, those that the casters are blended into.
+        let suits = |it: &&Storage| !self.storage.is_empty() || self.blends == 0 || !it.is_packed();
         let encodings = storages
             .iter()
+            .filter(suits)
             .map(|&storage| MapEncoding::new(technique.clone(), storage)?.with_blends(self.blends))
             .collect::<Result<Vec<_>, _>>()?;
         let blended =
@@ -90,7 +109,16 @@ impl Resolve {
 
 impl Node for Resolve {
     fn describe(&self, upstream: &Connected<'_>) -> Result<NodeDesc, GraphError> {
-        let resolved = self.resolved(upstream, MapEncoding::clone)?;
+        let encoding = self.encoding(upstream.capabilities());
+        let encoding = encoding.map_err(wrong_property)?;
+        if encoding.storage().is_written_once() {
+            return Err(wrong_property(format!(
+                "'storage': '{0}' is rounded too coarsely to be filtered afterwards; give a node 'blur' the property 'resolve' with it \
+                 ({{ \"storage\": \"{0}\" }}) in place of this node, or take another storage",
+                encoding.storage()
+            )));
+        }
+        let resolved = self.resolved(upstream, encoding, MapEncoding::clone)?;
         let mips = mip_levels::count(self.mip_levels, resolved.depth.size)?;
         let encoding = &resolved.encoding;
         let wgsl = resolved

@@ -20,16 +20,14 @@ pub(in crate::nodes) struct Resolved<'a> {
 }
 
 impl Resolve {
-    /// The depth map that is connected to the node, as this says, for a shader that writes texels as `written` gives it for a map.
+    /// The depth map that is connected to the node, for a map of this encoding and a shader that writes texels as `written` gives it for one.
     pub(in crate::nodes) fn resolved<'a>(
         &self,
         upstream: &Connected<'a>,
+        encoding: MapEncoding,
         written: impl FnOnce(&MapEncoding) -> MapEncoding,
     ) -> Result<Resolved<'a>, GraphError> {
         let depth = upstream.texture("depth")?;
-        let encoding = self
-            .encoding(upstream.capabilities())
-            .map_err(wrong_property)?;
         let technique = encoding.technique();
         let written = written(&encoding);
         let specialization = techniques::of_map(upstream.capabilities(), &written);

@@ -1,6 +1,6 @@
 //! How shaders look up a filterable map: by a sampler, where the device can filter it, or by loads.
 
-use moment_shadows::MapEncoding;
+use moment_shadows::{MapEncoding, Storage};
 
 use super::Specialization;
 use crate::{Binding, BindingResource, Capabilities};
@@ -21,7 +21,11 @@ pub(in crate::nodes) fn moments_lookup(
         .constant("ANISOTROPY", format_args!("{anisotropy}.0"));
     let minified = levels > 1;
     let (text, sampler) = if encoding.storage().is_packed() {
-        let text = include_str!("moments_lookup_packed.wgsl");
+        let text = if encoding.storage() == Storage::Packed32 {
+            include_str!("moments_lookup_coarse.wgsl")
+        } else {
+            include_str!("moments_lookup_packed.wgsl")
+        };
         (text, Some(("moments_sampler", false, 1)))
     } else if !averaged
         || !capabilities.support(encoding.format()).filterable

@@ -30,9 +30,26 @@ pub(in crate::nodes) fn refuse_packed(encoding: &MapEncoding) -> Result<(), Grap
     if !storage.is_packed() {
         return Ok(());
     }
+    let readers = if storage.is_written_once() {
+        "the node 'shade_hard' reads"
+    } else {
+        "the nodes 'blur' and 'shade_hard' read"
+    };
     Err(wrong_format(format!(
-        "the map is stored as '{storage}', in packed texels, which the nodes 'blur' and 'shade_hard' read; use 'float16', 'unorm16' or \
-         'float32' here"
+        "the map is stored as '{storage}', in packed texels, which {readers}; use 'float16', 'unorm16' or 'float32' here"
+    ))
+    .at_slot("map"))
+}
+
+/// Refuses a map that is written once, for a node that filters it.
+pub(in crate::nodes) fn refuse_written_once(encoding: &MapEncoding) -> Result<(), GraphError> {
+    let storage = encoding.storage();
+    if !storage.is_written_once() {
+        return Ok(());
+    }
+    Err(wrong_format(format!(
+        "the map is stored as '{storage}', which is rounded too coarsely to be filtered; give this node 'resolve' with that storage in place \
+         of the map, or store the map as 'packed64'"
     ))
     .at_slot("map"))
 }
