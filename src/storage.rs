@@ -151,7 +151,12 @@ impl Storage {
         match self {
             Storage::Packed64 => &["storage_pack", "storage_unpack"],
             Storage::Packed32 => &["coarse_four_moments_pack", "coarse_four_moments_unpack"],
-            _ => &[],
+            Storage::Unorm16
+            | Storage::Float16
+            | Storage::Float32
+            | Storage::Unorm8
+            | Storage::Unorm10
+            | Storage::Fixed32 => &[],
         }
     }
 

@@ -123,7 +123,12 @@ pub(super) fn map_texture(encoding: &MapEncoding) -> &'static str {
     match encoding.storage() {
         Storage::Packed32 => include_str!("techniques/map_texture_coarse.wgsl"),
         Storage::Packed64 => include_str!("techniques/map_texture_packed.wgsl"),
-        _ => include_str!("techniques/map_texture_channels.wgsl"),
+        Storage::Unorm16
+        | Storage::Float16
+        | Storage::Float32
+        | Storage::Unorm8
+        | Storage::Unorm10
+        | Storage::Fixed32 => include_str!("techniques/map_texture_channels.wgsl"),
     }
 }
 
