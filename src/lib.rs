@@ -105,9 +105,10 @@ pub use value_error::ValueError;
 
 pub use view::{
     Atlas, Border, CameraView, CascadeSplits, Cascades, CompositeScatteringParameters,
-    ContactShadowParameters, ContactShadows, IntegrateScatteringParameters, LightDepth, LightView,
-    PointLight, RectifiedFrame, RectifiedView, RectifyMomentsParameters, ScatteringParameters,
-    Tile, ViewParameters,
+    ContactShadowParameters, ContactShadows, HeightFog, HeightFogView,
+    IntegrateScatteringParameters, LightDepth, LightView, MarchScatteringParameters, MarchedAir,
+    PointLight, PunctualLight, RectifiedFrame, RectifiedView, RectifyMomentsParameters,
+    ScatteringParameters, SpotCone, Tile, UpsampleScatteringParameters, ViewParameters,
 };
 
 #[cfg(doctest)]
