@@ -34,12 +34,15 @@ pub struct PunctualLight {
 /// places on view rays.
 const SMALLEST_RADIUS: f64 = 1.0 / 1024.0;
 
+/// The largest radius of a light.
+const LARGEST: f64 = 1e9;
+
 impl PunctualLight {
     /// The light of a view, which may be one of several of that light, and its cone if it is a spot. `eye` is the camera, and `far` how
     /// far from it light is scattered.
     ///
     /// # Errors
-    /// [`ValueError`] about the `light`, its `depth`, or the `cone`.
+    /// [`ValueError`] about the `light`, its `depth`, its `size`, or the `cone`.
     pub fn new(
         light: &LightView,
         cone: Option<SpotCone>,
@@ -49,6 +52,7 @@ impl PunctualLight {
         let clip = DMat4::from_cols_array_2d(&light.clip_from_world);
         let along_depth = inverse(clip, "light")?.z_axis;
         light.depth.check_matrix(clip)?;
+        light.check_size()?;
         if matches!(light.depth, LightDepth::Orthographic { .. }) {
             if cone.is_some() {
                 let message = "the light has parallel rays, but a cone is given; spots have perspective views";
@@ -69,6 +73,14 @@ impl PunctualLight {
             LightSize::Rectangle(sides) => 0.5 * sides[0].min(sides[1]),
             LightSize::Point | LightSize::AngularDiameter(_) => 0.0,
         };
+        let range = "at least 0 and at most 1e9";
+        check(
+            (0.0..=LARGEST).contains(&radius),
+            "a light",
+            "size",
+            radius,
+            range,
+        )?;
         let axis = clip.row(3).truncate().normalize_or_zero();
         let (cone_axis, cone_offset) = match cone {
             None => (DVec3::ZERO, 1.0),

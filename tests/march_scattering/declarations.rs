@@ -1,9 +1,9 @@
 //! What the nodes refuse, and hosts' values that cannot be.
 
 use moment_shadows::{
-    CameraView, HeightFog, LeakReduction, LightSize, MapEncoding, MarchScatteringParameters,
-    MarchedAir, Profile, SpotCone, Storage, Technique, TextureFormat, UpsampleScatteringParameters,
-    ValueError,
+    AirLight, CameraView, HeightFog, LeakReduction, LightSize, MapEncoding,
+    MarchScatteringParameters, MarchedAir, Profile, Resolution, ScatteringWay, SpotCone, Storage,
+    Technique, TextureFormat, UpsampleScatteringParameters, ValueError,
 };
 use moment_shadows_graph::nodes::{MarchScattering, UpsampleScattering};
 use moment_shadows_graph::{
@@ -46,7 +46,7 @@ fn properties_that_do_not_fit_are_named() {
     let cases = [
         (
             MarchScattering {
-                steps: 0,
+                steps: Some(0),
                 ..march()
             },
             GraphErrorKind::Property,
@@ -54,7 +54,7 @@ fn properties_that_do_not_fit_are_named() {
         ),
         (
             MarchScattering {
-                steps: 1025,
+                steps: Some(1025),
                 ..march()
             },
             GraphErrorKind::Property,
@@ -127,16 +127,16 @@ fn properties_that_do_not_fit_are_named() {
 
 #[test]
 fn upsampling_takes_half_and_a_quarter_rounded_up() {
-    for size in [[51, 32], [26, 16]] {
+    for size in [[101, 63], [51, 32], [26, 16]] {
         assert!(describe(&UpsampleScattering {}, size).is_ok(), "{size:?}");
     }
-    for size in [[101, 63], [50, 31], [51, 31], [25, 16], [26, 32]] {
+    for size in [[50, 31], [51, 31], [25, 16], [26, 32]] {
         let error = describe(&UpsampleScattering {}, size).unwrap_err();
         assert_eq!(error.kind, GraphErrorKind::Size, "{error}");
         assert!(
             error
                 .to_string()
-                .contains("neither half nor a quarter of 101x63"),
+                .contains("neither 101x63 nor half or a quarter"),
             "{error}"
         );
     }
@@ -216,4 +216,43 @@ fn a_light_is_as_large_as_its_size_or_as_single_precision_asks() {
     scene.views[0].size = LightSize::Rectangle([0.8, 2.0]);
     assert_eq!(radius(&scene), 0.4);
     assert_eq!(radius(&Scene::new(Lamp::Sun)), 0.0);
+}
+
+#[test]
+fn the_best_steps_are_those_of_the_record_and_say_what_is_missing() {
+    let best = |light, lookups| MarchScattering {
+        steps: None,
+        light,
+        lookups,
+        ..MarchScattering::default()
+    };
+    for light in [AirLight::Sun, AirLight::Spot, AirLight::Point] {
+        for lookups in [0.5_f32, 2.0, 4.0, 16.0, 100.0] {
+            let chosen = best(Some(light), Some(lookups)).chosen().unwrap();
+            let (steps, resolution) = chosen;
+            let way = ScatteringWay::Marched { steps, resolution };
+            assert_eq!(ScatteringWay::best(light, false, lookups.into()), Some(way));
+        }
+    }
+    let sun = Some(AirLight::Sun);
+    let with_resolution = MarchScattering {
+        resolution: Some(Resolution::Half),
+        ..best(sun, Some(4.0))
+    };
+    let beside_steps = MarchScattering {
+        lookups: Some(4.0),
+        ..MarchScattering::default()
+    };
+    for (node, says) in [
+        (best(None, Some(4.0)), "say which 'light'"),
+        (best(sun, None), "how many 'lookups'"),
+        (best(sun, Some(0.1)), "'lookups' is 0.1"),
+        (best(sun, Some(f32::NAN)), "'lookups' is NaN"),
+        (with_resolution, "which choose it"),
+        (beside_steps, "they go with \"best\""),
+    ] {
+        let error = describe(&node, [51, 32]).unwrap_err();
+        assert_eq!(error.kind, GraphErrorKind::Property, "{error}");
+        assert!(error.to_string().contains(says), "{error}");
+    }
 }

@@ -28,7 +28,7 @@ pub use fit_range::FitRange;
 #[cfg(feature = "wgpu")]
 pub(crate) use fit_range::SEES;
 pub use integrate_scattering::IntegrateScattering;
-pub use march_scattering::{MarchScattering, Resolution};
+pub use march_scattering::MarchScattering;
 pub use place_layers::PlaceLayers;
 pub use rectify_moments::RectifyMoments;
 pub use resolve::Resolve;

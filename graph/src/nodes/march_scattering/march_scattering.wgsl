@@ -56,15 +56,16 @@ fn march(covered: Covered) -> @location(0) vec4f {
         let point = march_place(steps, (step + offset) / count);
         let end = march_place(steps, (step + 1.0) / count);
         let length = max(end - start, 0.0);
-        let position = point * ray.direction;
-        let at = punctual_light_at(light, position);
         let thickness = stretch_thickness(ray, start, length, point);
         start = end;
+        // What changes gently is that of the step's middle, so that dithering makes no noise of it.
+        let middle = march_place(steps, (step + 0.5) / count) * ray.direction;
+        let at = punctual_light_at(light, middle);
         let part = punctual_light_cone(light, at.xyz) * march_falloff(steps, light.radius, length, count);
-        let lit = part * (1.0 - air_shadow(position, length * ray.direction, vec2f(pixel)));
+        let lit = part * (1.0 - air_shadow(point * ray.direction, length * ray.direction, vec2f(pixel)));
         let phase = phase_function_henyey_greenstein(-dot(at.xyz, ray.direction), medium.anisotropy);
         // Fog dims a light with a position on its way, too.
-        let way = march_transmittance(medium, height_fog_thickness(views[0].fog, position, -at.xyz, at.w));
+        let way = march_transmittance(medium, height_fog_thickness(views[0].fog, middle, -at.xyz, at.w));
         gathered = march_step(gathered, medium, thickness, (lit * phase) * medium.irradiance * way);
     }
     var transmittance = march_transmittance(medium, whole);

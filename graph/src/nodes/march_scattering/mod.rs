@@ -1,10 +1,9 @@
 //! Light that any medium scatters into each pixel's view ray, of any light.
 
-mod resolution;
+mod best;
 
 use moment_shadows::TextureFormat::{self, Rgba16Float, Rgba32Float};
-use moment_shadows::{MarchScatteringParameters, Technique};
-pub use resolution::Resolution;
+use moment_shadows::{AirLight, MarchScatteringParameters, Resolution, Technique};
 use serde::Deserialize;
 
 use super::ShadeHard;
@@ -33,12 +32,20 @@ pub struct MarchScattering {
     pub technique: Option<Technique>,
     /// The format of the radiance: rgba16float or rgba32float. Where it is left out, rgba16float.
     pub format: Option<TextureFormat>,
-    /// Steps of a view ray, 1 to 1024.
-    pub steps: u32,
+    /// Steps of a view ray, 1 to 1024. None, or `"best"` in a file, where they are left to the library with the `resolution`: of the ways
+    /// that were measured that with the least error for the `light` and the `lookups`.
+    #[serde(default = "best::usual", deserialize_with = "best::steps")]
+    #[cfg_attr(feature = "schema", schemars(schema_with = "best::steps_schema", extend("default" = 16)))]
+    pub steps: Option<u32>,
+    /// With `"best"`: what kind of light it is.
+    pub light: Option<AirLight>,
+    /// With `"best"`: how many lookups of the light's map a pixel of the picture has at most.
+    pub lookups: Option<f32>,
     /// The most views of the light, 1 to 16.
     pub views: u32,
-    /// How much of the picture's resolution is marched, along each side. The node `upsample_scattering` makes the rest.
-    pub resolution: Resolution,
+    /// How much of the picture's resolution is marched, along each side; full where it is left out. The node `upsample_scattering` makes the
+    /// rest.
+    pub resolution: Option<Resolution>,
     /// Whether steps are shifted from pixel to pixel and from frame to frame, by blue noise: bands become noise. Otherwise the middles of
     /// steps are looked up.
     pub dithered: bool,
@@ -55,18 +62,17 @@ impl Default for MarchScattering {
         Self {
             technique: None,
             format: None,
-            steps: 16,
+            steps: best::usual(),
+            light: None,
+            lookups: None,
             views: 1,
-            resolution: Resolution::Full,
+            resolution: None,
             dithered: true,
             density: None,
             anisotropy: 8,
         }
     }
 }
-
-/// The most steps of a ray: what truths take.
-const MOST_STEPS: u32 = 1024;
 
 /// The most views of a light: cascades, or six faces.
 const MOST_VIEWS: u32 = 16;
@@ -77,12 +83,6 @@ impl MarchScattering {
         if ![Rgba16Float, Rgba32Float].contains(&format) {
             return Err(wrong_property(format!(
                 "radiance has no upper limit; 'format' is rgba16float or rgba32float, not {format}"
-            )));
-        }
-        if !(1..=MOST_STEPS).contains(&self.steps) {
-            return Err(wrong_property(format!(
-                "'steps' is {}; a ray has 1 to {MOST_STEPS}",
-                self.steps
             )));
         }
         if !(1..=MOST_VIEWS).contains(&self.views) {
@@ -98,6 +98,7 @@ impl MarchScattering {
 impl Node for MarchScattering {
     fn describe(&self, upstream: &Connected<'_>) -> Result<NodeDesc, GraphError> {
         let format = self.check()?;
+        let (steps, resolution) = self.chosen()?;
         let lookup = ShadeHard {
             technique: self.technique.clone(),
             anisotropy: self.anisotropy,
@@ -116,11 +117,11 @@ impl Node for MarchScattering {
             _ => (range_input::none(specialization), None, None),
         };
         let camera = upstream.texture("camera_depth")?;
-        let per_texel = self.resolution.pixels_per_texel();
+        let per_texel = resolution.pixels_per_texel();
         let of_fog = include_str!("density_of_fog.wgsl").to_owned();
         let specialization = depth_input::of_camera(specialization, camera)
             .unsigned("VIEWS", self.views)
-            .unsigned("STEPS", self.steps)
+            .unsigned("STEPS", steps)
             .unsigned("PER_TEXEL", per_texel)
             .constant("DITHERED", self.dithered)
             .constant("OWN_DENSITY", self.density.is_some())

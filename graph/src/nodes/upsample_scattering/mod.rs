@@ -1,10 +1,9 @@
 //! Scattered light at the full resolution, from a part of it.
 
 use moment_shadows::TextureFormat::{Rgba16Float, Rgba32Float};
-use moment_shadows::UpsampleScatteringParameters;
+use moment_shadows::{Resolution, UpsampleScatteringParameters};
 use serde::Deserialize;
 
-use super::march_scattering::Resolution;
 use super::shared::{Specialization, depth_input, wgsl, wrong_size};
 use crate::{
     Connected, GraphError, Node, NodeDesc, Off, ParameterBlock, Pass, Rule, Stage, TextureRule,
@@ -13,7 +12,7 @@ use crate::{
 
 /// Node `upsample_scattering`: `scattering` (from [`super::MarchScattering`] at half or a quarter of the resolution) and
 /// `camera_depth` to `upsampled`, of the camera's size: of the four nearest texels around a pixel those count that saw what lies
-/// as far away. A fullscreen pass: it can also be drawn into a render pass that the host has open, blended as
+/// as far away. At full resolution, which the steps `"best"` may have, every texel is that of its pixel. A fullscreen pass: it can also be drawn into a render pass that the host has open, blended as
 /// `composite_scattering` is. Parameters: [`UpsampleScatteringParameters`].
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Deserialize)]
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
@@ -24,14 +23,15 @@ impl Node for UpsampleScattering {
     fn describe(&self, upstream: &Connected<'_>) -> Result<NodeDesc, GraphError> {
         let camera = upstream.texture("camera_depth")?;
         let scattering = upstream.texture("scattering")?;
-        // Where both fit, there is one texel, and nothing between texels.
-        let parts = [Resolution::Half, Resolution::Quarter].map(Resolution::pixels_per_texel);
+        // Where several fit, there is one texel, and nothing between texels.
+        let parts = [Resolution::Full, Resolution::Half, Resolution::Quarter];
+        let parts = parts.map(Resolution::pixels_per_texel);
         let fits = |per: &u32| camera.size.map(|side| side.div_ceil(*per)) == scattering.size;
         let per_texel = parts.into_iter().find(fits).ok_or_else(|| {
             let ([x, y], [width, height]) = (scattering.size, camera.size);
             wrong_size(format!(
-                "it has {x}x{y} texels, which is neither half nor a quarter of {width}x{height}, rounded up; connect a node \
-                 'march_scattering' that sees the same 'camera_depth' and has the 'resolution' half or quarter"
+                "it has {x}x{y} texels, which is neither {width}x{height} nor half or a quarter of that, rounded up; connect a \
+                 node 'march_scattering' that sees the same 'camera_depth'"
             ))
             .at_slot("scattering")
         })?;
