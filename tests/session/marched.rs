@@ -78,6 +78,7 @@ fn the_first_light_counts_and_fog_and_frame_do() {
     let light = places(&frame).1;
     let other = LightView {
         channel: 1,
+        layer: 1,
         ..light
     };
     let of = |lights: &[LightView], air| picture(&gpu, FOG_ALONE, &frame, lights, air);
@@ -152,7 +153,7 @@ fn what_does_not_suit_the_node_is_named() {
         none.contains("'march'") && none.contains("there is no light"),
         "{none}"
     );
-    let many = refused(&[light, light]);
+    let many = refused(&[light, LightView { layer: 1, ..light }]);
     assert!(
         many.contains("has 2 views, but the node's 'views' is 1"),
         "{many}"

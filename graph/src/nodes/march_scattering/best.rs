@@ -53,7 +53,7 @@ impl MarchScattering {
             ScatteringWay::Marched { steps, resolution } if of_way <= lookups => {
                 Some((steps, resolution))
             }
-            _ => None,
+            ScatteringWay::Prefiltered | ScatteringWay::Marched { .. } => None,
         });
         found.ok_or_else(|| {
             let all = ScatteringWay::by_error(light, false).map(|(_, of_way, _)| of_way);

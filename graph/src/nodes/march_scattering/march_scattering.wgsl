@@ -3,7 +3,7 @@ import moment_shadows::air::march::{March, march_begin, march_falloff, march_pla
 import moment_shadows::air::phase_function::{phase_function_henyey_greenstein};
 import moment_shadows::air::punctual_light::{punctual_light_at, punctual_light_cone, punctual_light_interval};
 import moment_shadows::air::single_scattering::{SingleScatteringRay, single_scattering_pixel};
-import moment_shadows::air::view_ray::{ViewRay, view_ray};
+import moment_shadows::air::view_ray::{ViewRay, view_ray_of_pixel};
 import moment_shadows::maths::blue_noise::{blue_noise_offset};
 import node::air_shadow::{air_shadow};
 import node::camera_depth::{camera_depth_at, camera_depth_clip, camera_depth_pixel, camera_depth_size};
@@ -31,7 +31,7 @@ fn march(covered: Covered) -> @location(0) vec4f {
     // The pixel in its middle.
     let pixel = min(texel * PER_TEXEL + PER_TEXEL / 2u, picture - 1u);
     let clip = camera_depth_clip(camera_depth_pixel(vec2i(pixel)), camera_depth_at(vec2i(pixel)));
-    let ray = view_ray(views[0].position_from_camera, views[0].scene_w_from_camera, views[0].farthest_w, clip);
+    let ray = view_ray_of_pixel(views[0].position_from_camera, views[0].scene_w_from_camera, views[0].farthest_w, clip);
     let medium = views[0].medium;
     let light = views[0].light;
 
