@@ -20,6 +20,7 @@ import {
   kernelFromWeights,
   kernelOfWidth,
   leakReduction,
+  marchParameters,
   medium,
   placeViews,
   pointLightFaces,
@@ -28,6 +29,7 @@ import {
   spotView,
   standardDeviation,
   structBytes,
+  upsampleParameters,
   viewParameters,
   write,
   writeRegions,
@@ -70,6 +72,11 @@ function makers(plan) {
     scattering: ({ camera, light, far, anisotropy, extinction, scattering, irradiance }) => {
       const made = scatteringParameters(camera, far, light, medium({ extinction, scattering, anisotropy, irradiance }));
       return Object.fromEntries(Object.entries(made).map(([node, value]) => [node, struct(node, value)]));
+    },
+    march: ({ camera, light, far, colour, air }) => {
+      const given = medium({ extinction: colour, scattering: colour, anisotropy: 0.5, irradiance: colour });
+      const made = marchParameters(camera, far, light, given, { ...air, cone: air.cone ?? undefined });
+      return { march: struct('march', made), upsample: struct('upsample', upsampleParameters(camera, far)) };
     },
     blur: ({ radius, sigma, weights, width, largest }) => {
       const kernel = weights

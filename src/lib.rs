@@ -63,6 +63,8 @@ mod moment_bias;
 mod nearest;
 mod profile;
 mod receiver_bias;
+mod resolution;
+mod scattering_way;
 mod single_scattering;
 mod storage;
 mod summed_area_table;
@@ -90,6 +92,8 @@ pub use moment_bias::{FourMomentsBias, SixMomentsBias};
 pub use nearest::nearest;
 pub use profile::Profile;
 pub use receiver_bias::ReceiverBias;
+pub use resolution::Resolution;
+pub use scattering_way::{AirLight, ScatteringWay};
 pub use single_scattering::SingleScattering;
 pub use storage::Storage;
 pub use summed_area_table::SummedAreaTable;
@@ -105,9 +109,10 @@ pub use value_error::ValueError;
 
 pub use view::{
     Atlas, Border, CameraView, CascadeSplits, Cascades, CompositeScatteringParameters,
-    ContactShadowParameters, ContactShadows, IntegrateScatteringParameters, LightDepth, LightView,
-    PointLight, RectifiedFrame, RectifiedView, RectifyMomentsParameters, ScatteringParameters,
-    Tile, ViewParameters,
+    ContactShadowParameters, ContactShadows, HeightFog, HeightFogView,
+    IntegrateScatteringParameters, LightDepth, LightView, MarchScatteringParameters, MarchedAir,
+    PointLight, PunctualLight, RectifiedFrame, RectifiedView, RectifyMomentsParameters,
+    ScatteringParameters, SpotCone, Tile, UpsampleScatteringParameters, ViewParameters,
 };
 
 #[cfg(doctest)]

@@ -3,6 +3,8 @@
 //!
 //! `cargo run --release -p moment-shadows-graph --no-default-features --example write_parameters -- FILE`. The same inputs each time.
 
+#[path = "write_parameters/march.rs"]
+mod march;
 #[path = "write_parameters/views.rs"]
 mod views;
 
@@ -18,11 +20,12 @@ use moment_shadows_graph::{Capabilities, Graph, NodeRegistry, Plan, nodes::Blur}
 use serde_json::{Value, json};
 
 /// How many inputs of each kind there are.
-const COUNTS: [(Make, usize); 8] = [
+const COUNTS: [(Make, usize); 9] = [
     (conversion, 150),
     (view, 400),
     (contact, 250),
     (scattering, 250),
+    (march::march, 400),
     (blur, 100),
     (regions, 100),
     (views::cascades, 300),
@@ -63,6 +66,8 @@ fn plan() -> Result<Plan, Box<dyn Error>> {
             { "name": "rectify", "type": "rectify_moments", "properties": { "storage": "float16", "extent": [128, 64] } },
             { "name": "integrate", "type": "integrate_scattering" },
             { "name": "composite", "type": "composite_scattering" },
+            { "name": "march", "type": "march_scattering", "properties": { "resolution": "half" } },
+            { "name": "upsample", "type": "upsample_scattering" },
         ],
         "edges": [
             { "from": "light_depth", "to": "resolve.depth" },
@@ -75,10 +80,15 @@ fn plan() -> Result<Plan, Box<dyn Error>> {
             { "from": "rectify.rectified", "to": "integrate.rectified" },
             { "from": "integrate.integrated", "to": "composite.integrated" },
             { "from": "camera_depth", "to": "composite.camera_depth" },
+            { "from": "blur.blurred", "to": "march.map" },
+            { "from": "camera_depth", "to": "march.camera_depth" },
+            { "from": "march.scattering", "to": "upsample.scattering" },
+            { "from": "camera_depth", "to": "upsample.camera_depth" },
         ],
         "outputs": [
             { "name": "shadow", "from": "contact.shadow_intensity" },
             { "name": "scattering", "from": "composite.scattering" },
+            { "name": "marched", "from": "upsample.upsampled" },
         ],
     });
     let graph = Graph::parse(&graph.to_string(), &NodeRegistry::new())?;

@@ -219,6 +219,39 @@ export function scatteringParameters(
   medium: SingleScattering,
 ): { rectify: Struct; integrate: Struct; composite: Struct };
 
+/** Fog whose density's logarithm falls by `falloff` per scene unit of height; at `height` it is that of the medium. */
+export interface HeightFog {
+  up?: Triple;
+  height?: number;
+  falloff?: number;
+}
+
+/** What nodes that march are told beside camera, light and medium. */
+export interface MarchedAir {
+  fog?: HeightFog;
+  /** The cone of a spot: full angles in radians, of all its light and of none. */
+  cone?: { inner: number; outer: number };
+  /** The number of the frame, by which dithered steps turn. */
+  frame?: number;
+  /** Four numbers for a density of your own. */
+  own?: [number, number, number, number];
+}
+
+export const NO_FOG: Required<HeightFog>;
+
+/** The struct of a node `march_scattering`, per view of its light. The irradiance of a light with a position is that at distance 1. */
+export function marchParameters(
+  camera: CameraView,
+  far: number,
+  light: LightView,
+  medium: SingleScattering,
+  air?: MarchedAir,
+  leakReduction?: LeakReduction,
+): Struct;
+
+/** The struct of a node `upsample_scattering`. */
+export function upsampleParameters(camera: CameraView, far: number): Struct;
+
 export function rectifiedView(
   clipFromWorld: Matrix,
   far: number,

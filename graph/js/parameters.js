@@ -9,6 +9,7 @@ export { CONTACT_SHADOWS, contactShadowParameters } from './parameters/contact_s
 export { depthConversion } from './parameters/depth_conversion.js';
 export { blurParameters, deviationOfWidth, gaussianKernel, kernelFromWeights, kernelOfWidth, standardDeviation } from './parameters/kernel.js';
 export { leakReduction } from './parameters/leak_reduction.js';
+export { NO_FOG, marchParameters, upsampleParameters } from './parameters/march.js';
 export { NONE, WHOLE } from './parameters/map_region.js';
 export { pointLightFaces, spotView } from './parameters/point_light.js';
 export { NO_BIAS, biasForStoredDepth, receiverBias } from './parameters/receiver_bias.js';

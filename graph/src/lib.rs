@@ -65,5 +65,6 @@ pub use session::Session;
 
 /// What a [`Session`] is told, from the core crate.
 pub use moment_shadows::{
-    Border, CameraView, DepthRange, LightDepth, LightSize, LightView, SingleScattering,
+    Border, CameraView, DepthRange, HeightFog, LightDepth, LightSize, LightView, MarchedAir,
+    SingleScattering, SpotCone,
 };

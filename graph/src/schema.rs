@@ -8,8 +8,8 @@ use crate::Plan;
 use crate::graph::{Edge, FileImport, FileOutput, Graph, VERSION};
 use crate::nodes::{
     Blur, CompositeScattering, ContactShadows, DebugMoments, Downsample, FitRange,
-    IntegrateScattering, PlaceLayers, RectifyMoments, Resolve, ShadeHard, ShadeSoft,
-    SummedAreaTable, TranslucentCasters,
+    IntegrateScattering, MarchScattering, PlaceLayers, RectifyMoments, Resolve, ShadeHard,
+    ShadeSoft, SummedAreaTable, TranslucentCasters, UpsampleScattering,
 };
 
 impl Graph {
@@ -28,6 +28,7 @@ impl Graph {
             node::<Downsample>(generator, "downsample"),
             node::<FitRange>(generator, "fit_range"),
             node::<IntegrateScattering>(generator, "integrate_scattering"),
+            node::<MarchScattering>(generator, "march_scattering"),
             node::<PlaceLayers>(generator, "place_layers"),
             node::<RectifyMoments>(generator, "rectify_moments"),
             node::<Resolve>(generator, "resolve"),
@@ -35,6 +36,7 @@ impl Graph {
             node::<ShadeSoft>(generator, "shade_soft"),
             node::<SummedAreaTable>(generator, "summed_area_table"),
             node::<TranslucentCasters>(generator, "translucent_casters"),
+            node::<UpsampleScattering>(generator, "upsample_scattering"),
         ];
         let [imports, edges, outputs] = [
             generator.subschema_for::<FileImport>(),

@@ -132,16 +132,8 @@ impl LightView {
         Err(ValueError::new("guard", message))
     }
 
-    /// The light with its size over a map whose region has `extent` texels, as `shade_soft` and percentage-closer soft
-    /// shadows take it.
-    ///
-    /// # Errors
-    /// [`ValueError`], where the size does not suit the map, or a number is out of range.
-    pub fn area_light(
-        &self,
-        extent: [u32; 2],
-        radii: RangeInclusive<f64>,
-    ) -> Result<AreaLight, ValueError> {
+    /// Checks that the kind of size suits the kind of rays.
+    pub(super) fn check_size(&self) -> Result<(), ValueError> {
         let parallel = matches!(self.depth, LightDepth::Orthographic { .. });
         let suits = match self.size {
             LightSize::Point => true,
@@ -153,6 +145,20 @@ impl LightView {
                            a rectangle";
             return Err(ValueError::new("size", message));
         }
+        Ok(())
+    }
+
+    /// The light with its size over a map whose region has `extent` texels, as `shade_soft` and percentage-closer soft
+    /// shadows take it.
+    ///
+    /// # Errors
+    /// [`ValueError`], where the size does not suit the map, or a number is out of range.
+    pub fn area_light(
+        &self,
+        extent: [u32; 2],
+        radii: RangeInclusive<f64>,
+    ) -> Result<AreaLight, ValueError> {
+        self.check_size()?;
         AreaLight::new(self.size, self.texel_size(extent), self.range(), radii)
     }
 }

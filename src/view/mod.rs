@@ -10,9 +10,12 @@ mod cascade_splits;
 mod cascades;
 mod contact_shadow;
 mod frustum;
+mod height_fog;
 mod light;
+mod march;
 mod parameters;
 mod point_light;
+mod punctual_light;
 mod rectified;
 mod scattering;
 mod tile;
@@ -24,9 +27,12 @@ pub use cascade_splits::CascadeSplits;
 pub use cascades::Cascades;
 pub use contact_shadow::{ContactShadowParameters, ContactShadows};
 use glam::{DMat4, DVec3, DVec4};
+pub use height_fog::{HeightFog, HeightFogView};
 pub use light::{LightDepth, LightView};
+pub use march::{MarchScatteringParameters, MarchedAir, UpsampleScatteringParameters};
 pub use parameters::ViewParameters;
 pub use point_light::PointLight;
+pub use punctual_light::{PunctualLight, SpotCone};
 pub use rectified::{RectifiedFrame, RectifiedView};
 pub use scattering::{
     CompositeScatteringParameters, IntegrateScatteringParameters, RectifyMomentsParameters,

@@ -50,7 +50,7 @@ the textures and `regions` from the file. Files of version 1 are read, with a no
 ";
 
 /// A definition of the schema by the name that the page gives it.
-const VALUES: [(&str, &str); 11] = [
+const VALUES: [(&str, &str); 13] = [
     ("TextureDesc", "texture"),
     ("Technique", "technique"),
     ("PcfTaps", "taps of `pcf`"),
@@ -62,6 +62,8 @@ const VALUES: [(&str, &str); 11] = [
     ("SummedAreaTable", "table"),
     ("Show", "what `debug_moments` shows"),
     ("DebugView", "what shading shows"),
+    ("AirLight", "light in the air"),
+    ("Resolution", "resolution"),
 ];
 
 fn anchor(title: &str) -> String {
@@ -261,8 +263,10 @@ fn parameters(desc: &NodeDesc, page: &mut String) {
         None => String::new(),
     };
     let elements = match block.elements {
-        1 if block.name != "ViewParameters" && block.name != "DepthConversion" => "",
-        _ if block.name == "ViewParameters" => ", one for each of its `views`",
+        _ if ["ViewParameters", "MarchScatteringParameters"].contains(&block.name.as_str()) => {
+            ", one for each of its `views`"
+        }
+        1 if block.name != "DepthConversion" => "",
         _ => ", one for each region",
     };
     page.push_str(&format!(

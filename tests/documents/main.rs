@@ -11,6 +11,7 @@ mod claims;
 mod graph_file;
 mod links;
 mod plan;
+mod scattering_ways;
 mod schema;
 mod wgsl;
 

@@ -12,13 +12,14 @@ use std::mem::offset_of;
 
 use moment_shadows::{
     AreaLight, CompositeScatteringParameters, ContactShadowParameters, DepthConversion,
-    FourMomentsBias, IntegrateScatteringParameters, Kernel, LeakReduction, MapRegion, Profile,
-    ReceiverBias, RectifiedFrame, RectifyMomentsParameters, SingleScattering, Storage, Technique,
-    TextureFormat, ViewParameters,
+    FourMomentsBias, HeightFogView, IntegrateScatteringParameters, Kernel, LeakReduction,
+    MapRegion, MarchScatteringParameters, Profile, PunctualLight, ReceiverBias, RectifiedFrame,
+    RectifyMomentsParameters, SingleScattering, Storage, Technique, TextureFormat,
+    UpsampleScatteringParameters, ViewParameters,
 };
 use moment_shadows_graph::nodes::{
-    Blur, CompositeScattering, ContactShadows, IntegrateScattering, RectifyMoments, Resolve,
-    ShadeHard,
+    Blur, CompositeScattering, ContactShadows, IntegrateScattering, MarchScattering,
+    RectifyMoments, Resolve, ShadeHard, UpsampleScattering,
 };
 use moment_shadows_graph::{
     BindingResource, Capabilities, Connected, Node, NodeDesc, ResourceDesc, TextureDesc,
@@ -229,6 +230,63 @@ fn structs_of_single_scattering_are_laid_out_alike() {
     );
 }
 
+#[test]
+fn structs_of_marched_scattering_are_laid_out_alike() {
+    assert_same_layout(
+        &module("height_fog", "HeightFog"),
+        "HeightFog",
+        size_of::<HeightFogView>(),
+        &fields!(HeightFogView {
+            gradient: [f32; 3],
+            log_density: f32
+        }),
+    );
+    assert_same_layout(
+        &module("punctual_light", "PunctualLight"),
+        "PunctualLight",
+        size_of::<PunctualLight>(),
+        &fields!(PunctualLight {
+            place: [f32; 3],
+            radius: f32,
+            cone_axis: [f32; 3],
+            cone_offset: f32
+        }),
+    );
+    let of = |node: &dyn Node| parse(&described(node).passes[0].wgsl);
+    assert_same_layout(
+        &of(&MarchScattering::default()),
+        "MarchScatteringParameters",
+        size_of::<MarchScatteringParameters>(),
+        &fields!(MarchScatteringParameters {
+            position_from_camera: [[f32; 4]; 3],
+            scene_w_from_camera: [f32; 4],
+            medium: SingleScattering,
+            fog: HeightFogView,
+            light: PunctualLight,
+            map_from_position: [[f32; 4]; 4],
+            leak_reduction: LeakReduction,
+            conversion: DepthConversion,
+            region: MapRegion,
+            eye: [f32; 3],
+            farthest_w: f32,
+            own: [f32; 4],
+            offset: f32,
+            guard: f32,
+            layer: u32,
+            padding: u32
+        }),
+    );
+    assert_same_layout(
+        &of(&UpsampleScattering {}),
+        "UpsampleScatteringParameters",
+        size_of::<UpsampleScatteringParameters>(),
+        &fields!(UpsampleScatteringParameters {
+            scene_w_from_camera: [f32; 4],
+            farthest_w: f32
+        }),
+    );
+}
+
 /// A library node, described for float16 maps of 256 texels.
 fn described(node: &dyn Node) -> NodeDesc {
     let texture = |format| ResourceDesc::Texture(TextureDesc::new(format, [256, 256]));
@@ -237,6 +295,7 @@ fn described(node: &dyn Node) -> NodeDesc {
         ("map".to_owned(), texture(TextureFormat::Rgba16Float)),
         ("rectified".to_owned(), texture(TextureFormat::Rgba16Float)),
         ("integrated".to_owned(), texture(TextureFormat::Rgba16Float)),
+        ("scattering".to_owned(), texture(TextureFormat::Rgba16Float)),
         (
             "camera_depth".to_owned(),
             texture(TextureFormat::Depth32Float),

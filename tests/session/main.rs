@@ -14,6 +14,7 @@ mod fitted;
 mod formats;
 mod frames;
 mod many;
+mod marched;
 mod normals;
 mod off;
 mod orders;

@@ -5,9 +5,9 @@ use clap::{CommandFactory, FromArgMatches, Parser, Subcommand};
 use crate::command::cost::CostOptions;
 use crate::command::{
     CommandResult, best, bias, choose, claims, contact_shadows, cost_chart, error, error_table,
-    first_frame, inspect, isa, measure, ports, print_all, probe, render, scattering_error,
-    scattering_flicker, scores, shaders, soft_error, stability, sweep, technique_pictures, trade,
-    transmittance, troubleshooting_pictures, vectors,
+    first_frame, inspect, isa, march_error, measure, ports, print_all, probe, render,
+    scattering_error, scattering_flicker, scores, shaders, soft_error, stability, sweep,
+    technique_pictures, trade, transmittance, troubleshooting_pictures, vectors,
 };
 use crate::isa::child;
 
@@ -69,6 +69,9 @@ enum Command {
     SoftError(soft_error::SoftErrorOptions),
     /// Renders the light that a medium scatters by every technique beside marched rays, and prints errors and costs.
     ScatteringError(scattering_error::ScatteringErrorOptions),
+    /// Marches the light of a sun, a spot or a point light in height fog, with filtered maps and with plain ones, at full, half and a
+    /// quarter of the resolution, and prints errors, bytes and costs.
+    MarchError(march_error::MarchErrorOptions),
     /// Walks a slow path of camera and light, and prints how much the air flickers with filtered resampling and without. Fails
     /// where it is more than a third as much. Takes minutes.
     ScatteringFlicker(scattering_flicker::Options),
@@ -137,6 +140,7 @@ fn run(command: Command) -> CommandResult {
         Command::FirstFrame(options) => options.run(),
         Command::Inspect(options) => options.run(),
         Command::SoftError(options) => print_all(&soft_error::run(&options)?, false),
+        Command::MarchError(options) => print_all(&march_error::run(&options)?, false),
         Command::ScatteringError(options) => print_all(&scattering_error::run(&options)?, false),
         Command::ScatteringFlicker(options) => options.run(),
         Command::Cost(options) => options.run(),

@@ -303,7 +303,9 @@ pub fn parameter_bytes(
                 "BlurParameters"
                 | "RectifyMomentsParameters"
                 | "IntegrateScatteringParameters"
-                | "CompositeScatteringParameters",
+                | "CompositeScatteringParameters"
+                | "MarchScatteringParameters"
+                | "UpsampleScatteringParameters",
                 _,
             ) => {}
             (other, _) => {

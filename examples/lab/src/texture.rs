@@ -1,8 +1,10 @@
 //! Textures of one mip level and one sample.
 
+use moment_shadows::TextureFormat;
 use moment_shadows_graph::TextureDesc;
 use wgpu::util::DeviceExt;
 
+use crate::error::LabError;
 use crate::gpu::Gpu;
 
 /// A texture of all layers and planes of a description.
@@ -20,6 +22,27 @@ pub(crate) fn upload(gpu: &Gpu, desc: &TextureDesc, bytes: &[u8]) -> wgpu::Textu
     let descriptor = descriptor("lab/upload", desc, wgpu::TextureUsages::TEXTURE_BINDING);
     let order = wgpu::util::TextureDataOrder::LayerMajor;
     (gpu.device).create_texture_with_data(&gpu.queue, &descriptor, order, bytes)
+}
+
+/// A depth map with a layer for each of these, of depth32float and of the same size.
+pub(crate) fn layered(gpu: &Gpu, layers: &[wgpu::Texture]) -> Result<wgpu::Texture, LabError> {
+    let first = layers.first();
+    let first = first.ok_or_else(|| LabError::refused("a map of no layers; draw one at least"))?;
+    let desc = TextureDesc {
+        layers: layers.len() as u32,
+        ..TextureDesc::new(TextureFormat::Depth32Float, [first.width(), first.height()])
+    };
+    let usage = wgpu::TextureUsages::TEXTURE_BINDING | wgpu::TextureUsages::COPY_DST;
+    let whole = texture(gpu, "lab/layers", &desc, usage);
+    let mut encoder = gpu.device.create_command_encoder(&Default::default());
+    for (layer, source) in (0..).zip(layers) {
+        let mut target = whole.as_image_copy();
+        target.origin.z = layer;
+        encoder.copy_texture_to_texture(source.as_image_copy(), target, source.size());
+    }
+    gpu.queue.submit([encoder.finish()]);
+    gpu.check()?;
+    Ok(whole)
 }
 
 fn descriptor<'a>(

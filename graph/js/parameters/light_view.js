@@ -70,14 +70,19 @@ export function depthPerTexel(light, extent) {
   return (2 * Math.max(width, height) * spread) / (far - near);
 }
 
-/** The light with its size over a map whose region has `extent` texels; `radii`: see `areaLightOf`. */
-export function areaLight(light, extent, radii) {
-  const { depth, size } = completed(light);
+/** Checks that the kind of size suits the kind of rays. */
+export function checkSize(depth, size) {
   const [kind] = sizeOf(size);
   if (kind !== 'point' && isParallel(depth) !== (kind === 'angularDiameter')) {
     const message =
       'a light with parallel rays has an angular diameter as its size, one with a perspective map is a disk or a rectangle';
     throw new ValueError('size', message);
   }
+}
+
+/** The light with its size over a map whose region has `extent` texels; `radii`: see `areaLightOf`. */
+export function areaLight(light, extent, radii) {
+  const { depth, size } = completed(light);
+  checkSize(depth, size);
   return areaLightOf(size, texelSize(light, extent), depthRange(light), radii);
 }

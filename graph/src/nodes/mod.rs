@@ -7,6 +7,7 @@ mod debug_moments;
 mod downsample;
 mod fit_range;
 mod integrate_scattering;
+mod march_scattering;
 mod place_layers;
 mod rectify_moments;
 mod resolve;
@@ -16,6 +17,7 @@ mod shared;
 mod summed_area_table;
 mod techniques;
 mod translucent_casters;
+mod upsample_scattering;
 
 pub use blur::{Blur, BlurKernel};
 pub use composite_scattering::CompositeScattering;
@@ -26,6 +28,7 @@ pub use fit_range::FitRange;
 #[cfg(feature = "wgpu")]
 pub(crate) use fit_range::SEES;
 pub use integrate_scattering::IntegrateScattering;
+pub use march_scattering::MarchScattering;
 pub use place_layers::PlaceLayers;
 pub use rectify_moments::RectifyMoments;
 pub use resolve::Resolve;
@@ -36,6 +39,7 @@ pub use shared::debug_view::DebugView;
 pub(crate) use shared::shading::BORDERS;
 pub use summed_area_table::SummedAreaTable;
 pub use translucent_casters::TranslucentCasters;
+pub use upsample_scattering::UpsampleScattering;
 
 use crate::NodeRegistry;
 
@@ -55,6 +59,8 @@ pub(crate) fn register(registry: &mut NodeRegistry) {
     registry.register::<RectifyMoments>("rectify_moments");
     registry.register::<IntegrateScattering>("integrate_scattering");
     registry.register::<CompositeScattering>("composite_scattering");
+    registry.register::<MarchScattering>("march_scattering");
+    registry.register::<UpsampleScattering>("upsample_scattering");
 }
 
 /// Properties that a file may ask for in vain: node, property and the reason why no node has it.
@@ -68,7 +74,7 @@ pub(crate) const REFUSED: [(&str, &str, &str); 2] = [
     (
         "integrate_scattering",
         "medium",
-        "all view rays of a row share its sums, which they can in a homogeneous medium alone: leave it out, or march the \
-         scattering of a density that differs from place to place",
+        "all view rays of a row share its sums, which they can in a homogeneous medium alone: leave it out, or let a node \
+         'march_scattering' march a density that differs from place to place",
     ),
 ];

@@ -39,12 +39,14 @@ pub(super) fn slot(end: &str) -> &str {
 }
 
 /// Parameters of nodes that a camera decides on.
-const OF_CAMERAS: [&str; 5] = [
+const OF_CAMERAS: [&str; 7] = [
     "ViewParameters",
     "ContactShadowParameters",
     "RectifyMomentsParameters",
     "IntegrateScatteringParameters",
     "CompositeScatteringParameters",
+    "MarchScatteringParameters",
+    "UpsampleScatteringParameters",
 ];
 
 /// Cuts a graph whose nodes say `descs` about themselves, in the order of the graph.

@@ -4,6 +4,7 @@ mod contacts;
 mod cut;
 mod given;
 mod kernels;
+mod marched;
 mod part;
 mod scratch;
 mod seen;
@@ -12,7 +13,7 @@ mod shading;
 use cut::{Cut, cut};
 use given::Given;
 use moment_shadows::{
-    CameraView, ContactShadows, LeakReduction, LightView, MapEncoding, ReceiverBias,
+    CameraView, ContactShadows, LeakReduction, LightView, MapEncoding, MarchedAir, ReceiverBias,
     SingleScattering, TextureFormat,
 };
 use part::{Maker, Part};
@@ -47,6 +48,9 @@ pub struct Session {
     /// What is in the air, and up to which distance from the camera it is lit, in scene units: for graphs with single
     /// scattering. Nothing at first.
     pub medium: (SingleScattering, f64),
+    /// What marched scattering is told beside that: fog that thins with height, a spot's cone, the number of the frame. A homogeneous
+    /// medium at first.
+    pub marched: MarchedAir,
     /// How far shadows at contacts reach, in scene units: for graphs with such shadows. For scenes in metres at first.
     pub contact: ContactShadows,
     scratch: Scratch,
@@ -107,6 +111,7 @@ impl Session {
             views: Vec::new(),
             leak_reduction: LeakReduction::DEFAULT,
             medium: (SingleScattering::NONE, 1.0),
+            marched: MarchedAir::default(),
             contact: ContactShadows::default(),
             scratch: Scratch::default(),
         };
@@ -193,6 +198,7 @@ impl Session {
             lights,
             leak_reduction: self.leak_reduction,
             medium: self.medium,
+            marched: self.marched,
             contact: self.contact,
             depth_format: self.depth_format(),
             light_depth: self.light_depth.as_deref(),

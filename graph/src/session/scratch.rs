@@ -2,12 +2,13 @@
 
 use moment_shadows::{
     CameraView, ContactShadowParameters, ContactShadows, DepthConversion, LeakReduction, LightView,
-    MapRegion, ScatteringParameters, SingleScattering, TextureFormat, ViewParameters,
+    MapRegion, MarchScatteringParameters, MarchedAir, ScatteringParameters, SingleScattering,
+    TextureFormat, UpsampleScatteringParameters, ViewParameters,
 };
 
-use super::kernels;
 use super::part::Part;
 use super::unsuitable;
+use super::{kernels, marched};
 use crate::GraphError;
 
 /// Lists that keep their memory from frame to frame.
@@ -18,6 +19,7 @@ pub(super) struct Scratch {
     views: Vec<ViewParameters>,
     kernels: Vec<kernels::Words>,
     contacts: Vec<ContactShadowParameters>,
+    marched: Vec<MarchScatteringParameters>,
     block: Vec<u8>,
 }
 
@@ -27,6 +29,7 @@ pub(super) struct Told<'a> {
     pub(super) lights: &'a [LightView],
     pub(super) leak_reduction: LeakReduction,
     pub(super) medium: (SingleScattering, f64),
+    pub(super) marched: MarchedAir,
     pub(super) contact: ContactShadows,
     pub(super) depth_format: Option<TextureFormat>,
     /// The import that is the light's depth map, if one is.
@@ -76,6 +79,16 @@ impl Scratch {
                 }
                 "CompositeScatteringParameters" => {
                     layout.write(bytes, node, 0, &told.scattering()?.composite)?;
+                }
+                "MarchScatteringParameters" => {
+                    marched::write(&mut self.marched, told, block)?;
+                    layout.write_all(bytes, node, 0, &self.marched)?;
+                }
+                "UpsampleScatteringParameters" => {
+                    let (_, far) = told.medium;
+                    let parameters = UpsampleScatteringParameters::new(told.camera, far);
+                    let parameters = parameters.map_err(|error| unsuitable("upsampling", error))?;
+                    layout.write(bytes, node, 0, &parameters)?;
                 }
                 // Those above, and kernels, which are those of the graph file or follow.
                 "ViewParameters" | "BlurParameters" | "ContactShadowParameters" => {}

@@ -1,7 +1,10 @@
-//! Single scattering, with four and six moments; sums in parallel and, on a software adapter, row by row.
+//! Single scattering, with four and six moments; sums in parallel and, on a software adapter, row by row. Marched, with both and with the
+//! plain map.
 
 use moment_shadows::{MapEncoding, Storage, Technique, ValueError};
-use moment_shadows_graph::nodes::{CompositeScattering, IntegrateScattering, RectifyMoments};
+use moment_shadows_graph::nodes::{
+    CompositeScattering, IntegrateScattering, MarchScattering, RectifyMoments, UpsampleScattering,
+};
 
 use super::{SIZE, Variant};
 use crate::techniques;
@@ -67,4 +70,65 @@ pub(super) fn of_storage(four: &MapEncoding) -> Result<Vec<Variant>, ValueError>
         all.push(variant(composite, "composite_scattering", "", &[]));
     }
     Ok(all)
+}
+
+/// Marching with a map of four moments, of six and with the plain map; views of a point light, a density of a host's own; upsampling.
+pub(super) fn marched(four: &MapEncoding) -> Result<Vec<Variant>, ValueError> {
+    let six = MapEncoding::new(Technique::Hamburger6, four.storage())?;
+    let march = MarchScattering::default;
+    let own = "fn density(position: vec3f, own: vec4f) -> f32 {\n    return exp(-own.x * position.y);\n}\n";
+    let plain = MarchScattering {
+        technique: Some(Technique::Binary),
+        ..march()
+    };
+    let faces = MarchScattering {
+        views: 6,
+        ..march()
+    };
+    let own = MarchScattering {
+        density: Some(own.to_owned()),
+        ..march()
+    };
+    let steps = [16];
+    let of_faces = [16, faces.views];
+    let label = |map: &MapEncoding| techniques::label(map.technique());
+    let storage = four.storage();
+    let variant = |node, map: &MapEncoding, file: &str, row: String, kept: bool, trips: &[u32]| {
+        let variant = Variant::new(node, map);
+        variant
+            .file(format!("march_scattering_{file}"), kept)
+            .row(true, row, trips)
+    };
+    let of_map = |map| format!("{}, {storage}, 16 steps", label(map));
+    Ok(vec![
+        variant(march(), four, "hamburger4", of_map(four), true, &steps),
+        variant(march(), &six, "hamburger6", of_map(&six), false, &steps),
+        variant(
+            plain,
+            four,
+            "plain",
+            "plain map, 16 steps".to_owned(),
+            true,
+            &steps,
+        ),
+        variant(
+            faces,
+            four,
+            "faces",
+            format!("{}, 6 views", of_map(four)),
+            false,
+            &of_faces,
+        ),
+        variant(
+            own,
+            four,
+            "density",
+            format!("{}, own density", of_map(four)),
+            true,
+            &steps,
+        ),
+        Variant::new(UpsampleScattering {}, four)
+            .file("upsample_scattering".to_owned(), true)
+            .row(true, "half".to_owned(), &[]),
+    ])
 }

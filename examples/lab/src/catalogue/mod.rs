@@ -214,9 +214,14 @@ impl Variant {
         let normals = normals.iter().map(|desc| ("normals", desc));
         let intensity = self.intensity.map(|format| TextureDesc::new(format, SIZE));
         let intensity = intensity.iter().map(|desc| ("intensity", desc));
+        let marched = TextureDesc::new(TextureFormat::Rgba16Float, SIZE.map(|side| side / 2));
         let map = ["map", "table", "rectified", "integrated"].map(|name| (name, &self.map));
         map.into_iter()
-            .chain([("depth", &depth), ("splits", &splits)])
+            .chain([
+                ("depth", &depth),
+                ("splits", &splits),
+                ("scattering", &marched),
+            ])
             .chain(camera.iter().map(|desc| ("camera_depth", desc)))
             .chain(normals)
             .chain(intensity)
@@ -260,6 +265,7 @@ pub fn variants() -> Result<Vec<Variant>, LabError> {
         all.extend(air::of_storage(&four)?);
     }
     let any = MapEncoding::new(Technique::Hamburger4, Storage::Float16)?;
+    all.extend(air::marched(&any)?);
     all.extend(shade::of_depth(&any));
     all.extend(map::of_depth(&any));
     all.extend(shade::contacts(&any));

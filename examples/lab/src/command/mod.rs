@@ -14,6 +14,7 @@ pub mod error_table;
 pub mod first_frame;
 pub mod inspect;
 pub mod isa;
+pub mod march_error;
 pub mod measure;
 pub mod ports;
 pub mod probe;

@@ -8,6 +8,7 @@ mod draw;
 mod flicker;
 mod look;
 mod march;
+mod marched;
 mod report;
 mod stage;
 mod ten_bits;
@@ -20,6 +21,10 @@ pub use flicker::{
     flicker, static_region,
 };
 pub use look::{Look, LookDesc};
+pub use marched::{
+    Lamp, MarchCandidate, MarchErrors, MarchStage, MarchStageDesc, WayRow, WaysRecord,
+    march_candidates, ways_record,
+};
 pub use report::{ScatteringError, ScatteringErrors};
 pub use stage::{ScatteringStage, ScatteringStageDesc};
 pub use truth::{MarchedRays, Rays, marched, marched_filtered};

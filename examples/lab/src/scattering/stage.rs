@@ -30,10 +30,10 @@ const SAMPLES: u32 = 4;
 const MARGIN: f64 = 2.0;
 
 /// A difference that is shown in full colour, in parts of the mean radiance without shadows.
-const FULL_DIFFERENCE: f32 = 0.5;
+pub(super) const FULL_DIFFERENCE: f32 = 0.5;
 
 /// What the mean radiance without shadows is in pictures, on a scale from black to white.
-const EXPOSURE: f64 = 0.35;
+pub(super) const EXPOSURE: f64 = 0.35;
 
 /// The chain that lights the surfaces of pictures.
 const SURFACES: &str = include_str!("../../../hard_shadows.json");
@@ -253,7 +253,7 @@ impl Stage for ScatteringStage {
 }
 
 /// The mean by colour.
-fn mean(values: &[[f32; 3]]) -> [f64; 3] {
+pub(super) fn mean(values: &[[f32; 3]]) -> [f64; 3] {
     [0, 1, 2].map(|colour| {
         let sum: f64 = values.iter().map(|value| f64::from(value[colour])).sum();
         sum / values.len().max(1) as f64
@@ -272,7 +272,7 @@ pub(super) fn read_radiance(gpu: &Gpu, texture: &wgpu::Texture) -> Result<Vec<[f
 }
 
 /// Radiance in front of a picture of sRGB bytes.
-fn lit(surfaces: &[u8], radiance: &[[f32; 4]], exposure: f64) -> Vec<u8> {
+pub(super) fn lit(surfaces: &[u8], radiance: &[[f32; 4]], exposure: f64) -> Vec<u8> {
     let mut picture = surfaces.to_vec();
     for (pixel, light) in picture.chunks_exact_mut(4).zip(radiance) {
         for (byte, &colour) in pixel.iter_mut().zip(&light[..3]) {

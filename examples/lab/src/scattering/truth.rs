@@ -188,6 +188,6 @@ fn integral(extinction: f64, length: f64) -> f64 {
 }
 
 /// Henyey & Greenstein, 1941.
-fn phase(cosine: f64, g: f64) -> f64 {
+pub(super) fn phase(cosine: f64, g: f64) -> f64 {
     (1.0 - g * g) / (4.0 * core::f64::consts::PI * (1.0 + g * g - 2.0 * g * cosine).powf(1.5))
 }

@@ -101,19 +101,19 @@ impl Node for ShadeHard {
 }
 
 /// A technique with the map that it reads.
-struct Evaluation {
-    technique: Technique,
+pub(super) struct Evaluation {
+    pub(super) technique: Technique,
     /// What a shader imports that evaluates the technique.
-    specialization: Specialization,
-    slot: &'static str,
-    formats: Vec<TextureFormat>,
+    pub(super) specialization: Specialization,
+    pub(super) slot: &'static str,
+    pub(super) formats: Vec<TextureFormat>,
     /// The map and its sampler, if it has one.
-    bindings: Vec<Binding>,
+    pub(super) bindings: Vec<Binding>,
 }
 
 impl ShadeHard {
     /// The technique on the map that it reads: `map`, or the plain depth map.
-    fn evaluation<'a>(
+    pub(super) fn evaluation<'a>(
         &self,
         capabilities: &Capabilities,
         moments: impl FnOnce() -> Result<(&'a TextureDesc, MapEncoding), GraphError>,
