@@ -36,11 +36,11 @@ fn main() -> Result<(), Box<dyn Error>> {
         Default::default(),
     ))?;
 
-    // On the ground fog takes a ninth of the light per unit, and a third of that two and a half units higher. The irradiance is that of a
-    // surface at distance 1 from the lamp.
-    let extinction = [0.1, 0.11, 0.12];
+    // On the ground fog takes a twentieth of the light per unit, and a third of that two and a half units higher. The irradiance is that
+    // of a surface at distance 1 from the lamp.
+    let extinction = [0.045, 0.05, 0.055];
     let scattering = extinction.map(|extinction| 0.9 * extinction);
-    let medium = SingleScattering::new(extinction, scattering, 0.4, [90.0, 84.0, 70.0])?;
+    let medium = SingleScattering::new(extinction, scattering, 0.4, [1100.0, 1000.0, 850.0])?;
     session.medium = (medium, 30.0);
     let cone = SpotCone {
         inner: 0.9,

@@ -34,7 +34,7 @@ pub struct PunctualLight {
 /// places on view rays.
 const SMALLEST_RADIUS: f64 = 1.0 / 1024.0;
 
-/// The largest radius of a light.
+/// The largest size of a light.
 const LARGEST: f64 = 1e9;
 
 impl PunctualLight {
@@ -68,19 +68,16 @@ impl PunctualLight {
         }
         // Its rays meet in what depth alone leads to.
         let position = along_depth.truncate() / along_depth.w;
-        let radius = match light.size {
-            LightSize::Disk(diameter) => 0.5 * diameter,
-            LightSize::Rectangle(sides) => 0.5 * sides[0].min(sides[1]),
-            LightSize::Point | LightSize::AngularDiameter(_) => 0.0,
+        let sides = match light.size {
+            LightSize::Disk(diameter) => [diameter; 2],
+            LightSize::Rectangle(sides) => sides,
+            LightSize::Point | LightSize::AngularDiameter(_) => [0.0; 2],
         };
-        let range = "at least 0 and at most 1e9";
-        check(
-            (0.0..=LARGEST).contains(&radius),
-            "a light",
-            "size",
-            radius,
-            range,
-        )?;
+        for side in sides {
+            let valid = (0.0..=LARGEST).contains(&side);
+            check(valid, "a light", "size", side, "at least 0 and at most 1e9")?;
+        }
+        let radius = 0.5 * sides[0].min(sides[1]);
         let axis = clip.row(3).truncate().normalize_or_zero();
         let (cone_axis, cone_offset) = match cone {
             None => (DVec3::ZERO, 1.0),

@@ -216,6 +216,11 @@ fn a_light_is_as_large_as_its_size_or_as_single_precision_asks() {
     scene.views[0].size = LightSize::Rectangle([0.8, 2.0]);
     assert_eq!(radius(&scene), 0.4);
     assert_eq!(radius(&Scene::new(Lamp::Sun)), 0.0);
+    for sides in [[0.8, f64::NAN], [-1.0, 1.0], [1e10, 1.0]] {
+        scene.views[0].size = LightSize::Rectangle(sides);
+        let refused = parameters(&scene, scene.air, FAR).unwrap_err();
+        assert_eq!(refused.name, "size", "{sides:?}");
+    }
 }
 
 #[test]

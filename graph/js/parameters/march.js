@@ -123,16 +123,14 @@ function punctualLight(light, cone, eye, far) {
   // Its rays meet in what depth alone leads to.
   const position = alongDepth.slice(0, 3).map((entry) => entry / alongDepth[3]);
   const [kind, value] = sizeOf(size);
-  const radius = kind === 'point' ? 0 : 0.5 * (kind === 'disk' ? value : Math.min(value[0], value[1]));
-  check(radius >= 0 && radius <= LARGEST, 'a light', 'size', radius, 'at least 0 and at most 1e9');
-  const axis = unit(row(clip, 3).slice(0, 3));
-  const scale = cone ? coneScale(cone) : 0;
-  return {
-    place: difference(position, eye).map(single),
-    radius: single(Math.max(radius, SMALLEST_RADIUS * far)),
-    cone_axis: scaled(axis, scale).map(single),
-    cone_offset: cone ? single(-scale * Math.cos(0.5 * cone.outer)) : 1,
-  };
+  const sides = kind === 'point' ? [0, 0] : kind === 'disk' ? [value, value] : value;
+  for (const side of sides) check(side >= 0 && side <= LARGEST, 'a light', 'size', side, 'at least 0 and at most 1e9');
+  const radius = 0.5 * Math.min(...sides);
+  const lamp = { place: difference(position, eye).map(single), radius: single(Math.max(radius, SMALLEST_RADIUS * far)) };
+  if (!cone) return { ...lamp, cone_axis: [0, 0, 0], cone_offset: 1 };
+  const scale = coneScale(cone);
+  const axis = scaled(unit(row(clip, 3).slice(0, 3)), scale);
+  return { ...lamp, cone_axis: axis.map(single), cone_offset: single(-scale * Math.cos(0.5 * cone.outer)) };
 }
 
 // One over the difference of the cosines of half the angles.
