@@ -2,8 +2,6 @@
 // camera_depth: camera_depth CameraPixel camera_depth_size camera_depth_pixel_around camera_depth_at camera_depth_clip
 // fullscreen: Covered fullscreen
 // moments_lookup: moments_map moments_sampler
-// moment_shadows/maths/angle.wgsl: ANGLE_PI angle_of_small_tangent
-// moment_shadows/air/rectified_frame.wgsl: RectifiedFrame RectifiedFrameRay rectified_frame_view_ray rectified_frame_place rectified_frame_depth rectified_frame_direction rectified_frame_w rectified_frame_row rectified_frame_prefix
 // moment_shadows/maths/hankel.wgsl: HankelFactor HANKEL_SMALLEST_VARIANCE HANKEL_SMALLEST_RESIDUE hankel_factor hankel_second_polynomial
 // moment_shadows/map/storage.wgsl: STORAGE_FLOAT16 STORAGE_FLOAT32 STORAGE_UNORM10 storage_is_float
 // moment_shadows/moments/six_moments.wgsl: SixMoments SixMomentsBias SIX_MOMENTS_BIAS_TARGET SIX_MOMENTS_BIAS_UNORM16 SIX_MOMENTS_BIAS_FLOAT16 SIX_MOMENTS_BIAS_FLOAT32 SIX_MOMENTS_BIAS_UNORM10 SIX_MOMENTS_ODD_OFFSET SIX_MOMENTS_EVEN_OFFSET SIX_MOMENTS_ODD_INVERSE SIX_MOMENTS_EVEN_INVERSE six_moments_affine six_moments_middle six_moments_from_channels six_moments_bias_of six_moments_apply_bias six_moments_biased_from_channels
@@ -12,9 +10,11 @@
 // them.: ENCLOSED_MOMENTS_SMALLEST_WEIGHT ENCLOSED_MOMENTS_LARGEST_ALPHA enclosed_moments_bias enclosed_moments_biased enclosed_moments_are_finite enclosed_moments_bounds
 // scattering_lookup: scattering_lookup
 // scattering_bounds: scattering_bounds
+// moment_shadows/maths/angle.wgsl: ANGLE_PI angle_of_small_tangent
+// moment_shadows/air/rectified_frame.wgsl: RectifiedFrame RectifiedFrameRay rectified_frame_view_ray rectified_frame_place rectified_frame_depth rectified_frame_direction rectified_frame_w rectified_frame_row rectified_frame_prefix
+// scattering_ray: ScatteringRay scattering_ray_of
 // moment_shadows/air/phase_function.wgsl: PHASE_FUNCTION_ISOTROPIC PHASE_FUNCTION_LARGEST_ANISOTROPY phase_function_henyey_greenstein
-// moment_shadows/air/single_scattering.wgsl: SINGLE_SCATTERING_LOG2_E SingleScattering single_scattering_mean_of_halves SINGLE_SCATTERING_LARGEST SingleScatteringRay single_scattering_ray single_scattering_pixel
-// occluders.: SINGLE_SCATTERING_DEPTH_BIAS single_scattering_fragment_depth single_scattering_shadow
+// moment_shadows/air/single_scattering.wgsl: SINGLE_SCATTERING_LOG2_E SingleScattering single_scattering_mean_of_halves SINGLE_SCATTERING_LARGEST SingleScatteringRay single_scattering_ray single_scattering_pixel single_scattering_shadow
 // composite_scattering.wgsl: CompositeScatteringParameters parameters composite
 
 // specialization

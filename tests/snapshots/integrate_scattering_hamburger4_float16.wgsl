@@ -6,7 +6,8 @@
 // moment_shadows/map/storage.wgsl: STORAGE_FLOAT16 STORAGE_UNORM10 STORAGE_PACKED64 storage_round_to_float16 storage_round_to_unorm10 storage_round_texel
 // moment_shadows/moments/packed_four_moments.wgsl: PACKED_FOUR_MOMENTS_LARGEST_DEPTH PACKED_FOUR_MOMENTS_LEAST_VARIANCE PackedFourMomentsNodes packed_four_moments_nodes packed_four_moments_channels
 // moment_shadows/moments/four_moments.wgsl: four_moments_filter_texel
-// integrate_scattering_parallel.wgsl: THREADS TEXELS sums weights integrate
+// row_sums: RowSums row_sums_texel row_sums_join row_sums_mean
+// integrate_scattering_parallel.wgsl: THREADS TEXELS sums integrate
 
 // specialization
 const GROUP = 0;

@@ -6,12 +6,15 @@
 // moment_shadows/map/map_lookup.wgsl: map_lookup_bilinear
 // moments_lookup: moments_map moments_sampler moments_lookup
 // moment_shadows/air/rectified_frame.wgsl: RectifiedFrame rectified_frame_ray rectified_frame_depth
+// moment_shadows/air/single_scattering.wgsl: SINGLE_SCATTERING_DEPTH_BIAS single_scattering_occluder_depth
+// occluders: occluders_of
 // moment_shadows/moments/six_moments.wgsl: SixMoments SIX_MOMENTS_ODD_BASIS SIX_MOMENTS_EVEN_BASIS SIX_MOMENTS_ODD_OFFSET SIX_MOMENTS_EVEN_OFFSET six_moments_affine six_moments_from_depth six_moments_middle
 // moment_shadows/moments/enclosed_moments.wgsl: EnclosedMoments enclosed_moments_of_occluder enclosed_moments_sum enclosed_moments_texel enclosed_moments_to_odd_texel enclosed_moments_to_even_texel
 // rectified_texel: rectified_map rectified_even rectified_store
+// rectify_parameters: RectifyMomentsParameters parameters
 // moment_shadows/maths/two_diracs.wgsl: TwoDiracs
 // much.: TWO_DIRACS_SMALLEST_VARIANCE two_diracs_of_moments
-// rectify_moments.wgsl: RectifyMomentsParameters parameters FAR_END rectified rectify
+// rectify_moments.wgsl: FAR_END rectified rectify
 
 // specialization
 const GROUP = 0;

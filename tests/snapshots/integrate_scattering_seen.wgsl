@@ -1,0 +1,21 @@
+// What is linked of files:
+// moment_shadows/maths/angle.wgsl: ANGLE_PI ANGLE_PI_REST ANGLE_HALF_PI ANGLE_HALF_PI_REST ANGLE_QUARTER_PI ANGLE_QUARTER_PI_REST ANGLE_TAN_EIGHTH_PI ANGLE_HALF_PI_FIRST ANGLE_HALF_PI_SECOND ANGLE_HALF_PI_THIRD ANGLE_LARGEST angle_finite angle_atan2 angle_sin_cos
+// moment_shadows/air/rectified_frame.wgsl: RectifiedFrame rectified_frame_ray
+// moment_shadows/air/scattering_weights.wgsl: scattering_weights_clip scattering_weights_inclinations scattering_weights_reference_sine scattering_weights_thickness scattering_weights_of_column scattering_weights_tilt
+// integrate_target: IntegrateScatteringParameters parameters rectified_map integrated_map row_thickness
+// moment_shadows/map/storage.wgsl: STORAGE_FLOAT16 STORAGE_UNORM10 storage_round_to_float16 storage_round_to_unorm10 storage_round_texel
+// moment_shadows/air/view_rays.wgsl: view_rays_sine
+// row_sums: view_rays_map RowSums row_sums_texel row_sums_join row_sums_mean
+// integrate_scattering_parallel.wgsl: THREADS TEXELS sums integrate
+
+// specialization
+const GROUP = 0;
+alias MomentsStorage = texture_storage_2d<rgba16float, write>;
+const STORAGE = 1u;
+
+// map_filtering
+// The texel for such an average.
+fn filtering_texel(value: vec4f) -> vec4f {
+    return storage_round_texel(value, STORAGE);
+}
+
