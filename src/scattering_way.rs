@@ -44,9 +44,9 @@ const fn marched(steps: u32, resolution: Resolution) -> ScatteringWay {
 #[rustfmt::skip]
 const RECORDED: [Row; 45] = [
     (Sun, true, marched(64, Full), 64.0, 0.0076),
+    (Sun, true, ScatteringWay::Prefiltered, 2.0, 0.0091),
     (Sun, true, marched(32, Full), 32.0, 0.0141),
     (Sun, true, marched(32, Half), 8.0, 0.0154),
-    (Sun, true, ScatteringWay::Prefiltered, 2.0, 0.019),
     (Sun, true, marched(32, Quarter), 2.0, 0.023),
     (Sun, true, marched(16, Half), 4.0, 0.0239),
     (Sun, true, marched(16, Full), 16.0, 0.0268),

@@ -7,7 +7,7 @@
 // moment_shadows/moments/packed_four_moments.wgsl: PACKED_FOUR_MOMENTS_LARGEST_DEPTH PACKED_FOUR_MOMENTS_LEAST_VARIANCE PackedFourMomentsNodes packed_four_moments_nodes packed_four_moments_channels
 // moment_shadows/moments/four_moments.wgsl: four_moments_filter_texel
 // row_sums: RowSums row_sums_texel row_sums_join row_sums_mean
-// integrate_scattering_parallel.wgsl: THREADS TEXELS sums integrate
+// integrate_scattering_parallel.wgsl: THREADS TEXELS sums sums_of_texel integrate
 
 // specialization
 const GROUP = 0;

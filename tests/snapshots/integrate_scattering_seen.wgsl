@@ -6,7 +6,7 @@
 // moment_shadows/map/storage.wgsl: STORAGE_FLOAT16 STORAGE_UNORM10 storage_round_to_float16 storage_round_to_unorm10 storage_round_texel
 // moment_shadows/air/view_rays.wgsl: view_rays_sine
 // row_sums: view_rays_map RowSums row_sums_texel row_sums_join row_sums_mean
-// integrate_scattering_parallel.wgsl: THREADS TEXELS sums integrate
+// integrate_scattering_parallel.wgsl: THREADS TEXELS sums sums_of_texel integrate
 
 // specialization
 const GROUP = 0;

@@ -26,8 +26,8 @@ pub(super) fn of_storage(four: &MapEncoding) -> Result<Vec<Variant>, ValueError>
             extent: SIZE,
         };
         let sum = || Variant::new(IntegrateScattering {}, &map);
-        // Shared memory that is cleared; 512 columns at a time, with six steps of the scan.
-        let parallel = [64, SIZE[0] / 512, 6];
+        // Shared memory that is cleared, 1024 bytes at a time; 512 columns at a time, with six steps of the scan.
+        let parallel = [2, SIZE[0] / 512, 6];
         // Four columns at a time.
         let row_by_row = [SIZE[0] / 4];
         let composite = Variant::new(CompositeScattering::default(), &map);
@@ -51,13 +51,12 @@ pub(super) fn of_storage(four: &MapEncoding) -> Result<Vec<Variant>, ValueError>
             let seen = Variant::new(rectify.clone(), four)
                 .file("rectify_moments_seen", 4_usize)
                 .row(true, settings.as_str(), &[])
-                .pass("find ends", &[2])
                 .pass("bound rays", &[1, SIZE[0] / 64, 6, SIZE[0] / 64]);
             all.push(seen);
             let seen = sum()
                 .view_rays()
                 .file("integrate_scattering_seen", 1_usize)
-                .row(true, settings, &parallel);
+                .row(true, settings, &[3, SIZE[0] / 512, 6, 8]);
             all.push(seen);
         }
         let rectify = Variant::new(rectify, four).without_camera();

@@ -3,12 +3,19 @@ import node::map_filtering::{filtering_texel};
 import node::row_sums::{RowSums, row_sums_join, row_sums_mean, row_sums_texel};
 
 // Normalised prefix sums along rows, on a GPU: a workgroup per row, 8 texels per invocation, the sums of invocations by the
-// scan of Hillis and Steele (1986). Sums are f32 and are rounded once, to the storage.
+// scan of Hillis and Steele (1986). Texels are loaded twice, since sums of all of them at once would not fit registers. Sums are
+// f32 and are rounded once, to the storage.
 
 const THREADS = 64u;
 const TEXELS = 8u;
 
 var<workgroup> sums: array<RowSums, THREADS>;
+
+fn sums_of_texel(column: u32, row: u32, thickness: f32) -> RowSums {
+    let last = textureDimensions(rectified_map).x - 1u;
+    let texel = textureLoad(rectified_map, vec2u(min(column, last), row), 0);
+    return row_sums_texel(texel, f32(column), thickness);
+}
 
 @compute @workgroup_size(THREADS)
 fn integrate(@builtin(local_invocation_id) local: vec3u, @builtin(workgroup_id) workgroup_id: vec3u) {
@@ -20,12 +27,8 @@ fn integrate(@builtin(local_invocation_id) local: vec3u, @builtin(workgroup_id) 
     for (var start = 0u; start < columns; start += THREADS * TEXELS) {
         let first = start + thread * TEXELS;
         var sum = RowSums();
-        var prefixes: array<RowSums, TEXELS>;
         for (var index = 0u; index < TEXELS; index++) {
-            let column = first + index;
-            let texel = textureLoad(rectified_map, vec2u(min(column, columns - 1u), row), 0);
-            sum = row_sums_join(sum, row_sums_texel(texel, f32(column), thickness));
-            prefixes[index] = sum;
+            sum = row_sums_join(sum, sums_of_texel(first + index, row, thickness));
         }
         sums[thread] = sum;
         workgroupBarrier();
@@ -44,9 +47,9 @@ fn integrate(@builtin(local_invocation_id) local: vec3u, @builtin(workgroup_id) 
         }
         for (var index = 0u; index < TEXELS; index++) {
             let place = vec2u(first + index, row);
+            inner = row_sums_join(inner, sums_of_texel(place.x, row, thickness));
             if place.x < columns {
-                let mean = row_sums_mean(row_sums_join(inner, prefixes[index]), place, thickness);
-                textureStore(integrated_map, place, filtering_texel(mean));
+                textureStore(integrated_map, place, filtering_texel(row_sums_mean(inner, place, thickness)));
             }
         }
         before = row_sums_join(before, sums[THREADS - 1u]);
