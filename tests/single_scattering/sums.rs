@@ -253,9 +253,9 @@ fn sums_have_the_weights_of_the_view_rays_that_end_there() {
                             sum[channel] += of_column * f64::from(texel[channel]);
                         }
                     }
-                    for channel in 0..4 {
-                        let place = (row * columns + column) * 4 + channel;
-                        largest = largest.max((found[place] - sum[channel] / weight).abs());
+                    let place = (row * columns + column) * 4;
+                    for (found, sum) in found[place..place + 4].iter().zip(sum) {
+                        largest = largest.max((found - sum / weight).abs());
                     }
                 }
             }
