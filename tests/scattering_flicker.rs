@@ -73,8 +73,13 @@ fn a_path_is_slow_and_closed() {
 
 #[test]
 fn the_chains_differ_in_their_filters_alone() {
-    let [filtered, unfiltered] = chains([64, 32]).unwrap();
-    for (text, is_filtered) in [(filtered.text, true), (unfiltered.text, false)] {
+    let [filtered, seen, unfiltered] = chains([64, 32]).unwrap();
+    assert_eq!(seen.text.matches("view_rays").count(), 2);
+    for (text, is_filtered) in [
+        (filtered.text, true),
+        (seen.text, true),
+        (unfiltered.text, false),
+    ] {
         let has = |node: &str| text.contains(&format!("\"{node}\""));
         assert_eq!(has("blur"), is_filtered, "{text}");
         assert_eq!(has("rectify_nearest"), !is_filtered);

@@ -54,6 +54,7 @@ pub fn candidates(radius: u32, extent: [u32; 2]) -> Result<Vec<ScatteringCandida
             rectify: "rectify_moments",
             rectified: (technique, storage),
             extent,
+            seen: true,
             composite: "composite_scattering",
         };
         let fetches = f64::from(count / 2 - 1).max(1.0);
@@ -66,6 +67,7 @@ pub fn candidates(radius: u32, extent: [u32; 2]) -> Result<Vec<ScatteringCandida
         rectify: "rectify_moments",
         rectified: (MapTechnique::Hamburger6, Storage::Unorm16),
         extent,
+        seen: true,
         composite: "composite_ten_bits",
     };
     push(TEN_BITS.to_owned(), 2.0, Way::Graph(chain.graph()?));

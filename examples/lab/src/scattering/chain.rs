@@ -21,6 +21,8 @@ pub(super) struct Chain {
     pub(super) rectified: (Technique, Storage),
     /// Columns and rows of the rectified map.
     pub(super) extent: [u32; 2],
+    /// Whether what resamples it knows the view rays of the picture.
+    pub(super) seen: bool,
     /// The type of the node that lights the air.
     pub(super) composite: &'static str,
 }
@@ -46,11 +48,11 @@ impl Chain {
             ),
             (self.composite, json!({}), ["integrated", "scattering"]),
         ]);
-        graph(&links)
+        graph(&links, self.seen)
     }
 }
 
-fn graph(links: &[(&str, Value, [&str; 2])]) -> Result<GraphFile, LabError> {
+fn graph(links: &[(&str, Value, [&str; 2])], seen: bool) -> Result<GraphFile, LabError> {
     let mut nodes = Vec::new();
     let last = links.last().map_or("", |(node, ..)| *node);
     let mut edges = vec![json!({ "from": "camera_depth", "to": format!("{last}.camera_depth") })];
@@ -58,7 +60,7 @@ fn graph(links: &[(&str, Value, [&str; 2])]) -> Result<GraphFile, LabError> {
         json!({ "from": "camera_depth", "to": "rectify_moments.camera_depth" }),
         json!({ "from": "rectify_moments.view_rays", "to": "integrate_scattering.view_rays" }),
     ];
-    if links.iter().any(|(node, ..)| *node == "rectify_moments") {
+    if seen {
         edges.extend(of_view_rays);
     }
     let mut from = "light_depth".to_owned();

@@ -71,8 +71,10 @@ pub struct Flicker {
     pub region: f64,
     /// Change of the truth in the region.
     pub truth: Change,
-    /// Change of the example's chain.
+    /// Change of the chain with filters.
     pub filtered: Change,
+    /// Change of the same that knows the picture's view rays.
+    pub seen: Change,
     /// Change of the chain without filters.
     pub unfiltered: Change,
 }
@@ -86,7 +88,7 @@ pub fn flicker(
 ) -> Result<Flicker, LabError> {
     let mut walk = Walk::new(gpu, scene, desc)?;
     // Radiance of all frames, in parts of the mean radiance without shadows, pixel by pixel.
-    let mut series: [Vec<Vec<f32>>; 4] = Default::default();
+    let mut series: [Vec<Vec<f32>>; 5] = Default::default();
     let mut scale = None;
     for number in 0..desc.frames.max(2) {
         let seen = walk.see(number)?;
@@ -99,7 +101,7 @@ pub fn flicker(
         }
         progress();
     }
-    let [truth, unshadowed, filtered, unfiltered] = &series;
+    let [truth, unshadowed, filtered, seen_rays, unfiltered] = &series;
     let region = static_region([truth, unshadowed], STILL, WINDOW);
     let of = |pictures: &[Vec<f32>]| Change::of(pictures, truth, &region);
     let inside = region.iter().flatten().filter(|is_static| **is_static);
@@ -109,12 +111,13 @@ pub fn flicker(
         region: inside.count() as f64 / region.iter().flatten().count().max(1) as f64,
         truth: of(truth),
         filtered: of(filtered),
+        seen: of(seen_rays),
         unfiltered: of(unfiltered),
     })
 }
 
 impl Flicker {
-    /// The largest change of the example's chain as a part of that without filters.
+    /// The largest change of the filtered chain as a part of that without filters.
     #[must_use]
     pub fn ratio(&self) -> f64 {
         self.filtered.largest / self.unfiltered.largest
@@ -137,6 +140,7 @@ impl fmt::Display for Flicker {
         let rows = [
             ("truth", &self.truth),
             ("filtered", &self.filtered),
+            ("and view rays", &self.seen),
             ("unfiltered", &self.unfiltered),
         ];
         let cells = |(name, change): (&str, &Change)| {

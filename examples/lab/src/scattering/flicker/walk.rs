@@ -31,27 +31,30 @@ pub(super) struct Walk<'a> {
     air: Air,
     /// Frames with several samples per texel, with one, and that of the truth.
     frames: [Frame; 3],
-    /// A chain for each of the first two.
-    chains: [(GraphFile, GraphFrame); 2],
+    /// Two chains for the first, and one for the second.
+    chains: [(GraphFile, GraphFrame); 3],
 }
 
-/// The chain of the example, with several samples per texel, a blur and bilinear lookups; and one with a sample per texel, no
-/// blur, and lookups of the nearest texel. Both have rectified maps of this extent.
-pub fn chains(extent: [u32; 2]) -> Result<[GraphFile; 2], LabError> {
-    let chain = |map, radius, rectify| {
+/// Chains with several samples per texel, a blur and bilinear lookups, without and, as in the example, with what is known of the
+/// picture's view rays; and one with a sample per texel, no blur, and lookups of the nearest texel. All have rectified maps of
+/// this extent.
+pub fn chains(extent: [u32; 2]) -> Result<[GraphFile; 3], LabError> {
+    let chain = |map, radius, rectify, seen| {
         let chain = Chain {
             map,
             radius,
             rectify,
             rectified: (MapTechnique::Hamburger6, Storage::Float16),
             extent,
+            seen,
             composite: "composite_scattering",
         };
         chain.graph()
     };
     Ok([
-        chain(Storage::Float16, Some(RADIUS), "rectify_moments")?,
-        chain(Storage::Float32, None, "rectify_nearest")?,
+        chain(Storage::Float16, Some(RADIUS), "rectify_moments", false)?,
+        chain(Storage::Float16, Some(RADIUS), "rectify_moments", true)?,
+        chain(Storage::Float32, None, "rectify_nearest", false)?,
     ])
 }
 
@@ -70,8 +73,12 @@ impl<'a> Walk<'a> {
             let graph = GraphFrame::in_air(gpu, frame, &file, Some(&air))?;
             Ok((file, graph))
         };
-        let [filtered, unfiltered] = chains([desc.columns, desc.rows])?;
-        let chains = [bound(&frames[0], filtered)?, bound(&frames[1], unfiltered)?];
+        let [filtered, seen, unfiltered] = chains([desc.columns, desc.rows])?;
+        let chains = [
+            bound(&frames[0], filtered)?,
+            bound(&frames[0], seen)?,
+            bound(&frames[1], unfiltered)?,
+        ];
         Ok(Self {
             gpu,
             scene,
@@ -84,8 +91,8 @@ impl<'a> Walk<'a> {
     }
 
     /// What a frame looks like, by the mean of the colours' radiance of each pixel: by marched rays with shadows and without, and
-    /// by either chain.
-    pub(super) fn see(&mut self, number: u32) -> Result<[Vec<f32>; 4], LabError> {
+    /// by each chain.
+    pub(super) fn see(&mut self, number: u32) -> Result<[Vec<f32>; 5], LabError> {
         let gpu = self.gpu;
         for (index, frame) in self.frames.iter_mut().enumerate() {
             let desc = frame_desc(self.scene, &self.desc, &self.path, number, index)?;
@@ -102,7 +109,8 @@ impl<'a> Walk<'a> {
         });
         let chain = |index: usize| -> Result<Vec<f32>, LabError> {
             let (file, graph) = &self.chains[index];
-            graph.fill(gpu, &self.frames[index].desc, file, Some(&self.air))?;
+            let desc = &self.frames[index / 2].desc;
+            graph.fill(gpu, desc, file, Some(&self.air))?;
             graph.run(gpu)?;
             let pixels = read_radiance(gpu, graph.output()?)?;
             Ok(pixels.iter().map(|pixel| grey(&pixel[..3])).collect())
@@ -113,6 +121,7 @@ impl<'a> Walk<'a> {
             marched(&rays.unshadowed),
             chain(0)?,
             chain(1)?,
+            chain(2)?,
         ])
     }
 }

@@ -46,6 +46,7 @@ pub fn march_candidates(
             rectify: "rectify_moments",
             rectified: (Technique::Hamburger6, Storage::Float16),
             extent: EXTENT,
+            seen: true,
             composite: "composite_scattering",
         };
         all.push(MarchCandidate {
