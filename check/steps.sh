@@ -228,7 +228,8 @@ numerics_on_swiftshader() {
     fi
     cargo test --release --locked --workspace --test numerics --test stability --test vector_files --test export \
       --test quantisation --test light_leaking --test receiver_bias --test blur --test recorder \
-      --test percentage_closer --test summed_area_table --test soft_shadows --test single_scattering
+      --test percentage_closer --test summed_area_table --test soft_shadows --test single_scattering --test scattering_error \
+      --test techniques
   )
 }
 

@@ -33,10 +33,12 @@ fn kept(texel: vec4f, stored_as: u32) -> vec4f {
 fn batch(input: BatchInput) -> BatchOutput {
     var depths = input.depths;
     var weights = input.weights;
-    var sums = enclosed_moments_of_occluder(1.0, 0.0);
+    var sums = enclosed_moments_of_occluder(1.0, vec2f(0.0));
     var whole = SixMoments(vec3f(0.0), vec3f(0.0));
     for (var index = 0u; index < 6u; index++) {
-        sums = enclosed_moments_sum(sums, enclosed_moments_of_occluder(depths[index], weights[index]));
+        let depth = depths[index];
+        let shares = vec2f(select(0.0, 1.0, depth <= -1.0), select(0.0, 1.0, abs(depth) < 1.0));
+        sums = enclosed_moments_sum(sums, enclosed_moments_of_occluder(depth, weights[index] * shares));
         let powers = six_moments_from_depth(clamp(depths[index], -1.0, 1.0));
         whole.odd = fma(vec3f(weights[index]), powers.odd, whole.odd);
         whole.even = fma(vec3f(weights[index]), powers.even, whole.even);

@@ -13,7 +13,10 @@ use crate::pictures::{
 use crate::stage::{capabilities, depths, gpu, run, upload};
 
 /// Columns and rows.
-const EXTENT: [usize; 2] = [70, 12];
+const EXTENT: [usize; 2] = [70, 36];
+
+/// Rows to either side whose view rays a texel knows.
+const ROWS: f64 = 4.0;
 
 /// A pixel's view ray: how many columns it passes, its row, and its inclination.
 struct Ray {
@@ -122,7 +125,7 @@ fn texels_know_the_view_rays_that_pass_and_end() {
             let passing = |slack: f64| {
                 let rays = rays.iter().filter(move |ray| {
                     let last = (ray.columns - 1.0).max(0.0);
-                    (ray.row - row).abs() < 1.0 + slack && last >= column - slack
+                    (ray.row - row).abs() < 1.0 + ROWS + slack && last >= column - slack
                 });
                 ends(rays.map(depth))
             };

@@ -10,13 +10,13 @@ use crate::mixture::{self, Input, limits};
 /// The module's largest exponents, plain and logarithmic.
 pub(crate) fn largest(storage: Storage) -> [f64; 2] {
     match storage {
-        Storage::Unorm16 => [3.0, 87.0],
+        Storage::Unorm16 => [3.0, 80.0],
         Storage::Float16 => [9.7, 13.6],
-        _ => [87.0, 87.0],
+        _ => [80.0, 80.0],
     }
 }
 
-/// Relative error of exp(x) for |x| <= 87 in f32 as WGSL demands it, (3 + 2 |x|) units in the last place; of a sum of eight.
+/// Relative error of exp(x) for |x| <= 80 in f32 as WGSL demands it, (3 + 2 |x|) units in the last place; of a sum of eight.
 fn exp_error(exponent: f64) -> f64 {
     2.0 * (3.0 + 2.0 * exponent) * HALF_ULP + 8.0 * HALF_ULP
 }
@@ -97,8 +97,9 @@ fn intensities_are_the_clamped_formula_and_a_lower_bound() {
 #[test]
 fn exponents_are_as_large_as_the_storages_allow() {
     let ln2 = 2.0_f64.ln();
-    // From the smallest normal number 2^-k at the near end, and the largest number at the far end.
-    let float32 = 126.0 * ln2;
+    // From the smallest normal number 2^-k at the near end, with a weight of 2^-10 where numbers below are flushed, and the largest
+    // number at the far end.
+    let float32 = 116.0 * ln2;
     assert!(float32 < f64::from(f32::MAX).ln());
     let float16 = (14.0 * ln2).min(65504.0_f64.ln());
     // Three roundings darken by 1 %: of e^(c (z - 1)) at the near end, and of v.
@@ -120,7 +121,7 @@ fn exponents_are_as_large_as_the_storages_allow() {
         );
         for (limit, derived) in largest(storage).into_iter().zip(derived) {
             println!("{storage}: {limit} of {derived:.3}");
-            assert!(limit <= derived && derived - limit < 0.05 * derived.min(8.0));
+            assert!(limit <= derived && derived - limit < 0.06 * derived.min(8.0));
         }
     }
 }

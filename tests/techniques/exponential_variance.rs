@@ -13,7 +13,7 @@ use crate::{HALF_ULP, assert_smallest, chebyshev};
 /// The storages that the technique has, with the largest exponent and the smallest variance per mean square. The latter is
 /// what the module's text says, not what it should say.
 fn storages() -> [(Storage, f64, f64); 2] {
-    [(Storage::Float16, 5.54), (Storage::Float32, 43.6)].map(|(storage, limit)| {
+    [(Storage::Float16, 5.54), (Storage::Float32, 40.0)].map(|(storage, limit)| {
         let name = storage.name().to_uppercase();
         let name = format!("EXPONENTIAL_VARIANCE_SMALLEST_{name}");
         let numbers = constant(&module("exponential_variance", &name), &name);
@@ -98,7 +98,7 @@ fn bounds_are_never_above_the_truth_in_float32() {
     let inputs: Vec<Input> = (0..100_000)
         .map(|_| {
             let mut input = mixture::random(&mut random, Storage::Float32);
-            input.exponents = [3.0, 9.0, 43.6, 5.0];
+            input.exponents = [3.0, 9.0, 40.0, 5.0];
             input
         })
         .collect();
@@ -118,16 +118,18 @@ fn bounds_are_never_above_the_truth_in_float32() {
 
 #[test]
 fn exponents_are_as_large_as_the_storages_allow() {
-    // Squares of both ends of a float32 are normal numbers, and two of them can be added.
-    let float32 = 63.0 * 2.0_f64.ln();
+    // Squares of both ends of a float32 are normal numbers with a weight of 2^-10 as well.
+    let float32 = 58.0 * 2.0_f64.ln();
     assert!(2.0 * (2.0 * float32).exp() < f64::from(f32::MAX));
-    assert!((-2.0 * float32).exp() >= f64::from(f32::MIN_POSITIVE) * (1.0 - 1e-9));
+    assert!(
+        (-2.0 * float32 - 10.0 * 2.0_f64.ln()).exp() >= f64::from(f32::MIN_POSITIVE) * (1.0 - 1e-9)
+    );
     // The square of the far end is the largest float16.
     let float16 = 0.5 * 65504.0_f64.ln();
     for ((storage, limit, _), derived) in storages().into_iter().zip([float16, float32]) {
         assert_eq!(limits(storage).exponential_variance, limit as f32);
         println!("{storage}: {limit} of {derived:.4}");
-        assert!(limit <= derived && derived - limit < 0.1);
+        assert!(limit <= derived && derived - limit < 0.25);
     }
 }
 

@@ -37,7 +37,7 @@ impl Layers {
 #[derive(Clone, Copy, Debug, Pod, Zeroable)]
 pub(crate) struct Input {
     pub(crate) depths: [f32; 8],
-    /// Multiples of 2^-12, so that their sum is exactly 1.
+    /// Multiples of 2^-10, so that their sum is exactly 1 and no product with a normal exponential is flushed to zero.
     pub(crate) weights: [f32; 8],
     pub(crate) layers: Layers,
     /// ESM plain and logarithmic, EVSM positive and negative.
@@ -99,7 +99,7 @@ pub(crate) fn limits(storage: Storage) -> Limits {
 }
 
 impl Input {
-    /// Surfaces (depth, weight), whose weights are multiples of 2^-12 and sum to 1.
+    /// Surfaces (depth, weight), whose weights are multiples of 2^-10 and sum to 1.
     pub(crate) fn new(surfaces: &[(f32, f32)], fragment_depth: f32, storage: Storage) -> Self {
         assert_eq!(surfaces.iter().map(|surface| surface.1).sum::<f32>(), 1.0);
         let mut input = Self {
@@ -141,8 +141,8 @@ impl Input {
 /// One to eight surfaces with random weights: apart, close together, at the ends; a fragment anywhere or on one of them.
 pub(crate) fn random(random: &mut ChaCha8Rng, storage: Storage) -> Input {
     let count = random.random_range(1..=8);
-    let mut cuts: Vec<u32> = (1..count).map(|_| random.random_range(0..=4096)).collect();
-    cuts.extend([0, 4096]);
+    let mut cuts: Vec<u32> = (1..count).map(|_| random.random_range(0..=1024)).collect();
+    cuts.extend([0, 1024]);
     cuts.sort_unstable();
     let gap = 10.0_f32.powf(random.random_range(-6.0..0.0));
     let base = random.random_range(-1.0..=1.0_f32);
@@ -154,7 +154,7 @@ pub(crate) fn random(random: &mut ChaCha8Rng, storage: Storage) -> Input {
                 1 => [-1.0, 1.0][random.random_range(0..2)],
                 _ => random.random_range(-1.0..=1.0),
             };
-            (depth.clamp(-1.0, 1.0), (cut[1] - cut[0]) as f32 / 4096.0)
+            (depth.clamp(-1.0, 1.0), (cut[1] - cut[0]) as f32 / 1024.0)
         })
         .collect();
     let fragment = match random.random_range(0..4) {

@@ -8,6 +8,10 @@ import super::super::maths::angle::{angle_sin_cos};
 // shadows nothing, and counts as none. Both leave the moments to the occluders between, and lit ground, behind which no view
 // ray goes on, is no occluder at all. What is shown stays the same, but moments bound it more sharply.
 //
+// Sharper bounds are other bounds, and would flicker where one view ray more makes the difference. So each texel knows the view
+// rays of `VIEW_RAYS_ROWS` rows to either side as well, and what counts as what is the mean over as many: true for the view rays of
+// the row itself, as each of these knows them, it changes little by little while an edge of the picture passes from row to row.
+//
 // Depths here are the rectified ones in [-1, 1]; view rays of larger depth are nearer to the direction in which light travels.
 
 // The last column that a view ray passes whole, of one that ends at a place from 0 to 1 across `columns` columns. A view ray that
@@ -26,6 +30,9 @@ fn view_rays_depths(codes: vec2u) -> vec2f {
     let sums = bitcast<vec2f>(clamp(codes, bitcast<vec2u>(vec2f(1.0)), bitcast<vec2u>(vec2f(3.0))));
     return vec2f(2.0 - sums.x, sums.y - 2.0);
 }
+
+// Rows to either side.
+const VIEW_RAYS_ROWS: i32 = 4;
 
 // The steps in which a texel holds depths.
 const VIEW_RAYS_STEPS: f32 = 65535.0;
@@ -48,12 +55,13 @@ fn view_rays_texel(frame: RectifiedFrame, passing: vec2u, ending: vec2u) -> vec2
     return vec2u(low | (high << 16u), bitcast<u32>(max(0.5 * (first + last), 1e-6)));
 }
 
-// An occluder's depth as all that matters to the view rays that pass its texel: 1 where it shadows none of them, -1 where it shadows
-// all, or what it is.
-fn view_rays_occluder(texel: vec2u, depth: f32) -> f32 {
+// What of an occluder counts as one in front of all view rays that pass its texel, and what as one at its depth. The rest, up to 1,
+// counts as none.
+fn view_rays_shares(texel: vec2u, depth: f32) -> vec2f {
     let step = VIEW_RAYS_STEPS * fma(depth, 0.5, 0.5);
-    let front = select(depth, -1.0, step <= f32(texel.x & 0xffffu));
-    return select(front, 1.0, step >= f32(texel.x >> 16u));
+    let before = step <= f32(texel.x & 0xffffu);
+    let behind = step >= f32(texel.x >> 16u);
+    return select(select(vec2f(0.0, 1.0), vec2f(1.0, 0.0), before), vec2f(0.0), behind);
 }
 
 // The sine of the inclination of view rays that end about a texel: the mean of the smallest and the largest. 0 where none does.

@@ -26,15 +26,10 @@ const ENCLOSED_MOMENTS_SMALLEST_WEIGHT: f32 = 0.001953125;
 // The largest moment bias: a larger one leaves nothing of the moments.
 const ENCLOSED_MOMENTS_LARGEST_ALPHA: f32 = 0.5;
 
-// The sums of one occluder.
-fn enclosed_moments_of_occluder(depth: f32, weight: f32) -> EnclosedMoments {
-    let inner = select(0.0, weight, depth > -1.0 && depth < 1.0);
+// The sums of one occluder: x of its weight lies in front of the range, y at its depth in [-1, 1].
+fn enclosed_moments_of_occluder(depth: f32, weights: vec2f) -> EnclosedMoments {
     let powers = six_moments_from_depth(clamp(depth, -1.0, 1.0));
-    return EnclosedMoments(
-        SixMoments(inner * powers.odd, inner * powers.even),
-        inner,
-        select(0.0, weight, depth <= -1.0),
-    );
+    return EnclosedMoments(SixMoments(weights.y * powers.odd, weights.y * powers.even), weights.y, weights.x);
 }
 
 // The sums of two sets of occluders together.

@@ -1,3 +1,4 @@
+import super::super::maths::angle::{angle_sin_cos};
 import super::super::map::depth::{depth_of_fragment};
 import super::super::map::storage::{STORAGE_FLOAT16, storage_finite_texel, storage_is_float, storage_round_to_float16};
 
@@ -59,10 +60,10 @@ fn convolution_place(z: f32, terms: u32) -> f32 {
 
 // Sine and cosine of c_k times a place in [-1, 1] for the two terms of a plane, k = 2 * plane + 1 and 2 * plane + 2.
 fn convolution_waves(place: f32, plane: u32) -> vec4f {
-    // In half turns, less whole turns: WGSL promises accurate sines within one turn only.
+    // In half turns, less whole turns.
     let half_turns = vec2f(4.0 * f32(plane) + 1.0, 4.0 * f32(plane) + 3.0) * place;
-    let angle = 3.141592653589793 * (half_turns - 2.0 * round(0.5 * half_turns));
-    return vec4f(sin(angle), cos(angle)).xzyw;
+    let angles = 3.141592653589793 * (half_turns - 2.0 * round(0.5 * half_turns));
+    return vec4f(angle_sin_cos(angles.x), angle_sin_cos(angles.y));
 }
 
 // The channels to average for a depth z in [-1, 1] in a plane of the map: (sin, cos, sin, cos).

@@ -11,16 +11,18 @@ import super::super::map::storage::{STORAGE_FLOAT16, STORAGE_LARGEST_FLOAT16, st
 // A texel holds the mean itself (plain), or v = log(mean) / c in [-1, 1] (logarithmic), which spreads the error of rounding
 // evenly over depth. Plain texels are filtered like any. The linear mean of v is darker than the mean that it stands for: to
 // filter logarithmic texels without that, average `exponential_mean_of_texel` of the taps and write the result with
-// `exponential_to_texel`. Since e^(-87) to e^87 are normal numbers, no maximum has to be taken out of the sum before.
+// `exponential_to_texel`. Since e^(-80) to e^80 are normal numbers with weights down to 2^-10, no maximum has to be taken out of the
+// sum before.
 
 // The largest exponents c, so that rounding in a resolve and a two-pass blur darkens by at most 1 % (float32: that means stay
-// normal numbers). Larger ones make no NaN, but their results are not bounds.
-//   float32: e^-c >= 2^-126, so c <= 126 log 2 = 87.3
+// normal numbers, below which devices may flush to zero, with the weights of a usual kernel of 129 taps as well, all of which are above
+// 2^-10). Larger ones make no NaN, but their results are not bounds.
+//   float32: 2^-10 e^-c >= 2^-126, so c <= 116 log 2 = 80.4
 //   float16, plain: e^-c >= 2^-14 (below the steps are constant), so c <= 14 log 2 = 9.70; e^c < 65504 asks for less
 //   unorm16, plain: e^(c (z - 1)) is off by 3 / 2^17 while it falls to e^(-2 c), so e^(2 c) <= 0.01 2^17 / 3 and c <= 3.04
 //   float16, logarithmic: v is off by 3 / 2^12, so c <= 0.01 2^12 / 3 = 13.65
 //   unorm16, logarithmic: v is off by 3 / 2^16; the range of float32 asks for more
-const EXPONENTIAL_LARGEST_EXPONENT: f32 = 87.0;
+const EXPONENTIAL_LARGEST_EXPONENT: f32 = 80.0;
 const EXPONENTIAL_LARGEST_EXPONENT_FLOAT16: f32 = 9.7;
 const EXPONENTIAL_LARGEST_EXPONENT_UNORM16: f32 = 3.0;
 const EXPONENTIAL_LARGEST_EXPONENT_FLOAT16_LOGARITHMIC: f32 = 13.6;
@@ -28,8 +30,8 @@ const EXPONENTIAL_LARGEST_EXPONENT_FLOAT16_LOGARITHMIC: f32 = 13.6;
 // Below this exponent log(mean) / c loses digits, and there is hardly a shadow.
 const EXPONENTIAL_SMALLEST_EXPONENT: f32 = 1.0;
 
-// A normal number below e^-87.
-const EXPONENTIAL_SMALLEST_MEAN: f32 = 1.2e-38;
+// Below e^-80.
+const EXPONENTIAL_SMALLEST_MEAN: f32 = 1e-35;
 
 // The exponent, limited as in all functions here: everything stays finite.
 fn exponential_exponent(exponent: f32) -> f32 {

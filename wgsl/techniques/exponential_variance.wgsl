@@ -13,14 +13,14 @@ import super::super::bounds::chebyshev::{chebyshev_lower_bound};
 // e^(c (z - 1)) would leave the upper half of it unused.
 
 // The largest exponents, so that w and w^2 fit the storage.
-//   float32: both stay normal numbers, e^(2 c) <= 2^126, so c <= 63 log 2 = 43.67. Two such squares may be added, which
-//            those of 44.36 = log(largest float32) / 2 may not.
+//   float32: both stay normal numbers, below which devices may flush to zero, with the weights of a usual kernel of 129 taps as well:
+//            2^-10 e^(-2 c) >= 2^-126, so c <= 58 log 2 = 40.2
 //   float16: w^2 <= 65504, so c <= 5.54. Far squares then are subnormal, which the smallest variance covers.
 // Larger exponents make no NaN, but their results are not bounds.
 const EXPONENTIAL_VARIANCE_LARGEST_EXPONENT_FLOAT16: f32 = 5.54;
-const EXPONENTIAL_VARIANCE_LARGEST_EXPONENT_FLOAT32: f32 = 43.6;
+const EXPONENTIAL_VARIANCE_LARGEST_EXPONENT_FLOAT32: f32 = 40.0;
 
-// 2^63, above e^43.6.
+// 2^63, whose square is a number still.
 const EXPONENTIAL_VARIANCE_LARGEST_WARP: f32 = 9.223372036854776e18;
 
 // The smallest variance is x * E[w^2] + y. It is the error that rounding in a resolve and a two-pass blur leaves in E[w^2] -
@@ -29,6 +29,9 @@ const EXPONENTIAL_VARIANCE_LARGEST_WARP: f32 = 9.223372036854776e18;
 // of kernels in float16. y covers numbers below the normal ones: 3 steps of 2^-25, or what float32 flushes to zero.
 const EXPONENTIAL_VARIANCE_SMALLEST_FLOAT16: vec2f = vec2f(2.2e-3, 9e-8);
 const EXPONENTIAL_VARIANCE_SMALLEST_FLOAT32: vec2f = vec2f(6e-7, 1e-37);
+
+// In the unit of `exponential_variance_lower_bound`: above zero for invalid texels too, and far below what f32 resolves there.
+const EXPONENTIAL_VARIANCE_LEAST: f32 = 1e-30;
 
 // The warps (w+, w-) of a depth in [-1, 1] with the exponents (c+, c-).
 fn exponential_variance_warp(z: f32, exponents: vec2f) -> vec2f {
@@ -51,14 +54,22 @@ fn exponential_variance_to_texel(channels: vec4f, stored_as: u32) -> vec4f {
     return channels;
 }
 
-// The lower bound for a warped fragment and the first two moments of the same warp, which may be any finite numbers. The
-// fragment's warp is within 2^63.
+// The lower bound for a warped fragment and the first two moments of the same warp, which may be any finite numbers. The size
+// of the fragment's warp is from 2^-63 to 2^63.
 fn exponential_variance_lower_bound(moments: vec2f, warped: f32, stored_as: u32) -> f32 {
     let largest = EXPONENTIAL_VARIANCE_LARGEST_WARP;
     let clamped = clamp(moments, vec2f(-largest, 0.0), vec2f(largest, largest * largest));
     let is_half = stored_as == STORAGE_FLOAT16;
     let smallest = select(EXPONENTIAL_VARIANCE_SMALLEST_FLOAT32, EXPONENTIAL_VARIANCE_SMALLEST_FLOAT16, is_half);
-    return chebyshev_lower_bound(clamped, warped, fma(smallest.x, clamped.y, smallest.y));
+    // In a unit near the larger of the warp and the root of its mean square, a power of two: near the camera warps are so small that
+    // squares of their differences would be flushed to zero.
+    let square = max(warped * warped, clamped.y);
+    let halved = (i32(bitcast<u32>(square) >> 23u) - 127) >> 1u;
+    let unit = bitcast<f32>(u32(127 - halved) << 23u);
+    let mean = clamp(clamped.x * unit, -2.0, 2.0);
+    let scaled = vec2f(mean, clamped.y * unit * unit);
+    let variance = max(fma(smallest.x, scaled.y, smallest.y * unit * unit), EXPONENTIAL_VARIANCE_LEAST);
+    return chebyshev_lower_bound(scaled, warped * unit, variance);
 }
 
 // Shadow intensity in [0, 1] (1 = shadowed) of a fragment at `fragment_depth` under a filtered texel: a lower bound, from

@@ -102,7 +102,7 @@ fn what_cannot_be_exported_is_refused_with_the_reason() {
         (
             export(r#"{"evsm2": {"exponent": 50.0}}"#, "float32", &hlsl),
             1,
-            "it is from 1 to 43.6",
+            "it is from 1 to 40",
         ),
         (
             export(

@@ -350,13 +350,14 @@ pub(super) fn ends(
     Ok(directions
         .zip(surfaces)
         .map(|(direction, (position, &covered))| {
-            let end = direction * (far / direction.dot(axis));
+            // The ray is that of the pixel's centre: rasterisers move vertices to a grid, and with them what a pixel shows.
             let surface = DVec3::from(position.map(f64::from)) - camera.eye;
-            if covered && surface.dot(axis) < far {
-                surface
+            let distance = if covered {
+                surface.dot(axis).min(far)
             } else {
-                end
-            }
+                far
+            };
+            direction * (distance / direction.dot(axis))
         })
         .collect())
 }

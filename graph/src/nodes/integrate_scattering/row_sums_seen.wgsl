@@ -1,7 +1,7 @@
 import node::integrate_target::{parameters, rectified_map};
 import node::specialization::{GROUP};
 import moment_shadows::air::scattering_weights::{scattering_weights_of_column, scattering_weights_tilt};
-import moment_shadows::air::view_rays::{view_rays_sine};
+import moment_shadows::air::view_rays::{VIEW_RAYS_ROWS, view_rays_sine};
 
 // Sums along a row of texels, with the weights of the view rays that end where the sums do.
 
@@ -30,9 +30,25 @@ fn row_sums_join(first: RowSums, second: RowSums) -> RowSums {
     );
 }
 
+// The sine of the view rays that end about a texel, and about those of the rows around: the nearer, the more they count. 0 where none
+// does.
+fn ending_sine(place: vec2u) -> f32 {
+    let last = i32(textureDimensions(view_rays_map).y) - 1;
+    var sum = 0.0;
+    var weights = 0.0;
+    for (var other = -VIEW_RAYS_ROWS; other <= VIEW_RAYS_ROWS; other++) {
+        let row = clamp(i32(place.y) + other, 0, last);
+        let sine = view_rays_sine(textureLoad(view_rays_map, vec2i(i32(place.x), row), 0).xy);
+        let weight = select(0.0, f32(VIEW_RAYS_ROWS + 1 - abs(other)), sine > 0.0);
+        sum += weight * sine;
+        weights += weight;
+    }
+    return sum / max(weights, 1.0);
+}
+
 // The mean up to a column. Its middle is before the view rays' end, so that the divisor is positive.
 fn row_sums_mean(sums: RowSums, place: vec2u, thickness: f32) -> vec4f {
-    let sine = view_rays_sine(textureLoad(view_rays_map, place, 0).xy);
+    let sine = ending_sine(place);
     let columns = f32(textureDimensions(rectified_map).x);
     let tilt = scattering_weights_tilt(parameters.frame, parameters.extinction, thickness, sine, f32(place.x), columns);
     let start = 0.5 * tilt + 1.0;

@@ -1,6 +1,6 @@
 import node::rectify_parameters::{parameters};
 import node::specialization::{EXTENT, GROUP};
-import moment_shadows::air::view_rays::{view_rays_texel};
+import moment_shadows::air::view_rays::{VIEW_RAYS_ROWS, view_rays_texel};
 
 // Which view rays pass each texel and which end there, by the maxima of codes from each column on: a workgroup per row, a stretch
 // of it per invocation, the maxima of invocations by the scan of Hillis and Steele (1986).
@@ -12,8 +12,18 @@ const THREADS = 64u;
 
 var<workgroup> maxima: array<vec2u, THREADS>;
 
-fn codes_at(column: u32, row: u32) -> vec2u {
+// The codes of view rays that end in a column of a row.
+fn codes_of(column: u32, row: u32) -> vec2u {
     return view_ray_codes[row * EXTENT.x + min(column, EXTENT.x - 1u)];
+}
+
+// And of the rows around.
+fn codes_about(column: u32, row: u32) -> vec2u {
+    var codes = vec2u(0u);
+    for (var other = -VIEW_RAYS_ROWS; other <= VIEW_RAYS_ROWS; other++) {
+        codes = max(codes, codes_of(column, u32(clamp(i32(row) + other, 0, i32(EXTENT.y) - 1))));
+    }
+    return codes;
 }
 
 @compute @workgroup_size(THREADS)
@@ -24,7 +34,7 @@ fn bound_rays(@builtin(local_invocation_index) thread: u32, @builtin(workgroup_i
     let end = min(first + each, EXTENT.x);
     var own = vec2u(0u);
     for (var column = first; column < end; column++) {
-        own = max(own, codes_at(column, row));
+        own = max(own, codes_about(column, row));
     }
     maxima[thread] = own;
     workgroupBarrier();
@@ -40,10 +50,9 @@ fn bound_rays(@builtin(local_invocation_index) thread: u32, @builtin(workgroup_i
     }
     for (var column = end; column > first; column--) {
         let texel = column - 1u;
-        let here = codes_at(texel, row);
-        passing = max(passing, here);
+        passing = max(passing, codes_about(texel, row));
         // View rays are looked up between two columns.
-        let ending = max(here, max(codes_at(max(texel, 1u) - 1u, row), codes_at(column, row)));
+        let ending = max(codes_of(texel, row), max(codes_of(max(texel, 1u) - 1u, row), codes_of(column, row)));
         textureStore(view_rays_map, vec2u(texel, row), vec4u(view_rays_texel(parameters.frame, passing, ending), 0u, 0u));
     }
 }

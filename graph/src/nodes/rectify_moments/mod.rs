@@ -79,6 +79,7 @@ impl Node for RectifyMoments {
         let specialization = techniques::of_map(capabilities, &encoding)
             .unsigned("SOURCE_STORAGE", source.storage().wgsl_index())
             .module("rectify_parameters", PARAMETERS)
+            .module("occluders_shares", include_str!("occluders_shares.wgsl"))
             .module("occluders", occluders)
             .module("rectified_texel", texel);
         let (specialization, sampler) =

@@ -4,6 +4,7 @@ import moment_shadows::moments::four_moments::{four_moments_from_texel};
 import node::moments_lookup::{moments_lookup, moments_map};
 import moment_shadows::air::rectified_frame::{rectified_frame_depth, rectified_frame_ray};
 import node::occluders::{occluders_of};
+import node::occluders_shares::{Occluders};
 import node::rectified_texel::{rectified_map, rectified_store};
 import node::rectify_parameters::{parameters};
 import node::specialization::{SOURCE_STORAGE};
@@ -42,7 +43,7 @@ fn rectify(@builtin(global_invocation_id) id: vec3u) {
     let uv = parameters.map_at_camera + ray.x * outwards;
     if any(uv < vec2f(0.0)) || any(uv > vec2f(1.0)) {
         // What the light's map does not know casts no shadow.
-        rectified_store(id.xy, vec2f(1.0), vec2f(0.5));
+        rectified_store(id.xy, Occluders(vec2f(1.0), array<vec2f, 2>()), vec2f(0.5));
         return;
     }
     let region = map_region_within(parameters.region, textureDimensions(moments_map));
