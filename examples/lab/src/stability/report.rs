@@ -134,7 +134,8 @@ impl Row {
                 found: case.found,
                 input: format!("{:?}", case.input),
             }),
-            fault: fault.map(|(input, found)| (format!("{input:?}"), format!("{found:e}"))),
+            fault: fault
+                .map(|fault| (format!("{:?}", fault.input), format!("{:e}", fault.found()))),
             strata: Stratum::ALL
                 .into_iter()
                 .zip(&drawn.strata)
