@@ -11,6 +11,7 @@ mod invalid;
 pub mod judge;
 pub mod kernels;
 pub mod limits;
+pub mod packed_limits;
 pub mod plot;
 pub mod report;
 pub mod shader;
