@@ -119,7 +119,7 @@ fn each_way<I: Pod>(wgsl: &str, inputs: &[I]) -> [Vec<[f32; 2]>; 3] {
 fn errors<I: Pod + Sync>(
     wgsl: &str,
     inputs: &[I],
-    truth: impl Fn(&I) -> ([f64; 2], [f64; 2]) + Sync,
+    truth: impl Fn(&I) -> ([f64; 2], [f64; 2]) + Sync + Send,
 ) -> [[f64; 2]; 3] {
     let truths: Vec<_> = inputs.par_iter().map(truth).collect();
     each_way(wgsl, inputs).map(|found| {
