@@ -13,6 +13,7 @@ use crate::error::LabError;
 use crate::gpu::Gpu;
 use crate::identity;
 use crate::picture::save_atomically;
+use crate::techniques::label;
 
 /// The file in the folder of a run that is not finished.
 const NAME: &str = "unfinished.json";
@@ -82,7 +83,10 @@ impl Unfinished {
         let setting = Setting {
             build: identity::of_command()?,
             adapter: gpu.described(),
-            pairs: pairs.iter().map(ToString::to_string).collect(),
+            pairs: pairs
+                .iter()
+                .map(|pair| format!("{} {}", label(pair.technique()), pair.storage()))
+                .collect(),
             effort,
         };
         Self::open_of(folder, setting, resume)
