@@ -226,7 +226,7 @@ numerics_on_swiftshader() {
       echo "the adapter should be SwiftShader" >&2
       exit 1
     fi
-    cargo test --release --locked --workspace --test numerics --test stability --test vector_files --test export \
+    cargo test --release --locked --workspace --test numerics --test stability --test lookups --test vector_files --test export \
       --test quantisation --test light_leaking --test receiver_bias --test blur --test recorder \
       --test percentage_closer --test summed_area_table --test soft_shadows --test single_scattering --test scattering_error \
       --test techniques

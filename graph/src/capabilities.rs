@@ -12,7 +12,8 @@ pub struct Capabilities {
     /// Formats that can be drawn to and blended into beyond those of the profile.
     pub blended: Vec<TextureFormat>,
     /// Whether samplers take the probes of a minified lookup, rather than the shader. Software adapters need many times as
-    /// long for an anisotropic lookup, and may filter twice as much as the pixel covers.
+    /// long for an anisotropic lookup, and llvmpipe ignores the gradients that it is given then: whatever they and the clamp are, it
+    /// reads mip level 0 where neighbouring invocations look up one place.
     pub anisotropic_sampling: bool,
     /// Whether the processor runs the shaders: large tiles in few invocations then serve better than many invocations.
     pub software_adapter: bool,

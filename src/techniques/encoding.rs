@@ -262,11 +262,16 @@ impl MapEncoding {
         self.format
     }
 
-    /// Whether blurs sum its texels with the WGSL module `split_sum`: moments within [-1, 1] whose
-    /// storage is as fine as sums of f32 are.
+    /// Whether blurs of a radius in texels sum its texels with the WGSL module `split_sum`: moments within [-1, 1] whose
+    /// storage is as fine as sums of f32 are. Packed texels bring no rounding of their own to the sums, so that their bias covers
+    /// those of 9 texels.
     #[must_use]
-    pub fn has_split_sums(&self) -> bool {
-        self.technique.row().bounded_channels && self.storage == Storage::Float32
+    pub fn has_split_sums(&self, radius: u32) -> bool {
+        let is_fine = match self.storage {
+            Storage::Float32 => true,
+            storage => storage.is_packed() && radius > 4,
+        };
+        self.technique.row().bounded_channels && is_fine
     }
 
     /// Whether samplers and mip levels can average its texels.

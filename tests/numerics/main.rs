@@ -1,6 +1,7 @@
 //! The shader's bounds against the exact ones: published vectors, and random distributions of every regime.
 #![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic)]
 
+mod drivers;
 mod mixtures;
 mod rounding;
 mod six;
@@ -103,14 +104,13 @@ fn published_vectors_are_within_tolerance() {
     assert_eq!(report.not_evaluated.len(), 4);
 }
 
-#[test]
-fn random_distributions_are_within_tolerance() {
-    const EACH: usize = 2500;
+/// So many inputs of each class with each bias.
+fn random_inputs(each: usize) -> Vec<Input> {
     let mut inputs = Vec::new();
     for (index, class) in mixtures::CLASSES.iter().enumerate() {
         for (alpha, beta) in biases() {
             let mut random = ChaCha8Rng::seed_from_u64(2015 + index as u64);
-            for _ in 0..EACH {
+            for _ in 0..each {
                 let sample = mixtures::sample(class, &mut random);
                 let biased = mixtures::biased(mixtures::moments(&sample.atoms), alpha, beta);
                 let depth = sample
@@ -122,6 +122,13 @@ fn random_distributions_are_within_tolerance() {
             }
         }
     }
+    inputs
+}
+
+#[test]
+fn random_distributions_are_within_tolerance() {
+    const EACH: usize = 2500;
+    let inputs = random_inputs(EACH);
     let outputs = bounds(&inputs);
     let errors: Vec<f64> = inputs
         .par_iter()

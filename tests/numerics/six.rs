@@ -17,7 +17,7 @@ pub(crate) struct Input {
     odd: [f32; 3],
     depth: f32,
     even: [f32; 3],
-    alpha: f32,
+    pub(crate) alpha: f32,
 }
 
 impl Input {
@@ -47,7 +47,7 @@ fn bounds(inputs: &[Input]) -> Vec<[f32; 4]> {
 }
 
 /// The exact bounds of an input by its first `count` moments, and the units of their errors.
-fn truth(input: &Input, count: usize) -> ([f64; 2], [f64; 2]) {
+pub(crate) fn truth(input: &Input, count: usize) -> ([f64; 2], [f64; 2]) {
     let moments: Vec<_> = input.moments()[..count]
         .iter()
         .map(|&moment| rational(f64::from(moment)).unwrap())
@@ -120,14 +120,13 @@ fn gauss_node(moments: [f32; 6], which: usize) -> f64 {
     b1 + 0.5 * (low + high)
 }
 
-#[test]
-fn random_distributions_are_within_tolerance_and_never_looser_than_with_four_moments() {
-    const EACH: usize = 100;
+/// So many inputs of each class with each bias.
+pub(crate) fn random_inputs(each: usize) -> Vec<Input> {
     let mut inputs = Vec::new();
     for (index, class) in mixtures::CLASSES.iter().enumerate() {
         for bias in biases() {
             let mut random = ChaCha8Rng::seed_from_u64(2016 + index as u64);
-            for _ in 0..EACH {
+            for _ in 0..each {
                 let sample = mixtures::sample(class, &mut random);
                 let biased = biased(mixtures::moments(&sample.atoms), &bias);
                 let depth = sample
@@ -139,6 +138,13 @@ fn random_distributions_are_within_tolerance_and_never_looser_than_with_four_mom
             }
         }
     }
+    inputs
+}
+
+#[test]
+fn random_distributions_are_within_tolerance_and_never_looser_than_with_four_moments() {
+    const EACH: usize = 100;
+    let inputs = random_inputs(EACH);
     let outputs = bounds(&inputs);
     let errors: Vec<f64> = inputs
         .par_iter()

@@ -57,7 +57,9 @@ impl Held {
         let upper = 2.0 * bits(0, 12) / 4095.0 - 1.0;
         let distance = 2.0 * (bits(12, 8) / 255.0).powi(2);
         let u = (bits(20, 7) + 0.5) / 128.0;
-        let root = (bits(27, 5) / 31.0).powi(2) * distance * distance;
+        // The last number stands for all that is beyond.
+        let share = Some(bits(27, 5)).filter(|&share| share < 31.0);
+        let root = (share.unwrap_or(62.0) / 31.0).powi(2) * distance * distance;
         Self {
             lower: (upper - distance).max(-1.0),
             upper,

@@ -88,9 +88,9 @@ fn packed_texels_keep_the_mean_and_move_no_depth_by_more_than_a_step() {
             let depths = atoms.iter().map(|atom| atom[0]);
             depths.reduce(least).unwrap()
         });
-        // Both nodes lie between the outermost atoms but for a step outwards; the weight is within half a step.
+        // Both nodes lie between the outermost atoms but for a step outwards; the weight is within a step.
         let between = high - low + 4.0 / depths;
-        mean = mean.max(error(0) - 0.5 / weights * between);
+        mean = mean.max(error(0) - between / weights);
         for index in 1..4 {
             largest[index - 1] = largest[index - 1].max(error(index));
         }
@@ -98,9 +98,9 @@ fn packed_texels_keep_the_mean_and_move_no_depth_by_more_than_a_step() {
     println!("{storage}: the mean beyond its limit {mean:.1e}, other moments within {largest:?}");
     // Some roundings of numbers up to 1, in f32, and those of a place among 65535.
     assert!(mean <= 16.0 * HALF_ULP, "{storage}: {mean:e}");
-    // A node moved by a step of 2 / n changes its k-th power by up to k of them, and the weight's error that by up to 2 / n; the
+    // A node moved by a step of 2 / n changes its k-th power by up to k of them, and the weight's error of a step that by up to two; the
     // fourth moment has the pivot as well, whose root moves by half a step.
-    let of_power = |power: f64| power * 2.0 / depths + 1.0 / weights;
+    let of_power = |power: f64| power * 2.0 / depths + 2.0 / weights;
     for (index, largest) in largest.into_iter().enumerate() {
         let power = index as f64 + 2.0;
         let pivot = if index == 2 { 1.0 / roots } else { 0.0 };

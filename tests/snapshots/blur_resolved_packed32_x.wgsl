@@ -2,7 +2,7 @@
 // moment_shadows/maths/split_sum.wgsl: split_sum_coarse
 // moment_shadows/filter/separable.wgsl: separable_add SeparableSums separable_add_to_sums SeparableEight separable_add_to_eight separable_outputs
 // moment_shadows/map/storage.wgsl: STORAGE_FLOAT16 STORAGE_FLOAT32 STORAGE_PACKED64 STORAGE_PACKED32 storage_pack storage_round_to_float16
-// moment_shadows/moments/packed_four_moments.wgsl: PACKED_FOUR_MOMENTS_LARGEST_DEPTH PACKED_FOUR_MOMENTS_LEAST_VARIANCE PackedFourMomentsNodes packed_four_moments_nodes packed_four_moments_channels
+// moment_shadows/moments/packed_four_moments.wgsl: PACKED_FOUR_MOMENTS_STEPS PACKED_FOUR_MOMENTS_LARGEST_DEPTH PACKED_FOUR_MOMENTS_LEAST_VARIANCE PACKED_FOUR_MOMENTS_LEAST_DISTANCE PackedFourMomentsNodes packed_four_moments_nodes packed_four_moments_channels
 // moment_shadows/moments/four_moments.wgsl: FOUR_MOMENTS_SQRT_3 four_moments_from_depth four_moments_quantize four_moments_to_texel
 // moment_shadows/map/depth.wgsl: DepthConversion DEPTH_SMALLEST_DENOMINATOR depth_is_nan depth_to_moment_depth
 // moment_shadows/map/range_fit.wgsl: RangeFit range_fit_none range_fit_depth range_fit_map_depth

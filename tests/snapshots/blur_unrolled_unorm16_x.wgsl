@@ -2,7 +2,7 @@
 // moment_shadows/maths/split_sum.wgsl: split_sum_coarse
 // moment_shadows/filter/separable.wgsl: separable_add SeparableSums separable_add_to_sums SeparableEight separable_add_to_eight separable_outputs
 // moment_shadows/map/storage.wgsl: STORAGE_FLOAT16 STORAGE_UNORM10 STORAGE_PACKED64 storage_round_to_float16 storage_round_to_unorm10 storage_round_texel
-// moment_shadows/moments/packed_four_moments.wgsl: PACKED_FOUR_MOMENTS_LARGEST_DEPTH PACKED_FOUR_MOMENTS_LEAST_VARIANCE PackedFourMomentsNodes packed_four_moments_nodes packed_four_moments_channels packed_four_moments_from_channels
+// moment_shadows/moments/packed_four_moments.wgsl: PACKED_FOUR_MOMENTS_STEPS PACKED_FOUR_MOMENTS_LARGEST_DEPTH PACKED_FOUR_MOMENTS_LEAST_VARIANCE PACKED_FOUR_MOMENTS_LEAST_DISTANCE PackedFourMomentsNodes packed_four_moments_nodes packed_four_moments_channels packed_four_moments_from_channels
 // moment_shadows/moments/four_moments.wgsl: four_moments_filter_value four_moments_filter_texel
 // map_texture: texel_of_texture texel_to_texture
 // blur_source: moments_map blur_source blur_stored

@@ -12,7 +12,7 @@
 // moment_shadows/bounds/hamburger6.wgsl: Hamburger6Factor Hamburger6Polynomials HAMBURGER6_SMALLEST_PIVOT HAMBURGER6_LARGEST_SHIFT HAMBURGER6_LARGEST_RATIO HAMBURGER6_FARTHEST_SUPPORT HAMBURGER6_STEPS HAMBURGER6_LARGE_ALPHA HAMBURGER6_STEPS_OF_LARGE_ALPHA hamburger6_factor hamburger6_polynomials hamburger6_negative_root hamburger6_lone_weight hamburger6_bounds_at hamburger6_bounds hamburger6_lower_bound
 // storage.: hamburger6_shadow_intensity_of_texels
 // moment_shadows/map/minification.wgsl: MINIFICATION_LARGEST_ANISOTROPY MINIFICATION_TEXEL_PER_WIDTH MinificationFootprint MinificationAxes minification_axes minification_footprint MINIFICATION_SLACK minification_probe minification_axes_depth_variance
-// moment_shadows/map/map_load.wgsl: map_load_bilinear map_load_trilinear map_load_footprint
+// moment_shadows/map/map_load.wgsl: map_load_between map_load_bilinear map_load_trilinear map_load_footprint
 // moments_lookup: moments_map moments_lookup
 // moment_shadows/map/depth.wgsl: DepthConversion
 // moment_shadows/map/range_fit.wgsl: RangeFit range_fit_none range_fit_depth

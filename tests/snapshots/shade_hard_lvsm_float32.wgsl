@@ -12,7 +12,7 @@
 // moment_shadows/bounds/chebyshev.wgsl: chebyshev_lower_bound
 // moment_shadows/techniques/layered_variance.wgsl: LAYERED_VARIANCE_LARGEST_COUNT LAYERED_VARIANCE_SMALLEST_HALF_WIDTH LayeredVarianceLayers layered_variance_split layered_variance_count layered_variance_interval layered_variance_warp layered_variance_last_layer layered_variance_shadow_intensity_of_texel layered_variance_shadow_intensity_of_plane
 // moment_shadows/map/minification.wgsl: MINIFICATION_LARGEST_ANISOTROPY MINIFICATION_TEXEL_PER_WIDTH MinificationFootprint MinificationAxes minification_axes minification_footprint MINIFICATION_SLACK minification_probe minification_axes_depth_variance
-// moment_shadows/map/map_load.wgsl: map_load_bilinear map_load_trilinear map_load_footprint
+// moment_shadows/map/map_load.wgsl: map_load_between map_load_bilinear map_load_trilinear map_load_footprint
 // moments_lookup: moments_map moments_lookup
 // moment_shadows/map/range_fit.wgsl: RangeFit range_fit_none range_fit_depth
 // moment_shadows/shade/area_light.wgsl: AreaLight area_light_fitted

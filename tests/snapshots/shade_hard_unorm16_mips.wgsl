@@ -12,7 +12,7 @@
 // moment_shadows/bounds/hamburger4.wgsl: HAMBURGER4_FARTHEST_SUPPORT HAMBURGER4_SMALLEST_LEADING_COEFFICIENT Hamburger4Support hamburger4_support hamburger4_lower_bound_at hamburger4_lower_bound
 // clamping.: hamburger4_shadow_intensity_of_texel
 // moment_shadows/map/minification.wgsl: MINIFICATION_LARGEST_ANISOTROPY MINIFICATION_TEXEL_PER_WIDTH MinificationFootprint MinificationAxes minification_axes minification_footprint MINIFICATION_SLACK minification_probe minification_axes_gradients minification_axes_depth_variance
-// moment_shadows/map/map_load.wgsl: map_load_bilinear map_load_trilinear map_load_footprint
+// moment_shadows/map/map_load.wgsl: map_load_between map_load_bilinear map_load_trilinear map_load_footprint
 // moment_shadows/map/map_lookup.wgsl: map_lookup_gradient map_lookup_is_inner
 // moments_lookup: moments_map anisotropic_sampler moments_lookup
 // moment_shadows/map/depth.wgsl: DepthConversion

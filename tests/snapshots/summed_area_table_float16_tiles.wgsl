@@ -4,7 +4,7 @@
 // moment_shadows/filter/prefix_sum.wgsl: PrefixSumFour prefix_sum_along prefix_sum_across
 // sums: target_map sums_texel sums_store_four
 // moment_shadows/map/storage.wgsl: STORAGE_FLOAT16 STORAGE_FLOAT32 STORAGE_PACKED64 STORAGE_PACKED32 storage_is_float storage_round_to_float16 storage_finite_texel
-// moment_shadows/moments/packed_four_moments.wgsl: PACKED_FOUR_MOMENTS_LARGEST_DEPTH PACKED_FOUR_MOMENTS_LEAST_VARIANCE PackedFourMomentsNodes packed_four_moments_nodes packed_four_moments_channels
+// moment_shadows/moments/packed_four_moments.wgsl: PACKED_FOUR_MOMENTS_STEPS PACKED_FOUR_MOMENTS_LARGEST_DEPTH PACKED_FOUR_MOMENTS_LEAST_VARIANCE PACKED_FOUR_MOMENTS_LEAST_DISTANCE PackedFourMomentsNodes packed_four_moments_nodes packed_four_moments_channels
 // moment_shadows/moments/four_moments.wgsl: FOUR_MOMENTS_SQRT_3 four_moments_quantize four_moments_clamp four_moments_to_texel
 // moment_shadows/filter/summed_area_encoding.wgsl: summed_area_encoding_of_channels
 // source: source_integers

@@ -97,5 +97,6 @@ fn single_scattering_occluder_depth(depth: f32) -> f32 {
 // with it, each in [0, 1]. With 0 it is the middle of the bounds, which is too dark looking away from the light.
 fn single_scattering_shadow(bounds: vec2f, cosine: f32, overestimation: vec2f) -> f32 {
     let strength = select(overestimation.x, overestimation.y, cosine > 0.0);
-    return mix(bounds.y, bounds.x, saturate(fma(0.5 * strength, cosine, 0.5)));
+    // Not `mix`, which need not be 1 between bounds of 1.
+    return fma(saturate(fma(0.5 * strength, cosine, 0.5)), bounds.x - bounds.y, bounds.y);
 }

@@ -73,7 +73,7 @@ fn hamburger4_lower_bound_at(factor: HankelFactor, x: f32, polynomial: f32) -> f
 // distributions S with the moments `biased`, which are already biased by `alpha` >= 3e-7 and lie within [-2, 2].
 // Both are in [0, 1] for all such moments, valid or not, and every finite fragment depth; farther out than 1e4 the
 // fragment depth counts as 1e4. Error: |error| <= 8 * 2^-24 * (1 + sensitivity), measured
-// where fma is not fused; with a smaller alpha rounding alone can exceed the guards near a single surface.
+// where fma is not fused and with exact products in its place; with a smaller alpha rounding alone can exceed the guards near a single surface.
 fn hamburger4_bounds(biased: vec4f, fragment_depth: f32, alpha: f32) -> vec2f {
     let factor = hankel_factor(biased, alpha);
     let x = clamp(fragment_depth, -HAMBURGER4_FARTHEST_SUPPORT, HAMBURGER4_FARTHEST_SUPPORT) - biased.x;

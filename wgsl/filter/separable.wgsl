@@ -9,7 +9,7 @@ import super::super::maths::split_sum::{split_sum_coarse};
 // behind them for each output but one, the texel number t takes as many as there are outputs, from number t on, and the first of
 // these belongs to the last output. Weights sum to one (the host-side `Kernel`).
 //
-// `is_split` says whether sums are kept in two parts (the module `split_sum`), which float32 needs. It and `skips_zeros`
+// `is_split` says whether sums are kept in two parts (the module `split_sum`), which float32 needs, and packed texels of wide kernels. It and `skips_zeros`
 // are meant to be constants: what they rule out then costs nothing.
 
 // `sum` with one more texel. With `skips_zeros`, a weight of zero adds nothing whatever the texel is; that costs a comparison,

@@ -7,6 +7,12 @@ import super::super::map::minification::{MinificationFootprint, minification_pro
 // Texels are loaded and blended here, in f32, while hardware may use weights of as few as 8 bits. Blending texels of moments
 // is a convex combination, so it keeps moments valid.
 
+// The texel at a share in [0, 1] of the way from the first to the second; between equal ones that texel exactly, which `mix` does not
+// give on every device.
+fn map_load_between(first: vec4f, second: vec4f, share: f32) -> vec4f {
+    return fma(vec4f(share), second - first, first);
+}
+
 // The bilinearly filtered texel on one mip level. `uv` is finite; values outside [0, 1] count as the nearer edge.
 fn map_load_bilinear(map: texture_2d_array<f32>, layer: u32, region: MapRegion, uv: vec2f, level: u32) -> vec4f {
     let rectangle = map_region_at_level(region, level);
@@ -15,9 +21,9 @@ fn map_load_bilinear(map: texture_2d_array<f32>, layer: u32, region: MapRegion, 
     let weight = place - base;
     let low = vec2i(base);
     let high = min(low + 1, vec2i(rectangle.origin + rectangle.extent) - 1);
-    let top = mix(textureLoad(map, low, layer, level), textureLoad(map, vec2i(high.x, low.y), layer, level), weight.x);
-    let bottom = mix(textureLoad(map, vec2i(low.x, high.y), layer, level), textureLoad(map, high, layer, level), weight.x);
-    return mix(top, bottom, weight.y);
+    let top = map_load_between(textureLoad(map, low, layer, level), textureLoad(map, vec2i(high.x, low.y), layer, level), weight.x);
+    let bottom = map_load_between(textureLoad(map, vec2i(low.x, high.y), layer, level), textureLoad(map, high, layer, level), weight.x);
+    return map_load_between(top, bottom, weight.y);
 }
 
 // The trilinearly filtered texel: bilinear ones, blended between the two mip levels next to `level` >= 0, as far as the
@@ -30,7 +36,7 @@ fn map_load_trilinear(map: texture_2d_array<f32>, layer: u32, region: MapRegion,
     if fine == last || blend <= 0.0 {
         return texel;
     }
-    return mix(texel, map_load_bilinear(map, layer, region, uv, fine + 1u), blend);
+    return map_load_between(texel, map_load_bilinear(map, layer, region, uv, fine + 1u), blend);
 }
 
 // The average over a footprint around `uv`: trilinear probes along its major axis.

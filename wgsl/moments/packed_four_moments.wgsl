@@ -15,10 +15,13 @@ const PACKED_FOUR_MOMENTS_LARGEST_DEPTH: f32 = 32767.0;
 // Skewness is divided by no variance below this, so that what rounding in f32 leaves of 0 places no node far out.
 const PACKED_FOUR_MOMENTS_LEAST_VARIANCE: f32 = 1e-5;
 
+// The mean counts as no closer to an end of the range: half a unit in the last place.
+const PACKED_FOUR_MOMENTS_LEAST_DISTANCE: f32 = 0x1p-24;
+
 // What the shortest distribution with some moments consists of.
 struct PackedFourMomentsNodes {
     mean: f32,
-    // The two depths, not clamped.
+    // The two depths, within [-1, 1] but for rounding.
     lower: f32,
     upper: f32,
     // How far the fourth moment exceeds theirs, in [0, 1].
@@ -32,8 +35,13 @@ fn packed_four_moments_nodes(b: vec4f) -> PackedFourMomentsNodes {
     let covariance = fma(-mean, b.y, b.z);
     let divisor = max(variance, PACKED_FOUR_MOMENTS_LEAST_VARIANCE);
     let pivot = saturate(fma(-covariance, covariance / divisor, fma(-b.y, b.y, b.w)));
-    // The nodes relative to the mean have the product -variance and the sum s. The one farther out is found without cancellation.
-    let s = clamp(fma(-2.0 * mean, variance, covariance) / divisor, -2.0, 2.0);
+    // The nodes relative to the mean have the product -variance and the sum s. Both lie within [-1, 1], which bounds s: were a node that
+    // rounding places beyond an end clamped alone, variance would be lost, and with it up to one half of the light near the ends.
+    let above_mean = max(1.0 - mean, PACKED_FOUR_MOMENTS_LEAST_DISTANCE);
+    let below_mean = max(1.0 + mean, PACKED_FOUR_MOMENTS_LEAST_DISTANCE);
+    let skew = max(fma(-2.0 * mean, variance, covariance) / divisor, variance / below_mean - below_mean);
+    let s = min(skew, above_mean - variance / above_mean);
+    // The one farther out is found without cancellation.
     let farther = 0.5 * abs(s) + sqrt(fma(0.25 * s, s, variance));
     let nearer = variance / max(farther, 1e-20);
     let above = s >= 0.0;
@@ -43,14 +51,17 @@ fn packed_four_moments_nodes(b: vec4f) -> PackedFourMomentsNodes {
 }
 
 // The channels of a packed texel for finite moments b: two depths in [-1, 1], then the weight and the root in [0, 1]. Depths are rounded outwards, so that the mean lies between them and
-// the weight, found for the rounded depths, keeps it far more exactly than they are. That only widens a distribution.
+// the weight, found for the rounded depths, keeps it far more exactly than they are. That only widens a distribution. The lesser weight is
+// rounded up and never 0: a far surface of little weight lost, or half of it, is most of the spread that moments know of.
 fn packed_four_moments_channels(b: vec4f) -> vec4f {
     let nodes = packed_four_moments_nodes(b);
     let places = clamp(vec2f(nodes.lower, nodes.upper), vec2f(-1.0), vec2f(1.0)) * PACKED_FOUR_MOMENTS_LARGEST_DEPTH;
     let lower = min(floor(places.x), PACKED_FOUR_MOMENTS_LARGEST_DEPTH - 1.0);
     let upper = max(ceil(places.y), lower + 1.0);
-    let weight = saturate(fma(nodes.mean, PACKED_FOUR_MOMENTS_LARGEST_DEPTH, -lower) / (upper - lower));
-    return vec4f(vec2f(lower, upper) / PACKED_FOUR_MOMENTS_LARGEST_DEPTH, weight, sqrt(nodes.pivot));
+    let steps = fma(nodes.mean, PACKED_FOUR_MOMENTS_LARGEST_DEPTH, -lower) / (upper - lower) * PACKED_FOUR_MOMENTS_STEPS;
+    let is_lesser = steps < 0.5 * PACKED_FOUR_MOMENTS_STEPS;
+    let weight = clamp(select(floor(steps), ceil(steps), is_lesser), 1.0, PACKED_FOUR_MOMENTS_STEPS - 1.0);
+    return vec4f(vec2f(lower, upper) / PACKED_FOUR_MOMENTS_LARGEST_DEPTH, weight / PACKED_FOUR_MOMENTS_STEPS, sqrt(nodes.pivot));
 }
 
 // The moments of a packed texel with such channels.

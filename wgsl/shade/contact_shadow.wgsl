@@ -101,6 +101,8 @@ fn contact_shadow_hides(parameters: ContactShadowParameters, place: vec4f, store
 // The shadow of a surface that hides the ray there: it fades out towards the full length, so that there is no line.
 fn contact_shadow_intensity(ray: ContactShadowRay, along: f32) -> f32 {
     // Parts of the screen are parts of the scene divided by the homogeneous coordinate.
-    let part = ray.reach * along / max(mix(ray.end_w, 1.0, along), 1e-30);
+    // Not `mix`, which loses the 1 beside a large coordinate where a device has it as a + (b - a) t.
+    let w = fma(1.0 - along, ray.end_w, along);
+    let part = ray.reach * along / max(w, 1e-30);
     return saturate((1.0 - part) / CONTACT_SHADOW_FADE);
 }

@@ -72,6 +72,13 @@ impl Gpu {
         }
     }
 
+    /// The adapter's name, and its driver with the version.
+    #[must_use]
+    pub fn described(&self) -> String {
+        let info = self.adapter.get_info();
+        format!("{}, {} {}", info.name, info.driver, info.driver_info)
+    }
+
     /// The first error that the device reported outside any scope, if there was one.
     pub fn check(&self) -> Result<(), LabError> {
         let first = self.errors.lock().ok().and_then(|mut errors| {

@@ -23,6 +23,7 @@ pub mod graph_file;
 pub mod graph_frame;
 pub mod hard;
 pub mod host;
+mod identity;
 pub mod isa;
 pub mod judgement;
 pub mod light;

@@ -258,3 +258,40 @@ fn an_output_that_is_not_read_to_its_end_is_no_panic() {
     let (_, said) = texts(&output);
     assert_eq!((output.status.code(), said.as_str()), (Some(141), ""));
 }
+
+/// A pair that is soon tried, with several chunks of inputs.
+const PAIR: &str = "stability --technique vsm --storage float16 --inputs 2000000";
+
+#[test]
+fn a_stability_run_that_was_killed_gives_the_same_report_when_resumed() {
+    let [killed, whole] = [tempfile::tempdir().unwrap(), tempfile::tempdir().unwrap()];
+    let on = |folder: &Path, more: &[&str]| {
+        let mut command = Command::new(BINARY);
+        command.args(PAIR.split_whitespace()).args(more);
+        command.arg("--out").arg(folder);
+        command.stdout(std::process::Stdio::null());
+        command
+    };
+    let mut child = on(killed.path(), &[]).spawn().unwrap();
+    while files(killed.path()) != ["unfinished.json"] {
+        assert_eq!(child.try_wait().unwrap(), None, "it has ended by itself");
+        std::thread::sleep(Duration::from_millis(5));
+    }
+    child.kill().unwrap();
+    child.wait().unwrap();
+    for (more, expected) in [
+        (&[][..], "--resume goes on with it"),
+        (
+            &["--resume", "--seed", "2"],
+            "the seed was 1 and is 2; remove it to begin anew",
+        ),
+    ] {
+        let (_, said) = texts(&on(killed.path(), more).output().unwrap());
+        assert!(said.contains(expected), "{said}");
+    }
+    assert!(on(killed.path(), &["--resume"]).status().unwrap().success());
+    assert!(on(whole.path(), &[]).status().unwrap().success());
+    assert_eq!(files(killed.path()), files(whole.path()));
+    let report = |folder: &Path| fs::read_to_string(folder.join("stability.json")).unwrap();
+    assert_eq!(report(killed.path()), report(whole.path()));
+}

@@ -11,7 +11,8 @@ use crate::gpu::Gpu;
 use crate::picture::{create_folder, save_atomically};
 use crate::progress;
 use crate::stability::report::Report;
-use crate::stability::{self, Effort, plot};
+use crate::stability::unfinished::Unfinished;
+use crate::stability::{self, Effort, Progress, plot};
 use crate::techniques::{STORAGES, filterable, label};
 
 /// What `stability` takes.
@@ -20,9 +21,12 @@ pub struct Options {
     /// Tries a hundredth of the inputs, and shorter climbs.
     #[arg(long)]
     quick: bool,
-    /// A folder for the report as text, JSON and a picture; it is made if need be.
+    /// A folder for the report as text, JSON and a picture; it is made if need be. Until then it has the counts so far.
     #[arg(long)]
     out: Option<PathBuf>,
+    /// Goes on with the run in the folder if there is one that was stopped; the report is the same.
+    #[arg(long, requires = "out")]
+    resume: bool,
     /// Only this technique.
     #[arg(long, value_parser = technique)]
     technique: Option<String>,
@@ -31,7 +35,7 @@ pub struct Options {
     storage: Option<String>,
     /// Inputs per technique and storage in place of 10000000, or of 100000 if quick.
     #[arg(long, value_parser = clap::value_parser!(u64).range(10..=1_000_000_000))]
-    samples: Option<u64>,
+    inputs: Option<u64>,
     /// Seed of the random inputs: the same seed gives the same inputs.
     #[arg(long, default_value_t = Effort::FULL.seed)]
     seed: u64,
@@ -49,12 +53,12 @@ impl Options {
             Effort::FULL
         };
         let effort = Effort {
-            samples: self.samples.unwrap_or(usual.samples),
+            inputs: self.inputs.unwrap_or(usual.inputs),
             seed: self.seed,
             ..usual
         };
         let pairs = pairs(self.technique.as_deref(), self.storage.as_deref())?;
-        let report = report(&pairs, effort, self.out.as_deref())?;
+        let report = report(&pairs, effort, self.out.as_deref(), self.resume)?;
         print!("{report}");
         Ok(match report.faults() {
             0 => ExitCode::SUCCESS,
@@ -103,14 +107,27 @@ pub fn pairs(technique: Option<&str>, storage: Option<&str>) -> Result<Vec<MapEn
 }
 
 /// Makes the report of some pairs, and writes it into the folder `out` as text, JSON and a picture.
-fn report(pairs: &[MapEncoding], effort: Effort, out: Option<&Path>) -> Result<Report, LabError> {
+fn report(
+    pairs: &[MapEncoding],
+    effort: Effort,
+    out: Option<&Path>,
+    resume: bool,
+) -> Result<Report, LabError> {
     let gpu = Gpu::open(Profile::WebgpuCore)?;
+    let mut progress = Progress::none(pairs.len());
+    let mut unfinished = None;
     if let Some(out) = out {
         // Before the work, which takes minutes.
         create_folder(out)?;
+        let (file, found) = Unfinished::open(out, &gpu, pairs, effort, resume)?;
+        (unfinished, progress) = (Some(file), found);
     }
+    let keep = |progress: &Progress| match &mut unfinished {
+        Some(file) => file.keep(progress),
+        None => Ok(()),
+    };
     let bar = progress::bar(stability::steps(pairs.len(), effort), "trying inputs");
-    let report = stability::run(&gpu, pairs, effort, || bar.inc(1))?;
+    let report = stability::run(&gpu, pairs, effort, progress, keep, |count| bar.inc(count))?;
     bar.finish_and_clear();
     if let Some(out) = out {
         let text = report.to_string();
@@ -122,6 +139,9 @@ fn report(pairs: &[MapEncoding], effort: Effort, out: Option<&Path>) -> Result<R
             file.write_all(json.as_bytes())
         })?;
         plot::chart(&report).save(out, "stability")?;
+    }
+    if let Some(file) = unfinished {
+        file.finish()?;
     }
     Ok(report)
 }

@@ -2,7 +2,7 @@ import moment_shadows::map::depth::{DepthConversion, depth_to_moment_depth};
 import node::map_encoding::{PLANE, encoding_channels, encoding_texel};
 import node::map_filtering::{filtering_texel, filtering_value};
 import node::map_texel::{filtered_texels};
-import node::specialization::{PLANES, SPLIT_SUMS, STORAGE};
+import node::specialization::{PLANES, RECEIVER_BIAS, SPLIT_SUMS_FROM, STORAGE};
 import moment_shadows::maths::split_sum::{split_sum_coarse};
 import moment_shadows::map::storage::{STORAGE_FLOAT16, STORAGE_FLOAT32, STORAGE_PACKED32, STORAGE_PACKED64, STORAGE_UNORM10, STORAGE_UNORM16, storage_pack, storage_unpack};
 import moment_shadows::moments::coarse_four_moments::{coarse_four_moments_pack, coarse_four_moments_unpack};
@@ -96,10 +96,10 @@ struct PatchSum {
     rest: vec4f,
 }
 
-fn added(sum: PatchSum, weight: f32, value: vec4f) -> PatchSum {
+fn added(sum: PatchSum, weight: f32, value: vec4f, taps: u32) -> PatchSum {
     var texel = value;
     var rest = vec4f(0.0);
-    if SPLIT_SUMS {
+    if taps >= SPLIT_SUMS_FROM {
         texel = split_sum_coarse(value);
         rest = value - texel;
     }
@@ -128,15 +128,15 @@ fn patch_texel(depths: array<f32, 8>, input: BatchInput) -> vec4f {
     for (var tap = 0u; tap < taps; tap++) {
         let weight = batch_table[first + tap];
         let place = tap / input.row_run;
-        sums[0] = added(sums[0], weight, values[pattern(rows[0], place) % input.count]);
-        sums[1] = added(sums[1], weight, values[pattern(rows[1], place) % input.count]);
+        sums[0] = added(sums[0], weight, values[pattern(rows[0], place) % input.count], taps);
+        sums[1] = added(sums[1], weight, values[pattern(rows[1], place) % input.count], taps);
     }
     let one = filtering_value(stored_before(filtered(sums[0])));
     let other = filtering_value(stored_before(filtered(sums[1])));
     var sum: PatchSum;
     for (var tap = 0u; tap < taps; tap++) {
         let is_other = (pattern(input.column, tap / input.column_run) & 1u) == 1u;
-        sum = added(sum, batch_table[first + tap], select(one, other, is_other));
+        sum = added(sum, batch_table[first + tap], select(one, other, is_other), taps);
     }
     return stored(filtered(sum));
 }
@@ -169,6 +169,6 @@ fn batch(input: BatchInput) -> BatchOutput {
         }
     }
     var receiver: TechniqueReceiver;
-    receiver.fragment_depth = moment_depth(input.fragment_depth, input);
+    receiver.fragment_depth = moment_depth(input.fragment_depth, input) - RECEIVER_BIAS;
     return technique_shadow_intensity(receiver);
 }

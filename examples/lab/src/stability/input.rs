@@ -2,10 +2,12 @@
 
 use bytemuck::{Pod, Zeroable};
 use moment_shadows::DepthConversion;
+use serde::{Deserialize, Serialize};
 
 /// Surfaces that a filter sees and a fragment, as the shader reads them (WGSL's layout of a storage buffer).
 #[repr(C)]
-#[derive(Clone, Copy, Debug, PartialEq, Pod, Zeroable)]
+#[derive(Clone, Copy, Debug, PartialEq, Pod, Zeroable, Serialize, Deserialize)]
+#[serde(try_from = "Vec<u32>", into = "Vec<u32>")]
 pub struct Input {
     /// Depths of up to eight surfaces: moment depths in [-1, 1], or as a map stores them where `converted` is 1.
     pub depths: [f32; 8],
@@ -44,6 +46,22 @@ impl Input {
     pub const PATCH: u32 = 1;
     /// A texel that no encoding need have made.
     pub const TEXEL: u32 = 2;
+}
+
+/// As words: JSON has no numbers that are not finite, and inputs have.
+impl From<Input> for Vec<u32> {
+    fn from(input: Input) -> Self {
+        bytemuck::cast_slice(&[input]).to_vec()
+    }
+}
+
+impl TryFrom<Vec<u32>> for Input {
+    type Error = String;
+
+    fn try_from(words: Vec<u32>) -> Result<Self, String> {
+        bytemuck::try_pod_read_unaligned(bytemuck::cast_slice(&words))
+            .map_err(|_| format!("{} words are no input", words.len()))
+    }
 }
 
 impl Default for Input {

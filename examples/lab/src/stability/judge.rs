@@ -1,6 +1,6 @@
 //! The judge: what a technique's results are worth, given the truths.
 
-use serde::Serialize;
+use serde::{Deserialize, Serialize};
 
 use super::input::Input;
 use super::strata::Stratum;
@@ -18,7 +18,7 @@ const BINS: usize = 12 * BINS_PER_DECADE as usize;
 const KEPT: usize = 10;
 
 /// An input whose truth is known, and what a technique made of it.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Case {
     /// The input.
     pub input: Input,
@@ -36,8 +36,25 @@ impl Case {
     }
 }
 
+/// An input whose result is not a shadow intensity.
+#[derive(Clone, Copy, Debug, Serialize, Deserialize)]
+pub struct Fault {
+    /// The input.
+    pub input: Input,
+    /// The bits of the result.
+    found: u32,
+}
+
+impl Fault {
+    /// The result.
+    #[must_use]
+    pub fn found(&self) -> f32 {
+        f32::from_bits(self.found)
+    }
+}
+
 /// What a stratum showed.
-#[derive(Clone, Debug, Default)]
+#[derive(Clone, Debug, Default, Serialize, Deserialize)]
 pub struct StratumTally {
     /// Inputs.
     pub samples: u64,
@@ -50,14 +67,14 @@ pub struct StratumTally {
 }
 
 /// Counts over many results of one technique with one storage.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, Serialize, Deserialize)]
 pub struct Tally {
     /// Counts by stratum, in the order of [`Stratum::ALL`].
     pub strata: Vec<StratumTally>,
     /// Results with a truth.
     pub judged: u64,
     /// The first result that is not a shadow intensity.
-    pub first_fault: Option<(Input, f32)>,
+    pub first_fault: Option<Fault>,
     leak: f64,
     /// Excesses: none, then by their logarithm.
     histogram: Vec<u64>,
@@ -96,7 +113,10 @@ impl Tally {
             } else {
                 tally.not_finite += 1;
             }
-            self.first_fault.get_or_insert((*input, found));
+            self.first_fault.get_or_insert(Fault {
+                input: *input,
+                found: found.to_bits(),
+            });
         }
         let Some(truth) = truth else { return };
         self.judged += 1;
@@ -107,7 +127,7 @@ impl Tally {
         };
         let excess = case.excess();
         self.histogram[bin(excess)] += 1;
-        if excess.is_nan() {
+        if !excess.is_finite() {
             // Counted above; there is nothing to compare or to climb from.
             return;
         }
@@ -118,6 +138,11 @@ impl Tally {
             tally.worst.insert(place, case);
             tally.worst.truncate(KEPT);
         }
+    }
+
+    /// Whether it has the strata and bins of this build, as one from a file may not.
+    pub(super) fn is_whole(&self) -> bool {
+        self.strata.len() == Stratum::ALL.len() && self.histogram.len() == BINS + 1
     }
 
     /// Results.
@@ -204,7 +229,7 @@ mod tests {
             (None, -0.0),
         ]);
         assert_eq!([tally.not_finite(), tally.outside()], [2, 2]);
-        assert_eq!(tally.first_fault.unwrap().1, 1.0_f32.next_up());
+        assert_eq!(tally.first_fault.unwrap().found(), 1.0_f32.next_up());
         assert_eq!([tally.samples(), tally.judged], [6, 2]);
     }
 

@@ -9,21 +9,23 @@
 //! | `esm` | a relative error of the mean, `exponential` | the same |
 //! | `vsm`, `lvsm`, `evsm2`, `evsm4` | a variance that is too small by a factor, `chebyshev` | the same |
 //! | `convolution` | errors of sines and cosines, `convolution` | |
-//! | `hamburger4`, `hausdorff4` | the moment bias; as `packed32` half a step of a weight as well | the moment bias |
+//! | `hamburger4`, `hausdorff4` | the moment bias; packed ones: `packed_limits` | the moment bias |
 //! | `hamburger6` | the moment bias | the moment bias, and roundings of the evaluation |
 //!
 //! A sum of n products in f32 is off by up to n / 3 units of 2^-24, all on one side where equal weights meet equal depths,
-//! which for 129 texels is ten times the reserve of float32. So moments in float32 are summed in two parts, and
+//! which for 129 texels is ten times the reserve of float32 and of packed texels. So these moments are summed in two parts, and
 //! the sums are as good as those of few texels. Warps have no fixed range, and are not: `evsm2` and
 //! `evsm4` in float32 lose more under wider filters. In the other storages rounding is so much coarser that sums do not matter.
 
 use moment_shadows::{EsmFiltering, MapEncoding, Storage, Technique};
 
+use super::packed_limits;
+
 /// Half a unit in the last place of float32 below 1, 2^-24 / 2 being what a rounding of a number in [1/2, 1) is off by.
 const HALF_ULP: f64 = 1.0 / (1 << 25) as f64;
 
 /// A resolve and both passes of a blur round.
-const STAGES: f64 = 3.0;
+pub(super) const STAGES: f64 = 3.0;
 
 /// The most texels along a filter, narrow and wide.
 const WIDTHS: [f64; 2] = [9.0, 129.0];
@@ -32,7 +34,8 @@ const WIDTHS: [f64; 2] = [9.0, 129.0];
 #[must_use]
 pub fn allowed_excess(encoding: &MapEncoding, wide: bool) -> f64 {
     let storage = encoding.storage();
-    let sums = sums(wide && !encoding.has_split_sums());
+    let is_split = encoding.has_split_sums(WIDTHS[1] as u32 / 2);
+    let sums = sums(wide && !is_split);
     match encoding.technique() {
         Technique::Esm {
             exponent,
@@ -71,15 +74,7 @@ pub fn allowed_excess(encoding: &MapEncoding, wide: bool) -> f64 {
             let bias = storage.six_moments_bias();
             six_moments(storage, bias.map_or(1.0, |bias| f64::from(bias.alpha)))
         }
-        _ => f64::from(storage.moment_bias().alpha) + weight(storage),
-    }
-}
-
-/// What the weight of a surface in a packed texel of 32 bits is off by: half of 128 steps, which are 3 / 2 times as wide in the middle.
-fn weight(storage: Storage) -> f64 {
-    match storage {
-        Storage::Packed32 => 1.5 / 256.0,
-        _ => 0.0,
+        _ => f64::from(storage.moment_bias().alpha) + packed_limits::rounding(storage),
     }
 }
 

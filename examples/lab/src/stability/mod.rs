@@ -11,11 +11,13 @@ mod invalid;
 pub mod judge;
 pub mod kernels;
 pub mod limits;
+pub mod packed_limits;
 pub mod plot;
 pub mod report;
 pub mod shader;
 pub mod strata;
 pub mod truth;
+pub mod unfinished;
 
 use moment_shadows::MapEncoding;
 use rand::SeedableRng;
@@ -32,10 +34,10 @@ use shader::Evaluator;
 use strata::Stratum;
 
 /// How much is tried.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, serde::Serialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, serde::Serialize, serde::Deserialize)]
 pub struct Effort {
     /// Inputs per technique and storage, in equal shares of all strata (rounded up).
-    pub samples: u64,
+    pub inputs: u64,
     /// Steps of each hill-climb.
     pub steps: u32,
     /// Seed of the random inputs: the same seed gives the same inputs.
@@ -45,13 +47,13 @@ pub struct Effort {
 impl Effort {
     /// 10^7 inputs.
     pub const FULL: Effort = Effort {
-        samples: 10_000_000,
+        inputs: 10_000_000,
         steps: 100,
         seed: 1,
     };
     /// 10^5 inputs.
     pub const QUICK: Effort = Effort {
-        samples: 100_000,
+        inputs: 100_000,
         steps: 20,
         ..Effort::FULL
     };
@@ -62,7 +64,7 @@ impl core::fmt::Display for Effort {
         write!(
             f,
             "{} inputs per technique and storage, {CLIMBS} hill-climbs of {} steps, seed {}",
-            self.samples, self.steps, self.seed
+            self.inputs, self.steps, self.seed
         )
     }
 }
@@ -70,22 +72,52 @@ impl core::fmt::Display for Effort {
 /// Inputs of each stratum that are made at a time.
 const CHUNK: u64 = 1 << 15;
 
-/// Tries every pair on the same inputs. `step` is called [`steps`] times.
+/// How far a run has come.
+#[derive(Clone, Debug)]
+pub struct Progress {
+    /// Inputs are made in chunks. The number of the next one.
+    next: u64,
+    /// The counts over those before, by pair.
+    tallies: Vec<Tally>,
+}
+
+impl Progress {
+    /// Where a run of so many pairs begins.
+    #[must_use]
+    pub fn none(pairs: usize) -> Self {
+        Self {
+            next: 0,
+            tallies: vec![Tally::default(); pairs],
+        }
+    }
+
+    /// A run of so many pairs that has come somewhere; none if the counts are not those of such a run.
+    fn of(pairs: usize, next: u64, tallies: Vec<Tally>) -> Option<Self> {
+        let fits = tallies.len() == pairs && tallies.iter().all(Tally::is_whole);
+        fits.then_some(Self { next, tallies })
+    }
+}
+
+/// Tries every pair on the same inputs, from where the run has come to. `keep` is called after each chunk. `step` is called as often
+/// as [`steps`] says.
 pub fn run(
     gpu: &Gpu,
     pairs: &[MapEncoding],
     effort: Effort,
-    step: impl Fn(),
+    mut progress: Progress,
+    mut keep: impl FnMut(&Progress) -> Result<(), LabError>,
+    step: impl Fn(u64),
 ) -> Result<Report, LabError> {
     let evaluators: Vec<Evaluator<'_>> = pairs
         .par_iter()
         .map(|pair| Evaluator::new(gpu, pair))
         .collect::<Result<_, _>>()?;
-    let mut tallies = vec![Tally::default(); pairs.len()];
-    let each = per_stratum(effort.samples);
+    let each = per_stratum(effort.inputs);
     let kernels = kernels::kernels()?;
-    for (chunk, first) in (0..).zip((0..each).step_by(CHUNK as usize)) {
-        let count = CHUNK.min(each - first) as usize;
+    let chunks = each.div_ceil(CHUNK);
+    step(progress.next.min(chunks) * pairs.len() as u64);
+    for chunk in progress.next..chunks {
+        let count = CHUNK.min(each - chunk * CHUNK) as usize;
         let inputs: Vec<Input> = Stratum::ALL
             .into_par_iter()
             .flat_map_iter(|stratum| {
@@ -99,23 +131,25 @@ pub fn run(
             .par_iter()
             .map(|input| truth::truth(input, &kernels))
             .collect();
-        for (evaluator, tally) in evaluators.iter().zip(&mut tallies) {
+        for (evaluator, tally) in evaluators.iter().zip(&mut progress.tallies) {
             let found = evaluator.run(&inputs)?;
             for (index, found) in found.into_iter().enumerate() {
                 let stratum = Stratum::ALL[index / count];
                 tally.add(stratum, &inputs[index], truths[index], found);
             }
-            step();
+            step(1);
         }
+        progress.next = chunk + 1;
+        keep(&progress)?;
     }
     let mut rows = Vec::new();
-    for ((pair, evaluator), tally) in pairs.iter().zip(&evaluators).zip(tallies) {
+    for ((pair, evaluator), tally) in pairs.iter().zip(&evaluators).zip(progress.tallies) {
         let climbed = climb::climb(evaluator, &tally, effort.steps, effort.seed)?;
         rows.push(Row::new(pair, &tally, &climbed));
-        step();
+        step(1);
     }
     Ok(Report {
-        adapter: gpu.adapter.get_info().name,
+        adapter: gpu.described(),
         effort,
         rows,
     })
@@ -124,9 +158,9 @@ pub fn run(
 /// How many steps [`run`] takes.
 #[must_use]
 pub fn steps(pairs: usize, effort: Effort) -> u64 {
-    pairs as u64 * (per_stratum(effort.samples).div_ceil(CHUNK) + 1)
+    pairs as u64 * (per_stratum(effort.inputs).div_ceil(CHUNK) + 1)
 }
 
-fn per_stratum(samples: u64) -> u64 {
-    samples.div_ceil(Stratum::ALL.len() as u64).max(1)
+fn per_stratum(inputs: u64) -> u64 {
+    inputs.div_ceil(Stratum::ALL.len() as u64).max(1)
 }

@@ -6,6 +6,7 @@ use moment_shadows::{MapEncoding, Storage};
 use serde::Serialize;
 
 use super::Effort;
+use super::input::Input;
 use super::judge::{Case, Quantile, Tally};
 use super::limits::allowed_excess;
 use super::strata::Stratum;
@@ -74,8 +75,8 @@ pub struct Worst {
     pub truth: f64,
     /// The technique's shadow intensity.
     pub found: f32,
-    /// The input, as Rust.
-    pub input: String,
+    /// The input.
+    pub input: Input,
 }
 
 /// A stratum's part of a row.
@@ -132,9 +133,10 @@ impl Row {
                 stratum,
                 truth: case.truth,
                 found: case.found,
-                input: format!("{:?}", case.input),
+                input: case.input,
             }),
-            fault: fault.map(|(input, found)| (format!("{input:?}"), format!("{found:e}"))),
+            fault: fault
+                .map(|fault| (format!("{:?}", fault.input), format!("{:e}", fault.found()))),
             strata: Stratum::ALL
                 .into_iter()
                 .zip(&drawn.strata)
@@ -225,7 +227,7 @@ impl fmt::Display for Report {
             if let Some(worst) = &row.worst {
                 writeln!(
                     f,
-                    "{name}: {:?} for {:?}\n    {}",
+                    "{name}: {:?} for {:?}\n    {:?}",
                     worst.found, worst.truth, worst.input
                 )?;
             }
@@ -244,7 +246,6 @@ impl fmt::Display for Report {
 mod tests {
     #![allow(clippy::unwrap_used)]
 
-    use super::super::input::Input;
     use super::super::kernels::kernels;
     use super::super::truth::truth;
     use super::*;

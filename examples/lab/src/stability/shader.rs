@@ -4,6 +4,7 @@ use moment_shadows::{Kernel, MapEncoding, Row, ShaderError, Source, link};
 
 use super::input::Input;
 use super::kernels::{kernels, table};
+use super::packed_limits::receiver_bias;
 use crate::batch::Batch;
 use crate::error::LabError;
 use crate::gpu::Gpu;
@@ -78,6 +79,12 @@ fn linked(encoding: &MapEncoding) -> Result<String, ShaderError> {
     Ok(link(shader, &modules)?.into_wgsl())
 }
 
+/// How many taps a kernel has at least whose sums are split.
+fn split_sums_from(encoding: &MapEncoding) -> u32 {
+    let radius = (0..=Kernel::LARGEST_RADIUS).find(|&radius| encoding.has_split_sums(radius));
+    radius.map_or(u32::MAX, |radius| 2 * radius + 1)
+}
+
 /// The constants that the modules import.
 fn specialization(encoding: &MapEncoding, row: &Row) -> String {
     let mut own: String = row
@@ -89,9 +96,10 @@ fn specialization(encoding: &MapEncoding, row: &Row) -> String {
         own += "const LAYER_SPLITS_LOW = vec4f(1.0);\nconst LAYER_SPLITS_HIGH = vec4f(1.0);\n";
     }
     format!(
-        "const STORAGE = {}u;\nconst PLANES = {}u;\nconst SPLIT_SUMS = {};\n{own}",
+        "const STORAGE = {}u;\nconst PLANES = {}u;\nconst SPLIT_SUMS_FROM = {}u;\nconst RECEIVER_BIAS: f32 = {:e};\n{own}",
         encoding.storage().wgsl_index(),
         encoding.planes(),
-        encoding.has_split_sums()
+        split_sums_from(encoding),
+        receiver_bias(encoding.storage())
     )
 }

@@ -11,7 +11,6 @@ pub mod choose;
 pub(crate) mod crop;
 pub mod front;
 pub mod held_out;
-mod identity;
 pub mod inspect;
 pub mod interval;
 mod isa;
@@ -47,6 +46,7 @@ use crate::error::LabError;
 use crate::frame::Frame;
 use crate::gpu::Gpu;
 use crate::graph_file::GraphFile;
+use crate::identity;
 use crate::picture::save_atomically;
 use crate::progress;
 use crate::scene::{self, Scene};
@@ -225,7 +225,7 @@ impl Trade {
         Ok(Setting {
             library: env!("CARGO_PKG_VERSION").to_owned(),
             of: identity::identity(&self.scenes)?,
-            adapter: format!("{}, {} {}", info.name, info.driver, info.driver_info),
+            adapter: gpu.described(),
             profile: self.profile.name().to_owned(),
             is_software: info.device_type == wgpu::DeviceType::Cpu,
             picture: self.picture,

@@ -144,7 +144,7 @@ impl GivenLight {
 }
 
 /// Where the views of a scene would be.
-pub(super) fn path_beside(scene: &str) -> PathBuf {
+pub(crate) fn path_beside(scene: &str) -> PathBuf {
     Path::new(scene).with_extension(ENDING)
 }
 

@@ -255,7 +255,7 @@ fn pass(
         .unsigned("WORKGROUP_Y", workgroup[1])
         .constant("AXIS", step)
         .constant("OUTPUTS", outputs)
-        .constant("SPLIT_SUMS", encoding.has_split_sums())
+        .constant("SPLIT_SUMS", encoding.has_split_sums(kernel.radius()))
         .module("blur_source", blur_source)
         .module("blur_target", include_str!("blur_target.wgsl"))
         .module("blur_outputs", many)

@@ -4,16 +4,20 @@ use std::path::Path;
 
 use sha2::{Digest, Sha256};
 
-use super::setup::path_beside;
 use crate::error::LabError;
+use crate::trade::setup::path_beside;
 
-/// The beginning of the SHA-256 of the running command and of each scene: of its file and of that of its views. A procedural scene has
-/// none.
-pub(super) fn identity(scenes: &[String]) -> Result<Vec<String>, LabError> {
+/// The beginning of the SHA-256 of the running command.
+pub(crate) fn of_command() -> Result<String, LabError> {
     let command = std::env::current_exe().map_err(|error| {
         LabError::refused(format!("the command does not know its file: {error}"))
     })?;
-    let mut all = vec![of_files(&[&command])?];
+    of_files(&[&command])
+}
+
+/// The same, and that of each scene: of its file and of that of its views. A procedural scene has none.
+pub(crate) fn identity(scenes: &[String]) -> Result<Vec<String>, LabError> {
+    let mut all = vec![of_command()?];
     for scene in scenes {
         let views = path_beside(scene);
         all.push(of_files(&[Path::new(scene), &views])?);
