@@ -45,13 +45,24 @@ impl Verdict {
     }
 
     pub fn invalid(site: &Site) -> Self {
-        Self { invalid: true, ..Self::new(site) }
+        Self {
+            invalid: true,
+            ..Self::new(site)
+        }
     }
 }
 
 impl fmt::Display for Verdict {
     fn fmt(&self, to: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let Self { file, line, code, what, passed, reaching, .. } = self;
+        let Self {
+            file,
+            line,
+            code,
+            what,
+            passed,
+            reaching,
+            ..
+        } = self;
         let verdict = match &self.noticed_by {
             Some(test) => format!("noticed by {test}"),
             None if self.invalid => "does not compile".to_owned(),
@@ -65,7 +76,13 @@ impl fmt::Display for Verdict {
 const STEPS: [f64; 5] = [0.1, 1.0, 5.0, 30.0, f64::INFINITY];
 
 /// Tests that reach the fault, cheapest first, until one fails or `limit` seconds of tests have run.
-pub fn judge(places: &Places, suite: &[Binary], site: &Site, number: usize, limit: f64) -> io::Result<Verdict> {
+pub fn judge(
+    places: &Places,
+    suite: &[Binary],
+    site: &Site,
+    number: usize,
+    limit: f64,
+) -> io::Result<Verdict> {
     let mut verdict = Verdict::new(site);
     let set = [
         ("MUTANT", number.to_string()),
@@ -83,7 +100,10 @@ pub fn judge(places: &Places, suite: &[Binary], site: &Site, number: usize, limi
                 continue;
             }
             verdict.reaching += 1;
-            let step = STEPS.iter().position(|&step| seconds < step).unwrap_or(STEPS.len() - 1);
+            let step = STEPS
+                .iter()
+                .position(|&step| seconds < step)
+                .unwrap_or(STEPS.len() - 1);
             match groups.iter_mut().find(|it| (it.0, it.1) == (!known, step)) {
                 Some(group) => {
                     group.2 += seconds;
@@ -102,7 +122,9 @@ pub fn judge(places: &Places, suite: &[Binary], site: &Site, number: usize, limi
         }
         let start = Instant::now();
         let bound = Duration::from_secs_f64(30.0 + 10.0 * seconds);
-        let end = binary.run(&tests, &set, bound, |_, _, passes| verdict.passed += usize::from(passes))?;
+        let end = binary.run(&tests, &set, bound, |_, _, passes| {
+            verdict.passed += usize::from(passes)
+        })?;
         spent += start.elapsed().as_secs_f64().min(seconds + 0.1);
         if let End::Failed(by) = end {
             verdict.noticed_by = Some(format!("{}: {by}", binary.name));

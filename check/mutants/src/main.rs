@@ -37,7 +37,9 @@ const USAGE: &str = "usage: mutants [run [SECONDS] | again [SECONDS] | report]
   report   says what is known";
 
 fn main() -> Result<(), Box<dyn Error>> {
-    let root = Path::new(env!("CARGO_MANIFEST_DIR")).join("../..").canonicalize()?;
+    let root = Path::new(env!("CARGO_MANIFEST_DIR"))
+        .join("../..")
+        .canonicalize()?;
     let places = Places::new(root);
     let arguments: Vec<String> = std::env::args().skip(1).collect();
     let arguments: Vec<&str> = arguments.iter().map(String::as_str).collect();
@@ -51,7 +53,14 @@ fn main() -> Result<(), Box<dyn Error>> {
         let sites = prepare(&places)?;
         let suite = suite::suite(&places, &LEFT_OUT)?;
         report.keep(&sites);
-        run(&places, &sites, &suite, &mut report, limit, command == "again")?;
+        run(
+            &places,
+            &sites,
+            &suite,
+            &mut report,
+            limit,
+            command == "again",
+        )?;
     }
     report.print();
     Ok(())
@@ -79,7 +88,14 @@ fn prepare(places: &Places) -> Result<Vec<Site>, Box<dyn Error>> {
 }
 
 /// Judges faults in order, two at a time, until each share has its number.
-fn run(places: &Places, sites: &[Site], suite: &[Binary], report: &mut Report, limit: f64, again: bool) -> io::Result<()> {
+fn run(
+    places: &Places,
+    sites: &[Site],
+    suite: &[Binary],
+    report: &mut Report,
+    limit: f64,
+    again: bool,
+) -> io::Result<()> {
     let report = Mutex::new(report);
     let (next, judged) = (Mutex::new(0), Mutex::new([0; SHARES.len()]));
     let work = || -> io::Result<()> {
@@ -100,9 +116,15 @@ fn run(places: &Places, sites: &[Site], suite: &[Binary], report: &mut Report, l
                 }
                 judged[share] += 1;
             }
-            let known = report.lock().expect("no thread panics with it").verdict(site).cloned();
+            let known = report
+                .lock()
+                .expect("no thread panics with it")
+                .verdict(site)
+                .cloned();
             let stays = known.as_ref().is_some_and(|known| {
-                known.invalid || known.noticed_by.is_some() || !again && known.passed == known.reaching
+                known.invalid
+                    || known.noticed_by.is_some()
+                    || !again && known.passed == known.reaching
             });
             let verdict = match known {
                 Some(known) if stays => known,
@@ -114,13 +136,19 @@ fn run(places: &Places, sites: &[Site], suite: &[Binary], report: &mut Report, l
             }
             if !stays {
                 println!("{verdict}");
-                report.lock().expect("no thread panics with it").add(places, verdict)?;
+                report
+                    .lock()
+                    .expect("no thread panics with it")
+                    .add(places, verdict)?;
             }
         }
     };
     thread::scope(|scope| {
         let workers = [scope.spawn(work), scope.spawn(work)];
-        workers.into_iter().try_for_each(|it| it.join().unwrap_or_else(|_| Err(io::Error::other("a worker panicked"))))
+        workers.into_iter().try_for_each(|it| {
+            it.join()
+                .unwrap_or_else(|_| Err(io::Error::other("a worker panicked")))
+        })
     })
 }
 
@@ -139,13 +167,19 @@ fn compiles(places: &Places, site: &Site, number: usize) -> io::Result<bool> {
     } else if site.file.ends_with(".wgsl") {
         let mut command = Command::new(places.target.join("release/moment-shadows-lab"));
         command.args(["shaders", "--out"]).arg(&folder);
-        command.env("MUTANT", number.to_string()).env("MUTANTS_TEXTS", &places.texts);
+        command
+            .env("MUTANT", number.to_string())
+            .env("MUTANTS_TEXTS", &places.texts);
         Some(command)
     } else {
         None
     };
     let valid = match command {
-        Some(mut command) => command.stdout(Stdio::null()).stderr(Stdio::null()).status()?.success(),
+        Some(mut command) => command
+            .stdout(Stdio::null())
+            .stderr(Stdio::null())
+            .status()?
+            .success(),
         None => true,
     };
     let _ = fs::remove_dir_all(folder);

@@ -11,7 +11,12 @@ use crate::site::{ON, Site, hash, other_number};
 /// The faults that can be planted in a file.
 pub fn sites(file: &str, text: &str, seed: u64) -> Result<Vec<Site>, syn::Error> {
     let parsed = syn::parse_file(text)?;
-    let mut finder = Finder { file, text, seed, sites: Vec::new() };
+    let mut finder = Finder {
+        file,
+        text,
+        seed,
+        sites: Vec::new(),
+    };
     finder.visit_file(&parsed);
     Ok(finder.sites)
 }
@@ -30,7 +35,10 @@ impl Finder<'_> {
     }
 
     fn choice(&self, node: &impl Spanned) -> u64 {
-        hash(&format!("{}:{}", self.file, node.span().byte_range().start), self.seed)
+        hash(
+            &format!("{}:{}", self.file, node.span().byte_range().start),
+            self.seed,
+        )
     }
 
     fn plant(&mut self, range: Range<usize>, with: String, what: String) {
@@ -53,8 +61,14 @@ impl Finder<'_> {
     /// The part `part` of an expression becomes `other`.
     fn part(&mut self, node: &impl Spanned, part: &impl Spanned, other: &str) {
         let ((range, original), (at, was)) = (self.of(node), self.of(part));
-        let (before, after) = (&original[..at.start - range.start], &original[at.end - range.start..]);
-        let (fault, what) = (format!("{before}{other}{after}"), format!("`{was}` becomes `{other}`"));
+        let (before, after) = (
+            &original[..at.start - range.start],
+            &original[at.end - range.start..],
+        );
+        let (fault, what) = (
+            format!("{before}{other}{after}"),
+            format!("`{was}` becomes `{other}`"),
+        );
         self.instead(node, fault, what);
     }
 
@@ -81,7 +95,11 @@ impl Finder<'_> {
                 let of = self.of(of.as_ref()).1;
                 let start = of.split('<').next().unwrap_or_default();
                 match start {
-                    "bool" => Some(if self.choice(body) % 2 == 0 { "true" } else { "false" }),
+                    "bool" => Some(if self.choice(body) % 2 == 0 {
+                        "true"
+                    } else {
+                        "false"
+                    }),
                     "Option" => Some("None"),
                     "Vec" => Some("Vec::new()"),
                     "String" => Some("String::new()"),
@@ -118,7 +136,11 @@ fn has_let(expression: &Expr) -> bool {
 
 fn is_of_tests(attributes: &[syn::Attribute]) -> bool {
     let is_test = |it: &syn::Attribute| {
-        it.path().is_ident("cfg") && it.meta.require_list().is_ok_and(|of| of.tokens.to_string() == "test")
+        it.path().is_ident("cfg")
+            && it
+                .meta
+                .require_list()
+                .is_ok_and(|of| of.tokens.to_string() == "test")
     };
     attributes.iter().any(is_test)
 }
@@ -126,7 +148,9 @@ fn is_of_tests(attributes: &[syn::Attribute]) -> bool {
 /// Whether a pattern gives names to nothing.
 fn is_plain(pattern: &Pat) -> bool {
     match pattern {
-        Pat::Ident(of) => of.subpat.is_none() && of.ident.to_string().starts_with(char::is_uppercase),
+        Pat::Ident(of) => {
+            of.subpat.is_none() && of.ident.to_string().starts_with(char::is_uppercase)
+        }
         Pat::Lit(_) | Pat::Path(_) | Pat::Wild(_) | Pat::Rest(_) | Pat::Range(_) => true,
         Pat::Or(of) => of.cases.iter().all(is_plain),
         Pat::Paren(of) => is_plain(&of.pat),
@@ -279,7 +303,8 @@ impl<'ast> Visit<'ast> for Finder<'_> {
                     {
                         let fault = self.of(next.body.as_ref()).1.to_owned();
                         let (pattern, of) = (self.of(&arm.pat).1, self.of(&next.pat).1);
-                        let what = format!("`{}` is taken for `{}`", one_line(pattern), one_line(of));
+                        let what =
+                            format!("`{}` is taken for `{}`", one_line(pattern), one_line(of));
                         self.instead(arm.body.as_ref(), fault, what);
                     }
                 }

@@ -39,15 +39,37 @@ pub enum End {
 
 impl Binary {
     /// A run of `tests`, until one fails. `said` hears of each test that passes.
-    pub fn run(&self, tests: &[&str], set: &[(&str, String)], limit: Duration, mut said: impl FnMut(&str, f64, bool)) -> io::Result<End> {
-        let scratch = std::env::temp_dir().join(format!("mutants-{}-{:?}", std::process::id(), thread::current().id()));
+    pub fn run(
+        &self,
+        tests: &[&str],
+        set: &[(&str, String)],
+        limit: Duration,
+        mut said: impl FnMut(&str, f64, bool),
+    ) -> io::Result<End> {
+        let scratch = std::env::temp_dir().join(format!(
+            "mutants-{}-{:?}",
+            std::process::id(),
+            thread::current().id()
+        ));
         fs::create_dir_all(&scratch)?;
         let mut command = Command::new(&self.program);
-        command.args(["-Zunstable-options", "--report-time", "--exact"]).args(tests);
-        command.args(["--test-threads", "2"]).current_dir(&self.folder);
-        command.env("RUSTC_BOOTSTRAP", "1").env("CARGO_MANIFEST_DIR", &self.folder).env("TMPDIR", &scratch);
+        command
+            .args(["-Zunstable-options", "--report-time", "--exact"])
+            .args(tests);
+        command
+            .args(["--test-threads", "2"])
+            .current_dir(&self.folder);
+        command
+            .env("RUSTC_BOOTSTRAP", "1")
+            .env("CARGO_MANIFEST_DIR", &self.folder)
+            .env("TMPDIR", &scratch);
         command.envs(set.iter().map(|(key, value)| (key, value)));
-        let mut child = command.process_group(0).stdin(Stdio::null()).stdout(Stdio::piped()).stderr(Stdio::null()).spawn()?;
+        let mut child = command
+            .process_group(0)
+            .stdin(Stdio::null())
+            .stdout(Stdio::piped())
+            .stderr(Stdio::null())
+            .spawn()?;
         let pid = child.id();
         let output = child.stdout.take().ok_or(io::ErrorKind::BrokenPipe)?;
         // A thread ends the run where it takes too long, or loses its way.
@@ -65,11 +87,18 @@ impl Binary {
         });
         let mut failed = None;
         for line in BufReader::new(output).lines().map_while(Result::ok) {
-            let Some((name, result)) = line.strip_prefix("test ").and_then(|it| it.rsplit_once(" ... ")) else {
+            let Some((name, result)) = line
+                .strip_prefix("test ")
+                .and_then(|it| it.rsplit_once(" ... "))
+            else {
                 continue;
             };
             let name = name.split(" - should panic").next().unwrap_or(name);
-            let seconds = result.split(['<', '>']).nth(1).and_then(|it| it.trim_end_matches('s').parse().ok()).unwrap_or(0.0);
+            let seconds = result
+                .split(['<', '>'])
+                .nth(1)
+                .and_then(|it| it.trim_end_matches('s').parse().ok())
+                .unwrap_or(0.0);
             let passes = !result.starts_with("FAILED");
             if !result.starts_with("ignored") {
                 said(name, seconds, passes);
@@ -97,14 +126,30 @@ impl Binary {
 
 /// Ends a process and those that it started.
 fn kill(pid: u32) {
-    let _ = Command::new("kill").args(["-9", "--", &format!("-{pid}")]).stderr(Stdio::null()).status();
+    let _ = Command::new("kill")
+        .args(["-9", "--", &format!("-{pid}")])
+        .stderr(Stdio::null())
+        .status();
 }
 
 /// Builds the tests of the copy, and runs those programs anew whose build changed since `known`.
 pub fn suite(places: &Places, left_out: &[&str]) -> io::Result<Vec<Binary>> {
-    let known: Vec<Binary> = fs::read(&places.suite).ok().and_then(|text| serde_json::from_slice(&text).ok()).unwrap_or_default();
+    let known: Vec<Binary> = fs::read(&places.suite)
+        .ok()
+        .and_then(|text| serde_json::from_slice(&text).ok())
+        .unwrap_or_default();
     let output = cargo(places)
-        .args(["test", "--release", "--locked", "--workspace", "--lib", "--bins", "--tests", "--no-run", "--message-format=json"])
+        .args([
+            "test",
+            "--release",
+            "--locked",
+            "--workspace",
+            "--lib",
+            "--bins",
+            "--tests",
+            "--no-run",
+            "--message-format=json",
+        ])
         .stderr(Stdio::inherit())
         .output()?;
     if !output.status.success() {
@@ -115,14 +160,17 @@ pub fn suite(places: &Places, left_out: &[&str]) -> io::Result<Vec<Binary>> {
         let Ok(line) = serde_json::from_slice::<Value>(line) else {
             continue;
         };
-        let (Some(program), true) = (line["executable"].as_str(), line["profile"]["test"] == true) else {
+        let (Some(program), true) = (line["executable"].as_str(), line["profile"]["test"] == true)
+        else {
             continue;
         };
         let text = |value: &Value| value.as_str().unwrap_or_default().to_owned();
         let manifest = PathBuf::from(text(&line["manifest_path"]));
         let name = text(&line["target"]["name"]);
         let built = fs::metadata(program)?.modified()?;
-        let fresh = known.iter().find(|it| it.program.to_str() == Some(program) && it.built == built);
+        let fresh = known
+            .iter()
+            .find(|it| it.program.to_str() == Some(program) && it.built == built);
         if left_out.contains(&name.as_str()) {
             continue;
         }
@@ -156,22 +204,41 @@ fn learn(places: &Places, binary: &mut Binary) -> io::Result<()> {
     ];
     let (mut tests, mut trivial) = (BTreeMap::new(), BTreeSet::new());
     let start = Instant::now();
-    let end = binary.run(&[], &set, Duration::from_secs(1800), |name, seconds, passes| {
-        if passes {
-            tests.insert(name.to_owned(), seconds);
-        } else {
-            trivial.insert(name.to_owned());
-        }
-    })?;
+    let end = binary.run(
+        &[],
+        &set,
+        Duration::from_secs(1800),
+        |name, seconds, passes| {
+            if passes {
+                tests.insert(name.to_owned(), seconds);
+            } else {
+                trivial.insert(name.to_owned());
+            }
+        },
+    )?;
     for line in fs::read_to_string(&notes).unwrap_or_default().lines() {
         if let Some((number, test)) = line.split_once('\t')
             && let Ok(number) = number.parse()
         {
-            let test = if tests.contains_key(test) || trivial.contains(test) { test } else { "" };
-            binary.reached.entry(number).or_insert_with(BTreeSet::new).insert(test.to_owned());
+            let test = if tests.contains_key(test) || trivial.contains(test) {
+                test
+            } else {
+                ""
+            };
+            binary
+                .reached
+                .entry(number)
+                .or_insert_with(BTreeSet::new)
+                .insert(test.to_owned());
         }
     }
-    println!("{:6.1} s  {}: {} tests, {} reach", start.elapsed().as_secs_f64(), binary.name, tests.len(), binary.reached.len());
+    println!(
+        "{:6.1} s  {}: {} tests, {} reach",
+        start.elapsed().as_secs_f64(),
+        binary.name,
+        tests.len(),
+        binary.reached.len()
+    );
     if let End::Failed(_) = end {
         println!("          fails where shaders are spelled otherwise: {trivial:?}");
     }

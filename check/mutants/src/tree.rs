@@ -46,13 +46,22 @@ type Planted = BTreeMap<String, Vec<(usize, Range<usize>)>>;
 /// Makes the copy anew, with `sites` planted, the first of which is number 1. Files that stay the same are not touched.
 pub fn plant(places: &Places, sites: &[Site]) -> io::Result<Planted> {
     let listed = Command::new("git")
-        .args(["ls-files", "-z", "--cached", "--others", "--exclude-standard"])
+        .args([
+            "ls-files",
+            "-z",
+            "--cached",
+            "--others",
+            "--exclude-standard",
+        ])
         .current_dir(&places.root)
         .output()?;
     let listed = String::from_utf8_lossy(&listed.stdout).into_owned();
     let mut by_file: BTreeMap<&str, Vec<(usize, &Site)>> = BTreeMap::new();
     for (index, site) in sites.iter().enumerate() {
-        by_file.entry(&site.file).or_default().push((index + 1, site));
+        by_file
+            .entry(&site.file)
+            .or_default()
+            .push((index + 1, site));
     }
     fs::create_dir_all(&places.texts)?;
     let mut planted = Planted::new();
@@ -66,9 +75,15 @@ pub fn plant(places: &Places, sites: &[Site]) -> io::Result<Planted> {
                 for (number, site) in sites {
                     let original = &text[site.declaration.clone()];
                     let start = site.declaration.start;
-                    let (before, after) = (&original[..site.range.start - start], &original[site.range.end - start..]);
+                    let (before, after) = (
+                        &original[..site.range.start - start],
+                        &original[site.range.end - start..],
+                    );
                     fs::write(places.texts.join(format!("{number}.original")), original)?;
-                    fs::write(places.texts.join(format!("{number}.fault")), format!("{before}{}{after}", site.with))?;
+                    fs::write(
+                        places.texts.join(format!("{number}.fault")),
+                        format!("{before}{}{after}", site.with),
+                    )?;
                 }
             } else {
                 let (text, at) = with_faults(file, &text, sites);
@@ -80,7 +95,9 @@ pub fn plant(places: &Places, sites: &[Site]) -> io::Result<Planted> {
             let mut text = String::from_utf8_lossy(&content).into_owned();
             for (from, to) in *changes {
                 if text.matches(from).count() != 1 {
-                    return Err(io::Error::other(format!("{file} does not have this once: {from}")));
+                    return Err(io::Error::other(format!(
+                        "{file} does not have this once: {from}"
+                    )));
                 }
                 text = text.replace(from, to);
             }
@@ -88,7 +105,10 @@ pub fn plant(places: &Places, sites: &[Site]) -> io::Result<Planted> {
         }
         write(&places.copy.join(file), &content)?;
     }
-    write(&places.copy.join("src/mutant.rs"), include_bytes!("../runtime/mutant.rs"))?;
+    write(
+        &places.copy.join("src/mutant.rs"),
+        include_bytes!("../runtime/mutant.rs"),
+    )?;
     Ok(planted)
 }
 
@@ -127,15 +147,25 @@ fn write(path: &Path, content: &[u8]) -> io::Result<()> {
 }
 
 /// A file of Rust with its faults, and where they are.
-fn with_faults(file: &str, text: &str, sites: &[(usize, &Site)]) -> (String, Vec<(usize, Range<usize>)>) {
-    let root = if file.starts_with("src/") { "crate" } else { "::moment_shadows" };
+fn with_faults(
+    file: &str,
+    text: &str,
+    sites: &[(usize, &Site)],
+) -> (String, Vec<(usize, Range<usize>)>) {
+    let root = if file.starts_with("src/") {
+        "crate"
+    } else {
+        "::moment_shadows"
+    };
     let mut sites = sites.to_vec();
     sites.sort_by_key(|(_, site)| site.range.start);
     let (mut result, mut planted, mut end) = (String::new(), Vec::new(), 0);
     for (number, site) in sites {
         result += &text[end..site.range.start];
         let start = result.len();
-        result += &site.with.replace(ON, &format!("{root}::mutant::on({number})"));
+        result += &site
+            .with
+            .replace(ON, &format!("{root}::mutant::on({number})"));
         planted.push((number, start..result.len()));
         end = site.range.end;
     }
@@ -145,14 +175,24 @@ fn with_faults(file: &str, text: &str, sites: &[(usize, &Site)]) -> (String, Vec
 /// Cargo in the copy.
 pub fn cargo(places: &Places) -> Command {
     let mut command = Command::new("cargo");
-    command.current_dir(&places.copy).env("CARGO_TARGET_DIR", &places.target);
+    command
+        .current_dir(&places.copy)
+        .env("CARGO_TARGET_DIR", &places.target);
     command
 }
 
 /// The numbers of the faults that do not compile.
 pub fn refused(places: &Places, planted: &Planted) -> io::Result<BTreeSet<usize>> {
     let output = cargo(places)
-        .args(["check", "--release", "--locked", "--workspace", "--lib", "--bins", "--message-format=json"])
+        .args([
+            "check",
+            "--release",
+            "--locked",
+            "--workspace",
+            "--lib",
+            "--bins",
+            "--message-format=json",
+        ])
         .stderr(Stdio::inherit())
         .output()?;
     let mut refused = BTreeSet::new();
@@ -167,19 +207,26 @@ pub fn refused(places: &Places, planted: &Planted) -> io::Result<BTreeSet<usize>
         let spans = message["spans"].as_array().into_iter().flatten();
         for span in spans {
             let file = span["file_name"].as_str().unwrap_or_default();
-            let bytes = ["byte_start", "byte_end"].map(|key| span[key].as_u64().unwrap_or_default() as usize);
+            let bytes = ["byte_start", "byte_end"]
+                .map(|key| span[key].as_u64().unwrap_or_default() as usize);
             for (number, at) in planted.get(file).into_iter().flatten() {
                 if at.start < bytes[1] && bytes[0] < at.end {
                     refused.insert(*number);
                 }
             }
         }
-        if refused.is_empty() && message["spans"].as_array().is_some_and(|spans| !spans.is_empty()) {
+        if refused.is_empty()
+            && message["spans"]
+                .as_array()
+                .is_some_and(|spans| !spans.is_empty())
+        {
             println!("{}", message["rendered"].as_str().unwrap_or_default());
         }
     }
     if refused.is_empty() && !output.status.success() {
-        return Err(io::Error::other("the copy does not compile, and no fault is the reason"));
+        return Err(io::Error::other(
+            "the copy does not compile, and no fault is the reason",
+        ));
     }
     Ok(refused)
 }

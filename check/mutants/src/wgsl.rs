@@ -96,7 +96,11 @@ pub fn sites(file: &str, text: &str, seed: u64, is_shared: impl Fn(&str) -> bool
             "fn" => {
                 let mut open = at;
                 while !matches!(word(open), "{" | "") {
-                    open = if word(open) == "(" { closing(text, &tokens, open) + 1 } else { open + 1 };
+                    open = if word(open) == "(" {
+                        closing(text, &tokens, open) + 1
+                    } else {
+                        open + 1
+                    };
                 }
                 (closing(text, &tokens, open), open)
             }
@@ -108,7 +112,11 @@ pub fn sites(file: &str, text: &str, seed: u64, is_shared: impl Fn(&str) -> bool
                 let end = (at..tokens.len()).find(|&it| word(it) == ";").unwrap_or(at);
                 let own = keyword == "const" && !is_shared(word(at + 1));
                 let value = (at..end).find(|&it| word(it) == "=").unwrap_or(end);
-                let end = if matches!(keyword, "@" | "(" | ")") { at } else { end };
+                let end = if matches!(keyword, "@" | "(" | ")") {
+                    at
+                } else {
+                    end
+                };
                 (end, if own { value + 1 } else { tokens.len() })
             }
         };
@@ -126,7 +134,12 @@ pub fn sites(file: &str, text: &str, seed: u64, is_shared: impl Fn(&str) -> bool
     all
 }
 
-fn faults(text: &str, tokens: &[Token], at: usize, choice: u64) -> Vec<(Range<usize>, String, String)> {
+fn faults(
+    text: &str,
+    tokens: &[Token],
+    at: usize,
+    choice: u64,
+) -> Vec<(Range<usize>, String, String)> {
     let word = |at: usize| tokens.get(at).map_or("", |token| &text[token.clone()]);
     let (token, here) = (tokens[at].clone(), word(at));
     let before = at.checked_sub(1).map_or("", word);
@@ -136,7 +149,9 @@ fn faults(text: &str, tokens: &[Token], at: usize, choice: u64) -> Vec<(Range<us
         found.push((range, with, what));
     };
     let either = |a: &'static str, b: &'static str| if choice % 2 == 0 { a } else { b };
-    let is_operand = before.ends_with(|c: char| c.is_alphanumeric() || matches!(c, '_' | ')' | ']')) && before != "return";
+    let is_operand = before
+        .ends_with(|c: char| c.is_alphanumeric() || matches!(c, '_' | ')' | ']'))
+        && before != "return";
     let replaced = match here {
         "+" => "-",
         "-" if is_operand => "+",
@@ -219,7 +234,11 @@ fn faults(text: &str, tokens: &[Token], at: usize, choice: u64) -> Vec<(Range<us
     if here == "if" {
         let mut open = at + 1;
         while !matches!(word(open), "{" | "") {
-            open = if word(open) == "(" { closing(text, tokens, open) + 1 } else { open + 1 };
+            open = if word(open) == "(" {
+                closing(text, tokens, open) + 1
+            } else {
+                open + 1
+            };
         }
         let range = tokens[at + 1].start..tokens[open - 1].end;
         let condition = &text[range.clone()];
