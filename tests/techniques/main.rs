@@ -9,6 +9,7 @@ mod hausdorff;
 mod hostile;
 mod layered_variance;
 mod lloyd;
+mod lloyd_empty;
 mod mixture;
 mod variance;
 #[path = "../support/wgsl_module.rs"]

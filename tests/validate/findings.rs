@@ -175,6 +175,10 @@ fn what_naga_lacks_is_said_to_be_no_fault_of_the_shader() {
             2,
         ),
         (
+            "fn f() {\nloop @diagnostic(off, derivative_uniformity) { break; } }",
+            2,
+        ),
+        (
             "fn f(n: u32) -> u32 {\nloop { if n > 2u { return n; } } }",
             1,
         ),

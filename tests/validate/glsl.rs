@@ -83,6 +83,24 @@ fn what_naga_writes_wrongly_is_named() {
 }
 
 #[test]
+fn depth_at_level_zero_is_compared_in_all_but_arrays_of_cubes() {
+    for (of, at, taken) in [
+        ("2d", "uv", true),
+        ("2d_array", "uv, 1", true),
+        ("cube", "uv.xyx", true),
+        ("cube_array", "uv.xyx, 1", false),
+    ] {
+        let declarations = format!(
+            "@group(0) @binding(0) var t: texture_depth_{of};\n@group(0) @binding(1) var s: sampler_comparison;\n"
+        );
+        let value = format!("vec4f(textureSampleCompareLevel(t, s, {at}, 0.5))");
+        let report = core(&fragment(&declarations, "@location(0) uv: vec2f", &value)).unwrap();
+        let why = reason(&report, Backend::Glsl450);
+        assert_eq!(why.is_none(), taken, "{of}: {why:?}");
+    }
+}
+
+#[test]
 fn each_entry_point_is_written_without_what_none_needs() {
     let report = core(
         "fn signs(i: vec2i) -> vec2i { return select(i, -i, i < vec2i(0)); }\n\

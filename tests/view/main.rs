@@ -11,6 +11,7 @@ mod camera;
 mod cascades;
 mod point_light;
 mod refused;
+mod spot;
 
 use glam::{DMat4, DVec2, DVec3, DVec4};
 use moment_shadows::{CascadeSplits, Cascades, LightView, Tile};
