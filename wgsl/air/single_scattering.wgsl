@@ -85,7 +85,7 @@ const SINGLE_SCATTERING_DEPTH_BIAS: f32 = 0.05;
 // an occluder just behind it, ever nearer towards the ray's end. Moments cannot tell it from an occluder just before the ray, so
 // the air above lit ground would be too dark. Occluders at -1 stay in front of all view rays. The bias is fitted: with a larger one
 // light leaks behind casters near the ray; without any, 16 steps of marching are better where little of what is seen is in
-// shadow. The module `view_rays` needs none.
+// shadow.
 fn single_scattering_occluder_depth(depth: f32) -> f32 {
     return min(fma(1.0 / (1.0 - SINGLE_SCATTERING_DEPTH_BIAS), depth + 1.0, -1.0), 1.0);
 }

@@ -1,3 +1,4 @@
+import super::super::air::single_scattering::{SINGLE_SCATTERING_DEPTH_BIAS};
 import super::super::air::rectified_frame::{RectifiedFrame, rectified_frame_inclination};
 import super::super::maths::angle::{angle_sin_cos};
 
@@ -56,11 +57,11 @@ fn view_rays_texel(frame: RectifiedFrame, passing: vec2u, ending: vec2u) -> vec2
 }
 
 // What of an occluder counts as one in front of all view rays that pass its texel, and what as one at its depth. The rest, up to 1,
-// counts as none.
+// counts as none: so does an occluder a little before the last of the view rays, as a lit surface is to those of the rows around.
 fn view_rays_shares(texel: vec2u, depth: f32) -> vec2f {
     let step = VIEW_RAYS_STEPS * fma(depth, 0.5, 0.5);
     let before = step <= f32(texel.x & 0xffffu);
-    let behind = step >= f32(texel.x >> 16u);
+    let behind = step >= f32(texel.x >> 16u) - VIEW_RAYS_STEPS * SINGLE_SCATTERING_DEPTH_BIAS;
     return select(select(vec2f(0.0, 1.0), vec2f(1.0, 0.0), before), vec2f(0.0), behind);
 }
 

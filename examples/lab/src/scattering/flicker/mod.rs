@@ -117,10 +117,11 @@ pub fn flicker(
 }
 
 impl Flicker {
-    /// The largest change of the filtered chain as a part of that without filters.
+    /// The largest change of the filtered chain, as in the example with what is known of the picture's view rays, as a part of that
+    /// without filters.
     #[must_use]
     pub fn ratio(&self) -> f64 {
-        self.filtered.largest / self.unfiltered.largest
+        self.seen.largest / self.unfiltered.largest
     }
 
     /// Whether filtering does what is asked of it.
@@ -156,6 +157,10 @@ impl fmt::Display for Flicker {
         };
         write_columns(f, &rows.map(cells))?;
         let verdict = if self.passed() { "ok" } else { "goal missed" };
-        writeln!(f, "filtered / unfiltered {:.3}  {verdict}", self.ratio())
+        writeln!(
+            f,
+            "with view rays / unfiltered {:.3}  {verdict}",
+            self.ratio()
+        )
     }
 }
