@@ -267,10 +267,7 @@ impl MapEncoding {
     /// those of 9 texels.
     #[must_use]
     pub fn has_split_sums(&self, radius: u32) -> bool {
-        let is_fine = match self.storage {
-            Storage::Float32 => true,
-            storage => storage.is_packed() && radius > 4,
-        };
+        let is_fine = self.storage == Storage::Float32 || (self.storage.is_packed() && radius > 4);
         self.technique.row().bounded_channels && is_fine
     }
 
