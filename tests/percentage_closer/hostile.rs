@@ -77,6 +77,31 @@ fn depths_that_are_no_numbers_count_as_an_end() {
 }
 
 #[test]
+fn a_region_without_texels_shadows_nothing() {
+    let gpu = device::open();
+    let shader = Shader::new(&gpu, IMPORTS, BODY);
+    let map = half(&gpu);
+    for test in 0..TESTS {
+        let queries = [[0, 0], [0, 7], [4, 0], [4, 7]].map(|extent| Query {
+            taps: test,
+            radius: 1.0,
+            region: MapRegion::new([0, 0], extent),
+            ..Query::new([0.1, 0.5], 1.0, SIZE)
+        });
+        let found = shader.run(
+            &map,
+            wgpu::CompareFunction::Greater,
+            DepthConversion::orthographic(),
+            bytemuck::bytes_of(&soft()),
+            &queries,
+        );
+        assert_eq!(found[..3], [0.0; 3], "test {test}");
+        // Its texels would.
+        assert!(found[3] > 0.9, "test {test}: {found:?}");
+    }
+}
+
+#[test]
 fn no_finite_input_leaves_the_unit_interval() {
     let gpu = device::open();
     let shader = Shader::new(&gpu, IMPORTS, BODY);

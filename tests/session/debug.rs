@@ -18,7 +18,9 @@ fn part_of([red, green, blue]: [u8; 3]) -> f64 {
     0.5 + 0.5 * (red - blue)
 }
 
+/// Colours, all of which hide what is behind them.
 fn pixels(bytes: &[u8]) -> Vec<[u8; 3]> {
+    assert!(bytes.iter().skip(3).step_by(4).all(|&alpha| alpha == 255));
     bytes
         .chunks_exact(4)
         .map(|texel| [texel[0], texel[1], texel[2]])
@@ -52,6 +54,8 @@ fn cascades_have_a_hue_each() {
     }
     println!("{hues:?} {counts:?}");
     assert!(counts.iter().all(|&count| count > 100));
+    // The first is red: a hue that is 0 of a turn, of which 0.15 is white.
+    assert_eq!(hues[0], Some([255, 38, 38]));
     // Grey where none contains the pixel.
     assert_eq!(hues[3], Some([51; 3]));
     for other in 0..3 {

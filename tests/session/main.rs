@@ -12,6 +12,7 @@ mod debug;
 mod far;
 mod fitted;
 mod formats;
+mod found;
 mod frames;
 mod many;
 mod marched;

@@ -15,7 +15,7 @@ use crate::{HARD, gpu, imports, places, recorded, session};
 
 /// The map: tiles of 24 texels, 16 by 16 of them.
 const TILE: u32 = 24;
-const SIDE: u32 = 16 * TILE;
+pub(crate) const SIDE: u32 = 16 * TILE;
 
 const LIGHTS: u32 = 16;
 
@@ -31,7 +31,7 @@ fn noise(index: u32) -> f64 {
 }
 
 /// A spot somewhere above the floor, in a tile of the map.
-fn spot(number: u32, light: u32, aside: f64) -> LightView {
+pub(crate) fn spot(number: u32, light: u32, aside: f64) -> LightView {
     let random = |index: u32| 2.0 * noise(8 * number + index) - 1.0;
     let eye = DVec3::new(
         4.0 + aside + 5.0 * random(0),

@@ -72,6 +72,27 @@ fn in_homogeneous_air_it_is_what_prefiltered_scattering_is() {
 }
 
 #[test]
+fn half_of_the_resolution_is_made_whole_by_depth() {
+    let gpu = gpu();
+    let frame = frame(&gpu, 0, [160, 90]);
+    let light = places(&frame).1;
+    let of = |text: &str| picture(&gpu, text, &frame, &[light], MarchedAir::default());
+    let half = of(FOG_ALONE);
+    let whole = of(&FOG_ALONE.replace(r#""resolution": "half""#, r#""resolution": "full""#));
+    let transmittances = |picture: &[f32]| -> Vec<f32> {
+        let texels = picture.chunks_exact(4);
+        texels.map(|texel| texel[3]).collect()
+    };
+    let (half, whole) = (transmittances(&half), transmittances(&whole));
+    // Beside the edge of something near, where mixing by place alone takes half of what is behind.
+    let off = half.iter().zip(&whole).map(|(a, b)| (a - b).abs());
+    let far = off.filter(|off| *off > 0.02).count();
+    println!("{far} of {} are off by more than 0.02", whole.len());
+    // What is thinner than a texel of half the resolution no texel may have seen.
+    assert!(far * 30 < whole.len(), "{far}");
+}
+
+#[test]
 fn the_first_light_counts_and_fog_and_frame_do() {
     let gpu = gpu();
     let frame = frame(&gpu, 0, [97, 55]);

@@ -197,6 +197,10 @@ fn what_naga_lacks_is_said_to_be_no_fault_of_the_shader() {
         let error = refused(text);
         assert_eq!(error.rule, Rule::Unsupported, "{error}");
         assert_eq!(place(&error).1, line, "{error}");
+        let said = [&error.message].into_iter().chain(&error.notes);
+        let said =
+            said.filter(|it| it.contains("no fault of the shader") || it.contains("report it to"));
+        assert_eq!(said.count(), 1, "{error}");
     }
     // A real fault is none of naga's.
     for text in [
@@ -205,7 +209,10 @@ fn what_naga_lacks_is_said_to_be_no_fault_of_the_shader() {
         "fn f() { let n = 4; var a: array<f32, n>; }",
         "struct A { x: bool }\n@group(0) @binding(0) var<uniform> a: A;",
     ] {
-        assert_eq!(refused(text).rule, Rule::Wgsl, "{text}");
+        let error = refused(text);
+        assert_eq!(error.rule, Rule::Wgsl, "{text}");
+        let excused = |it: &String| it.contains("no fault of the shader");
+        assert!(!error.notes.iter().any(excused), "{error}");
     }
 }
 

@@ -14,14 +14,11 @@ struct State {
     texts: Vec<(usize, String, String)>,
     /// Where each fault that is reached is noted, with the test that reached it.
     reached: Option<File>,
-    /// Whether every text is changed so that it means the same.
-    respelled: bool,
 }
 
 static STATE: LazyLock<State> = LazyLock::new(|| {
     let number = env::var("MUTANT").ok().and_then(|it| it.parse().ok());
     let active = number.unwrap_or(0);
-    let respelled = env::var_os("MUTANTS_RESPELLED").is_some();
     let reached = env::var_os("MUTANTS_REACHED")
         .and_then(|path| OpenOptions::new().create(true).append(true).open(path).ok());
     let mut texts = Vec::new();
@@ -38,7 +35,7 @@ static STATE: LazyLock<State> = LazyLock::new(|| {
             }
         }
     }
-    State { active, texts, reached, respelled }
+    State { active, texts, reached }
 });
 
 const LIMIT: usize = 1024;
@@ -76,9 +73,6 @@ fn note(state: &State, number: usize) {
 #[must_use]
 pub fn text(text: &str) -> &str {
     let state = &*STATE;
-    if state.respelled {
-        return respelled(text).leak();
-    }
     for (number, original, fault) in &state.texts {
         if *number == state.active && text.contains(original) {
             return text.replace(original, fault).leak();
@@ -92,28 +86,9 @@ pub fn linked(text: &str) {
     let state = &*STATE;
     if state.reached.is_some() {
         for (number, original, _) in &state.texts {
-            let original = if state.respelled { &respelled(original) } else { original };
             if text.contains(original) {
                 note(state, *number);
             }
         }
     }
-}
-
-/// The text with an empty statement at the start of every function.
-fn respelled(text: &str) -> String {
-    let mut starts = text.starts_with("fn ");
-    let mut result = String::new();
-    for line in text.split_inclusive('\n') {
-        starts |= line.starts_with("fn ") || line.contains(" fn ");
-        match line.trim_end().strip_suffix('{') {
-            Some(before) if starts && !line.trim_start().starts_with("//") => {
-                result += before;
-                result += "{ ;\n";
-                starts = false;
-            }
-            _ => result += line,
-        }
-    }
-    result
 }

@@ -121,7 +121,7 @@ pub fn judge(
             continue;
         }
         let start = Instant::now();
-        let bound = Duration::from_secs_f64(30.0 + 10.0 * seconds);
+        let bound = Duration::from_secs_f64(240.0 + 20.0 * seconds);
         let end = binary.run(&tests, &set, bound, |_, _, passes| {
             verdict.passed += usize::from(passes)
         })?;

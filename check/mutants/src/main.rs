@@ -128,7 +128,7 @@ fn run(
             });
             let verdict = match known {
                 Some(known) if stays => known,
-                _ if !compiles(places, site, index + 1)? => Verdict::invalid(site),
+                None if !compiles(places, site, index + 1)? => Verdict::invalid(site),
                 _ => judge(places, suite, site, index + 1, limit)?,
             };
             if verdict.invalid {

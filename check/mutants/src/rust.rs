@@ -95,7 +95,7 @@ impl Finder<'_> {
                 let of = self.of(of.as_ref()).1;
                 let start = of.split('<').next().unwrap_or_default();
                 match start {
-                    "bool" => Some(if self.choice(body) % 2 == 0 {
+                    "bool" => Some(if self.choice(body).is_multiple_of(2) {
                         "true"
                     } else {
                         "false"
@@ -218,7 +218,8 @@ impl<'ast> Visit<'ast> for Finder<'_> {
 
     fn visit_expr(&mut self, node: &'ast Expr) {
         let choice = self.choice(node);
-        let either = |a: &'static str, b: &'static str| if choice % 2 == 0 { a } else { b };
+        let either =
+            |a: &'static str, b: &'static str| if choice.is_multiple_of(2) { a } else { b };
         match node {
             Expr::Binary(of) if !has_let(node) => {
                 let other = match of.op {

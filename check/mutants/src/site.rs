@@ -79,7 +79,7 @@ pub fn other_number(literal: &str, choice: u64) -> Option<String> {
         let number: u64 = digits.parse().ok()?;
         let other = match number {
             0 => 1,
-            _ if choice % 2 == 0 => number + 1,
+            _ if choice.is_multiple_of(2) => number + 1,
             _ => number - 1,
         };
         // A float's literal may be written without a point where it has a suffix.

@@ -24,8 +24,6 @@ pub struct Binary {
     built: SystemTime,
     /// Its tests that count, with the seconds that each takes.
     pub tests: BTreeMap<String, f64>,
-    /// Those that fail without a fault where every shader is respelled.
-    pub trivial: BTreeSet<String>,
     /// For each fault that it reaches, the tests that do; an empty name where a thread of no test does.
     pub reached: BTreeMap<usize, BTreeSet<String>>,
 }
@@ -72,7 +70,7 @@ impl Binary {
             .spawn()?;
         let pid = child.id();
         let output = child.stdout.take().ok_or(io::ErrorKind::BrokenPipe)?;
-        // A thread ends the run where it takes too long, or loses its way.
+        // A thread ends the run where it takes too long.
         let ended = Arc::new(Mutex::new(false));
         let (watched, start) = (Arc::clone(&ended), Instant::now());
         let watch = thread::spawn(move || {
@@ -180,16 +178,10 @@ pub fn suite(places: &Places, left_out: &[&str]) -> io::Result<Vec<Binary>> {
             folder: manifest.parent().map(Into::into).unwrap_or_default(),
             built,
             tests: BTreeMap::new(),
-            trivial: BTreeSet::new(),
             reached: BTreeMap::new(),
         };
         match fresh {
-            Some(fresh) => {
-                binary = fresh.clone();
-                if !binary.trivial.is_empty() {
-                    learn(places, &mut binary)?;
-                }
-            }
+            Some(fresh) => binary = fresh.clone(),
             None => learn(places, &mut binary)?,
         }
         all.push(binary);
@@ -208,16 +200,19 @@ fn learn(places: &Places, binary: &mut Binary) -> io::Result<()> {
     ];
     let start = Instant::now();
     let mut failing = BTreeSet::new();
-    let old = std::mem::take(&mut binary.trivial);
-    let only: Vec<&str> = old.iter().map(String::as_str).collect();
-    let mut tests = std::mem::take(&mut binary.tests);
-    binary.run(&only, &set, Duration::from_secs(1800), |name, seconds, passes| {
-        if passes {
-            tests.insert(name.to_owned(), seconds);
-        } else {
-            failing.insert(name.to_owned());
-        }
-    })?;
+    let mut tests = BTreeMap::new();
+    binary.run(
+        &[],
+        &set,
+        Duration::from_secs(1800),
+        |name, seconds, passes| {
+            if passes {
+                tests.insert(name.to_owned(), seconds);
+            } else {
+                failing.insert(name.to_owned());
+            }
+        },
+    )?;
     for line in fs::read_to_string(&notes).unwrap_or_default().lines() {
         if let Some((number, test)) = line.split_once('\t')
             && let Ok(number) = number.parse()
@@ -231,7 +226,13 @@ fn learn(places: &Places, binary: &mut Binary) -> io::Result<()> {
             by.insert(test.to_owned());
         }
     }
-    println!("{:6.1} s  {}: {} tests, {} reach", start.elapsed().as_secs_f64(), binary.name, tests.len(), binary.reached.len());
+    println!(
+        "{:6.1} s  {}: {} tests, {} reach",
+        start.elapsed().as_secs_f64(),
+        binary.name,
+        tests.len(),
+        binary.reached.len()
+    );
     if !failing.is_empty() {
         println!("          fail without a fault: {failing:?}");
     }

@@ -148,7 +148,7 @@ fn faults(
         let what = format!("`{}` becomes `{with}`", &text[range.clone()]);
         found.push((range, with, what));
     };
-    let either = |a: &'static str, b: &'static str| if choice % 2 == 0 { a } else { b };
+    let either = |a: &'static str, b: &'static str| if choice.is_multiple_of(2) { a } else { b };
     let is_operand = before
         .ends_with(|c: char| c.is_alphanumeric() || matches!(c, '_' | ')' | ']'))
         && before != "return";

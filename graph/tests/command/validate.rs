@@ -230,6 +230,23 @@ fn github_gets_annotations_with_file_and_line() {
 }
 
 #[test]
+fn sarif_says_what_a_related_place_is() {
+    let (_folder, [twice]) = files([("twice.wgsl", "fn f() {}\nfn f() {}\n")]);
+    let (_, printed, _) = run(&["validate", "--format", "sarif", &twice]);
+    let sarif: Value = serde_json::from_str(&printed).unwrap();
+    let related = &sarif["runs"][0]["results"][0]["relatedLocations"];
+    assert_eq!(
+        related[0]["physicalLocation"]["region"]["startLine"], 1,
+        "{printed}"
+    );
+    let text = related[0]["message"]["text"].as_str().unwrap();
+    assert!(text.contains("`f`"), "{text}");
+    // Nothing is said of the place itself.
+    let place = &sarif["runs"][0]["results"][0]["locations"][0];
+    assert!(place["message"].is_null(), "{place}");
+}
+
+#[test]
 fn sarif_has_a_result_for_each_finding() {
     let (_folder, [two, warned, odd]) = files([
         ("two.wgsl", TWO),
