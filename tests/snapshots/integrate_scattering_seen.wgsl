@@ -4,8 +4,9 @@
 // moment_shadows/air/scattering_weights.wgsl: scattering_weights_clip scattering_weights_inclinations scattering_weights_reference_sine scattering_weights_thickness scattering_weights_of_column scattering_weights_tilt
 // integrate_target: IntegrateScatteringParameters parameters rectified_map integrated_map row_thickness
 // moment_shadows/map/storage.wgsl: STORAGE_FLOAT16 STORAGE_UNORM10 storage_round_to_float16 storage_round_to_unorm10 storage_round_texel
-// moment_shadows/air/view_rays.wgsl: view_rays_sine
-// row_sums: view_rays_map RowSums row_sums_texel row_sums_join row_sums_mean
+// moment_shadows/air/view_rays.wgsl: VIEW_RAYS_ROWS view_rays_sine
+// row_sums: view_rays_map RowSums row_sums_texel row_sums_join
+// does.: ending_sine row_sums_mean
 // integrate_scattering_parallel.wgsl: THREADS TEXELS sums sums_of_texel integrate
 
 // specialization

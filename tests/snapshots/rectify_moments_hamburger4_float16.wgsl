@@ -7,9 +7,11 @@
 // moment_shadows/map/map_lookup.wgsl: map_lookup_bilinear
 // moments_lookup: moments_map moments_sampler moments_lookup
 // moment_shadows/air/rectified_frame.wgsl: RectifiedFrame rectified_frame_ray rectified_frame_depth
-// moment_shadows/air/single_scattering.wgsl: SINGLE_SCATTERING_DEPTH_BIAS single_scattering_occluder_depth
-// occluders: occluders_of
-// rectified_texel: rectified_map rectified_store
+// occluders_shares: Occluders
+// moment_shadows/air/single_scattering.wgsl: SINGLE_SCATTERING_DEPTH_BIAS
+// shadow.: single_scattering_occluder_depth
+// occluders: shares_of occluders_of
+// rectified_texel: rectified_map moments_of rectified_store
 // rectify_parameters: RectifyMomentsParameters parameters
 // moment_shadows/maths/two_diracs.wgsl: TwoDiracs
 // much.: TWO_DIRACS_SMALLEST_VARIANCE two_diracs_of_moments

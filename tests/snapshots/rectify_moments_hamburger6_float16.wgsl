@@ -6,8 +6,10 @@
 // moment_shadows/map/map_lookup.wgsl: map_lookup_bilinear
 // moments_lookup: moments_map moments_sampler moments_lookup
 // moment_shadows/air/rectified_frame.wgsl: RectifiedFrame rectified_frame_ray rectified_frame_depth
-// moment_shadows/air/single_scattering.wgsl: SINGLE_SCATTERING_DEPTH_BIAS single_scattering_occluder_depth
-// occluders: occluders_of
+// occluders_shares: Occluders
+// moment_shadows/air/single_scattering.wgsl: SINGLE_SCATTERING_DEPTH_BIAS
+// shadow.: single_scattering_occluder_depth
+// occluders: shares_of occluders_of
 // moment_shadows/moments/six_moments.wgsl: SixMoments SIX_MOMENTS_ODD_BASIS SIX_MOMENTS_EVEN_BASIS SIX_MOMENTS_ODD_OFFSET SIX_MOMENTS_EVEN_OFFSET six_moments_affine six_moments_from_depth six_moments_middle
 // moment_shadows/moments/enclosed_moments.wgsl: EnclosedMoments enclosed_moments_of_occluder enclosed_moments_sum enclosed_moments_texel enclosed_moments_to_odd_texel enclosed_moments_to_even_texel
 // rectified_texel: rectified_map rectified_even rectified_store

@@ -3,8 +3,8 @@
 // moment_shadows/air/rectified_frame.wgsl: RectifiedFrame rectified_frame_inclination
 // moment_shadows/map/map_region.wgsl: MapRegion
 // rectify_parameters: RectifyMomentsParameters parameters
-// moment_shadows/air/view_rays.wgsl: view_rays_depths VIEW_RAYS_STEPS view_rays_texel
-// bound_rays.wgsl: view_ray_codes view_rays_map THREADS maxima codes_at bound_rays
+// moment_shadows/air/view_rays.wgsl: view_rays_depths VIEW_RAYS_ROWS VIEW_RAYS_STEPS view_rays_texel
+// bound_rays.wgsl: view_ray_codes view_rays_map THREADS maxima codes_of codes_about bound_rays
 
 // specialization
 const GROUP = 0;

@@ -2,6 +2,7 @@
 // map_texture: texel_to_texture
 // moment_shadows/map/map_region.wgsl: MapRegion map_region_within map_region_at_level
 // regions: regions region_at RegionTile region_tile
+// moment_shadows/maths/angle.wgsl: ANGLE_HALF_PI_FIRST ANGLE_HALF_PI_SECOND ANGLE_HALF_PI_THIRD ANGLE_LARGEST angle_finite angle_sin_cos
 // moment_shadows/map/depth.wgsl: DepthConversion DEPTH_SMALLEST_DENOMINATOR depth_is_nan depth_to_moment_depth
 // moment_shadows/map/storage.wgsl: STORAGE_FLOAT16 STORAGE_FLOAT32 storage_is_float storage_round_to_float16
 // moment_shadows/techniques/convolution.wgsl: CONVOLUTION_LARGEST_TERMS CONVOLUTION_BOUNDS convolution_terms convolution_bound convolution_place convolution_waves convolution_channels convolution_to_texel

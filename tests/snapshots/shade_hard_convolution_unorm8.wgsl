@@ -6,6 +6,7 @@
 // moment_shadows/shade/view_border.wgsl: view_border_depth view_border_parts
 // neighbours: stored_at gathered neighbours_at
 // surface: UNUSABLE surface_at
+// moment_shadows/maths/angle.wgsl: ANGLE_HALF_PI_FIRST ANGLE_HALF_PI_SECOND ANGLE_HALF_PI_THIRD ANGLE_LARGEST angle_finite angle_sin_cos
 // moment_shadows/map/depth.wgsl: DepthConversion depth_is_nan depth_of_fragment
 // moment_shadows/map/storage.wgsl: STORAGE_FLOAT16 STORAGE_FLOAT32 storage_is_float storage_finite_texel
 // moment_shadows/techniques/convolution.wgsl: CONVOLUTION_LARGEST_TERMS CONVOLUTION_DAMPING CONVOLUTION_BOUNDS convolution_terms convolution_bound convolution_place convolution_waves convolution_receiver convolution_plane convolution_shadow_intensity
