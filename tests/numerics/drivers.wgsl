@@ -10,7 +10,8 @@ import moment_shadows::shade::contact_shadow::{ContactShadowRay, contact_shadow_
 
 struct BatchInput {
     function: u32,
-    padding: u32,
+    // The first of `given`, where a compiler does not see that both are equal.
+    again: f32,
     given: vec2f,
 }
 
@@ -23,7 +24,7 @@ fn batch(input: BatchInput) -> BatchOutput {
             return vec2f(angle_atan2(given.y, given.x), 0.0);
         }
         case 1u: {
-            return vec2f(map_load_between(vec4f(given.x), vec4f(given.x), given.y).x, single_scattering_shadow(vec2f(given.x), given.y, vec2f(1.0)));
+            return vec2f(map_load_between(vec4f(given.x), vec4f(input.again), given.y).x, single_scattering_shadow(vec2f(given.x, input.again), given.y, vec2f(1.0)));
         }
         case 2u: {
             let ray = ContactShadowRay(vec3f(0.0), vec3f(1.0), 8.0, given.x, given.y);

@@ -7,8 +7,8 @@ import super::super::map::minification::{MinificationFootprint, minification_pro
 // Texels are loaded and blended here, in f32, while hardware may use weights of as few as 8 bits. Blending texels of moments
 // is a convex combination, so it keeps moments valid.
 
-// The texel at a share in [0, 1] of the way from the first to the second; between equal ones that texel exactly, which `mix` does not
-// give on every device.
+// The texel at a share in [0, 1] of the way from the first to the second; between equal ones that texel exactly, which WGSL does
+// not ask of `mix`.
 fn map_load_between(first: vec4f, second: vec4f, share: f32) -> vec4f {
     return fma(vec4f(share), second - first, first);
 }
