@@ -9,7 +9,7 @@ import moment_shadows::shade::contact_shadow::{ContactShadowRay, contact_shadow_
 // One function of the modules, on input on which a built-in function that could stand in its place fails on some driver.
 
 struct BatchInput {
-    function: u32,
+    tried: u32,
     // The first of `given`, where a compiler does not see that both are equal.
     again: f32,
     given: vec2f,
@@ -19,7 +19,7 @@ alias BatchOutput = vec2f;
 
 fn batch(input: BatchInput) -> BatchOutput {
     let given = input.given;
-    switch input.function {
+    switch input.tried {
         case 0u: {
             return vec2f(angle_atan2(given.y, given.x), 0.0);
         }

@@ -22,6 +22,7 @@ mod orders;
 mod refused;
 mod same;
 mod seen;
+mod soak;
 mod steady;
 mod stored;
 mod translucent;

@@ -16,7 +16,7 @@ const PACKED_FOUR_MOMENTS_LARGEST_DEPTH: f32 = 32767.0;
 const PACKED_FOUR_MOMENTS_LEAST_VARIANCE: f32 = 1e-5;
 
 // The mean counts as no closer to an end of the range: half a unit in the last place.
-const PACKED_FOUR_MOMENTS_LEAST_DISTANCE: f32 = 0x1p-24;
+const PACKED_FOUR_MOMENTS_LEAST_DISTANCE: f32 = 5.960464477539063e-8;
 
 // What the shortest distribution with some moments consists of.
 struct PackedFourMomentsNodes {

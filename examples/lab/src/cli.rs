@@ -6,7 +6,7 @@ use crate::command::cost::CostOptions;
 use crate::command::{
     CommandResult, best, bias, choose, claims, contact_shadows, cost_chart, error, error_table,
     first_frame, inspect, isa, march_error, measure, ports, print_all, probe, render,
-    scattering_error, scattering_flicker, scores, shaders, soft_error, stability, sweep,
+    scattering_error, scattering_flicker, scores, shaders, soak, soft_error, stability, sweep,
     technique_pictures, trade, transmittance, troubleshooting_pictures, vectors,
 };
 use crate::isa::child;
@@ -64,6 +64,9 @@ enum Command {
     FirstFrame(first_frame::Options),
     /// Looks at one pixel: the depths under its filter, and what each technique makes of them, step by step from the truth to what is shown.
     Inspect(inspect::Options),
+    /// Keeps a session for many frames, while maps and pictures are resized, layers are made anew one by one and regions move. Exits with 3
+    /// if a session that is made anew shows something else, or memory grows. Takes minutes.
+    Soak(soak::Options),
     /// Prints how far soft shadows are from those of an area light that is sampled at many places: hard moment shadows,
     /// percentage closer soft shadows, and graphs of your own.
     SoftError(soft_error::SoftErrorOptions),
@@ -139,6 +142,7 @@ fn run(command: Command) -> CommandResult {
         Command::Probe(options) => options.run(),
         Command::FirstFrame(options) => options.run(),
         Command::Inspect(options) => options.run(),
+        Command::Soak(options) => options.run(),
         Command::SoftError(options) => print_all(&soft_error::run(&options)?, false),
         Command::MarchError(options) => print_all(&march_error::run(&options)?, false),
         Command::ScatteringError(options) => print_all(&scattering_error::run(&options)?, false),

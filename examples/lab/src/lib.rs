@@ -40,6 +40,7 @@ pub mod scattering;
 pub mod scene;
 pub mod scores;
 pub mod shaders;
+pub mod soak;
 pub mod soft;
 pub mod stability;
 pub mod summed_area;

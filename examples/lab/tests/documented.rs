@@ -105,12 +105,13 @@ const RUN: [(&str, &[&str]); 15] = [
 ];
 
 /// Sub-commands that are not run here, and why.
-const LONG: [(&str, &str); 19] = [
+const LONG: [(&str, &str); 20] = [
     ("error-table", "peels whole scenes, for a minute each"),
     ("soft-error", "traces 256 rays per pixel"),
     ("scattering-error", "marches 1,024 steps per pixel"),
     ("march-error", "marches 1,024 steps per pixel"),
     ("scattering-flicker", "draws a walk of many frames"),
+    ("soak", "draws a hundred thousand frames"),
     (
         "technique-pictures",
         "draws every technique in single precision with its truth",

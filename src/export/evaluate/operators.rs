@@ -45,7 +45,15 @@ pub(super) fn binary(
             Operator::Add => Value::I(a.wrapping_add(*b)),
             Operator::Subtract => Value::I(a.wrapping_sub(*b)),
             Operator::Multiply => Value::I(a.wrapping_mul(*b)),
+            Operator::And => Value::I(a & b),
+            Operator::InclusiveOr => Value::I(a | b),
+            Operator::ExclusiveOr => Value::I(a ^ b),
             _ => Value::B(compared(op, a, b)?),
+        },
+        (Value::I(a), Value::U(b)) => match op {
+            Operator::ShiftLeft => Value::I(a.wrapping_shl(*b)),
+            Operator::ShiftRight => Value::I(a.wrapping_shr(*b)),
+            _ => return None,
         },
         (Value::B(a), Value::B(b)) => Value::B(match op {
             Operator::LogicalAnd | Operator::And => *a && *b,

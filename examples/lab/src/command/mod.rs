@@ -23,6 +23,7 @@ pub mod scattering_error;
 pub mod scattering_flicker;
 pub mod scores;
 pub mod shaders;
+pub mod soak;
 pub mod soft_error;
 pub mod stability;
 pub mod sweep;
