@@ -29,6 +29,10 @@ const MAPS: [u32; 3] = [64, 96, 128];
 /// Pictures.
 const PICTURES: [[u32; 2]; 3] = [[48, 27], [80, 45], [33, 60]];
 
+/// How the light's map stores depth, and how the picture does: of the formats of a camera's depth this one can be written.
+const MAP_FORMAT: wgpu::TextureFormat = wgpu::TextureFormat::R32Float;
+const PICTURE_FORMAT: wgpu::TextureFormat = wgpu::TextureFormat::Depth16Unorm;
+
 /// One frame of so many has maps or pictures of another size.
 const RESIZED: u32 = 50;
 
@@ -108,8 +112,8 @@ impl Host {
     fn new(gpu: &Gpu, seed: u64) -> Result<Self, LabError> {
         let mut host = Self {
             random: ChaCha8Rng::seed_from_u64(seed),
-            map: texture(gpu, [MAPS[0]; 2], LAYERS),
-            depth: texture(gpu, PICTURES[0], 1),
+            map: texture(gpu, MAP_FORMAT, [MAPS[0]; 2], LAYERS),
+            depth: texture(gpu, PICTURE_FORMAT, PICTURES[0], 1),
             lights: Vec::new(),
             camera: CameraView {
                 clip_from_world: DMat4::IDENTITY.to_cols_array_2d(),
@@ -128,16 +132,22 @@ impl Host {
     }
 
     /// Noise over the texels of a layer of a texture.
-    fn fill(&mut self, gpu: &Gpu, texture: &wgpu::Texture, layer: u32, range: [f32; 2]) {
+    fn fill<T: bytemuck::NoUninit>(
+        &mut self,
+        gpu: &Gpu,
+        texture: &wgpu::Texture,
+        layer: u32,
+        texel: impl Fn(&mut ChaCha8Rng) -> T,
+    ) {
         let size = texture.size();
-        let texels: Vec<f32> = (0..size.width * size.height)
-            .map(|_| self.random.random_range(range[0]..range[1]))
+        let texels: Vec<T> = (0..size.width * size.height)
+            .map(|_| texel(&mut self.random))
             .collect();
         let mut copy = texture.as_image_copy();
         copy.origin.z = layer;
         let layout = wgpu::TexelCopyBufferLayout {
             offset: 0,
-            bytes_per_row: Some(4 * size.width),
+            bytes_per_row: Some(size_of::<T>() as u32 * size.width),
             rows_per_image: None,
         };
         let extent = wgpu::Extent3d {
@@ -150,7 +160,7 @@ impl Host {
     /// Draws a layer of the light's map anew, from other lights in other regions.
     fn draw_layer(&mut self, gpu: &Gpu, layer: u32) {
         let map = self.map.clone();
-        self.fill(gpu, &map, layer, [0.0, 1.0]);
+        self.fill(gpu, &map, layer, |random| random.random_range(0.0..1.0_f32));
         let side = map.width();
         let split = self.random.random_range(24..side - 24);
         for (first, width) in [(0, split), (split, side - split)] {
@@ -183,7 +193,8 @@ impl Host {
     /// Draws the picture from another place.
     fn draw_picture(&mut self, gpu: &Gpu) -> Result<(), LabError> {
         let depth = self.depth.clone();
-        self.fill(gpu, &depth, 0, [0.005, 0.1]);
+        // From 1 to 20 scene units away.
+        self.fill(gpu, &depth, 0, |random| random.random_range(328..6554_u16));
         let camera = Camera {
             eye: 4.0 * self.direction(),
             target: DVec3::ZERO,
@@ -237,14 +248,20 @@ fn graph_text() -> String {
     let import = format!(
         r#""texture": {{ "format": "r32float", "size": [64, 64], "layers": {LAYERS}, "regions": {REGIONS} }}"#
     );
-    let shade = format!(r#""type": "shade_hard", "properties": {{ "views": {views} }}"#);
+    let shade =
+        format!(r#""type": "shade_hard", "properties": {{ "views": {views}, "lights": 4 }}"#);
     let depth = r#""texture": { "format": "depth32float", "size": [1024, 1024], "samples": 4 }"#;
     GRAPH
         .replace(depth, &import)
         .replace(r#""type": "shade_hard""#, &shade)
 }
 
-fn texture(gpu: &Gpu, [width, height]: [u32; 2], layers: u32) -> wgpu::Texture {
+fn texture(
+    gpu: &Gpu,
+    format: wgpu::TextureFormat,
+    [width, height]: [u32; 2],
+    layers: u32,
+) -> wgpu::Texture {
     gpu.device.create_texture(&wgpu::TextureDescriptor {
         label: Some("soak"),
         size: wgpu::Extent3d {
@@ -255,7 +272,7 @@ fn texture(gpu: &Gpu, [width, height]: [u32; 2], layers: u32) -> wgpu::Texture {
         mip_level_count: 1,
         sample_count: 1,
         dimension: wgpu::TextureDimension::D2,
-        format: wgpu::TextureFormat::R32Float,
+        format,
         usage: wgpu::TextureUsages::TEXTURE_BINDING | wgpu::TextureUsages::COPY_DST,
         view_formats: &[],
     })
@@ -284,10 +301,10 @@ pub fn run(gpu: &Gpu, desc: &SoakDesc, mut step: impl FnMut()) -> Result<Soak, L
             let sides = host.one_of(&MAPS);
             let picture = host.one_of(&PICTURES);
             let both = host.random.random_range(0..2) == 0;
-            host.depth = texture(gpu, picture, 1);
+            host.depth = texture(gpu, PICTURE_FORMAT, picture, 1);
             let mut replaced = host.imports().to_vec();
             if both {
-                host.map = texture(gpu, [sides; 2], LAYERS);
+                host.map = texture(gpu, MAP_FORMAT, [sides; 2], LAYERS);
                 dirty.clone_from(&all);
                 replaced = host.imports().to_vec();
             } else {
