@@ -147,6 +147,7 @@ impl Storage {
     }
 
     /// The functions of WGSL between texels and what textures hold of them, where that is something else.
+    #[cfg(feature = "validate")]
     pub(crate) fn packing(self) -> &'static [&'static str] {
         match self {
             Storage::Packed64 => &["storage_pack", "storage_unpack"],
