@@ -242,6 +242,9 @@ run_fuzzing() {
   done
 }
 
+# A driver whose calls fail in turn: without memory, and with a lost device. One in eleven here.
+run_faults() { run_built --bin moment-shadows-faults --every 11; }
+
 # Prints the arguments for each combination of features of the library crates, a line each.
 feature_combinations() {
   local manifest package features chosen set bit
@@ -298,5 +301,6 @@ check() {
   step "Other languages: exported GLSL and HLSL on the adapter" run_ports
   step "What the code costs: instructions for two AMD chips" run_isa
   step "A second rasteriser: the tests of numerics on SwiftShader" numerics_on_swiftshader
+  step "A device that fails: calls of the driver without memory, or lost" run_faults
   step "Fuzzing" run_fuzzing
 }

@@ -4,6 +4,7 @@ import assert from 'node:assert/strict';
 import { createRecorder } from '../../graph/js/recorder.js';
 import { resized } from '../../graph/js/resize.js';
 import { makeImports } from '../plan_imports.mjs';
+import { outOfMemoryAt } from './failing_device.mjs';
 
 // The binding of a pass of examples/hard_shadows.json.
 const binding = (plan, node, name) => plan.passes.find((pass) => pass.node === node).bindings.find((it) => it.name === name);
@@ -223,5 +224,29 @@ export const HANDLED = {
     const recorder = await createRecorder(device, plan, makeImports(device, plan), { parameters });
     recorder.record('after_main_pass', encoder(device), { offset: plan.parameters.size });
     assert.throws(() => recorder.record('after_main_pass', encoder(device), { offset: 2 * plan.parameters.size }), /cannot begin/);
+  },
+  'no memory for any of the calls': async (device, plan) => {
+    const imports = makeImports(device, plan);
+    const tell = async (at) => {
+      const [failing, state] = outOfMemoryAt(device, at);
+      const errors = [];
+      const noted = (error) => void errors.push(error.message);
+      const recorder = await createRecorder(failing, plan, imports).catch(noted);
+      // What could not be replaced works on.
+      await recorder?.resize(imports).catch(noted);
+      recorder?.record('after_main_pass', encoder(device));
+      recorder?.destroy();
+      recorder?.parameters.destroy();
+      return { ...state, errors };
+    };
+    const { calls, errors, said } = await tell(-1);
+    assert.deepEqual([errors, said], [[], []]);
+    assert.ok(calls > 30, `${calls} calls`);
+    for (let at = 0; at < calls; at++) {
+      const { errors, said, alive } = await tell(at);
+      assert.equal(errors.length, 1, `call ${at}: ${errors}`);
+      assert.match(errors[0], /cannot be made: no memory for/);
+      assert.deepEqual([said, alive.size], [[], 0], `call ${at}, ${errors}`);
+    }
   },
 };

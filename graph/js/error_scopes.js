@@ -10,6 +10,7 @@ export async function scoped(device, what, make) {
     errors = scopes.map(() => device.popErrorScope());
     const error = (await Promise.all(errors)).find(Boolean);
     if (!error) return made;
+    made?.destroy?.();
     throw new Error(`${what} cannot be made: ${error.message}`);
   } finally {
     if (!errors) await Promise.all(scopes.map(() => device.popErrorScope()));

@@ -17,9 +17,18 @@ import { resized } from './resize.js';
 export async function createRecorder(device, plan, imports, { parameters, views = 1 } = {}) {
   checkDevice(device, plan);
   const pipelines = await makePipelines(device, plan);
-  const recorder = new Recorder(device, plan, pipelines, parameters ?? makeParameters(device, plan, views));
-  await recorder.resize(imports);
-  return recorder;
+  // Groups below the plan's are the host's; here they are empty.
+  const group = () => device.createBindGroup({ layout: device.createBindGroupLayout({ entries: [] }), entries: [] });
+  const empty = await scoped(device, 'an empty group', group);
+  const own = parameters ? undefined : await scoped(device, 'the parameters', () => makeParameters(device, plan, views));
+  const recorder = new Recorder(device, plan, pipelines, empty, parameters ?? own);
+  try {
+    await recorder.resize(imports);
+    return recorder;
+  } catch (error) {
+    own?.destroy();
+    throw error;
+  }
 }
 
 // A buffer in which each view has the initial values of the plan's nodes.
@@ -33,10 +42,8 @@ function makeParameters(device, plan, views) {
 }
 
 class Recorder {
-  constructor(device, plan, pipelines, parameters) {
-    Object.assign(this, { device, compiled: plan, plan, pipelines, parameters, memory: [], steps: [] });
-    // Groups below the plan's are the host's; here they are empty.
-    this.empty = device.createBindGroup({ layout: device.createBindGroupLayout({ entries: [] }), entries: [] });
+  constructor(device, plan, pipelines, empty, parameters) {
+    Object.assign(this, { device, compiled: plan, plan, pipelines, empty, parameters, memory: [], steps: [] });
   }
 
   /** Takes other imports, of any size that the plan can have. Pipelines stay. Contents of the plan's textures are lost. */

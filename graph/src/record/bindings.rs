@@ -103,7 +103,7 @@ impl Bindings {
             let made = (!is_host).then(|| pipelines.get(plan, pass)).transpose()?;
             steps.push(scoped(device, &label(pass), || objects.step(pass, made)).await??);
         }
-        check_alive(device)?;
+        check_alive(device).await?;
         let outputs = plan.outputs.iter().filter_map(|output| {
             let created = resources.get(&plan.resources[output.value])?;
             Some((output.name.clone(), created.clone()))

@@ -24,3 +24,4 @@ pub use pipelines::{HostTarget, PipelineOptions, Pipelines};
 pub(crate) use recording::HostPassHandler;
 pub use recording::{HostPass, Layers, Recording};
 pub use resources::Resources;
+pub(crate) use scope::{scoped, written};

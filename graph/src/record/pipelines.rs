@@ -151,7 +151,7 @@ impl Pipelines {
         options: &PipelineOptions,
     ) -> Result<usize, GraphError> {
         plan.check()?;
-        check_alive(device)?;
+        check_alive(device).await?;
         let mut wanted: Vec<(PipelineKey, String)> = Vec::new();
         for pass in &plan.passes {
             if matches!(pass.work, PlannedWork::Host { .. }) {
@@ -186,7 +186,7 @@ impl Pipelines {
             pipelines.push(verdict.await?);
         }
         drop(modules);
-        check_alive(device)?;
+        check_alive(device).await?;
         let made = pipelines.len();
         let keys = wanted.into_iter().map(|(key, _)| key);
         self.pipelines.extend(keys.zip(pipelines));

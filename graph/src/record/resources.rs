@@ -50,7 +50,7 @@ impl Resources {
             let created = scoped(device, &label, create).await?;
             memory.push((planned.clone(), created));
         }
-        check_alive(device)?;
+        check_alive(device).await?;
         Ok(Self { memory })
     }
 

@@ -16,11 +16,12 @@ use moment_shadows::{
     CameraView, ContactShadows, LeakReduction, LightView, MapEncoding, MarchedAir, ReceiverBias,
     SingleScattering, TextureFormat,
 };
-use part::{Maker, Part};
+use part::{Maker, PARAMETERS, Part};
 use scratch::{Scratch, Told};
 
 use crate::record::{
     Bindings, HostPass, HostPassHandler, ImportedResource, PipelineOptions, Pipelines, Recording,
+    written,
 };
 use crate::{Capabilities, Graph, GraphError, GraphErrorKind, Named, ResourceDesc, Stage};
 
@@ -184,7 +185,8 @@ impl Session {
 
     /// Says where a camera and the lights are, for the frame that is recorded next. The views of lights that share a layer
     /// are its regions, in this order; all cameras have the same lights.
-    /// Refused, if there is no such camera, or what is given does not suit the graph. Nothing is then written.
+    /// Refused, if there is no such camera, or what is given does not suit the graph: nothing is then written. Natively also, if the
+    /// device has no memory for writing it: the camera then has to be placed anew.
     pub fn view(
         &mut self,
         queue: &wgpu::Queue,
@@ -206,10 +208,13 @@ impl Session {
         let view = &mut self.views[view];
         self.scratch.write(&mut self.maps, &told, true)?;
         self.scratch.write(&mut view.part, &told, false)?;
-        view.placed = true;
-        self.maps.upload(queue);
-        view.part.upload(queue);
-        Ok(())
+        let upload = || {
+            self.maps.upload(queue);
+            view.part.upload(queue);
+        };
+        let uploaded = written(&self.maker.device, PARAMETERS, upload);
+        view.placed = uploaded.is_ok();
+        uploaded
     }
 
     /// Records a stage for the light maps and all cameras. A host that draws one camera after the other records the maps by

@@ -5,8 +5,11 @@ use super::given::{Given, described};
 use super::kernels::SceneBlur;
 use super::seen::Seen;
 use super::shading::Shading;
-use crate::record::{Bindings, ImportedResource, PipelineOptions, Pipelines, Resources};
+use crate::record::{Bindings, ImportedResource, PipelineOptions, Pipelines, Resources, scoped};
 use crate::{Capabilities, Graph, GraphError, Plan};
+
+/// The label of the buffers of uniform data.
+pub(super) const PARAMETERS: &str = "moment-shadows/parameters";
 
 /// What all parts of a session are made with.
 #[derive(Debug)]
@@ -51,14 +54,18 @@ impl Maker {
         extended.await?;
         let resources = Resources::create(&self.device, &plan).await?;
         let size = u64::from(plan.parameters.size);
-        let buffer = (size > 0).then(|| {
+        let create = || {
             self.device.create_buffer(&wgpu::BufferDescriptor {
-                label: Some("moment-shadows/parameters"),
+                label: Some(PARAMETERS),
                 size,
                 usage: wgpu::BufferUsages::UNIFORM | wgpu::BufferUsages::COPY_DST,
                 mapped_at_creation: false,
             })
-        });
+        };
+        let buffer = match size {
+            0 => None,
+            _ => Some(scoped(&self.device, PARAMETERS, create).await?),
+        };
         let imports = used.iter();
         let imports = imports.map(|it| (it.name.as_str(), it.resource.clone()));
         let imports: Vec<(&str, ImportedResource)> = imports.collect();
