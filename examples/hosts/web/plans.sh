@@ -101,7 +101,9 @@ compile air.json <<JSON
     { "from": "light_depth", "to": "resolve.depth" },
     { "from": "resolve.map", "to": "blur.map" },
     { "from": "blur.blurred", "to": "rectify.map" },
+    { "from": "camera_depth", "to": "rectify.camera_depth" },
     { "from": "rectify.rectified", "to": "integrate.rectified" },
+    { "from": "rectify.view_rays", "to": "integrate.view_rays" },
     { "from": "integrate.integrated", "to": "composite.integrated" },
     { "from": "camera_depth", "to": "composite.camera_depth" }
   ],
