@@ -43,8 +43,9 @@ pub(crate) fn picture(
     camera: &wgpu::Texture,
     view: &ViewParameters,
 ) -> Vec<f32> {
-    let desc = |texture: &wgpu::Texture, format| {
-        TextureDesc::new(format, [texture.width(), texture.height()])
+    let desc = |texture: &wgpu::Texture, format| TextureDesc {
+        samples: texture.sample_count(),
+        ..TextureDesc::new(format, [texture.width(), texture.height()])
     };
     let imports = [
         ("light_depth", desc(map, format)),

@@ -13,6 +13,9 @@ const SIDE: u32 = 32;
 /// What filters leave of the picture: their reach, four texels for fixed kernels and six for the light below, stays within.
 const BORDER: u32 = 7;
 
+/// Samples of the camera's depth, and where in a pixel the first of them lies, which is shaded.
+const CAMERAS: [(u32, [f32; 2]); 2] = [(1, [0.5, 0.5]), (4, [0.375, 0.125])];
+
 #[test]
 fn a_floor_that_slopes_either_way_is_lit_and_what_lies_behind_it_is_not() {
     let gpu = gpu();
@@ -41,10 +44,21 @@ fn a_floor_that_slopes_either_way_is_lit_and_what_lies_behind_it_is_not() {
         // Stored depth per texel along u and v. With both, neither sign nor axis is left to chance.
         for [u, v] in [[0.0, 0.01], [0.0, -0.01], [-0.008, 0.005_f32]] {
             let middle = 0.5 * SIDE as f32 - 0.5;
-            let floor = |x: u32, y: u32| 0.5 + u * (x as f32 - middle) + v * (y as f32 - middle);
-            let map = depth_map::of(&gpu, [SIDE; 2], floor);
-            for (behind, expected) in [(0.0, 0.0), (0.1, 1.0)] {
-                let camera = depth_map::of(&gpu, [SIDE; 2], |x, y| floor(x, y) + behind);
+            // At a place in texel (x, y).
+            let floor = |x: u32, y: u32, place: [f32; 2]| {
+                let [x, y] = [x as f32 + place[0], y as f32 + place[1]];
+                0.5 + u * (x - 0.5 - middle) + v * (y - 0.5 - middle)
+            };
+            let map = depth_map::of(&gpu, [SIDE; 2], |x, y| floor(x, y, [0.5; 2]));
+            let cases = [(0.0, 0.0), (0.1, 1.0)].map(|case| CAMERAS.map(|camera| (case, camera)));
+            for ((behind, expected), (samples, place)) in cases.into_iter().flatten() {
+                let format = wgpu::TextureFormat::Depth32Float;
+                let camera = depth_map::texture(&gpu, format, [SIDE; 2], 1, samples);
+                let depths = depth_map::values([SIDE; 2], |x, y| floor(x, y, place) + behind);
+                let depths = depths
+                    .into_iter()
+                    .flat_map(|depth| vec![depth; samples as usize]);
+                depth_map::draw(&gpu, &camera, 0, &depths.collect::<Vec<_>>());
                 let map = (&map, TextureFormat::Depth32Float);
                 let found = picture(&gpu, &technique, map, &camera, &view);
                 for (index, &intensity) in found.iter().enumerate() {
@@ -55,7 +69,7 @@ fn a_floor_that_slopes_either_way_is_lit_and_what_lies_behind_it_is_not() {
                     // Sums of weights may miss one by their rounding.
                     assert!(
                         (intensity - expected).abs() < 1e-5,
-                        "{}, slope {u}, {v}, {behind} behind: {intensity} at {place:?}",
+                        "{}, slope {u}, {v}, {behind} behind, {samples} samples: {intensity} at {place:?}",
                         techniques::label(&technique)
                     );
                 }

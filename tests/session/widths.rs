@@ -1,12 +1,14 @@
 //! Filters whose width is given in scene units: penumbrae are as wide in the scene, however large texels are.
 
 use glam::{DMat4, DVec3, DVec4};
-use moment_shadows::{Atlas, LightView, MapRegion, TextureFormat};
+use moment_shadows::{Atlas, LightSize, LightView, MapRegion, TextureFormat};
 use moment_shadows_lab::gpu::Gpu;
 
 use crate::normals::texture;
 use crate::views::{frame, seen};
 use crate::{HARD, gpu, imports, places, recorded, session};
+
+const SOFT: &str = include_str!("../../examples/soft_shadows.json");
 
 /// The light's maps cover this much of the floor, in so many texels each.
 const SIDE: f64 = 5.0;
@@ -17,8 +19,8 @@ fn edge_at(z: f64) -> f64 {
     0.05 + 0.37 * z
 }
 
-/// Three lights straight above, whose maps have texels of different sizes.
-fn lights() -> (Atlas, Vec<LightView>) {
+/// Lights straight above, whose maps have texels of different sizes.
+fn lights(size: LightSize) -> (Atlas, Vec<LightView>) {
     let clip = DMat4::from_cols(
         DVec4::new(2.0 / SIDE, 0.0, 0.0, 0.0),
         DVec4::new(0.0, 0.0, -0.25, 0.0),
@@ -28,6 +30,7 @@ fn lights() -> (Atlas, Vec<LightView>) {
     let views = (0..).zip(TEXELS).map(|(channel, texels)| LightView {
         channel,
         region: MapRegion::new([0; 2], [texels; 2]),
+        size,
         ..LightView::orthographic(clip.to_cols_array_2d())
     });
     let mut views: Vec<LightView> = views.collect();
@@ -57,26 +60,29 @@ fn drawn(gpu: &Gpu, atlas: &Atlas, views: &[LightView]) -> wgpu::Texture {
     texture(gpu, TextureFormat::R32Float, atlas.size, bytes)
 }
 
-/// How wide the edge's penumbra is in scene units in the map of each light, from a tenth to nine tenths, with a kernel.
-fn penumbrae(gpu: &Gpu, kernel: &str) -> [f64; 3] {
-    let frame = frame(gpu, DVec3::new(0.0, 2.0, 0.1), DVec3::ZERO);
-    let (camera, _) = places(&frame);
-    let (atlas, views) = lights();
-    let map = drawn(gpu, &atlas, &views);
+/// A graph of these three lights.
+fn graph(text: &str, shade: &str) -> String {
     let import = r#""texture": { "format": "r32float", "size": [64, 64], "regions": 3 }"#;
     let depth = r#""texture": { "format": "depth32float", "size": [1024, 1024], "samples": 4 }"#;
-    let shade = r#""type": "shade_hard", "properties": { "format": "rgba32float", "lights": 3, "views": 3 }"#;
-    let text = HARD
-        .replace(depth, import)
+    let of_all = r#""properties": { "format": "rgba32float", "lights": 3, "views": 3 }"#;
+    let storages = r#""storage": ["unorm16", "float16"]"#;
+    text.replace(depth, import)
+        .replace(storages, r#""storage": "float32""#)
         .replace(
-            r#""storage": ["unorm16", "float16"]"#,
-            r#""storage": "float32""#,
+            &format!(r#""type": "{shade}""#),
+            &format!(r#""type": "{shade}", {of_all}"#),
         )
-        .replace(r#""type": "shade_hard""#, shade)
-        .replace(r#"{ "radius": 4, "sigma": 2.4 }"#, kernel);
+}
+
+/// How wide the edge's penumbra is in scene units in the map of each light, from a tenth to nine tenths.
+fn penumbrae(gpu: &Gpu, text: &str, size: LightSize) -> [f64; 3] {
+    let frame = frame(gpu, DVec3::new(0.0, 2.0, 0.1), DVec3::ZERO);
+    let (camera, _) = places(&frame);
+    let (atlas, views) = lights(size);
+    let map = drawn(gpu, &atlas, &views);
     let mut imports = imports(&frame);
     imports[0].1 = (&map).into();
-    let mut session = session(gpu, &text, &imports);
+    let mut session = session(gpu, text, &imports);
     session.view(&gpu.queue, 0, &camera, &views).unwrap();
     let picture: Vec<[f32; 4]> =
         bytemuck::pod_collect_to_vec(&recorded(gpu, &session, 0, "shadow_intensity"));
@@ -107,8 +113,14 @@ fn penumbrae(gpu: &Gpu, kernel: &str) -> [f64; 3] {
 fn a_width_in_scene_units_is_that_of_every_region() {
     let gpu = gpu();
     // 9, 5 and 2 texels.
-    let same = penumbrae(&gpu, r#"{ "radius": 20, "width": 0.12 }"#);
-    let texels = penumbrae(&gpu, r#"{ "radius": 18, "sigma": 10.0 }"#);
+    let [same, texels] = [
+        r#"{ "radius": 20, "width": 0.12 }"#,
+        r#"{ "radius": 18, "sigma": 10.0 }"#,
+    ]
+    .map(|kernel| {
+        let text = HARD.replace(r#"{ "radius": 4, "sigma": 2.4 }"#, kernel);
+        penumbrae(&gpu, &graph(&text, "shade_hard"), LightSize::Point)
+    });
     let beside = |all: [f64; 3]| [1, 2].map(|light| all[light] / all[0]);
     println!(
         "in scene units {same:.3?}, beside the first {:.3?}; in texels {texels:.3?}, {:.3?}",
@@ -119,6 +131,26 @@ fn a_width_in_scene_units_is_that_of_every_region() {
     assert!((beside(texels)[1] - 4.0).abs() < 0.5);
     // A Gaussian's, of that standard deviation.
     assert!((same[0] / (2.563 * 0.12) - 1.0).abs() <= 0.03);
+}
+
+#[test]
+fn a_penumbra_is_at_most_as_wide_as_the_largest_kernel_of_the_table() {
+    let gpu = gpu();
+    // Of a sun so wide that it would be 84, 42 and 21 texels.
+    let sun = LightSize::AngularDiameter(1.0);
+    let texel = TEXELS.map(|texels| SIDE / f64::from(texels));
+    for largest in [9.0, 17.0] {
+        let kernel = format!(r#""largest_kernel": {largest}"#);
+        let text = SOFT.replace(r#""largest_kernel": 129"#, &kernel);
+        let found = penumbrae(&gpu, &graph(&text, "shade_soft"), sun);
+        // A box across the edge has four fifths of its width between a tenth and nine tenths.
+        let widths = [0, 1, 2].map(|light| found[light] / texel[light] / (0.8 * largest));
+        println!("kernels of {largest} texels: {widths:.3?}");
+        assert!(
+            widths.iter().all(|ratio| (ratio - 1.0).abs() < 0.1),
+            "{widths:.3?}"
+        );
+    }
 }
 
 #[test]

@@ -7,19 +7,20 @@ use std::time::{Duration, Instant};
 
 use serde::{Deserialize, Serialize};
 
-use crate::site::Site;
+use crate::site::{Site, key};
 use crate::suite::{Binary, End};
 use crate::tree::Places;
 
 /// What is known of a fault.
 #[derive(Clone, Serialize, Deserialize)]
 pub struct Verdict {
-    pub key: String,
     pub file: String,
     pub line: usize,
     /// The text of the line.
     pub code: String,
     pub what: String,
+    /// How many places of the file before it have the same words.
+    pub nth: usize,
     /// A shader with it does not compile: it is not judged.
     pub invalid: bool,
     /// The test that noticed it.
@@ -32,16 +33,20 @@ pub struct Verdict {
 impl Verdict {
     fn new(site: &Site) -> Self {
         Self {
-            key: site.key(),
             file: site.file.clone(),
             line: site.line,
             code: site.code.clone(),
             what: site.what.clone(),
+            nth: site.nth,
             invalid: false,
             noticed_by: None,
             passed: 0,
             reaching: 0,
         }
+    }
+
+    pub fn key(&self) -> String {
+        key(&self.file, &self.code, &self.what, self.nth)
     }
 
     pub fn invalid(site: &Site) -> Self {

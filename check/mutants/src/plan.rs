@@ -1,6 +1,6 @@
 //! Which faults are planted: a sample that the seed alone decides.
 
-use std::collections::BTreeSet;
+use std::collections::{BTreeMap, BTreeSet};
 use std::fs;
 use std::io;
 use std::path::Path;
@@ -74,6 +74,12 @@ pub fn plan(root: &Path, seed: u64, dropped: &BTreeSet<String>) -> io::Result<Ve
                     .map_err(|error| io::Error::other(format!("{file}: {error}")))?,
             );
         }
+    }
+    let mut same = BTreeMap::new();
+    for site in &mut sites {
+        let before = same.entry(site.key()).or_insert(0);
+        site.nth = *before;
+        *before += 1;
     }
     sites.retain(|site| !dropped.contains(&site.key()));
     sites.sort_by_key(|site| (hash(&site.key(), seed), site.key()));

@@ -1,8 +1,8 @@
 //! What is known of all faults.
 
 use std::collections::{BTreeMap, BTreeSet};
-use std::fs::{self, OpenOptions};
-use std::io::{self, Write};
+use std::fs;
+use std::io;
 
 use serde::Deserialize;
 
@@ -37,10 +37,8 @@ impl Report {
             .unwrap_or_default()
             .lines()
         {
-            // A run that was ended may have written half a line.
-            if let Ok(verdict) = serde_json::from_str::<Verdict>(line) {
-                report.verdicts.insert(verdict.key.clone(), verdict);
-            }
+            let verdict: Verdict = serde_json::from_str(line)?;
+            report.verdicts.insert(verdict.key(), verdict);
         }
         Ok(report)
     }
@@ -56,13 +54,13 @@ impl Report {
     }
 
     pub fn add(&mut self, places: &Places, verdict: Verdict) -> io::Result<()> {
-        let mut file = OpenOptions::new()
-            .create(true)
-            .append(true)
-            .open(&places.results)?;
-        writeln!(file, "{}", serde_json::to_string(&verdict)?)?;
-        self.verdicts.insert(verdict.key.clone(), verdict);
-        Ok(())
+        self.verdicts.insert(verdict.key(), verdict);
+        // Beside it first: a run that is ended leaves no half of it.
+        let beside = places.results.with_extension("new");
+        let lines = self.verdicts.values().map(serde_json::to_string);
+        let lines: Vec<String> = lines.collect::<Result<_, _>>()?;
+        fs::write(&beside, lines.join("\n") + "\n")?;
+        fs::rename(beside, &places.results)
     }
 
     fn why_equivalent(&self, verdict: &Verdict) -> Option<&str> {

@@ -20,6 +20,8 @@ pub struct Site {
     pub code: String,
     /// What it changes, in words.
     pub what: String,
+    /// How many places of the file before it have the same words.
+    pub nth: usize,
     /// In WGSL: the declaration around it, as bytes of the file.
     pub declaration: Range<usize>,
 }
@@ -37,16 +39,18 @@ impl Site {
             line,
             code: code.trim().to_owned(),
             what,
+            nth: 0,
         }
     }
 
-    /// Names it, whatever else the tree holds.
     pub fn key(&self) -> String {
-        let Self {
-            file, line, what, ..
-        } = self;
-        format!("{file}:{line} at byte {}: {what}", self.range.start)
+        key(&self.file, &self.code, &self.what, self.nth)
     }
+}
+
+/// Names a fault, wherever it lies in its file and whatever else the tree holds.
+pub fn key(file: &str, code: &str, what: &str, nth: usize) -> String {
+    format!("{file}: {what} in `{code}`, {nth}")
 }
 
 /// A number that looks random and depends on `text` and `seed` alone.

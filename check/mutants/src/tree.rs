@@ -34,7 +34,7 @@ impl Places {
             texts: work.join("texts"),
             dropped: work.join("dropped.json"),
             suite: work.join("suite.json"),
-            results: work.join("results.jsonl"),
+            results: root.join("check/mutants/results.jsonl"),
             root,
         }
     }
