@@ -6,8 +6,7 @@
 # the view is heard: the error scope says that memory is short. But the image stays, and so do views that were made before. In the same
 # way the shader module of a pipeline stays, which wgpu makes for the driver and means to destroy at once, where the pipeline is refused.
 # A good guess: what an error scope reports has left nothing behind, and whatever belongs to a device goes with it.
-# Who meets it: a host that goes on with smaller textures when memory is short, which is what the scope is for: each try keeps an image
-# and its memory. Validation layers then complain when the device is destroyed.
+# Who meets it: a host that goes on with smaller textures when memory is short, which is what the scope is for: each try keeps an image.
 # Output seen (2026-11-30, SwiftShader of chromium-common 156.0.8078.114 behind a driver that refuses one call): texture: out of memory;
 # images left 1. pipeline: out of memory; shader modules left 1.
 #
