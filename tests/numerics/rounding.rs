@@ -6,14 +6,16 @@
 use std::path::Path;
 
 use bytemuck::Pod;
-use moment_shadows::{Profile, Source, link};
+use moment_shadows::{Profile, Source, Storage, link};
 use moment_shadows_lab::batch::Batch;
 use moment_shadows_lab::gpu::Gpu;
-use moment_shadows_lab::oracle::tolerance_unit;
+use moment_shadows_lab::oracle::{hausdorff, rational, sensitivity, tolerance_unit};
 use moment_shadows_lab::vectors::file::read;
+use rand::SeedableRng;
+use rand_chacha::ChaCha8Rng;
 use rayon::prelude::*;
 
-use crate::{HARD_TOLERANCE, Input, TOLERANCE, six};
+use crate::{HARD_TOLERANCE, Input, TOLERANCE, mixtures, six};
 
 const FOUR: &str = "
 import moment_shadows::bounds::hamburger4::{hamburger4_bounds};
@@ -21,6 +23,15 @@ struct BatchInput { biased: vec4f, depth: f32, alpha: f32, padding: vec2f }
 alias BatchOutput = vec2f;
 fn batch(input: BatchInput) -> BatchOutput {
     return hamburger4_bounds(input.biased, input.depth, input.alpha);
+}
+";
+
+const ON_AN_INTERVAL: &str = "
+import moment_shadows::bounds::hausdorff4::{hausdorff4_bounds};
+struct BatchInput { biased: vec4f, depth: f32, alpha: f32, padding: vec2f }
+alias BatchOutput = vec2f;
+fn batch(input: BatchInput) -> BatchOutput {
+    return hausdorff4_bounds(input.biased, input.depth, input.alpha);
 }
 ";
 
@@ -157,6 +168,51 @@ fn fused_or_not_random_distributions_are_within_tolerance() {
             six.iter().all(|[largest, _]| *largest <= tolerance),
             "{six:?}"
         );
+    }
+}
+
+/// Random distributions with the moment biases of Hausdorff bounds, which leave moments inside of those on [-1, 1].
+fn on_an_interval(each: usize) -> Vec<Input> {
+    let mut inputs = Vec::new();
+    for (class, seed) in mixtures::CLASSES.iter().zip(2015..) {
+        for storage in Storage::OF_FOUR_MOMENTS {
+            let bias = storage.hausdorff_moment_bias();
+            let [alpha, second, fourth] = [bias.alpha, bias.second, bias.fourth].map(f64::from);
+            let mut random = ChaCha8Rng::seed_from_u64(seed);
+            for _ in 0..each {
+                let sample = mixtures::sample(class, &mut random);
+                let moments = mixtures::moments::<4>(&sample.atoms);
+                let targets = [0.0, second, 0.0, fourth];
+                let biased = [0, 1, 2, 3]
+                    .map(|index| moments[index] + alpha * (targets[index] - moments[index]));
+                let biased = biased.map(|moment| moment as f32);
+                let depth = sample
+                    .from_gauss_node
+                    .map(|distance| mixtures::gauss_node(biased, distance > 0.0) + distance);
+                let depth = depth.unwrap_or(sample.fragment_depth).clamp(-1.0, 1.0);
+                inputs.push(Input::new(biased, depth, alpha));
+            }
+        }
+    }
+    inputs
+}
+
+#[test]
+fn fused_or_not_random_distributions_on_an_interval_are_within_tolerance() {
+    let truth = |input: &Input| {
+        let exact = |value: f32| rational(f64::from(value)).unwrap();
+        let (moments, depth) = (input.biased.map(exact), exact(input.depth));
+        let extremal = hausdorff(&moments, [&exact(-1.0), &exact(1.0)], &depth).unwrap();
+        let sensitivity = sensitivity(&moments, &depth, &extremal).unwrap();
+        (
+            [extremal.lower, extremal.upper],
+            sensitivity.map(tolerance_unit),
+        )
+    };
+    let found = errors(ON_AN_INTERVAL, &on_an_interval(500), truth);
+    println!("four moments on an interval: {found:.2?} units");
+    for [largest, most] in found {
+        assert!(largest <= HARD_TOLERANCE && most <= TOLERANCE, "{found:?}");
     }
 }
 

@@ -84,7 +84,7 @@ fn hausdorff4_bounds_with_ends(biased: vec4f, fragment_depth: f32, alpha: f32) -
 // The sharp bounds of shadow intensity: x = inf S(z < fragment_depth), y = sup S(z <= fragment_depth) over all
 // distributions S on [-1, 1] with the moments `biased`, which are already biased by `alpha` >= 3e-7 and lie within
 // [-2.1, 2.1]. Both are in [0, 1] for all such moments, valid or not; fragment depths beyond [-1, 1] count as its ends.
-// Error: |error| <= 8 * 2^-24 * (1 + sensitivity), measured where fma is not fused.
+// Error: |error| <= 8 * 2^-24 * (1 + sensitivity), measured where fma is not fused and with exact products in its place.
 fn hausdorff4_bounds(biased: vec4f, fragment_depth: f32, alpha: f32) -> vec2f {
     let depth = depth_of_fragment(fragment_depth);
     let factor = hankel_factor(biased, alpha);
