@@ -42,8 +42,9 @@ fn what_long_runs_found_is_within_what_is_allowed() {
             );
             let excess = f64::from(found) - truth(input, evaluator.kernels()).unwrap();
             let allowed = match (name.as_str(), pair.storage()) {
-                // Its bias covers all but one filter region in 100,000, and this is one in 14 million.
-                ("hamburger4", Storage::Unorm16) => 0.1,
+                // Biases cover all but one filter region in 100,000, and these are some of 100 million.
+                ("hamburger4", Storage::Unorm16 | Storage::Float16) => 0.11,
+                ("hausdorff4", Storage::Unorm16) => 0.03,
                 _ => allowed_excess(&pair, input.kernel >= NARROW),
             };
             assert!(
