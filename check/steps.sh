@@ -233,10 +233,10 @@ numerics_on_swiftshader() {
   )
 }
 
-# Graph files and shaders that are mutated at random: the same ones each time.
+# Graph files, plans, glTF files and shaders that are mutated at random: the same ones each time.
 run_fuzzing() {
   local bounds
-  for bounds in graph_file:12000 wgsl:800; do
+  for bounds in graph_file:30000 plan:60000 gltf:4000 wgsl:800; do
     run_built --bin moment-shadows-fuzz \
       --target "${bounds%:*}" --iterations "${bounds#*:}" --seconds 120 --seed 1
   done

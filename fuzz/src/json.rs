@@ -3,43 +3,174 @@
 use serde_json::{Map, Number, Value, json};
 
 use crate::Random;
+use crate::text::mutate_bytes;
 
-/// Changes one place of a document. `words` are strings that mean something in the format.
-pub(crate) fn mutate(document: &mut Value, words: &[String], random: &mut Random) {
-    let places = places(document);
-    let Some(place) = random.pick(&places) else {
+/// Changes an input `times` times: mostly by `change` within the structure of its document.
+pub(crate) fn mutate_input(
+    data: &[u8],
+    seeds: &[Vec<u8>],
+    times: usize,
+    random: &mut Random,
+    change: impl Fn(&mut Value, &mut Random),
+) -> Vec<u8> {
+    let mut data = data.to_vec();
+    let mut left = times;
+    while left > 0 {
+        let Ok(mut document) = serde_json::from_slice::<Value>(&data) else {
+            data = mutate_bytes(&data, seeds, random);
+            left -= 1;
+            continue;
+        };
+        // Until a change leaves no document.
+        let mut is_whole = true;
+        while is_whole && left > 0 {
+            left -= 1;
+            match random.below(16) {
+                0 => {
+                    data = mutate_bytes(document.to_string().as_bytes(), seeds, random);
+                    is_whole = false;
+                }
+                1 => {
+                    data = mutate_text(&document.to_string(), random).into_bytes();
+                    is_whole = false;
+                }
+                _ => change(&mut document, random),
+            }
+        }
+        if is_whole {
+            return document.to_string().into_bytes();
+        }
+    }
+    data
+}
+
+/// Strings that may stand where another one stands: those that mean something in the format, and some of the document.
+struct Words<'a> {
+    known: &'a [String],
+    drawn: Vec<String>,
+}
+
+impl Words<'_> {
+    fn pick(&self, random: &mut Random) -> String {
+        let from = match random.below(2) {
+            0 => &self.drawn,
+            _ => self.known,
+        };
+        random.pick(from).cloned().unwrap_or_default()
+    }
+}
+
+/// Changes one place of a document, or all that have one name. `known` are strings that mean something in the format.
+pub(crate) fn mutate(document: &mut Value, known: &[String], random: &mut Random) {
+    let count = count(document);
+    let mut found = Vec::new();
+    strings(document, &mut found);
+    let drawn = (0..4).filter_map(|_| random.pick(&found).map(|&word| word.to_owned()));
+    let drawn = drawn.collect();
+    let words = &Words { known, drawn };
+    if count == 0 || random.once_in(200) {
+        *document = value(words, random);
         return;
-    };
-    let other = random
-        .pick(&places)
-        .and_then(|place| document.pointer(place))
+    }
+    let path = path(document, random.below(count));
+    let other = self::path(document, random.below(count));
+    let other = other
+        .iter()
+        .try_fold(&*document, |at, &child| children(at).nth(child))
         .cloned()
         .unwrap_or_default();
-    let Some((parent, last)) = place.rsplit_once('/') else {
-        if random.once_in(20) {
-            *document = value(words, random);
-        }
+    let Some((&last, above)) = path.split_last() else {
         return;
     };
-    let last = last.replace("~1", "/").replace("~0", "~");
-    let Some(parent) = document.pointer_mut(parent) else {
-        return;
-    };
+    let mut name = None;
+    let mut parent = &mut *document;
+    for &child in above {
+        let next = match parent {
+            Value::Array(items) => items.get_mut(child),
+            Value::Object(fields) => fields.values_mut().nth(child),
+            _ => None,
+        };
+        let Some(next) = next else { return };
+        parent = next;
+    }
     match parent {
-        Value::Array(items) => {
-            let at = last.parse().unwrap_or(0).min(items.len());
-            mutate_item(items, at, other, words, random);
+        Value::Array(items) => mutate_item(items, last, other, words, random),
+        Value::Object(fields) => {
+            let key = fields.keys().nth(last).cloned().unwrap_or_default();
+            mutate_field(fields, &key, other, words, random);
+            let after = fields.get(&key).cloned();
+            name = after.map(|after| (key, after));
         }
-        Value::Object(fields) => mutate_field(fields, &last, other, words, random),
         _ => {}
     }
+    if let Some((key, after)) = name
+        && random.once_in(8)
+    {
+        set_all(document, &key, &after);
+    }
+}
+
+/// Gives all fields of a name one value.
+fn set_all(document: &mut Value, key: &str, to: &Value) {
+    match document {
+        Value::Array(items) => items.iter_mut().for_each(|item| set_all(item, key, to)),
+        Value::Object(fields) => {
+            for (name, field) in fields {
+                if name == key {
+                    *field = to.clone();
+                } else {
+                    set_all(field, key, to);
+                }
+            }
+        }
+        _ => {}
+    }
+}
+
+/// What lies right within a value.
+fn children(value: &Value) -> impl Iterator<Item = &Value> {
+    let (items, fields) = match value {
+        Value::Array(items) => (Some(items), None),
+        Value::Object(fields) => (None, Some(fields)),
+        _ => (None, None),
+    };
+    let items = items.into_iter().flatten();
+    items.chain(fields.into_iter().flat_map(|fields| fields.values()))
+}
+
+/// How many values lie within a value.
+fn count(value: &Value) -> usize {
+    children(value).map(|child| 1 + count(child)).sum()
+}
+
+/// The way to value number `number` within a value.
+fn path(value: &Value, mut number: usize) -> Vec<usize> {
+    let mut path = Vec::new();
+    walk(value, &mut number, &mut path);
+    path
+}
+
+/// Whether the way ends within `value`.
+fn walk(value: &Value, number: &mut usize, path: &mut Vec<usize>) -> bool {
+    for (index, child) in children(value).enumerate() {
+        path.push(index);
+        if *number == 0 {
+            return true;
+        }
+        *number -= 1;
+        if walk(child, number, path) {
+            return true;
+        }
+        path.pop();
+    }
+    false
 }
 
 fn mutate_item(
     items: &mut Vec<Value>,
     at: usize,
     other: Value,
-    words: &[String],
+    words: &Words<'_>,
     random: &mut Random,
 ) {
     if at >= items.len() {
@@ -56,9 +187,10 @@ fn mutate_item(
         }
         3 => items.insert(at, other),
         4 => {
-            // Many of a kind; where they have names, each has its own.
+            // Many of a kind; where they have names, each has its own. Very many take as long as hundreds of other inputs.
             let item = items[at].clone();
-            for number in 0..random.count(2000) {
+            let most = if random.once_in(16) { 2000 } else { 16 };
+            for number in 0..random.count(most) {
                 let mut copy = item.clone();
                 if let Some(Value::String(name)) = copy.get_mut("name") {
                     *name += &number.to_string();
@@ -74,7 +206,7 @@ fn mutate_field(
     fields: &mut Map<String, Value>,
     name: &str,
     other: Value,
-    words: &[String],
+    words: &Words<'_>,
     random: &mut Random,
 ) {
     match random.below(8) {
@@ -82,11 +214,11 @@ fn mutate_field(
             fields.remove(name);
         }
         1 => {
-            let key = random.pick(words).cloned().unwrap_or_default();
+            let key = words.pick(random);
             fields.insert(key, other);
         }
         2 => {
-            let key = random.pick(words).cloned().unwrap_or_default();
+            let key = words.pick(random);
             if let Some(field) = fields.remove(name) {
                 fields.insert(key, field);
             }
@@ -100,7 +232,7 @@ fn mutate_field(
 }
 
 /// Changes a value in place.
-fn change(here: &mut Value, other: Value, words: &[String], random: &mut Random) {
+fn change(here: &mut Value, other: Value, words: &Words<'_>, random: &mut Random) {
     match here {
         Value::Number(number) if random.below(4) > 0 => *number = nearby(number, random),
         Value::String(text) if random.below(4) > 0 => {
@@ -108,11 +240,11 @@ fn change(here: &mut Value, other: Value, words: &[String], random: &mut Random)
                 let span = random.span(text.len());
                 if let (Some(before), Some(after)) = (text.get(..span.start), text.get(span.end..))
                 {
-                    let word = random.pick(words).cloned().unwrap_or_default();
+                    let word = words.pick(random);
                     *text = format!("{before}{word}{after}");
                 }
             } else {
-                *text = random.pick(words).cloned().unwrap_or_default();
+                *text = words.pick(random);
             }
         }
         _ => {
@@ -164,7 +296,7 @@ fn special_number(random: &mut Random) -> Number {
 }
 
 /// A value of any kind.
-fn value(words: &[String], random: &mut Random) -> Value {
+fn value(words: &Words<'_>, random: &mut Random) -> Value {
     match random.below(9) {
         0 => Value::Null,
         1 => Value::Bool(random.once_in(2)),
@@ -173,48 +305,20 @@ fn value(words: &[String], random: &mut Random) -> Value {
         4 => (0..random.count(300))
             .map(|_| Value::Number(special_number(random)))
             .collect(),
-        5 => json!("x".repeat(random.count(100_000))),
+        5 => json!("x".repeat(random.count(10_000))),
         6 | 7 => Value::Number(special_number(random)),
-        _ => Value::String(random.pick(words).cloned().unwrap_or_default()),
+        _ => Value::String(words.pick(random)),
     }
-}
-
-/// JSON pointers to all places of a document.
-fn places(value: &Value) -> Vec<String> {
-    // The mutations keep documents flatter than serde_json's own limit, but they stack.
-    const MOST: usize = 4000;
-    let mut all = vec![(String::new(), value)];
-    let mut next = 0;
-    while let Some((here, value)) = all.get(next).cloned() {
-        match value {
-            Value::Array(items) => all.extend(
-                items
-                    .iter()
-                    .enumerate()
-                    .map(|(index, item)| (format!("{here}/{index}"), item)),
-            ),
-            Value::Object(fields) => all.extend(fields.iter().map(|(name, field)| {
-                let name = name.replace('~', "~0").replace('/', "~1");
-                (format!("{here}/{name}"), field)
-            })),
-            _ => {}
-        }
-        next += 1;
-        if all.len() > MOST {
-            break;
-        }
-    }
-    all.into_iter().map(|(place, _)| place).collect()
 }
 
 /// All strings of a document, keys among them.
-pub(crate) fn strings(value: &Value, found: &mut Vec<String>) {
+fn strings<'a>(value: &'a Value, found: &mut Vec<&'a str>) {
     match value {
-        Value::String(text) => found.push(text.clone()),
+        Value::String(text) => found.push(text),
         Value::Array(items) => items.iter().for_each(|item| strings(item, found)),
         Value::Object(fields) => {
             for (name, field) in fields {
-                found.push(name.clone());
+                found.push(name);
                 strings(field, found);
             }
         }

@@ -1,11 +1,13 @@
-//! What the library crates read, graph files and shaders, fed with whatever a file may hold: nothing panics, hangs or leaves a file behind.
+//! What the library crates and the lab read, graph files, plans, shaders and glTF files, fed with whatever a file may hold: nothing panics, hangs or leaves a file behind.
 //!
 //! A [`Target`] has inputs to start from, mutations that know the format, and a function that tries an input out and
 //! panics where an invariant is broken. The same targets run in two ways: `cargo run -p moment-shadows-fuzz` on stable
 //! Rust, seeded and bounded, and `cargo fuzz run TARGET`, guided by libFuzzer.
 
+pub mod gltf;
 pub mod graph_file;
 mod json;
+pub mod plan;
 mod random;
 pub mod runner;
 mod text;
@@ -13,8 +15,8 @@ pub mod wgsl;
 
 pub use random::Random;
 
-/// Changes an input; the seeds are what it may take parts from.
-pub type Mutate = fn(&[u8], &[Vec<u8>], &mut Random) -> Vec<u8>;
+/// Changes an input so many times; the seeds are what it may take parts from.
+pub type Mutate = fn(&[u8], &[Vec<u8>], usize, &mut Random) -> Vec<u8>;
 
 /// Something that reads untrusted input.
 pub struct Target {
@@ -24,12 +26,17 @@ pub struct Target {
     pub seeds: fn() -> Vec<Vec<u8>>,
     /// Changes an input, with knowledge of its format.
     pub mutate: Mutate,
-    /// Reads an input. Panics where something is wrong.
-    pub try_out: fn(&[u8]),
+    /// Reads an input, and says whether it is a valid one. Panics where something is wrong.
+    pub try_out: fn(&[u8]) -> bool,
 }
 
 /// All targets.
-pub const TARGETS: [&Target; 2] = [&graph_file::TARGET, &wgsl::TARGET];
+pub const TARGETS: [&Target; 4] = [
+    &graph_file::TARGET,
+    &plan::TARGET,
+    &gltf::TARGET,
+    &wgsl::TARGET,
+];
 
 /// The largest input that is made.
 pub const LARGEST_INPUT: usize = 1 << 20;
@@ -40,11 +47,10 @@ impl Target {
     #[must_use]
     pub fn input(&self, seeds: &[Vec<u8>], seed: u64, iteration: u64) -> Vec<u8> {
         let mut random = Random::new(seed, iteration);
-        let mut input = random.pick(seeds).cloned().unwrap_or_default();
+        let input = random.pick(seeds).map_or(&[][..], Vec::as_slice);
         // Mostly few changes: more of them seldom leave anything that gets past the first check.
-        for _ in 0..1 + random.below(8) / 2 {
-            input = (self.mutate)(&input, seeds, &mut random);
-        }
+        let times = 1 + random.below(8) / 2;
+        let mut input = (self.mutate)(input, seeds, times, &mut random);
         input.truncate(LARGEST_INPUT);
         input
     }
@@ -55,7 +61,9 @@ impl Target {
 macro_rules! guided {
     ($target:ident) => {
         #[cfg(fuzzing)]
-        ::libfuzzer_sys::fuzz_target!(|data: &[u8]| ($crate::$target::TARGET.try_out)(data));
+        ::libfuzzer_sys::fuzz_target!(|data: &[u8]| {
+            ($crate::$target::TARGET.try_out)(data);
+        });
 
         #[cfg(fuzzing)]
         ::libfuzzer_sys::fuzz_mutator!(|data: &mut [u8],
@@ -90,8 +98,26 @@ pub fn mutate_in_place(
 ) -> usize {
     let mut random = Random::new(u64::from(seed), 0);
     let seeds = (target.seeds)();
-    let mutated = (target.mutate)(&data[..size], &seeds, &mut random);
+    let mutated = (target.mutate)(&data[..size], &seeds, 1, &mut random);
     let length = mutated.len().min(max_size);
     data[..length].copy_from_slice(&mutated[..length]);
     length
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn what_inputs_start_from_is_valid() {
+        for (target, count) in [
+            (&graph_file::TARGET, 11),
+            (&plan::TARGET, 48),
+            (&gltf::TARGET, 6),
+        ] {
+            let seeds = (target.seeds)();
+            let invalid = seeds.iter().position(|seed| !(target.try_out)(seed));
+            assert_eq!((invalid, seeds.len()), (None, count), "{}", target.name);
+        }
+    }
 }

@@ -9,12 +9,12 @@ use clap::Parser;
 use moment_shadows_fuzz::runner::{Run, watch, work};
 use moment_shadows_fuzz::{TARGETS, Target};
 
-/// Tries out seeded mutations of graph files and shaders. Fails at the first panic, abort, hang, file left
+/// Tries out seeded mutations of graph files, plans, glTF files and shaders. Fails at the first panic, abort, hang, file left
 /// behind, or boundless use of memory, and writes the input that did it to a file.
 #[derive(Parser)]
 struct Options {
     /// A target; all of them without this
-    #[arg(long, value_parser = ["graph_file", "wgsl"])]
+    #[arg(long, value_parser = TARGETS.map(|target| target.name))]
     target: Option<String>,
     /// For how long, over all targets
     #[arg(long, default_value_t = 60)]
@@ -77,7 +77,8 @@ fn run(options: &Options) -> io::Result<bool> {
             seeds.push(fs::read(path)?);
         }
         if let Some(path) = &options.input {
-            (target.try_out)(&fs::read(path)?);
+            let is_valid = (target.try_out)(&fs::read(path)?);
+            println!("it is {}", if is_valid { "valid" } else { "refused" });
         } else if let Some(path) = &options.write {
             fs::write(path, target.input(&seeds, run.seed, run.first))?;
         } else if options.work {
@@ -110,9 +111,10 @@ fn watched(target: &Target, seeds: &[Vec<u8>], run: &Run, options: &Options) -> 
     }
     let summary = watch(command)?;
     println!(
-        "{:<12} {:>8} inputs, the slowest took {:.2} s (number {})",
+        "{:<12} {:>8} inputs, {} of them valid; the slowest took {:.2} s (number {})",
         target.name,
         summary.inputs,
+        summary.valid,
         summary.slowest.as_secs_f64(),
         summary.slowest_input
     );

@@ -36,6 +36,8 @@ pub struct Run {
 pub struct Summary {
     /// How many inputs were tried out.
     pub inputs: u64,
+    /// How many of them were valid.
+    pub valid: u64,
     /// The longest that one took.
     pub slowest: Duration,
     /// The number of that one.
@@ -44,23 +46,28 @@ pub struct Summary {
     pub finding: Option<(u64, String)>,
 }
 
-/// Tries inputs out in this process, and writes the number of each to the standard output before it does.
+/// What is written instead of a number when no input is left.
+const END: u64 = u64::MAX >> 1;
+
+/// Tries inputs out in this process, and writes the number of each to the standard output before it does: twice that number, and one more
+/// if the input before was valid.
 ///
 /// # Errors
 /// If nobody reads the output.
 pub fn work(target: &Target, seeds: &[Vec<u8>], run: &Run) -> io::Result<()> {
     let begin = Instant::now();
     let mut out = io::stdout().lock();
+    let mut was_valid = false;
     for iteration in (run.first..).take(usize::try_from(run.iterations).unwrap_or(usize::MAX)) {
         if begin.elapsed() > run.time {
             break;
         }
-        out.write_all(&iteration.to_le_bytes())?;
+        out.write_all(&(2 * iteration + u64::from(was_valid)).to_le_bytes())?;
         out.flush()?;
         let input = target.input(seeds, run.seed, iteration);
-        (target.try_out)(&input);
+        was_valid = (target.try_out)(&input);
     }
-    out.write_all(&u64::MAX.to_le_bytes())?;
+    out.write_all(&(2 * END + u64::from(was_valid)).to_le_bytes())?;
     out.flush()
 }
 
@@ -84,15 +91,17 @@ pub fn watch(mut command: Command) -> io::Result<Summary> {
     let mut processor_before = None;
     loop {
         match numbers.recv_timeout(Duration::from_millis(200)) {
-            Ok(number) => {
+            Ok(written) => {
+                let (number, was_valid) = (written / 2, written % 2);
                 if let Some(input) = current {
+                    summary.valid += was_valid;
                     summary.inputs += 1;
                     if since.elapsed() > summary.slowest {
                         summary.slowest = since.elapsed();
                         summary.slowest_input = input;
                     }
                 }
-                current = (number != u64::MAX).then_some(number);
+                current = (number != END).then_some(number);
                 since = Instant::now();
                 processor_before = None;
                 continue;

@@ -102,7 +102,11 @@ fn tokens(text: &str) -> Vec<&str> {
         .collect()
 }
 
-fn mutate(data: &[u8], seeds: &[Vec<u8>], random: &mut Random) -> Vec<u8> {
+fn mutate(data: &[u8], seeds: &[Vec<u8>], times: usize, random: &mut Random) -> Vec<u8> {
+    (0..times).fold(data.to_vec(), |data, _| mutate_once(&data, seeds, random))
+}
+
+fn mutate_once(data: &[u8], seeds: &[Vec<u8>], random: &mut Random) -> Vec<u8> {
     let Ok(text) = std::str::from_utf8(data) else {
         return mutate_bytes(data, seeds, random);
     };
@@ -201,10 +205,11 @@ fn scaled(random: &mut Random) -> String {
 }
 
 /// Validates a text under every profile, as the command does.
-pub fn try_out(data: &[u8]) {
+pub fn try_out(data: &[u8]) -> bool {
     let Ok(text) = std::str::from_utf8(data) else {
-        return;
+        return false;
     };
+    let mut valid = false;
     let mut parts = text.split(SEPARATOR);
     let source = Source {
         name: "user.wgsl",
@@ -224,10 +229,12 @@ pub fn try_out(data: &[u8]) {
             ..ValidationOptions::default()
         };
         let report = validate(source, &options);
+        valid |= report.is_valid();
         if report.is_valid() {
             assert_eq!(report.outcomes.len(), 5, "an outcome for every backend");
         } else {
             assert!(!report.to_string().is_empty());
         }
     }
+    valid
 }

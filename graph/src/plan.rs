@@ -11,12 +11,13 @@ mod text;
 
 use std::collections::BTreeMap;
 
-pub(crate) use access::Part;
+pub(crate) use access::{MOST_TARGETS, Part};
 pub use hazards::PlannedUse;
 pub use layout::{
     AddressMode, BindingLayout, BufferKind, CompareFunction, FilterMode, PlannedSampler,
     SampleType, SamplerKind, StorageAccess, Usage, ViewDimension, Visibility,
 };
+use moment_shadows::Finite;
 pub use parameters::{ParameterLayout, PlannedField, PlannedParameters};
 pub use regions::PlannedRegions;
 use serde::{Deserialize, Serialize};
@@ -340,6 +341,19 @@ pub struct PlannedMemory {
     pub usage: Vec<Usage>,
 }
 
+impl PlannedResource {
+    /// The description of its memory: what a map has been through is not its memory's.
+    pub(crate) fn in_memory(&self) -> ResourceDesc {
+        let mut desc = self.desc.clone();
+        if let ResourceDesc::Texture(texture) = &mut desc {
+            texture.deviation = Finite::ZERO;
+            texture.width = Finite::ZERO;
+            texture.range = None;
+        }
+        desc
+    }
+}
+
 impl PlannedPass {
     /// `node/pass`, by which hosts name a pass.
     #[must_use]
@@ -362,16 +376,17 @@ impl Plan {
     /// Bytes of everything that the plan creates.
     #[must_use]
     pub fn bytes_resident(&self) -> u64 {
-        self.memory.iter().map(|memory| memory.desc.bytes()).sum()
+        let memory = self.memory.iter().map(|memory| memory.desc.bytes());
+        memory.fold(0, u64::saturating_add)
     }
 
     /// Bytes that all passes read and write when every layer is dirty.
     #[must_use]
     pub fn bytes_moved(&self) -> u64 {
-        self.passes
-            .iter()
-            .map(|pass| pass.bytes_read + pass.bytes_written)
-            .sum()
+        let passes = self.passes.iter();
+        passes
+            .flat_map(|pass| [pass.bytes_read, pass.bytes_written])
+            .fold(0, u64::saturating_add)
     }
 
     /// The description of the texture behind an output.

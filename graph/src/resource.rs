@@ -95,11 +95,15 @@ impl TextureDesc {
         self.size.map(|side| (side >> level.min(31)).max(1))
     }
 
-    /// Bytes of one mip level of one plane of a layer, all samples.
+    /// Bytes of one mip level of one plane of a layer, all samples. A description from elsewhere may say what no number holds: the
+    /// largest one then.
     #[must_use]
     pub fn bytes_per_level(&self, level: u32) -> u64 {
         let [width, height] = self.size_at(level).map(u64::from);
-        width * height * u64::from(self.format.bytes_per_texel()) * u64::from(self.samples)
+        let bytes = u64::from(self.format.bytes_per_texel());
+        (width * height)
+            .saturating_mul(bytes)
+            .saturating_mul(u64::from(self.samples))
     }
 
     /// The number of mip levels of a map whose shorter side has at least one texel on each of them.
@@ -111,8 +115,14 @@ impl TextureDesc {
     /// Bytes of all layers, with all planes, mip levels and samples.
     #[must_use]
     pub fn bytes(&self) -> u64 {
-        let levels = (0..self.mips).map(|level| self.bytes_per_level(level));
-        levels.sum::<u64>() * u64::from(self.planes) * u64::from(self.layers)
+        // From this level on nothing gets smaller, however many a description from elsewhere has.
+        let last = self.mips.min(31);
+        let levels = (0..last).map(|level| self.bytes_per_level(level));
+        let rest = u64::from(self.mips - last).saturating_mul(self.bytes_per_level(last));
+        levels
+            .fold(rest, u64::saturating_add)
+            .saturating_mul(u64::from(self.planes))
+            .saturating_mul(u64::from(self.layers))
     }
 }
 

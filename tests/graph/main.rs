@@ -22,6 +22,7 @@ mod parameters;
 mod parameters_again;
 mod plan;
 mod plan_file;
+mod plan_from_elsewhere;
 mod properties;
 mod ranges;
 mod regions;

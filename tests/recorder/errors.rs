@@ -5,8 +5,8 @@ use moment_shadows_graph::record::{
     Bindings, ImportedResource, PipelineOptions, Pipelines, Resources,
 };
 use moment_shadows_graph::{
-    Access, GraphError, GraphErrorKind, NodeDesc, Plan, Slot, SlotResource, Stage, TextureDesc,
-    bind,
+    Access, Graph, GraphError, GraphErrorKind, NodeDesc, Plan, PlannedWork, Slot, SlotResource,
+    Stage, TextureDesc, bind,
 };
 use moment_shadows_lab::gpu::Gpu;
 use pollster::block_on;
@@ -129,9 +129,8 @@ const READS: &str = "
 fn main(@builtin(global_invocation_id) id: vec3u) { textureStore(copied, id.xy, data[0]); }
 ";
 
-#[test]
-fn a_buffer_import_has_the_size_and_usage_of_storage() {
-    let gpu = gpu();
+/// A graph of a node that reads a buffer of so many bytes.
+fn reading(size: u64) -> Graph {
     let node = NodeDesc {
         slots: vec![
             Slot::input(
@@ -139,7 +138,7 @@ fn a_buffer_import_has_the_size_and_usage_of_storage() {
                 "Numbers.",
                 SlotResource::Buffer {
                     access: Access::READ,
-                    size: 64,
+                    size,
                 },
             ),
             output("to", 1),
@@ -155,14 +154,19 @@ fn a_buffer_import_has_the_size_and_usage_of_storage() {
         )],
         ..copy(Stage::AfterShadowMaps, 1)
     };
-    let desc = moment_shadows_graph::ResourceDesc::Buffer { size: 64 };
-    let graph = graph(
+    let desc = moment_shadows_graph::ResourceDesc::Buffer { size };
+    graph(
         &[("data", desc)],
         vec![("host", node)],
         &[("data", "host.data")],
         &[("out", "host.to")],
-    );
-    let plan = graph.compile(&capabilities(&gpu), &[]).unwrap();
+    )
+}
+
+#[test]
+fn a_buffer_import_has_the_size_and_usage_of_storage() {
+    let gpu = gpu();
+    let plan = reading(64).compile(&capabilities(&gpu), &[]).unwrap();
     let buffer = |size, usage| {
         gpu.device.create_buffer(&wgpu::BufferDescriptor {
             label: None,
@@ -318,14 +322,63 @@ fn what_the_device_refuses_is_an_error_with_the_label() {
     let mut beyond = capabilities(&gpu);
     beyond.bind_group = gpu.device.limits().max_bind_groups;
     let plan = compiled(EXAMPLE, &beyond, &[]);
-    let error = block_on(Pipelines::create(
+    refused_by_device(&gpu, &plan, "moment-shadows/resolve/resolve");
+    // One from elsewhere may claim so many that a list of them has no room.
+    let plan = Plan {
+        bind_group: u32::MAX,
+        ..plan
+    };
+    refused_by_device(&gpu, &plan, "moment-shadows/resolve/resolve");
+}
+
+/// The device could not make the pipelines of a plan.
+fn refused_by_device(gpu: &Gpu, plan: &Plan, label: &str) {
+    let created = block_on(Pipelines::create(
+        &gpu.device,
+        plan,
+        PipelineOptions::default(),
+    ));
+    let error = created.err().unwrap();
+    assert_eq!(error.kind, GraphErrorKind::Device);
+    let says = format!("the device could not create {label}: ");
+    assert!(error.message.starts_with(&says), "{error}");
+}
+
+#[test]
+fn a_dispatch_beyond_the_device_is_refused_before_it_is_recorded() {
+    let gpu = gpu();
+    let mut plan = plan(&gpu);
+    let most = gpu.device.limits().max_compute_workgroups_per_dimension;
+    let map = depth(&gpu);
+    let imports = [
+        ("light_depth", ImportedResource::from(&map)),
+        ("camera_depth", ImportedResource::from(&map)),
+    ];
+    for (wanted, fits) in [([1, most], true), ([most + 1, 1], false)] {
+        if let PlannedWork::Compute { workgroups, .. } = &mut plan.passes[0].work {
+            *workgroups = wanted;
+        }
+        let bytes = plan.parameters.initial();
+        let error = try_bind(&gpu, plan.clone(), &imports, &bytes).err();
+        assert_eq!(error.is_none(), fits, "{error:?}");
+        if let Some(error) = error {
+            assert_eq!(error.kind, GraphErrorKind::Capability);
+            assert!(error.message.contains("allows"), "{error}");
+        }
+    }
+}
+
+#[test]
+fn a_shader_that_reads_beyond_its_buffer_is_refused_before_it_is_recorded() {
+    let gpu = gpu();
+    let mut plan = reading(64).compile(&capabilities(&gpu), &[]).unwrap();
+    plan.shaders[0] = plan.shaders[0].replace("array<vec4f>", "array<vec4f, 4>");
+    block_on(Pipelines::create(
         &gpu.device,
         &plan,
         PipelineOptions::default(),
     ))
-    .err()
     .unwrap();
-    assert_eq!(error.kind, GraphErrorKind::Device);
-    let says = "the device could not create moment-shadows/resolve/resolve: ";
-    assert!(error.message.starts_with(says), "{error}");
+    plan.shaders[0] = plan.shaders[0].replace("array<vec4f, 4>", "array<vec4f, 5>");
+    refused_by_device(&gpu, &plan, "moment-shadows/host/main");
 }

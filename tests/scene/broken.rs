@@ -24,6 +24,7 @@ const BROKEN: &str = r#"
     /accessors/1/componentType; 5120; indices (accessor 1)
     /bufferViews/1/byteOffset; 18446744073709551613; indices (accessor 1)
     /bufferViews/0/byteStride; 4; breaks the reader
+    /bufferViews/0/byteStride; 4; (gltf-1
     /extensionsRequired; ["KHR_draco_mesh_compression"]; KHR_draco_mesh_compression
     /buffers/0/uri; "absent.bin"; buffer 0: 'absent.bin'
     /buffers/0/uri; null; missing binary portion
@@ -84,6 +85,14 @@ fn small_files_do_not_multiply_without_limit() {
     let warnings = files.load().unwrap().warnings;
     assert_eq!(warnings.len(), 101);
     assert_eq!(warnings[100], "further warnings are left out");
+    // A picture of 20000 x 20000 texels, if it were one.
+    Files::triangle(
+        r#"/images [{ "uri": "data:image/png;base64,iVBORw0KGgoAAAANSUhEUgAATiAAAE4gCAAAAADGGxnlAAAACUlEQVR4nGMAAAABAAFe/335AAAAAElFTkSuQmCC" }]
+        /textures [{ "source": 0 }]
+        /materials [{ "alphaMode": "MASK", "pbrMetallicRoughness": { "baseColorTexture": { "index": 0 } } }]
+        /meshes/0/primitives/0/material 0"#,
+    )
+    .is_refused("limit of 1073741824 bytes");
 }
 
 #[test]

@@ -289,6 +289,7 @@ fn check_cargo(words: &[String], pasted: bool) -> Option<String> {
         None | Some("moment-shadows") => ".",
         Some("moment-shadows-graph") => "graph",
         Some("moment-shadows-lab") => "examples/lab",
+        Some("moment-shadows-fuzz") => "fuzz",
         Some(other) => panic!("'{other}' is no package"),
     };
     if let Some(test) = after("--test") {

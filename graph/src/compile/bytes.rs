@@ -8,7 +8,7 @@ pub(super) fn count(pass: &mut PlannedPass, resources: &[PlannedResource]) {
     let layers = u64::from(pass.layers);
     let level = |resource: usize, level: u32| {
         let texture = resources[resource].desc.texture();
-        texture.map_or(0, |texture| texture.bytes_per_level(level) * layers)
+        texture.map_or(0, |it| it.bytes_per_level(level).saturating_mul(layers))
     };
     let uniforms = pass.bindings.iter();
     let uniforms = uniforms.filter_map(|binding| binding.uniform_size());
@@ -19,8 +19,12 @@ pub(super) fn count(pass: &mut PlannedPass, resources: &[PlannedResource]) {
             Part::Level { level: of, .. } => level(touch.resource, of),
             Part::Buffer | Part::Layers => resources[touch.resource].desc.bytes(),
         };
-        read += if touch.access.read { bytes } else { 0 };
-        written += if touch.access.writes() { bytes } else { 0 };
+        if touch.access.read {
+            read = read.saturating_add(bytes);
+        }
+        if touch.access.writes() {
+            written = bytes.saturating_add(written);
+        }
     }
     if let PlannedWork::Host {
         targets,
@@ -30,7 +34,8 @@ pub(super) fn count(pass: &mut PlannedPass, resources: &[PlannedResource]) {
     } = &pass.work
     {
         let targets = targets.iter().map(|&target| level(target, 0));
-        read += targets.sum::<u64>() * u64::from(*planes);
+        let blended = targets.fold(0, u64::saturating_add);
+        read = read.saturating_add(blended.saturating_mul(u64::from(*planes)));
     }
     (pass.bytes_read, pass.bytes_written) = (read, written);
 }

@@ -147,11 +147,11 @@ impl ParameterLayout {
         let stride = size.next_multiple_of(alignment);
         let offset = self.size;
         let end = u64::from(offset) + stride * u64::from(count);
-        let most = u32::MAX;
+        let most = Self::MOST_BYTES;
         let fits = stride.max(end) <= u64::from(most);
         ensure(fits, GraphErrorKind::Size, || {
             format!(
-                "a view's parameters take {end} bytes with those of this node; at most {most} can be addressed"
+                "a view's parameters take {end} bytes with those of this node; at most {most} are possible"
             )
         })?;
         self.size = end as u32;

@@ -3,7 +3,8 @@
 use std::collections::BTreeMap;
 
 use super::{Described, Known, bytes, declaration, workgroups};
-use crate::plan::Part;
+use crate::error::ensure;
+use crate::plan::{MOST_TARGETS, Part};
 use crate::{
     Binding, BindingLayout, BindingResource, BufferKind, Capabilities, GraphError, GraphErrorKind,
     ParameterLayout, Pass, PlannedBinding, PlannedBindingResource, PlannedPart, PlannedPass,
@@ -302,6 +303,14 @@ impl Planner<'_> {
                         "draws to maps of different numbers of texture layers per layer at once",
                     ));
                 }
+                let count = planes.iter().map(|&planes| u64::from(planes)).sum::<u64>();
+                let most = MOST_TARGETS;
+                ensure(count <= most as u64, GraphErrorKind::Size, || {
+                    self.fault(format!(
+                        "draws to {count} targets at once; at most {most} are possible"
+                    ))
+                    .message
+                })?;
                 let work = PlannedWork::Host {
                     targets: targets
                         .iter()
@@ -329,12 +338,20 @@ impl Planner<'_> {
             (resource.name.as_str(), resource.desc.layers())
         });
         let bindings = pass.bindings.iter();
-        let tables = bindings.filter_map(|binding| {
-            let PlannedBindingResource::Regions { table } = binding.resource else {
-                return None;
-            };
-            let table = &self.layout.regions[table];
-            Some((table.map.as_str(), table.layers))
+        let tables = bindings.filter_map(|binding| match binding.resource {
+            PlannedBindingResource::Regions { table } => {
+                let table = &self.layout.regions[table];
+                Some((table.map.as_str(), table.layers))
+            }
+            // One for all layers is none by layer.
+            PlannedBindingResource::Parameters { block } => {
+                let block = &self.layout.blocks[block];
+                (block.count > 1).then_some((block.name.as_str(), block.count))
+            }
+            PlannedBindingResource::Texture { .. }
+            | PlannedBindingResource::StorageTexture { .. }
+            | PlannedBindingResource::Buffer { .. }
+            | PlannedBindingResource::Sampler(_) => None,
         });
         let mut all = textures.chain(tables);
         match all.find(|(_, layers)| *layers < pass.layers) {

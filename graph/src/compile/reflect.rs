@@ -93,6 +93,12 @@ impl Shaders {
                     "the variable '{name}' is not {expected}, which the node describes"
                 )));
             }
+            if let BindingLayout::Buffer {
+                min_binding_size, ..
+            } = &mut planned.layout
+            {
+                *min_binding_size = actual.size(module.to_ctx());
+            }
         }
         if let Some(name) = open.keys().next() {
             let used = variables(module, uses).map(|(name, ..)| name);

@@ -32,7 +32,14 @@ pub(super) fn check_pass(
     let (colours, depth, blend): (Vec<&TextureDesc>, _, _) = match &pass.work {
         PlannedWork::Compute { .. } => return Ok(()),
         PlannedWork::Fullscreen { target, .. } => {
-            (texture(*target).into_iter().collect(), None, false)
+            let target = texture(*target);
+            let samples = target.map_or(1, |target| target.samples);
+            ensure(samples == 1, GraphErrorKind::Declaration, || {
+                format!(
+                    "pass '{label}' covers a texture of {samples} samples; the library draws to one"
+                )
+            })?;
+            (target.into_iter().collect(), None, false)
         }
         PlannedWork::Host {
             targets,

@@ -6,6 +6,9 @@ use super::{
 };
 use crate::Access;
 
+/// The most colour targets that WebGPU promises (`maxColorAttachments`).
+pub(crate) const MOST_TARGETS: usize = 8;
+
 /// A resource that a pass touches.
 pub(crate) struct Touch {
     /// Index into the plan's resources.
@@ -48,8 +51,10 @@ impl PlannedPass {
                 depth,
                 ..
             } => {
+                // Of a plan from elsewhere not more than `check` lets pass.
+                let most = MOST_TARGETS as u32 + 1;
                 for &target in targets {
-                    (0..*planes).for_each(|plane| draw(target, 0, plane));
+                    (0..most.min(*planes)).for_each(|plane| draw(target, 0, plane));
                 }
                 depth.iter().for_each(|&target| draw(target, 0, 0));
             }
@@ -81,9 +86,18 @@ impl PlannedBinding {
     pub(crate) fn fits(&self) -> bool {
         let uniform = self.uniform_size().is_some();
         match (&self.resource, self.layout) {
-            (PlannedBindingResource::Parameters { .. }, _)
-            | (PlannedBindingResource::Regions { .. }, _) => uniform,
-            (PlannedBindingResource::Buffer { .. }, BindingLayout::Buffer { .. }) => !uniform,
+            (
+                PlannedBindingResource::Parameters { .. } | PlannedBindingResource::Regions { .. },
+                BindingLayout::Buffer {
+                    has_dynamic_offset, ..
+                },
+            ) => uniform && has_dynamic_offset,
+            (
+                PlannedBindingResource::Buffer { .. },
+                BindingLayout::Buffer {
+                    has_dynamic_offset, ..
+                },
+            ) => !uniform && !has_dynamic_offset,
             (
                 PlannedBindingResource::Texture { part, .. },
                 BindingLayout::Texture { view_dimension, .. },
@@ -96,7 +110,9 @@ impl PlannedBinding {
                 sampler.kind() == ty
             }
             (
-                PlannedBindingResource::Texture { .. }
+                PlannedBindingResource::Parameters { .. }
+                | PlannedBindingResource::Regions { .. }
+                | PlannedBindingResource::Texture { .. }
                 | PlannedBindingResource::StorageTexture { .. }
                 | PlannedBindingResource::Buffer { .. }
                 | PlannedBindingResource::Sampler(_),
@@ -141,18 +157,27 @@ impl PlannedBinding {
         })
     }
 
-    /// Bytes of uniform data of one layer; `None` for anything else.
-    pub(crate) fn uniform_size(&self) -> Option<u32> {
+    /// Bytes that are bound of a buffer at least; 0 of anything else.
+    pub(crate) fn least_bytes(&self) -> u32 {
         match self.layout {
             BindingLayout::Buffer {
-                ty: BufferKind::Uniform,
-                min_binding_size,
-                ..
-            } => Some(min_binding_size),
-            BindingLayout::Buffer { .. }
-            | BindingLayout::Sampler { .. }
+                min_binding_size, ..
+            } => min_binding_size,
+            BindingLayout::Sampler { .. }
             | BindingLayout::Texture { .. }
-            | BindingLayout::StorageTexture { .. } => None,
+            | BindingLayout::StorageTexture { .. } => 0,
         }
+    }
+
+    /// Bytes of uniform data of one layer; `None` for anything else.
+    pub(crate) fn uniform_size(&self) -> Option<u32> {
+        let is_uniform = matches!(
+            self.layout,
+            BindingLayout::Buffer {
+                ty: BufferKind::Uniform,
+                ..
+            }
+        );
+        is_uniform.then(|| self.least_bytes())
     }
 }

@@ -101,6 +101,12 @@ impl Plan {
         followed.map(|(index, _)| index).collect()
     }
 
+    /// Whether two uses have memory in common.
+    pub(crate) fn shared(&self, one: &Touch, other: &Touch) -> bool {
+        let [one, other] = [one, other].map(PlannedUse::of);
+        one.meets(&other) || one.resource != other.resource && self.share_memory(&one, &other)
+    }
+
     fn share_memory(&self, one: &PlannedUse, other: &PlannedUse) -> bool {
         let home = |of: &PlannedUse| match self.resources.get(of.resource)?.home {
             Home::Memory(memory) => Some(memory),

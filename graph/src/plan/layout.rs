@@ -18,7 +18,7 @@ pub enum BindingLayout {
         ty: BufferKind,
         /// Whether an offset is given when it is bound.
         has_dynamic_offset: bool,
-        /// Bytes; 0 is any number.
+        /// The bytes that the shader reads or writes at least; 0 in a host's pass.
         min_binding_size: u32,
     },
     /// A sampler.
@@ -193,7 +193,12 @@ pub enum Usage {
 impl Usage {
     /// Adds to the usages of a resource what an access needs.
     pub(crate) fn add(usages: &mut Vec<Self>, of: &ResourceDesc, access: Access) {
-        let needed = match of {
+        Self::union(usages, &Self::needed(of, access));
+    }
+
+    /// What an access needs.
+    pub(crate) fn needed(of: &ResourceDesc, access: Access) -> Vec<Self> {
+        match of {
             ResourceDesc::Buffer { .. } => vec![Usage::Storage],
             ResourceDesc::Texture(texture) => {
                 let all = [
@@ -208,8 +213,7 @@ impl Usage {
                 let needed = all.into_iter().filter(|(is_needed, _)| *is_needed);
                 needed.map(|(_, usage)| usage).collect()
             }
-        };
-        Self::union(usages, &needed);
+        }
     }
 
     /// Adds usages, in their order.

@@ -72,16 +72,16 @@ impl PlannedParameters {
 
     /// Where a struct of a layer begins in the view's block.
     fn start(&self, layer: u32, element: u32) -> usize {
-        self.offset as usize
-            + layer as usize * self.stride as usize
-            + element as usize * self.size as usize
+        start(self.offset, layer, self.stride)
+            .saturating_add((element as usize).saturating_mul(self.size as usize))
     }
 
     /// Writes the initial values of a layer's structs, from number `first` on.
     fn reset(&self, bytes: &mut [u8], layer: u32, first: u32) {
         for element in first..self.elements {
             let start = self.start(layer, element);
-            if let Some(place) = bytes.get_mut(start..start + self.size as usize) {
+            let end = start.saturating_add(self.size as usize);
+            if let Some(place) = bytes.get_mut(start..end) {
                 let (given, rest) = place.split_at_mut(self.initial.len().min(place.len()));
                 given.copy_from_slice(&self.initial[..given.len()]);
                 rest.fill(0);
@@ -91,6 +91,9 @@ impl PlannedParameters {
 }
 
 impl ParameterLayout {
+    /// The most bytes of a view's block: what every device of WebGPU has room for in one buffer.
+    pub const MOST_BYTES: u32 = 1 << 28;
+
     /// The dynamic offsets of a pass, whose bindings are in the order of their numbers.
     pub(crate) fn offsets(&self, bindings: &[PlannedBinding]) -> Vec<PlannedOffset> {
         let offsets = bindings.iter().filter_map(|binding| {
@@ -114,7 +117,8 @@ impl ParameterLayout {
         offsets.collect()
     }
 
-    /// A view's block with every node's initial values.
+    /// A view's block with every node's initial values. A plan from elsewhere is [checked](super::Plan::check) first: of one that is not,
+    /// this may take long.
     #[must_use]
     pub fn initial(&self) -> Vec<u8> {
         let mut bytes = vec![0; self.size as usize];
@@ -189,11 +193,21 @@ impl ParameterLayout {
         size: u64,
     ) -> Result<&'a mut [u8], GraphError> {
         let given = block.len();
-        block.get_mut(start..start + size as usize).ok_or_else(|| {
-            let message = format!("a view's block has {} bytes, {given} were given", self.size);
-            GraphError::new(GraphErrorKind::Parameters, message)
-        })
+        let size = usize::try_from(size).unwrap_or(usize::MAX);
+        block
+            .get_mut(start..start.saturating_add(size))
+            .ok_or_else(|| {
+                let message = format!("a view's block has {} bytes, {given} were given", self.size);
+                GraphError::new(GraphErrorKind::Parameters, message)
+            })
     }
+}
+
+/// Where a layer's data begins. A plan from elsewhere may say what no block reaches.
+pub(super) fn start(offset: u32, layer: u32, stride: u32) -> usize {
+    (layer as usize)
+        .saturating_mul(stride as usize)
+        .saturating_add(offset as usize)
 }
 
 /// Whether values fit the view's block.

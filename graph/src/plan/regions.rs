@@ -4,7 +4,7 @@ use moment_shadows::MapRegion;
 use serde::{Deserialize, Serialize};
 
 use super::ParameterLayout;
-use super::parameters::fits;
+use super::parameters::{fits, start};
 use crate::GraphError;
 use crate::error::unknown;
 
@@ -41,7 +41,7 @@ impl PlannedRegions {
 
     /// Where a layer's regions begin in the view's block.
     fn start(&self, layer: u32) -> usize {
-        self.offset as usize + layer as usize * self.stride as usize
+        start(self.offset, layer, self.stride)
     }
 
     fn check(&self, regions: &[MapRegion]) -> Result<(), GraphError> {

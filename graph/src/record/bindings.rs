@@ -99,6 +99,7 @@ impl Bindings {
         };
         let mut steps = Vec::with_capacity(plan.passes.len());
         for pass in &plan.passes {
+            check_workgroups(pass, device)?;
             let is_host = matches!(pass.work, PlannedWork::Host { .. });
             let made = (!is_host).then(|| pipelines.get(plan, pass)).transpose()?;
             steps.push(scoped(device, &label(pass), || objects.step(pass, made)).await??);
@@ -137,6 +138,23 @@ impl Bindings {
         };
         Some(buffer)
     }
+}
+
+/// Whether a device takes a dispatch: what it refuses then, it refuses where nobody waits for its verdict.
+fn check_workgroups(pass: &PlannedPass, device: &wgpu::Device) -> Result<(), GraphError> {
+    let PlannedWork::Compute {
+        workgroups: [x, y], ..
+    } = pass.work
+    else {
+        return Ok(());
+    };
+    let most = device.limits().max_compute_workgroups_per_dimension;
+    ensure(x.max(y) <= most, GraphErrorKind::Capability, || {
+        let label = label(pass);
+        format!(
+            "{label} takes {x}x{y} workgroups, but this device allows {most}; compile the graph for this device"
+        )
+    })
 }
 
 /// An object of a bind group, kept until the group is made.

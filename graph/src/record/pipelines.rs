@@ -295,8 +295,9 @@ impl PipelineKey {
             label: Some(label),
             entries: &self.layout,
         });
-        // Groups below ours are the host's; they stay empty here.
-        let mut groups = vec![None; self.bind_group as usize];
+        // Groups below ours are the host's; they stay empty here. More than a device has, it refuses: no need of all that a plan claims.
+        let below = self.bind_group.min(device.limits().max_bind_groups);
+        let mut groups = vec![None; below as usize];
         groups.push(Some(&group));
         let layout = device.create_pipeline_layout(&wgpu::PipelineLayoutDescriptor {
             label: Some(label),

@@ -1,10 +1,12 @@
 //! What a glTF file is made of: vectors and indices in buffers, images, and files beside it.
 
+use std::io::Cursor;
 use std::path::Path;
 
 use gltf::accessor::{Accessor, DataType, Item, Iter};
 use gltf::buffer::{self, Data};
 use gltf::image::Source as ImageSource;
+use image::ImageReader;
 
 use super::Image;
 
@@ -122,9 +124,15 @@ impl<'a> Source<'a> {
                 &fetched[..]
             }
         };
-        let decoded = image::load_from_memory(bytes).map_err(|error| error.to_string())?;
-        self.take(1, decoded.as_bytes().len())?;
-        let decoded = decoded.into_rgba8();
+        // A few bytes may claim millions of texels, whether or not they can be decoded.
+        let text = |error: image::ImageError| error.to_string();
+        let reader = || ImageReader::new(Cursor::new(bytes)).with_guessed_format();
+        let opened = reader().map_err(|error| error.to_string())?;
+        let (width, height) = opened.into_dimensions().map_err(text)?;
+        let texels = (width as usize).saturating_mul(height as usize);
+        self.take(texels, size_of::<[u8; 4]>())?;
+        let opened = reader().map_err(|error| error.to_string())?;
+        let decoded = opened.decode().map_err(text)?.into_rgba8();
         Ok(Image {
             width: decoded.width(),
             height: decoded.height(),
