@@ -25,7 +25,8 @@ const BROKEN: &str = r#"
     /passes/0/bindings/1/binding 0; pass 'resolve/resolve' says something else of its bindings
     /passes/0/bindings/1/resource/texture/resource 2; pass 'resolve/resolve' writes what it uses in another way
     /resources/0/usage []; pass 'resolve/resolve' uses resource 'light_depth' in a way that it does not allow
-    /resources/3/home/memory 0; resource 'blur.half_blurred' lives in memory 0, which is something else
+    /resources/3/home/memory 0; pass 'blur/blur along x' writes what it uses in another way
+    /resources/3/home/memory 2; resource 'blur.half_blurred' lives in memory 2, which is something else
     /memory/1/usage ["TEXTURE_BINDING"]; resource 'blur.half_blurred' lives in memory 1, which is something else
     /memory/1/desc/texture/mips 4294967295; resource 'blur.half_blurred' lives in memory 1, which is something else
     /resources/5/desc/texture/samples 4 /memory/2/desc/texture/samples 4; pass 'shade/shade' does not fit what it covers

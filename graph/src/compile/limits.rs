@@ -24,9 +24,6 @@ pub(super) fn limits(texture: &TextureDesc, capabilities: &Capabilities) -> Resu
             "the texture is empty ({texture}); it has at least one layer, plane, mip level and region, and sides from 1 to {largest}"
         )
     })?;
-    ensure(width.max(height) <= largest, Size, || {
-        format!("the texture has {width}x{height} texels; the device allows {largest} per side")
-    })?;
     counts(texture, capabilities)?;
     ensure(
         samples <= 1 || mips <= 1,
@@ -49,7 +46,7 @@ pub(super) fn limits(texture: &TextureDesc, capabilities: &Capabilities) -> Resu
     })
 }
 
-/// Whether the device can have as many layers, planes and mip levels: nodes make passes for each.
+/// Whether the device can have as many texels, layers, planes and mip levels: nodes make passes for some of them.
 pub(super) fn counts(texture: &TextureDesc, capabilities: &Capabilities) -> Result<(), GraphError> {
     let TextureDesc {
         format,
@@ -58,6 +55,10 @@ pub(super) fn counts(texture: &TextureDesc, capabilities: &Capabilities) -> Resu
         size: [width, height],
         ..
     } = texture;
+    let largest = capabilities.max_texture_size;
+    ensure(*width.max(height) <= largest, Size, || {
+        format!("the texture has {width}x{height} texels; the device allows {largest} per side")
+    })?;
     let (layers, most) = (texture.array_layers(), capabilities.max_texture_layers);
     ensure(layers <= most, Size, || {
         format!("the texture has {layers} layers; the device allows {most}")
