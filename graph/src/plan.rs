@@ -17,7 +17,6 @@ pub use layout::{
     AddressMode, BindingLayout, BufferKind, CompareFunction, FilterMode, PlannedSampler,
     SampleType, SamplerKind, StorageAccess, Usage, ViewDimension, Visibility,
 };
-use moment_shadows::Finite;
 pub use parameters::{ParameterLayout, PlannedField, PlannedParameters};
 pub use regions::PlannedRegions;
 use serde::{Deserialize, Serialize};
@@ -339,19 +338,6 @@ pub struct PlannedMemory {
     pub desc: ResourceDesc,
     /// The usages that it has to allow; of an output also those by which a host takes it.
     pub usage: Vec<Usage>,
-}
-
-impl PlannedResource {
-    /// The description of its memory: what a map has been through is not its memory's.
-    pub(crate) fn in_memory(&self) -> ResourceDesc {
-        let mut desc = self.desc.clone();
-        if let ResourceDesc::Texture(texture) = &mut desc {
-            texture.deviation = Finite::ZERO;
-            texture.width = Finite::ZERO;
-            texture.range = None;
-        }
-        desc
-    }
 }
 
 impl PlannedPass {

@@ -165,6 +165,20 @@ impl ResourceDesc {
         }
     }
 
+    /// What a device knows of it, whatever its texels mean.
+    pub(crate) fn on_device(&self) -> Self {
+        match self {
+            Self::Texture(texture) => Self::Texture(TextureDesc {
+                layers: texture.layers,
+                planes: texture.planes,
+                mips: texture.mips,
+                samples: texture.samples,
+                ..TextureDesc::new(texture.format, texture.size)
+            }),
+            Self::Buffer { size } => Self::Buffer { size: *size },
+        }
+    }
+
     /// Layers of a texture; a buffer has one.
     #[must_use]
     pub fn layers(&self) -> u32 {

@@ -25,7 +25,8 @@ const BROKEN: &str = r#"
     /passes/0/bindings/1/binding 0; pass 'resolve/resolve' says something else of its bindings
     /passes/0/bindings/1/resource/texture/resource 2; pass 'resolve/resolve' writes what it uses in another way
     /resources/0/usage []; pass 'resolve/resolve' uses resource 'light_depth' in a way that it does not allow
-    /resources/3/home/memory 0; resource 'blur.half_blurred' lives in memory 0, which is something else
+    /resources/3/home/memory 0; pass 'blur/blur along x' writes what it uses in another way
+    /resources/3/home/memory 2; resource 'blur.half_blurred' lives in memory 2, which is something else
     /memory/1/usage ["TEXTURE_BINDING"]; resource 'blur.half_blurred' lives in memory 1, which is something else
     /memory/1/desc/texture/mips 4294967295; resource 'blur.half_blurred' lives in memory 1, which is something else
     /resources/5/desc/texture/samples 4 /memory/2/desc/texture/samples 4; pass 'shade/shade' does not fit what it covers
@@ -36,7 +37,7 @@ const BROKEN: &str = r#"
     /parameters/regions/0/layers 4294967295 /parameters/regions/0/stride 0; the regions of map 'light_depth' do not lie within
     /parameters/regions/0/capacity 0; the regions of map 'light_depth' do not lie within
     /parameters/regions/0/stride 4294967295 /parameters/regions/0/layers 4294967295 /parameters/regions/0/offset 4294967295 /parameters/regions/0/capacity 4294967295; the regions of map 'light_depth' do not lie within
-    /parameters/blocks/1/offset 256; the regions of map 'light_depth' lie where the parameters of node 'shade' do"#;
+    /parameters/blocks/1/offset 256; the parameters of node 'shade' lie where the regions of map 'light_depth' do"#;
 
 /// The example's plan with what pairs of a pointer and a value say.
 fn changed(changes: &str) -> Plan {
@@ -192,7 +193,7 @@ fn nodes_are_not_asked_about_textures_that_no_device_has() {
                 "encoding": {{"storage": "float16"}}}}}}], "nodes": [{{"name": "down", "type": "downsample"}}],
                 "edges": [{{"from": "map", "to": "down.map"}}], "outputs": [{{"name": "o", "from": "down.map"}}]}}"#
         );
-        assert_error(&refused(&text), Size, "down", "map", "", says);
+        assert_error(&refused(&text), Size, "down", "map", "2:66", says);
     }
 }
 

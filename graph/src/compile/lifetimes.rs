@@ -2,6 +2,8 @@
 
 use std::collections::BTreeMap;
 
+use moment_shadows::Finite;
+
 use super::Known;
 use crate::plan::Part;
 use crate::{Home, Lives, Plan, PlannedMemory, ResourceDesc, Stage, Usage};
@@ -92,7 +94,13 @@ pub(super) fn share_memory(plan: &mut Plan, known: &[&Known]) {
         };
         let free_after = (!life.keeps_memory()).then_some(life.last);
         let written_when_dirty = !life.written_every_time;
-        let desc = resource.in_memory();
+        let mut desc = resource.desc.clone();
+        if let ResourceDesc::Texture(texture) = &mut desc {
+            // What a map has been through is not its memory's.
+            texture.deviation = Finite::ZERO;
+            texture.width = Finite::ZERO;
+            texture.range = None;
+        }
         let mut taken = blocks.iter();
         let home = match taken.position(|block| block.takes(life, &desc, root)) {
             Some(home) => {

@@ -9,7 +9,6 @@ use crate::{Access, Capabilities, GraphError, TextureDesc};
 /// Whether the device can have such a texture.
 pub(super) fn limits(texture: &TextureDesc, capabilities: &Capabilities) -> Result<(), GraphError> {
     let TextureDesc {
-        format,
         size: [width, height],
         layers,
         mips,
@@ -25,25 +24,7 @@ pub(super) fn limits(texture: &TextureDesc, capabilities: &Capabilities) -> Resu
             "the texture is empty ({texture}); it has at least one layer, plane, mip level and region, and sides from 1 to {largest}"
         )
     })?;
-    ensure(width.max(height) <= largest, Size, || {
-        format!("the texture has {width}x{height} texels; the device allows {largest} per side")
-    })?;
-    let (layers, most) = (texture.array_layers(), capabilities.max_texture_layers);
-    ensure(layers <= most, Size, || {
-        format!("the texture has {layers} layers; the device allows {most}")
-    })?;
-    if let Some(encoding) = &texture.encoding {
-        let (of_format, of_planes) = (encoding.format(), encoding.planes());
-        ensure((of_format, of_planes) == (format, planes), Format, || {
-            format!(
-                "the texture is to hold {encoding}, but has {planes} planes of {format}; that takes {of_planes} of {of_format}"
-            )
-        })?;
-    }
-    let most = width.max(height).ilog2() + 1;
-    ensure(mips <= most, Size, || {
-        format!("the texture has {mips} mip levels; {width}x{height} texels have at most {most}")
-    })?;
+    counts(texture, capabilities)?;
     ensure(
         samples <= 1 || mips <= 1,
         Format,
@@ -62,6 +43,37 @@ pub(super) fn limits(texture: &TextureDesc, capabilities: &Capabilities) -> Resu
             }
         };
         format!("the texture has {samples} samples per texel; the device allows {counts}{more}")
+    })
+}
+
+/// Whether the device can have as many texels, layers, planes and mip levels: nodes make passes for some of them.
+pub(super) fn counts(texture: &TextureDesc, capabilities: &Capabilities) -> Result<(), GraphError> {
+    let TextureDesc {
+        format,
+        planes,
+        mips,
+        size: [width, height],
+        ..
+    } = texture;
+    let largest = capabilities.max_texture_size;
+    ensure(*width.max(height) <= largest, Size, || {
+        format!("the texture has {width}x{height} texels; the device allows {largest} per side")
+    })?;
+    let (layers, most) = (texture.array_layers(), capabilities.max_texture_layers);
+    ensure(layers <= most, Size, || {
+        format!("the texture has {layers} layers; the device allows {most}")
+    })?;
+    if let Some(encoding) = &texture.encoding {
+        let (of_format, of_planes) = (encoding.format(), encoding.planes());
+        ensure((of_format, of_planes) == (*format, *planes), Format, || {
+            format!(
+                "the texture is to hold {encoding}, but has {planes} planes of {format}; that takes {of_planes} of {of_format}"
+            )
+        })?;
+    }
+    let most = width.max(height).max(&1).ilog2() + 1;
+    ensure(*mips <= most, Size, || {
+        format!("the texture has {mips} mip levels; {width}x{height} texels have at most {most}")
     })
 }
 

@@ -281,11 +281,10 @@ fn describe_all(
             .iter()
             .map(|(slot, &resource)| (slot.clone(), known[resource].desc.clone()))
             .collect();
-        // Nodes make passes for each mip level and plane that they are given.
         for (slot, resource) in &inputs {
             let of_device = resource
                 .texture()
-                .map(|it| limits::limits(it, capabilities));
+                .map(|it| limits::counts(it, capabilities));
             of_device
                 .unwrap_or(Ok(()))
                 .map_err(|error| placed(error.at_slot(slot)))?;

@@ -49,8 +49,8 @@ impl Plan {
                 within(&what, "memory", index, self.memory.len())?;
                 let memory = &self.memory[index];
                 let allowed = |usage| memory.usage.contains(usage);
-                let fits =
-                    memory.desc == resource.in_memory() && resource.usage.iter().all(allowed);
+                let same = memory.desc.on_device() == resource.desc.on_device();
+                let fits = same && resource.usage.iter().all(allowed);
                 ensure(fits, GraphErrorKind::Plan, || {
                     format!(
                         "{what} lives in memory {index}, which is something else; compile the graph again"
