@@ -24,6 +24,7 @@ mod plan;
 mod plan_file;
 mod properties;
 mod ranges;
+mod rectified;
 mod regions;
 mod resized;
 mod resources;
