@@ -123,7 +123,7 @@ impl Storage {
     }
 
     /// The smallest bias of six moments that covers a resolve and a two-pass blur, every stage rounded to the storage; `None`
-    /// for storages that cannot hold six moments. All hold the optimised basis, floats less one half in every channel. The
+    /// for storages that cannot hold six moments through that many roundings. All hold the optimised basis, floats less one half in every channel. The
     /// bias of float32 is what the evaluation in f32 needs rather than the storage, and the bias of unorm10 covers the worst
     /// patches that are known.
     #[must_use]

@@ -28,6 +28,7 @@ use crate::{Profile, TextureFormat, ValueError};
 /// | [`Float16`](Storage::Float16) | 2 x rgba16float | 128 | 1.5e-3 | everywhere |
 /// | [`Float32`](Storage::Float32) | 2 x rgba32float | 256 | 1e-5 | |
 /// | [`Unorm10`](Storage::Unorm10) | 2 x rgb10a2unorm | 64 | 6.5e-3 | everywhere, drawn by render passes; leaks twice as far as float16 |
+/// | [`Unorm8`](Storage::Unorm8) | 2 x rgba8unorm | 64 | 1.2e-2 | everywhere, for light in the air alone, whose means are rounded once |
 ///
 /// Light leaks behind an occluder over a distance that grows with the square root of the bias.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, Serialize, Deserialize)]
@@ -40,7 +41,8 @@ pub enum Storage {
     Float16 = STORAGE_FLOAT16 as isize,
     /// Single precision, raw moments.
     Float32 = STORAGE_FLOAT32 as isize,
-    /// 8-bit normalised channels: for bounded functions of depth, not for moments.
+    /// 8-bit normalised channels: for bounded functions of depth, and for six moments of light in the air
+    /// ([`MapEncoding::rectified`](crate::MapEncoding::rectified)).
     Unorm8 = STORAGE_UNORM8 as isize,
     /// 10-bit normalised channels, three to a texel: for six moments alone. Devices need not be able to write the format from
     /// compute shaders, so such maps are drawn ([`Storage::is_drawn`]).

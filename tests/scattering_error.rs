@@ -118,9 +118,13 @@ fn marched_rays_have_the_radiance_of_closed_forms() {
 }
 
 fn stage(gpu: &Gpu, name: &str, steps: u32) -> ScatteringStage {
+    stage_of(gpu, name, Look::Numbered(0), steps)
+}
+
+fn stage_of(gpu: &Gpu, name: &str, look: Look, steps: u32) -> ScatteringStage {
     let desc = ScatteringStageDesc {
         look: LookDesc {
-            look: Look::Numbered(0),
+            look,
             elevation: None,
         },
         map: 512,
@@ -181,6 +185,25 @@ fn six_moments_beat_sixteen_steps() {
         // All competitors are at work; at half resolution silhouettes remain whatever the steps.
         assert!(error("convolution")[0] <= 0.03);
         assert!(error("march 64")[0] < 0.5 * march && error("half march 64")[0] < 0.75 * half);
+    }
+}
+
+#[test]
+fn six_moments_in_64_bits_err_by_little_more_than_in_128() {
+    let gpu = Gpu::open(PROFILE).unwrap();
+    let candidates = candidates(2, [512; 2]).unwrap();
+    // What they may be off by: a tenth more than they are. As published, as moments of whole distributions with 10 bits each, they are
+    // off by 0.041 and 0.048.
+    for (look, most) in [(Look::Numbered(0), 0.1), (Look::Towards, 0.1)] {
+        let stage = stage_of(&gpu, "hall", look, 256);
+        let [coarse, fine, published] =
+            ["6 moments unorm8", "6 moments float16", "6 moments unorm10"].map(|of| {
+                let candidate = candidates.iter().find(|it| it.name == of).unwrap();
+                let picture = stage.picture(&gpu, candidate).unwrap();
+                ScatteringError::of(&picture, &stage.truth).overall()
+            });
+        println!("{look:?}: {coarse:.4} {fine:.4} {published:.4}");
+        assert!(coarse <= most && coarse < published, "{look:?}");
     }
 }
 

@@ -59,6 +59,29 @@ impl MapEncoding {
 
     /// The encoding, if the storage is one of the technique's and its settings are within their ranges.
     pub fn new(technique: Technique, storage: Storage) -> Result<Self, ValueError> {
+        Self::among(technique, storage, |row| row.storages.to_vec())
+    }
+
+    /// The encoding of a map in rectified coordinates, whose texels are means of many others that are rounded once (nodes
+    /// `rectify_moments` and `integrate_scattering`): as [`new`](Self::new), and with storages that only suffice for these
+    /// ([`Row::rectified`]).
+    pub fn rectified(technique: Technique, storage: Storage) -> Result<Self, ValueError> {
+        Self::among(technique, storage, |row| {
+            [row.storages, row.rectified].concat()
+        })
+    }
+
+    /// Whether the storage suffices for a map in rectified coordinates alone.
+    #[must_use]
+    pub fn is_rectified(&self) -> bool {
+        self.technique.row().rectified.contains(&self.storage)
+    }
+
+    fn among(
+        technique: Technique,
+        storage: Storage,
+        legal: impl Fn(&Row) -> Vec<Storage>,
+    ) -> Result<Self, ValueError> {
         let row = technique.row();
         row.settings.clone()?;
         if row.reads_depth() {
@@ -68,11 +91,12 @@ impl MapEncoding {
             );
             return Err(ValueError::new("technique", message));
         }
+        let legal = legal(&row);
         let format = storage
             .format_of(row.channels)
-            .filter(|_| row.storages.contains(&storage))
+            .filter(|_| legal.contains(&storage))
             .ok_or_else(|| {
-                let legal = listed(row.storages.iter().map(|legal| legal.name()));
+                let legal = listed(legal.iter().map(|legal| legal.name()));
                 let message =
                     format!("'{technique}' cannot be stored as {storage}; it can as {legal}");
                 ValueError::new("storage", message)
@@ -136,6 +160,7 @@ impl MapEncoding {
         if blends > 0
             && (self.table.is_some()
                 || self.storage.is_packed()
+                || self.is_rectified()
                 || technique.row().blended.is_none())
         {
             let all = Technique::examples();
@@ -143,6 +168,7 @@ impl MapEncoding {
             let what = match self.table {
                 Some(_) => "a summed-area table".to_owned(),
                 None if self.storage.is_packed() => format!("packed texels ('{}')", self.storage),
+                None if self.is_rectified() => "a map in rectified coordinates".to_owned(),
                 None => format!("a map for '{technique}'"),
             };
             return refused(format!(
@@ -325,7 +351,7 @@ impl TryFrom<Pair> for MapEncoding {
     fn try_from(pair: Pair) -> Result<Self, ValueError> {
         let encoding = match (pair.storage, pair.table) {
             (Storage::Fixed32, Some(table)) => Self::of_table(pair.technique, table),
-            (_, None) => Self::new(pair.technique, pair.storage),
+            (_, None) => Self::rectified(pair.technique, pair.storage),
             (storage, Some(_)) => {
                 let message = format!(
                     "a summed-area table is stored as fixed32, not as {storage}; leave out 'table' for a map that is not a table"

@@ -2,7 +2,7 @@
 
 use super::far;
 use super::row::{Blended, Encoding, LINEAR, Row};
-use crate::Storage::{self, Float16, Float32, Packed32, Packed64, Unorm10, Unorm16};
+use crate::Storage::{self, Float16, Float32, Packed32, Packed64, Unorm8, Unorm10, Unorm16};
 use crate::constants::{SIX_MOMENTS_EVEN_BASIS, SIX_MOMENTS_EVEN_OFFSET};
 
 const FOUR: Encoding = Encoding {
@@ -88,8 +88,10 @@ pub(super) fn hamburger6() -> Row {
     return hamburger6_shadow_intensity(six_moments_from_texels(texels, STORAGE), receiver.fragment_depth, bias);";
     // The last is half as large as the others, but the one that leaks farthest.
     let storages = &[Unorm16, Float16, Float32, Unorm10];
+    let rectified = &[Unorm8];
     Row {
         planes: 2,
+        rectified,
         blended: Some(Blended {
             alpha_is_free: true,
             evaluation: blended,
@@ -97,7 +99,7 @@ pub(super) fn hamburger6() -> Row {
         bounded_channels: true,
         both_bounds: true,
         functions: &["six_moments_from_texels", "hamburger6_bounds"],
-        far: far::of_each(storages, far_of_six),
+        far: far::of_each(&[&storages[..], &rectified[..]].concat(), far_of_six),
         ..Row::of_map("hamburger6", storages, 4, SIX, evaluation)
     }
 }

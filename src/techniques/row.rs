@@ -69,6 +69,8 @@ pub struct Row {
     pub name: &'static str,
     /// The storages of the map, the one with the least error per bit first. Empty where the plain depth map is read.
     pub storages: &'static [Storage],
+    /// Further storages, of [rectified maps](crate::MapEncoding::rectified) alone: too coarse to be rounded more than once.
+    pub rectified: &'static [Storage],
     /// Channels of a plane of the map: 1, 2 or 4.
     pub channels: u32,
     /// Texture layers that a layer of the map consists of.
@@ -79,7 +81,7 @@ pub struct Row {
     pub(super) exponents: Vec<Finite>,
     /// The largest exponents that range and precision of each of `storages` allow; empty without exponents.
     pub(super) largest_exponents: &'static [f32],
-    /// The texels, plane by plane, of a map in which everything is at the far end, for each of `storages`.
+    /// The texels, plane by plane, of a map in which everything is at the far end, for each of `storages` and of `rectified`.
     pub(super) far: Vec<Vec<[f64; 4]>>,
     /// Constants of the pieces below.
     pub(super) constants: Vec<Constant>,
@@ -138,6 +140,7 @@ impl Row {
         Self {
             name,
             storages,
+            rectified: &[],
             channels,
             planes: 1,
             settings: Ok(()),
@@ -189,7 +192,8 @@ impl Row {
     /// channels. `None` for other storages than the technique's.
     #[must_use]
     pub fn far_texels(&self, storage: Storage) -> Option<&[[f64; 4]]> {
-        let index = self.storages.iter().position(|&of| of == storage)?;
+        let mut storages = self.storages.iter().chain(self.rectified);
+        let index = storages.position(|&of| of == storage)?;
         self.far.get(index).map(Vec::as_slice)
     }
 

@@ -161,7 +161,7 @@ fn prefix_sums_are_not_drawn() {
         );
         assert!(
             text.contains(
-                "rgb10a2unorm, the format of 'unorm10'; use one of 'unorm16', 'float16', 'float32'"
+                "rgb10a2unorm, the format of 'unorm10'; use one of 'unorm16', 'float16', 'float32', 'unorm8'"
             ),
             "{text}"
         );

@@ -25,6 +25,7 @@ mod plan_file;
 mod plan_from_elsewhere;
 mod properties;
 mod ranges;
+mod rectified;
 mod regions;
 mod resized;
 mod resources;

@@ -1,7 +1,7 @@
 import moment_shadows::moments::enclosed_moments::{EnclosedMoments, enclosed_moments_bounds, enclosed_moments_of_occluder, enclosed_moments_sum, enclosed_moments_to_even_texel, enclosed_moments_to_odd_texel};
 import moment_shadows::bounds::hamburger6::{hamburger6_bounds};
 import moment_shadows::moments::six_moments::{SixMoments, six_moments_apply_bias, six_moments_bias_of, six_moments_from_depth, six_moments_from_texels, six_moments_to_even_texel, six_moments_to_odd_texel};
-import moment_shadows::map::storage::{STORAGE_UNORM16};
+import moment_shadows::map::storage::{STORAGE_UNORM16, STORAGE_UNORM8};
 
 // Bounds of occluders with weights, stored and read again: with their ends apart, and as one distribution; and of texels as
 // they are.
@@ -27,6 +27,9 @@ struct BatchOutput {
 
 // What a texture of the storage keeps; the modules round float16 themselves.
 fn kept(texel: vec4f, stored_as: u32) -> vec4f {
+    if stored_as == STORAGE_UNORM8 {
+        return round(saturate(texel) * 255.0) / 255.0;
+    }
     return select(texel, round(saturate(texel) * 65535.0) / 65535.0, stored_as == STORAGE_UNORM16);
 }
 

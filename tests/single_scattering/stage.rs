@@ -40,7 +40,7 @@ pub(crate) fn upload_layers(
     layers: u32,
     channels: &[[f32; 4]],
 ) -> (TextureDesc, wgpu::Texture) {
-    use moment_shadows::TextureFormat::{Rgba16Float, Rgba16Unorm, Rgba32Float};
+    use moment_shadows::TextureFormat::{Rgba8Unorm, Rgba16Float, Rgba16Unorm, Rgba32Float};
     let values = channels.iter().flatten();
     let (format, bytes): (_, Vec<u8>) = match encoding.format() {
         Rgba32Float => (
@@ -58,6 +58,10 @@ pub(crate) fn upload_layers(
             values
                 .flat_map(|&value| ((value * 65535.0).round() as u16).to_le_bytes())
                 .collect(),
+        ),
+        Rgba8Unorm => (
+            wgpu::TextureFormat::Rgba8Unorm,
+            values.map(|&value| (value * 255.0).round() as u8).collect(),
         ),
         other => panic!("{other}"),
     };

@@ -71,6 +71,29 @@ pub(super) fn of_storage(four: &MapEncoding) -> Result<Vec<Variant>, ValueError>
     Ok(all)
 }
 
+/// Six moments as only maps in rectified coordinates hold them: their texts are those of other storages but for the bias.
+pub(super) fn of_eight_bits(four: &MapEncoding) -> Result<Vec<Variant>, ValueError> {
+    let (technique, storage) = (Technique::Hamburger6, Storage::Unorm8);
+    let map = MapEncoding::rectified(technique.clone(), storage)?;
+    let label = format!("{}_{storage}", techniques::label(&technique));
+    let rectify = RectifyMoments {
+        technique,
+        storage,
+        extent: SIZE,
+    };
+    let variant = |variant: Variant, node: &str| variant.file(format!("{node}_{label}"), false);
+    Ok(vec![
+        variant(
+            Variant::new(rectify, four).without_camera(),
+            "rectify_moments",
+        ),
+        variant(
+            Variant::new(CompositeScattering::default(), &map),
+            "composite_scattering",
+        ),
+    ])
+}
+
 /// Marching with a map of four moments, of six and with the plain map; views of a point light, a density of a host's own; upsampling.
 pub(super) fn marched(four: &MapEncoding) -> Result<Vec<Variant>, ValueError> {
     let six = MapEncoding::new(Technique::Hamburger6, four.storage())?;

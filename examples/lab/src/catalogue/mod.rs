@@ -265,6 +265,7 @@ pub fn variants() -> Result<Vec<Variant>, LabError> {
         all.extend(air::of_storage(&four)?);
     }
     let any = MapEncoding::new(Technique::Hamburger4, Storage::Float16)?;
+    all.extend(air::of_eight_bits(&any)?);
     all.extend(air::marched(&any)?);
     all.extend(shade::of_depth(&any));
     all.extend(map::of_depth(&any));

@@ -39,17 +39,20 @@ enum Way {
     Convolution([u32; 2]),
 }
 
-/// Our nodes with six and four moments in float16; six moments that are looked up with 10 bits; the convolution map of the same extent;
-/// marching.
+/// Our nodes with six and four moments in float16 and six in unorm8; six moments that are looked up with 10 bits; the convolution map of
+/// the same extent; marching.
 pub fn candidates(radius: u32, extent: [u32; 2]) -> Result<Vec<ScatteringCandidate>, LabError> {
     let mut all = Vec::new();
     let mut push = |name: String, fetches: f64, way: Way| {
         all.push(ScatteringCandidate { name, fetches, way });
     };
-    for (count, technique) in [(6, MapTechnique::Hamburger6), (4, MapTechnique::Hamburger4)] {
-        let storage = Storage::Float16;
+    for (count, technique, storage) in [
+        (6, MapTechnique::Hamburger6, Storage::Float16),
+        (4, MapTechnique::Hamburger4, Storage::Float16),
+        (6, MapTechnique::Hamburger6, Storage::Unorm8),
+    ] {
         let chain = Chain {
-            map: storage,
+            map: Storage::Float16,
             radius: Some(radius),
             rectify: "rectify_moments",
             rectified: (technique, storage),

@@ -95,7 +95,7 @@ impl Node for CompositeScattering {
                 )));
             }
         }
-        let (_, encoding) = map_input::connected(upstream, "integrated")?;
+        let (_, encoding) = map_input::connected_rectified(upstream, "integrated")?;
         regions::refuse_prefix_sums(&encoding)
             .map_err(|message| wrong_format(message).at_slot("integrated"))?;
         let bounds = techniques::of_both_bounds(

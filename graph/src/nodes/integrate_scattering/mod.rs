@@ -26,7 +26,7 @@ pub struct IntegrateScattering {}
 
 impl Node for IntegrateScattering {
     fn describe(&self, upstream: &Connected<'_>) -> Result<NodeDesc, GraphError> {
-        let (rectified, encoding) = map_input::connected(upstream, "rectified")?;
+        let (rectified, encoding) = map_input::connected_rectified(upstream, "rectified")?;
         regions::refuse_prefix_sums(&encoding)
             .map_err(|message| wrong_format(message).at_slot("rectified"))?;
         let capabilities = upstream.capabilities();

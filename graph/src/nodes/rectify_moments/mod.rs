@@ -29,7 +29,8 @@ pub struct RectifyMoments {
     /// `hamburger4` or `hamburger6`: how many moments the two depths of a texel are encoded as again.
     #[serde(default)]
     pub technique: Technique,
-    /// How they are stored: not as `unorm10`, since prefix sums are written by compute shaders.
+    /// How they are stored: not as `unorm10`, since prefix sums are written by compute shaders. Six moments can be `unorm8`: half of the
+    /// memory of float16, at a greater error.
     pub storage: Storage,
     /// Columns and rows, each from 2 to 8192.
     #[serde(default = "default_extent")]
@@ -66,7 +67,8 @@ impl Node for RectifyMoments {
                 "'extent' is {columns}x{rows}; columns and rows are 2 to 8192 each"
             )));
         }
-        let encoding = MapEncoding::new(technique.clone(), self.storage).map_err(wrong_property)?;
+        let encoding =
+            MapEncoding::rectified(technique.clone(), self.storage).map_err(wrong_property)?;
         regions::refuse_prefix_sums(&encoding).map_err(wrong_property)?;
         let camera = upstream.get("camera_depth").and_then(ResourceDesc::texture);
         let seen = camera.map(|camera| self.view_rays(camera, upstream));

@@ -68,6 +68,16 @@ pub(in crate::nodes) fn connected<'a>(
     Ok((map, encoding_of(map).map_err(|error| error.at_slot(slot))?))
 }
 
+/// The same for a node of single scattering, which reads maps in rectified coordinates.
+pub(in crate::nodes) fn connected_rectified<'a>(
+    upstream: &Connected<'a>,
+    slot: &str,
+) -> Result<(&'a TextureDesc, MapEncoding), GraphError> {
+    let map = upstream.texture(slot)?;
+    let encoding = any_encoding_of(map).map_err(|error| error.at_slot(slot))?;
+    Ok((map, encoding))
+}
+
 /// The map of four moments that is connected to a slot, for a node that does `what` with it.
 pub(in crate::nodes) fn of_four_moments<'a>(
     upstream: &Connected<'a>,
@@ -101,8 +111,20 @@ pub(in crate::nodes) fn refuse_blended(encoding: &MapEncoding) -> Result<(), Gra
     .at_slot("map"))
 }
 
-/// The encoding of a filterable map other than a table: four moments, unless the map says otherwise.
+/// The encoding of a filterable map other than a table: four moments, unless the map says otherwise. One whose storage suffices in
+/// rectified coordinates alone is refused.
 pub(in crate::nodes) fn encoding_of(map: &TextureDesc) -> Result<MapEncoding, GraphError> {
+    let encoding = any_encoding_of(map)?;
+    if !encoding.is_rectified() {
+        return Ok(encoding);
+    }
+    Err(wrong_format(format!(
+        "the map holds {encoding}, which suffices for means along view rays alone: the nodes 'integrate_scattering' and \
+         'composite_scattering' read it"
+    )))
+}
+
+fn any_encoding_of(map: &TextureDesc) -> Result<MapEncoding, GraphError> {
     let is_packed = map
         .encoding
         .as_ref()

@@ -65,7 +65,8 @@ pub(in crate::nodes) fn refuse_prefix_sums(encoding: &MapEncoding) -> Result<(),
     if !storage.is_drawn() {
         return Ok(());
     }
-    let others = Technique::Hamburger6.row().storages.iter();
+    let row = Technique::Hamburger6.row();
+    let others = row.storages.iter().chain(row.rectified);
     let others = others.filter(|other| !other.is_drawn());
     let others: Vec<String> = others.map(|other| format!("'{other}'")).collect();
     Err(format!(
