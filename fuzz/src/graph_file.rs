@@ -33,7 +33,7 @@ const FURTHER: [&str; 3] = [
     r#"{"version": 2, "imports": [{"name": "d", "texture": {"format": "depth32float", "size": [100, 60], "layers": 4}},
   {"name": "c", "texture": {"format": "depth32float", "size": [64, 48], "samples": 4}}],
  "nodes": [{"name": "r", "type": "resolve", "properties": {"storage": "float16", "mip_levels": "all"}},
-  {"name": "a", "type": "blur", "properties": {"kernel": {"radius": 32, "sigma": 9.0}, "per_frame": true, "mip_levels": "all"}},
+  {"name": "a", "type": "blur", "properties": {"kernel": {"radius": 8, "sigma": 3.0}, "per_frame": true, "mip_levels": "all"}},
   {"name": "m", "type": "downsample"},
   {"name": "g", "type": "debug_moments", "properties": {"level": 1}},
   {"name": "s", "type": "shade_hard", "properties": {"lights": 3, "views": 5, "anisotropy": 4}}],

@@ -103,21 +103,3 @@ pub fn mutate_in_place(
     data[..length].copy_from_slice(&mutated[..length]);
     length
 }
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn what_inputs_start_from_is_valid() {
-        for (target, count) in [
-            (&graph_file::TARGET, 11),
-            (&plan::TARGET, 48),
-            (&gltf::TARGET, 6),
-        ] {
-            let seeds = (target.seeds)();
-            let invalid = seeds.iter().position(|seed| !(target.try_out)(seed));
-            assert_eq!((invalid, seeds.len()), (None, count), "{}", target.name);
-        }
-    }
-}

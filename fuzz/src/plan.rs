@@ -242,3 +242,27 @@ fn write(plan: &Plan, random: &mut Random) {
         }
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn what_inputs_start_from_is_valid() {
+        let files = graph_file::seeds();
+        let small = SMALL.iter().map(|text| text.as_bytes());
+        for file in files.iter().map(Vec::as_slice).chain(small) {
+            assert!(plan(file).is_some(), "{}", String::from_utf8_lossy(file));
+        }
+        for target in [&TARGET, &crate::gltf::TARGET] {
+            for seed in (target.seeds)() {
+                assert!(
+                    (target.try_out)(&seed),
+                    "{}: {}",
+                    target.name,
+                    String::from_utf8_lossy(&seed)
+                );
+            }
+        }
+    }
+}

@@ -266,14 +266,11 @@ fn a_node_draws_to_what_can_be_drawn_to() {
 
 #[test]
 fn a_pass_has_parameters_for_each_of_its_layers() {
-    let wgsl = COPY.replace("fn main", "fn main");
-    let wgsl = format!(
-        "struct P {{ a: vec4f }}\n@group(0) @binding(2) var<uniform> p: P;\n{}",
-        wgsl.replace(
-            "textureLoad(source, id.xy, 0)",
-            "textureLoad(source, id.xy, 0) * p.a"
-        )
+    let wgsl = COPY.replace(
+        "textureLoad(source, id.xy, 0)",
+        "textureLoad(source, id.xy, 0) * p.a",
     );
+    let wgsl = format!("struct P {{ a: vec4f }}\n@group(0) @binding(2) var<uniform> p: P;\n{wgsl}");
     let node = |layers: u32| {
         let variables = from_and_to().into_iter().chain([("p", bind::parameters())]);
         let pass = compute(&wgsl, "to", true, variables);
