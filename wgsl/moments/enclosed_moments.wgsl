@@ -27,8 +27,8 @@ const ENCLOSED_MOMENTS_SMALLEST_WEIGHT: f32 = 0.001953125;
 // covers that rounding for 99.9 % of distributions of six occluders, and half of it for 99 %.
 const ENCLOSED_MOMENTS_ALPHA_UNORM8: f32 = 0.012;
 
-// The largest moment bias. Where it leaves rounding uncovered little weight is at stake, and with more of it the depths of thin shadows
-// count for nothing: with 0.5 in place of it unorm8 errs by 0.81 % at a fence in place of 0.53 %.
+// The largest moment bias. Where it leaves rounding uncovered, little weight is at stake; a larger one would make the depths of thin
+// shadows count for nothing (`fence-and-foliage` under a sun at 15 degrees, unorm8: 0.81 % error with 0.5, 0.53 % with this).
 const ENCLOSED_MOMENTS_LARGEST_ALPHA: f32 = 0.05;
 
 // The sums of one occluder: x of its weight lies in front of the range, y at its depth in [-1, 1].
