@@ -45,7 +45,8 @@ fn six_moments_in_64_bits_are_made_summed_up_and_looked_up_on_every_device() {
     assert!(matches!(off, Some(Off::Fill(texels)) if texels.len() == 2 && texels[1][3] == 1.0));
     assert_eq!(encoding().bits_per_texel(), 64);
     encoding().check(Profile::WebgpuCore).unwrap();
-    described(&IntegrateScattering {}, "rectified", map()).unwrap();
+    let summed = described(&IntegrateScattering {}, "rectified", map()).unwrap();
+    assert_eq!(summed.passes.len(), 2);
     let composite = CompositeScattering::default();
     let last = described(&composite, "integrated", map()).unwrap();
     assert!(
