@@ -236,14 +236,14 @@ numerics_on_swiftshader() {
 # Graph files, plans, glTF files and shaders that are mutated at random: the same ones each time.
 run_fuzzing() {
   local bounds
-  for bounds in graph_file:30000 plan:60000 gltf:4000 wgsl:800; do
+  for bounds in graph_file:12000 plan:30000 gltf:2000 wgsl:800; do
     run_built --bin moment-shadows-fuzz \
       --target "${bounds%:*}" --iterations "${bounds#*:}" --seconds 120 --seed 1
   done
 }
 
-# A driver whose calls fail in turn: without memory, and with a lost device. One in eleven here.
-run_faults() { run_built --bin moment-shadows-faults --every 11; }
+# A driver whose calls fail in turn: without memory, and with a lost device. One in forty here.
+run_faults() { run_built --bin moment-shadows-faults --every 40; }
 
 # Prints the arguments for each combination of features of the library crates, a line each.
 feature_combinations() {
