@@ -209,8 +209,12 @@ fn steps_of_equal_angles_need_fewer_than_those_of_equal_lengths() {
             "march_falloff(steps, input.light.radius, length, count)",
             "(1.0 / (at.w * at.w + input.light.radius * input.light.radius))",
         );
-    // Optical thickness of the ray, and what of the error of equal lengths is left.
-    for (thickness, most) in [(0.5, 0.2), (2.0, 0.6), (8.0, f64::INFINITY)] {
+    // Optical thickness of the ray, and the errors, which the module states rounded, to a tenth of them for rounding on other devices.
+    for (thickness, stated) in [
+        (0.5, [0.023, 0.27]),
+        (2.0, [0.105, 0.29]),
+        (8.0, [0.52, 0.3]),
+    ] {
         let mut source = ChaCha8Rng::seed_from_u64(10);
         let rays: Vec<Ray> = (0..100)
             .map(|_| {
@@ -228,10 +232,9 @@ fn steps_of_equal_angles_need_fewer_than_those_of_equal_lengths() {
         let [angles, lengths] =
             [SHADER, &lengths].map(|shader| error(&run_by(shader, &rays), &truths));
         println!("thickness {thickness}: {angles:.3} by angles, {lengths:.3} by lengths");
-        assert!(
-            angles < most * lengths,
-            "thickness {thickness}: {angles}, {lengths}"
-        );
+        for (found, stated) in [angles, lengths].iter().zip(stated) {
+            assert!((found / stated - 1.0).abs() < 0.1, "{thickness}: {found}");
+        }
     }
 }
 

@@ -9,6 +9,7 @@ use moment_shadows_graph::record::ImportedResource;
 use moment_shadows_lab::error::LabError;
 use moment_shadows_lab::gpu::Gpu;
 use moment_shadows_lab::view::Camera;
+use wgpu::util::DeviceExt as _;
 
 /// The textures of one frame.
 pub(crate) struct Textures {
@@ -19,7 +20,7 @@ pub(crate) struct Textures {
 impl Textures {
     fn new(gpu: &Gpu, map: u32, picture: [u32; 2]) -> Self {
         let texture = |format, [width, height]: [u32; 2], texels: &[u8]| {
-            let texture = gpu.device.create_texture(&wgpu::TextureDescriptor {
+            let desc = wgpu::TextureDescriptor {
                 label: Some("host"),
                 size: wgpu::Extent3d {
                     width,
@@ -30,17 +31,11 @@ impl Textures {
                 sample_count: 1,
                 dimension: wgpu::TextureDimension::D2,
                 format,
-                usage: wgpu::TextureUsages::TEXTURE_BINDING | wgpu::TextureUsages::COPY_DST,
+                usage: wgpu::TextureUsages::TEXTURE_BINDING,
                 view_formats: &[],
-            });
-            let layout = wgpu::TexelCopyBufferLayout {
-                offset: 0,
-                bytes_per_row: Some(texels.len() as u32 / height),
-                rows_per_image: None,
             };
-            gpu.queue
-                .write_texture(texture.as_image_copy(), texels, layout, texture.size());
-            texture
+            let order = wgpu::util::TextureDataOrder::LayerMajor;
+            (gpu.device).create_texture_with_data(&gpu.queue, &desc, order, texels)
         };
         // Steps in both: shadows with edges.
         let of_light = (0..map * map).map(|index| 0.3 + 0.4 * f32::from((index / 7 % 3) as u8));
