@@ -4,13 +4,14 @@
 use moment_shadows::TextureFormat;
 use moment_shadows_graph::GraphErrorKind::{Declaration, Plan as Broken, Size};
 use moment_shadows_graph::{
-    Access, BindingLayout, Direction, GraphError, NodeDesc, ParameterBlock, Pass, Plan,
-    ResourceDesc, Slot, SlotResource, Stage, TextureDesc, bind,
+    Access, BindingLayout, Direction, NodeDesc, ParameterBlock, Pass, Plan, ResourceDesc, Slot,
+    SlotResource, Stage, TextureDesc, bind,
 };
 use serde_json::{Value, json};
 
 use crate::example::{TEXT, assert_error, compiled, edited, native, refused};
 use crate::host_node::{COPY, compute, empty, from_and_to, graph, input, made, output, rgba32};
+use crate::targets::compiled as compile;
 
 /// JSON pointers into the example's plan with values that break it, a row each, and what the check says of it.
 const BROKEN: &str = r#"
@@ -205,16 +206,6 @@ fn a_view_has_no_block_without_end() {
     let error = compiled(&text, &device).unwrap_err();
     let says = "a view's parameters take 419430400 bytes with those of this node; at most 268435456 are possible";
     assert_error(&error, Size, "resolve", "", "", says);
-}
-
-fn compile(node: NodeDesc) -> Result<Plan, GraphError> {
-    let graph = graph(
-        &[("map", rgba32(1))],
-        vec![("host", node)],
-        &[("map", "host.from")],
-        &[("out", "host.to")],
-    );
-    graph.compile(&native(), &[])
 }
 
 #[test]

@@ -11,7 +11,7 @@ use crate::example::{assert_error, native};
 use crate::host_node::{empty, graph, input, made, rgba32};
 
 /// Compiles a node `host` with the input `from` and the output `to`.
-fn compiled(node: NodeDesc) -> Result<Plan, GraphError> {
+pub(crate) fn compiled(node: NodeDesc) -> Result<Plan, GraphError> {
     let graph = graph(
         &[("map", rgba32(1))],
         vec![("host", node)],
