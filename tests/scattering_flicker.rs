@@ -3,7 +3,7 @@
 
 use moment_shadows_lab::gpu::Gpu;
 use moment_shadows_lab::scattering::{
-    Change, FRAMES, FlickerDesc, GOAL, PROFILE, Path, STILL, chains, flicker, static_region,
+    Change, FRAMES, FlickerDesc, GOAL, PROFILE, Path, Place, STILL, chains, flicker, static_region,
 };
 use moment_shadows_lab::scene;
 
@@ -47,6 +47,7 @@ fn changes_are_those_of_the_region_alone() {
     // 0.25 and -0.125 of the first pixel, 0.5 of the second.
     assert_eq!(change.largest, 0.5);
     assert_eq!(change.largest_less_truth, 0.5);
+    assert_eq!(change.at, Some(Place { frame: 1, pixel: 1 }));
     assert!((change.mean - 0.875 / 3.0).abs() < 1e-12);
     let broken = vec![vec![0.0, 1.0], vec![f32::NAN, 5.0], vec![0.125, 5.5]];
     assert_eq!(Change::of(&broken, &truth, &region).largest, f64::INFINITY);
@@ -110,4 +111,8 @@ fn filtered_resampling_flickers_a_third_as_much_as_none() {
     assert!(found.region > 0.1, "{found}");
     assert!(found.truth.largest <= f64::from(STILL) * 1.001, "{found}");
     assert!(found.ratio() <= GOAL, "{found}");
+    // Two frames and the change, of four series.
+    assert_eq!(found.pictures.len(), 12);
+    assert!(found.pictures.iter().all(|it| it.len() == 128 * 72 * 4));
+    assert_ne!(found.pictures[6], found.pictures[7]);
 }

@@ -1,9 +1,11 @@
 //! `moment-shadows-lab scattering-flicker`: what flickers in the air while camera and light move.
 
+use std::path::PathBuf;
 use std::process::ExitCode;
 
 use super::CommandResult;
 use crate::gpu::Gpu;
+use crate::picture::{create_folder, save_panels};
 use crate::progress;
 use crate::scattering::{Flicker, FlickerDesc, PROFILE, STILL, WINDOW, flicker};
 use crate::scene;
@@ -16,6 +18,10 @@ pub struct Options {
     scene: Vec<String>,
     #[command(flatten)]
     desc: FlickerDesc,
+    /// A folder for a picture of each scene: the two frames between which most changes with view rays, and the change, by the truth,
+    /// the filtered chain, that with view rays and the unfiltered one; it is made if need be.
+    #[arg(long)]
+    out: Option<PathBuf>,
     /// Prints JSON.
     #[arg(long)]
     json: bool,
@@ -24,13 +30,22 @@ pub struct Options {
 impl Options {
     /// Walks the path in each scene and prints what flickers; fails where filtering does not do what is asked of it.
     pub fn run(self) -> CommandResult {
+        if let Some(out) = &self.out {
+            create_folder(out)?;
+        }
         let gpu = Gpu::open(PROFILE)?;
         let mut found = Vec::new();
         for name in &self.scene {
             let scene = scene::load(name)?;
             let bar = progress::bar(u64::from(self.desc.frames), name);
-            found.push(flicker(&gpu, &scene, &self.desc, || bar.inc(1))?);
+            let walked = flicker(&gpu, &scene, &self.desc, || bar.inc(1))?;
             bar.finish_and_clear();
+            if let Some(out) = &self.out {
+                let path = out.join(format!("{}-flicker.png", walked.scene));
+                let size = [self.desc.width, self.desc.height];
+                save_panels(&path, &walked.pictures, size, 3)?;
+            }
+            found.push(walked);
         }
         if self.json {
             let report = serde_json::json!({ "scenes": found });

@@ -17,7 +17,7 @@ mod truth;
 pub use air::Air;
 pub use candidate::{PROFILE, ScatteringCandidate, candidates};
 pub use flicker::{
-    Change, FRAMES, Flicker, FlickerDesc, GOAL, Path, RectifyNearest, STILL, WINDOW, chains,
+    Change, FRAMES, Flicker, FlickerDesc, GOAL, Path, Place, RectifyNearest, STILL, WINDOW, chains,
     flicker, static_region,
 };
 pub use look::{Look, LookDesc};

@@ -14,6 +14,17 @@ pub struct Change {
     pub mean: f64,
     /// The largest difference from the change of the truth.
     pub largest_less_truth: f64,
+    /// Where the largest change is; none in an empty region.
+    pub at: Option<Place>,
+}
+
+/// A pixel of two successive frames.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
+pub struct Place {
+    /// The earlier frame.
+    pub frame: usize,
+    /// The pixel, row by row from the top left.
+    pub pixel: usize,
 }
 
 /// For each pair of successive frames, which pixels are static: those of which no truth changes by more than `still` between any
@@ -59,7 +70,9 @@ impl Change {
     pub fn of(frames: &[Vec<f32>], truth: &[Vec<f32>], region: &[Vec<bool>]) -> Self {
         let mut changes = Vec::new();
         let mut largest_less_truth: f64 = 0.0;
-        for ((pair, true_pair), region) in frames.windows(2).zip(truth.windows(2)).zip(region) {
+        let mut at: Option<(f64, Place)> = None;
+        let pairs = frames.windows(2).zip(truth.windows(2)).zip(region);
+        for (frame, ((pair, true_pair), region)) in pairs.enumerate() {
             for (pixel, _) in region
                 .iter()
                 .enumerate()
@@ -68,7 +81,11 @@ impl Change {
                 let of = |pair: &[Vec<f32>]| f64::from(pair[1][pixel]) - f64::from(pair[0][pixel]);
                 let number = |value: f64| if value.is_nan() { f64::INFINITY } else { value };
                 let (change, true_change) = (of(pair), of(true_pair));
-                changes.push(number(change.abs()));
+                let size = number(change.abs());
+                changes.push(size);
+                if at.is_none_or(|(largest, _)| size > largest) {
+                    at = Some((size, Place { frame, pixel }));
+                }
                 largest_less_truth = largest_less_truth.max(number((change - true_change).abs()));
             }
         }
@@ -82,6 +99,7 @@ impl Change {
             thousandth: changes[count - 1 - count / 1000],
             mean: changes.iter().sum::<f64>() / count as f64,
             largest_less_truth,
+            at: at.map(|(_, place)| place),
         }
     }
 }

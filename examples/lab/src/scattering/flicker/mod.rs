@@ -9,7 +9,7 @@ use core::fmt;
 
 use serde::Serialize;
 
-pub use change::{Change, static_region};
+pub use change::{Change, Place, static_region};
 pub use nearest::RectifyNearest;
 pub use path::{FRAMES, Path};
 use walk::Walk;
@@ -19,6 +19,7 @@ use crate::cost::table::columns as write_columns;
 use crate::error::LabError;
 use crate::gpu::Gpu;
 use crate::metric::{NO_PIXEL, percent};
+use crate::picture::{grey, signed_difference};
 use crate::scene::Scene;
 
 /// A pixel is static while its true radiance, with shadows and without, changes by at most this from frame to frame, in parts of
@@ -30,6 +31,12 @@ pub const WINDOW: usize = 1;
 
 /// The largest change of filtered pictures, at most this part of that of unfiltered ones.
 pub const GOAL: f64 = 1.0 / 3.0;
+
+/// How bright the mean radiance without shadows is in pictures, where 1 is white.
+const EXPOSURE: f32 = 0.5;
+
+/// A change that pictures show in full colour.
+const FULL_CHANGE: f32 = 0.05;
 
 /// What is drawn.
 #[derive(Clone, Copy, Debug, PartialEq, clap::Args)]
@@ -67,6 +74,8 @@ pub struct Flicker {
     pub scene: String,
     /// Frames.
     pub frames: u32,
+    /// Width of the picture.
+    pub width: u32,
     /// The part of all pixels of all pairs of frames that is static.
     pub region: f64,
     /// Change of the truth in the region.
@@ -77,6 +86,10 @@ pub struct Flicker {
     pub seen: Change,
     /// Change of the chain without filters.
     pub unfiltered: Change,
+    /// Pictures of the two frames between which the chain with view rays changes most, and the change, row by row: of the truth, the
+    /// filtered chain, that with view rays, and the unfiltered one. Of 4 bytes per pixel; empty where nothing is static.
+    #[serde(skip)]
+    pub pictures: Vec<Vec<u8>>,
 }
 
 /// Draws a path through a scene and compares both chains on it. `progress` is called after each frame.
@@ -108,12 +121,33 @@ pub fn flicker(
     Ok(Flicker {
         scene: scene.name.clone(),
         frames: desc.frames,
+        width: desc.width,
         region: inside.count() as f64 / region.iter().flatten().count().max(1) as f64,
         truth: of(truth),
         filtered: of(filtered),
         seen: of(seen_rays),
         unfiltered: of(unfiltered),
+        pictures: pictures_at(of(seen_rays).at, [truth, filtered, seen_rays, unfiltered]),
     })
+}
+
+/// Pictures of two frames of each series, and of the change.
+fn pictures_at(at: Option<Place>, series: [&Vec<Vec<f32>>; 4]) -> Vec<Vec<u8>> {
+    let Some(at) = at else {
+        return Vec::new();
+    };
+    let shown = |frame: &Vec<f32>| -> Vec<u8> {
+        let exposed: Vec<f32> = frame.iter().map(|it| (EXPOSURE * it).sqrt()).collect();
+        let bytes = grey(&exposed).into_iter();
+        bytes.flat_map(|byte| [byte, byte, byte, 255]).collect()
+    };
+    let row = |frames: &Vec<Vec<f32>>| {
+        let [before, after] = [&frames[at.frame], &frames[at.frame + 1]];
+        // What becomes brighter is blue, as too little shadow is.
+        let change = signed_difference(before, after, FULL_CHANGE);
+        [shown(before), shown(after), change]
+    };
+    series.into_iter().flat_map(row).collect()
 }
 
 impl Flicker {
@@ -144,6 +178,11 @@ impl fmt::Display for Flicker {
             ("and view rays", &self.seen),
             ("unfiltered", &self.unfiltered),
         ];
+        let place = |at: Option<Place>| {
+            let [width, pixel] = [self.width as usize, at.map_or(0, |it| it.pixel)];
+            let [x, y] = [pixel % width, pixel / width];
+            at.map_or(String::new(), |it| format!("{}, {x},{y}", it.frame))
+        };
         let cells = |(name, change): (&str, &Change)| {
             let part = change.largest / self.unfiltered.largest;
             vec![
@@ -153,6 +192,7 @@ impl fmt::Display for Flicker {
                 ("1/1000", percent(change.thousandth, NO_PIXEL)),
                 ("mean", percent(change.mean, NO_PIXEL)),
                 ("less truth's", percent(change.largest_less_truth, NO_PIXEL)),
+                ("frame, pixel", place(change.at)),
             ]
         };
         write_columns(f, &rows.map(cells))?;
