@@ -6,6 +6,7 @@
     reason = "a test that fails says where"
 )]
 
+mod adapter;
 mod camera_samples;
 mod contact_shadows;
 mod debug;
