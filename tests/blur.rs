@@ -266,3 +266,15 @@ fn a_kernel_of_a_width_is_as_wide_with_the_lookup() {
         assert_eq!(Kernel::of_width(width, largest).unwrap_err().name, "width");
     }
 }
+
+#[test]
+fn kernels_have_an_odd_number_of_weights_from_3_to_129() {
+    for count in 0..140 {
+        let kernel = Kernel::from_weights(&vec![1.0; count]);
+        if count % 2 == 1 && (3..=129).contains(&count) {
+            assert_eq!(kernel.unwrap().weights().len(), count);
+        } else {
+            assert_eq!(kernel.unwrap_err().name, "weights", "{count}");
+        }
+    }
+}

@@ -42,7 +42,7 @@ fn edit(
     let close = closing(tokens, open)?;
     let token = |index: usize| tokens.get(index);
     let is_else = |index: usize| token(index).is_some_and(|it| it.is_word("else"));
-    let follows = at > 0 && is_else(at - 1);
+    let follows = at.checked_sub(1).is_some_and(is_else);
     let has_else = is_else(close + 1);
     // The last token of the whole chain.
     let mut end = close;

@@ -137,7 +137,7 @@ pub(super) fn of_validation_error(
         let after = end.and_then(|end| compiler.linked.wgsl().get(end..));
         after.is_some_and(|after| after.trim_start().starts_with(':'))
     };
-    if spans.len() > 1 && spans.first().is_some_and(|(span, _)| declares(span)) {
+    if spans.first().is_some_and(|(span, _)| declares(span)) {
         spans.rotate_left(1);
     }
     if let Some(span) = said.span.filter(Span::is_defined) {

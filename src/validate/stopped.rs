@@ -14,8 +14,8 @@ pub(super) fn find(text: &str, is_wrong: impl Fn(&str) -> bool) -> Option<Range<
     // The last one: without the function that is called wrongly no call stops either.
     let functions = repair::functions(text);
     let function = functions.into_iter().rev().find(|function| {
-        let rest = repair::without_function(text, function);
-        tries.next().is_some() && rest.is_some_and(|rest| !is_wrong(&rest))
+        tries.next().is_some()
+            && repair::without_function(text, function).is_some_and(|rest| !is_wrong(&rest))
     })?;
     let mut start = function.start;
     for end in repair::statement_ends(text, &function) {
@@ -33,4 +33,30 @@ pub(super) fn find(text: &str, is_wrong: impl Fn(&str) -> bool) -> Option<Range<
         start = end;
     }
     Some(function)
+}
+
+#[cfg(test)]
+mod tests {
+    use core::cell::Cell;
+
+    use super::{MOST_BYTES, MOST_TRIES, find};
+
+    #[test]
+    fn a_text_is_tried_so_often_and_a_long_one_less() {
+        let functions =
+            (0..MOST_TRIES + 100).map(|index| format!("fn f{index}() {{ let x = 1; }}\n"));
+        let short: String = functions.collect();
+        let long = format!("{short}// {}\n", "-".repeat(MOST_BYTES / 8));
+        for text in [short, long] {
+            let tries = Cell::new(0);
+            let is_wrong = |_: &str| {
+                tries.set(tries.get() + 1);
+                true
+            };
+            assert_eq!(find(&text, is_wrong), None);
+            let tries = tries.get();
+            assert!((1..=MOST_TRIES).contains(&tries), "{tries}");
+            assert!(tries * text.len() <= MOST_BYTES, "{tries}");
+        }
+    }
 }

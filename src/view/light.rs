@@ -121,7 +121,7 @@ impl LightView {
         if room > 0.0 || self.guard == 0 {
             let wide = self.border.width();
             let range = "from 0 texels to half of those between the guard bands, and at most 4095";
-            let valid = (0.0..=WIDEST.min(0.5 * room.max(0.0))).contains(&wide);
+            let valid = (0.0..=WIDEST.min(0.5 * room)).contains(&wide);
             return check(valid, "a view", "border", wide, range);
         }
         let message = format!(

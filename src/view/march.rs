@@ -164,7 +164,7 @@ impl Rays {
         let range = "above 0 and at most 1e9: how far along the camera's axis light is scattered";
         check(far > 0.0 && far <= LONGEST, of, "far", far, range)?;
         let meeting = world_from_clip.z_axis;
-        if meeting.w.abs() <= 1e-12 * meeting.truncate().length() || meeting.w == 0.0 {
+        if meeting.w.abs() <= 1e-12 * meeting.truncate().length() {
             let message = "the camera is orthographic; scattered light is marched along view rays that meet in the camera: use a \
                            perspective camera";
             return Err(ValueError::new("camera", message));

@@ -3,7 +3,7 @@
 use crate::example::{TEXT, compiled, edited, native};
 use crate::plan::example;
 use moment_shadows_graph::GraphErrorKind::{Parameters, UnknownName};
-use moment_shadows_graph::{Capabilities, GraphError};
+use moment_shadows_graph::{Capabilities, GraphError, ParameterLayout};
 
 #[test]
 fn parameters_are_aligned_to_the_device_and_do_not_overlap() {
@@ -68,6 +68,16 @@ fn initial_values_are_those_of_the_nodes() {
 }
 
 #[test]
+fn a_node_that_shades_has_one_view_unless_it_says_more() {
+    for text in [TEXT, include_str!("../../examples/soft_shadows.json")] {
+        let layout = compiled(text, &native()).unwrap().parameters;
+        let mut blocks = layout.blocks.iter();
+        let shade = blocks.find(|block| block.node == "shade").unwrap();
+        assert_eq!((shade.name.as_str(), shade.elements), ("ViewParameters", 1));
+    }
+}
+
+#[test]
 fn parameters_are_written_where_they_belong_or_not_at_all() {
     let text = TEXT.replace("\"samples\": 4", "\"samples\": 4, \"layers\": 2");
     let layout = compiled(&text, &native()).unwrap().parameters;
@@ -88,6 +98,11 @@ fn parameters_are_written_where_they_belong_or_not_at_all() {
         layout.write(&mut bytes, "resolv", 0, &conversion),
         UnknownName,
         "there is no node with parameters 'resolv'; the nearest are `resolve`, `shade` (in this plan)",
+    );
+    fails(
+        ParameterLayout::default().write(&mut bytes, "resolve", 0, &conversion),
+        UnknownName,
+        "there is no node with parameters 'resolve'; there is none (in this plan)",
     );
     fails(
         layout.write(&mut bytes, "resolve", 0, &[0_u32; 4]),

@@ -5,7 +5,7 @@ use moment_shadows_graph::GraphErrorKind::{Plan as Broken, Version};
 use moment_shadows_graph::nodes::{Blur, Resolve, ShadeHard};
 use moment_shadows_graph::{
     BindingLayout, Capabilities, Connected, GraphError, GraphErrorKind, Node, Plan,
-    PlannedBindingResource, PlannedExtent, ResourceDesc, SamplerKind, TextureDesc,
+    PlannedBindingResource, PlannedDevice, PlannedExtent, ResourceDesc, SamplerKind, TextureDesc,
 };
 
 use crate::example::{TEXT, compiled, edited, native, parse};
@@ -337,6 +337,16 @@ fn a_plan_is_for_any_profile_that_offers_its_storage() {
             .compile(&Capabilities::of_profile(profile), &[])
             .unwrap();
         assert_eq!(plan.passes.len(), 4);
+        // Every device of WebGPU stores and filters halves.
+        let PlannedDevice {
+            features,
+            wgpu_features,
+            ..
+        } = plan.device;
+        assert!(
+            features.is_empty() && wgpu_features.is_empty(),
+            "{profile}: {features:?} {wgpu_features:?}"
+        );
     }
     let copies = graph(
         &[("map", rgba32(1))],

@@ -4,8 +4,8 @@
 use moment_shadows::TextureFormat;
 use moment_shadows_graph::GraphErrorKind::{Declaration, Plan as Broken, Size};
 use moment_shadows_graph::{
-    Access, BindingLayout, Direction, NodeDesc, ParameterBlock, Pass, Plan, ResourceDesc, Slot,
-    SlotResource, Stage, TextureDesc, bind,
+    Access, BindingLayout, Direction, NodeDesc, ParameterBlock, Pass, Plan, PlannedBindingResource,
+    ResourceDesc, Slot, SlotResource, Stage, TextureDesc, bind,
 };
 use serde_json::{Value, json};
 
@@ -31,6 +31,8 @@ const BROKEN: &str = r#"
     /memory/1/usage ["TEXTURE_BINDING"]; resource 'blur.half_blurred' lives in memory 1, which is something else
     /memory/1/desc/texture/mips 4294967295; resource 'blur.half_blurred' lives in memory 1, which is something else
     /resources/5/desc/texture/samples 4 /memory/2/desc/texture/samples 4; pass 'shade/shade' does not fit what it covers
+    /off/0/output 99; what stands in for node 'resolve' refers to resource 99
+    /off/1/instead/bypass 99; what stands in for node 'blur' refers to resource 99
     /parameters/size 4294967295; a view's block has 4294967295 bytes, more than 268435456
     /parameters/blocks/0/stride 0 /parameters/blocks/0/count 4294967295; the parameters of node 'resolve' do not lie within
     /parameters/blocks/0/size 0 /parameters/blocks/0/elements 4294967295; the parameters of node 'resolve' do not lie within
@@ -156,6 +158,9 @@ fn a_buffer_has_what_its_shader_reads() {
         }
         assert_eq!(plan.check().is_ok(), fits, "{size}");
     }
+    plan.passes[0].bindings[0].resource = PlannedBindingResource::Buffer { resource: 99 };
+    let error = plan.check().unwrap_err();
+    assert!(error.message.contains("refers to resource 99"), "{error}");
 }
 
 #[test]

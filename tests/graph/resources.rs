@@ -4,7 +4,7 @@ use moment_shadows::{Profile, Storage};
 use moment_shadows_graph::GraphErrorKind::{Capability, Format, Size};
 use moment_shadows_graph::{
     Access, Capabilities, Direction, Graph, NodeDesc, NodeRegistry, ResourceDesc, Slot,
-    SlotResource, Stage,
+    SlotResource, Stage, TextureDesc,
 };
 
 use crate::example::{TEXT, assert_error, compiled, edited, native, refused};
@@ -209,6 +209,20 @@ fn a_format_that_cannot_be_drawn_to_is_refused() {
         "rgba16unorm cannot be drawn to under the profile native; request the device with TEXTURE_FORMAT_16BIT_NORM and \
          TEXTURE_ADAPTER_SPECIFIC_FORMAT_FEATURES of wgpu",
     );
+}
+
+#[test]
+fn a_texel_takes_the_bytes_that_wgpu_says() {
+    let size = wgpu::Extent3d {
+        width: 7,
+        height: 5,
+        depth_or_array_layers: 1,
+    };
+    for format in TextureFormat::ALL {
+        let desc = TextureDesc::new(format, [7, 5]);
+        let expected = desc.wgpu_format().theoretical_memory_footprint(size);
+        assert_eq!(desc.bytes(), expected, "{format}");
+    }
 }
 
 #[test]

@@ -131,3 +131,38 @@ fn light_stays_light_and_what_counts_as_shadow_is_shadow() {
         assert_eq!(found, input.intensity);
     }
 }
+
+/// The setting that is refused of a full shadow, a bleed reduction and an exponent.
+fn refused([full_shadow, bleed_reduction, visibility_exponent]: [f32; 3]) -> Option<&'static str> {
+    let reduction = LeakReduction {
+        full_shadow,
+        bleed_reduction,
+        visibility_exponent,
+        padding: 0.0,
+    };
+    reduction.check().err().map(|error| error.name)
+}
+
+#[test]
+fn settings_out_of_their_ranges_are_refused_by_name() {
+    for value in [0.0, -0.5, 1.0625, f32::NAN, f32::INFINITY] {
+        assert_eq!(refused([value, 0.0, 1.0]), Some("full_shadow"), "{value}");
+    }
+    for value in [-0.0625, 1.0, 2.0, f32::NAN, f32::INFINITY] {
+        assert_eq!(
+            refused([1.0, value, 1.0]),
+            Some("bleed_reduction"),
+            "{value}"
+        );
+    }
+    for value in [0.0, -1.0, f32::NAN, f32::INFINITY] {
+        assert_eq!(
+            refused([1.0, 0.0, value]),
+            Some("visibility_exponent"),
+            "{value}"
+        );
+    }
+    for settings in [[1.0, 0.0, 1.0], [1e-3, 0.999, 1e3], [0.98, 0.0, 1e-3]] {
+        assert_eq!(refused(settings), None, "{settings:?}");
+    }
+}

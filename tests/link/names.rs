@@ -1,6 +1,6 @@
 //! Modules and items by their names: what is found, and what is refused.
 
-use moment_shadows::{Source, link};
+use moment_shadows::{Source, link, nearest};
 
 use crate::{link_user, link_with, place, refused};
 
@@ -59,6 +59,42 @@ fn names_unknown_modules_and_items_with_the_nearest() {
     let expected = "module `moment_shadows::maths::hankel` does not define `hankel_facto`; the nearest names are `hankel_factor`";
     assert!(message.starts_with(expected), "{message}");
     assert_eq!(place(&at), (1, 55, 12));
+}
+
+/// How many letters are put in, left out or changed, by the definition.
+fn edits(from: &[u8], to: &[u8]) -> usize {
+    match (from, to) {
+        ([], rest) | (rest, []) => rest.len(),
+        ([a, after_a @ ..], [b, after_b @ ..]) => {
+            let changed = edits(after_a, after_b) + usize::from(a != b);
+            let moved = edits(after_a, to).min(edits(from, after_b)) + 1;
+            changed.min(moved)
+        }
+    }
+}
+
+#[test]
+fn the_nearest_names_have_the_fewest_edits() {
+    // Every word of two letters up to three long.
+    let mut words = vec![String::new()];
+    let mut longest = words.clone();
+    for _ in 0..3 {
+        longest = longest
+            .iter()
+            .flat_map(|word| [format!("{word}a"), format!("{word}b")])
+            .collect();
+        words.extend_from_slice(&longest);
+    }
+    for name in &words {
+        for pair in words.iter().flat_map(|a| words.iter().map(move |b| [a, b])) {
+            let mut expected = pair.map(|word| (edits(name.as_bytes(), word.as_bytes()), word));
+            expected.sort();
+            let mut quoted = Vec::from(expected.map(|(_, word)| format!("`{word}`")));
+            quoted.dedup();
+            let found = nearest(name, pair.map(String::as_str));
+            assert_eq!(found, quoted.join(", "), "{name}");
+        }
+    }
 }
 
 #[test]

@@ -207,6 +207,14 @@ fn hosts_values_that_cannot_be_are_named() {
 }
 
 #[test]
+fn air_is_even_and_its_steps_are_not_shifted_where_nothing_is_said() {
+    let sun = Scene::new(Lamp::Sun);
+    let plain = parameters(&sun, MarchedAir::default(), FAR).unwrap();
+    assert_eq!((plain.fog.gradient, plain.fog.log_density), ([0.0; 3], 0.0));
+    assert_eq!((plain.offset, plain.own), (0.0, [0.0; 4]));
+}
+
+#[test]
 fn a_light_is_as_large_as_its_size_or_as_single_precision_asks() {
     let mut scene = Scene::new(Lamp::Spot);
     let radius = |scene: &Scene| parameters(scene, scene.air, FAR).unwrap().light.radius;

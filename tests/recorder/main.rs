@@ -6,7 +6,9 @@
     reason = "a test that fails says where"
 )]
 
+mod adapter;
 mod camera_samples;
+mod contact_rays;
 mod contact_shadows;
 mod debug;
 mod depth_map;

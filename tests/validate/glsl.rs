@@ -32,14 +32,6 @@ fn what_es_300_lacks_is_named() {
             fragment("", "@builtin(sample_index) i: u32", "vec4f(f32(i))"),
             "sample_index",
         ),
-        (
-            fragment(
-                "",
-                "@location(0) @interpolate(flat) i: u32",
-                "vec4f(f32(countOneBits(i)))",
-            ),
-            "countOneBits",
-        ),
     ] {
         let report = core(&text).unwrap();
         assert_eq!(reason(&report, Backend::Glsl450), None, "{word}");
@@ -54,6 +46,39 @@ fn what_es_300_lacks_is_named() {
     ] {
         let report = core(&fragment(declarations, uv, value)).unwrap();
         assert_eq!(reason(&report, Backend::GlslEs300), None, "{value}");
+    }
+}
+
+#[test]
+fn functions_that_es_300_lacks_are_named() {
+    for (name, arguments) in [
+        ("countOneBits", "i"),
+        ("countTrailingZeros", "i"),
+        ("dot4I8Packed", "i, i"),
+        ("dot4U8Packed", "i, i"),
+        ("extractBits", "i, 1u, 2u"),
+        ("firstLeadingBit", "i"),
+        ("firstTrailingBit", "i"),
+        ("insertBits", "i, i, 1u, 2u"),
+        ("ldexp", "1.5, i32(i)"),
+        ("reverseBits", "i"),
+        ("unpack4xI8", "i"),
+        ("unpack4xU8", "i"),
+    ] {
+        let made = if name.starts_with("unpack") {
+            "vec4f"
+        } else {
+            "f32"
+        };
+        let text = fragment(
+            "",
+            "@location(0) @interpolate(flat) i: u32",
+            &format!("vec4f({made}({name}({arguments})))"),
+        );
+        let report = core(&text).unwrap();
+        assert_eq!(reason(&report, Backend::Glsl450), None, "{name}");
+        let why = reason(&report, Backend::GlslEs300).expect(name);
+        assert!(why.contains(&format!("calls `{name}`")), "{why}");
     }
 }
 
@@ -97,6 +122,22 @@ fn depth_at_level_zero_is_compared_in_all_but_arrays_of_cubes() {
         let report = core(&fragment(&declarations, "@location(0) uv: vec2f", &value)).unwrap();
         let why = reason(&report, Backend::Glsl450);
         assert_eq!(why.is_none(), taken, "{of}: {why:?}");
+    }
+}
+
+/// GLSL ES 3.00 has no `textureOffset` of a `sampler2DArrayShadow`, and its `textureGradOffset`, which level zero becomes.
+#[test]
+fn depth_of_layers_is_compared_beside_an_offset_at_level_zero_only() {
+    let declarations = "@group(0) @binding(0) var t: texture_depth_2d_array;\n@group(0) @binding(1) var s: sampler_comparison;\n";
+    for (function, taken) in [
+        ("textureSampleCompare", false),
+        ("textureSampleCompareLevel", true),
+    ] {
+        let value = format!("vec4f({function}(t, s, uv, 1, 0.5, vec2i(1, 2)))");
+        let report = core(&fragment(declarations, "@location(0) uv: vec2f", &value)).unwrap();
+        assert_eq!(reason(&report, Backend::Glsl450), None, "{function}");
+        let why = reason(&report, Backend::GlslEs300);
+        assert_eq!(why.is_none(), taken, "{function}: {why:?}");
     }
 }
 

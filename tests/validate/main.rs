@@ -4,8 +4,10 @@
 mod findings;
 mod glsl;
 mod limits;
+mod nested;
 mod operators;
 mod pairs;
+mod uniformity;
 
 use moment_shadows::{
     Backend, Profile, ShaderError, Source, TextureFormat, ValidationOptions, ValidationReport,

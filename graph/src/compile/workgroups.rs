@@ -126,6 +126,17 @@ mod tests {
     }
 
     #[test]
+    fn all_that_are_given_may_be_needed() {
+        // Every side is one texel longer than tiles that it takes whole.
+        let rows = (0..9).map(|row| MapRegion::new([0, 9 * row], [81, 9]));
+        let rows: Vec<MapRegion> = rows.collect();
+        assert_eq!(needed(&rows, [8, 8]), 198);
+        let capabilities = Capabilities::of_profile(Profile::Native);
+        let groups = for_regions([81, 81], 9, [8, 8], &capabilities);
+        assert_eq!(groups.ok(), Some([198, 1]));
+    }
+
+    #[test]
     fn one_region_takes_a_grid() {
         let capabilities = Capabilities::of_profile(Profile::Native);
         let groups = for_regions([1000, 37], 1, [64, 8], &capabilities);

@@ -8,6 +8,7 @@
 
 mod ci;
 mod export;
+mod graph_file;
 mod validate;
 
 use std::fs;

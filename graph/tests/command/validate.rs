@@ -42,6 +42,9 @@ fn results_come_in_the_order_of_files() {
     assert_eq!(run(&["validate", &norm]).0, Some(1));
     let native = run(&["validate", &norm, "--profile", "native"]);
     assert_eq!(native.0, Some(0), "{native:?}");
+    // WebGL has no compute shaders.
+    let backends = "  spirv hlsl msl glsl-450; not glsl-es-300: entry point `f`: ";
+    assert!(native.1.contains(backends), "{native:?}");
 
     let quiet = run(&["validate", "--quiet", &good]);
     assert_eq!(quiet, (Some(0), String::new(), String::new()));
