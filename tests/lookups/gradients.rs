@@ -78,3 +78,47 @@ fn it_is_that_of_its_probes_around_the_pixels_centre() {
     }
     assert!(compared > 1200, "{compared}");
 }
+
+/// A sampler without anisotropy averages over squares, as long as the pixel; probes are as wide as it is.
+#[test]
+fn where_the_region_is_the_whole_map_it_is_that_of_the_sampler() {
+    let shader = Shader::new();
+    let map = Map::new(SIZE, regions()[0], LEVELS, 40);
+    let long = pixels(40, 400, 24.0).into_iter().filter(|pixel| {
+        let ([x, y], minor) = pixel.axes();
+        pixel.anisotropy >= 7.0 && x.hypot(y) > 4.0 * minor.max(1.0)
+    });
+    let long: Vec<_> = long.collect();
+    // At the edge, where other regions would be left to probes.
+    let uv = [0.97, 0.96];
+    let queries: Vec<Query> = long
+        .iter()
+        .map(|pixel| Query {
+            uv,
+            difference_x: pixel.difference_x,
+            difference_y: pixel.difference_y,
+            region: map.region,
+            lookup: GRADIENT,
+            levels: LEVELS,
+            level: 0.0,
+            anisotropy: pixel.anisotropy,
+        })
+        .collect();
+    let answers = shader.run(&map, &queries);
+    let pairs = long.iter().zip(answers);
+    let compared: Vec<bool> = pairs
+        .filter_map(|(pixel, found)| {
+            let probes = average(&map, uv.map(f64::from), pixel)?;
+            let pairs = found.into_iter().zip(probes);
+            let apart = pairs.map(|(found, probes)| (f64::from(found) - probes).abs());
+            Some(apart.fold(0.0, f64::max) > 1e-2)
+        })
+        .collect();
+    let by_sampler = compared.iter().filter(|it| **it).count();
+    assert!(compared.len() > 20, "{}", compared.len());
+    assert!(
+        10 * by_sampler > 9 * compared.len(),
+        "{by_sampler} of {}",
+        compared.len()
+    );
+}

@@ -6,4 +6,5 @@ mod edges;
 mod footprints;
 mod gradients;
 mod map;
+mod planes;
 mod variances;

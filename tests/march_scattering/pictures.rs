@@ -1,5 +1,6 @@
 //! Pictures of the marching node against rays of 1,024 steps, for every light and both kinds of map.
 
+use glam::{DMat4, DVec3};
 use moment_shadows_lab::gpu::Gpu;
 
 use crate::scene::{Lamp, PICTURE, Scene};
@@ -119,6 +120,29 @@ fn every_light_is_that_of_marched_rays_with_moments_and_with_the_plain_map() {
                 "{lamp:?} {technique}: {errors:?}"
             );
         }
+    }
+}
+
+#[test]
+fn air_beyond_the_lights_range_is_lit() {
+    let gpu = gpu();
+    let mut scene = Scene::new(Lamp::Sun);
+    // A fifth of the range ends above the roof, so that the map holds nothing.
+    let sun = &mut scene.views[0];
+    let clip = DMat4::from_cols_array_2d(&sun.clip_from_world);
+    let fifth = DMat4::from_scale(DVec3::new(1.0, 1.0, 5.0)) * clip;
+    sun.clip_from_world = fifth.to_cols_array_2d();
+    let truth = scene.truth(20, WALL).into_iter();
+    let truth: Vec<_> = truth.map(|(_, all, through)| (all, all, through)).collect();
+    for (slot, technique) in [("map", "hamburger4"), ("depth", "binary")] {
+        let properties = format!(r#""steps": 64, "technique": "{technique}""#);
+        let march = March {
+            slot,
+            ..march(&properties)
+        };
+        let error = error(&march.picture(&gpu, &scene, 20), &truth);
+        println!("{technique}: {error}");
+        assert!(error < 0.01, "{technique}: {error}");
     }
 }
 

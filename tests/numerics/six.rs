@@ -15,7 +15,7 @@ use super::mixtures;
 #[derive(Clone, Copy, Debug, Pod, Zeroable)]
 pub(crate) struct Input {
     odd: [f32; 3],
-    depth: f32,
+    pub(crate) depth: f32,
     even: [f32; 3],
     pub(crate) alpha: f32,
 }
@@ -30,7 +30,7 @@ impl Input {
         }
     }
 
-    fn moments(&self) -> [f32; 6] {
+    pub(crate) fn moments(&self) -> [f32; 6] {
         let ([b1, b3, b5], [b2, b4, b6]) = (self.odd, self.even);
         [b1, b2, b3, b4, b5, b6]
     }
@@ -38,7 +38,7 @@ impl Input {
 
 /// Lower and upper bound, the lower one by the way that shading takes, and shadow intensity from texels of float32 whose channels are
 /// the input's numbers.
-fn bounds(inputs: &[Input]) -> Vec<[f32; 4]> {
+pub(crate) fn bounds(inputs: &[Input]) -> Vec<[f32; 4]> {
     let gpu = Gpu::open(Profile::WebgpuCore).unwrap();
     Batch::new(&gpu, "six.wgsl", include_str!("six.wgsl"))
         .unwrap()
@@ -81,7 +81,7 @@ fn biases() -> Vec<SixMomentsBias> {
         .collect()
 }
 
-fn biased(moments: [f64; 6], bias: &SixMomentsBias) -> [f32; 6] {
+pub(crate) fn biased(moments: [f64; 6], bias: &SixMomentsBias) -> [f32; 6] {
     core::array::from_fn(|index| {
         let target = if index % 2 == 1 {
             f64::from(bias.even[index / 2])

@@ -2,8 +2,8 @@
 
 use crate::wgsl_module::{constant, module};
 use moment_shadows::{
-    EsmFiltering, Finite, Kernel, LayerSplits, PcfTaps, ReceiverBias, SixMomentsBias, Storage,
-    SummedAreaTable, Technique,
+    CameraView, EsmFiltering, Finite, Kernel, LayerSplits, PcfTaps, ReceiverBias, SixMomentsBias,
+    Storage, SummedAreaTable, Technique, UpsampleScatteringParameters,
 };
 use moment_shadows_graph::nodes::Blur;
 
@@ -192,6 +192,24 @@ fn the_receiver_bias_moves_by_as_many_standard_deviations_on_both_sides() {
     let name = "RECEIVER_BIAS_STANDARD_DEVIATIONS";
     let found = constant(&module("receiver_bias", name), name);
     assert_eq!(found, [f64::from(ReceiverBias::STANDARD_DEVIATIONS)]);
+}
+
+#[test]
+fn scattering_ends_where_the_longest_view_ray_does() {
+    let name = "VIEW_RAY_LONGEST";
+    let longest = constant(&module("view_ray", name), name)[0];
+    // Reversed depth without an end.
+    let camera = CameraView {
+        clip_from_world: [
+            [1.0, 0.0, 0.0, 0.0],
+            [0.0, 1.0, 0.0, 0.0],
+            [0.0, 0.0, 0.0, -1.0],
+            [0.0, 0.0, 0.1, 0.0],
+        ],
+        far_depth: 0.0,
+    };
+    UpsampleScatteringParameters::new(&camera, longest).unwrap();
+    assert!(UpsampleScatteringParameters::new(&camera, longest.next_up()).is_err());
 }
 
 #[test]

@@ -132,6 +132,46 @@ fn surfaces_move_away_from_the_light_and_not_far() {
     assert!(largest[3] <= 4.0 / 961.0, "{largest:?}");
 }
 
+/// By what the fourth moment exceeds that of two surfaces is the square of a root. That over their distance is the spread of a surface, which
+/// is rounded up, by less than a step.
+#[test]
+fn surfaces_spread_no_less_and_little_more() {
+    let mut random = ChaCha8Rng::seed_from_u64(9);
+    let all: Vec<_> = (0..20_000)
+        .map(|_| {
+            let gap: f64 = random.random_range(0.3..=0.9);
+            let near = random.random_range(-1.0..=(1.0 - gap));
+            let far_weight = random.random_range(0.1..=0.9);
+            let atoms = [[near, 1.0 - far_weight], [near + gap, far_weight]];
+            // The root as a share of the squared distance. One beyond 30^2 of 31^2 parts has the last number, which is read as more.
+            let share: f64 = random.random_range(0.1..=0.85);
+            (atoms, gap, share * gap * gap)
+        })
+        .collect();
+    let inputs: Vec<Input> = all
+        .iter()
+        .map(|(atoms, _, root)| {
+            let [b1, b2, b3, b4] = moments(atoms);
+            let exact = [b1, b2, b3, b4 + root * root];
+            Input {
+                moments: [exact.map(|moment| moment as f32); 4],
+                ..Input::default()
+            }
+        })
+        .collect();
+    let mut off = [f64::MAX, f64::MIN];
+    for (output, (_, gap, root)) in run(&inputs).iter().zip(&all) {
+        let held = Held::of(output.texel);
+        let distance = held.upper - held.lower;
+        // Steps are squares: 31^2 where the spread is as long as the distance.
+        let step = |spread: f64| 31.0 * (spread / distance).sqrt();
+        let more = step(held.pivot.sqrt() / distance) - step(root / gap);
+        off = [off[0].min(more), off[1].max(more)];
+    }
+    println!("steps more: {off:?}");
+    assert!(off[0] >= -0.01 && off[1] <= 1.01, "{off:?}");
+}
+
 /// Whatever integers texels hold, a mean of four has positive pivots with the bias, and without it some have not.
 #[test]
 fn any_integers_give_valid_moments_and_intensities() {

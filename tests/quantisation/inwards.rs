@@ -132,3 +132,29 @@ fn texels_are_valid_with_half_the_bias_and_hug_the_boundary() {
         assert!(excess < 0.6 * excess_nearest, "{storage}");
     }
 }
+
+/// The first channel of one surface at -1/2 is 0, or what rounding makes of it; a texel is found beside it all the same.
+#[test]
+fn where_a_channel_ends_a_step_is_far_enough() {
+    let storage = Storage::Unorm16;
+    let depths = (-2000..=2000).map(|step| -0.5 + f64::from(step) * 5e-8);
+    let exact: Vec<[f64; 4]> = depths.map(|depth| moments(&[[depth, 1.0]])).collect();
+    let inputs: Vec<Input> = exact
+        .iter()
+        .map(|b| Input {
+            moments: b.map(|moment| moment as f32),
+            storage: storage.wgsl_index(),
+            ..Input::default()
+        })
+        .collect();
+    let gpu = Gpu::open(Profile::WebgpuCore).unwrap();
+    let batch = Batch::new(&gpu, "inwards.wgsl", include_str!("inwards.wgsl")).unwrap();
+    let texels: Vec<[f32; 4]> = batch.run(&inputs).unwrap();
+    for (texel, b) in texels.iter().zip(exact) {
+        for (found, given) in texel.iter().zip(channels(storage, b)) {
+            let [_, step] = stored(storage, given);
+            let apart = (f64::from(*found) - given).abs();
+            assert!(apart <= 1.02 * step, "{texel:?} of {b:?}");
+        }
+    }
+}

@@ -2,7 +2,7 @@
 
 use moment_shadows::MapRegion;
 
-use crate::fit_range::{MAP, Map, casters, check};
+use crate::fit_range::{MAP, Map, PICTURE, casters, check};
 use crate::setup::{IDENTITY, gpu, view};
 
 /// One pixel of what the camera sees lies at a depth, and all others farther to the front, or nowhere.
@@ -48,45 +48,50 @@ fn a_range_goes_no_farther_than_the_camera_sees() {
 #[test]
 fn each_region_has_what_is_seen_of_it() {
     let gpu = gpu();
-    let map = Map::seen(&gpu, 2, 3, 1, Some(1));
-    let half = MAP[0] / 2;
-    let regions = [
-        MapRegion::new([0, 0], [half, MAP[1]]),
-        MapRegion::new([half, 0], [half, MAP[1]]),
-    ];
-    // The left half of the picture is the first region, the right one the second.
-    let shifted = |by: f64| {
-        let mut light = IDENTITY;
-        light[0][0] = 2.0;
-        light[3][0] = by;
-        view(IDENTITY, light, 0)
-    };
-    let parameters = &map.bound.plan.parameters;
-    let mut bytes = parameters.initial();
-    for layer in 0..2 {
-        parameters
-            .write_regions(&mut bytes, "light_depth", layer, &regions)
-            .unwrap();
-        let views = [shifted(1.0), shifted(-1.0)];
-        // The other way round in the other layer.
-        let views = [views[layer as usize], views[1 - layer as usize]];
-        parameters
-            .write_all(&mut bytes, "fit", layer, &views)
-            .unwrap();
-    }
-    gpu.queue.write_buffer(&map.bound.parameters, 0, &bytes);
-    // Tiles that show both halves, eight pixels wide, show the nearer one.
-    map.look(&gpu, |x, _| match x {
-        0..44 => 0.0,
-        44..60 => -0.25,
-        _ => 0.5,
-    });
-    for (layer, ends) in [(0, [0.0, 0.5]), (1, [0.5, 0.0])] {
-        map.frame(&gpu, layer, |x, _| if x % 2 == 0 { -0.5 } else { 0.75 });
-        let ranges = map.ranges(&gpu, layer);
-        for (range, end) in ranges.iter().zip(ends) {
-            check([-0.5, end], *range);
+    for axis in [0, 1] {
+        let map = Map::seen(&gpu, 2, 3, 1, Some(1));
+        let mut extent = MAP;
+        extent[axis] /= 2;
+        let mut origin = [0; 2];
+        origin[axis] = extent[axis];
+        let regions = [
+            MapRegion::new([0, 0], extent),
+            MapRegion::new(origin, extent),
+        ];
+        // The left or the upper half of the picture is the first region, the other one the second. Up is towards positive y.
+        let half = |is_first: bool| {
+            let mut light = IDENTITY;
+            light[axis][axis] = 2.0;
+            light[3][axis] = if is_first == (axis == 0) { 1.0 } else { -1.0 };
+            view(IDENTITY, light, 0)
+        };
+        let parameters = &map.bound.plan.parameters;
+        let mut bytes = parameters.initial();
+        for layer in 0..2 {
+            parameters
+                .write_regions(&mut bytes, "light_depth", layer, &regions)
+                .unwrap();
+            // The other way round in the other layer.
+            let views = [half(layer == 0), half(layer == 1)];
+            parameters
+                .write_all(&mut bytes, "fit", layer, &views)
+                .unwrap();
         }
-        assert_eq!(ranges[2].origin, [-1.0; 2]);
+        gpu.queue.write_buffer(&map.bound.parameters, 0, &bytes);
+        // Tiles that show both halves, eight pixels wide, show the nearer one.
+        let middle = PICTURE[axis] / 2;
+        map.look(&gpu, |x, y| match [x, y][axis] {
+            at if at < middle - 6 => 0.0,
+            at if at < middle + 10 => -0.25,
+            _ => 0.5,
+        });
+        for (layer, ends) in [(0, [0.0, 0.5]), (1, [0.5, 0.0])] {
+            map.frame(&gpu, layer, |x, _| if x % 2 == 0 { -0.5 } else { 0.75 });
+            let ranges = map.ranges(&gpu, layer);
+            for (range, end) in ranges.iter().zip(ends) {
+                check([-0.5, end], *range);
+            }
+            assert_eq!(ranges[2].origin, [-1.0; 2]);
+        }
     }
 }

@@ -3,6 +3,7 @@
 use moment_shadows::{ReceiverBias, TextureFormat};
 use moment_shadows_graph::TextureDesc;
 use moment_shadows_graph::record::ImportedResource;
+use moment_shadows_lab::batch::Batch;
 use moment_shadows_lab::gpu::Gpu;
 
 use crate::depth_map;
@@ -234,4 +235,22 @@ fn a_shadow_that_lies_still_hardly_changes_while_the_range_does() {
     );
     assert!((1..=20).contains(&changes), "{changes}");
     assert!(largest <= 0.02, "{largest}");
+}
+
+/// As a layer has it in which no range was found yet.
+#[test]
+fn a_texel_of_zeros_is_the_hosts_range() {
+    const SHADER: &str = "
+import moment_shadows::map::range_fit::{range_fit_map_depth, range_fit_of_texel};
+alias BatchInput = vec4f;
+alias BatchOutput = vec4f;
+fn batch(depths: vec4f) -> vec4f {
+    let fit = range_fit_of_texel(vec4f());
+    return vec4f(range_fit_map_depth(fit, depths.x), range_fit_map_depth(fit, depths.y), range_fit_map_depth(fit, depths.z), fit.scale);
+}
+";
+    let gpu = gpu();
+    let batch = Batch::<[f32; 4], [f32; 4]>::new(&gpu, "zeros.wgsl", SHADER).unwrap();
+    let found = batch.run(&[[-1.0, 0.3, 1.0, 0.0]]).unwrap();
+    assert_eq!(found, [[-1.0, 0.3, 1.0, 1.0]]);
 }

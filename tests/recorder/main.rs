@@ -8,6 +8,7 @@
 
 mod adapter;
 mod camera_samples;
+mod contact_rays;
 mod contact_shadows;
 mod debug;
 mod depth_map;

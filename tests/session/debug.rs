@@ -1,6 +1,6 @@
 //! Debug views of nodes that shade: each shows what it says.
 
-use glam::DVec3;
+use glam::{DMat4, DVec3};
 use moment_shadows::{LightSize, LightView};
 use moment_shadows_lab::frame::Frame;
 use moment_shadows_lab::gpu::Gpu;
@@ -131,6 +131,62 @@ fn texels_and_filters_are_measured_in_pixels() {
         .iter()
         .filter(|it| it[0] == it[1] && it[1] == it[2] && it[0] > 60);
     assert!(grey.count() > 3000);
+}
+
+#[test]
+fn range_is_black_at_its_near_end_white_at_its_far_end_and_red_before() {
+    let gpu = gpu();
+    let frame = crate::frame(&gpu, 0, [160, 90]);
+    let (_, light) = places(&frame);
+    let sun = frame.desc.light;
+    let positions = &frame.surface.position;
+    let positions = gpu.read_texture(positions, 0, "positions").unwrap();
+    let positions: Vec<[f32; 4]> = bytemuck::pod_collect_to_vec(&positions);
+    // Moment depth where there is a surface within the light's map.
+    let depth = |[x, y, z, seen]: [f32; 4]| {
+        let point = DVec3::new(x.into(), y.into(), z.into());
+        let uv = sun.uv(point)?;
+        let inside = uv.min_element() > 0.01 && uv.max_element() < 0.99;
+        (seen != 0.0 && inside).then(|| sun.moment_depth(point))
+    };
+    let depths: Vec<Option<f64>> = positions.into_iter().map(depth).collect();
+    let mut sorted: Vec<f64> = depths.iter().copied().flatten().collect();
+    sorted.sort_by(f64::total_cmp);
+    let median = sorted[sorted.len() / 2];
+    let clip = DMat4::from_cols_array_2d(&light.clip_from_world);
+    let (mut greys, mut reds) = (0, 0);
+    // The range is moved until half of all surfaces lie farther than that.
+    for middle in [0.0, -0.75, -1.25] {
+        // Of stored depth, half as much.
+        let by = middle - median;
+        let moved = DMat4::from_translation(0.5 * by * DVec3::Z) * clip;
+        let light = LightView {
+            clip_from_world: moved.to_cols_array_2d(),
+            ..light
+        };
+        let shown = shown(&gpu, &frame, &BLURRED, &light, "range");
+        for (depth, colour) in depths.iter().zip(shown) {
+            let Some(depth) = depth.map(|depth| depth + by) else {
+                continue;
+            };
+            let [red, green, blue] = colour.map(|byte| f64::from(byte) / 255.0);
+            if depth < -1.01 {
+                let off = (red - 1.0).abs() + (green - 0.2).abs() + (blue - 0.1).abs();
+                assert!(off < 0.02, "{depth}: {colour:?}");
+                reds += 1;
+            } else if (-0.98..0.98).contains(&depth) {
+                // Half a step of bytes, and what the light's depth is rounded by.
+                let off = (red - (0.5 + 0.5 * depth)).abs();
+                assert!(
+                    off < 0.01 && red == green && green == blue,
+                    "{depth}: {colour:?}"
+                );
+                greys += 1;
+            }
+        }
+    }
+    println!("{greys} grey, {reds} red");
+    assert!(greys > 3000 && reds > 1000, "{greys} {reds}");
 }
 
 #[test]

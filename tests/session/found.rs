@@ -1,11 +1,14 @@
 //! The views that the tiles of a picture try: all that contain one of its pixels, and none that all it shows lies beside.
 
 use glam::{DMat4, DVec3, DVec4};
-use moment_shadows::{LeakReduction, LightView, Profile, ReceiverBias, ViewParameters};
+use moment_shadows::{
+    CameraView, LeakReduction, LightView, Profile, ReceiverBias, TextureFormat, ViewParameters,
+};
 use moment_shadows_graph::Capabilities;
 use moment_shadows_lab::gpu::Gpu;
 
 use crate::many::{SIDE, spot};
+use crate::normals::texture;
 use crate::views::{frame, seen, within};
 use crate::{HARD, gpu, parsed, places};
 
@@ -147,4 +150,57 @@ fn a_tile_tries_what_contains_a_pixel_and_nothing_that_it_lies_beside() {
         found.len() * VIEWS
     );
     assert!(tried > 500 && left_out > 5000, "{tried} {left_out}");
+}
+
+#[test]
+fn a_tile_ends_where_its_outermost_pixels_do() {
+    let gpu = gpu();
+    // Three tiles each way, of one depth, and no light but from where the camera is: a view is a box of pixels.
+    let side = 3 * TILE;
+    let half = 0x8000_u16.to_le_bytes().repeat(side * side);
+    let depth = texture(&gpu, TextureFormat::Depth16Unorm, [side as u32; 2], &half);
+    let camera = CameraView {
+        clip_from_world: DMat4::IDENTITY.to_cols_array_2d(),
+        far_depth: 1.0,
+    };
+    let view = |[start, end]: [[f64; 2]; 2]| {
+        let device = |at: [f64; 2]| {
+            let [x, y] = at.map(|at| 2.0 * at / side as f64 - 1.0);
+            DVec3::new(x, -y, 0.0)
+        };
+        let (start, end) = (device(start), device(end));
+        let size = 0.5 * (end - start).abs();
+        let clip = DMat4::from_scale(DVec3::new(1.0 / size.x, 1.0 / size.y, 1.0))
+            * DMat4::from_translation(-0.5 * (start + end));
+        let light = LightView::orthographic(clip.to_cols_array_2d());
+        ViewParameters::new(&camera, &light, ReceiverBias::NONE, LeakReduction::NONE).unwrap()
+    };
+    // Boxes from far away to just beyond the middle of an outermost pixel of the tile in the middle, and to just before the tile.
+    let [low, high] = [TILE as f64, 2.0 * TILE as f64];
+    let far = 4.0 * side as f64;
+    let along = [
+        ([-far, low + 0.75], true),
+        ([-far, low - 0.25], false),
+        ([high - 0.75, far], true),
+        ([high + 0.25, far], false),
+    ];
+    let boxes: Vec<([[f64; 2]; 2], bool)> = [0, 1]
+        .into_iter()
+        .flat_map(|axis| {
+            along.map(|([start, end], holds)| {
+                let mut corners = [[-far; 2], [far; 2]];
+                corners[0][axis] = start;
+                corners[1][axis] = end;
+                (corners, holds)
+            })
+        })
+        .collect();
+    let views = boxes.iter().map(|(corners, _)| view(*corners));
+    let views: Vec<ViewParameters> = views.cycle().take(VIEWS).collect();
+    // The fifth of nine tiles.
+    let bits = found(&gpu, &depth, &views)[4];
+    for (number, (corners, holds)) in boxes.iter().enumerate() {
+        let tries = bits[number / 32] >> (number % 32) & 1 == 1;
+        assert_eq!(tries, *holds, "{corners:?}");
+    }
 }

@@ -4,6 +4,7 @@ use glam::{Vec2, Vec3};
 use moment_shadows::TextureFormat;
 use moment_shadows_graph::TextureDesc;
 use moment_shadows_graph::record::ImportedResource;
+use moment_shadows_lab::batch::Batch;
 use moment_shadows_lab::frame::Frame;
 use moment_shadows_lab::gpu::Gpu;
 use moment_shadows_lab::graph_file::GraphFile;
@@ -165,5 +166,36 @@ fn normals_bring_pictures_nearer_to_the_truth_in_every_encoding() {
         let off = mean_difference(&found, &from_normals);
         println!("{format}: off by {off:.6}");
         assert!(off <= 1e-3, "{format}: {off}");
+    }
+}
+
+#[test]
+fn every_direction_comes_back_from_the_octahedron() {
+    const SHADER: &str = "
+import moment_shadows::shade::surface_plane::{surface_plane_normal};
+alias BatchInput = vec2f;
+alias BatchOutput = vec4f;
+fn batch(input: BatchInput) -> BatchOutput {
+    return vec4f(surface_plane_normal(vec3f(input, 0.0), true), 0.0);
+}
+";
+    // Around the sphere in a spiral, and along its axes.
+    let spiral = (0..4000).map(|index| {
+        let z = 1.0 - (index as f32 + 0.5) / 2000.0;
+        let (sin, cos) = (2.4 * index as f32).sin_cos();
+        Vec3::new(cos, sin, 0.0) * (1.0 - z * z).sqrt() + z * Vec3::Z
+    });
+    let axes = [Vec3::X, Vec3::Y, Vec3::Z].into_iter();
+    let directions: Vec<Vec3> = axes.flat_map(|axis| [axis, -axis]).chain(spiral).collect();
+    let stored: Vec<[f32; 2]> = directions
+        .iter()
+        .map(|direction| octahedron(*direction).to_array())
+        .collect();
+    let gpu = gpu();
+    let shader = Batch::new(&gpu, "octahedron.wgsl", SHADER).unwrap();
+    let found: Vec<[f32; 4]> = shader.run(&stored).unwrap();
+    for (direction, [x, y, z, _]) in directions.into_iter().zip(found) {
+        let off = Vec3::new(x, y, z).distance(direction);
+        assert!(off < 1e-5, "{direction}: off by {off}");
     }
 }

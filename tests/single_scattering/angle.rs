@@ -96,6 +96,8 @@ fn sines_and_cosines_are_within_four_units() {
 #[test]
 fn degenerate_angles_are_defined() {
     let pi = core::f32::consts::PI;
+    // 2^-124: what is less counts as 0.
+    let least = 4.0 * f32::MIN_POSITIVE;
     let cases = [
         ([0.0, 0.0], 0.0),
         ([-0.0, -0.0], 0.0),
@@ -110,6 +112,8 @@ fn degenerate_angles_are_defined() {
         ([f32::INFINITY, 1.0], 0.5 * pi),
         ([f32::MAX, f32::MAX], 0.25 * pi),
         ([1e-45, 1e-45], 0.0),
+        ([0.0, least], 0.5 * pi),
+        ([0.0, least.next_down()], 0.0),
         ([-f32::MAX, 1e-30], pi),
     ];
     let points = cases.map(|(point, _)| point);

@@ -159,6 +159,28 @@ fn what_lies_at_the_ends_is_exact() {
     }
 }
 
+/// The smallest weight whose depth matters: `ENCLOSED_MOMENTS_SMALLEST_WEIGHT`.
+#[test]
+fn the_depth_of_occluders_matters_from_a_weight_on() {
+    let smallest: f32 = 0.001_953_125;
+    let of = |weight: f32| {
+        let input = Input {
+            // Far in front of the depth; the others lie behind the range.
+            depths: [-0.5, 1.0, 1.0, 1.0, 1.0, 1.0],
+            weights: [weight, 1.0 - weight, 0.0, 0.0, 0.0, 0.0],
+            depth: 0.5,
+            storage: Storage::Float32.wgsl_index(),
+            padding: [0.0; 2],
+            texels: [[0.0; 4]; 2],
+        };
+        run(&[input])[0].apart
+    };
+    let [low, high] = of(smallest);
+    assert!(low > 0.99 * smallest && high <= smallest, "{low} {high}");
+    let less = smallest.next_down();
+    assert_eq!(of(less), [0.0, less]);
+}
+
 #[test]
 fn maps_of_whole_distributions_are_read_alike() {
     let mut random = ChaCha8Rng::seed_from_u64(8);

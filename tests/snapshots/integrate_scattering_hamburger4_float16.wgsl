@@ -1,5 +1,5 @@
 // What is linked of files:
-// moment_shadows/maths/angle.wgsl: ANGLE_PI ANGLE_PI_REST ANGLE_HALF_PI ANGLE_HALF_PI_REST ANGLE_QUARTER_PI ANGLE_QUARTER_PI_REST ANGLE_TAN_EIGHTH_PI ANGLE_HALF_PI_FIRST ANGLE_HALF_PI_SECOND ANGLE_HALF_PI_THIRD ANGLE_LARGEST angle_finite angle_atan2 angle_sin_cos
+// moment_shadows/maths/angle.wgsl: ANGLE_PI ANGLE_HALF_PI ANGLE_QUARTER_PI ANGLE_QUARTER_PI_REST ANGLE_TAN_EIGHTH_PI ANGLE_HALF_PI_FIRST ANGLE_HALF_PI_SECOND ANGLE_HALF_PI_THIRD ANGLE_LARGEST angle_finite angle_atan2 angle_sin_cos
 // moment_shadows/air/rectified_frame.wgsl: RectifiedFrame rectified_frame_ray
 // moment_shadows/air/scattering_weights.wgsl: scattering_weights_clip scattering_weights_inclinations scattering_weights_reference_sine scattering_weights_thickness scattering_weights_of_column
 // integrate_target: IntegrateScatteringParameters parameters rectified_map integrated_map row_thickness

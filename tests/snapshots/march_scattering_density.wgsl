@@ -4,7 +4,7 @@
 // moment_shadows/air/height_fog.wgsl: HeightFog HEIGHT_FOG_THINNEST HEIGHT_FOG_DENSEST HEIGHT_FOG_THICKEST
 // occurs.: height_fog_valid height_fog_thickness
 // moment_shadows/air/punctual_light.wgsl: PunctualLight PUNCTUAL_LIGHT_FARTHEST punctual_light_at punctual_light_cone PUNCTUAL_LIGHT_CONE_SLACK punctual_light_interval
-// moment_shadows/maths/angle.wgsl: ANGLE_PI ANGLE_PI_REST ANGLE_HALF_PI ANGLE_HALF_PI_REST ANGLE_QUARTER_PI ANGLE_QUARTER_PI_REST ANGLE_TAN_EIGHTH_PI ANGLE_HALF_PI_FIRST ANGLE_HALF_PI_SECOND ANGLE_HALF_PI_THIRD ANGLE_LARGEST angle_finite angle_atan2 angle_sin_cos
+// moment_shadows/maths/angle.wgsl: ANGLE_PI ANGLE_HALF_PI ANGLE_QUARTER_PI ANGLE_QUARTER_PI_REST ANGLE_TAN_EIGHTH_PI ANGLE_HALF_PI_FIRST ANGLE_HALF_PI_SECOND ANGLE_HALF_PI_THIRD ANGLE_LARGEST angle_finite angle_atan2 angle_sin_cos
 // moment_shadows/air/march.wgsl: MarchSteps march_steps march_place march_falloff March march_begin march_thickness march_transmittance march_step
 // moment_shadows/air/view_ray.wgsl: VIEW_RAY_LONGEST ViewRay view_ray_of_pixel
 // moment_shadows/maths/blue_noise.wgsl: BLUE_NOISE_TILE blue_noise_offset

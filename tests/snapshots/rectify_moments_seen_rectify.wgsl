@@ -1,5 +1,5 @@
 // What is linked of files:
-// moment_shadows/maths/angle.wgsl: ANGLE_PI ANGLE_PI_REST ANGLE_HALF_PI ANGLE_HALF_PI_REST ANGLE_QUARTER_PI ANGLE_QUARTER_PI_REST ANGLE_TAN_EIGHTH_PI ANGLE_HALF_PI_FIRST ANGLE_HALF_PI_SECOND ANGLE_HALF_PI_THIRD ANGLE_LARGEST angle_finite angle_atan2 angle_sin_cos
+// moment_shadows/maths/angle.wgsl: ANGLE_PI ANGLE_HALF_PI ANGLE_QUARTER_PI ANGLE_QUARTER_PI_REST ANGLE_TAN_EIGHTH_PI ANGLE_HALF_PI_FIRST ANGLE_HALF_PI_SECOND ANGLE_HALF_PI_THIRD ANGLE_LARGEST angle_finite angle_atan2 angle_sin_cos
 // moment_shadows/map/map_region.wgsl: MapRegion map_region_within map_region_at_level map_region_place
 // moment_shadows/map/storage.wgsl: STORAGE_FLOAT16 STORAGE_FLOAT32 STORAGE_PACKED64 STORAGE_PACKED32 storage_is_float storage_round_to_float16 storage_finite_texel
 // moment_shadows/moments/four_moments.wgsl: FOUR_MOMENTS_SQRT_3 four_moments_dequantize four_moments_from_texel

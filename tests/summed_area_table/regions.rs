@@ -95,10 +95,14 @@ fn a_single_region_leaves_the_rest_alone() {
         .map(|pair| u32::from(u16::from_le_bytes([pair[0], pair[1]])))
         .collect::<Vec<_>>();
     for capabilities in both(&gpu) {
+        // Of a tile's 16 columns that lie last 4, 1, 1, 13, 8 and 12.
         for region in [
             MapRegion::new([13, 7], [100, 80]),
             MapRegion::new([3, 95], [17, 2]),
             MapRegion::new([149, 0], [1, 97]),
+            MapRegion::new([5, 11], [45, 33]),
+            MapRegion::new([20, 1], [40, 20]),
+            MapRegion::new([60, 50], [44, 18]),
         ] {
             let summed = SummedMap::new(&gpu, &capabilities, &desc, &bytes, [9; 2]).unwrap();
             summed.set_regions(&gpu, 0, &[region]).unwrap();

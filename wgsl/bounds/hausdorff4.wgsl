@@ -73,12 +73,11 @@ fn hausdorff4_bounds_with_ends(biased: vec4f, fragment_depth: f32, alpha: f32) -
     let beyond = inverse * square * distance / fma(room, distance, variance);
     let rest = select(-beyond, beyond, above);
     let at_fragment = inverse * variance;
-    // In front are -1 and, if it lies in front of the fragment, y; likewise behind. Nothing lies beyond a fragment at an end.
+    // In front are -1 and, if it lies in front of the fragment, y; likewise behind. Nothing lies beyond a fragment at an end: what is
+    // subtracted there outweighs everything.
     let front = 1.0 - biased.x - at_fragment / max(1.0 + fragment_depth, 1e-30) + rest;
     let behind = 1.0 + biased.x - at_fragment / max(1.0 - fragment_depth, 1e-30) - rest;
-    let lower = select(saturate(0.5 * front), 0.0, fragment_depth <= -1.0);
-    let upper = select(1.0 - saturate(0.5 * behind), 1.0, fragment_depth >= 1.0);
-    return vec2f(lower, upper);
+    return vec2f(saturate(0.5 * front), 1.0 - saturate(0.5 * behind));
 }
 
 // The sharp bounds of shadow intensity: x = inf S(z < fragment_depth), y = sup S(z <= fragment_depth) over all

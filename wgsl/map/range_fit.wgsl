@@ -20,7 +20,7 @@ fn range_fit_none() -> RangeFit {
 
 // The fit in a texel of the node's output: middle and scale. Zeros, as before the first frame, are the host's range.
 fn range_fit_of_texel(texel: vec4f) -> RangeFit {
-    return RangeFit(texel.x, select(1.0, texel.y, texel.y >= 1.0));
+    return RangeFit(texel.x, max(texel.y, 1.0));
 }
 
 // The fit of the region of a layer whose first texel is `origin`: `ranges` is the node's output, which has a texel per region with

@@ -3,11 +3,9 @@
 // WGSL allows its built-in `atan2`, `sin` and `cos` errors of thousands of units, too much for coordinates that are made of
 // angles. The functions here are polynomials on reduced ranges (Moshier, Cephes mathematical library, single precision).
 
-// pi rounded to f32, and the remainder.
+// Parts of pi rounded to f32, and what that leaves of the least one. In the others it is less than half a unit in the last place.
 const ANGLE_PI: f32 = 3.1415927;
-const ANGLE_PI_REST: f32 = -8.742278e-8;
 const ANGLE_HALF_PI: f32 = 1.5707964;
-const ANGLE_HALF_PI_REST: f32 = -4.371139e-8;
 const ANGLE_QUARTER_PI: f32 = 0.7853982;
 const ANGLE_QUARTER_PI_REST: f32 = -2.1855695e-8;
 
@@ -28,8 +26,8 @@ fn angle_finite(value: f32) -> f32 {
     return select(value, 0.0, exponent == 0x7f800000u);
 }
 
-// The angle in [-pi, pi] from the x-axis to (x, y). 0 for the zero vector and for non-finite components; pi for x < 0 and y =
-// 0, whatever the sign of y.
+// The angle in [-pi, pi] from the x-axis to (x, y). 0 for the zero vector, as which any with components below 2^-124 counts, and for
+// non-finite components; pi for x < 0 and y = 0, whatever the sign of y.
 fn angle_atan2(y: f32, x: f32) -> f32 {
     let finite = vec2f(angle_finite(x), angle_finite(y));
     let magnitudes = abs(finite);
@@ -49,10 +47,10 @@ fn angle_atan2(y: f32, x: f32) -> f32 {
     let rest = select(0.0, ANGLE_QUARTER_PI_REST, steep);
     var angle = select(0.0, ANGLE_QUARTER_PI, steep) + (fma(series * square, quotient, quotient) + rest);
     if magnitudes.y > magnitudes.x {
-        angle = ANGLE_HALF_PI - (angle - ANGLE_HALF_PI_REST);
+        angle = ANGLE_HALF_PI - angle;
     }
     if finite.x < 0.0 {
-        angle = ANGLE_PI - (angle - ANGLE_PI_REST);
+        angle = ANGLE_PI - angle;
     }
     return select(angle, -angle, finite.y < 0.0);
 }

@@ -47,7 +47,7 @@ fn coarse_four_moments_pack(b: vec4f) -> u32 {
     let exact = max(upper - lower, 1e-6);
     let weight = saturate((nodes.mean - lower) / exact);
     // The inverse of 3 u^2 - 2 u^3, from the middle.
-    let u = -sin(asin(clamp(fma(-2.0, weight, 1.0), -1.0, 1.0)) / 3.0);
+    let u = -sin(asin(fma(-2.0, weight, 1.0)) / 3.0);
     // Half a step towards the middle where steps are half as wide as there, and less where they are wider.
     let inwards = clamp(10.0 * u * u * u, -0.5, 0.5);
     let share = clamp(floor(fma(u, COARSE_FOUR_MOMENTS_WEIGHTS, 0.5 * COARSE_FOUR_MOMENTS_WEIGHTS) - inwards), 0.0, COARSE_FOUR_MOMENTS_WEIGHTS - 1.0);

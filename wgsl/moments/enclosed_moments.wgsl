@@ -33,7 +33,7 @@ const ENCLOSED_MOMENTS_LARGEST_ALPHA: f32 = 0.05;
 
 // The sums of one occluder: x of its weight lies in front of the range, y at its depth in [-1, 1].
 fn enclosed_moments_of_occluder(depth: f32, weights: vec2f) -> EnclosedMoments {
-    let powers = six_moments_from_depth(clamp(depth, -1.0, 1.0));
+    let powers = six_moments_from_depth(depth);
     return EnclosedMoments(SixMoments(weights.y * powers.odd, weights.y * powers.even), weights.y, weights.x);
 }
 

@@ -41,7 +41,7 @@ fn soft_blockers_of_four_moments(biased: vec4f, fragment_depth: f32, alpha: f32)
     // The weight of the fragment itself, or of the support point in front of it. The farthest one is at infinity where
     // the fragment is in front of the Gauss nodes, without weight.
     let t = select(support.points.x, x, outside);
-    let weight = saturate(hankel_christoffel_number(factor, t, hankel_second_polynomial(factor, t)));
+    let weight = hankel_christoffel_number(factor, t, hankel_second_polynomial(factor, t));
     if !outside {
         return soft_blockers_from(z, weight, x - support.points.x);
     }
