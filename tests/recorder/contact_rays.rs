@@ -126,10 +126,10 @@ fn random(random: &mut ChaCha8Rng, index: usize) -> (Ray, Input) {
     let clip = [x as f32, y as f32, depth as f32, 1.0];
     let device = DVec3::new(clip[0].into(), clip[1].into(), clip[2].into());
     let start = clip_from_world.inverse().project_point3(device);
-    let half = if index % 2 == 0 { 2.0 } else { 0.05 };
+    let half = if index.is_multiple_of(2) { 2.0 } else { 0.05 };
     let away = DVec3::new(within(half), within(half), within(half));
     let length = [0.1, 1.0, 10.0][index / 6 % 3];
-    let (towards, distance, light) = if index / 18 % 2 == 0 {
+    let (towards, distance, light) = if (index / 18).is_multiple_of(2) {
         let towards = away.normalize();
         let from_world = look_at_mat4(10.0 * towards, DVec3::ZERO, DVec3::new(0.1, 0.2, 1.0));
         let clip = orthographic(-2.0, 2.0, -2.0, 2.0, 0.0, 20.0) * from_world;
