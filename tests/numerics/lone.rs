@@ -4,9 +4,10 @@ use moment_shadows::{SixMomentsBias, Storage};
 use moment_shadows_lab::oracle::{hamburger, rational, sensitivity, tolerance_unit};
 use rand::{RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
+use rayon::prelude::*;
 
 use super::mixtures;
-use super::six::{Input, biased, bounds, tolerance};
+use super::six::{Input, biased, bounds, tolerance, truth};
 
 /// Two surfaces far apart and a fragment just in front of the second one. By one over the distance from the fragment the second one is
 /// far away from all else, and the first guess of the place of the first one is off by a part of that. The moment bias is the smallest for
@@ -49,4 +50,43 @@ fn a_surface_far_in_front_of_the_fragment_is_found() {
     println!("{largest:.1} units of {count}");
     assert!(count > 100, "{count}");
     assert!(largest <= tolerance(bias.alpha), "{largest}");
+}
+
+/// Two surfaces and a fragment just beside one of them: the bound that takes the weights of both points on one side, that of the fragment
+/// and the lone one's, whose errors add up where they ought to cancel.
+#[test]
+fn both_weights_beside_one_of_two_surfaces() {
+    let mut random = ChaCha8Rng::seed_from_u64(13);
+    for alpha in [1e-4, 5e-5] {
+        let bias = SixMomentsBias {
+            alpha,
+            ..Storage::Unorm16.six_moments_bias().unwrap()
+        };
+        let inputs: Vec<Input> = (0..1500)
+            .map(|_| {
+                let places = [0, 1].map(|_| random.random_range(-1.0..=1.0));
+                let weight = random.random_range(0.1..=0.9);
+                let atoms = [(places[0], weight), (places[1], 1.0 - weight)];
+                let aside = 10.0_f64.powf(random.random_range(-3.0..=-1.3));
+                let depth = places[0] + if random.random() { aside } else { -aside };
+                Input::new(biased(mixtures::moments(&atoms), &bias), depth, bias.alpha)
+            })
+            .collect();
+        let mut errors: Vec<f64> = inputs
+            .par_iter()
+            .zip(bounds(&inputs))
+            .map(|(input, [lower, upper, ..])| {
+                let (exact, units) = truth(input, 6);
+                let of =
+                    |found: f32, side: usize| (f64::from(found) - exact[side]).abs() / units[side];
+                of(lower, 0).max(of(upper, 1))
+            })
+            .collect();
+        errors.sort_by(f64::total_cmp);
+        let [most, largest] = [errors[errors.len() * 99 / 100], errors[errors.len() - 1]];
+        println!("alpha {alpha:e}: {most:.1} units for 99 %, at most {largest:.1}");
+        assert!(most <= tolerance(alpha), "{most}");
+        // Of 4,000 the largest has 58; an emulation of single precision found 162 among hundreds of thousands.
+        assert!(largest <= 128.0, "{largest}");
+    }
 }

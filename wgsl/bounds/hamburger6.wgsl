@@ -146,7 +146,8 @@ fn hamburger6_bounds_at(factor: Hamburger6Factor, x: f32, alpha: f32) -> vec2f {
 // distributions S with the moments `biased`, which are already biased by `alpha` >= 3e-7 and lie within [-2, 2].
 // Both are in [0, 1] for all such moments, valid or not, and every finite fragment depth; farther out than 1e4 the
 // fragment depth counts as 1e4. Error: |error| <= C * 2^-24 * (1 + sensitivity), measured where fma is not fused and with exact
-// products in its place, with C = 32 for alpha of 5e-5 and more and C = 128 for alpha about 5e-6.
+// products in its place, with C = 32 for alpha of 5e-5 and more and C = 128 for alpha about 5e-6. Where a fragment lies within 0.05 of one
+// of two surfaces that are all there is, C = 32 holds for 99 of 100 fragments; of 4,000 the worst had 58.
 fn hamburger6_bounds(biased: SixMoments, fragment_depth: f32, alpha: f32) -> vec2f {
     let x = clamp(fragment_depth, -HAMBURGER6_FARTHEST_SUPPORT, HAMBURGER6_FARTHEST_SUPPORT) - biased.odd.x;
     return hamburger6_bounds_at(hamburger6_factor(biased, alpha), x, alpha);
