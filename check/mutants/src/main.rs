@@ -33,7 +33,7 @@ const LEFT_OUT: [&str; 4] = ["documents", "node_shaders", "documented", "modules
 
 const USAGE: &str = "usage: mutants [run [SECONDS] | again [SECONDS] | report]
   run      plants, builds, and judges each fault by at most SECONDS (60) of tests; goes on where it stopped
-  again    judges those anew that no test noticed
+  again    judges those anew that no test noticed and that are not known to change nothing
   report   says what is known";
 
 fn main() -> Result<(), Box<dyn Error>> {
@@ -116,14 +116,16 @@ fn run(
                 }
                 judged[share] += 1;
             }
-            let known = report
-                .lock()
-                .expect("no thread panics with it")
-                .verdict(site)
-                .cloned();
+            let (known, equivalent) = {
+                let report = report.lock().expect("no thread panics with it");
+                let known = report.verdict(site).cloned();
+                let equivalent = known.as_ref().is_some_and(|it| report.is_equivalent(it));
+                (known, equivalent)
+            };
             let stays = known.as_ref().is_some_and(|known| {
                 known.invalid
                     || known.noticed_by.is_some()
+                    || equivalent
                     || !again && known.passed == known.reaching
             });
             let verdict = match known {

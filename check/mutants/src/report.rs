@@ -63,6 +63,10 @@ impl Report {
         fs::rename(beside, &places.results)
     }
 
+    pub fn is_equivalent(&self, verdict: &Verdict) -> bool {
+        self.why_equivalent(verdict).is_some()
+    }
+
     fn why_equivalent(&self, verdict: &Verdict) -> Option<&str> {
         let equals = |it: &&Equivalent| {
             (&it.file, &it.code, &it.what) == (&verdict.file, &verdict.code, &verdict.what)
