@@ -43,10 +43,9 @@ fn view_shadow(view: u32, position: vec3f, stretch: vec3f, pixel: vec2f) -> View
         let moved = (change.xy - uv * change.z) * per_z * texels;
         difference = clamp(moved, vec2f(-LARGEST_DIFFERENCE), vec2f(LARGEST_DIFFERENCE));
     }
-    // The map holds what lies beyond the light's range at the far end.
-    let depth = min(z, 1.0);
     let conversion = views[view].conversion;
-    let receiver = TechniqueReceiver(views[view].layer, region, uv, difference, vec2f(0.0), vec2f(0.0), depth, depth, 1.0, conversion, AreaLight(), pixel);
+    // Techniques take what lies beyond the light's range for its end.
+    let receiver = TechniqueReceiver(views[view].layer, region, uv, difference, vec2f(0.0), vec2f(0.0), z, z, 1.0, conversion, AreaLight(), pixel);
     return ViewShadow(true, leak_reduction_apply(technique_shadow_intensity(receiver), views[view].leak_reduction));
 }
 
