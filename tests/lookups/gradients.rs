@@ -4,6 +4,7 @@ use crate::device::{GRADIENT, Query, Shader};
 use crate::edges::regions;
 use crate::footprints::{Pixel, pixels};
 use crate::map::Map;
+use moment_shadows::MapRegion;
 
 const SIZE: [u32; 2] = [64, 40];
 const LEVELS: u32 = 5;
@@ -37,6 +38,19 @@ fn average(map: &Map, uv: [f64; 2], pixel: &Pixel) -> Option<[f64; 4]> {
     Some(sum)
 }
 
+fn query(pixel: &Pixel, uv: [f32; 2], region: MapRegion) -> Query {
+    Query {
+        uv,
+        difference_x: pixel.difference_x,
+        difference_y: pixel.difference_y,
+        region,
+        lookup: GRADIENT,
+        levels: LEVELS,
+        level: 0.0,
+        anisotropy: pixel.anisotropy,
+    }
+}
+
 #[test]
 fn it_is_that_of_its_probes_around_the_pixels_centre() {
     let shader = Shader::new();
@@ -50,16 +64,7 @@ fn it_is_that_of_its_probes_around_the_pixels_centre() {
         let queries: Vec<Query> = pixels
             .iter()
             .zip(at_the_edge.into_iter().cycle())
-            .map(|(pixel, uv)| Query {
-                uv,
-                difference_x: pixel.difference_x,
-                difference_y: pixel.difference_y,
-                region,
-                lookup: GRADIENT,
-                levels: LEVELS,
-                level: 0.0,
-                anisotropy: pixel.anisotropy,
-            })
+            .map(|(pixel, uv)| query(pixel, uv, region))
             .collect();
         let answers = shader.run(&map, &queries);
         for ((pixel, query), found) in pixels.iter().zip(&queries).zip(answers) {
@@ -93,16 +98,7 @@ fn where_the_region_is_the_whole_map_it_is_that_of_the_sampler() {
     let uv = [0.97, 0.96];
     let queries: Vec<Query> = long
         .iter()
-        .map(|pixel| Query {
-            uv,
-            difference_x: pixel.difference_x,
-            difference_y: pixel.difference_y,
-            region: map.region,
-            lookup: GRADIENT,
-            levels: LEVELS,
-            level: 0.0,
-            anisotropy: pixel.anisotropy,
-        })
+        .map(|pixel| query(pixel, uv, map.region))
         .collect();
     let answers = shader.run(&map, &queries);
     let pairs = long.iter().zip(answers);

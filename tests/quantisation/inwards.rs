@@ -77,6 +77,15 @@ fn pivots(b: [f64; 4], bias: FourMomentsBias, share: f64) -> [f64; 2] {
     ]
 }
 
+fn inputs(exact: &[[f64; 4]], storage: Storage) -> Vec<Input> {
+    let input = |b: &[f64; 4]| Input {
+        moments: b.map(|moment| moment as f32),
+        storage: storage.wgsl_index(),
+        ..Input::default()
+    };
+    exact.iter().map(input).collect()
+}
+
 #[test]
 fn texels_are_valid_with_half_the_bias_and_hug_the_boundary() {
     let mut random = ChaCha8Rng::seed_from_u64(8);
@@ -86,14 +95,7 @@ fn texels_are_valid_with_half_the_bias_and_hug_the_boundary() {
     let gpu = Gpu::open(Profile::WebgpuCore).unwrap();
     let batch = Batch::new(&gpu, "inwards.wgsl", include_str!("inwards.wgsl")).unwrap();
     for storage in [Storage::Unorm16, Storage::Float16] {
-        let inputs: Vec<Input> = exact
-            .iter()
-            .map(|b| Input {
-                moments: b.map(|moment| moment as f32),
-                storage: storage.wgsl_index(),
-                ..Input::default()
-            })
-            .collect();
+        let inputs = inputs(&exact, storage);
         let texels: Vec<[f32; 4]> = batch.run(&inputs).unwrap();
         let [inwards, nearest] = [storage.moment_bias_rounded_inwards(), storage.moment_bias()];
         let (mut invalid, mut invalid_nearest, mut beyond) = (0, 0, 0);
@@ -139,14 +141,7 @@ fn where_a_channel_ends_a_step_is_far_enough() {
     let storage = Storage::Unorm16;
     let depths = (-2000..=2000).map(|step| -0.5 + f64::from(step) * 5e-8);
     let exact: Vec<[f64; 4]> = depths.map(|depth| moments(&[[depth, 1.0]])).collect();
-    let inputs: Vec<Input> = exact
-        .iter()
-        .map(|b| Input {
-            moments: b.map(|moment| moment as f32),
-            storage: storage.wgsl_index(),
-            ..Input::default()
-        })
-        .collect();
+    let inputs = inputs(&exact, storage);
     let gpu = Gpu::open(Profile::WebgpuCore).unwrap();
     let batch = Batch::new(&gpu, "inwards.wgsl", include_str!("inwards.wgsl")).unwrap();
     let texels: Vec<[f32; 4]> = batch.run(&inputs).unwrap();
